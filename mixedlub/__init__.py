@@ -1,0 +1,1 @@
+"""Mixed lubrication of rough gear contacts: physics, gears, studies, recordings and their diagnosis."""

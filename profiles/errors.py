@@ -1,0 +1,33 @@
+"""The one exception a user of this project is meant to read."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+
+class InputError(ValueError):
+    """Bad input: the message names the file, the place, the value and the rule.
+
+    >>> raise InputError("torque must be above zero", where="study.toml: torque_Nm[1]", value=0.0)
+    Traceback (most recent call last):
+    ...
+    profiles.errors.InputError: study.toml: torque_Nm[1]: 0.0: torque must be above zero
+    """
+
+    def __init__(self, rule: str, *, where: str = "", value: object = None) -> None:
+        shown = "" if value is None else f"{value!r:.80}"
+        super().__init__(": ".join(part for part in (where, shown, rule) if part))
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """A hint naming the known word closest to a misspelt one, or the words there are.
+
+    >>> nearest("torqe_Nm", ["torque_Nm", "speed_rpm"])
+    "nearest known: 'torque_Nm'"
+    """
+    words = sorted(known)
+    close = difflib.get_close_matches(str(name), words, n=1, cutoff=0.5)
+    if close:
+        return f"nearest known: {close[0]!r}"
+    return "known: " + ", ".join(words)

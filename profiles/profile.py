@@ -1,0 +1,67 @@
+"""The profile: heights at equal spacing, and what has been done to them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+
+import numpy as np
+
+from profiles.errors import InputError
+
+
+@dataclass(frozen=True, eq=False)
+class Profile:
+    """A measured or synthetic trace: heights (m) at equal spacing (m); immutable.
+
+    ``valid`` is False where a point was masked (dropout, spike, scratch) and bridged; ``steps`` tells in
+    order what was done to the heights, ``cutoffs`` the filter limits (m) they passed, ``origin`` what the
+    file said about itself.
+
+    >>> p = Profile(np.array([0.0, 1e-6, 0.0]), 0.5e-6, name="peak")
+    >>> p.length, p.steps
+    (1e-06, ())
+    """
+
+    heights: np.ndarray
+    spacing: float
+    name: str = "profile"
+    steps: tuple[str, ...] = ()
+    cutoffs: Mapping[str, float] = field(default_factory=dict)
+    origin: Mapping[str, object] = field(default_factory=dict)
+    valid: np.ndarray | None = None
+
+    def __post_init__(self) -> None:
+        heights = np.array(self.heights, dtype=float)
+        where = f"profile {self.name!r}"
+        if heights.ndim != 1 or heights.size < 3:
+            raise InputError("a profile needs at least three heights in one line", where=where, value=heights.shape)
+        if not np.isfinite(heights).all():
+            first = int(np.flatnonzero(~np.isfinite(heights))[0])
+            raise InputError("heights must be finite numbers", where=f"{where}, point {first + 1}", value=heights[first])
+        if not (np.isfinite(self.spacing) and self.spacing > 0):
+            raise InputError("spacing must be above zero", where=where, value=self.spacing)
+        valid = np.ones(heights.size, bool) if self.valid is None else np.array(self.valid, dtype=bool)
+        if valid.shape != heights.shape:
+            raise InputError("the mask must be as long as the heights", where=where, value=valid.shape)
+        heights.flags.writeable = False
+        valid.flags.writeable = False
+        object.__setattr__(self, "heights", heights)
+        object.__setattr__(self, "valid", valid)
+        object.__setattr__(self, "cutoffs", MappingProxyType(dict(self.cutoffs)))
+        object.__setattr__(self, "origin", MappingProxyType(dict(self.origin)))
+
+    @property
+    def positions(self) -> np.ndarray:
+        """Distance along the trace from its first point (m)."""
+        return np.arange(self.heights.size) * self.spacing
+
+    @property
+    def length(self) -> float:
+        """Distance from the first point to the last (m)."""
+        return float((self.heights.size - 1) * self.spacing)
+
+    def after(self, step: str, heights: np.ndarray, **changes: object) -> Profile:
+        """The profile with new heights and one more step in its history."""
+        return replace(self, heights=heights, steps=(*self.steps, step), **changes)  # type: ignore[arg-type]

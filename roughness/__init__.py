@@ -1,0 +1,1 @@
+"""What is computed from a profile: filters, ISO parameters, moments, asperities, diagnostics."""
