@@ -97,7 +97,9 @@ def _lay_out(chain: Chain, given: set[str], effects: Sequence[Effect]) -> list[S
     for e in effects:
         for name in (*e.acts_on, *e.reads):
             if name not in produced:
-                raise ChainError(f"effect {e.id!r} needs {name!r}, which this chain lacks; {nearest(name, produced)}")
+                raise ChainError(
+                    f"effect {e.id!r} needs {name!r}, which this chain lacks; {nearest(name, produced)}"
+                )
     waiting = list(effects)
     steps: list[Step] = []
     already_read: set[str] = set()
@@ -126,7 +128,9 @@ def _lay_out(chain: Chain, given: set[str], effects: Sequence[Effect]) -> list[S
 def _check(who: str, reads: Sequence[str], known: set[str]) -> None:
     for name in reads:
         if name not in known:
-            raise ChainError(f"{who} needs {name!r}, which nothing before it provides; {nearest(name, known)}")
+            raise ChainError(
+                f"{who} needs {name!r}, which nothing before it provides; {nearest(name, known)}"
+            )
 
 
 def _needed(steps: list[Step], want: Sequence[str], given: set[str]) -> tuple[Step, ...]:

@@ -49,7 +49,10 @@ class Gears(Section):
     centre_distance_mm: Positive | None = None
     face_width_mm: Positive
     youngs_modulus_GPa: tuple[Positive, Positive] = (206.0, 206.0)
-    poisson_ratio: tuple[Annotated[float, Field(ge=0, lt=0.5)], Annotated[float, Field(ge=0, lt=0.5)]] = (0.3, 0.3)
+    poisson_ratio: tuple[Annotated[float, Field(ge=0, lt=0.5)], Annotated[float, Field(ge=0, lt=0.5)]] = (
+        0.3,
+        0.3,
+    )
     load_sharing: LoadSharing = LoadSharing(model="rigid")
 
 
@@ -58,7 +61,10 @@ class Contact(Section):
     radius_mm: tuple[Radius, Radius]
     width_mm: Positive | None = None
     youngs_modulus_GPa: tuple[Positive, Positive] = (206.0, 206.0)
-    poisson_ratio: tuple[Annotated[float, Field(ge=0, lt=0.5)], Annotated[float, Field(ge=0, lt=0.5)]] = (0.3, 0.3)
+    poisson_ratio: tuple[Annotated[float, Field(ge=0, lt=0.5)], Annotated[float, Field(ge=0, lt=0.5)]] = (
+        0.3,
+        0.3,
+    )
 
     @model_validator(mode="after")
     def _line_has_width(self) -> Contact:
@@ -138,7 +144,9 @@ class System(Section):
     """Everything the engineer knows about the rig."""
 
     schema_: Literal["mixedlub-case/1"] = Field(alias="schema")
-    kind: Literal["gear_pair", "mesh_friction", "disc", "film", "friction_history", "friction_map", "viscosity"]
+    kind: Literal[
+        "gear_pair", "mesh_friction", "disc", "film", "friction_history", "friction_map", "viscosity"
+    ]
     boundary_friction: Positive = 0.1
     description: str = ""
     gears: Gears | None = None
@@ -172,7 +180,9 @@ def parse(model: type[T], data: dict[str, Any], where: str) -> T:
             raise InputError(rule, where=f"{where}: {place}") from None
         value = None if first["type"] == "missing" or isinstance(first["input"], dict) else first["input"]
         rule = "is missing" if first["type"] == "missing" else first["msg"].removeprefix("Value error, ")
-        raise InputError(rule[:1].lower() + rule[1:], where=f"{where}: {place}" if place else where, value=value) from None
+        raise InputError(
+            rule[:1].lower() + rule[1:], where=f"{where}: {place}" if place else where, value=value
+        ) from None
 
 
 def _most_telling(error: ValidationError) -> Any:

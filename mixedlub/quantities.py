@@ -65,7 +65,7 @@ roll_angle              | theta      | rad     | pinion roll angle of the contac
 path_fraction           | xi         | -       | place along the path of contact, 0 at its start and 1 at its end
 contact_width           | b          | m       | width of the line contact, of one slice of the face where it is sliced
 face_width              | b_w        | m       | width of the tooth flank
-face_fraction           | y          | -       | place across the face, 0 to 1
+face_position           | y          | -       | place across the face, 0 to 1
 # load
 torque                  | T_1        | N m     | torque on the pinion
 pinion_speed            | omega_1    | rad/s   | angular speed of the pinion
@@ -127,9 +127,12 @@ sequence                | q          | -       | place in the test programme, 0 
 ambient_temperature     | theta_a    | K       | temperature around the rig
 reading                 | y          | *       | the number the rig records, in the unit of its channel
 reading_scale           | y_0        | *       | typical size of the recorded number, for effects given as a share of it
-gear_radius             | r_p        | m       | operating pitch radii of pinion and gear
-gear_speed              | omega      | rad/s   | angular speeds of pinion and gear
+pinion_radius           | r_1        | m       | operating pitch radius of the pinion
+gear_radius             | r_2        | m       | operating pitch radius of the gear
+gear_speed              | omega_2    | rad/s   | angular speed of the gear
 gear_module             | m_n        | m       | normal module
+pinion_teeth            | z_1        | -       | teeth of the pinion
+gear_teeth              | z_2        | -       | teeth of the gear
 """
 
 

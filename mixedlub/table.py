@@ -45,7 +45,9 @@ class Column:
             raise InputError(f"{self.name} must be above {self.above:g}", where=where, value=value)
         if value < self.at_least or value > self.at_most:
             raise InputError(
-                f"{self.name} must lie between {self.at_least:g} and {self.at_most:g}", where=where, value=value
+                f"{self.name} must lie between {self.at_least:g} and {self.at_most:g}",
+                where=where,
+                value=value,
             )
         if self.form == "whole":
             if value != int(value):
@@ -64,13 +66,13 @@ BOOKKEEPING = (
 
 @dataclass(frozen=True)
 class Table:
-    """Columns of equal length by name; ``run`` identifies the row."""
+    """Columns of equal length by name."""
 
     columns: Mapping[str, np.ndarray]
     source: str = "table"
 
     def __len__(self) -> int:
-        return len(self.columns["run"])
+        return len(next(iter(self.columns.values())))
 
     def __contains__(self, name: object) -> bool:
         return name in self.columns
@@ -83,8 +85,8 @@ class Table:
         return Table({name: column[rows] for name, column in self.columns.items()}, self.source)
 
 
-def read_table(path: Path, columns: tuple[Column, ...]) -> Table:
-    """Read a CSV with ``run`` first and the given columns; others are ignored with a warning."""
+def read_table(path: Path, columns: tuple[Column, ...], *, key: str | None = "run") -> Table:
+    """Read a CSV with the given columns, ``key`` unique; others are ignored with a warning."""
     where = path.name
     try:
         text = path.read_text(encoding="utf-8-sig")
@@ -116,7 +118,14 @@ def read_table(path: Path, columns: tuple[Column, ...]) -> Table:
             CaseWarning,
             stacklevel=2,
         )
-    return Table(_parse(lines, header, known, where), where)
+    cells = _parse(lines, header, known, where)
+    if key is not None:
+        values, counts = np.unique(cells[key], return_counts=True)
+        if (counts > 1).any():
+            raise InputError(
+                f"{key} must be unique", where=f"{where}: {key}", value=int(values[counts > 1][0])
+            )
+    return Table(cells, where)
 
 
 def _parse(
@@ -131,8 +140,4 @@ def _parse(
         for name, cell in zip(header, row, strict=True):
             if name in known:
                 cells[name].append(known[name].parse(cell, f"{where}: line {number}, {name}"))
-    columns = {name: np.array(values) for name, values in cells.items()}
-    runs, counts = np.unique(columns["run"], return_counts=True)
-    if (counts > 1).any():
-        raise InputError("run must be unique", where=f"{where}: run", value=int(runs[counts > 1][0]))
-    return columns
+    return {name: np.array(values) for name, values in cells.items()}

@@ -17,7 +17,9 @@ def line_hertz_pressure(line_load: np.ndarray, radius: np.ndarray, reduced_modul
     return np.sqrt(line_load * reduced_modulus / (2.0 * np.pi * radius))
 
 
-def line_hertz_half_width(line_load: np.ndarray, radius: np.ndarray, reduced_modulus: np.ndarray) -> np.ndarray:
+def line_hertz_half_width(
+    line_load: np.ndarray, radius: np.ndarray, reduced_modulus: np.ndarray
+) -> np.ndarray:
     r"""Half width of a line contact (m), :math:`b = \sqrt{8 w R / (\pi E')}`; Hertz 1881.
 
     >>> round(float(line_hertz_half_width(381.2e3, 7.601e-3, 227.253e9)) * 1e3, 3)

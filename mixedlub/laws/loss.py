@@ -59,9 +59,7 @@ def power_loss(mesh_loss: np.ndarray, rolling_loss: np.ndarray) -> np.ndarray:
     return mesh_loss + rolling_loss
 
 
-def tangential_friction(
-    friction: np.ndarray, rolling_force: np.ndarray, line_load: np.ndarray
-) -> np.ndarray:
+def tangential_friction(friction: np.ndarray, rolling_force: np.ndarray, line_load: np.ndarray) -> np.ndarray:
     """Tangential over normal force on a body (-), what a traction rig weighs.
 
     >>> float(tangential_friction(0.05, 100.0, 2e5))

@@ -10,7 +10,7 @@ ZERO_CELSIUS = 273.15
 
 
 def kinematic_viscosity(
-    temperature: np.ndarray, known_temperature: np.ndarray, known_viscosity: np.ndarray
+    temperature: np.ndarray, known_temperature: tuple[float, float], known_viscosity: tuple[float, float]
 ) -> np.ndarray:
     r"""Kinematic viscosity (m^2/s) at a temperature (K) from two known points; ASTM D341 with constant 0.7.
 
@@ -32,8 +32,8 @@ def kinematic_viscosity(
 
 def temperature_viscosity(
     temperature: np.ndarray,
-    known_temperature: np.ndarray,
-    known_viscosity: np.ndarray,
+    known_temperature: tuple[float, float],
+    known_viscosity: tuple[float, float],
     density_change: float = 0.0,
 ) -> np.ndarray:
     r"""Relative fall of dynamic viscosity per kelvin (1/K), from the slope of ASTM D341.
@@ -72,7 +72,9 @@ def roelands_viscosity(
     return viscosity * np.exp(log * ((1.0 + hertz_pressure / ROELANDS_PRESSURE) ** exponent - 1.0))
 
 
-def barus_viscosity(viscosity: np.ndarray, pressure_viscosity: np.ndarray, pressure: np.ndarray) -> np.ndarray:
+def barus_viscosity(
+    viscosity: np.ndarray, pressure_viscosity: np.ndarray, pressure: np.ndarray
+) -> np.ndarray:
     r"""Viscosity under pressure (Pa s), :math:`\eta = \eta_0 e^{\alpha p}`; good below about 0.3 GPa.
 
     Source: C. Barus, Am. J. Sci. 45 (1893) 87.
