@@ -59,16 +59,12 @@ def calibrations(system: config.System) -> tuple[Calibration, ...]:
         entry
         for entry, spread in (
             (
-                Calibration(
-                    boundary, _replaced("boundary_friction"), system.boundary_friction, ("boundary_friction",)
-                ),
+                Calibration(boundary, _replaced("boundary_friction"), system.boundary_friction, ("boundary_friction",)),
                 sd.boundary_friction,
             ),
             (_factor("viscosity", sd.viscosity, "viscosity", "viscosity"), sd.viscosity),
             (
-                _factor(
-                    "pressure_viscosity", sd.pressure_viscosity, "pressure-viscosity", "pressure_viscosity"
-                ),
+                _factor("pressure_viscosity", sd.pressure_viscosity, "pressure-viscosity", "pressure_viscosity"),
                 sd.pressure_viscosity,
             ),
             (_factor("eyring_stress", sd.eyring_stress, "Eyring stress", "eyring_stress"), sd.eyring_stress),

@@ -57,9 +57,7 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
     found = kind(system.kind)
     for section in found.sections:
         if not getattr(system, section):
-            raise InputError(
-                f"a case of kind {system.kind!r} needs the section [{section}]", where="system.toml"
-            )
+            raise InputError(f"a case of kind {system.kind!r} needs the section [{section}]", where="system.toml")
     quantity = system.recording.quantity
     if quantity not in found.quantities:
         raise InputError(

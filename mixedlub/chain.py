@@ -37,16 +37,12 @@ class Model:
     quantities it changes and reads exist, and must do so before a law reads the changed one.
     """
 
-    def __init__(
-        self, chain: Chain, given: Sequence[str], want: Sequence[str], effects: Sequence[Effect] = ()
-    ) -> None:
+    def __init__(self, chain: Chain, given: Sequence[str], want: Sequence[str], effects: Sequence[Effect] = ()) -> None:
         self.want = tuple(want)
         self.effects = _in_order(effects)
         self.steps = _needed(_lay_out(chain, set(given), self.effects), self.want, set(given))
 
-    def __call__(
-        self, inputs: Mapping[str, Any], parameters: Mapping[str, Mapping[str, float]] | None = None
-    ) -> State:
+    def __call__(self, inputs: Mapping[str, Any], parameters: Mapping[str, Mapping[str, float]] | None = None) -> State:
         """Run; ``parameters`` maps effect id to its values (its null where an effect is not named)."""
         state: State = dict(inputs)
         values = {e.id: e.nulls for e in self.effects}
@@ -97,9 +93,7 @@ def _lay_out(chain: Chain, given: set[str], effects: Sequence[Effect]) -> list[S
     for e in effects:
         for name in (*e.acts_on, *e.reads):
             if name not in produced:
-                raise ChainError(
-                    f"effect {e.id!r} needs {name!r}, which this chain lacks; {nearest(name, produced)}"
-                )
+                raise ChainError(f"effect {e.id!r} needs {name!r}, which this chain lacks; {nearest(name, produced)}")
     waiting = list(effects)
     steps: list[Step] = []
     already_read: set[str] = set()
@@ -128,9 +122,7 @@ def _lay_out(chain: Chain, given: set[str], effects: Sequence[Effect]) -> list[S
 def _check(who: str, reads: Sequence[str], known: set[str]) -> None:
     for name in reads:
         if name not in known:
-            raise ChainError(
-                f"{who} needs {name!r}, which nothing before it provides; {nearest(name, known)}"
-            )
+            raise ChainError(f"{who} needs {name!r}, which nothing before it provides; {nearest(name, known)}")
 
 
 def _needed(steps: list[Step], want: Sequence[str], given: set[str]) -> tuple[Step, ...]:

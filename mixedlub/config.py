@@ -144,9 +144,7 @@ class System(Section):
     """Everything the engineer knows about the rig."""
 
     schema_: Literal["mixedlub-case/1"] = Field(alias="schema")
-    kind: Literal[
-        "gear_pair", "mesh_friction", "disc", "film", "friction_history", "friction_map", "viscosity"
-    ]
+    kind: Literal["gear_pair", "mesh_friction", "disc", "film", "friction_history", "friction_map", "viscosity"]
     boundary_friction: Positive = 0.1
     description: str = ""
     gears: Gears | None = None

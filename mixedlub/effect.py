@@ -172,9 +172,7 @@ def effect(
         if stage not in STAGES:
             raise TypeError(f"{where}: stage {stage!r} is none of {STAGES}")
         if tuple(names[: len(targets)]) != targets:
-            raise TypeError(
-                f"{where}: first arguments {names[: len(targets)]} must be what it acts on, {targets}"
-            )
+            raise TypeError(f"{where}: first arguments {names[: len(targets)]} must be what it acts on, {targets}")
         if keywords != [p.name for p in parameters]:
             raise TypeError(f"{where}: keyword-only arguments {keywords} must be its parameters")
         for name in names:

@@ -69,6 +69,5 @@ class Forward:
         return tuple(
             e
             for e in catalogue().values()
-            if e.id not in exclude
-            and available(e, self.chain, tuple(self.inputs), "reading", self.case.kind.name)
+            if e.id not in exclude and available(e, self.chain, tuple(self.inputs), "reading", self.case.kind.name)
         )

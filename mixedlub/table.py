@@ -122,15 +122,11 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: str | None = "ru
     if key is not None:
         values, counts = np.unique(cells[key], return_counts=True)
         if (counts > 1).any():
-            raise InputError(
-                f"{key} must be unique", where=f"{where}: {key}", value=int(values[counts > 1][0])
-            )
+            raise InputError(f"{key} must be unique", where=f"{where}: {key}", value=int(values[counts > 1][0]))
     return Table(cells, where)
 
 
-def _parse(
-    lines: list[list[str]], header: list[str], known: Mapping[str, Column], where: str
-) -> dict[str, np.ndarray]:
+def _parse(lines: list[list[str]], header: list[str], known: Mapping[str, Column], where: str) -> dict[str, np.ndarray]:
     cells: dict[str, list[float | int | str]] = {name: [] for name in header if name in known}
     for number, row in enumerate(lines[1:], start=2):
         if len(row) != len(header):

@@ -9,9 +9,7 @@ from mixedlub.effect import LogNormal, Parameter, effect
     stage="film",
     acts_on="film_thickness",
     parameters=(
-        Parameter(
-            "strength", "-", LogNormal(1.0, 0.6), "factor on the thermal loading parameter's terms", null=0.0
-        ),
+        Parameter("strength", "-", LogNormal(1.0, 0.6), "factor on the thermal loading parameter's terms", null=0.0),
     ),
     equation=r"h \leftarrow h\,\frac{1 - 13.2\,(p_0/E')\,L^{0.42}}{1 + 0.213\,(1 + 2.23\,S^{0.83})\,L^{0.64}},"
     r"\quad L = \beta\eta_0 u^2/k_f",

@@ -120,9 +120,7 @@ class TableSharing:
         if len({array.size for array in arrays.values()}) != 1:
             raise InputError("the three columns need the same number of rows", where="load_share")
         if np.any(arrays["torque_Nm"] <= 0):
-            raise InputError(
-                "a torque is above zero", where="torque_Nm", value=float(arrays["torque_Nm"].min())
-            )
+            raise InputError("a torque is above zero", where="torque_Nm", value=float(arrays["torque_Nm"].min()))
         shares = arrays["load_share"]
         if np.any((shares < 0) | (shares > 1.5)):
             worst = shares[np.argmax(np.abs(shares - 0.5))]
@@ -231,7 +229,5 @@ def _column(key: str, values: object) -> np.ndarray:
     if column.ndim != 1 or column.size == 0:
         raise InputError("a column of numbers is needed", where=key, value=column.shape)
     if not np.all(np.isfinite(column)):
-        raise InputError(
-            "every row needs a finite number", where=key, value=int(np.argmin(np.isfinite(column)))
-        )
+        raise InputError("every row needs a finite number", where=key, value=int(np.argmin(np.isfinite(column))))
     return column

@@ -45,14 +45,11 @@ def point_reading(friction: np.ndarray) -> np.ndarray:
 def contact_inputs(contact: config.Contact, table: Table) -> Inputs:
     """Chain inputs of the bodies and their motion."""
     modulus = 2.0 / sum(
-        (1.0 - nu**2) / (e * 1e9)
-        for nu, e in zip(contact.poisson_ratio, contact.youngs_modulus_GPa, strict=True)
+        (1.0 - nu**2) / (e * 1e9) for nu, e in zip(contact.poisson_ratio, contact.youngs_modulus_GPa, strict=True)
     )
     curvature = sum(1.0 / (r * 1e-3) for r in contact.radius_mm)
     if curvature <= 0:
-        raise InputError(
-            "one of the two bodies must be curved", where="contact.radius_mm", value=contact.radius_mm
-        )
+        raise InputError("one of the two bodies must be curved", where="contact.radius_mm", value=contact.radius_mm)
     radius = 1.0 / curvature
     speed = column(table["entrainment_speed_m_s"])
     found: Inputs = {

@@ -17,9 +17,7 @@ def line_hertz_pressure(line_load: np.ndarray, radius: np.ndarray, reduced_modul
     return np.sqrt(line_load * reduced_modulus / (2.0 * np.pi * radius))
 
 
-def line_hertz_half_width(
-    line_load: np.ndarray, radius: np.ndarray, reduced_modulus: np.ndarray
-) -> np.ndarray:
+def line_hertz_half_width(line_load: np.ndarray, radius: np.ndarray, reduced_modulus: np.ndarray) -> np.ndarray:
     r"""Half width of a line contact (m), :math:`b = \sqrt{8 w R / (\pi E')}`; Hertz 1881.
 
     >>> round(float(line_hertz_half_width(381.2e3, 7.601e-3, 227.253e9)) * 1e3, 3)
@@ -85,9 +83,7 @@ def composite_roughness(m0: np.ndarray) -> np.ndarray:
     return np.sqrt(m0)
 
 
-def summit_separation(
-    film_thickness: np.ndarray, plane_offset: np.ndarray, summit_sigma: np.ndarray
-) -> np.ndarray:
+def summit_separation(film_thickness: np.ndarray, plane_offset: np.ndarray, summit_sigma: np.ndarray) -> np.ndarray:
     r"""Gap between the summits' mean plane and the smooth one, over summit sigma: :math:`t = (h-z_s)/\sigma_s`.
 
     The film is the separation of the surfaces' mean planes. Source: J. I. McCool, Wear 107 (1986) 37.

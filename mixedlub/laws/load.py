@@ -5,9 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 
-def gear_line_load(
-    load_share: np.ndarray, transmitted_force: np.ndarray, contact_width: np.ndarray
-) -> np.ndarray:
+def gear_line_load(load_share: np.ndarray, transmitted_force: np.ndarray, contact_width: np.ndarray) -> np.ndarray:
     r"""Normal force per length on one tooth contact (N/m), :math:`w = s\,T_1 / (r_{b1} b)` (spur).
 
     >>> round(float(gear_line_load(1.0, 100.0 / 33.245e-3, 14e-3)) / 1e3, 1)

@@ -53,9 +53,7 @@ def temperature_viscosity(
     return slope * (nu + 0.7) * np.log(nu + 0.7) / (nu * temperature) + density_change
 
 
-def roelands_viscosity(
-    viscosity: np.ndarray, pressure_viscosity: np.ndarray, hertz_pressure: np.ndarray
-) -> np.ndarray:
+def roelands_viscosity(viscosity: np.ndarray, pressure_viscosity: np.ndarray, hertz_pressure: np.ndarray) -> np.ndarray:
     r"""Viscosity under pressure (Pa s), isothermal.
 
     .. math:: \eta = \eta_0 \exp\{(\ln\eta_0 + 9.67)[(1 + p/p_r)^Z - 1]\},\quad
@@ -72,9 +70,7 @@ def roelands_viscosity(
     return viscosity * np.exp(log * ((1.0 + hertz_pressure / ROELANDS_PRESSURE) ** exponent - 1.0))
 
 
-def barus_viscosity(
-    viscosity: np.ndarray, pressure_viscosity: np.ndarray, pressure: np.ndarray
-) -> np.ndarray:
+def barus_viscosity(viscosity: np.ndarray, pressure_viscosity: np.ndarray, pressure: np.ndarray) -> np.ndarray:
     r"""Viscosity under pressure (Pa s), :math:`\eta = \eta_0 e^{\alpha p}`; good below about 0.3 GPa.
 
     Source: C. Barus, Am. J. Sci. 45 (1893) 87.

@@ -227,6 +227,4 @@ class TestRefusals:
         except InputError:
             return
         assert pair.contact_ratio >= 1
-        assert (
-            0 <= pair.path_start < pair.pitch_point < pair.path_end <= pair.line_of_action_length * 1.000001
-        )
+        assert 0 <= pair.path_start < pair.pitch_point < pair.path_end <= pair.line_of_action_length * 1.000001

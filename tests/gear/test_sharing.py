@@ -112,9 +112,7 @@ class TestRigid:
 
     def test_one_pair_between_b_and_d_two_outside(self):
         points = mesh(HONG, RigidSharing())
-        single = (points.position > HONG.lowest_single_contact) & (
-            points.position < HONG.highest_single_contact
-        )
+        single = (points.position > HONG.lowest_single_contact) & (points.position < HONG.highest_single_contact)
         assert np.array_equal(points.load_share(1.0), np.where(single, 1.0, 0.5))
 
     def test_contact_ratio_above_two_shares_between_three(self):
