@@ -9,7 +9,7 @@ import numpy as np
 from mixedlub.diagnosis.fit import Fit, linear_fit
 from mixedlub.diagnosis.problem import Problem, noise
 from mixedlub.diagnosis.search import ELASTIC, Search, elastic_columns
-from mixedlub.diagnosis.unknown import shape_columns
+from mixedlub.diagnosis.unknown import shape_columns, share_of
 from mixedlub.forward import Forward
 from mixedlub.table import Table
 
@@ -64,10 +64,12 @@ class Rows:
         self.table = table
         self.values = found.space.values(found.problem.case, table, self.forward)
         start = self.forward.predict(found.problem.calibration(found.none.z)) if level is None else level
-        self.sd, self.shared_variance = _noise_at(found.problem, table, start)
-        self.problem = Problem(
-            found.problem.case, table, self.forward, start, self.sd, np.zeros((len(table), 0))
-        )
+        self.sd, _ = _noise_at(found.problem, table, start)
+        self.problem = Problem(found.problem.case, table, self.forward, start, self.sd, np.zeros((len(table), 0)))
+
+    def noise_at(self, level: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Noise of a reading at a predicted level, and the variance of its set-up's error."""
+        return _noise_at(self.found.problem, self.table, level)
 
     def of_fit(self, refined: Refined) -> Prediction:
         """Prediction of a catalogue explanation."""
@@ -92,29 +94,14 @@ class Rows:
         unknown = found.unknown
         calibrated = self.problem.predict((), unknown.z)
         slopes = self.problem.jacobian((), unknown.z, calibrated)
-        reference = np.abs(found.none.prediction) / found.problem.sd
-        own = _shape_at(found, self, reference)
+        _, typical = share_of(found.none.prediction, found.problem.sd)
+        share = np.abs(self.problem.predict((), found.none.z)) / self.sd
+        own = shape_columns(unknown.best, found.space, self.values, share, typical)
         shared = np.zeros((len(self.table), found.problem.shared.shape[1]))
         every = np.hstack([slopes, shared, own])
         mean = calibrated + self.sd * (own @ unknown.fit.coefficients[-own.shape[1] :])
         variance = np.einsum("ij,jk,ik->i", every, unknown.covariance, every) * self.sd**2
         return Prediction(mean, variance, calibrated)
-
-
-def _shape_at(found: Search, rows: Rows, reference: np.ndarray) -> np.ndarray:
-    """Columns of the unnamed mismatch at other rows, in those rows' sigmas."""
-    shape = found.unknown.best
-    columns = shape_columns(_absolute(shape), found.space, rows.values, rows.problem.y, rows.sd)
-    if shape.relative:
-        share = np.abs(rows.problem.predict((), found.none.z)) / rows.sd
-        return columns * (share / np.sqrt(np.mean(reference**2)))[:, None]
-    return columns
-
-
-def _absolute(shape):  # noqa: ANN001, ANN202
-    from dataclasses import replace
-
-    return replace(shape, relative=False)
 
 
 def _noise_at(problem: Problem, table: Table, level: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

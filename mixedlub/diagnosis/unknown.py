@@ -59,14 +59,19 @@ def shapes(space: Coordinates) -> list[Shape]:
 
 
 def shape_columns(
-    shape: Shape, space: Coordinates, values: list[np.ndarray], prediction: np.ndarray, sd: np.ndarray
+    shape: Shape, space: Coordinates, values: list[np.ndarray], share: np.ndarray, typical: float
 ) -> np.ndarray:
-    """The shape's columns in sigmas of the readings."""
+    """The shape's columns in sigmas; ``share`` is reading over sd, ``typical`` its rms over the recording."""
     columns = space.columns(values, shape.length, shape.axis, shape.interactions)
     if shape.relative:
-        share = np.abs(prediction) / sd
-        columns = columns * (share / np.sqrt(np.mean(share**2)))[:, None]
+        columns = columns * (share / typical)[:, None]
     return shape.size * columns
+
+
+def share_of(prediction: np.ndarray, sd: np.ndarray) -> tuple[np.ndarray, float]:
+    """Reading over sd, and its rms."""
+    share = np.abs(prediction) / sd
+    return share, float(np.sqrt(np.mean(share**2)))
 
 
 def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np.ndarray]) -> Unknown:
@@ -78,19 +83,25 @@ def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np
     target = none.anchor
     fixed = np.hstack([none.slopes, problem.shared])
 
+    share, typical = share_of(none.prediction, problem.sd)
+
     def columns_of(shape: Shape) -> np.ndarray:
-        return shape_columns(shape, space, values, none.prediction, problem.sd)
+        return shape_columns(shape, space, values, share, typical)
 
     rich = Shape(None, LENGTHS[0], 6.0, True, len(space.axes) > 1)
     reference = linear_fit(target, np.hstack([fixed, columns_of(rich)]))
     tried: list[Shape] = []
     weighed: list[float] = []
     for shape in shapes(space):
-        for size, value in zip(SIZES, _evidence_by_size(target, fixed, columns_of(shape), reference.weight), strict=True):
+        for size, value in zip(
+            SIZES, _evidence_by_size(target, fixed, columns_of(shape), reference.weight), strict=True
+        ):
             tried.append(replace(shape, size=size))
             weighed.append(value)
     order = np.argsort(weighed)[::-1]
-    full = {int(i): linear_fit(target, np.hstack([fixed, columns_of(tried[i])]), reference.weight) for i in order[:FULL]}
+    full = {
+        int(i): linear_fit(target, np.hstack([fixed, columns_of(tried[i])]), reference.weight) for i in order[:FULL]
+    }
     first = int(order[0])
     offset = full[first].evidence - weighed[first]
     evidence = np.array([full[i].evidence if i in full else weighed[i] + offset for i in range(len(tried))])
