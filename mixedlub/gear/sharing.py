@@ -40,6 +40,18 @@ class Sharing(Protocol):
         """Share of the base-tangent force at each point, shape ``torque.shape + (M,)``."""
 
 
+def torques_above_zero(torque: object) -> np.ndarray:
+    """Torques (Nm) as an array of the shape given, each finite and above zero."""
+    try:
+        torques = np.asarray(torque, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError("torques are numbers in Nm", where="torque_Nm", value=torque) from None
+    wrong = ~(np.isfinite(torques) & (torques > 0))
+    if np.any(wrong):
+        raise InputError("a torque is finite and above zero", where="torque_Nm", value=float(torques[wrong].flat[0]))
+    return torques
+
+
 def contact_limits(pair: GearPair) -> np.ndarray:
     """Positions where the number of pairs in contact changes: the ends shifted by whole base pitches."""
     shifts = pair.base_pitch * np.arange(int(pair.contact_ratio) + 1)
