@@ -52,7 +52,7 @@ def share_out(
         if left.size == 0:
             break
     for problem in left:
-        answer = _descend(
+        answer = descend(
             compliance[problem], gap[problem], total[problem], possible[problem], force[problem], scale[problem]
         )
         force[problem], approach[problem], touching[problem] = answer
@@ -82,7 +82,7 @@ def _separation(compliance: np.ndarray, gap: np.ndarray, force: np.ndarray, appr
     return np.einsum("sij,sj->si", compliance, force) + gap - approach[:, None]
 
 
-def _descend(
+def descend(
     compliance: np.ndarray,
     gap: np.ndarray,
     total: float,

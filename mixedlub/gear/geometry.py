@@ -164,7 +164,6 @@ class GearPair:
 
     def _must_mesh(self) -> None:
         """Refuse data that make no working pair of external gears."""
-        tips = "tip_diameter_mm" if self.tip_radius is not None else "profile_shift"
         nominal = sum(self.reference_radius) * math.cos(self.transverse_pressure_angle)
         if self.centre_distance is None:
             if self._working_involute <= 0:
@@ -185,31 +184,27 @@ class GearPair:
                 where="centre_distance_mm",
                 value=self.centre_distance * 1e3,
             )
-        shown = tuple(round(2e3 * radius, 6) for radius in self.tip_radii)
         if any(tip <= base for tip, base in zip(self.tip_radii, self.base_radius)):
-            raise InputError("a tip circle must lie outside its base circle", where=tips, value=shown)
-        if any(thickness <= 0 for thickness in self.tip_thickness):
-            raise InputError("pointed teeth: the flanks cross below the tip circle", where=tips, value=shown)
-        if self.path_start < -1e-9 * self.line_of_action_length:
             raise InputError(
-                "interference: the gear's tips reach beyond the pinion's base tangent point (x_A < 0)",
-                where=tips,
-                value=shown,
+                "a tip circle must lie outside its base circle",
+                where="tip_diameter_mm",
+                value=tuple(round(2e3 * radius, 6) for radius in self.tip_radii),
             )
-        if self.path_end > self.line_of_action_length * (1 + 1e-9):
-            raise InputError(
-                "interference: the pinion's tips reach beyond the gear's base tangent point (x_E > T1T2)",
-                where=tips,
-                value=shown,
-            )
-        if not self.contact_ratio >= 1:
-            raise InputError(
-                f"the transverse contact ratio is {self.contact_ratio:.4g}; it must be at least 1",
-                where=tips,
-                value=shown,
-            )
-        if not self.path_start < self.pitch_point < self.path_end:
-            raise InputError("the pitch point must lie inside the path of contact", where=tips, value=shown)
+        standard = "" if self.tip_radius is not None else " (tips of the standard addendum, as none are given)"
+        shown = tuple(round(2e3 * radius, 6) for radius in self.tip_radii)
+        start, length, end = self.path_start, self.line_of_action_length, self.path_end
+        for broken, rule in (
+            (min(self.tip_thickness) <= 0, "pointed teeth: the flanks cross below the tip circle"),
+            (start < -1e-9 * length, "interference: the gear's tips pass the pinion's base tangent point (x_A < 0)"),
+            (
+                end > length * (1 + 1e-9),
+                "interference: the pinion's tips pass the gear's base tangent point (x_E > T1T2)",
+            ),
+            (not self.contact_ratio >= 1, f"the contact ratio is {self.contact_ratio:.4g}; it must be at least 1"),
+            (not start < self.pitch_point < end, "the pitch point must lie inside the path of contact"),
+        ):
+            if broken:
+                raise InputError(rule + standard, where="tip_diameter_mm", value=shown)
 
     @property
     def gear_ratio(self) -> float:

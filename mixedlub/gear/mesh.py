@@ -15,7 +15,7 @@ from itertools import pairwise
 import numpy as np
 
 from mixedlub.gear.geometry import GearPair, whole
-from mixedlub.gear.sharing import Sharing, torques_above_zero
+from mixedlub.gear.sharing import Sharing, column, torques_above_zero
 from profiles.errors import InputError
 
 
@@ -87,7 +87,7 @@ def at_roll_angle(pair: GearPair, sharing: Sharing, roll_angle: object, *, slice
     the path of contact by up to 0.5 % of its length are moved to its end (rounded recordings); others are
     refused.
     """
-    angles = np.atleast_1d(np.asarray(roll_angle, dtype=float))
+    angles = column("roll_angle_deg", np.atleast_1d(np.asarray(roll_angle)))
     slices = sharing.default_slices(pair) if slices is None else whole("slices", slices, 1, 1000)
     notes = sharing.check(pair)
     start, end = pair.path_start / pair.base_radius[0], pair.path_end / pair.base_radius[0]

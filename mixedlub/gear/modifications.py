@@ -47,8 +47,8 @@ class Modifications:
             (self.tip_relief, self.relief_length, "relief_length_mm"),
             (self.root_relief, self.root_relief_length, "root_relief_length_mm"),
         ):
-            if any(depth > 0 and reach == 0 for depth, reach in zip(relief, length)):
-                raise InputError("a relief needs a length above zero", where=key, value=length)
+            if any(depth > 0 and reach < 1e-6 for depth, reach in zip(relief, length)):
+                raise InputError("a relief needs a length of at least 0.001 mm", where=key, value=length)
         if self.relief_form not in ("linear", "parabolic"):
             raise InputError("'linear' or 'parabolic'", where="relief_form", value=self.relief_form)
 

@@ -128,7 +128,7 @@ class TableSharing:
 
     def __post_init__(self) -> None:
         columns = {"torque_Nm": self.torque, "roll_angle_deg": self.roll_angle, "load_share": self.share}
-        arrays = {key: _column(key, values) for key, values in columns.items()}
+        arrays = {key: column(key, values) for key, values in columns.items()}
         if len({array.size for array in arrays.values()}) != 1:
             raise InputError("the three columns need the same number of rows", where="load_share")
         if np.any(arrays["torque_Nm"] <= 0):
@@ -232,7 +232,7 @@ class TableSharing:
         return curves[chosen] * mesh.face_fraction
 
 
-def _column(key: str, values: object) -> np.ndarray:
+def column(key: str, values: object) -> np.ndarray:
     """A finite one-dimensional copy of a column of a table."""
     try:
         column = np.array(values, dtype=float)

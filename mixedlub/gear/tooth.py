@@ -72,16 +72,18 @@ def tooth(pair: GearPair, wheel: int, points: int = 400) -> Tooth:
     >>> round(pinion.root_chord * 1e3, 2)
     1.89
     """
-    fillet_height, fillet_half = _fillet(pair, wheel)
+    fillet_height, fillet_half, form = _fillet(pair, wheel)
     base, tip = pair.base_radius[wheel], pair.tip_radii[wheel]
-    radius = base + (tip - base) * np.linspace(0, 1, points) ** 2
-    angle = np.arccos(base / radius)
+    radius = form + (tip - form) * np.linspace(0, 1, points) ** 2
+    angle = np.arccos(np.minimum(base / radius, 1))
     half = pair.half_tooth_angle(wheel) - (np.tan(angle) - angle)
     flank_height, flank_half = radius * np.cos(half), radius * np.sin(half)
     height = np.linspace(fillet_height[0], flank_height[-1], points)
     on_flank = np.interp(height, flank_height, flank_half, left=np.inf)
     on_fillet = np.interp(height, fillet_height, fillet_half, right=np.inf)
-    thickness = np.minimum(on_flank, on_fillet)
+    # An undercut fillet crosses the involute above the base circle; else they meet where the flank begins.
+    undercut = form <= base
+    thickness = np.minimum(on_flank, on_fillet) if undercut else np.where(height < flank_height[0], on_fillet, on_flank)
     if not np.all(np.isfinite(thickness)) or thickness.min() <= 0:
         raise InputError("undercut leaves no tooth to carry load", where="profile_shift", value=pair.profile_shift)
     for array in (height, thickness):
@@ -89,8 +91,8 @@ def tooth(pair: GearPair, wheel: int, points: int = 400) -> Tooth:
     return Tooth(base, pair.half_tooth_angle(wheel), root_circle(pair, wheel), height, thickness)
 
 
-def _fillet(pair: GearPair, wheel: int) -> tuple[np.ndarray, np.ndarray]:
-    """Trochoid of the rack's corner from the root section outwards: heights and half thicknesses (m)."""
+def _fillet(pair: GearPair, wheel: int) -> tuple[np.ndarray, np.ndarray, float]:
+    """Trochoid of the rack's corner from the root section outwards: heights, half thicknesses; form radius (m)."""
     module, alpha = pair.normal_module, pair.pressure_angle
     pitch, root = pair.reference_radius[wheel], root_circle(pair, wheel)
     shift = pair.profile_shift[wheel] * module
@@ -115,4 +117,6 @@ def _fillet(pair: GearPair, wheel: int) -> tuple[np.ndarray, np.ndarray]:
     height, thickness = radius * np.cos(half), radius * np.sin(half)
     steep = -np.diff(thickness) > math.tan(ROOT_TANGENT) * np.diff(height)
     first = int(np.argmin(steep))
-    return height[first:], thickness[first:]
+    reach = pitch * math.sin(alpha) - (centre + corner * math.sin(alpha)) / math.sin(alpha)
+    form = math.hypot(pair.base_radius[wheel], max(reach, 0.0))
+    return height[first:], thickness[first:], form
