@@ -8,6 +8,7 @@ import numpy as np
 
 from profiles import InputError, Profile
 from profiles.errors import nearest
+from roughness.spectrum import power_density
 
 ESTIMATORS = ("differences", "spectral")
 
@@ -109,15 +110,7 @@ def _by_differences(profile: Profile) -> tuple[float, float, float]:
 
 
 def _by_spectrum(profile: Profile) -> tuple[float, float, float]:
-    from scipy.fft import next_fast_len, rfft, rfftfreq
-
-    z = profile.heights - profile.heights.mean()
-    n = z.size
-    # a taper, or the step between the two ends would fill omega^4 with its own tail
-    taper = 0.5 - 0.5 * np.cos(2 * np.pi * (np.arange(n) + 0.5) / n)
-    size = next_fast_len(n, real=True)
-    power = np.abs(rfft(z * taper, size)) ** 2
-    power[1 : (size + 1) // 2] *= 2.0
-    power /= size * np.mean(taper**2) * n
-    square = (2 * np.pi * rfftfreq(size, profile.spacing)) ** 2
-    return float(z @ z / n), float(power @ square), float(power @ square**2)
+    wavenumber, density = power_density(profile)
+    density *= wavenumber[1]
+    square = (2 * np.pi * wavenumber) ** 2
+    return float(profile.heights.var()), float(density @ square), float(density @ square**2)

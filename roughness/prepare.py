@@ -19,7 +19,7 @@ def level(profile: Profile) -> Profile:
 def remove_form(profile: Profile, form: str) -> Profile:
     """Take off the least-squares form: ``none``, ``mean``, ``line``, ``polynomial-2``, ``circle``.
 
-    Polynomials of any degree to 20. Masked points do not pull the fit. The circle is fitted by orthogonal distance.
+    Polynomials of any degree to 20; the circle by orthogonal distance. Masked points do not pull the fit.
 
     >>> p = Profile(np.array([1.0, 2.0, 3.0, 4.5, 5.0]) * 1e-6, 1e-6)
     >>> remove_form(p, "line").steps
