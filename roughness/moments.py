@@ -8,6 +8,7 @@ import numpy as np
 
 from profiles import InputError, Profile
 from profiles.errors import nearest
+from roughness.mccool import nayak_parameter
 from roughness.spectrum import power_density
 
 ESTIMATORS = ("differences", "spectral")
@@ -54,7 +55,7 @@ class Moments:
     @property
     def bandwidth(self) -> float:
         """Nayak's alpha = m0 m4 / m2^2; at least 3/2 on an isotropic Gaussian surface."""
-        return self.m0 * self.m4 / self.m2**2
+        return float(nayak_parameter(self.m0, self.m2, self.m4))
 
 
 def moments(profile: Profile, *, estimator: str = "differences") -> Moments:
