@@ -252,7 +252,12 @@ class TestRollAngles:
         points = at_roll_angle(HONG, RigidSharing(), math.radians(round(end, 1)))
         assert points.position[0] <= HONG.path_end
 
-    @pytest.mark.parametrize("degrees", [2.0, 45.0, math.nan])
+    @pytest.mark.parametrize("degrees", [2.0, 45.0])
     def test_outside_the_path_is_refused(self, degrees):
         with pytest.raises(InputError, match=r"roll_angle_deg: .*path of contact runs from"):
             at_roll_angle(HONG, RigidSharing(), math.radians(degrees))
+
+    @pytest.mark.parametrize("angles", [math.nan, "x", [[0.3, 0.4]], []])
+    def test_angles_are_a_column_of_numbers(self, angles):
+        with pytest.raises(InputError, match=r"^roll_angle_deg: "):
+            at_roll_angle(HONG, RigidSharing(), angles)
