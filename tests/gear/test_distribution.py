@@ -224,9 +224,13 @@ class TestBehaviour:
         assert np.all(np.diff(shares) < 0)
         assert shares[-1] == 0
 
-    def test_root_relief_acts_like_the_mates_tip_relief(self):
-        tip = LdpSharing(tip_relief=(0.0, 12e-6), relief_length=(0.0, 3e-3))
-        root = LdpSharing(root_relief=(12e-6, 0.0), root_relief_length=(3e-3, 0.0))
+    @pytest.mark.parametrize("wheel", [0, 1])
+    def test_root_relief_acts_like_the_mates_tip_relief(self, wheel):
+        depth, length = (12e-6, 0.0), (3e-3, 0.0)
+        if wheel == 1:
+            depth, length = depth[::-1], length[::-1]
+        tip = LdpSharing(tip_relief=depth[::-1], relief_length=length[::-1])
+        root = LdpSharing(root_relief=depth, root_relief_length=length)
         assert np.array_equal(mesh(HONG, tip).load_share(90.0), mesh(HONG, root).load_share(90.0))
 
     def test_parabolic_relief_stands_back_less(self):
