@@ -8,7 +8,7 @@ to the theoretical path (no corner contact beyond A and E) and teeth couple thro
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -55,8 +55,8 @@ class LdpSharing:
 
     def __post_init__(self) -> None:
         checked = self.modifications
-        for name in ("tip_relief", "relief_length", "root_relief", "root_relief_length"):
-            object.__setattr__(self, name, getattr(checked, name))
+        for field in fields(checked):
+            object.__setattr__(self, field.name, getattr(checked, field.name))
         if self.foundation not in FOUNDATIONS:
             raise InputError(nearest(str(self.foundation), FOUNDATIONS), where="foundation", value=self.foundation)
         if self.foundation == "sainsot" and self.bore_radius is None:

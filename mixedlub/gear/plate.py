@@ -53,43 +53,81 @@ def tapered_plate(
     """Solve the plate of one tooth; ``foundation`` are the four coefficients of a foundation law."""
     root, length = float(tooth.height[0]), float(tooth.height[-1] - tooth.height[0])
     node, gauss = legendre.leggauss(24)
-    place = root + length * (node + 1) / 2
-    thickness = 2 * np.interp(place, tooth.height, tooth.half_thickness)
-    bend = thickness**3 / (12 * (1 - poisson_ratio**2))
-    shear = 5 / 6 * thickness / (2 * (1 + poisson_ratio))
+    thickness = 2 * np.interp(root + length * (node + 1) / 2, tooth.height, tooth.half_thickness)
+    bend = thickness**3 / (12 * (1 - poisson_ratio**2)) * gauss * length / 2
+    shear = 5 / 6 * thickness / (2 * (1 + poisson_ratio)) * gauss * length / 2
     x, dx = _basis(node, HEIGHT_DEGREE, length)
+    along = _Along(
+        bend=x.T @ (x * bend[:, None]),
+        bend_slope=dx.T @ (dx * bend[:, None]),
+        bend_mixed=dx.T @ (x * bend[:, None]),
+        shear=x.T @ (x * shear[:, None]),
+        shear_slope=dx.T @ (dx * shear[:, None]),
+        shear_mixed=dx.T @ (x * shear[:, None]),
+        springs=_root_springs(foundation, tooth.root_chord),
+    )
     # A load spreads over about one tooth height: wider faces need more waves to show it.
     degree = 12 + 2 * math.ceil(face_width / (2 * length))
-    y_node, y_gauss = legendre.leggauss(degree + 2)
-    y, dy = _basis(y_node, degree, face_width)
-
-    def along(left: np.ndarray, right: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
-        return left.T @ (right * (stiffness * gauss * length / 2)[:, None])
-
-    def across(left: np.ndarray, right: np.ndarray) -> np.ndarray:
-        return left.T @ (right * (y_gauss * face_width / 2)[:, None])
-
-    lift, turn, both = _root_springs(foundation, tooth.root_chord)
-    foot = np.outer((-1.0) ** np.arange(HEIGHT_DEGREE + 1), (-1.0) ** np.arange(HEIGHT_DEGREE + 1))
-    flat, slope, twist = across(y, y), across(dy, dy), across(dy, y)
-    half = (1 - poisson_ratio) / 2
-    held = along(x, x, shear) + turn * foot
-    deflection = np.kron(along(dx, dx, shear) + lift * foot, flat) + np.kron(along(x, x, shear), slope)
-    tilt = np.kron(along(dx, dx, bend) + held, flat) + half * np.kron(along(x, x, bend), slope)
-    roll = np.kron(along(x, x, bend), slope) + np.kron(half * along(dx, dx, bend) + held, flat)
-    deflection_tilt = np.kron(both * foot - along(dx, x, shear), flat)
-    deflection_roll = -np.kron(along(x, x, shear), twist)
-    tilt_roll = poisson_ratio * np.kron(along(dx, x, bend), twist.T)
-    tilt_roll += half * np.kron(along(x, dx, bend), twist)
-    # Rotations are free of load: condense them out, then invert for the deflection alone.
-    rotations = np.block([[tilt, tilt_roll], [tilt_roll.T, roll]])
-    coupling = np.hstack([deflection_tilt, deflection_roll])
-    stiffness = deflection - coupling @ np.linalg.solve(rotations, coupling.T)
+    node, gauss = legendre.leggauss(degree + 2)
+    y, dy = _basis(node, degree, face_width)
+    weight = (gauss * face_width / 2)[:, None]
     modes = _slice_means(slices, degree)
-    spread = np.kron(np.eye(HEIGHT_DEGREE + 1), modes)
-    influence = spread @ np.linalg.solve(stiffness, spread.T) / youngs_modulus
+    influence = np.zeros(((HEIGHT_DEGREE + 1) * slices,) * 2)
+    # Symmetric and antisymmetric deflections of the face do not mix: two problems of half the size.
+    for parity in (0, 1):
+        same, other = slice(parity, None, 2), slice(1 - parity, None, 2)
+        stiffness = _condensed(along, poisson_ratio, (y[:, same], dy[:, same]), (y[:, other], dy[:, other]), weight)
+        spread = np.kron(np.eye(HEIGHT_DEGREE + 1), modes[:, same])
+        influence += spread @ np.linalg.solve(stiffness, spread.T) / youngs_modulus
     shape = (HEIGHT_DEGREE + 1, slices, HEIGHT_DEGREE + 1, slices)
     return Plate(root, length, influence.reshape(shape).transpose(0, 2, 1, 3))
+
+
+@dataclass(frozen=True, eq=False)
+class _Along:
+    """Integrals over the height of products of its polynomials, weighted with bending or shear stiffness.
+
+    ``slope``: both differentiated; ``mixed``: the first; ``springs``: root stiffness against lift, turn, both.
+    """
+
+    bend: np.ndarray
+    bend_slope: np.ndarray
+    bend_mixed: np.ndarray
+    shear: np.ndarray
+    shear_slope: np.ndarray
+    shear_mixed: np.ndarray
+    springs: tuple[float, float, float]
+
+
+def _condensed(
+    along: _Along,
+    poisson_ratio: float,
+    lift: tuple[np.ndarray, np.ndarray],
+    roll: tuple[np.ndarray, np.ndarray],
+    weight: np.ndarray,
+) -> np.ndarray:
+    """Stiffness of the deflection alone; the rotations carry no load and follow.
+
+    ``lift``: face polynomials and derivatives of the deflection and of the rotation along the tooth; ``roll``:
+    those, of the other parity, of the rotation along the face.
+    """
+    (y, dy), (z, dz) = lift, roll
+    flat, slope = y.T @ (y * weight), dy.T @ (dy * weight)
+    flat_roll, slope_roll = z.T @ (z * weight), dz.T @ (dz * weight)
+    twist, swell = dy.T @ (z * weight), y.T @ (dz * weight)
+    sign = (-1.0) ** np.arange(HEIGHT_DEGREE + 1)
+    foot = np.outer(sign, sign)
+    against_lift, against_turn, both = along.springs
+    half = (1 - poisson_ratio) / 2
+    held = along.shear + against_turn * foot
+
+    deflection = np.kron(along.shear_slope + against_lift * foot, flat) + np.kron(along.shear, slope)
+    tilt = np.kron(along.bend_slope + held, flat) + half * np.kron(along.bend, slope)
+    roll_stiffness = np.kron(along.bend, slope_roll) + np.kron(half * along.bend_slope + held, flat_roll)
+    tilt_roll = poisson_ratio * np.kron(along.bend_mixed, swell) + half * np.kron(along.bend_mixed.T, twist)
+    rotations = np.block([[tilt, tilt_roll], [tilt_roll.T, roll_stiffness]])
+    coupling = np.hstack([np.kron(both * foot - along.shear_mixed, flat), -np.kron(along.shear, twist)])
+    return deflection - coupling @ np.linalg.solve(rotations, coupling.T)
 
 
 def _basis(node: np.ndarray, degree: int, length: float) -> tuple[np.ndarray, np.ndarray]:

@@ -148,6 +148,14 @@ class TestRigid:
         mean_length = wide.face_width * wide.contact_ratio
         assert line_load == pytest.approx(1 / mean_length, rel=1e-9)
 
+    def test_wide_helical_gear_loses_by_the_plain_mean_of_the_sliding_speed(self):
+        # Buckingham: pi (1/z1 + 1/z2) (eps1^2 + eps2^2) / eps_alpha, and 1/cos(beta_b) for the normal force.
+        pair = replace(HONG, helix_angle=math.radians(20))
+        wide = replace(pair, face_width=2 * math.pi * pair.normal_module / math.sin(pair.helix_angle))
+        mean = (wide.approach_ratio**2 + wide.recess_ratio**2) / wide.contact_ratio
+        closed = math.pi * (1 / 17 + 1 / 26) * mean / math.cos(wide.base_helix_angle)
+        assert loss_factor(mesh(wide, RigidSharing()), 1.0) == pytest.approx(closed, rel=1e-9)
+
 
 class TestTable:
     """A tabulated share, used as it stands."""
