@@ -20,6 +20,7 @@ _REACH = 3.0902323061678132  # normal quantile of 99.9 %
 _LEAST_REACH = 1.6448536269514722  # normal quantile of 95 %
 _FEWEST = 30.0  # independent heights below which the band would forgive any shape
 _LEVELS = 121
+_DRAWS = 2000
 _KNEES = np.linspace(-2.0, 1.0, 61)
 _WIDTHS = np.array([0.05, 0.15, 0.3, 0.5, 0.8, 1.2])
 
@@ -43,6 +44,7 @@ class NormalProbability:
     ``from_percent`` and ``to_percent``, the widest range that it describes; ``band`` (m) is how far from it
     a Gaussian profile with the same autocorrelation stays at every point together in 99 of 100 cases;
     ``p_value`` is the share of such profiles that leave their line further than this one.
+    ``lines`` are the two asymptotes fitted to any profile, ``plateau`` the same where they are convincing;
     ``contact_ratio`` is the mean overlap with a plane at 1, 2 and 3 sigma over that of Gaussian heights.
     """
 
@@ -57,6 +59,7 @@ class NormalProbability:
     p_value: float
     independent_heights: float
     contact_ratio: tuple[float, float, float]
+    lines: Plateau
     plateau: Plateau | None
     words: str
 
@@ -88,7 +91,8 @@ def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> Nor
         relative_band = np.zeros_like(relative_band)
     first, last, mean, sigma = _widest_line(quantiles, heights, relative_band, tolerance)
     low, high = (float(100 * ndtr(quantiles[i])) for i in (first, last))
-    plateau = _convincing_plateau(quantiles, heights, tolerance)
+    lines, residual = _hyperbola(quantiles, heights)
+    plateau = lines if _convincing(lines, residual, quantiles, heights, tolerance) else None
     whole = first == 0 and last == _LEVELS - 1
     deviation = np.abs(heights - mean - sigma * quantiles).max() / sigma
     if whole and (p_value >= 0.01 or deviation <= tolerance):
@@ -114,6 +118,7 @@ def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> Nor
         p_value=p_value,
         independent_heights=independent,
         contact_ratio=ratio,
+        lines=lines,
         plateau=plateau if verdict == "plateau" else None,
         words=_words(verdict, low, high, independent, ratio, plateau),
     )
@@ -174,9 +179,9 @@ def _gaussian_band(
     residual = np.eye(quantiles.size) - np.column_stack((np.ones(quantiles.size), quantiles)) @ fit
     covariance = residual @ covariance @ residual.T / count
     spread = np.sqrt(np.maximum(np.diag(covariance), 1e-12))
-    values, vectors = np.linalg.eigh(covariance)
-    draws = np.random.default_rng(1).standard_normal((4000, quantiles.size))
-    draws = draws * np.sqrt(np.maximum(values, 0.0)) @ vectors.T
+    # taking the line off leaves two directions without scatter; the small diagonal keeps Cholesky going
+    factor = np.linalg.cholesky(covariance + 1e-9 * np.diag(covariance).max() * np.eye(quantiles.size))
+    draws = np.random.default_rng(1).standard_normal((_DRAWS, quantiles.size)) @ factor.T
     largest = np.abs(draws / spread).max(axis=1)
     slope = fit[1] @ heights
     observed = np.abs((residual @ heights) / slope / spread).max()
@@ -245,21 +250,21 @@ def _hyperbola(quantiles: np.ndarray, heights: np.ndarray) -> tuple[Plateau, np.
     return found, residual
 
 
-def _convincing_plateau(quantiles: np.ndarray, heights: np.ndarray, tolerance: float) -> Plateau | None:
-    """The two lines, or None unless the valleys are at least twice as steep, fill 2 to 80 %, and the curve
-    fits to 2.5 times the tolerance where one line leaves four times the squares."""
-    found, residual = _hyperbola(quantiles, heights)
+def _convincing(
+    lines: Plateau, residual: np.ndarray, quantiles: np.ndarray, heights: np.ndarray, tolerance: float
+) -> bool:
+    """Whether the valleys are at least twice as steep, fill 2 to 80 %, and the curve fits to 2.5 times the
+    tolerance where one line leaves four times the squares."""
     inner = np.abs(quantiles) <= 2.5
     q, z = quantiles[inner], heights[inner]
     one = z - np.polynomial.polynomial.polyval(q, np.polynomial.polynomial.polyfit(q, z, 1))
-    convincing = (
-        found.plateau_sigma > 0
-        and found.valley_sigma >= 2.0 * found.plateau_sigma
-        and 20.0 <= found.material_percent <= 98.0
+    return bool(
+        lines.plateau_sigma > 0
+        and lines.valley_sigma >= 2.0 * lines.plateau_sigma
+        and 20.0 <= lines.material_percent <= 98.0
         and residual @ residual <= 0.25 * (one @ one)
         and np.abs(residual).max() <= 2.5 * tolerance * z.std()
     )
-    return found if convincing else None
 
 
 def _plotted(profile: Profile) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

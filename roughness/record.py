@@ -16,7 +16,7 @@ from roughness.material_ratio import core_parameters
 from roughness.moments import Moments, moments
 from roughness.parameters import HeightParameters, height_parameters
 from roughness.prepare import remove_form, roughness_profile
-from roughness.probability import NormalProbability, normal_probability, two_lines
+from roughness.probability import NormalProbability, normal_probability
 from roughness.spectrum import correlation_length
 from roughness.uncertainty import bootstrap, smoothed_moments
 
@@ -109,7 +109,7 @@ def profile_record(
     except InputError:
         gaussian = None
     warnings = profile_warnings(profile, heights, found, gaussian, raw=raw)
-    parameters = _parameters(profile, heights, sections)
+    parameters = _parameters(profile, heights, gaussian, sections)
     if parameters.pop("s_shaped") is False:
         warnings.append("the material ratio curve is not S-shaped: the Rk family is undefined and left out")
         parameters |= dict.fromkeys(("Rk_um", "Rpk_um", "Rvk_um", "Mr1_percent", "Mr2_percent"))
@@ -125,19 +125,22 @@ def profile_record(
     return {name: _plain(value) for name, value in row.items()}
 
 
-def _parameters(profile: Profile, heights: HeightParameters, sections: int | None) -> dict[str, object]:
+def _parameters(
+    profile: Profile, heights: HeightParameters, gaussian: NormalProbability | None, sections: int | None
+) -> dict[str, object]:
     values = asdict(heights)
     row: dict[str, object] = {f"{n}_um": values[n] * 1e6 for n in _LENGTHS}
     row |= {"Rsk": heights.Rsk, "Rku": heights.Rku, "Rdq": heights.Rdq}
     core = core_parameters(profile)
     row |= {"Rk_um": core.Rk * 1e6, "Rpk_um": core.Rpk * 1e6, "Rvk_um": core.Rvk * 1e6}
     row |= {"Mr1_percent": core.Mr1, "Mr2_percent": core.Mr2, "s_shaped": core.s_shaped}
-    lines = two_lines(profile)
-    layered = 0 < lines.plateau_sigma < lines.valley_sigma
+    layers = None if gaussian is None else gaussian.lines
+    if layers is not None and not 0 < layers.plateau_sigma < layers.valley_sigma:
+        layers = None
     row |= {
-        "Rpq_um": lines.plateau_sigma * 1e6 if layered else None,
-        "Rvq_um": lines.valley_sigma * 1e6 if layered else None,
-        "Rmq_percent": lines.material_percent if layered else None,
+        "Rpq_um": None if layers is None else layers.plateau_sigma * 1e6,
+        "Rvq_um": None if layers is None else layers.valley_sigma * 1e6,
+        "Rmq_percent": None if layers is None else layers.material_percent,
     }
     elements = element_parameters(profile, sections=sections)
     row |= {"RSm_um": elements.RSm * 1e6, "Rc_um": elements.Rc * 1e6}

@@ -26,7 +26,8 @@ def robust_mean_line(
     .. math:: \delta_l = [1 - ((z_l - w_l)/c_B)^2]^2 \ \text{within}\ c_B = 4.4478\,\mathrm{med}|z - w|
 
     Local polynomials of ``order`` 0, 1 or 2 under Gaussian times biweight, repeated until the median changes
-    by less than ``tolerance``. No length is lost. Every sum is a convolution: n log n a round.
+    by less than ``tolerance``. On Gaussian roughness the biweight lowers the transmission at the cut-off from
+    0.50 to 0.39. No length is lost. Every sum is a convolution: n log n a round.
     ISO 16610-31:2010, eq. 1 to 5. The local polynomial passes more of the long waves than the plain
     Gaussian: order 2 would transmit 85 % at the cut-off, so the standard widens its weights by 1.556.
 
@@ -36,7 +37,7 @@ def robust_mean_line(
     """
     if order not in (0, 1, 2):
         raise InputError("must be 0, 1 or 2", where="order of the robust filter", value=order)
-    kernel = _regression_kernel(cutoff, spacing, order)
+    kernel = regression_kernel(cutoff, spacing, order)
     weights = np.ones(heights.size) if valid is None else valid.astype(float)
     known = weights.copy()
     mean_line = local_regression(heights, weights, kernel, order=order)
@@ -88,7 +89,7 @@ def spline_mean_line(heights: np.ndarray, spacing: float, cutoff: float) -> np.n
     return solveh_banded(bands, heights, check_finite=False)
 
 
-def _regression_kernel(cutoff: float, spacing: float, order: int) -> np.ndarray:
+def regression_kernel(cutoff: float, spacing: float, order: int) -> np.ndarray:
     """Gaussian weights whose local polynomial transmits one half at the cut-off.
 
     For orders 0 and 1 the plain Gaussian does. Order 2 transmits (1 + t) exp(-t), t = pi (alpha g lc/l)^2:

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +24,7 @@ def nist(measured: Path) -> Callable[[str], tuple[Profile, np.ndarray | None]]:
         found = re.search(rf"<{tag}>([^<]+)</{tag}>", text)
         return np.array(found.group(1).split(), float) * 1e-6 if found else None
 
+    @cache
     def read(name: str) -> tuple[Profile, np.ndarray | None]:
         text = (measured / "reference" / f"{name}.xml").read_text()
         spacing = float(re.search(r"<SPACING>(.*?)<", text).group(1)) * 1e-6
@@ -36,6 +38,7 @@ def nist(measured: Path) -> Callable[[str], tuple[Profile, np.ndarray | None]]:
 def mitutoyo(measured: Path) -> Callable[[str], Profile]:
     """The R profile stored in a Mitutoyo report."""
 
+    @cache
     def read(name: str) -> Profile:
         import openpyxl
 
@@ -72,7 +75,9 @@ def gaussian_trace() -> Callable[..., Profile]:
 def plateau_trace(gaussian_trace: Callable[..., Profile]) -> Callable[..., Profile]:
     """A fine plateau of sigma 0.1 um into which valleys of another sigma cut: the lower of two surfaces."""
 
-    def make(valley_sigma: float = 0.5e-6, lift: float = 0.4e-6, seed: int = 0, points: int = 9600) -> Profile:
+    def make(
+        valley_sigma: float = 0.5e-6, lift: float = 0.4e-6, seed: int = 0, points: int = 9600
+    ) -> Profile:
         fine = gaussian_trace(points, roll=30e-6, seed=2 * seed).heights / 3
         deep = gaussian_trace(points, roll=60e-6, seed=2 * seed + 1).heights * (valley_sigma / 0.3e-6)
         return Profile(np.minimum(fine, deep + lift), 0.5e-6, name="plateau")

@@ -14,7 +14,16 @@ WAVE = Profile(np.sin(2 * np.pi * (np.arange(8000) + 0.5) / 400), 1e-6, name="wa
 
 @pytest.mark.parametrize(
     ("name", "value"),
-    [("Ra", 2 / np.pi), ("Rq", 0.5**0.5), ("Rz", 2), ("Rt", 2), ("Rp", 1), ("Rv", 1), ("Rsk", 0), ("Rku", 1.5)],
+    [
+        ("Ra", 2 / np.pi),
+        ("Rq", 0.5**0.5),
+        ("Rz", 2),
+        ("Rt", 2),
+        ("Rp", 1),
+        ("Rv", 1),
+        ("Rsk", 0),
+        ("Rku", 1.5),
+    ],
 )
 def test_sine(name, value):
     assert getattr(height_parameters(WAVE, sections=5), name) == pytest.approx(value, abs=7e-5)
