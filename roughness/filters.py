@@ -44,7 +44,7 @@ def gaussian_kernel(cutoff: float, spacing: float, *, floored: bool = False) -> 
         raise InputError(
             f"the cut-off must be at least the spacing of {spacing * 1e6:g} um",
             where="filter cut-off (um)",
-            value=cutoff * 1e6,
+            value=round(cutoff * 1e6, 9),
         )
     width = (half if floored else cutoff / spacing) * ALPHA
     weights = np.exp(-np.pi * (np.arange(-half, half + 1) / width) ** 2)
