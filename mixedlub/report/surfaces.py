@@ -8,7 +8,7 @@ import numpy as np
 
 from mixedlub.report.figures import Drawn
 from mixedlub.study.study import Study
-from roughness import mccool
+from roughness.mccool import nayak_parameter, summit_density, summit_radius
 
 SHOWN = 6
 
@@ -24,9 +24,9 @@ def surface_rows(study: Study) -> list[tuple[str, ...]]:
                 f"{np.sqrt(s.m0) * 1e6:.3f}",
                 f"{np.sqrt(s.m2):.4f}",
                 f"{np.sqrt(s.m4) * 1e-3:.3g}",
-                f"{mccool.nayak_parameter(*moments):.3g}",
-                f"{mccool.summit_density(s.m2, s.m4) * 1e-6:.3g}",
-                f"{mccool.summit_radius(s.m4) * 1e6:.3g}",
+                f"{nayak_parameter(*moments):.3g}",
+                f"{summit_density(s.m2, s.m4) * 1e-6:.3g}",
+                f"{summit_radius(s.m4) * 1e6:.3g}",
             )
         )
     return rows
