@@ -136,8 +136,8 @@ def over_speed(results: Results, quantity: str, chosen: Sequence[int] | np.ndarr
     axes[0].legend(title=f"{whose} torque", title_fontsize=7.5, loc="upper left")
     if loss:
         most = float(results["power_loss"].max())
-        for panel in axes:
-            normalised_axis(panel, most, "over largest (-)" if panel in _right(axes) else None)
+        for panel in _right(axes):
+            normalised_axis(panel, most)
     return figure
 
 
@@ -195,9 +195,7 @@ def loss_over(results: Results, quantity: str, theta: int, *, fitted: bool = Fal
     axes[0].set_ylabel("power loss (W)")
     axes[0].set_ylim(bottom=0.0)
     axes[0].set_xlim(left=0.0)
-    most = float(results["power_loss"].max())
-    for panel in axes:
-        normalised_axis(panel, most, "over largest (-)" if panel is axes[-1] else None)
+    normalised_axis(axes[-1], float(results["power_loss"].max()))
     return figure
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from mixedlub.report.figures import Drawn, figures
 from mixedlub.report.laws import laws_used
 from mixedlub.report.style import as_svg
-from mixedlub.report.surfaces import surface_figures, surface_rows
+from mixedlub.report.surfaces import provenance, surface_figures, surface_rows
 from mixedlub.study.results import COLUMNS, DEFINITIONS, Results
 from mixedlub.study.sections import Options
 from mixedlub.study.store import fingerprint
@@ -54,6 +54,7 @@ def content(results: Results) -> dict[str, Any]:
         "roughness_table": roughness_table(results),
         "loss_table": loss_table(results),
         "surfaces": surface_rows(study),
+        "provenance": provenance(study),
         "pair": study.pair,
         "oil": oil_rows(results),
         "sharing": file.gears.load_sharing,

@@ -68,19 +68,17 @@ def panels(
     return figure, list(axes.flat[:count])
 
 
-def normalised_axis(axes: Axes, most: float, label: str | None) -> None:
+def normalised_axis(axes: Axes, most: float) -> None:
     """A second scale on the right: the same values over the largest of the study."""
     right = axes.secondary_yaxis("right", functions=(lambda y: y / most, lambda y: y * most))
     right.spines["right"].set_visible(True)
-    right.tick_params(labelright=label is not None)
-    if label is not None:
-        right.set_ylabel(label)
+    right.set_ylabel("over largest (-)")
 
 
 def as_svg(figure: Figure) -> str:
     """The figure as an `svg` element, without prologue; the same input gives the same text."""
     text = io.StringIO()
     with styled():
-        figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None}, bbox_inches="tight")
+        figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None})
     found = text.getvalue()
     return found[found.index("<svg") :]

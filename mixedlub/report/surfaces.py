@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
+from mixedlub.bodies import flank_profile
+from mixedlub.case import noted
 from mixedlub.report.figures import Drawn
-from mixedlub.study.study import Study
+from mixedlub.report.style import styled
+from mixedlub.study.study import Study, located
+from profiles import Profile
 from roughness.mccool import nayak_parameter, summit_density, summit_radius
 
 SHOWN = 6
@@ -32,6 +37,45 @@ def surface_rows(study: Study) -> list[tuple[str, ...]]:
     return rows
 
 
+def traced(study: Study) -> dict[str, Profile]:
+    """The filtered profiles of the surfaces that come from traces, at most a figure full."""
+    sections = {name: located(name, study.file.surfaces[name]) for name in study.surfaces}
+    named = [name for name, section in sections.items() if section.profile is not None][:SHOWN]
+    with noted([]):
+        profiles = {name: flank_profile(name, sections[name], study.folder.resolve()) for name in named}
+    return {name: replace(profile, name=name) for name, profile in profiles.items()}
+
+
 def surface_figures(study: Study) -> Iterator[Drawn]:
     """Traces and normal probability plots of the surfaces that come from traces."""
-    yield from ()
+    profiles = traced(study)
+    if not profiles:
+        return
+    from roughness.plots import probability_figure, trace_figure
+
+    with styled():
+        yield Drawn(
+            "traces",
+            "Roughness profiles, all to one scale: 1.5 mm from the middle of each.",
+            trace_figure(*profiles.values(), excerpt=1.5e-3),
+        )
+        yield Drawn(
+            "probability",
+            "Normal probability plots of the profile heights: a Gaussian surface follows the straight line, and the "
+            "band holds 99 of 100 Gaussian profiles of the same autocorrelation.",
+            probability_figure(*profiles.values()),
+        )
+
+
+def provenance(study: Study) -> list[tuple[str, str]]:
+    """Where each surface comes from: its moments as given, or its trace with what was done to it."""
+    profiles = traced(study)
+    rows = []
+    for name in list(study.surfaces)[: 4 * SHOWN]:
+        section = study.file.surfaces[name]
+        if section.profile is None:
+            rows.append((name, "moments as given"))
+        else:
+            steps = "; ".join(profiles[name].steps) if name in profiles else "prepared as the others"
+            rows.append((name, f"{section.profile}: {steps}"))
+    return rows

@@ -18,6 +18,7 @@ from mixedlub.chain import Model, available
 from mixedlub.effect import Effect, find
 from mixedlub.gear import GearPair, Mesh, mesh
 from mixedlub.kinds.gear_pair import motion_inputs
+from mixedlub.laws.load import LEAST_SHARE
 from mixedlub.lubricant import Lubricant
 from mixedlub.study.sections import Options, Pairings, StudyFile
 from mixedlub.study.variants import study_chain
@@ -120,7 +121,7 @@ def located(name: str, section: config.SurfaceSection) -> config.SurfaceSection:
         return section
     traces = files("profiles").joinpath("traces")
     wanted = section.profile.removeprefix(SHIPPED)
-    known = {Path(f.name).stem: f for f in traces.iterdir() if f.name.endswith(".csv")} if traces.is_dir() else {}
+    known = {Path(f.name).stem: f for f in traces.iterdir() if f.name.endswith(".txt")} if traces.is_dir() else {}
     if wanted not in known:
         raise InputError(
             f"no such shipped trace; {nearest(wanted, known)}", where=f"surfaces.{name}.profile", value=section.profile
@@ -162,13 +163,14 @@ def _condition_inputs(file: StudyFile, pair: GearPair, points: Mesh, oil: Lubric
     temperature = np.array(levels.oil_temperature_C) + bodies.ZERO_CELSIUS + options.bulk_temperature_rise_K
     torque = torques.reshape(1, 1, -1, 1, 1)
     speed = speeds.reshape(1, 1, 1, -1, 1)
-    mean = points.weight * points.face_fraction
+    share = points.load_share(torques)
+    mean = points.weight * points.face_fraction * (share > LEAST_SHARE)
     return {
         **motion_inputs(points, torque, speed),
         **oil.inputs(temperature.reshape(1, -1, 1, 1, 1)),
         "oil_temperature": temperature.reshape(1, -1, 1, 1, 1),
-        "load_share": points.load_share(torques)[None, None, :, None, :],
-        "mean_weight": mean / mean.sum(),
+        "load_share": share[None, None, :, None, :],
+        "mean_weight": (mean / mean.sum(axis=-1, keepdims=True))[None, None, :, None, :],
         "mean_sliding_speed": pair.end_mean_sliding * pair.base_radius[0] * speed,
     }
 
