@@ -12,7 +12,7 @@ import itertools
 import os
 import platform
 from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from functools import cache
 from typing import Any
 
@@ -185,8 +185,8 @@ def _on_cluster(plan: Plan, todo: Sequence[Block], address: str) -> Iterator[tup
         raise InputError(f"no scheduler answers there ({error})", where="--scheduler", value=address) from None
     with client:
         shared = client.scatter(plan, broadcast=True)
-        tasks: dict[Future, Block] = {client.submit(compute, shared, b, pure=False): b for b in todo}
-        for done in as_completed(tasks):
+        tasks = {client.submit(compute, shared, b, pure=False): b for b in todo}
+        for done in as_completed(tasks, loop=client.loop):
             yield tasks.pop(done), done.result()
             done.release()
 

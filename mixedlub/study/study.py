@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -76,7 +76,7 @@ class Study:
     pairings: tuple[tuple[str, str], ...]
     effects: tuple[Effect, ...]
     plan: Plan
-    notes: tuple[str, ...]
+    notes: tuple[str, ...] = ()
 
     @property
     def conditions(self) -> int:
@@ -92,11 +92,12 @@ def read_study(path: Path) -> Study:
     notes: list[str] = []
     try:
         with noted(notes):
-            return _resolve(path.stem, file, path.parent, notes)
+            study = _resolve(path.stem, file, path.parent)
     except InputError as error:
         if path.name in str(error):
             raise
         raise InputError(str(error), where=path.name) from None
+    return replace(study, notes=(*notes, *study.mesh.notes))
 
 
 def pairings_of(section: Pairings | None, known: Mapping[str, object]) -> tuple[tuple[str, str], ...]:
@@ -129,7 +130,7 @@ def located(name: str, section: config.SurfaceSection) -> config.SurfaceSection:
     return section.model_copy(update={"profile": str(known[wanted])})
 
 
-def _resolve(name: str, file: StudyFile, folder: Path, notes: list[str]) -> Study:
+def _resolve(name: str, file: StudyFile, folder: Path) -> Study:
     chosen = pairings_of(file.pairings, file.surfaces)
     used = dict.fromkeys(s for both in chosen for s in both)
     idle = [s for s in file.surfaces if s not in used]
@@ -150,8 +151,7 @@ def _resolve(name: str, file: StudyFile, folder: Path, notes: list[str]) -> Stud
     levels = file.conditions
     shape = (len(chosen), len(levels.oil_temperature_C), len(levels.torque_Nm), len(levels.speed_rpm))
     plan = Plan(inputs, options, parameters, shape, points.position.size)
-    notes.extend(points.notes)
-    return Study(name, file, folder, pair, points, oil, surfaces, chosen, effects, plan, tuple(notes))
+    return Study(name, file, folder, pair, points, oil, surfaces, chosen, effects, plan)
 
 
 def _condition_inputs(file: StudyFile, pair: GearPair, points: Mesh, oil: Lubricant) -> dict[str, Any]:
