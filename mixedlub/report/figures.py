@@ -126,7 +126,8 @@ def over_speed(results: Results, quantity: str, chosen: Sequence[int] | np.ndarr
             marker = "o" if len(levels.speed_rpm) <= 25 else ""
             panel.plot(levels.speed_rpm, values[t], marker=marker, color=colour, label=f"{levels.torque_Nm[t]:g} Nm")
         sigma = results["composite_roughness"][pairing, 0, 0, 0] * 1e6
-        panel.set_title(f"{name_of(results, pairing)}   Rq {sigma:.3f} µm", loc="left")
+        name = name_of(results, pairing)
+        panel.set_title(f"{name}{'   ' if len(name) < 16 else chr(10)}Rq {sigma:.3f} µm", loc="left")
     for panel in _left(axes):
         panel.set_ylabel("power loss (W)" if loss else "boundary area ratio (-)")
     for panel in _bottom(axes):
@@ -194,7 +195,8 @@ def loss_over(results: Results, quantity: str, theta: int, *, fitted: bool = Fal
             panel.axvline(1.0, color="0.35", linewidth=0.8, linestyle=(0, (4, 3)))
     axes[0].set_ylabel("power loss (W)")
     axes[0].set_ylim(bottom=0.0)
-    axes[0].set_xlim(left=0.0)
+    if results[quantity].min() < 0.3 * results[quantity].max():
+        axes[0].set_xlim(left=0.0)
     normalised_axis(axes[-1], float(results["power_loss"].max()))
     return figure
 
@@ -211,8 +213,8 @@ def _legend_above(panel: Axes, title: str) -> None:
         loc="lower left",
         bbox_to_anchor=(-0.04, 1.1),
         ncols=2,
-        fontsize=7,
-        columnspacing=0.8,
+        fontsize=6.5,
+        columnspacing=0.6,
         handletextpad=0.1,
         borderaxespad=0.0,
     )

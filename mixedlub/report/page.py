@@ -14,7 +14,7 @@ import numpy as np
 from mixedlub.report.figures import Drawn, figures
 from mixedlub.report.laws import laws_used
 from mixedlub.report.style import as_svg
-from mixedlub.report.surfaces import provenance, surface_figures, surface_rows
+from mixedlub.report.surfaces import judgement, not_gaussian, provenance, surface_figures, surface_rows, traced
 from mixedlub.study.results import COLUMNS, DEFINITIONS, Results
 from mixedlub.study.sections import Options
 from mixedlub.study.store import fingerprint
@@ -29,19 +29,23 @@ def write_page(results: Results, folder: Path, notes: Sequence[str]) -> None:
 
     drawings = folder / "figures"
     drawings.mkdir()
+    study = results.study
+    profiles = traced(study)
+    judged = judgement(profiles)
     shown = []
-    for drawn in (*surface_figures(results.study), *figures(results)):
+    for drawn in (*surface_figures(study, profiles, judged), *figures(results)):
         svg = as_svg(drawn.figure)
         (drawings / f"{drawn.name}.svg").write_text(svg, encoding="utf-8")
         shown.append({"name": drawn.name, "caption": drawn.caption, "svg": svg})
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(files("mixedlub.report").joinpath("template.html").read_text(encoding="utf-8"))
-    page = template.render(**content(results), figures=shown, notes=notes)
+    said = {"notes": [*notes, *not_gaussian(judged)], "provenance": provenance(study, profiles)}
+    page = template.render(**content(results), **said, figures=shown)
     (folder / "index.html").write_text(page, encoding="utf-8")
 
 
 def content(results: Results) -> dict[str, Any]:
-    """All that the page says, but for figures and notes."""
+    """What the page says from the results alone."""
     study = results.study
     file = study.file
     return {
@@ -54,7 +58,6 @@ def content(results: Results) -> dict[str, Any]:
         "roughness_table": roughness_table(results),
         "loss_table": loss_table(results),
         "surfaces": surface_rows(study),
-        "provenance": provenance(study),
         "pair": study.pair,
         "oil": oil_rows(results),
         "sharing": file.gears.load_sharing,
@@ -71,6 +74,7 @@ def findings(results: Results) -> list[str]:
     """The result in a few sentences."""
     study, levels = results.study, results.study.file.conditions
     loss, ratio, lam = results["power_loss"], results["area_ratio"], results["film_parameter"]
+    friction = results["mean_friction"]
 
     def where(place: int) -> str:
         p, o, t, s = np.unravel_index(place, loss.shape)
@@ -85,8 +89,8 @@ def findings(results: Results) -> list[str]:
     sentences = [
         f"The largest power loss is {loss.max():.4g} W, of {where(int(loss.argmax()))}; the smallest is "
         f"{loss.min():.4g} W, of {where(int(loss.argmin()))}.",
-        f"Mean friction lies between {results['mean_friction'].min():.3f} and {results['mean_friction'].max():.3f}, the "
-        f"boundary area ratio between {ratio.min():.2g} and {ratio.max():.2g}, the film parameter between "
+        f"Mean friction lies between {friction.min():.3f} and {friction.max():.3f}, the boundary "
+        f" area ratio between {ratio.min():.2g} and {ratio.max():.2g}, the film parameter between "
         f"{lam.min():.2g} and {lam.max():.2g}.",
     ]
     if best != worst:

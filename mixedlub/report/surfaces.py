@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,7 +16,12 @@ from mixedlub.study.study import Study, located
 from profiles import Profile
 from roughness.mccool import nayak_parameter, summit_density, summit_radius
 
-SHOWN = 6
+if TYPE_CHECKING:
+    from roughness import NormalProbability
+
+    Judged = dict[str, NormalProbability]
+
+SHOWN = 8
 
 
 def surface_rows(study: Study) -> list[tuple[str, ...]]:
@@ -46,30 +52,48 @@ def traced(study: Study) -> dict[str, Profile]:
     return {name: replace(profile, name=name) for name, profile in profiles.items()}
 
 
-def surface_figures(study: Study) -> Iterator[Drawn]:
+def surface_figures(study: Study, profiles: Mapping[str, Profile], judged: Judged) -> Iterator[Drawn]:
     """Traces and normal probability plots of the surfaces that come from traces."""
-    profiles = traced(study)
     if not profiles:
         return
     from roughness.plots import probability_figure, trace_figure
 
+    first = "" if len(profiles) == len(study.surfaces) else f" (the first {len(profiles)} of {len(study.surfaces)})"
     with styled():
         yield Drawn(
             "traces",
-            "Roughness profiles, all to one scale: 1.5 mm from the middle of each.",
+            f"Roughness profiles{first}, all to one scale: 1.5 mm from the middle of each.",
             trace_figure(*profiles.values(), excerpt=1.5e-3),
         )
         yield Drawn(
             "probability",
-            "Normal probability plots of the profile heights: a Gaussian surface follows the straight line, and the "
-            "band holds 99 of 100 Gaussian profiles of the same autocorrelation.",
-            probability_figure(*profiles.values()),
+            f"Normal probability plots of the profile heights{first}: a Gaussian surface follows the straight line, "
+            "and the band holds 99 of 100 Gaussian profiles of the same autocorrelation.",
+            probability_figure(*profiles.values(), results=list(judged.values())),
         )
 
 
-def provenance(study: Study) -> list[tuple[str, str]]:
+def judgement(profiles: Mapping[str, Profile]) -> Judged:
+    """The normal probability plot of each profile, evaluated."""
+    from roughness import normal_probability
+
+    return {name: normal_probability(profile) for name, profile in profiles.items()}
+
+
+def not_gaussian(judged: Judged) -> list[str]:
+    """A sentence on surfaces whose heights are not those the asperity theory is made for."""
+    odd = [
+        f"{name} ({result.verdict.replace('_', ' ')})"
+        for name, result in judged.items()
+        if result.verdict in ("plateau", "not_gaussian")
+    ]
+    if not odd:
+        return []
+    return [f"the asperity theory takes Gaussian heights, which these surfaces do not have: {', '.join(odd)}"]
+
+
+def provenance(study: Study, profiles: Mapping[str, Profile]) -> list[tuple[str, str]]:
     """Where each surface comes from: its moments as given, or its trace with what was done to it."""
-    profiles = traced(study)
     rows = []
     for name in list(study.surfaces)[: 4 * SHOWN]:
         section = study.file.surfaces[name]

@@ -29,7 +29,8 @@ def _clipped(results: Results) -> str:
     full = results["largest_area_ratio"] >= 1.0
     if not full.any():
         return ""
-    return f"in {int(full.sum())} of {full.size} conditions ({_pairings(results, full)}) the boundary area ratio was held at 1"
+    count = f"in {int(full.sum())} of {full.size} conditions ({_pairings(results, full)})"
+    return f"{count} the boundary area ratio was held at 1"
 
 
 def _bandwidth(results: Results) -> str:
@@ -38,8 +39,8 @@ def _bandwidth(results: Results) -> str:
     if not low.any():
         return ""
     return (
-        f"{int(low.sum())} of {low.size} pairings have a Nayak bandwidth below 1.5, which no isotropic Gaussian surface "
-        "has; it was held at 1.5"
+        f"{int(low.sum())} of {low.size} pairings have a Nayak bandwidth below 1.5, which no isotropic Gaussian "
+        "surface has; it was held at 1.5"
     )
 
 

@@ -102,4 +102,4 @@ class StudyFile(Section):
     pairings: Pairings | None = None
     conditions: Conditions
     options: Options = Options()
-    effects: dict[str, dict[str, Number]] = {}
+    effects: Annotated[dict[str, dict[str, Number]], Field(default_factory=dict)]

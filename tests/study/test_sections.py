@@ -45,7 +45,7 @@ def test_wrong_input_is_refused_naming_the_place(name, write_study):
 
 
 def test_missing_file_is_named(tmp_path):
-    with pytest.raises(InputError, match="none.toml"):
+    with pytest.raises(InputError, match=r"none\.toml"):
         read_study(tmp_path / "none.toml")
 
 
@@ -55,16 +55,13 @@ def test_folder_is_refused(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("body", "rule"),
-    [
-        ("0 0.1\n1 nan\n2 0.1\n3 0.2\n", "nan"),
-        ("0 0.1\n2 0.3\n1 0.1\n3 0.2\n", "x"),
-    ],
+    "body",
+    ["0 0.1\n1 nan\n2 0.1\n3 0.2\n", "0 0.1\n2 0.3\n1 0.1\n3 0.2\n"],
     ids=["NaN in a trace", "unsorted x"],
 )
-def test_bad_trace_is_refused(body, rule, write_study, tmp_path):
+def test_bad_trace_is_refused(body, write_study, tmp_path):
     (tmp_path / "bad.csv").write_text("# x um, z um\n" + body)
-    with pytest.raises(InputError, match="bad.csv"):
+    with pytest.raises(InputError, match=r"bad\.csv"):
         read_study(write_study(surfaces__fine={"profile": "bad.csv"}))
 
 
