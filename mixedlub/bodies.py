@@ -122,6 +122,7 @@ def surface(name: str, section: config.SurfaceSection, folder: Path) -> Surface:
         m0, m4 = m0 * 1e-12, m4 * 1e12
     else:
         from profiles.read import read
+
         from roughness import moments, remove_form, roughness_profile
 
         trace = read(named_file(folder, section.profile, f"surfaces.{name}.profile"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -10,12 +11,19 @@ import numpy as np
 
 from mixedlub.calibration import Calibration, calibrations
 from mixedlub.case import Case, noted
-from mixedlub.chain import Model, available
+from mixedlub.chain import Model, Parameters, Record, available
 from mixedlub.effect import Effect, catalogue
 from mixedlub.kinds.kind import SCALE
 from mixedlub.table import Table
 
-Parameters = Mapping[str, Mapping[str, float]]
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """A prediction with the steps that made it and the calibration applied to the inputs."""
+
+    prediction: np.ndarray
+    record: Record
+    applied: Mapping[str, tuple[float, Mapping[str, Any]]]
 
 
 class Forward:
@@ -53,16 +61,27 @@ class Forward:
         self, calibration: Mapping[str, float] | None = None, parameters: Parameters | None = None
     ) -> np.ndarray:
         """Readings in the unit of the recorded column, one a row."""
-        inputs = self.inputs
-        if calibration:
-            changes: dict[str, Any] = {}
-            for c in self.calibrations:
-                if c.name in calibration:
-                    changes.update(c.apply(inputs, calibration[c.name]))
-            inputs = {**inputs, **changes}
-        ids = tuple(sorted(parameters or {}))
-        reading = np.asarray(self._model(ids)(inputs, parameters)["reading"])
-        return np.broadcast_to(reading, (len(self.table), 1))[:, 0] * self.scale
+        return self.run(calibration, parameters).prediction
+
+    def run(
+        self,
+        calibration: Mapping[str, float] | None = None,
+        parameters: Parameters | None = None,
+        near: Run | None = None,
+    ) -> Run:
+        """Predict, keeping the steps; with a run of the same effects ``near`` by, only what changed is computed."""
+        known = {} if near is None else near.applied
+        inputs, applied = dict(self.inputs), {}
+        for c in self.calibrations:
+            if calibration and c.name in calibration:
+                value = calibration[c.name]
+                before = known.get(c.name)
+                applied[c.name] = before if before and before[0] == value else (value, c.apply(self.inputs, value))
+                inputs.update(applied[c.name][1])
+        model = self._model(tuple(sorted(parameters or {})))
+        record = model.record(inputs, parameters, None if near is None else near.record)
+        reading = np.asarray(record.wanted["reading"])
+        return Run(np.broadcast_to(reading, (len(self.table), 1))[:, 0] * self.scale, record, applied)
 
     def effects(self, exclude: Sequence[str] = ()) -> tuple[Effect, ...]:
         """Effects of the catalogue that these rows could show."""

@@ -89,9 +89,7 @@ def gaussian_mean_line(
     return mean_line
 
 
-def local_regression(
-    heights: np.ndarray, weights: np.ndarray, kernel: np.ndarray, *, order: int
-) -> np.ndarray:
+def local_regression(heights: np.ndarray, weights: np.ndarray, kernel: np.ndarray, *, order: int) -> np.ndarray:
     """Value at each point of the polynomial fitted around it under kernel times weights.
 
     Order 0, 1 or 2, as the Gaussian regression filters of ISO 16610-31 (eq. 1). All sums are convolutions,

@@ -48,9 +48,7 @@ def trace_figure(*profiles: Profile, excerpt: float | None = None) -> Figure:
     return figure
 
 
-def probability_figure(
-    *profiles: Profile, results: Sequence[NormalProbability] | None = None
-) -> Figure:
+def probability_figure(*profiles: Profile, results: Sequence[NormalProbability] | None = None) -> Figure:
     """Normal probability plot of each profile: Gaussian heights lie on the straight line.
 
     The band holds 99 of 100 Gaussian profiles with the same autocorrelation; ticks on the line mark
@@ -67,9 +65,7 @@ def probability_figure(
         q = ndtri((np.arange(ordered.size) + 0.625) / (ordered.size + 0.25))
         keep = np.unique(np.searchsorted(q, np.linspace(q[0], q[-1], 700)).clip(0, q.size - 1))
         line = r.mean + r.sigma * r.quantiles
-        axes.fill_betweenx(
-            r.quantiles, (line - r.band) * 1e6, (line + r.band) * 1e6, color="0.85", linewidth=0
-        )
+        axes.fill_betweenx(r.quantiles, (line - r.band) * 1e6, (line + r.band) * 1e6, color="0.85", linewidth=0)
         reach = np.array([q[0], q[-1]])
         axes.plot((r.mean + r.sigma * reach) * 1e6, reach, color=_MARK, linewidth=1.0)
         axes.plot(ordered[keep] * 1e6, q[keep], ".", color=_LINE, markersize=2.5)

@@ -80,9 +80,7 @@ def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> Nor
     mask = np.asarray(profile.valid)
     ordered = np.sort(profile.heights[mask])
     if ordered.size < 50 or ordered[0] == ordered[-1]:
-        raise InputError(
-            "a probability plot needs fifty heights that differ", where=f"profile {profile.name!r}"
-        )
+        raise InputError("a probability plot needs fifty heights that differ", where=f"profile {profile.name!r}")
     sums = correlation_sums(autocorrelation(profile))
     independent = ordered.size / sums[1]
     quantiles = np.linspace(-1.0, 1.0, _LEVELS) * _reach(independent)
@@ -255,15 +253,11 @@ def _two_lines(quantiles: np.ndarray, heights: np.ndarray, tolerance: float) -> 
 def _contact_ratio(ordered: np.ndarray) -> tuple[float, float, float]:
     """Mean overlap with a plane at 1, 2, 3 sigma above the mean, over that of Gaussian heights."""
     z = (ordered - ordered.mean()) / ordered.std()
-    first, second, third = (
-        float(np.maximum(z - h, 0.0).mean() / area_integral(h)) for h in (1.0, 2.0, 3.0)
-    )
+    first, second, third = (float(np.maximum(z - h, 0.0).mean() / area_integral(h)) for h in (1.0, 2.0, 3.0))
     return first, second, third
 
 
-def _words(
-    verdict: str, low: float, high: float, ratio: tuple[float, float, float], plateau: Plateau | None
-) -> str:
+def _words(verdict: str, low: float, high: float, ratio: tuple[float, float, float], plateau: Plateau | None) -> str:
     area = f"real contact at a gap of 2 sigma is {ratio[1]:.2f} times the Gaussian one"
     if verdict == "gaussian":
         return f"Gaussian from {low:.1f} to {high:.1f} % of the heights, all that the trace can show; {area}."

@@ -13,7 +13,7 @@ from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.table import Column, Table
 
-PATH_POINTS = 40
+PATH_POINTS = 24
 
 CONDITIONS = (
     Column("torque_Nm", above=0.0),
