@@ -43,8 +43,8 @@ def churning(
 
     >>> wheel = dict(gear_radius=0.05, face_width=0.02, gear_module=4e-3, gear_teeth=25.0)
     >>> speed = 1100 * 3.14159 / 30
-    >>> round(float(churning(0.0, gear_speed=speed, viscosity=0.017, oil_density=850.0, **wheel, strength=1.0, viscous=0.21,
-    ...                surplus=0.38)), 1)
+    >>> shape = dict(strength=1.0, viscous=0.21, surplus=0.38)
+    >>> round(float(churning(0.0, gear_speed=speed, viscosity=0.017, oil_density=850.0, **wheel, **shape)), 1)
     5.5
     """
     stirred = churning_changenet_velex(

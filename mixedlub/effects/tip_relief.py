@@ -21,7 +21,6 @@ _STIFFNESS = 1.4e10
     fingerprint={"load": "-", "speed": "-"},
     separated_by="the load share itself, from strain gauges or transmission error; the effect fades with torque, "
     "that of a heat leak does not",
-    after=("dynamic_load",),
 )
 def tip_relief(
     load_share, path_fraction, contact_ratio, transmitted_force, contact_width, face_width, *, relief, length
