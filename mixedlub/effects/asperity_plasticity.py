@@ -18,7 +18,7 @@ _FARTHEST = 10.0
     equation=r"P_B \leftarrow P_B + c\,\pi D R_s\sigma_s F_1(t + w_c),\quad "
     r"w_c = \left(\frac{\pi K H}{2E^*}\right)^2\frac{R_s}{\sigma_s},\ K = 0.577",
     source="W. R. Chang, I. Etsion, D. B. Bogy, J. Tribol. 109 (1987) 257: A = pi R w (2 - w_c/w) above onset",
-    fingerprint={"load": "+", "speed": "-", "roughness": "+"},
+    fingerprint={"load": "-", "speed": "-", "oil_temperature": "+", "roughness": "+", "slide_roll_ratio": "-"},
     separated_by="profile and hardness before and after: yielding is not undone when the load goes; loss alone cannot "
     "tell it from an error of slope or curvature of the roughness or of the boundary friction",
     valid={"area_ratio": (0.0, 0.3)},

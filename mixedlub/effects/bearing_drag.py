@@ -16,7 +16,7 @@ _SIZE = 1.25
     equation=r"P \leftarrow P + \sum_{i=1,2} 2\,\omega_i\,(c_0 M_{0,i} + c_1 M_1),\quad M_0 = 10^{-7} f_0(\nu "
     r"n_i)^{2/3} d_m^3,\ M_1 = f_1\tfrac{F_t}{2} d_m,\ d_m = 1.25\,r_1",
     source="A. Palmgren, Grundlagen der Waelzlagertechnik, 1964; ISO/TR 14179-2",
-    fingerprint={"load": "+", "speed": "+", "oil_temperature": "-", "roughness": "0"},
+    fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "roughness": "-"},
     separated_by="the bearings alone on their rig, or their own oil supply; a change of flank finish leaves it "
     "where it was",
 )

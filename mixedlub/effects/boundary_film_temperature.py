@@ -16,7 +16,7 @@ from mixedlub.effect import Between, LogNormal, Normal, Parameter, effect
     equation=r"\mu_B \leftarrow \mu_B \exp\left[-\frac{d}{1 + e^{-(\theta - \theta_a)/w}}\right]",
     source="H. Spikes, Tribol. Lett. 60 (2015) 5 (friction modifiers); the sigmoid is the usual description "
     "of activation, its coefficients are not from a table",
-    fingerprint={"oil_temperature": "-", "roughness": "-"},
+    fingerprint={"speed": "+", "oil_temperature": "-", "roughness": "-", "slide_roll_ratio": "+"},
     separated_by="oil without the additive, or film ratios above 3, where it vanishes; it sits between two "
     "temperatures, whereas everything viscous changes steadily",
 )

@@ -17,7 +17,7 @@ from mixedlub.laws.drag import churning_changenet_velex
     source="C. Changenet, P. Velex, J. Mech. Des. 129 (2007) 128 (q = 0.21, f = 0.6); other powers reach from "
     "there to the viscous drag of R. J. Boness, Proc. Int. Symp. Gearing 1989 (n^2 nu) and ISO/TR "
     "14179-1 (n^3 nu)",
-    fingerprint={"load": "0", "speed": "+", "oil_temperature": "-", "roughness": "0"},
+    fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "roughness": "-"},
     separated_by="the oil level, or a dry sump: it changes with depth, rolling resistance does not; out of mesh it "
     "stays",
 )

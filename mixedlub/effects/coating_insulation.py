@@ -12,7 +12,7 @@ from mixedlub.laws import heating
     r"T}\right),\quad \Delta T = c\,\frac{\tau v_s}{4}\,\frac{t_c}{k_c}",
     source="M. Bjoerling, W. Habchi, S. Bair, R. Larsson, P. Marklund, Tribol. Lett. 53 (2014) 477 (the "
     "mechanism); steady conduction through a layer that carries half the heat to each side",
-    fingerprint={"load": "-", "speed": "-", "oil_temperature": "+"},
+    fingerprint={"speed": "-", "slide_roll_ratio": "-"},
     separated_by="a change of the coating alone: heating of uncoated steel stays, insulation goes with the coating, "
     "and at thick films a lower boundary friction would have no effect",
     after=("film_heating",),

@@ -16,7 +16,7 @@ from mixedlub.effect import BetweenLog, LogNormal, Parameter, effect
     equation=r"F \leftarrow F\left[1 + \frac{a\,r^2}{\sqrt{(1-r^2)^2 + (2\zeta r)^2}}\right],\quad "
     r"r = \frac{z_1\omega_1}{2\pi f_n}",
     source="one degree of freedom driven by the transmission error; as the dynamic factor of ISO 6336-1, method B",
-    fingerprint={"load": "+"},
+    fingerprint={"load": "-", "speed": "+"},
     separated_by="a fine speed sweep: it is narrow, follows tooth frequency and inertia and not the oil; an "
     "accelerometer or the transmission error shows it",
 )

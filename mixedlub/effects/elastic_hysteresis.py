@@ -13,7 +13,7 @@ from mixedlub.effect import LogNormal, Parameter, effect
     ),
     equation=r"f_r \leftarrow f_r + \alpha_h \frac{2\,w\,b_H}{3\pi R}",
     source="K. L. Johnson, Contact Mechanics, 1985, section 9.2",
-    fingerprint={"load": "+", "roughness": "0", "oil_temperature": "0"},
+    fingerprint={"speed": "+", "roughness": "-", "slide_roll_ratio": "-"},
     separated_by="load alone: it grows with its power 1.5 and sees neither oil nor finish; as a rule too small to "
     "matter",
 )

@@ -18,7 +18,7 @@ from mixedlub.laws import heating
     r"c}\,(\sqrt{u_1}+\sqrt{u_2})}\right]",
     source="J. F. Archard, Wear 2 (1959) 438 (film); H. Blok, Proc. Gen. Disc. Lubrication, IMechE 2 (1937) "
     "222 (flash)",
-    fingerprint={"load": "-", "speed": "-", "oil_temperature": "+"},
+    fingerprint={"load": "-", "speed": "-", "oil_temperature": "+", "roughness": "+", "slide_roll_ratio": "-"},
     separated_by="friction against sliding at fixed rolling speed: heating bends it down at high sliding and leaves "
     "the slope at small sliding; a limiting stress does so at a level set by pressure alone",
     valid={"slide_roll_ratio": (0.0, 2.0)},

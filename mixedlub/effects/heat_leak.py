@@ -11,9 +11,9 @@ from mixedlub.effect import LogNormal, Parameter, effect
         Parameter("wall", "1/K", LogNormal(0.002, 0.9), "share of the typical power that leaves per kelvin", null=0.0),
     ),
     equation=r"y \leftarrow (1 - c)\,y - G\,(\theta_{oil} - \theta_a),\quad G = g\,y_0",
-    source="heat balance of a calorimetric rig; 5 to 8 % leave by the shafts of the rig of T. Reitschuster "
-    "and others at high speed",
-    fingerprint={"load": "-", "speed": "-", "oil_temperature": "-"},
+    source="heat balance of a calorimetric rig; 5 to 8 % leave by the shafts at high speed (Measurement and Modelling "
+    "of Friction for Cylindrical Gears with Pitch Line Velocities up to 100 m/s, eq. 8)",
+    fingerprint={"load": "+", "speed": "+", "oil_temperature": "-", "roughness": "+"},
     separated_by="another ambient or bearing oil temperature at the same point; the torque-difference method beside it",
     kinds=("gear_pair",),
 )

@@ -16,7 +16,7 @@ from mixedlub.effect import LogNormal, Parameter, effect
     r"2.23\,d\,S^{0.83})\,L^{0.64}},\quad L = \beta\eta_0 u^2/k_f",
     source="P. K. Gupta, H. S. Cheng, D. Zhu, N. H. Forster, J. B. Schrand, Tribol. Trans. 35 (1992) 269; d = "
     "0 is close to H. Murch, W. R. D. Wilson, J. Lubr. Technol. 97 (1975) 212",
-    fingerprint={"load": "+", "speed": "+", "oil_temperature": "-"},
+    fingerprint={"load": "-", "speed": "+", "oil_temperature": "-"},
     separated_by="a speed sweep in cold oil: the loss of film grows with viscosity times speed squared, and does "
     "not change with oil flow as starvation does",
     valid={"slide_roll_ratio": (0.0, 2.0)},

@@ -12,8 +12,8 @@ from mixedlub.effect import Between, BetweenLog, Parameter, effect
     ),
     equation=r"h \leftarrow h\,\bigl[1 + 0.79\,((1+S)N)^{1/(1+0.2S)}\bigr]^{-3.6(1-n)^{1.7}},\quad N = \eta_0 "
     r"u/(h G_{cr})",
-    source="S. Bair, J. Tribol. 127 (2005) 70",
-    fingerprint={"load": "+", "speed": "+"},
+    source="S. Bair, Proc. IMechE J 219 (2005) 69; constants as quoted in the literature",
+    fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "roughness": "-", "slide_roll_ratio": "-"},
     separated_by="film thickness of the same base oil without polymer, or a viscometer at high shear rate: thinning "
     "follows shear stress in the inlet, heating follows viscosity times speed squared",
     valid={"slide_roll_ratio": (0.0, 2.0)},

@@ -17,7 +17,7 @@ _REFERENCE = 1e5
     r"b_w}{F_t}\right)^{q}",
     source="ISO 6336-1, face load factor: b_cal/b = [2 F/(b f c_gamma)]^(1/2) in partial contact, c_gamma = "
     "20 N/(mm um), w_r = 100 N/mm; joined smoothly to full contact",
-    fingerprint={"speed": "+"},
+    fingerprint={"load": "-", "roughness": "-"},
     separated_by="the contact pattern, strain along the face, and a shim that reverses it; it fades with load",
 )
 def misalignment(line_load, transmitted_force, face_width, *, misalignment, relief):

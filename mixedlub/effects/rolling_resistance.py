@@ -17,7 +17,7 @@ _PIVOT = 3e-11
     r"\frac{2\eta_0 u}{E'R}",
     source="N. Biboulet, L. Houpert, Proc. IMechE J 224 (2010) 765, load-independent branch (k = 0.75); P. K. "
     "Goksem, R. A. Hargreaves, J. Lubr. Technol. 100 (1978) 346 have k = 0.66",
-    fingerprint={"load": "0", "speed": "+", "oil_temperature": "-", "roughness": "0"},
+    fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "roughness": "-", "slide_roll_ratio": "-"},
     separated_by="zero load with teeth in mesh against out of mesh; churning hardly sees viscosity, rolling grows "
     "with its power 0.7",
 )

@@ -13,7 +13,7 @@ from mixedlub.effect import Between, Normal, Parameter, effect
     equation=r"h \leftarrow h\,\bigl[1 + (\sigma/h)^{k}\bigr]^{a}",
     source="N. Patir, H. S. Cheng, J. Lubr. Technol. 100 (1978) 12: first order of the flow factor, phi_x = 1 "
     "- 3 [(2-gamma)/(1+gamma)] (sigma/h)^2 (J. H. Tripp, J. Lubr. Technol. 105 (1983) 458), bounded",
-    fingerprint={"load": "-", "speed": "-", "roughness": "-"},
+    fingerprint={"load": "+", "speed": "+", "oil_temperature": "-", "roughness": "-", "slide_roll_ratio": "+"},
     separated_by="the same Rq with turned lay or an isotropic finish: it changes sign or vanishes, an error of Rq "
     "does not",
     valid={"composite_roughness": (0.0, 5e-6)},

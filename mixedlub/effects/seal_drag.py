@@ -18,7 +18,7 @@ _PIVOT = 20e-6
     r"7.34\times10^{-5}\,r_1^2\ (\text{N m, mm})",
     source="ISO/TR 14179-2, P = 7.69e-6 d^2 n (k = 0); H. Linke, Stirnradverzahnung, 1996, lets it halve from "
     "40 to 90 C",
-    fingerprint={"load": "0", "speed": "+", "roughness": "0"},
+    fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "roughness": "-"},
     separated_by="the seals off, or a run of the shafts alone: torque that hardly changes with speed; a zero error "
     "of the torque meter changes sign with the sense of rotation, a seal does not",
 )

@@ -9,7 +9,7 @@ from mixedlub.effect import Normal, Parameter, effect
     parameters=(Parameter("gain", "-", Normal(0.0, 0.04), "relative error of every reading", null=0.0),),
     equation=r"y \leftarrow y\,(1 + g)",
     source="measurement: scale error of a channel",
-    fingerprint={"load": "+", "speed": "+"},
+    fingerprint={"load": "0", "speed": "0", "oil_temperature": "0", "roughness": "0", "slide_roll_ratio": "0"},
     separated_by="another instrument on the same quantity, or power circulation in both directions: the same share of "
     "every reading, whatever the surfaces",
     after=("heat_leak", "torque_offset"),

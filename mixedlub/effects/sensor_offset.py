@@ -11,7 +11,7 @@ from mixedlub.effect import Normal, Parameter, effect
     ),
     equation=r"y \leftarrow y + a\,y_0",
     source="measurement: zero error of a channel",
-    fingerprint={"load": "0", "speed": "0", "oil_temperature": "0", "roughness": "0"},
+    fingerprint={"load": "-", "roughness": "-", "slide_roll_ratio": "-"},
     separated_by="a reading with the rig at rest: the same number everywhere",
     after=("heat_leak", "sensor_drift", "sensor_gain", "torque_constant", "torque_offset"),
 )

@@ -19,7 +19,7 @@ _SMALL = 1e-3
     r"\ c = \frac{k}{\sqrt{e^{k^2}-1}},\ S_{sk} = -(e^{k^2}+2)\sqrt{e^{k^2}-1}",
     source="J. A. Greenwood, J. B. P. Williamson, Proc. R. Soc. A 295 (1966) 300, with lognormal heights "
     "(N. L. Johnson, Biometrika 36 (1949) 149, system S_L) in place of normal ones",
-    fingerprint={"load": "-", "speed": "-"},
+    fingerprint={"load": "+", "speed": "-", "roughness": "-", "slide_roll_ratio": "+"},
     separated_by="the measured height distribution (Abbott curve): a plateau moves the knee of loss against film ratio "
     "to thinner films and leaves the fluid's friction alone",
     valid={"area_ratio": (0.0, 0.3)},

@@ -14,7 +14,7 @@ from mixedlub.effect import BetweenLog, LogNormal, Parameter, effect
     equation=r"h \leftarrow h\,\bigl[1 + (\eta_0 u / c)^{\gamma}\bigr]^{-s/\gamma}",
     source="F. Chevalier, A. A. Lubrecht, P. M. E. Cann, F. Colin, G. Dalmaz, J. Tribol. 120 (1998) 126, with the "
     "supply taken as fixed; the onset follows P. M. E. Cann, B. Damiens, A. A. Lubrecht, Tribol. Int. 37 (2004) 859",
-    fingerprint={"speed": "+", "oil_temperature": "-"},
+    fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "slide_roll_ratio": "-"},
     separated_by="an oil flow or jet position sweep: more oil lifts the onset to higher speed, whereas inlet heating "
     "does not change",
 )

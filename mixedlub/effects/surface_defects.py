@@ -10,7 +10,7 @@ from mixedlub.effect import LogNormal, Parameter, effect
     equation=r"P_B \leftarrow P_B + c\,(1 - P_B)",
     source="geometry: defects that stand proud of the film touch whatever the film; size as of scratches and "
     "burrs of 1 %",
-    fingerprint={"load": "+", "speed": "+"},
+    fingerprint={"load": "-", "speed": "+", "roughness": "-", "slide_roll_ratio": "-"},
     separated_by="thick films: contact that does not vanish above a film ratio of 3; outliers on the normal "
     "probability plot of the profile; a signal once a revolution",
     after=("asperity_plasticity", "skewed_heights"),

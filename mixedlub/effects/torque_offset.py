@@ -9,7 +9,7 @@ from mixedlub.effect import Normal, Parameter, effect
     parameters=(Parameter("torque", "N m", Normal(0.0, 0.1), "what the torque meter reads at no torque", null=0.0),),
     equation=r"y \leftarrow y + T_0\,\omega_1",
     source="power from torque times speed: an error of torque becomes one of power",
-    fingerprint={"load": "0", "speed": "+", "oil_temperature": "0", "roughness": "0"},
+    fingerprint={"load": "-", "speed": "+", "roughness": "-"},
     separated_by="zero load in both senses of rotation, or drive and brake swapped: its sign changes",
     kinds=("gear_pair",),
     after=("heat_leak",),

@@ -54,7 +54,7 @@ def flash_temperature(
 
 
 def softened_stress(
-    shear_stress: np.ndarray, eyring_stress: np.ndarray, given: np.ndarray, per_stress: np.ndarray
+    shear_stress: np.ndarray, eyring_stress: np.ndarray, given: np.ndarray | float, per_stress: np.ndarray
 ) -> np.ndarray:
     r"""Eyring stress of a film that the stress itself softens (Pa).
 
