@@ -25,7 +25,8 @@ def bearing_drag(
 ):
     """Four rolling bearings turn in oil and carry the tooth force.
 
-    Two bearings a shaft, each half the force, as large as a pinion's shaft allows.
+    Two bearings a shaft, each half the force, as large as a pinion's shaft allows. Palmgren's
+    constant makes the form belong to SI.
 
     >>> gear = dict(transmitted_force=3000.0, pinion_radius=0.036, pinion_speed=157.1, gear_speed=102.7)
     >>> round(bearing_drag(0.0, **gear, viscosity=0.01275, oil_density=850.0, idle=1.0, loaded=1.0))   # 15.7 kW

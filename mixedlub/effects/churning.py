@@ -39,7 +39,7 @@ def churning(
 
     The wheel is taken to dip half its radius; methods differ by a factor 6 at high speed. Power goes as
     n^(1 + q + e) nu^q, so that oil that resists by viscosity does not also rise as the cube of speed in air does.
-    The acceleration of gravity makes the form belong to SI.
+    The acceleration of gravity makes the form belong to m/s^2.
 
     >>> wheel = dict(gear_radius=0.05, face_width=0.02, gear_module=4e-3, gear_teeth=25.0)
     >>> speed = 1100 * 3.14159 / 30

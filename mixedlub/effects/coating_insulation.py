@@ -32,7 +32,7 @@ def coating_insulation(
     """A coating that conducts badly keeps the heat in the film, which then shears more easily.
 
     Valid while the coating is thin against the depth that heat reaches in the time of contact (2-3 um of
-    diamond-like carbon: about 10 us against 20-200 us).
+    diamond-like carbon: about 10 us against 20-200 us). Roelands' slope makes the form belong to Pa s.
 
     >>> tau = coating_insulation(22.58e6, 5e6, 0.7518, 0.01489, 70.2, 0.026, 6e-6, 2.0, strength=1.0)
     >>> round(float(tau) / 1e6, 1)   # 3 um of diamond-like carbon on each flank

@@ -47,7 +47,7 @@ def film_heating(
     """Sliding heats the surfaces and the film between them, and the warmer film shears more easily.
 
     The stress sets the heat and the heat the stress; both are met at once. Heat of the asperities warms the
-    surfaces too; temperatures are means over the contact.
+    surfaces too; temperatures are means over the contact. Roelands' slope makes the form belong to Pa s.
 
     >>> steel = dict(solid_conductivity=46.0, solid_density=7800.0, solid_heat_capacity=470.0)
     >>> oil = dict(viscosity=0.01489, contact_viscosity=70.2, temperature_viscosity=0.026, oil_conductivity=0.14)

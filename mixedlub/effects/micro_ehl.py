@@ -17,7 +17,6 @@ from mixedlub.effect import LogNormal, Parameter, effect
     separated_by="the short-wave filter of the roughness: long waves flatten and short ones do not, most at high load "
     "and low speed, where a plain error of Rq does not change",
     valid={"slide_roll_ratio": (0.0, 2.0)},
-    after=("running_in",),
 )
 def micro_ehl(
     m0,

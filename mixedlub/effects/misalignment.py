@@ -23,7 +23,7 @@ _REFERENCE = 1e5
 def misalignment(line_load, transmitted_force, face_width, *, misalignment, relief):
     """Flanks out of parallel touch over part of the face, and more load per length meets the same film law.
 
-    The tooth stiffness makes the form belong to SI. A power of load of 1 is that of elastic teeth, 0 a width that
+    Stiffness and w_r make the form belong to Pa and N/m. A power of load of 1 is that of elastic teeth, 0 a width that
     load does not change.
 
     >>> load = misalignment(2e5, 3000.0, 0.014, misalignment=10e-6, relief=1.0)   # 3000 N on 14 mm: x = 0.47

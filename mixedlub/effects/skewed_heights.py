@@ -5,7 +5,7 @@ import numpy as np
 from mixedlub.effect import Normal, Parameter, effect
 from roughness.integrals import area_integral
 
-_SMALL = 1e-3
+_SMALL = 1e-4
 
 
 @effect(

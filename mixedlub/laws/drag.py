@@ -48,7 +48,7 @@ def churning_changenet_velex(
 
     with Fr = omega^2 R/g, Re = omega R^2/nu, h = R/2, V_0 = 1.5 D^3 and the wetted area S_m of flanks, rim and teeth.
     Other exponents pivot at Fr 70, Re 16 000 (a 100 mm wheel at 1100 rpm in oil of 20 mm^2/s). Published methods
-    differ by a factor 6 at 5000 rpm. The acceleration of gravity makes the form belong to SI.
+    differ by a factor 6 at 5000 rpm. The acceleration of gravity makes the form belong to m/s^2.
     Source: C. Changenet, P. Velex, J. Mech. Des. 129 (2007) 128; constants as quoted in reviews.
 
     >>> speed = np.array([1000.0, 2000.0, 3000.0]) * np.pi / 30   # 100 mm, 50 mm^2/s
@@ -73,7 +73,7 @@ def palmgren_idle_torque(
 
     .. math:: M_0 = 10^{-7} f_0 (\nu n)^{2/3} d_m^3\ \text{N mm},\quad \nu n \ge 2000\ \text{mm}^2/\text{s rpm}
 
-    and constant below, the two joined smoothly. The units make the form belong to mm^2/s, rpm and mm.
+    and constant below, the two joined smoothly. Its constant makes the form belong to SI.
     Source: A. Palmgren, Grundlagen der Waelzlagertechnik, 1964; ISO/TR 14179-2.
 
     >>> torque = palmgren_idle_torque(15e-6 * 850, 850.0, 1500 * np.pi / 30, 0.045)
@@ -98,7 +98,7 @@ def palmgren_load_torque(load: np.ndarray, bearing_diameter: np.ndarray) -> np.n
 def seal_torque(seal_diameter: np.ndarray) -> np.ndarray:
     r"""Torque of one radial lip seal (N m), :math:`T = 7.34\times10^{-5} d^2`, d in mm.
 
-    The pressure of the lip that the constant stands for makes the form belong to SI.
+    The force of the lip that the constant stands for makes the form belong to N/m.
     Source: ISO/TR 14179-2, P = 7.69e-6 d^2 n in W, mm and rpm.
 
     >>> round(float(seal_torque(0.05)), 3)   # ISO/TR 14179-1, Viton: 0.187 N m
