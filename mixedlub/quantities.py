@@ -133,6 +133,14 @@ gear_speed              | omega_2    | rad/s   | angular speed of the gear
 gear_module             | m_n        | m       | normal module
 pinion_teeth            | z_1        | -       | teeth of the pinion
 gear_teeth              | z_2        | -       | teeth of the gear
+contact_ratio           | eps_alpha  | -       | length of the path of contact over the base pitch
+# one wheel, shaft or seal of a gearbox
+wheel_radius            | r          | m       | operating pitch radius of one wheel
+wheel_speed             | omega      | rad/s   | angular speed of one wheel and its shaft
+wheel_teeth             | z          | -       | teeth of one wheel
+bearing_diameter        | d_m        | m       | mean diameter of a rolling bearing
+seal_diameter           | d          | m       | diameter of the shaft under a seal
+heat_flux               | q          | W/m^2   | heat made per nominal contact area
 """
 
 

@@ -71,6 +71,7 @@ def gear_inputs(points: Mesh, speed: np.ndarray) -> Inputs:
         "gear_speed": speed / pair.gear_ratio,
         "pinion_teeth": float(pair.teeth[0]),
         "gear_teeth": float(pair.teeth[1]),
+        "contact_ratio": pair.contact_ratio,
     }
 
 
