@@ -27,18 +27,17 @@ class Forward:
     def __init__(self, case: Case, table: Table, reading_scale: float | None = None) -> None:
         self.case = case
         self.table = table
+        recorded = table if case.recordings is None else case.recordings
         notes: list[str] = []
         with noted(notes):
-            self.inputs: dict[str, Any] = case.kind.inputs(case.system, case.folder, table)
+            self.inputs: dict[str, Any] = case.kind.inputs(case.system, case.folder, table, recorded)
+            extra = case.kind.extra_calibration(case.system, recorded)
         self.notes = tuple(notes)
         self.scale = SCALE[case.quantity]
-        self.chain = case.kind.chain(case.system)
-        extra = case.kind.extra_calibration(case.system, table)
+        self.chain = case.kind.chain(case.system, table)
         self.calibrations: tuple[Calibration, ...] = tuple(
             c for c in (*calibrations(case.system), *extra) if all(n in self.inputs for n in c.needs)
         )
-        for c in extra:
-            self.inputs.update(c.apply(self.inputs, c.nominal))
         self._model = lru_cache(maxsize=1024)(self._build)
         self.inputs["reading_scale"] = 1.0
         if reading_scale is None:
@@ -55,11 +54,10 @@ class Forward:
         """Readings in the unit of the recorded column, one a row."""
         inputs = self.inputs
         if calibration:
-            changes: dict[str, Any] = {}
+            inputs = dict(inputs)
             for c in self.calibrations:
                 if c.name in calibration:
-                    changes.update(c.apply(inputs, calibration[c.name]))
-            inputs = {**inputs, **changes}
+                    inputs.update(c.apply(inputs, calibration[c.name]))
         ids = tuple(sorted(parameters or {}))
         reading = np.asarray(self._model(ids)(inputs, parameters)["reading"])
         return np.broadcast_to(reading, (len(self.table), 1))[:, 0] * self.scale
