@@ -15,8 +15,8 @@ SHARPNESS = 60.0
         Parameter("onset", "m", BetweenLog(1e-8, 2e-6), "film thickness from which the count is off"),
     ),
     equation=r"y \leftarrow y + j\,\tfrac12[1 + \tanh(60\ln(h/h_s))]",
-    source="spacer-layer interferometry: G. J. Johnston, R. Wayte, H. A. Spikes, Tribol. Trans. 34 (1991) 187; an order "
-    "is wavelength/(2 n)",
+    source="spacer-layer interferometry: G. J. Johnston, R. Wayte, H. A. Spikes, Tribol. Trans. 34 (1991) 187; one is "
+    "wavelength/(2 n)",
     fingerprint={"entrainment_speed": "+"},
     separated_by="the same speed approached from above and below, or another spacer: the jump moves with the order, "
     "the film does not",

@@ -12,14 +12,12 @@ KELVIN = 100.0
     stage="property",
     acts_on="contact_viscosity",
     parameters=(
+        Parameter("bend_down", "1/Pa", LogNormal(2e-9, 1.0), "rate at which the slope falls at low pressure", null=0.0),
         Parameter(
-            "bend_down", "1/Pa", LogNormal(1.5e-9, 0.8), "rate at which the slope falls at low pressure", null=0.0
+            "bend_up", "1/Pa", LogNormal(1.2e-9, 1.0), "rate at which the slope rises towards the glass", null=0.0
         ),
-        Parameter(
-            "bend_up", "1/Pa", LogNormal(0.8e-9, 0.8), "rate at which the slope rises towards the glass", null=0.0
-        ),
-        Parameter("down_with_temperature", "-", Normal(0.0, 0.5), "log change of the fall over 100 K"),
-        Parameter("up_with_temperature", "-", Normal(-0.5, 0.5), "log change of the rise over 100 K"),
+        Parameter("down_with_temperature", "-", Normal(0.0, 0.5), "log change of the fall over 100 K, in 1/T"),
+        Parameter("up_with_temperature", "-", Normal(-0.8, 0.5), "log change of the rise over 100 K, in 1/T"),
     ),
     equation=r"\ln\frac{\eta}{\eta_0} \leftarrow \ln\frac{\eta}{\eta_0}\;"
     r"\frac{e^{Bp} - e^{-Cp}}{(B + C)\,p}",
@@ -46,7 +44,7 @@ def pressure_viscosity_law(
     >>> round(float(np.log(x)), 3)   # 10 (1 - exp(-1))/1
     6.321
     """
-    warmer = (oil_temperature - WARM) / KELVIN
+    warmer = (oil_temperature - WARM) / KELVIN * (WARM / oil_temperature)
     down = bend_down * np.exp(down_with_temperature * warmer) * hertz_pressure
     up = bend_up * np.exp(up_with_temperature * warmer) * hertz_pressure
     log = np.log(contact_viscosity / viscosity)

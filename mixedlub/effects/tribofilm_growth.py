@@ -11,7 +11,7 @@ from mixedlub.effect import LogNormal, Normal, Parameter, effect
     parameters=(
         Parameter("change", "-", Normal(0.3, 0.5), "relative change of friction under a complete film", null=0.0),
         Parameter("time_constant", "-", LogNormal(0.3, 0.9), "share of the programme to cover 63 % of the track"),
-        Parameter("order", "-", LogNormal(1.0, 0.25), "1: sites are there at once, above: they must form first"),
+        Parameter("order", "-", LogNormal(1.3, 0.4), "1: sites are there at once, above: they must form first"),
     ),
     equation=r"\mu_B \leftarrow \mu_B\,(1 + c\,\theta),\quad \theta = 1 - e^{-(q/q_c)^n}",
     source="coverage after M. Avrami, J. Chem. Phys. 7 (1939) 1103; friction of growing ZDDP films: H. Fujita, "

@@ -9,7 +9,7 @@ from mixedlub.effect import LogNormal, Normal, Parameter, effect
     stage="boundary",
     acts_on="boundary_friction",
     parameters=(
-        Parameter("fast_change", "-", Normal(0.0, 0.3), "relative change that comes first", null=0.0),
+        Parameter("fast_change", "-", Normal(0.0, 0.15), "relative change that comes first", null=0.0),
         Parameter("slow_change", "-", Normal(0.0, 0.5), "relative change that follows", null=0.0),
         Parameter("fast_time", "-", LogNormal(0.03, 0.8), "share of the programme for 63 % of the fast change"),
         Parameter("slow_time", "-", LogNormal(0.7, 0.7), "share of the programme for 63 % of the slow change"),

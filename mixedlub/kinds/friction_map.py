@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -27,6 +29,8 @@ COLUMNS = (
 )
 BARE = "no_gears"
 """Name in the column ``rig`` of readings taken with the gears out."""
+BARE_SHARE = 0.3
+"""Friction of motor and sensor alone, over that of the whole drive, before the readings say it."""
 
 
 def reading(friction_torque: np.ndarray) -> np.ndarray:
@@ -60,7 +64,7 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
         "coulomb_torque": size,
         "viscous_torque": 0.5 * size,
         "payload_torque": 0.0,
-        "gears_fitted": column(table["rig"] != BARE) if "rig" in table else 1.0,
+        "gears_fitted": np.where(_bare(table), BARE_SHARE, 1.0)[:, None],
     }
     for name in LOADS:
         if name in table and name in recorded and np.any(recorded[name] != 0):
@@ -76,6 +80,11 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
     return found
 
 
+def _bare(table: Table) -> np.ndarray:
+    """Rows taken with the gears out."""
+    return table["rig"] == BARE if "rig" in table else np.zeros(len(table), dtype=bool)
+
+
 def _motor_column(recorded: Table) -> str:
     """The column that holds the motor's torque: its own, or the torque that loads the drive."""
     return "motor_torque_Nm" if "motor_torque_Nm" in recorded else "torque_Nm"
@@ -86,7 +95,7 @@ def _size(system: config.System, recorded: Table) -> float:
     quantity = system.recording.quantity
     if quantity not in recorded:
         return 1.0
-    whole = recorded["rig"] != BARE if "rig" in recorded else np.ones(len(recorded), dtype=bool)
+    whole = ~_bare(recorded)
     values = np.abs(recorded[quantity][whole] if whole.any() else recorded[quantity])
     return float(np.median(values)) or 1.0
 
@@ -100,11 +109,20 @@ def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibrati
         parameter = Parameter(name, unit, prior, meaning)
         return Calibration(parameter, lambda inputs, value: {name: value}, nominal, (name,))
 
-    return (
+    found = (
         unknown("coulomb_torque", LogNormal(size, 1.0), size, "dry friction, the same in both directions"),
         unknown("viscous_torque", Between(0.0, 3.0 * size), 0.5 * size, "viscous friction at the largest speed"),
         unknown("payload_torque", Normal(0.0, size), 0.0, "constant part that keeps its sign"),
     )
+    if not _bare(recorded).any():
+        return found
+    share = Parameter("bare_share", "-", LogNormal(BARE_SHARE, 1.0), "share of the friction left without the gears")
+    return (*found, Calibration(share, _bare_share, BARE_SHARE, ("gears_fitted",)))
+
+
+def _bare_share(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
+    fitted = inputs["gears_fitted"]
+    return {"gears_fitted": np.where(fitted == 1.0, 1.0, value)}
 
 
 def chain(system: config.System, table: Table) -> Chain:

@@ -68,6 +68,7 @@ def programme(table: Table, recorded: Table) -> Inputs:
         return {}
     found: Inputs = {"time": column(table["time_s"])}
     if "sequence" not in table and "time_s" in recorded:
-        start, duration = float(recorded["time_s"].min()), float(np.ptp(recorded["time_s"]))
-        found["sequence"] = column((table["time_s"] - start) / (duration or 1.0))
+        first, last = float(recorded["time_s"].min()), float(recorded["time_s"].max())
+        start = 0.0 if 0.0 <= first <= 0.5 * last else first
+        found["sequence"] = column((table["time_s"] - start) / ((last - start) or 1.0))
     return found

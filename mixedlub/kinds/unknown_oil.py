@@ -17,7 +17,8 @@ from mixedlub.table import CaseWarning, Table
 
 VISCOSITY_SPREAD = 1.0
 PRESSURE_SPREAD = 0.35
-SLOPE_SPREAD = 0.3
+SLOPE_SPREAD = 0.5
+PRESSURE_SLOPE_SPREAD = 0.4
 HUNDRED_KELVIN = 100.0
 
 
@@ -62,6 +63,9 @@ def calibrations(system: config.System, temperature: np.ndarray, *, level: float
     found = []
     pivot = float(np.exp(np.mean(np.log(temperature))))
     spans = np.ptp(temperature) > 2.0
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", CaseWarning)
+        oil = bodies.lubricant(system.lubricant)
     if "viscosity" in gaps:
         parameter = Parameter("viscosity", "-", LogNormal(level, VISCOSITY_SPREAD), "factor on the assumed viscosity")
         found.append(Calibration(parameter, _scaled("viscosity", level), level, ("viscosity",)))
@@ -69,9 +73,6 @@ def calibrations(system: config.System, temperature: np.ndarray, *, level: float
             slope = Parameter(
                 "viscosity_slope", "-", LogNormal(1.0, SLOPE_SPREAD), "factor on the assumed ASTM D341 slope"
             )
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore", CaseWarning)
-                oil = bodies.lubricant(system.lubricant)
             found.append(Calibration(slope, _turned(oil, pivot), 1.0, ("viscosity", "oil_temperature")))
     if "pressure_viscosity" in gaps:
         parameter = Parameter(
@@ -79,13 +80,15 @@ def calibrations(system: config.System, temperature: np.ndarray, *, level: float
         )
         found.append(Calibration(parameter, _scaled("pressure_viscosity", 1.0), 1.0, ("pressure_viscosity",)))
         if spans:
+            low, high = oil.pressure_coefficient(np.array([pivot, pivot + HUNDRED_KELVIN]))
+            usual = float(high / low - 1.0)
             fall = Parameter(
                 "pressure_viscosity_slope",
                 "-",
-                Normal(0.0, 0.5),
-                "added to the log of pressure-viscosity over 100 K of temperature",
+                Normal(usual, PRESSURE_SLOPE_SPREAD),
+                "relative change of pressure-viscosity over 100 K, linear in temperature",
             )
-            found.append(Calibration(fall, _tilted(pivot), 0.0, ("pressure_viscosity", "oil_temperature")))
+            found.append(Calibration(fall, _tilted(usual, pivot), usual, ("pressure_viscosity", "oil_temperature")))
     return tuple(found)
 
 
@@ -115,9 +118,10 @@ def _turned(oil: Lubricant, pivot: float) -> Any:
     return apply
 
 
-def _tilted(pivot: float) -> Any:
+def _tilted(usual: float, pivot: float) -> Any:
     def apply(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
         rise = (inputs["oil_temperature"] - pivot) / HUNDRED_KELVIN
-        return {"pressure_viscosity": inputs["pressure_viscosity"] * np.exp(value * rise)}
+        turned = np.maximum(1.0 + value * rise, 0.05) / np.maximum(1.0 + usual * rise, 0.05)
+        return {"pressure_viscosity": inputs["pressure_viscosity"] * turned}
 
     return apply
