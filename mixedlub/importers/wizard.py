@@ -107,7 +107,7 @@ def run(
     folder = _write(draft, answers, out)
     say(f"{folder}: a case of kind {draft.kind} that records {draft.quantity}")
     for q in draft.questions:
-        if not q.needed and q.key not in answers:
+        if not q.needed and q.key not in answers and not q.key.startswith("import."):
             say(f"not given: {q.key} ({q.text}); add it to system.toml when known")
     return folder
 
