@@ -12,7 +12,7 @@ from mixedlub.effect import LogNormal, Parameter, effect
     equation=r"h \leftarrow \sqrt{h^2 + h_b^2}",
     source="layers below the reach of entrainment: G. Guangteng, H. A. Spikes, Tribol. Trans. 39 (1996) 448; joined by "
     "the root of squares so that it fades at speed",
-    fingerprint={"entrainment_speed": "+"},
+    fingerprint={"speed": "-"},
     separated_by="a zero check at rest before and after: a drifted zero shifts all films, a layer only the thinnest",
     after=("inlet_shear_heating", "inlet_shear_thinning", "starvation"),
     kinds=("film",),

@@ -14,7 +14,7 @@ from mixedlub.effect import LogNormal, Parameter, effect
     equation=r"T_r \leftarrow T_r + c\,T_c\,q_F \operatorname{sgn}\omega",
     source="Coulomb's law for the loaded flanks; A. C. Bittencourt, S. Gunnarsson, J. Dyn. Syst. Meas. Control 134 "
     "(2012) 051013, load term",
-    fingerprint={"load_fraction": "+"},
+    fingerprint={"load": "+"},
     separated_by="runs with the gears out: the friction of gears goes with them, an error of the motor's torque "
     "constant stays",
     after=("stribeck",),

@@ -15,7 +15,7 @@ from mixedlub.effect import LogNormal, Parameter, effect
     equation=r"T_r \leftarrow T_r + s\,T_c\,e^{-|\omega|/(q\,\omega_0)}\operatorname{sgn}\omega",
     source="B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, Automatica 30 (1994) 1083; exponent one as in "
     "A. Tustin, J. IEE 94 (1947) 143",
-    fingerprint={"drive_speed": "-"},
+    fingerprint={"speed": "-"},
     separated_by="points below a tenth of the largest speed, in both directions: friction falls with speed before "
     "it rises; a payload or an offset does not change sign with the direction",
     kinds=("friction_map",),
