@@ -129,7 +129,6 @@ gears_fitted            | -          | -       | 1 for the complete drive, the s
 motor_torque            | T_m        | N m     | torque that the controller computes from the motor current
 reference_torque        | T_m0       | N m     | largest motor torque of the recording
 drive_angle             | phi        | rad     | angle the drive has turned
-fringe_count            | N_f        | -       | interference orders counted beyond the first of the recording
 time                    | t          | s       | time since the start of the recording
 sequence                | q          | -       | place in the test programme, 0 at its start and 1 at its end
 ambient_temperature     | theta_a    | K       | temperature around the rig

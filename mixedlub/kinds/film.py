@@ -34,16 +34,13 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
     """Chain inputs of the rows of a table."""
     assert system.contact is not None
     temperature = column(table["oil_temperature_C"]) + 273.15
-    found: Inputs = {
+    return {
         **contact_inputs(system.contact, table),
         **bodies.lubricant(system.lubricant).inputs(temperature),
         **bookkeeping_inputs(system, table),
         **programme(table, recorded),
         "oil_temperature": temperature,
     }
-    if "fringe_order" in table and "fringe_order" in recorded:
-        found["fringe_count"] = column(table["fringe_order"] - recorded["fringe_order"].min())
-    return found
 
 
 def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibration, ...]:
