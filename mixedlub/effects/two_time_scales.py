@@ -1,4 +1,4 @@
-"""A surface state with a fast and a slow part."""
+"""A surface state that passes and one that stays."""
 
 import numpy as np
 
@@ -9,25 +9,28 @@ from mixedlub.effect import LogNormal, Normal, Parameter, effect
     stage="boundary",
     acts_on="boundary_friction",
     parameters=(
-        Parameter("fast_change", "-", Normal(0.0, 0.15), "relative change that comes first", null=0.0),
-        Parameter("slow_change", "-", Normal(0.0, 0.5), "relative change that follows", null=0.0),
-        Parameter("fast_time", "-", LogNormal(0.03, 0.8), "share of the programme for 63 % of the fast change"),
-        Parameter("slow_time", "-", LogNormal(0.7, 0.7), "share of the programme for 63 % of the slow change"),
+        Parameter("passing", "-", Normal(0.0, 0.15), "relative change at the height of the passing state", null=0.0),
+        Parameter("lasting", "-", Normal(0.0, 0.5), "relative change that the slow state ends at", null=0.0),
+        Parameter(
+            "passing_time", "-", LogNormal(0.04, 0.8), "share of the programme at which the fast state is highest"
+        ),
+        Parameter("lasting_time", "-", LogNormal(0.7, 0.8), "share of the programme for 63 % of the slow change"),
     ),
-    equation=r"\mu_B \leftarrow \mu_B\,[1 + a_1(1 - e^{-q/q_1}) + a_2(1 - e^{-q/q_2})]",
-    source="running-in as a film that forms and a track that wears, each of first order; P. J. Blau, Tribol. Int. 38 "
-    "(2005) 1007, curves with an early maximum",
+    equation=r"\mu_B \leftarrow \mu_B\,[1 + a\,x e^{1 - x} + b(1 - e^{-q/q_2})],\quad x = q/q_1",
+    source="P. J. Blau, Tribol. Int. 38 (2005) 1007: running-in curves with an early maximum as a film that forms and is "
+    "overtaken by the wear of the track",
     fingerprint={},
     separated_by="contact resistance and a wear scar measured at times: a film takes minutes, wear goes on",
     kinds=("friction_history",),
 )
-def two_time_scales(boundary_friction, sequence, *, fast_change, slow_change, fast_time, slow_time):
-    """A film forms quickly while the track wears slowly; each moves friction by its own share.
+def two_time_scales(boundary_friction, sequence, *, passing, lasting, passing_time, lasting_time):
+    """A film forms and passes quickly while the track wears slowly; each moves friction by its own share.
 
-    >>> x = two_time_scales(0.1, np.array([0.0, 9.0]), fast_change=0.1, slow_change=-0.3, fast_time=0.01, slow_time=0.2)
+    >>> x = two_time_scales(0.1, np.array([0.02, 9.0]), passing=0.1, lasting=-0.3, passing_time=0.02, lasting_time=0.5)
     >>> x.round(3).tolist()
-    [0.1, 0.08]
+    [0.109, 0.07]
     """
     since = np.maximum(sequence, 0.0)
-    film, wear = -np.expm1(-since / fast_time), -np.expm1(-since / slow_time)
-    return boundary_friction * (1.0 + fast_change * film + slow_change * wear)
+    fast = since / passing_time
+    change = passing * fast * np.exp(1.0 - fast) - lasting * np.expm1(-since / lasting_time)
+    return boundary_friction * (1.0 + change)
