@@ -16,8 +16,8 @@ SOFTNESS = 0.2
         Parameter("induction", "-", LogNormal(0.02, 1.2), "share of the programme before the film starts"),
     ),
     equation=r"\mu_B \leftarrow \mu_B\,(1 + c\,\theta),\quad \theta = 1 - e^{-\langle q - q_i\rangle/q_c}",
-    source="coverage of the first order after an induction time: H. Fujita, H. A. Spikes, Proc. IMechE J 218 (2004) 265, "
-    "films of zinc dithiophosphate and their friction",
+    source="coverage of the first order after an induction time: H. Fujita, H. A. Spikes, Proc. IMechE J 218 (2004) "
+    "265, films of zinc dithiophosphate and their friction",
     fingerprint={"sequence": "+"},
     separated_by="an image or contact resistance of the track after each step shows coverage grow; running-in "
     "of heights shows in a profile and ends within the first per cent of the test",
@@ -27,7 +27,7 @@ def tribofilm_growth(boundary_friction, sequence, *, change, time_constant, indu
 
     The start is rounded over a fifth of the induction time, as nuclei do not all form at once.
 
-    >>> x = tribofilm_growth(0.06, np.array([0.1, 1.0]), change=1.0, time_constant=0.05, induction=0.2)
+    >>> x = tribofilm_growth(0.06, np.array([0.0, 1.0]), change=1.0, time_constant=0.05, induction=0.2)
     >>> x.round(4).tolist()
     [0.06, 0.12]
     """

@@ -14,7 +14,7 @@ TERMS = 12
         Parameter(
             f"swing_{k}",
             "-",
-            Normal(0.0, 0.12),
+            Normal(0.0, 0.3 / k),
             f"share of friction that swings {k / 2:g} times in the programme",
             null=0.0,
         )
