@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any
 
@@ -18,12 +18,25 @@ from mixedlub.table import Table
 
 
 @dataclass(frozen=True, eq=False)
+class Move:
+    """One calibrated input: its value, what it was applied to, and what that changed."""
+
+    value: float
+    on: tuple[Any, ...]
+    changes: Mapping[str, Any] = field(default_factory=dict)
+
+    def same(self, other: Move) -> bool:
+        """Whether the same value is applied to the very same inputs."""
+        return self.value == other.value and all(a is b for a, b in zip(self.on, other.on, strict=True))
+
+
+@dataclass(frozen=True, eq=False)
 class Run:
     """A prediction with the steps that made it and the calibration applied to the inputs."""
 
     prediction: np.ndarray
     record: Record
-    applied: Mapping[str, tuple[float, Mapping[str, Any]]]
+    applied: Mapping[str, Move]
 
 
 class Forward:
@@ -35,18 +48,17 @@ class Forward:
     def __init__(self, case: Case, table: Table, reading_scale: float | None = None) -> None:
         self.case = case
         self.table = table
+        recorded = table if case.recordings is None else case.recordings
         notes: list[str] = []
         with noted(notes):
-            self.inputs: dict[str, Any] = case.kind.inputs(case.system, case.folder, table)
+            self.inputs: dict[str, Any] = case.kind.inputs(case.system, case.folder, table, recorded)
+            extra = case.kind.extra_calibration(case.system, recorded)
         self.notes = tuple(notes)
         self.scale = SCALE[case.quantity]
-        self.chain = case.kind.chain(case.system)
-        extra = case.kind.extra_calibration(case.system, table)
+        self.chain = case.kind.chain(case.system, table)
         self.calibrations: tuple[Calibration, ...] = tuple(
             c for c in (*calibrations(case.system), *extra) if all(n in self.inputs for n in c.needs)
         )
-        for c in extra:
-            self.inputs.update(c.apply(self.inputs, c.nominal))
         self._model = lru_cache(maxsize=1024)(self._build)
         self.inputs["reading_scale"] = 1.0
         if reading_scale is None:
@@ -70,14 +82,15 @@ class Forward:
         near: Run | None = None,
     ) -> Run:
         """Predict, keeping the steps; with a run of the same effects ``near`` by, only what changed is computed."""
-        known = {} if near is None else near.applied
         inputs, applied = dict(self.inputs), {}
         for c in self.calibrations:
             if calibration and c.name in calibration:
-                value = calibration[c.name]
-                before = known.get(c.name)
-                applied[c.name] = before if before and before[0] == value else (value, c.apply(self.inputs, value))
-                inputs.update(applied[c.name][1])
+                move = Move(calibration[c.name], tuple(inputs[name] for name in c.needs))
+                known = None if near is None else near.applied.get(c.name)
+                if known is None or not known.same(move):
+                    known = replace(move, changes=c.apply(inputs, move.value))
+                applied[c.name] = known
+                inputs.update(known.changes)
         model = self._model(tuple(sorted(parameters or {})))
         record = model.record(inputs, parameters, None if near is None else near.record)
         reading = np.asarray(record.wanted["reading"])

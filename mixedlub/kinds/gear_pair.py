@@ -75,7 +75,7 @@ def gear_inputs(points: Mesh, speed: np.ndarray) -> Inputs:
     }
 
 
-def inputs(system: config.System, folder: Path, table: Table) -> Inputs:
+def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table."""
     assert system.gears is not None
     pair = bodies.gear_pair(system.gears)
@@ -97,6 +97,6 @@ KIND = Kind(
     quantities=("power_loss_W",),
     columns=CONDITIONS,
     sections=("gears", "lubricant", "surfaces"),
-    chain=lambda system: (*GEAR_LOSS, ("reading", reading)),
+    chain=lambda system, table: (*GEAR_LOSS, ("reading", reading)),
     inputs=inputs,
 )
