@@ -63,7 +63,9 @@ sliding_speed           | v_s        | m/s     | difference of the two surface s
 slide_roll_ratio        | S          | -       | sliding speed over entrainment speed
 roll_angle              | theta      | rad     | pinion roll angle of the contact point
 path_fraction           | xi         | -       | place along the path of contact, 0 at its start and 1 at its end
-face_width              | b          | m       | width of the tooth or line contact
+contact_width           | b          | m       | width of the line contact, of one slice of the face where it is sliced
+face_width              | b_w        | m       | width of the tooth flank
+face_position           | y          | -       | place across the face, 0 to 1
 # load
 torque                  | T_1        | N m     | torque on the pinion
 pinion_speed            | omega_1    | rad/s   | angular speed of the pinion
@@ -111,6 +113,9 @@ boundary_friction       | mu_B       | -       | friction coefficient of touchin
 friction                | mu         | -       | friction coefficient of the contact
 # what a rig reads
 power_loss              | P_L        | W       | power lost, mean over a mesh cycle
+rolling_force           | f_r        | N/m     | tangential force per length on each body that resists rolling
+rolling_loss            | P_r        | W       | rolling power lost in the mesh, mean over a mesh cycle
+tangential_friction     | mu_t       | -       | tangential force on a body over the load, rolling included
 mesh_loss               | P_m        | W       | sliding power lost in the mesh, mean over a mesh cycle
 friction_torque         | T_f        | N m     | friction torque of a drive
 sliding_position        | v          | m/s     | signed sliding speed
@@ -122,9 +127,12 @@ sequence                | q          | -       | place in the test programme, 0 
 ambient_temperature     | theta_a    | K       | temperature around the rig
 reading                 | y          | *       | the number the rig records, in the unit of its channel
 reading_scale           | y_0        | *       | typical size of the recorded number, for effects given as a share of it
-gear_radius             | r_p        | m       | operating pitch radii of pinion and gear
-gear_speed              | omega      | rad/s   | angular speeds of pinion and gear
+pinion_radius           | r_1        | m       | operating pitch radius of the pinion
+gear_radius             | r_2        | m       | operating pitch radius of the gear
+gear_speed              | omega_2    | rad/s   | angular speed of the gear
 gear_module             | m_n        | m       | normal module
+pinion_teeth            | z_1        | -       | teeth of the pinion
+gear_teeth              | z_2        | -       | teeth of the gear
 """
 
 

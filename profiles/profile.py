@@ -39,7 +39,9 @@ class Profile:
             raise InputError("a profile needs at least three heights in one line", where=where, value=heights.shape)
         if not np.isfinite(heights).all():
             first = int(np.flatnonzero(~np.isfinite(heights))[0])
-            raise InputError("heights must be finite numbers", where=f"{where}, point {first + 1}", value=heights[first])
+            raise InputError(
+                "heights must be finite numbers", where=f"{where}, point {first + 1}", value=heights[first]
+            )
         if not (np.isfinite(self.spacing) and self.spacing > 0):
             raise InputError("spacing must be above zero", where=where, value=self.spacing)
         valid = np.ones(heights.size, bool) if self.valid is None else np.array(self.valid, dtype=bool)

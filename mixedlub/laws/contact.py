@@ -83,9 +83,7 @@ def composite_roughness(m0: np.ndarray) -> np.ndarray:
     return np.sqrt(m0)
 
 
-def summit_separation(
-    film_thickness: np.ndarray, plane_offset: np.ndarray, summit_sigma: np.ndarray
-) -> np.ndarray:
+def summit_separation(film_thickness: np.ndarray, plane_offset: np.ndarray, summit_sigma: np.ndarray) -> np.ndarray:
     r"""Gap between the summits' mean plane and the smooth one, over summit sigma: :math:`t = (h-z_s)/\sigma_s`.
 
     The film is the separation of the surfaces' mean planes. Source: J. I. McCool, Wear 107 (1986) 37.

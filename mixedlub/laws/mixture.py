@@ -16,9 +16,7 @@ def fluid_friction(shear_stress: np.ndarray, hertz_pressure: np.ndarray) -> np.n
     return shear_stress / hertz_pressure
 
 
-def tallian_friction(
-    fluid_friction: np.ndarray, boundary_friction: np.ndarray, area_ratio: np.ndarray
-) -> np.ndarray:
+def tallian_friction(fluid_friction: np.ndarray, boundary_friction: np.ndarray, area_ratio: np.ndarray) -> np.ndarray:
     r"""Friction coefficient of the contact (-), :math:`\mu = \mu_E (1 - P_B) + \mu_B P_B`.
 
     Source: T. E. Tallian, Wear 21 (1972) 49; Hong, Aneshansley, Talbot, Gear Technology, eq. 1.

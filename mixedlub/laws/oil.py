@@ -10,7 +10,7 @@ ZERO_CELSIUS = 273.15
 
 
 def kinematic_viscosity(
-    temperature: np.ndarray, known_temperature: np.ndarray, known_viscosity: np.ndarray
+    temperature: np.ndarray, known_temperature: tuple[float, float], known_viscosity: tuple[float, float]
 ) -> np.ndarray:
     r"""Kinematic viscosity (m^2/s) at a temperature (K) from two known points; ASTM D341 with constant 0.7.
 
@@ -32,8 +32,8 @@ def kinematic_viscosity(
 
 def temperature_viscosity(
     temperature: np.ndarray,
-    known_temperature: np.ndarray,
-    known_viscosity: np.ndarray,
+    known_temperature: tuple[float, float],
+    known_viscosity: tuple[float, float],
     density_change: float = 0.0,
 ) -> np.ndarray:
     r"""Relative fall of dynamic viscosity per kelvin (1/K), from the slope of ASTM D341.
@@ -53,9 +53,7 @@ def temperature_viscosity(
     return slope * (nu + 0.7) * np.log(nu + 0.7) / (nu * temperature) + density_change
 
 
-def roelands_viscosity(
-    viscosity: np.ndarray, pressure_viscosity: np.ndarray, hertz_pressure: np.ndarray
-) -> np.ndarray:
+def roelands_viscosity(viscosity: np.ndarray, pressure_viscosity: np.ndarray, hertz_pressure: np.ndarray) -> np.ndarray:
     r"""Viscosity under pressure (Pa s), isothermal.
 
     .. math:: \eta = \eta_0 \exp\{(\ln\eta_0 + 9.67)[(1 + p/p_r)^Z - 1]\},\quad
