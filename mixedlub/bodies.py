@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from mixedlub import config
-from mixedlub.gear import GearPair, RigidSharing, Sharing, TableSharing
+from mixedlub.gear import GearPair, LdpSharing, RigidSharing, Sharing, TableSharing
 from mixedlub.lubricant import Lubricant
 from mixedlub.surface import Surface
 from mixedlub.table import CaseWarning, Column, read_table
@@ -54,8 +54,6 @@ def sharing(section: config.LoadSharing, folder: Path) -> Sharing:
         )
     if section.model == "rigid":
         return RigidSharing()
-    from mixedlub.gear import LdpSharing
-
     return LdpSharing(
         tip_relief=(section.tip_relief_um[0] * 1e-6, section.tip_relief_um[1] * 1e-6),
         relief_length=(section.relief_length_mm[0] * 1e-3, section.relief_length_mm[1] * 1e-3),
@@ -123,16 +121,22 @@ def surface(name: str, section: config.SurfaceSection, folder: Path) -> Surface:
         m0, m2, m4 = section.m0_um2 or 0.0, section.m2 or 0.0, section.m4_per_um2 or 0.0
         m0, m4 = m0 * 1e-12, m4 * 1e12
     else:
-        from profiles import read
-        from roughness import prepare_for_contact
+        from profiles.read import read
+        from roughness import moments, remove_form, roughness_profile
 
-        moments = prepare_for_contact(
-            read(named_file(folder, section.profile, f"surfaces.{name}.profile")),
-            long_cutoff=None if section.cutoff_mm is None else section.cutoff_mm * 1e-3,
-            short_cutoff=None if section.short_cutoff_um is None else section.short_cutoff_um * 1e-6,
-            form=section.form,
+        trace = read(named_file(folder, section.profile, f"surfaces.{name}.profile"))
+        band = {"cutoff_mm": section.cutoff_mm or 0.8, "short_cutoff_um": section.short_cutoff_um or 2.5}
+        assumed = [f"{key} = {value:g}" for key, value in band.items() if getattr(section, key) is None]
+        if assumed:
+            warnings.warn(f"surfaces.{name}: {', '.join(assumed)} assumed", CaseWarning, stacklevel=2)
+        found = moments(
+            roughness_profile(
+                remove_form(trace, section.form or "line"),
+                cutoff=band["cutoff_mm"] * 1e-3,
+                short_cutoff=band["short_cutoff_um"] * 1e-6,
+            )
         )
-        m0, m2, m4 = moments.m0, moments.m2, moments.m4
+        m0, m2, m4 = found.m0, found.m2, found.m4
     if m0 * m4 < 1.5 * m2**2:
         warnings.warn(
             f"surfaces.{name}: Nayak alpha is {m0 * m4 / m2**2:.2f}, below the 1.5 of any isotropic Gaussian surface",

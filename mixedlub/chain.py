@@ -76,15 +76,17 @@ def _in_order(effects: Sequence[Effect]) -> tuple[Effect, ...]:
     waiting = sorted(effects, key=lambda e: e.id)
     ordered: list[Effect] = []
     while waiting:
-        held = {e.id for e in waiting}
-        for e in waiting:
-            if not held.intersection(e.after):
-                ordered.append(e)
-                waiting.remove(e)
-                break
-        else:
-            raise ChainError(f"effects wait for each other: {', '.join(sorted(held))}")
+        free = next((e for e in waiting if not any(_behind(e, other) for other in waiting)), None)
+        if free is None:
+            raise ChainError(f"effects wait for each other: {', '.join(e.id for e in waiting)}")
+        ordered.append(free)
+        waiting.remove(free)
     return tuple(ordered)
+
+
+def _behind(one: Effect, other: Effect) -> bool:
+    """Whether one effect declares to come after another on a quantity both change."""
+    return other.id in one.after and bool(set(one.acts_on) & set(other.acts_on))
 
 
 def _lay_out(chain: Chain, given: set[str], effects: Sequence[Effect]) -> list[Step]:
@@ -100,7 +102,7 @@ def _lay_out(chain: Chain, given: set[str], effects: Sequence[Effect]) -> list[S
 
     def admit() -> None:
         for e in list(waiting):
-            if any(other.id in e.after for other in waiting) or not known.issuperset((*e.acts_on, *e.reads)):
+            if any(_behind(e, other) for other in waiting) or not known.issuperset((*e.acts_on, *e.reads)):
                 continue
             late = already_read.intersection(e.acts_on)
             if late:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.case import Case
-from mixedlub.diagnosis.problem import noise_from_repeats
+from mixedlub.diagnosis.noise import noise_from_repeats
 from mixedlub.forward import Forward
 from mixedlub.table import Table
 from profiles.errors import InputError

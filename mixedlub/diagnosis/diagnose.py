@@ -11,15 +11,16 @@ import numpy as np
 
 from mixedlub.case import Case, read_case, read_conditions
 from mixedlub.diagnosis.audit import audit
-from mixedlub.diagnosis.features import coordinates
+from mixedlub.diagnosis.features import Coordinates, coordinates
 from mixedlub.diagnosis.fit import outlier_chance
 from mixedlub.diagnosis.heldout import HeldOut, held_out
 from mixedlub.diagnosis.location import Region, region
 from mixedlub.diagnosis.mismatch import Mismatch, mismatch_test
 from mixedlub.diagnosis.nexttest import NextTest, candidates, expected_bits
+from mixedlub.diagnosis.noise import is_stated, noise, noise_from_repeats, noise_from_smoothness
 from mixedlub.diagnosis.posterior import Key, Posterior, posterior
 from mixedlub.diagnosis.predict import Prediction, Refined, Rows, refine
-from mixedlub.diagnosis.problem import Problem, noise
+from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search import Progress, Search, search
 from mixedlub.effect import find
 from mixedlub.forward import Forward
@@ -82,10 +83,11 @@ def diagnose_case(
     forward = Forward(case, rows)
     y = np.asarray(rows[case.quantity], dtype=float)
     warnings = [*case.notes, *forward.notes, *audit(case, rows, y, forward)]
-    sd, shared = noise(case, rows, y, y)
-    problem = Problem(case, rows, forward, y, sd, shared)
     space = coordinates(case, rows, forward)
-    found = search(problem, space, space.values(case, rows, forward), exclude, progress)
+    values = space.values(case, rows, forward)
+    sd, shared = noise(case, rows, y, _unstated(case, rows, y, forward, space, values))
+    problem = Problem(case, rows, forward, y, sd, shared)
+    found = search(problem, space, values, exclude, progress)
     progress("testing against nothing missing")
     test = mismatch_test(found, level)
     judged = posterior(found, test)
@@ -100,6 +102,16 @@ def diagnose_case(
     kept = held_out(found, judged.verdict, chance > 0.5)
     tests = _next_tests(found, judged, refined, columns)
     return Diagnosis(case, found, test, judged, refined, recorded, other, chance, place, kept, tests, tuple(warnings))
+
+
+def _unstated(
+    case: Case, rows: Table, y: np.ndarray, forward: Forward, space: Coordinates, values: list[np.ndarray]
+) -> np.ndarray:
+    """Noise to use where the recording states none: from repeats, else from what a smooth fit leaves over."""
+    sd = 0.0
+    if not is_stated(case, rows):
+        sd = noise_from_repeats(rows, y) or noise_from_smoothness(y, forward.predict(), space, values)
+    return np.full(y.size, sd)
 
 
 def _refine_leaders(found: Search, judged: Posterior) -> dict[Key, Refined]:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.diagnosis.fit import Fit, linear_fit
-from mixedlub.diagnosis.problem import Problem, noise
+from mixedlub.diagnosis.noise import is_stated, noise
+from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search import ELASTIC, Search, elastic_columns
 from mixedlub.diagnosis.unknown import shape_columns, share_of
 from mixedlub.forward import Forward
@@ -106,15 +107,11 @@ class Rows:
 
 def _noise_at(problem: Problem, table: Table, level: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Noise of a new reading at a predicted level, and the variance of its set-up's error."""
-    quantity = problem.case.quantity
+    typical = np.full(len(table), float(np.median(problem.sd)))
+    own = f"{problem.case.quantity}_sd"
+    if is_stated(problem.case, problem.rows) and (own in table or own not in problem.rows):
+        typical, _ = noise(problem.case, table, level, typical)
     stated = problem.case.system.recording.noise
-    if f"{quantity}_sd" in problem.rows and f"{quantity}_sd" not in table:
-        sd = np.full(len(table), float(np.median(problem.sd)))
-    elif stated is None or not (stated.relative > 0 or stated.absolute > 0):
-        sd = np.full(len(table), float(np.median(problem.sd)))
-    else:
-        sd, _ = noise(problem.case, table, level, level)
-    extra = np.zeros(len(table))
-    if stated is not None:
-        extra = (stated.setup_relative * level) ** 2 + stated.setup_absolute**2
-    return sd, extra
+    if stated is None:
+        return typical, np.zeros(len(table))
+    return typical, (stated.setup_relative * level) ** 2 + stated.setup_absolute**2

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mixedlub.case import Case
+from mixedlub.diagnosis.noise import noise
 from mixedlub.effect import Effect, catalogue
 from mixedlub.forward import Forward
 from mixedlub.table import Table
@@ -79,7 +80,7 @@ class Problem:
 
     def with_sd(self, prediction: np.ndarray) -> Problem:
         """The same problem with the noise taken at the size of a prediction instead of the readings."""
-        sd, shared = noise(self.case, self.rows, self.y, prediction)
+        sd, shared = noise(self.case, self.rows, prediction, self.sd)
         return Problem(self.case, self.rows, self.forward, self.y, sd, shared)
 
     def take(self, rows: np.ndarray) -> Problem:
@@ -94,47 +95,3 @@ def effects_of(explanation: Explanation) -> list[Effect]:
     """The effects an explanation names."""
     known = catalogue()
     return [known[name] for name in explanation]
-
-
-def noise(case: Case, rows: Table, y: np.ndarray, level: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Standard deviation of each reading and, in sigmas, the columns of errors shared within a set-up."""
-    quantity = case.quantity
-    stated = case.system.recording.noise
-    if f"{quantity}_sd" in rows:
-        sd = rows[f"{quantity}_sd"].astype(float)
-    elif stated is not None and (stated.relative > 0 or stated.absolute > 0):
-        sd = np.hypot(stated.relative * np.abs(level), stated.absolute)
-    else:
-        sd = np.full(y.size, max(noise_from_repeats(rows, y), 1e-12 * float(np.max(np.abs(y)) or 1.0)))
-    floor = 1e-6 * float(np.median(np.abs(y))) + 1e-300
-    sd = np.maximum(sd, floor)
-    shared = np.zeros((y.size, 0))
-    if stated is not None and "setup" in rows and (stated.setup_relative > 0 or stated.setup_absolute > 0):
-        names = np.unique(rows["setup"])
-        member = (rows["setup"][:, None] == names[None, :]).astype(float)
-        columns = []
-        if stated.setup_relative > 0:
-            columns.append(member * (stated.setup_relative * level / sd)[:, None])
-        if stated.setup_absolute > 0:
-            columns.append(member * (stated.setup_absolute / sd)[:, None])
-        shared = np.hstack(columns)
-    return sd, shared
-
-
-def noise_from_repeats(rows: Table, y: np.ndarray) -> float:
-    """Standard deviation from readings at equal conditions; zero when there are fewer than five repeats."""
-    skip = {"run", "sequence"}
-    keys = [
-        np.unique(column, return_inverse=True)[1]
-        for name, column in rows.columns.items()
-        if name not in skip and not np.array_equal(column, y)
-    ]
-    if not keys:
-        return 0.0
-    _, group = np.unique(np.stack(keys, axis=1), axis=0, return_inverse=True)
-    group = group.reshape(-1)
-    count = np.bincount(group)
-    mean = np.bincount(group, weights=y) / count
-    left = y - mean[group]
-    spare = int((count - 1).sum())
-    return float(np.sqrt((left**2).sum() / spare)) if spare >= 5 else 0.0

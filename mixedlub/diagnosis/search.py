@@ -73,7 +73,7 @@ def search(
     effects = problem.forward.effects(exclude)
     progress(f"trying {len(effects)} effects")
     sampled = tuple(_sample(problem, e.id, none) for e in effects)
-    singles = {(s.id,): _fit_single(problem, none, s) for s in sampled}
+    singles: dict[Explanation, Fit] = {(s.id,): _fit_single(problem, none, s) for s in sampled}
     if singles:
         best = max(singles.values(), key=lambda f: f.evidence)
         if best.evidence > none.evidence + 3.0:

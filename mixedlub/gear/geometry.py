@@ -44,17 +44,24 @@ def inverse_involute(value: float) -> float:
     return angle
 
 
-def _number(key: str, value: Any, low: float, high: float, rule: str, scale: float = 1.0) -> float:
+def number(key: str, value: Any, low: float, high: float, rule: str, scale: float = 1.0) -> float:
     """A finite float strictly between ``low`` and ``high``; messages show it in the unit of its key."""
     if isinstance(value, (bool, str, bytes)):
         raise InputError(rule, where=key, value=value)
     try:
-        number = float(value)
+        finite = float(value)
     except (TypeError, ValueError, OverflowError):
         raise InputError(rule, where=key, value=value) from None
-    if not (math.isfinite(number) and low < number < high):
-        raise InputError(rule, where=key, value=round(number * scale, 9))
-    return number
+    if not (math.isfinite(finite) and low < finite < high):
+        raise InputError(rule, where=key, value=round(finite * scale, 9))
+    return finite
+
+
+def whole(key: str, value: Any, low: int, high: int) -> int:
+    """A whole number from ``low`` to ``high``."""
+    if isinstance(value, bool) or not hasattr(value, "__index__") or not low <= value <= high:
+        raise InputError(f"a whole number from {low} to {high}", where=key, value=value)
+    return int(value)
 
 
 def two(key: str, values: Any) -> tuple[Any, Any]:
@@ -100,12 +107,12 @@ class GearPair:
     def __post_init__(self) -> None:
         teeth = two("teeth", self.teeth)
         for count in teeth:
-            whole = _number("teeth", count, 3, 10_000, "a number of teeth is a whole number from 4 to 9999")
+            whole = number("teeth", count, 3, 10_000, "a number of teeth is a whole number from 4 to 9999")
             if whole != int(whole):
                 raise InputError("a number of teeth is a whole number", where="teeth", value=count)
         degrees = math.degrees(1.0)
         checked: dict[str, Any] = {"teeth": (int(teeth[0]), int(teeth[1]))}
-        checked["normal_module"] = _number(
+        checked["normal_module"] = number(
             "normal_module_mm",
             self.normal_module,
             1e-6,
@@ -113,7 +120,7 @@ class GearPair:
             "the module is above 0.001 and below 1000 mm",
             1e3,
         )
-        checked["pressure_angle"] = _number(
+        checked["pressure_angle"] = number(
             "pressure_angle_deg",
             self.pressure_angle,
             math.radians(5),
@@ -121,7 +128,7 @@ class GearPair:
             "the pressure angle lies between 5 and 45 degrees",
             degrees,
         )
-        checked["helix_angle"] = _number(
+        checked["helix_angle"] = number(
             "helix_angle_deg",
             self.helix_angle,
             -math.radians(60),
@@ -129,7 +136,7 @@ class GearPair:
             "the helix angle lies between -60 and 60 degrees",
             degrees,
         )
-        checked["face_width"] = _number(
+        checked["face_width"] = number(
             "face_width_mm", self.face_width, 0.0, 10.0, "the face width is above zero and below 10 m", 1e3
         )
         rules: dict[str, tuple[str, float, float, str, float]] = {
@@ -146,11 +153,9 @@ class GearPair:
         if self.tip_radius is not None:
             rules["tip_radius"] = ("tip_diameter_mm", 0, 100, "a tip diameter is above zero", 2e3)
         for name, (key, low, high, rule, scale) in rules.items():
-            checked[name] = tuple(
-                _number(key, entry, low, high, rule, scale) for entry in two(key, getattr(self, name))
-            )
+            checked[name] = tuple(number(key, entry, low, high, rule, scale) for entry in two(key, getattr(self, name)))
         if self.centre_distance is not None:
-            checked["centre_distance"] = _number(
+            checked["centre_distance"] = number(
                 "centre_distance_mm", self.centre_distance, 0, 200, "the centre distance is above zero", 1e3
             )
         for name, value in checked.items():
@@ -159,7 +164,6 @@ class GearPair:
 
     def _must_mesh(self) -> None:
         """Refuse data that make no working pair of external gears."""
-        tips = "tip_diameter_mm" if self.tip_radius is not None else "profile_shift"
         nominal = sum(self.reference_radius) * math.cos(self.transverse_pressure_angle)
         if self.centre_distance is None:
             if self._working_involute <= 0:
@@ -180,31 +184,27 @@ class GearPair:
                 where="centre_distance_mm",
                 value=self.centre_distance * 1e3,
             )
-        shown = tuple(round(2e3 * radius, 6) for radius in self.tip_radii)
         if any(tip <= base for tip, base in zip(self.tip_radii, self.base_radius)):
-            raise InputError("a tip circle must lie outside its base circle", where=tips, value=shown)
-        if any(thickness <= 0 for thickness in self.tip_thickness):
-            raise InputError("pointed teeth: the flanks cross below the tip circle", where=tips, value=shown)
-        if self.path_start < -1e-9 * self.line_of_action_length:
             raise InputError(
-                "interference: the gear's tips reach beyond the pinion's base tangent point (x_A < 0)",
-                where=tips,
-                value=shown,
+                "a tip circle must lie outside its base circle",
+                where="tip_diameter_mm",
+                value=tuple(round(2e3 * radius, 6) for radius in self.tip_radii),
             )
-        if self.path_end > self.line_of_action_length * (1 + 1e-9):
-            raise InputError(
-                "interference: the pinion's tips reach beyond the gear's base tangent point (x_E > T1T2)",
-                where=tips,
-                value=shown,
-            )
-        if not self.contact_ratio >= 1:
-            raise InputError(
-                f"the transverse contact ratio is {self.contact_ratio:.4g}; it must be at least 1",
-                where=tips,
-                value=shown,
-            )
-        if not self.path_start < self.pitch_point < self.path_end:
-            raise InputError("the pitch point must lie inside the path of contact", where=tips, value=shown)
+        standard = "" if self.tip_radius is not None else " (tips of the standard addendum, as none are given)"
+        shown = tuple(round(2e3 * radius, 6) for radius in self.tip_radii)
+        start, length, end = self.path_start, self.line_of_action_length, self.path_end
+        for broken, rule in (
+            (min(self.tip_thickness) <= 0, "pointed teeth: the flanks cross below the tip circle"),
+            (start < -1e-9 * length, "interference: the gear's tips pass the pinion's base tangent point (x_A < 0)"),
+            (
+                end > length * (1 + 1e-9),
+                "interference: the pinion's tips pass the gear's base tangent point (x_E > T1T2)",
+            ),
+            (not self.contact_ratio >= 1, f"the contact ratio is {self.contact_ratio:.4g}; it must be at least 1"),
+            (not start < self.pitch_point < end, "the pitch point must lie inside the path of contact"),
+        ):
+            if broken:
+                raise InputError(rule + standard, where="tip_diameter_mm", value=shown)
 
     @property
     def gear_ratio(self) -> float:

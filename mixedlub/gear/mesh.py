@@ -14,8 +14,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from mixedlub.gear.geometry import GearPair
-from mixedlub.gear.sharing import Sharing
+from mixedlub.gear.geometry import GearPair, whole
+from mixedlub.gear.sharing import Sharing, column, torques_above_zero
 from profiles.errors import InputError
 
 
@@ -52,16 +52,7 @@ class Mesh:
 
         Summed over its slices it is the share of the tooth pair at that position.
         """
-        try:
-            torques = np.asarray(torque, dtype=float)
-        except (TypeError, ValueError):
-            raise InputError("torques are numbers in Nm", where="torque_Nm", value=torque) from None
-        wrong = ~(np.isfinite(torques) & (torques > 0))
-        if np.any(wrong):
-            raise InputError(
-                "a torque is finite and above zero", where="torque_Nm", value=float(torques[wrong].flat[0])
-            )
-        return self.sharing.load_share(self, torques)
+        return self.sharing.load_share(self, torques_above_zero(torque))
 
 
 def mesh(pair: GearPair, sharing: Sharing, *, points: int = 48, slices: int | None = None) -> Mesh:
@@ -82,8 +73,8 @@ def mesh(pair: GearPair, sharing: Sharing, *, points: int = 48, slices: int | No
     >>> print(round((points.weight * points.load_share(100.0) * sliding).sum(), 4))
     0.195
     """
-    points = _count("points", points, 100_000)
-    slices = sharing.default_slices(pair) if slices is None else _count("slices", slices, 1000)
+    points = whole("points", points, 1, 100_000)
+    slices = sharing.default_slices(pair) if slices is None else whole("slices", slices, 1, 1000)
     notes = sharing.check(pair)
     position, width = panel_rule(pair, sharing.breakpoints(pair), points)
     return _lay_out(pair, sharing, position, width / pair.base_pitch, slices, notes)
@@ -96,8 +87,8 @@ def at_roll_angle(pair: GearPair, sharing: Sharing, roll_angle: object, *, slice
     the path of contact by up to 0.5 % of its length are moved to its end (rounded recordings); others are
     refused.
     """
-    angles = np.atleast_1d(np.asarray(roll_angle, dtype=float))
-    slices = sharing.default_slices(pair) if slices is None else _count("slices", slices, 1000)
+    angles = column("roll_angle_deg", np.atleast_1d(np.asarray(roll_angle)))
+    slices = sharing.default_slices(pair) if slices is None else whole("slices", slices, 1, 1000)
     notes = sharing.check(pair)
     start, end = pair.path_start / pair.base_radius[0], pair.path_end / pair.base_radius[0]
     margin = 0.005 * (end - start)
@@ -156,10 +147,3 @@ def _lay_out(
     for array in arrays.values():
         array.flags.writeable = False
     return Mesh(pair=pair, sharing=sharing, slices=slices, notes=notes, **arrays)
-
-
-def _count(name: str, value: int, most: int) -> int:
-    """A whole number from 1 to ``most``."""
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not 1 <= value <= most:
-        raise InputError(f"a whole number from 1 to {most}", where=name, value=value)
-    return int(value)

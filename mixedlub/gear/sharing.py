@@ -40,6 +40,18 @@ class Sharing(Protocol):
         """Share of the base-tangent force at each point, shape ``torque.shape + (M,)``."""
 
 
+def torques_above_zero(torque: object) -> np.ndarray:
+    """Torques (Nm) as an array of the shape given, each finite and above zero."""
+    try:
+        torques = np.asarray(torque, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError("torques are numbers in Nm", where="torque_Nm", value=torque) from None
+    wrong = ~(np.isfinite(torques) & (torques > 0))
+    if np.any(wrong):
+        raise InputError("a torque is finite and above zero", where="torque_Nm", value=float(torques[wrong].flat[0]))
+    return torques
+
+
 def contact_limits(pair: GearPair) -> np.ndarray:
     """Positions where the number of pairs in contact changes: the ends shifted by whole base pitches."""
     shifts = pair.base_pitch * np.arange(int(pair.contact_ratio) + 1)
@@ -116,7 +128,7 @@ class TableSharing:
 
     def __post_init__(self) -> None:
         columns = {"torque_Nm": self.torque, "roll_angle_deg": self.roll_angle, "load_share": self.share}
-        arrays = {key: _column(key, values) for key, values in columns.items()}
+        arrays = {key: column(key, values) for key, values in columns.items()}
         if len({array.size for array in arrays.values()}) != 1:
             raise InputError("the three columns need the same number of rows", where="load_share")
         if np.any(arrays["torque_Nm"] <= 0):
@@ -220,7 +232,7 @@ class TableSharing:
         return curves[chosen] * mesh.face_fraction
 
 
-def _column(key: str, values: object) -> np.ndarray:
+def column(key: str, values: object) -> np.ndarray:
     """A finite one-dimensional copy of a column of a table."""
     try:
         column = np.array(values, dtype=float)

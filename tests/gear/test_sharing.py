@@ -148,6 +148,14 @@ class TestRigid:
         mean_length = wide.face_width * wide.contact_ratio
         assert line_load == pytest.approx(1 / mean_length, rel=1e-9)
 
+    def test_wide_helical_gear_loses_by_the_plain_mean_of_the_sliding_speed(self):
+        # Buckingham: pi (1/z1 + 1/z2) (eps1^2 + eps2^2) / eps_alpha, and 1/cos(beta_b) for the normal force.
+        pair = replace(HONG, helix_angle=math.radians(20))
+        wide = replace(pair, face_width=2 * math.pi * pair.normal_module / math.sin(pair.helix_angle))
+        mean = (wide.approach_ratio**2 + wide.recess_ratio**2) / wide.contact_ratio
+        closed = math.pi * (1 / 17 + 1 / 26) * mean / math.cos(wide.base_helix_angle)
+        assert loss_factor(mesh(wide, RigidSharing()), 1.0) == pytest.approx(closed, rel=1e-9)
+
 
 class TestTable:
     """A tabulated share, used as it stands."""
@@ -252,7 +260,12 @@ class TestRollAngles:
         points = at_roll_angle(HONG, RigidSharing(), math.radians(round(end, 1)))
         assert points.position[0] <= HONG.path_end
 
-    @pytest.mark.parametrize("degrees", [2.0, 45.0, math.nan])
+    @pytest.mark.parametrize("degrees", [2.0, 45.0])
     def test_outside_the_path_is_refused(self, degrees):
         with pytest.raises(InputError, match=r"roll_angle_deg: .*path of contact runs from"):
             at_roll_angle(HONG, RigidSharing(), math.radians(degrees))
+
+    @pytest.mark.parametrize("angles", [math.nan, "x", [[0.3, 0.4]], []])
+    def test_angles_are_a_column_of_numbers(self, angles):
+        with pytest.raises(InputError, match=r"^roll_angle_deg: "):
+            at_roll_angle(HONG, RigidSharing(), angles)

@@ -1,0 +1,278 @@
+"""Normal probability plot of the heights: where they are Gaussian, and what they are where they are not."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from profiles import InputError, Profile
+from roughness.integrals import area_integral
+from roughness.spectrum import autocorrelation
+
+TOLERANCE = 0.1
+"""Deviation from the line, in its own sigma, that Greenwood-Williamson may be asked to overlook."""
+
+BULK = (10.0, 90.0)
+"""Cumulative percentages that the straight part must span to be called the bulk."""
+
+_REACH = 3.0902323061678132  # normal quantile of 99.9 %
+_LEAST_REACH = 1.6448536269514722  # normal quantile of 95 %
+_FEWEST = 30.0  # independent heights below which the band would forgive any shape
+_LEVELS = 121
+
+
+@dataclass(frozen=True)
+class Plateau:
+    """Two Gaussian processes on one surface: heights in m, ``material_percent`` above the knee."""
+
+    plateau_sigma: float
+    valley_sigma: float
+    material_percent: float
+    knee_height: float
+    plateau_mean: float
+
+
+@dataclass(frozen=True, eq=False)
+class NormalProbability:
+    """The plot and what it says; percentages are cumulative from the deepest valley up.
+
+    ``heights`` (m) at normal ``quantiles``; the straight line ``mean + sigma q`` is fitted between
+    ``from_percent`` and ``to_percent``, the widest range that it describes; ``band`` (m) is how far from it
+    a Gaussian profile with the same autocorrelation stays at every point together in 99 of 100 cases;
+    ``p_value`` is the share of such profiles that leave their line further than this one.
+    ``contact_ratio`` is the mean overlap with a plane at 1, 2 and 3 sigma over that of Gaussian heights.
+    """
+
+    quantiles: np.ndarray
+    heights: np.ndarray
+    band: np.ndarray
+    mean: float
+    sigma: float
+    from_percent: float
+    to_percent: float
+    verdict: str
+    p_value: float
+    independent_heights: float
+    contact_ratio: tuple[float, float, float]
+    plateau: Plateau | None
+    words: str
+
+    @property
+    def percent(self) -> np.ndarray:
+        """Cumulative percentages of the plotted heights."""
+        from scipy.special import ndtr
+
+        return 100.0 * ndtr(self.quantiles)
+
+
+def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> NormalProbability:
+    """Judge whether the heights of a filtered profile are Gaussian, and between which percentages.
+
+    ``gaussian``: the line holds from end to end of what the profile can show (at most 0.1 to 99.9 %);
+    ``gaussian_bulk``: at least from 10 to 90 %; ``plateau``: two lines, the lower one steeper, describe it;
+    ``not_gaussian``: none of these. The line holds where the heights stay within ``tolerance`` sigma of it
+    or within the band, whichever is wider; with fewer than 30 independent heights the band is not used,
+    for it would forgive any shape. Valleys below 5 % do not make a plateau of a bulk that is straight.
+    """
+    from scipy.special import ndtr
+
+    mask = np.asarray(profile.valid)
+    ordered = np.sort(profile.heights[mask])
+    if ordered.size < 50 or ordered[0] == ordered[-1]:
+        raise InputError(
+            "a probability plot needs fifty heights that differ", where=f"profile {profile.name!r}"
+        )
+    sums = correlation_sums(autocorrelation(profile))
+    independent = ordered.size / sums[1]
+    quantiles = np.linspace(-1.0, 1.0, _LEVELS) * _reach(independent)
+    heights = np.quantile(ordered, ndtr(quantiles), method="median_unbiased")
+    p_value, relative_band = _gaussian_band(quantiles, heights, sums, ordered.size)
+    if independent < _FEWEST:
+        relative_band = np.zeros_like(relative_band)
+    first, last, mean, sigma = _widest_line(quantiles, heights, relative_band, tolerance)
+    low, high = (float(100 * ndtr(quantiles[i])) for i in (first, last))
+    plateau = _two_lines(quantiles, heights, tolerance)
+    if first == 0 and last == _LEVELS - 1:
+        verdict = "gaussian"
+    elif plateau is not None and plateau.material_percent <= 95.0:
+        verdict = "plateau"
+    elif low <= BULK[0] and high >= BULK[1]:
+        verdict = "gaussian_bulk"
+    elif plateau is not None:
+        verdict = "plateau"
+    else:
+        verdict = "not_gaussian"
+    ratio = _contact_ratio(ordered)
+    return NormalProbability(
+        quantiles=quantiles,
+        heights=heights,
+        band=relative_band * sigma,
+        mean=mean,
+        sigma=sigma,
+        from_percent=low,
+        to_percent=high,
+        verdict=verdict,
+        p_value=p_value,
+        independent_heights=independent,
+        contact_ratio=ratio,
+        plateau=plateau if verdict == "plateau" else None,
+        words=_words(verdict, low, high, ratio, plateau),
+    )
+
+
+def correlation_sums(correlation: np.ndarray, orders: int = 60) -> np.ndarray:
+    """Sums over all lags, both ways, of the autocorrelation to the powers 1 to ``orders``.
+
+    The k-th Hermite component of n correlated Gaussian heights scatters as the sum over n: the second is
+    n over the number of independent heights (Rq), the third and fourth rule Rsk and Rku.
+
+    >>> correlation_sums(np.array([1.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]), orders=2)
+    array([2. , 1.5])
+    """
+    # a tenth of the length: a periodic profile never forgets, yet each period shows all its heights
+    rho = correlation[: max(correlation.size // 10, 2)]
+    rho = rho[np.abs(rho) > 1e-3]
+    power = rho.copy()
+    sums = np.empty(orders)
+    for k in range(orders):
+        sums[k] = 2.0 * power.sum() - 1.0
+        power *= rho
+    return np.maximum(sums, 1.0)
+
+
+def _reach(independent: float) -> float:
+    """Normal quantile beyond which fewer than three independent heights lie."""
+    from scipy.special import ndtri
+
+    return float(min(_REACH, max(ndtri(1.0 - 3.0 / max(independent, 6.1)), _LEAST_REACH)))
+
+
+def _line_weights(quantiles: np.ndarray) -> np.ndarray:
+    """Rows that give mean and slope of the least-squares line through the bulk."""
+    bulk = np.abs(quantiles) <= 1.2815515655446004  # 10 to 90 %
+    return np.linalg.pinv(np.column_stack((np.ones(quantiles.size), quantiles)) * bulk[:, None])
+
+
+def _gaussian_band(
+    quantiles: np.ndarray, heights: np.ndarray, sums: np.ndarray, count: int
+) -> tuple[float, np.ndarray]:
+    """p-value of the largest deviation from the bulk's line, and the 99 % band in sigma of the line.
+
+    The covariance of the empirical quantiles of a correlated Gaussian process is expanded in Hermite
+    polynomials (Mehler); the part without correlation is exact, the rest converges with the lag-1 power.
+    """
+    from scipy.special import ndtr
+
+    below = ndtr(quantiles)
+    density = np.exp(-0.5 * quantiles**2) / np.sqrt(2 * np.pi)
+    covariance = np.minimum.outer(below, below) - np.outer(below, below)
+    covariance /= np.outer(density, density)
+    before, hermite = np.zeros_like(quantiles), np.ones_like(quantiles)
+    for order, total in enumerate(sums, start=1):
+        covariance += (total - 1.0) / order * np.outer(hermite, hermite)
+        before, hermite = hermite, (quantiles * hermite - np.sqrt(order - 1) * before) / np.sqrt(order)
+    fit = _line_weights(quantiles)
+    residual = np.eye(quantiles.size) - np.column_stack((np.ones(quantiles.size), quantiles)) @ fit
+    covariance = residual @ covariance @ residual.T / count
+    spread = np.sqrt(np.maximum(np.diag(covariance), 1e-12))
+    values, vectors = np.linalg.eigh(covariance)
+    draws = np.random.default_rng(1).standard_normal((4000, quantiles.size))
+    draws = draws * np.sqrt(np.maximum(values, 0.0)) @ vectors.T
+    largest = np.abs(draws / spread).max(axis=1)
+    slope = fit[1] @ heights
+    observed = np.abs((residual @ heights) / slope / spread).max()
+    p_value = (1.0 + np.count_nonzero(largest >= observed)) / (largest.size + 1.0)
+    return float(p_value), spread * np.quantile(largest, 0.99)
+
+
+def _widest_line(
+    quantiles: np.ndarray, heights: np.ndarray, band: np.ndarray, tolerance: float
+) -> tuple[int, int, float, float]:
+    """The range of levels, widest in percent, over which one straight line stays within its tolerance."""
+    from scipy.special import ndtr
+
+    below = ndtr(quantiles)
+    density = np.exp(-0.5 * quantiles**2)
+    first, last = np.triu_indices(quantiles.size, k=8)
+    for pick in np.lexsort((first - last, -np.round(below[last] - below[first], 3))):
+        part = slice(first[pick], last[pick] + 1)
+        q, z, weight = quantiles[part], heights[part], density[part]
+        centre = weight @ q / weight.sum()
+        sigma = (weight * (q - centre)) @ z / (weight @ (q - centre) ** 2)
+        mean = weight @ z / weight.sum() - sigma * centre
+        if np.all(np.abs(z - mean - sigma * q) <= sigma * np.maximum(tolerance, band[part])):
+            return int(first[pick]), int(last[pick]), float(mean), float(sigma)
+    middle = quantiles.size // 2
+    mean, sigma = _line_weights(quantiles) @ heights
+    return middle, middle, float(mean), float(sigma)
+
+
+def _two_lines(quantiles: np.ndarray, heights: np.ndarray, tolerance: float) -> Plateau | None:
+    """Hyperbola through the plot, whose asymptotes are the plateau's and the valleys' lines.
+
+    None unless the valleys are at least twice as steep, fill 2 to 80 %, and the curve fits to 2.5 times the
+    tolerance where one line leaves four times the squares. After ISO 13565-3, annex A, which also takes the
+    asymptotes of a conic.
+    """
+    from scipy.special import ndtr
+
+    inner = np.abs(quantiles) <= 2.5
+    q, z = quantiles[inner], heights[inner]
+    ones = np.ones_like(q)
+    best: tuple[float, float, np.ndarray, np.ndarray] | None = None
+    for knee in np.linspace(-2.0, 1.0, 61):
+        for width in (0.05, 0.15, 0.3, 0.5, 0.8, 1.2):
+            bend = 0.5 * (q - knee - np.sqrt((q - knee) ** 2 + width**2))
+            basis = np.column_stack((ones, q, bend))
+            free = np.linalg.lstsq(basis, z, rcond=None)[0]
+            residual = z - basis @ free
+            if best is None or residual @ residual < best[0]:
+                best = (float(residual @ residual), float(knee), free, residual)
+    assert best is not None
+    squares, knee, (mean, plateau, extra), residual = best
+    line = np.polynomial.polynomial.polyfit(q, z, 1)
+    one = z - np.polynomial.polynomial.polyval(q, line)
+    valley = plateau + extra
+    convincing = (
+        plateau > 0
+        and valley >= 2.0 * plateau
+        and 0.02 <= ndtr(knee) <= 0.8
+        and squares <= 0.25 * (one @ one)
+        and np.abs(residual).max() <= 2.5 * tolerance * z.std()
+    )
+    if not convincing:
+        return None
+    return Plateau(
+        plateau_sigma=float(plateau),
+        valley_sigma=float(valley),
+        material_percent=float(100 * ndtr(-knee)),
+        knee_height=float(mean + plateau * knee),
+        plateau_mean=float(mean),
+    )
+
+
+def _contact_ratio(ordered: np.ndarray) -> tuple[float, float, float]:
+    """Mean overlap with a plane at 1, 2, 3 sigma above the mean, over that of Gaussian heights."""
+    z = (ordered - ordered.mean()) / ordered.std()
+    first, second, third = (
+        float(np.maximum(z - h, 0.0).mean() / area_integral(h)) for h in (1.0, 2.0, 3.0)
+    )
+    return first, second, third
+
+
+def _words(
+    verdict: str, low: float, high: float, ratio: tuple[float, float, float], plateau: Plateau | None
+) -> str:
+    area = f"real contact at a gap of 2 sigma is {ratio[1]:.2f} times the Gaussian one"
+    if verdict == "gaussian":
+        return f"Gaussian from {low:.1f} to {high:.1f} % of the heights, all that the trace can show; {area}."
+    if verdict == "gaussian_bulk":
+        return f"Gaussian from {low:.1f} to {high:.1f} %; peaks or valleys beyond leave the line; {area}."
+    if verdict == "plateau" and plateau is not None:
+        return (
+            f"plateau of sigma {plateau.plateau_sigma * 1e6:.3g} um on {plateau.material_percent:.0f} % of the "
+            f"surface above valleys of sigma {plateau.valley_sigma * 1e6:.3g} um: use the plateau's sigma and "
+            f"mean for contact; {area}."
+        )
+    return f"not Gaussian: one line holds only from {low:.1f} to {high:.1f} %; {area}."
