@@ -1,0 +1,15 @@
+"""The concealed effects by name: those the catalogue should name, and those outside any catalogue."""
+
+from __future__ import annotations
+
+from mixedlub.proof.concealed import boundary, contact, film, load, loss, measurement, oil, outside, shear
+from mixedlub.proof.concealed.kinds import Concealed, Knob
+
+_ROOMS = (film, shear, contact, boundary, load, loss, oil, measurement)
+
+NAMED: dict[str, Concealed] = {effect.id: effect for room in _ROOMS for effect in room.EFFECTS}
+OUTSIDE: dict[str, Concealed] = {effect.id: effect for effect in outside.EFFECTS}
+MIMICS = outside.MIMICS
+MEASUREMENT = frozenset(effect.id for effect in measurement.EFFECTS) | {"fringe_order", "torque_constant"}
+
+__all__ = ["MEASUREMENT", "MIMICS", "NAMED", "OUTSIDE", "Concealed", "Knob"]
