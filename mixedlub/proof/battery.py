@@ -3,44 +3,23 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from mixedlub.proof.build import PRIORS, QUANTITY, Case, chosen, rig_of
+from mixedlub.proof.build import PRIORS, QUANTITY, chosen, rig_of
 from mixedlub.proof.concealed import MIMICS, NAMED, OUTSIDE, Concealed
-from mixedlub.proof.design import draw_disc, draw_gear, withhold
-from mixedlub.proof.explain import Target, calibrated, explain, sensitivity, visibility
-from mixedlub.proof.rig import Rig, readings
+from mixedlub.proof.deal import COARSE, Hand, Order, deal, values_of
+from mixedlub.proof.explain import Target, calibrated, explain
+from mixedlub.proof.rig import readings
 from profiles.errors import InputError
 
 SHARES = {"none": 0.16, "single": 0.44, "pair": 0.13, "measurement": 0.11, "unknown": 0.16}
-CLEAR, FAINT, PAIR = (16.0, 30.0), (7.0, 11.0), (10.0, 24.0)
-COARSE, FINE = 48, 240
-NOISE = (0.35, 5.0)
-TRIES = 12
 IDENTIFIABLE = 9.0
-
-
-@dataclass(frozen=True)
-class Order:
-    """What one case is to be: its class, rig, hidden effects, and how visible they should be."""
-
-    name: str
-    label: str
-    kind: str
-    effects: tuple[str, ...]
-    level: str
-    small: bool
-    outliers: bool
-
-
-def known(effect: str) -> Concealed:
-    return NAMED[effect] if effect in NAMED else OUTSIDE[effect]
 
 
 def _deck(rng: np.random.Generator, pool: Iterable[Concealed], count: int) -> list[tuple[str, str]]:
@@ -61,7 +40,7 @@ def plan(seed: int, cases: int) -> list[Order]:
     if cases < 5:
         raise InputError("a battery has at least 5 cases, one of each class", where="cases", value=cases)
     rng = np.random.default_rng([seed, 1])
-    counts = {label: int(np.floor(share * cases)) for label, share in SHARES.items()}
+    counts = {label: max(1, int(share * cases)) for label, share in SHARES.items()}
     counts["single"] += cases - sum(counts.values())
     physics = [e for e in NAMED.values() if e.stage != "measurement"]
     faults = [e for e in NAMED.values() if e.stage == "measurement"]
@@ -74,145 +53,23 @@ def plan(seed: int, cases: int) -> list[Order]:
     for name, kind in _deck(rng, physics, counts["pair"]):
         others = [e for e in NAMED.values() if e.hook != NAMED[name].hook and kind in e.kinds]
         drawn.append(("pair", kind, (name, others[int(rng.integers(len(others)))].id)))
-    orders = []
+    orders: list[Order] = []
     for place, (label, kind, effects) in enumerate(drawn):
         small = label in ("none", "single") and rng.random() < 0.12
         clear = small or place % 2 == 0 or label == "pair"
-        orders.append((label, kind, effects, "clear" if clear else "faint", small))
+        orders.append(Order("", label, kind, effects, "clear" if clear else "faint", small))
     spoiled = {"none": 0.5, "single": 0.2, "measurement": 0.2, "pair": 0.1, "unknown": 0.15}
+    shuffled = [orders[i] for i in rng.permutation(len(orders))]
     return [
-        Order(f"case_{i:03d}", *orders[j], outliers=bool(rng.random() < spoiled[orders[j][0]]))
-        for i, j in enumerate(rng.permutation(len(orders)))
+        replace(order, name=f"case_{i:03d}", outliers=bool(rng.random() < spoiled[order.label]))
+        for i, order in enumerate(shuffled)
     ]
-
-
-@dataclass(frozen=True)
-class Hand:
-    """One case as dealt: rigs fine and coarse, the true calibration, effects with their knobs, sds."""
-
-    case: Case
-    hidden: np.ndarray
-    fine: Rig
-    z: np.ndarray
-    effects: tuple[Concealed, ...]
-    knobs: tuple[dict[str, float], ...]
-    relative: float
-    absolute: float
-    seen: float
-
-
-def _values(rig: Rig, case: Case, z: np.ndarray, effects: Sequence[Concealed], knobs: Sequence[dict]) -> np.ndarray:
-    hidden = [effect.hide(values) for effect, values in zip(effects, knobs)]
-    return readings(rig, calibrated(case.nominal, case.priors, z), hidden)
-
-
-def _draw_knobs(rng: np.random.Generator, effect: Concealed) -> dict[str, float]:
-    values = {knob.name: float(rng.uniform(*knob.typical)) for knob in effect.knobs}
-    if effect.knobs[0].low < 0 and rng.random() < 0.4:
-        values["strength"] = -values["strength"]
-    return values
-
-
-def _scaled(effect: Concealed, values: dict[str, float], factor: float) -> dict[str, float]:
-    knob = effect.knobs[0]
-    strength = float(np.clip(values["strength"] * factor, 0.98 * knob.low, 0.98 * knob.high))
-    return {**values, "strength": strength}
-
-
-def _deal(rng: np.random.Generator, order: Order) -> Hand:
-    """A rig, a calibration, effects and a noise at which they are as visible as ordered; the best of some tries."""
-    best: Hand | None = None
-    band = PAIR if order.label == "pair" else CLEAR if order.level == "clear" else FAINT
-    goal = rng.uniform(*band)
-    for _ in range(TRIES if order.effects else 1):
-        coated = "coating_insulation" in order.effects or rng.random() < 0.12
-        case = (draw_gear if order.kind == "gear_pair" else draw_disc)(rng, coated)
-        hand = _noised(rng, order, case, goal)
-        if best is None or abs(np.log(hand.seen / goal)) < abs(np.log(best.seen / goal)):
-            best = hand
-        if not order.effects or abs(np.log(best.seen / goal)) < 0.25:
-            break
-    assert best is not None
-    return best
-
-
-def _noised(rng: np.random.Generator, order: Order, case: Case, goal: float) -> Hand:
-    hidden = withhold(rng, case, order.small)
-    coarse, fine = rig_of(case, COARSE), rig_of(case, FINE)
-    z = rng.standard_normal(len(PRIORS))
-    effects = tuple(known(name) for name in order.effects)
-    knobs = tuple(_draw_knobs(rng, effect) for effect in effects)
-    base = _values(coarse, case, z, (), ())
-    slopes = sensitivity(coarse, case.nominal, case.priors, z)[~hidden]
-    typical = float(np.median(np.abs(base)))
-    share = float(np.exp(rng.uniform(np.log(0.15), np.log(1.2))))
-
-    def spread(level: float, values: np.ndarray) -> np.ndarray:
-        return np.sqrt((0.01 * level * values) ** 2 + (0.01 * level * share * typical) ** 2)
-
-    def each(level: float, factors: Sequence[float]) -> list[float]:
-        """The visibility of every effect, with the others there."""
-        now = [_scaled(e, k, f) for e, k, f in zip(effects, knobs, factors)]
-        truth = _values(coarse, case, z, effects, now)
-        found = []
-        for i in range(len(effects)):
-            rest = [j for j in range(len(effects)) if j != i]
-            without = _values(coarse, case, z, [effects[j] for j in rest], [now[j] for j in rest])
-            found.append(visibility((truth - without)[~hidden], spread(level, truth)[~hidden], slopes))
-        return found
-
-    level, factors, reached = float(np.exp(rng.uniform(np.log(0.4), np.log(4.0)))), [1.0] * len(effects), goal
-    if effects:
-        level = _solve(lambda x: min(each(x, factors)), goal, *NOISE, falling=True)
-        for i, effect in enumerate(effects):
-            widest = max(1.0, min(4.0, effect.knobs[0].high / abs(knobs[i]["strength"])))
-            wanted = goal if len(effects) == 1 else np.clip(each(level, factors)[i], goal, 1.6 * goal)
-            factors = _refactored(each, level, factors, i, float(wanted), widest)
-        reached = max(min(each(level, factors)), 1e-3)
-    return Hand(
-        case=case,
-        hidden=hidden,
-        fine=fine,
-        z=z,
-        effects=effects,
-        knobs=tuple(_scaled(e, k, f) for e, k, f in zip(effects, knobs, factors)),
-        relative=round(0.01 * level, 6),
-        absolute=float(f"{0.01 * level * share * typical:.4g}"),
-        seen=reached,
-    )
-
-
-def _refactored(
-    each: Callable[[float, Sequence[float]], list[float]],
-    level: float,
-    factors: list[float],
-    place: int,
-    goal: float,
-    widest: float,
-) -> list[float]:
-    """The factors with one of them changed so that its effect is as visible as wanted."""
-
-    def at(factor: float) -> list[float]:
-        return [factor if i == place else f for i, f in enumerate(factors)]
-
-    return at(_solve(lambda x: each(level, at(x))[place], goal, 0.05, widest, falling=False))
-
-
-def _solve(measure: Callable[[float], float], goal: float, low: float, high: float, falling: bool) -> float:
-    """Log bisection of a monotone measure to the goal; the nearer end where it is out of reach, 1 where reached."""
-    if not falling and abs(np.log(max(measure(1.0), 1e-9) / goal)) < 0.03:
-        return 1.0
-    for _ in range(12):
-        middle = float(np.sqrt(low * high))
-        above = measure(middle) > goal
-        low, high = (middle, high) if above == falling else (low, middle)
-    return float(f"{np.sqrt(low * high):.5g}")
 
 
 def _alternatives(hand: Hand, visible: np.ndarray) -> tuple[dict[str, float], float]:
     """Best chi-square of none and of every single effect but the truth, and of the truth itself."""
     whole = rig_of(hand.case, COARSE)
-    truth = _values(whole, hand.case, hand.z, hand.effects, hand.knobs)[visible]
+    truth = values_of(whole, hand.case, hand.z, hand.effects, hand.knobs)[visible]
     part = rig_of(chosen(hand.case, visible), COARSE)
     sd = np.sqrt((hand.relative * truth) ** 2 + hand.absolute**2)
     target = Target(part, truth, sd, hand.case.nominal, hand.case.priors)
@@ -239,9 +96,9 @@ def make(seed: int, index: int, order: Order, folder: Path) -> str:
     if (place / "truth.json").exists():
         return order.name
     rng = np.random.default_rng([seed, 2, index])
-    hand = _deal(rng, order)
+    hand = deal(rng, order)
     case, z = hand.case, hand.z
-    truth = _values(hand.fine, case, z, hand.effects, hand.knobs)
+    truth = values_of(hand.fine, case, z, hand.effects, hand.knobs)
     sd = np.sqrt((hand.relative * truth) ** 2 + hand.absolute**2)
     recorded = truth + sd * rng.standard_normal(len(truth))
     visible = np.flatnonzero(~hand.hidden)
@@ -301,7 +158,7 @@ def _plain(values: np.ndarray) -> list[float]:
 
 
 def write(place: Path, hand: Hand, recorded: np.ndarray, answer: dict[str, Any]) -> None:
-    """The case folder as an engineer would hand it in, and ``truth.json``; written last, it marks the folder done."""
+    """The case folder as an engineer would hand it in; ``truth.json`` comes last and marks it done."""
     import pandas as pd
 
     place.mkdir(parents=True, exist_ok=True)

@@ -73,8 +73,10 @@ def gears_of(settings: Mapping[str, Any]) -> Gears:
     )
 
 
-def share_at(path: ContactPath, rows: np.ndarray | None, torque: np.ndarray, position: np.ndarray) -> np.ndarray:
-    """Load share (readings by points): table rows (torque, roll angle in degrees, share), or equal sharing if None."""
+def share_at(
+    path: ContactPath, rows: np.ndarray | None, torque: np.ndarray, position: np.ndarray
+) -> np.ndarray:
+    """Load share, readings by points: from rows of (torque, roll angle in degrees, share); None is equal."""
     if rows is None:
         single = (position > path.low_single) & (position < path.high_single)
         return np.broadcast_to(np.where(single, 1.0, 0.5), (len(torque), len(position)))
@@ -112,7 +114,7 @@ def _coating_resistance(settings: Mapping[str, Any]) -> float:
 
 
 def rig_of(case: Case, points: int = 240, positions: np.ndarray | None = None) -> Rig:
-    """The rig a case describes: gears on ``points`` midpoints of the path (or at ``positions``, m), discs on one."""
+    """The rig a case describes: gears on ``points`` midpoints of the path, or at ``positions`` in m."""
     moments, coated = _moments(case)
     common = {
         "kind": case.kind,

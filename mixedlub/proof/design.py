@@ -30,7 +30,7 @@ GEARS: tuple[dict[str, Any], ...] = (
     {"teeth": [35, 40], "normal_module_mm": 2.5, "pressure_angle_deg": 20.0, "face_width_mm": 18.0,
      "tip_diameter_mm": [92.5, 105.0], "torques": (50.0, 200.0), "speeds": (500.0, 5000.0)},
 )  # fmt: skip
-OILS = {
+OILS: dict[str, dict[str, Any]] = {
     "mineral": {"gold": (9.904, 0.1390), "index": (1.0, 1.3), "density": 865.0, "cubic": 7e-4},
     "pao": {"gold": (7.382, 0.1335), "index": (1.3, 1.6), "density": 832.0, "cubic": 7e-4},
     "ester": {"gold": (6.605, 0.1360), "index": (1.2, 1.5), "density": 950.0, "cubic": 8e-4},
@@ -94,10 +94,10 @@ def _pairs(rng: np.random.Generator, names: list[str], count: int) -> list[tuple
     return [every[i] for i in order[:count]]
 
 
-def _levels(rng: np.random.Generator, low: float, high: float, count: int, digits: int = 2) -> list[float]:
+def _levels(rng: np.random.Generator, span: tuple[float, float], count: int) -> list[float]:
     """Geometric levels with the ends moved by up to 15 %."""
-    first, last = low * rng.uniform(1.0, 1.15), high * rng.uniform(0.85, 1.0)
-    return [_round(v, digits) for v in np.geomspace(first, last, count)]
+    first, last = span[0] * rng.uniform(1.0, 1.15), span[1] * rng.uniform(0.85, 1.0)
+    return [_round(v, 2) for v in np.geomspace(first, last, count)]
 
 
 def _temperatures(rng: np.random.Generator, count: int) -> list[float]:
@@ -107,7 +107,7 @@ def _temperatures(rng: np.random.Generator, count: int) -> list[float]:
 
 
 def draw_share(rng: np.random.Generator, settings: dict[str, Any], torques: list[float]) -> np.ndarray | None:
-    """Load-share rows: ISO-like ramps, or elastic-like ones whose tip share rises with torque, or None for equal."""
+    """Load-share rows: ISO-like ramps, or elastic-like ones that depend on torque; None is equal sharing."""
     style = rng.choice(["rigid", "ramp", "elastic"], p=[0.2, 0.3, 0.5])
     if style == "rigid":
         return None
@@ -129,7 +129,7 @@ def draw_share(rng: np.random.Generator, settings: dict[str, Any], torques: list
 
 
 def draw_gear(rng: np.random.Generator, coated: bool) -> Case:
-    """A gear rig and its full programme: every pairing, torque, speed and temperature once, in random order."""
+    """A gear rig and its programme: every pairing, torque, speed and temperature once, in random order."""
     chosen = dict(GEARS[int(rng.integers(len(GEARS)))])
     torque_range, speed_range = chosen.pop("torques"), chosen.pop("speeds")
     chosen["tip_diameter_mm"] = [_round(d * (1 - rng.uniform(0, 0.004))) for d in chosen["tip_diameter_mm"]]
@@ -138,8 +138,8 @@ def draw_gear(rng: np.random.Generator, coated: bool) -> Case:
     pairs, torques, speeds, temperatures = sizes[int(rng.integers(len(sizes)))]
     levels = (
         _pairs(rng, list(surfaces), pairs),
-        _levels(rng, *torque_range, torques),
-        _levels(rng, *speed_range, speeds),
+        _levels(rng, torque_range, torques),
+        _levels(rng, speed_range, speeds),
         _temperatures(rng, temperatures),
     )
     settings: dict[str, Any] = {
@@ -178,7 +178,7 @@ def _numbered(count: int) -> dict[str, np.ndarray]:
 
 
 def draw_disc(rng: np.random.Generator, coated: bool) -> Case:
-    """A two-disc rig and 150 to 220 random points of its grid of loads, speeds, slips, temperatures, pairings."""
+    """A two-disc rig and 150 to 220 random points of its grid of loads, speeds, slips, temperatures."""
     surfaces = draw_surfaces(rng, coated)
     radii = [float(rng.choice([20.0, 25.4, 30.0, 38.1])), float(rng.choice([25.4, 40.0, 50.0]))]
     width = float(rng.choice([4.0, 6.0, 10.0]))
@@ -191,7 +191,7 @@ def draw_disc(rng: np.random.Generator, coated: bool) -> Case:
     levels = (
         _pairs(rng, list(surfaces), int(rng.integers(3, 6))),
         loads,
-        _levels(rng, 0.4, 12.0, int(rng.integers(4, 6))),
+        _levels(rng, (0.4, 12.0), int(rng.integers(4, 6))),
         [slips[i] for i in chosen],
         _temperatures(rng, 3),
     )
@@ -227,7 +227,7 @@ def draw_disc(rng: np.random.Generator, coated: bool) -> Case:
 
 
 def withhold(rng: np.random.Generator, case: Case, small: bool) -> np.ndarray:
-    """Readings to keep back: a whole level of one condition and a tenth at random; nearly all in small cases."""
+    """Readings to keep back: a whole level of one condition and a tenth at random; most in small cases."""
     count = len(case.columns["run"])
     if small:
         visible = rng.choice(count, int(rng.integers(20, 41)), replace=False)

@@ -100,7 +100,7 @@ def explain(
     begin: np.ndarray | None = None,
     starts: Sequence[np.ndarray] | None = None,
 ) -> Explained:
-    """Best chi-square of a set of effects with all knobs free in their ranges, priors on the calibration only."""
+    """Best chi-square of a set of effects: knobs free in their ranges, priors on the calibration only."""
     count = len(PRIORS)
     knobs = [knob for effect in effects for knob in effect.knobs]
     unit = np.array([max(abs(k.typical[1]), 1e-9) if k.name == "strength" else k.high - k.low for k in knobs])
@@ -136,7 +136,7 @@ def sensitivity(rig: Rig, nominal: Calibration, priors: dict[str, float], z: np.
 
 
 def visibility(extra: np.ndarray, sd: np.ndarray, slopes: np.ndarray) -> float:
-    """Root of the chi-square that recalibration about the truth leaves of an extra (linear in calibration)."""
+    """Root of the chi-square that recalibration leaves of an extra, linear about the true calibration."""
     scaled = slopes / sd[:, None]
     whole = extra / sd
     taken = np.linalg.solve(scaled.T @ scaled + np.eye(slopes.shape[1]), scaled.T @ whole)

@@ -13,7 +13,7 @@ from profiles.errors import InputError
 class Gears:
     """A spur pair in the transverse plane; lengths in m, pinion first.
 
-    ``tip`` are tip radii; ``centre`` is the operating centre distance, found from the profile shifts when None.
+    ``tip`` are tip radii; ``centre`` the operating centre distance, from the shifts if None.
     """
 
     teeth: tuple[int, int]
@@ -35,7 +35,7 @@ def involute(angle: float) -> float:
 
 
 def operating_angle(gears: Gears) -> float:
-    """Working pressure angle (rad): inv(a_w) = inv(a) + 2 tan(a)(x1 + x2)/(z1 + z2), or from the centre distance."""
+    """Working pressure angle (rad): inv(a_w) = inv(a) + 2 tan(a)(x1 + x2)/(z1 + z2), or from the centre."""
     from scipy.optimize import brentq
 
     z1, z2 = gears.teeth
@@ -80,7 +80,7 @@ def path_of_contact(gears: Gears) -> ContactPath:
     pitch = np.pi * gears.module * np.cos(gears.pressure_angle)
     if not (start > 0 and end < length and pitch < end - start < 2 * pitch):
         raise InputError(
-            "the path of contact must lie between the base tangent points with a contact ratio between 1 and 2",
+            "the path of contact must lie between the base tangent points, with contact ratio 1 to 2",
             where="gears",
             value=round(float((end - start) / pitch), 3),
         )

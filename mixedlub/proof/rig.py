@@ -1,8 +1,8 @@
 """The base model once more, slow and plain: what a gear or disc rig records when nothing is missing.
 
 A recording of n readings is worked out on arrays of shape (n, m): m points along the path of contact for
-gears (midpoints of equal steps), one point for discs. Each stage of the chain takes a frozen ``Contact`` and returns
-a new one, so that a concealed effect is a function slipped in after the stage that it changes.
+gears (midpoints of equal steps), one point for discs. Each stage of the chain takes a frozen ``Contact``
+and returns a new one, so that a concealed effect is a function slipped in after the stage it changes.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ STAGES = ("oil", "load", "surface", "film", "contact", "shear", "boundary", "fri
 
 @dataclass(frozen=True)
 class Oil:
-    """Two-point data sheet of an oil: temperatures in C, kinematic viscosities in m2/s, coefficients in SI."""
+    """Two-point data sheet of an oil: temperatures in C, kinematic viscosities in m2/s, the rest in SI."""
 
     temperature: tuple[float, float]
     kinematic: tuple[float, float]
@@ -41,7 +41,7 @@ class Oil:
         doubled = np.log10(np.log10(1e6 * np.asarray(self.kinematic) + 0.7))
         slope = (doubled[1] - doubled[0]) / (absolute[1] - absolute[0])
         line = doubled[0] + slope * (np.log10(np.asarray(temperature) + KELVIN) - absolute[0])
-        return np.asarray(1e-6 * (10 ** 10**line - 0.7))
+        return np.asarray(1e-6 * (10**10**line - 0.7))
 
     def density_at(self, temperature: np.ndarray) -> np.ndarray:
         return self.density_15 * (1 - self.expansion * (np.asarray(temperature) - 15.0))
@@ -80,7 +80,7 @@ class Solid:
 
 @dataclass(frozen=True)
 class Calibration:
-    """What a calibration may move: boundary friction as its value, the others as factors on the data sheet."""
+    """What a calibration may move: boundary friction by value, the others as factors on the data sheet."""
 
     boundary_friction: float = 0.1
     viscosity: float = 1.0
@@ -93,8 +93,8 @@ class Calibration:
 class Rig:
     """One test programme on one rig: readings by points, everything in SI save temperatures in C.
 
-    ``share_force`` is the tooth (or disc) force at each point, ``step`` the length of path a point stands for over
-    the base pitch (1 for discs), ``conditions`` the columns of the case file by name.
+    ``share_force`` is the tooth (or disc) force at each point, ``step`` the length of path a point stands
+    for over the base pitch (1 for discs), ``conditions`` the columns of the case file by name.
     """
 
     kind: str

@@ -12,7 +12,7 @@ from mixedlub.proof.rig import Contact
 
 
 def boundary_film_temperature(c: Contact, strength: float, activation: float, flash_share: float) -> Contact:
-    """An additive film grows hot: mu_B (1 - 0.5 strength Phi((T - T_a)/12 K)), T the oil plus a share of the flash."""
+    """A film grows in heat: mu_B (1 - 0.5 strength Phi((T - T_a)/12 K)), T with a share of the flash."""
     from scipy.special import ndtr
 
     friction = c.stress / c.pressure * (1 - c.area) + c.boundary_friction * c.area
@@ -22,7 +22,7 @@ def boundary_film_temperature(c: Contact, strength: float, activation: float, fl
 
 
 def boundary_speed_dependence(c: Contact, strength: float) -> Contact:
-    """Boundary friction rises (+) or falls (-) with sliding speed: mu_B (v_s/1 m/s)^(0.1 strength), 1 mm/s at least."""
+    """Boundary friction goes with sliding speed: mu_B (v_s/1 m/s)^(0.1 strength), from 1 mm/s on."""
     ratio = np.maximum(c.sliding, 1e-3)
     return replace(c, boundary_friction=c.boundary_friction * ratio ** (0.1 * strength))
 

@@ -62,7 +62,7 @@ def asperity_plasticity(c: Contact, strength: float) -> Contact:
 
 
 def micro_ehl(c: Contact, strength: float) -> Contact:
-    """Long waves are pressed flat: amplitude 1/(1 + 0.125 q + 0.04 q^2), q = strength (60 um/b) (p0/1 GPa)^1.5.
+    """Long waves are pressed flat: amplitude 1/(1 + 0.125 q + 0.04 q^2), q = strength (60 um/b) p0^1.5, GPa.
 
     Slow rolling flattens more: q falls with the square root of the speed. Slopes keep half of the change in
     logarithm, curvatures none, since short waves stay.
@@ -73,7 +73,7 @@ def micro_ehl(c: Contact, strength: float) -> Contact:
 
 
 def running_in(c: Contact, strength: float, pace: float) -> Contact:
-    """Heights wear off with the logarithm of the time run: Rq (1 - 0.2 strength ln(1 + s/pace)/ln(1 + 1/pace)).
+    """Heights wear off with the logarithm of time: Rq (1 - 0.2 strength ln(1 + s/pace)/ln(1 + 1/pace)).
 
     Slopes fall with the square, curvatures with the 2.5th power of the same factor (m2 ~ f^4, m4 ~ f^5).
     """

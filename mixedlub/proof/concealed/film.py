@@ -12,7 +12,7 @@ INLET_RATE = 2e7
 
 
 def inlet_shear_heating(c: Contact, strength: float) -> Contact:
-    """Inlet shear warms the oil: h 3.94/(3.94 + L^0.62), L = beta eta0 u^2/k times the strength (Murch-Wilson)."""
+    """Inlet shear warms the oil (Murch-Wilson): h 3.94/(3.94 + L^0.62), L = strength beta eta0 u^2/k."""
     rate = c.rig.oil.thinning_at(c.temperature) * c.viscosity * c.entrainment**2 / c.rig.oil.conductivity
     return replace(c, film=c.film * 3.94 / (3.94 + (strength * rate) ** 0.62))
 

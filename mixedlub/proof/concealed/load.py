@@ -21,7 +21,7 @@ def _forced(c: Contact, force: np.ndarray) -> Contact:
 
 
 def dynamic_load(c: Contact, strength: float, resonance_rpm: float) -> Contact:
-    """Tooth mesh vibration: force times 1 + 0.15 strength D cos(2 pi x/p_b), D = q^2/sqrt((1-q^2)^2 + (0.2 q)^2).
+    """Mesh vibration: force times 1 + 0.15 strength D cos(2 pi x/p_b), D = q^2/sqrt((1-q^2)^2 + (0.2 q)^2).
 
     q is the speed over the resonance speed; the mean force over a base pitch stays.
     """
@@ -32,12 +32,12 @@ def dynamic_load(c: Contact, strength: float, resonance_rpm: float) -> Contact:
 
 
 def misalignment(c: Contact, strength: float) -> Contact:
-    """The load sits on part of the face, less so when torque closes the gap: line load (1 + 0.3 s (150 Nm/T)^0.5)."""
+    """Load on part of the face, less so when torque closes the gap: line load (1 + 0.3 s (150 Nm/T)^0.5)."""
     return replace(c, line_load=c.line_load * (1 + 0.3 * strength / np.sqrt(_torque_ratio(c))))
 
 
 def tip_relief(c: Contact, strength: float) -> Contact:
-    """Parabolic relief hands the tips' load to the other pair, the share of it r = 0.5 s (150 Nm/T)^0.5, 0.95 at most."""
+    """Parabolic relief hands the tips' load to the other pair: a share 0.5 s (150 Nm/T)^0.5, 0.95 at most."""
     ratio = c.rig.extras["contact_ratio"] - 1
     whole = c.rig.conditions["torque_Nm"].astype(float)[:, None] / c.rig.extras["base_radius"]
     share = c.force / whole

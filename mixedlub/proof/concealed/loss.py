@@ -46,7 +46,7 @@ def elastic_hysteresis(c: Contact, strength: float) -> Contact:
 
 
 def windage(c: Contact, strength: float) -> Contact:
-    """Dawson: n^2.9 (0.16 D^3.9 + D^2.9 F^0.75 m^1.15) 1e-20 kW for both wheels (rpm, mm), in an oily mist of 5 x air."""
+    """Dawson: n^2.9 (0.16 D^3.9 + D^2.9 F^0.75 m^1.15) 1e-20 kW, both wheels (rpm, mm), mist of 5 x air."""
     width, module = 1e3 * c.rig.width, 1e3 * c.rig.extras["module"]
     total = np.zeros(len(c.recorded))
     for key, ratio in (("pitch_diameter", 1.0), ("wheel_diameter", c.rig.extras["ratio"])):
@@ -57,13 +57,13 @@ def windage(c: Contact, strength: float) -> Contact:
 
 
 def churning(c: Contact, strength: float, speed_power: float, viscosity_power: float) -> Contact:
-    """Dip loss as a power law, P = 12 W s (n/1500 rpm)^a (nu/15 mm2/s)^q: the shape that dip tests are fitted with."""
+    """Dip loss as dip tests are fitted: P = 12 W strength (n/1500 rpm)^a (nu/15 mm2/s)^q."""
     power = (_rpm(c) / 1500) ** speed_power * (_viscosity_mm2_s(c) / 15) ** viscosity_power
     return _added(c, 12 * strength * power)
 
 
 def bearing_drag(c: Contact, strength: float, sliding_share: float) -> Contact:
-    """SKF-like ball bearings: rolling phi_ish phi_rs G F^0.54 (nu n)^0.6 plus sliding F^(5/3) mu_sl, moment times speed.
+    """SKF-like ball bearings: rolling phi_ish phi_rs F^0.54 (nu n)^0.6 plus sliding F^(5/3) mu_sl.
 
     Bearing force is the tooth force; mean diameter 50 mm; ``sliding_share`` is the sliding moment at 150 Nm,
     in parts of the rolling one at 1500 rpm and 15 mm2/s.
@@ -74,12 +74,14 @@ def bearing_drag(c: Contact, strength: float, sliding_share: float) -> Contact:
     load = c.rig.conditions["torque_Nm"].astype(float) / 150
     boundary = np.exp(-2.6e-8 * (n * nu) ** 1.4 * size)
     sliding = (0.12 * boundary + 0.05 * (1 - boundary)) / 0.05
-    moment = shear * starved * load**0.54 * (n * nu / 22500) ** 0.6 + sliding_share * sliding * load ** (5 / 3)
+    moment = shear * starved * load**0.54 * (n * nu / 22500) ** 0.6 + sliding_share * sliding * load ** (
+        5 / 3
+    )
     return _added(c, strength * 0.08 * moment * n * np.pi / 30)
 
 
 def seal_drag(c: Contact, strength: float) -> Contact:
-    """Lip seals that soften in heat (Linke): (145 - 1.6 T + 350 loglog(nu40 + 0.8)) d^2 n 1e-7 W, one 35 mm lip."""
+    """Lip seals soften in heat (Linke): (145 - 1.6 T + 350 loglog(nu40 + 0.8)) d^2 n 1e-7 W, d 35 mm."""
     nu40 = 1e6 * c.rig.oil.kinematic_at(np.array(40.0))
     warm = np.maximum(145 - 1.6 * c.temperature[:, 0] + 350 * np.log10(np.log10(nu40 + 0.8)), 5.0)
     return _added(c, strength * warm * 35.0**2 * _rpm(c) * 1e-7)

@@ -11,7 +11,7 @@ from mixedlub.proof.rig import Contact, sheared, thick
 
 
 def pressure_viscosity_law(c: Contact, strength: float, stiffening: float) -> Contact:
-    """In the contact ln(eta/eta0) is alpha p/(1 + stiffening p) instead of Roelands: share ``strength`` of the change."""
+    """In the contact ln(eta/eta0) = alpha p/(1 + stiffening p), not Roelands, ``strength`` of the way."""
     modulus_form = c.pressure_viscosity * c.pressure / (1 + stiffening * c.pressure / 1e9)
     roelands = np.log(thick(c) / c.viscosity)
     mixed = np.minimum((1 - strength) * roelands + strength * modulus_form, 60.0)

@@ -13,7 +13,7 @@ SWEEPS = 9
 
 
 def flash(c: Contact, friction: np.ndarray | float) -> np.ndarray:
-    """Contact-average flash rise (K) of a semi-elliptic source: 0.542 mu w v_s/[B (sqrt u1 + sqrt u2) sqrt b]."""
+    """Average flash rise (K), semi-elliptic source: 0.542 mu w v_s/[B (sqrt u1 + sqrt u2) sqrt b]."""
     solid = c.rig.solid
     effusivity = np.sqrt(solid.conductivity * solid.density * solid.specific_heat)
     spread = np.sqrt(np.abs(c.rig.speed_1)) + np.sqrt(np.abs(c.rig.speed_2))
@@ -50,7 +50,7 @@ def film_heating(c: Contact, strength: float) -> Contact:
 
 
 def limiting_shear_stress(c: Contact, strength: float) -> Contact:
-    """Bair-Winer ceiling: tau_L [1 - exp(-tau/tau_L)], tau_L = 0.045/strength times the mean Hertz pressure."""
+    """Bair-Winer ceiling: tau_L [1 - exp(-tau/tau_L)], tau_L = 0.045/strength of the mean Hertz pressure."""
     if strength <= 0:
         return c
     ceiling = 0.045 / strength * 0.25 * np.pi * c.pressure
@@ -58,7 +58,7 @@ def limiting_shear_stress(c: Contact, strength: float) -> Contact:
 
 
 def coating_insulation(c: Contact, strength: float) -> Contact:
-    """A poorly conducting layer keeps its half of the heat: rise (q/2)(t/k) a coated flank, lagging short contacts."""
+    """A layer holds back its half of the heat: rise (q/2)(t/k) a coated flank, lagging in short contacts."""
     resistance = c.rig.coating_resistance
     layer_heat = 3e6
     coated = np.zeros_like(c.temperature) if c.rig.coated is None else c.rig.coated
