@@ -23,16 +23,18 @@ def _blank(width: float, height: float) -> Figure:
 
 def score_table(scores: Sequence[Score]) -> Figure:
     """Every figure by tool, one column a tool, green where the goal is met and red where not."""
+    from matplotlib.transforms import Bbox
+
     rows = scores[0].rows
     figure = _blank(5.2 + 1.5 * len(scores), 0.7 + 0.27 * len(rows))
     axes = figure.add_subplot()
     axes.set_axis_off()
     columns = ["figure", *(one.tool for one in scores), "goal"]
     cells = [
-        [row.text.replace("  ", "   "), *(f"{one[row.key].value:.3g}" for one in scores), _goal(row)]
+        [row.text.replace("  ", "   "), *(_shown(one[row.key].value) for one in scores), _goal(row)]
         for row in rows
     ]
-    table = axes.table(cells, colLabels=columns, loc="center", cellLoc="center", edges="horizontal")
+    table = axes.table(cells, colLabels=columns, bbox=Bbox.unit(), cellLoc="center", edges="horizontal")
     table.auto_set_font_size(False)
     table.set_fontsize(8.5)
     table.auto_set_column_width(list(range(len(columns))))
@@ -49,6 +51,10 @@ def score_table(scores: Sequence[Score]) -> Figure:
         f"Blind battery: goals met in green, missed in red ({_cases(scores[0])} cases)", fontsize=10
     )
     return figure
+
+
+def _shown(value: float) -> str:
+    return f"{value:.3g}" if np.isfinite(value) else "-"
 
 
 def _line(place: int) -> dict[str, Any]:

@@ -92,15 +92,24 @@ def crossed(truth: Truth, answer: Answer) -> bool:
     return bool(named & MEASUREMENT)
 
 
+def spoiled(truth: Truth) -> int:
+    """How many readings were spoiled."""
+    return len(truth.outliers)
+
+
+def clean(truth: Truth) -> int:
+    """How many of the readings handed over are good."""
+    return int((~truth.withheld).sum()) - len(truth.outliers)
+
+
 def outliers_found(truth: Truth, answer: Answer) -> float:
     """Share of the spoiled readings that were flagged."""
-    return len(truth.outliers & answer.outliers) / len(truth.outliers)
+    return len(truth.outliers & answer.outliers) / spoiled(truth)
 
 
 def outliers_false(truth: Truth, answer: Answer) -> float:
     """Share of the good readings that were flagged."""
-    clean = set(truth.run[~truth.withheld].tolist()) - truth.outliers
-    return len(answer.outliers & clean) / len(clean)
+    return len(answer.outliers - truth.outliers) / clean(truth)
 
 
 def held_ratio(truth: Truth, answer: Answer) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -15,6 +15,7 @@ from mixedlub.proof.concealed import NAMED
 from mixedlub.proof.measures import (
     SETTLED,
     calibration_covers,
+    clean,
     coverage,
     crossed,
     held_ratio,
@@ -23,6 +24,7 @@ from mixedlub.proof.measures import (
     outliers_false,
     outliers_found,
     right,
+    spoiled,
     tied,
 )
 from profiles.errors import InputError
@@ -30,6 +32,17 @@ from profiles.errors import InputError
 BINS = (0.0, 0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.98, 1.0)
 VISIBILITIES = (0.0, 5.0, 8.0, 11.0, 15.0, 20.0, 25.0, np.inf)
 Pair = tuple[Truth, Answer]
+
+
+INF = float("inf")
+
+
+def at_least(value: float) -> tuple[float, float]:
+    return (value, INF)
+
+
+def at_most(value: float) -> tuple[float, float]:
+    return (-INF, value)
 
 
 @dataclass(frozen=True)
@@ -64,6 +77,12 @@ class Score:
 
     def __getitem__(self, key: str) -> Row:
         return next(row for row in self.rows if row.key == key)
+
+    def above(self, rivals: Sequence[Score]) -> Score:
+        """The same score with the best log score among its rivals as the goal of its own."""
+        best = max(rival["log_score"].value for rival in rivals)
+        rows = [replace(row, goal=at_least(best)) if row.key == "log_score" else row for row in self.rows]
+        return replace(self, rows=tuple(rows))
 
     def text(self) -> str:
         """The table as plain text, one figure a line."""
@@ -108,17 +127,6 @@ def _ratio(hits: Sequence[float]) -> float:
     return float(np.mean(hits)) if len(hits) else float("nan")
 
 
-INF = float("inf")
-
-
-def at_least(value: float) -> tuple[float, float]:
-    return (value, INF)
-
-
-def at_most(value: float) -> tuple[float, float]:
-    return (-INF, value)
-
-
 @dataclass(frozen=True)
 class Figure:
     """How one row is made: which cases count, what is measured of each, how they are put together."""
@@ -129,6 +137,7 @@ class Figure:
     measure: Callable[[Truth, Answer], float]
     goal: tuple[float, float] | None = None
     how: str = "mean"
+    weight: Callable[[Truth], int] | None = None
 
 
 def _any(truth: Truth, answer: Answer) -> bool:
@@ -186,8 +195,17 @@ FIGURES: tuple[Figure, ...] = (
     Figure("power", "mismatch detected where one effect is hidden", _in(*ONE), _detected),
     Figure("unknown", "unknown where so and identifiable", _clear("unknown"), _named_unknown, at_least(0.90)),
     Figure("unknown_distinct", "  of these, not made to mimic", _distinct, _named_unknown),
-    Figure("outliers_found", "outlier readings found", _spoiled, outliers_found, at_least(0.95)),
-    Figure("outliers_false", "good readings flagged as outliers", _any, outliers_false, at_most(0.005)),
+    Figure(
+        "outliers_found", "outlier readings found", _spoiled, outliers_found, at_least(0.95), weight=spoiled
+    ),
+    Figure(
+        "outliers_false",
+        "good readings flagged as outliers",
+        _any,
+        outliers_false,
+        at_most(0.005),
+        weight=clean,
+    ),
     Figure("crossed", "fault called physics or physics fault", _clear(*ONE), crossed, at_most(0.02)),
     Figure(
         "held_out",
@@ -208,20 +226,25 @@ FIGURES: tuple[Figure, ...] = (
 )
 
 
-def _reduce(values: np.ndarray, how: str) -> float:
+def _once(truth: Truth) -> int:
+    return 1
+
+
+def _reduce(values: np.ndarray, weights: np.ndarray, how: str) -> float:
     if not len(values):
         return float("nan")
     if how == "median":
         return float(np.median(values))
-    return float(np.max(values) if how == "max" else np.mean(values))
+    return float(np.max(values) if how == "max" else np.average(values, weights=weights))
 
 
-def _interval(values: np.ndarray, how: str) -> tuple[float, float]:
+def _interval(values: np.ndarray, weights: np.ndarray, how: str) -> tuple[float, float]:
     """90 % bootstrap interval over cases, from a fixed seed."""
     if len(values) < 2 or how == "max":
         return float("nan"), float("nan")
     rng = np.random.default_rng(len(values))
-    drawn = [_reduce(values[rng.integers(0, len(values), len(values))], how) for _ in range(400)]
+    picks = rng.integers(0, len(values), (400, len(values)))
+    drawn = [_reduce(values[pick], weights[pick], how) for pick in picks]
     low, high = np.quantile(drawn, [0.05, 0.95])
     return float(low), float(high)
 
@@ -233,11 +256,12 @@ def score(pairs: Sequence[Pair], tool: str = "mixedlub diagnose") -> Score:
     rows = []
     for figure in FIGURES:
         values = np.array([float(figure.measure(*pair)) for pair in pairs if figure.counts(*pair)])
-        values = values[np.isfinite(values)]
-        span = _interval(values, figure.how)
-        rows.append(
-            Row(figure.key, figure.text, _reduce(values, figure.how), len(values), *span, figure.goal)
-        )
+        weight = figure.weight or _once
+        weights = np.array([float(weight(truth)) for truth, answer in pairs if figure.counts(truth, answer)])
+        known = np.isfinite(values)
+        values, weights = values[known], weights[known]
+        value, span = _reduce(values, weights, figure.how), _interval(values, weights, figure.how)
+        rows.append(Row(figure.key, figure.text, value, int(weights.sum()), *span, figure.goal))
     rows += _probability_rows(pairs)
     return Score(tool, tuple(rows), _reliability(pairs), _identification(pairs), _confusion(pairs))
 
@@ -256,9 +280,9 @@ def _probability_rows(pairs: Sequence[Pair]) -> list[Row]:
         error += len(inside) / len(some) * abs(float(gap))
     return [
         Row("log_score", "log score of the probabilities, a case", float(logs.mean()), len(logs),
-            *_interval(logs, "mean"), None),
+            *_interval(logs, np.ones_like(logs), "mean"), None),
         Row("claims", "claims above 0.9 that are right", _ratio(list(bold)), len(bold),
-            *_interval(bold, "mean"), (0.90, INF)),
+            *_interval(bold, np.ones_like(bold), "mean"), (0.90, INF)),
         Row("calibration_error", "expected calibration error, probabilities over 0.02", error, len(some),
             float("nan"), float("nan"), None),
     ]  # fmt: skip

@@ -20,30 +20,35 @@ def _shape_of(skewness: float) -> float:
     return float(np.copysign(delta / np.sqrt(max(1 - delta**2, 1e-9)), skewness))
 
 
+HEIGHTS = np.linspace(-8.0, 8.0, 1601)
+
+
 @lru_cache(maxsize=4096)
-def _skewed_overlap(skewness: float) -> tuple[np.ndarray, np.ndarray]:
-    """F_1(t) of a standardised skew-normal density: twice-cumulated by the trapezoid from the top down."""
+def _overlap_table(skewness: float) -> np.ndarray:
+    """F_1 of a standardised skew-normal density at HEIGHTS: twice cumulated by the trapezoid from the top."""
     from scipy.special import ndtr
 
     shape = _shape_of(skewness)
     delta = shape / np.sqrt(1 + shape**2)
     mean, spread = delta * np.sqrt(2 / np.pi), np.sqrt(1 - 2 * delta**2 / np.pi)
-    height = np.linspace(-8.0, 8.0, 1601)
-    raw = mean + spread * height
+    raw = mean + spread * HEIGHTS
     density = 2 * spread * np.exp(-0.5 * raw**2) / np.sqrt(2 * np.pi) * ndtr(shape * raw)
-    step = height[1] - height[0]
-    above = np.cumsum((0.5 * step * (density[1:] + density[:-1]))[::-1])[::-1]
-    above = np.append(above, 0.0)
-    area = np.append(np.cumsum((0.5 * step * (above[1:] + above[:-1]))[::-1])[::-1], 0.0)
-    return height, area
+    return _from_the_top(_from_the_top(density))
+
+
+def _from_the_top(values: np.ndarray) -> np.ndarray:
+    """Integral from each height up to the highest."""
+    steps = 0.5 * (HEIGHTS[1] - HEIGHTS[0]) * (values[1:] + values[:-1])
+    return np.append(np.cumsum(steps[::-1])[::-1], 0.0)
 
 
 def skewed_heights(c: Contact, strength: float) -> Contact:
     """Plateau-like summits: the Gaussian heights become skew-normal with skewness minus the strength."""
     s = summits(c)
     t = (c.film - s.offset) / s.spread
-    heights, area = _skewed_overlap(-round(float(np.clip(strength, -0.95, 0.95)), 9))
-    share = np.pi * s.density * s.radius * s.spread * np.interp(t, heights, area)
+    skewness = -round(float(np.clip(strength, -0.95, 0.95)), 9)
+    change = np.interp(t, HEIGHTS, _overlap_table(skewness) - _overlap_table(0.0))
+    share = np.pi * s.density * s.radius * s.spread * (overlap(t) + change)
     return replace(c, area=np.clip(share, 0.0, 1.0))
 
 

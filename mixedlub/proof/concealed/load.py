@@ -79,7 +79,7 @@ EFFECTS = (
         tip_relief,
         (strength(0.0, 3.0, (0.4, 1.2)),),
         "parabolic relief, load handed to the neighbour pair",
-        -1,
+        0,
         GEAR,
         0.5,
     ),
