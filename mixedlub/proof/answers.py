@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -59,7 +59,6 @@ class Answer:
     low: np.ndarray
     high: np.ndarray
     seconds: float = float("nan")
-    notes: dict[str, Any] = field(default_factory=dict)
 
 
 def _names(label: Any) -> frozenset[str]:

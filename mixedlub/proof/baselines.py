@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
@@ -128,27 +128,29 @@ def _features(fitted: Fitted) -> np.ndarray:
     return (matrix - matrix.mean(axis=0)) / np.maximum(matrix.std(axis=0), 1e-9)
 
 
-def _answer(
+def write_answer(
     fitted: Fitted,
     out: Path,
     probabilities: dict[str, float],
+    explanations: Sequence[Sequence[str]],
     predicted: np.ndarray,
-    extra_sd: np.ndarray,
-    verdict: list[str],
+    extra_sd: np.ndarray | float = 0.0,
+    base: np.ndarray | None = None,
 ) -> None:
-    """Writes the two files of an answer."""
+    """The two files of an answer: verdict first, mismatch against ``base`` or the calibrated model."""
     import pandas as pd
 
     out.mkdir(parents=True, exist_ok=True)
     everything = dict.fromkeys((*NAMED, "none", "unknown"), FLOOR) | probabilities
-    mismatch = (predicted - fitted.value) / fitted.sd
+    mismatch = (predicted - (fitted.value if base is None else base)) / fitted.sd
+    verdict = list(explanations[0])
     spread = np.sqrt(fitted.sd**2 + fitted.calibration_sd**2 + extra_sd**2)
     told = {
         "schema": "mixedlub-diagnosis/1",
         "case": fitted.name,
         "mismatch": {"detected": verdict != ["none"], "chi2_before": fitted.squares, "rows": fitted.seen},
         "verdict": verdict,
-        "tied": [verdict],
+        "tied": [list(names) for names in explanations],
         "probabilities": {name: float(np.clip(p, FLOOR, 1 - FLOOR)) for name, p in everything.items()},
         "location": {
             "rows": {str(run): float(z) for run, z in zip(fitted.run[: fitted.seen], mismatch)},
@@ -178,7 +180,8 @@ def _nameless(fitted: Fitted, out: Path, nats: float, predicted: np.ndarray, ext
     ids = [name for name, effect in NAMED.items() if effect.occurs_on(fitted.rig)]
     shared = dict.fromkeys(ids, 0.9 * something / len(ids))
     shared |= {"unknown": 0.2 * something, "none": 1 - something}
-    _answer(fitted, out, shared, predicted, extra_sd, ["unknown" if something > 0.5 else "none"])
+    verdict = "unknown" if something > 0.5 else "none"
+    write_answer(fitted, out, shared, [[verdict]], predicted, extra_sd)
 
 
 def recalibration_only(folder: Path, out: Path) -> None:
@@ -274,7 +277,7 @@ def sparse_regression(folder: Path, out: Path) -> None:
     found["none"] = float(np.prod(1 - rates))
     predicted = fitted.value + x @ search.coef_ * fitted.sd
     likely = sorted(name for name in names if found[name] > 0.5) or ["none"]
-    _answer(fitted, out, found, predicted, np.zeros_like(predicted), likely)
+    write_answer(fitted, out, found, [likely], predicted)
 
 
 BASELINES: dict[str, Callable[[Path, Path], None]] = {

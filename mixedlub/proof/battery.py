@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub.proof.answers import IDENTIFIABLE
 from mixedlub.proof.build import PRIORS, QUANTITY, chosen, rig_of
 from mixedlub.proof.concealed import MIMICS, NAMED, OUTSIDE, Concealed
 from mixedlub.proof.deal import COARSE, Hand, Order, deal, values_of
@@ -19,7 +20,6 @@ from mixedlub.proof.rig import readings
 from profiles.errors import InputError
 
 SHARES = {"none": 0.16, "single": 0.44, "pair": 0.13, "measurement": 0.11, "unknown": 0.16}
-IDENTIFIABLE = 9.0
 
 
 def _deck(rng: np.random.Generator, pool: Iterable[Concealed], count: int) -> list[tuple[str, str]]:

@@ -12,11 +12,13 @@ from pathlib import Path
 from mixedlub.proof.answers import Truth, read_answer, read_truth
 from mixedlub.proof.baselines import BASELINES
 from mixedlub.proof.battery import generate
+from mixedlub.proof.oracle import oracle
 from mixedlub.proof.score import Score, score
 
 Diagnose = Callable[[Path, Path], object]
 Progress = Callable[[str, int, int], None]
 TOOL = "mixedlub diagnose"
+CEILING = "oracle"
 
 
 def _quiet(stage: str, done: int, total: int) -> None:
@@ -82,8 +84,8 @@ def prove(
 ) -> list[Score]:
     """Deal, diagnose, score and draw into ``out``; a run broken off goes on where it stopped.
 
-    Returns the tool's score first, then one a baseline. Writes ``score.json``, ``score.txt``, one
-    ``score_NAME.json`` a baseline and the figures as SVG.
+    Returns the tool's score first, then one a baseline, last the oracle that knows the hidden laws. Writes
+    ``score.json``, ``score.txt``, one ``score_NAME.json`` a baseline and the figures as SVG.
     """
     sealed = generate(out / "sealed", seed, cases, jobs, lambda done, total: progress("deal", done, total))
     opened = out / "cases"
@@ -92,12 +94,12 @@ def prove(
     truths = [read_truth(case) for case in sealed]
     answer_all(diagnose, given, out / "answers", jobs, "diagnose", progress)
     scores = [scored(truths, out / "answers", TOOL)]
-    for name, method in BASELINES.items() if baselines else ():
+    for name, method in {**BASELINES, CEILING: oracle}.items() if baselines else ():
         place = out / "baselines" / name.replace(" ", "_")
         answer_all(method, given, place, jobs, name, progress)
         scores.append(scored(truths, place, name))
-    if len(scores) > 1:
-        scores[0] = scores[0].above(scores[1:])
+    if baselines:
+        scores[0] = scores[0].above(scores[1:-1])
     write(out, scores)
     return scores
 

@@ -26,8 +26,8 @@ def _truth(folder):
 
 
 def test_same_seed_writes_the_same_bytes(battery, tmp_path):
-    orders = plan(11, 10)
-    for index in (0, 4, 9):
+    orders = plan(11, 8)
+    for index in (0, 5):
         make(11, index, orders[index], tmp_path)
         assert _bytes(tmp_path / orders[index].name) == _bytes(battery[index])
 
@@ -38,13 +38,13 @@ def test_another_seed_deals_other_cases():
 
 def test_a_finished_case_is_left_as_it_is(battery):
     before = [(folder / "truth.json").stat().st_mtime_ns for folder in battery]
-    generate(battery[0].parent, seed=11, cases=10)
+    generate(battery[0].parent, seed=11, cases=8)
     assert [(folder / "truth.json").stat().st_mtime_ns for folder in battery] == before
 
 
 def test_a_folder_holds_one_battery_only(battery):
     with pytest.raises(InputError, match="another seed"):
-        generate(battery[0].parent, seed=12, cases=10)
+        generate(battery[0].parent, seed=12, cases=8)
 
 
 def test_too_few_cases_are_refused():

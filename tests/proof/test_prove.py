@@ -10,6 +10,7 @@ from mixedlub.proof import baselines
 from mixedlub.proof.answers import read_answer, read_truth
 from mixedlub.proof.baselines import BASELINES, recalibrate, recalibration_only
 from mixedlub.proof.measures import held_out
+from mixedlub.proof.oracle import oracle
 from mixedlub.proof.prove import prove, unsealed
 from profiles.errors import InputError
 
@@ -41,6 +42,16 @@ def test_baselines_answer_in_the_form_of_the_diagnosis(battery, tmp_path, name):
     assert (answer.low < answer.high).all()
     predicted, calibrated = held_out(truth, answer)
     assert predicted < 3 * calibrated + 3
+
+
+def test_the_oracle_names_what_is_clearly_hidden(battery, tmp_path):
+    clear = [folder for folder in battery if read_truth(folder).visibility > 12]
+    folder = next(folder for folder in clear if read_truth(folder).group == "single")
+    oracle(unsealed(folder, tmp_path), tmp_path / "answer")
+    answer, truth = read_answer(tmp_path / "answer"), read_truth(folder)
+    assert answer.verdict == truth.label
+    predicted, calibrated = held_out(truth, answer)
+    assert predicted < 0.5 * calibrated
 
 
 def test_recalibration_finds_the_noise_where_nothing_is_missing(battery, tmp_path):

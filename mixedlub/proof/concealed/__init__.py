@@ -1,4 +1,8 @@
-"""The concealed effects by name: those the catalogue should name, and those outside any catalogue."""
+"""The concealed effects by name: those the catalogue should name, and those outside any catalogue.
+
+Sources say where a form comes from. Constants that a docstring does not call published are usual sizes,
+chosen so that a strength of about 1 is what such a rig could show.
+"""
 
 from __future__ import annotations
 
