@@ -74,6 +74,8 @@ load_share              | s          | -       | share of the transmitted force 
 load                    | F          | N       | normal force on the contact
 line_load               | w          | N/m     | normal force per length of contact
 path_weight             | dx/p_bt    | -       | quadrature weight along the path of contact
+mean_weight             | dx/g       | -       | weight of a plain mean over the path of contact
+mean_sliding_speed      | V_s        | m/s     | a quarter of the sum of the sliding speeds at both ends of the path
 # bodies
 reduced_modulus         | E'         | Pa      | 2/[(1-nu1^2)/E1 + (1-nu2^2)/E2]
 solid_conductivity      | k_s        | W/(m K) | thermal conductivity of the bodies

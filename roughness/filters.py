@@ -88,9 +88,6 @@ def gaussian_mean_line(
     return mean_line
 
 
-<<<<<<< HEAD
-def local_regression(heights: np.ndarray, weights: np.ndarray, kernel: np.ndarray, *, order: int) -> np.ndarray:
-=======
 def _first_half(heights: np.ndarray, summed: np.ndarray, kernel: np.ndarray, order: int) -> np.ndarray:
     """Local constant or line at the first half kernel of points, from sums that stop at the end of the trace.
 
@@ -108,7 +105,6 @@ def _first_half(heights: np.ndarray, summed: np.ndarray, kernel: np.ndarray, ord
 def local_regression(
     heights: np.ndarray, weights: np.ndarray, kernel: np.ndarray, *, order: int
 ) -> np.ndarray:
->>>>>>> roughness
     """Value at each point of the polynomial fitted around it under kernel times weights.
 
     Order 0, 1 or 2, as the Gaussian regression filters of ISO 16610-31 (eq. 1). All sums are convolutions,

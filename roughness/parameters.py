@@ -28,8 +28,12 @@ CONVENTIONS = {
     for c in (
         Convention("ISO 4287:1997", True, True, "ISO 4287:1997, 3.1.9 and 4; ISO 4288:1996, 4.4"),
         Convention("ISO 21920-2:2021", False, True, "ISO 21920-2:2021, 4.3 and 4.4"),
-        Convention("NIST", False, False, "NIST surface metrology algorithm testing system: profile as a whole"),
-        Convention("Mitutoyo", True, True, "SurfTest report, ISO 1997 setting: as ISO 4287 with its N sections"),
+        Convention(
+            "NIST", False, False, "NIST surface metrology algorithm testing system: profile as a whole"
+        ),
+        Convention(
+            "Mitutoyo", True, True, "SurfTest report, ISO 1997 setting: as ISO 4287 with its N sections"
+        ),
     )
 }
 

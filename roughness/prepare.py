@@ -115,7 +115,9 @@ def primary_profile(
     )
 
 
-def waviness_profile(profile: Profile, cutoff: float, *, ends: str = "regression", floored: bool = False) -> Profile:
+def waviness_profile(
+    profile: Profile, cutoff: float, *, ends: str = "regression", floored: bool = False
+) -> Profile:
     """What is longer than the cut-off (m): the mean line that the roughness profile leaves behind."""
     return profile.after(
         f"Gaussian low-pass, cut-off {cutoff * 1e3:.6g} mm, ends {ends}",

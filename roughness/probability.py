@@ -83,22 +83,10 @@ def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> Nor
     """
     from scipy.special import ndtr
 
-<<<<<<< HEAD
-    mask = np.asarray(profile.valid)
-    ordered = np.sort(profile.heights[mask])
-    if ordered.size < 50 or ordered[0] == ordered[-1]:
-        raise InputError("a probability plot needs fifty heights that differ", where=f"profile {profile.name!r}")
-    sums = correlation_sums(autocorrelation(profile))
-    independent = ordered.size / sums[1]
-    quantiles = np.linspace(-1.0, 1.0, _LEVELS) * _reach(independent)
-    heights = np.quantile(ordered, ndtr(quantiles), method="median_unbiased")
-    p_value, relative_band = _gaussian_band(quantiles, heights, sums, ordered.size)
-=======
     quantiles, heights, sums = _plotted(profile)
     count = int(np.count_nonzero(np.asarray(profile.valid)))
     independent = count / sums[1]
     p_value, relative_band = _gaussian_band(quantiles, heights, sums, count)
->>>>>>> roughness
     if independent < _FEWEST:
         relative_band = np.zeros_like(relative_band)
     first, last, mean, sigma = _widest_line(quantiles, heights, relative_band, tolerance)
@@ -262,11 +250,6 @@ def _hyperbola(quantiles: np.ndarray, heights: np.ndarray) -> tuple[Plateau, np.
     return found, residual
 
 
-<<<<<<< HEAD
-def _contact_ratio(ordered: np.ndarray) -> tuple[float, float, float]:
-    """Mean overlap with a plane at 1, 2, 3 sigma above the mean, over that of Gaussian heights."""
-    z = (ordered - ordered.mean()) / ordered.std()
-=======
 def _convincing(
     lines: Plateau, residual: np.ndarray, quantiles: np.ndarray, heights: np.ndarray, tolerance: float
 ) -> bool:
@@ -301,14 +284,10 @@ def _plotted(profile: Profile) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def _contact_ratio(heights: np.ndarray) -> tuple[float, float, float]:
     """Mean overlap with a plane at 1, 2, 3 sigma above the mean, over that of Gaussian heights."""
     z = (heights - heights.mean()) / heights.std()
->>>>>>> roughness
     first, second, third = (float(np.maximum(z - h, 0.0).mean() / area_integral(h)) for h in (1.0, 2.0, 3.0))
     return first, second, third
 
 
-<<<<<<< HEAD
-def _words(verdict: str, low: float, high: float, ratio: tuple[float, float, float], plateau: Plateau | None) -> str:
-=======
 def _words(
     verdict: str,
     low: float,
@@ -317,7 +296,6 @@ def _words(
     ratio: tuple[float, float, float],
     plateau: Plateau | None,
 ) -> str:
->>>>>>> roughness
     area = f"real contact at a gap of 2 sigma is {ratio[1]:.2f} times the Gaussian one"
     if verdict == "gaussian":
         return (
