@@ -159,8 +159,10 @@ def effect(
     """Register a law as an effect; its signature must say what the declaration says.
 
     The first arguments are the quantities acted on, then the quantities read, then keyword-only parameters.
-    ``fingerprint`` gives the sign of the change of the reading with growing conditions; ``after`` names
-    effects on the same quantity that come first; ``kinds`` restricts the kinds of recording (empty: all).
+    ``fingerprint`` names conditions (load, speed, slide_roll_ratio, oil_temperature, roughness, sequence) and
+    says whether the effect's share of the reading, (with - without)/without, grows (``"+"``), falls (``"-"``) or
+    stays (``"0"``) as the condition grows; falling includes growing more negative. ``after`` names effects on
+    the same quantity that come first; ``kinds`` restricts the kinds of recording (empty: all).
     """
     targets = (acts_on,) if isinstance(acts_on, str) else acts_on
 
