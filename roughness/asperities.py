@@ -83,9 +83,7 @@ def greenwood_tripp(moments: Moments) -> Asperities:
     >>> greenwood_tripp(Moments(0.16e-12, 0.01, 0.004e12)).plane_offset
     0.0
     """
-    return replace(
-        mccool(moments), sigma=float(np.sqrt(moments.m0)), plane_offset=0.0, model="Greenwood-Tripp"
-    )
+    return replace(mccool(moments), sigma=float(np.sqrt(moments.m0)), plane_offset=0.0, model="Greenwood-Tripp")
 
 
 def bi_gaussian(profile: Profile) -> Asperities:

@@ -65,9 +65,7 @@ def probability_figure(*profiles: Profile, results: Sequence[NormalProbability] 
         q = ndtri((np.arange(ordered.size) + 0.625) / (ordered.size + 0.25))
         keep = np.unique(np.searchsorted(q, np.linspace(q[0], q[-1], 700)).clip(0, q.size - 1))
         line = r.mean + r.sigma * r.quantiles
-        axes.fill_betweenx(
-            r.quantiles, (line - r.band) * 1e6, (line + r.band) * 1e6, color="0.85", linewidth=0
-        )
+        axes.fill_betweenx(r.quantiles, (line - r.band) * 1e6, (line + r.band) * 1e6, color="0.85", linewidth=0)
         reach = np.array([q[0], q[-1]])
         axes.plot((r.mean + r.sigma * reach) * 1e6, reach, color=_MARK, linewidth=1.0)
         axes.plot(ordered[keep] * 1e6, q[keep], ".", color=_LINE, markersize=2.5)

@@ -78,10 +78,7 @@ def trace_record(
     if limit is not None and present is None:
         factors = [f for f in (0.5, 1.0, 2.0) if 2.0 * trace.spacing <= f * limit < profile.length / 2]
         kept = profile.cutoffs.get("cutoff") if "cutoff" not in trace.cutoffs else "auto"
-        band = [
-            moments(evaluation_profile(trace, form=form, cutoff=kept, short_cutoff=f * limit))
-            for f in factors
-        ]
+        band = [moments(evaluation_profile(trace, form=form, cutoff=kept, short_cutoff=f * limit)) for f in factors]
     return profile, profile_record(profile, convention=convention, sections=sections, raw=trace, band=band)
 
 
@@ -171,9 +168,7 @@ def _asperities(found: Asperities) -> dict[str, object]:
     }
 
 
-def _trust(
-    profile: Profile, found: Moments, sections: int | None, band: Sequence[Moments]
-) -> dict[str, object]:
+def _trust(profile: Profile, found: Moments, sections: int | None, band: Sequence[Moments]) -> dict[str, object]:
     """What other short cut-offs, and other sampling lengths, would have made of the asperities."""
     doubled = 2.0 * (found.short_cutoff or 2.0 * profile.spacing)
     if not band and doubled < profile.length / 2:
