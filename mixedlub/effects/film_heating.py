@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import LogNormal, Parameter, effect
+from mixedlub.effect import Between, LogNormal, Parameter, effect
 from mixedlub.laws import heating
 
 
@@ -12,6 +12,7 @@ from mixedlub.laws import heating
     parameters=(
         Parameter("strength", "-", LogNormal(1.0, 0.6), "factor on the rise of temperature", null=0.0),
         Parameter("flash", "-", LogNormal(1.0, 0.7), "weight of the surfaces' flash temperature"),
+        Parameter("pressure", "-", Between(0.0, 1.0), "from the softening at ambient pressure, 0, to Roelands', 1"),
     ),
     equation=r"\tau = \tau_0 \operatorname{asinh}\frac{\eta_p v_s e^{-\beta_p\Delta T}}{h\tau_0},\quad \Delta T "
     r"= c\left[\frac{\tau v_s h}{12 k_f} + d\,\frac{1.084\,\bar q\sqrt{b_H}}{\sqrt{k\rho "
@@ -43,21 +44,25 @@ def film_heating(
     *,
     strength,
     flash,
+    pressure,
 ):
     """Sliding heats the surfaces and the film between them, and the warmer film shears more easily.
 
     The stress sets the heat and the heat the stress; both are met at once. Heat of the asperities warms the
-    surfaces too; temperatures are means over the contact. Roelands' slope makes the form belong to Pa s.
+    surfaces too; temperatures are means over the contact. The literature takes beta at ambient pressure (Nahme,
+    Crook) or under that of the contact. Roelands' slope makes the form belong to Pa s.
 
     >>> steel = dict(solid_conductivity=46.0, solid_density=7800.0, solid_heat_capacity=470.0)
     >>> oil = dict(viscosity=0.01489, contact_viscosity=70.2, temperature_viscosity=0.026, oil_conductivity=0.14)
     >>> motion = dict(sliding_speed=0.7518, entrainment_speed=2.2417, film_thickness=0.231e-6)
     >>> load = dict(hertz_half_width=0.148e-3, hertz_pressure=0.9437e9, boundary_friction=0.1, area_ratio=0.163)
-    >>> tau = film_heating(22.58e6, 5e6, **steel, **oil, **motion, **load, strength=1.0, flash=1.0)
+    >>> full = dict(strength=1.0, flash=1.0, pressure=1.0)
+    >>> tau = film_heating(22.58e6, 5e6, **steel, **oil, **motion, **load, **full)
     >>> round(float(tau) / 1e6, 1)   # isothermal 22.6 MPa
     19.8
     """
-    softening = strength * heating.contact_softening(temperature_viscosity, viscosity, contact_viscosity)
+    steeper = heating.contact_softening(temperature_viscosity, viscosity, contact_viscosity) / temperature_viscosity
+    softening = strength * temperature_viscosity * steeper**pressure
     bodies = flash * heating.flash_temperature(
         0.25 * np.pi * sliding_speed,
         hertz_half_width,
