@@ -185,7 +185,7 @@ class TestIntegrals:
         contact = {"hertz_half_width": 1.5e-4, "hertz_pressure": 1e9, "boundary_friction": 0.1, "area_ratio": 0.0}
         found = film_heating(
             tau, eyring, slip, film, oil_conductivity=conductivity, entrainment_speed=5.0, **steel, **oil, **contact,
-            strength=1.0, flash=1e-12, pressure=1.0,
+            strength=0.5, flash=0.0, pressure=1.0,
         )  # fmt: skip
         softening = heating.contact_softening(
             **{k: oil[k] for k in ("temperature_viscosity", "viscosity", "contact_viscosity")}
