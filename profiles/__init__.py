@@ -2,5 +2,6 @@
 
 from profiles.errors import InputError
 from profiles.profile import Profile
+from profiles.read import read
 
-__all__ = ["InputError", "Profile"]
+__all__ = ["InputError", "Profile", "read"]

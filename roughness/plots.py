@@ -48,9 +48,7 @@ def trace_figure(*profiles: Profile, excerpt: float | None = None) -> Figure:
     return figure
 
 
-def probability_figure(
-    *profiles: Profile, results: Sequence[NormalProbability] | None = None
-) -> Figure:
+def probability_figure(*profiles: Profile, results: Sequence[NormalProbability] | None = None) -> Figure:
     """Normal probability plot of each profile: Gaussian heights lie on the straight line.
 
     The band holds 99 of 100 Gaussian profiles with the same autocorrelation; ticks on the line mark
