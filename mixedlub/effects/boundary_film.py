@@ -14,7 +14,7 @@ from mixedlub.effect import LogNormal, Parameter, effect
     "the root of squares so that it fades at speed",
     fingerprint={"speed": "-"},
     separated_by="a zero check at rest before and after: a drifted zero shifts all films, a layer only the thinnest",
-    after=("inlet_shear_heating", "inlet_shear_thinning", "starvation"),
+    after=("inlet_shear_heating", "inlet_shear_thinning", "starvation", "roughness_lay"),
     kinds=("film",),
 )
 def boundary_film(film_thickness, *, thickness):
