@@ -6,6 +6,7 @@ from mixedlub.effect import LogNormal, Normal, Parameter, effect
 
 WARM = 313.15
 KELVIN = 100.0
+STEEPEST = 200.0
 
 
 @effect(
@@ -39,6 +40,8 @@ def pressure_viscosity_law(
 ):
     """The logarithm of viscosity rises more slowly with pressure at first and faster again near the glass.
 
+    Exponents are kept below 200, far beyond any liquid, so that wild parameters stay finite.
+
     >>> x = pressure_viscosity_law(np.exp(10.0), 1.0, 0.5e9, 313.15, bend_down=2e-9, bend_up=0.0,
     ...     down_with_temperature=0.0, up_with_temperature=0.0)
     >>> round(float(np.log(x)), 3)   # 10 (1 - exp(-1))/1
@@ -48,6 +51,6 @@ def pressure_viscosity_law(
     down = bend_down * np.exp(down_with_temperature * warmer) * hertz_pressure
     up = bend_up * np.exp(up_with_temperature * warmer) * hertz_pressure
     log = np.log(contact_viscosity / viscosity)
-    half = 0.5 * (down + up)
+    half = np.minimum(0.5 * (down + up), STEEPEST)
     shape = np.where(half > 1e-8, np.sinh(half) / np.maximum(half, 1e-8), 1.0) * np.exp(0.5 * (up - down))
-    return contact_viscosity * np.exp(log * (shape - 1.0))
+    return contact_viscosity * np.exp(np.clip(log * (shape - 1.0), -STEEPEST, STEEPEST))

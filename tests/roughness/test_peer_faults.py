@@ -37,9 +37,7 @@ def test_summit_density_is_one_over_area():
 def test_frequency_is_angular():
     """tamaas 2.9 returns m2 = 8 for cos(2 pi 4 x/L): wave number 4 squared, halved."""
     x = np.arange(4096) / 4096
-    assert moments(Profile(np.cos(2 * np.pi * 4 * x), 1 / 4096)).m2 == pytest.approx(
-        8 * (2 * np.pi) ** 2, rel=2e-3
-    )
+    assert moments(Profile(np.cos(2 * np.pi * 4 * x), 1 / 4096)).m2 == pytest.approx(8 * (2 * np.pi) ** 2, rel=2e-3)
 
 
 def test_all_parameters_share_their_sampling_lengths():

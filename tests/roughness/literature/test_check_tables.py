@@ -87,9 +87,7 @@ def test_sine_amplitude_after_twice_its_wavelength(nist):
     assert p.Ra * 1e6 == pytest.approx(0.5968, abs=1e-4)
 
 
-@pytest.mark.parametrize(
-    ("ra_um", "cutoff_mm"), [(0.036, 0.25), (0.122, 0.8), (0.219, 0.8), (0.450, 0.8), (3.3, 2.5)]
-)
+@pytest.mark.parametrize(("ra_um", "cutoff_mm"), [(0.036, 0.25), (0.122, 0.8), (0.219, 0.8), (0.450, 0.8), (3.3, 2.5)])
 def test_cutoffs_of_the_gear_flanks(ra_um, cutoff_mm):
     """ISO 4288 for the flanks of Hong, Aneshansley and Talbot (Ra 0.036 to 0.450 um)."""
     assert cutoff_for("Ra", ra_um * 1e-6) == cutoff_mm * 1e-3
