@@ -1,6 +1,6 @@
 """What is computed from a profile: filters, ISO parameters, moments, asperities, diagnostics."""
 
-from roughness.asperities import Asperities, asperities, mccool
+from roughness.asperities import Asperities, asperities, mccool_asperities
 from roughness.cutoffs import choose_cutoffs, cutoff_for, short_cutoff_for
 from roughness.defects import mask_edges, mask_outliers, without_edges
 from roughness.elements import element_parameters
@@ -39,7 +39,7 @@ __all__ = [
     "mask_outliers",
     "material_ratio",
     "material_ratio_curve",
-    "mccool",
+    "mccool_asperities",
     "moments",
     "normal_probability",
     "power_density",

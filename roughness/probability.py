@@ -273,9 +273,7 @@ def _plotted(profile: Profile) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
     ordered = profile.heights[np.asarray(profile.valid)]
     if ordered.size < 50 or np.ptp(ordered) == 0:
-        raise InputError(
-            "a probability plot needs fifty heights that differ", where=f"profile {profile.name!r}"
-        )
+        raise InputError("a probability plot needs fifty heights that differ", where=f"profile {profile.name!r}")
     sums = correlation_sums(autocorrelation(profile))
     quantiles = np.linspace(-1.0, 1.0, _LEVELS) * _reach(ordered.size / sums[1])
     return quantiles, np.quantile(ordered, ndtr(quantiles), method="median_unbiased"), sums

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, replace
 
 from profiles import InputError, Profile
-from roughness.asperities import Asperities, mccool
+from roughness.asperities import Asperities, mccool_asperities
 from roughness.cutoffs import choose_cutoffs, short_cutoff_for
 from roughness.defects import mask_edges, without_edges
 from roughness.elements import element_parameters
@@ -78,10 +78,7 @@ def trace_record(
     if limit is not None and present is None:
         factors = [f for f in (0.5, 1.0, 2.0) if 2.0 * trace.spacing <= f * limit < profile.length / 2]
         kept = profile.cutoffs.get("cutoff") if "cutoff" not in trace.cutoffs else "auto"
-        band = [
-            moments(evaluation_profile(trace, form=form, cutoff=kept, short_cutoff=f * limit))
-            for f in factors
-        ]
+        band = [moments(evaluation_profile(trace, form=form, cutoff=kept, short_cutoff=f * limit)) for f in factors]
     return profile, profile_record(profile, convention=convention, sections=sections, raw=trace, band=band)
 
 
@@ -118,7 +115,7 @@ def profile_record(
         "steps": list(profile.steps),
         "parameters": parameters,
         "moments": _moments(found),
-        "asperities": {**_asperities(mccool(found)), **_trust(profile, found, sections, band)},
+        "asperities": {**_asperities(mccool_asperities(found)), **_trust(profile, found, sections, band)},
         "gaussian": _gaussian(gaussian),
         "warnings": warnings,
     }
@@ -171,15 +168,13 @@ def _asperities(found: Asperities) -> dict[str, object]:
     }
 
 
-def _trust(
-    profile: Profile, found: Moments, sections: int | None, band: Sequence[Moments]
-) -> dict[str, object]:
+def _trust(profile: Profile, found: Moments, sections: int | None, band: Sequence[Moments]) -> dict[str, object]:
     """What other short cut-offs, and other sampling lengths, would have made of the asperities."""
     doubled = 2.0 * (found.short_cutoff or 2.0 * profile.spacing)
     if not band and doubled < profile.length / 2:
         band = [found, smoothed_moments(profile, doubled)]
     result: dict[str, object] = {
-        "short_cutoff_band": [{**_moments(m), **_asperities(mccool(m))} for m in band],
+        "short_cutoff_band": [{**_moments(m), **_asperities(mccool_asperities(m))} for m in band],
     }
     try:
         interval = bootstrap(profile, sections=sections)

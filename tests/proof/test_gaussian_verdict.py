@@ -20,9 +20,7 @@ def heights(rng, points, roll, short=5e-6):
 
 def verdicts(make, runs, seed=0):
     rng = np.random.default_rng(seed)
-    found = [
-        normal_probability(roughness_profile(Profile(make(rng), SPACING), cutoff=0.8e-3)) for _ in range(runs)
-    ]
+    found = [normal_probability(roughness_profile(Profile(make(rng), SPACING), cutoff=0.8e-3)) for _ in range(runs)]
     return Counter(f.verdict for f in found), np.array([f.p_value for f in found])
 
 

@@ -75,9 +75,7 @@ def gaussian_trace() -> Callable[..., Profile]:
 def plateau_trace(gaussian_trace: Callable[..., Profile]) -> Callable[..., Profile]:
     """A fine plateau of sigma 0.1 um into which valleys of another sigma cut: the lower of two surfaces."""
 
-    def make(
-        valley_sigma: float = 0.5e-6, lift: float = 0.4e-6, seed: int = 0, points: int = 9600
-    ) -> Profile:
+    def make(valley_sigma: float = 0.5e-6, lift: float = 0.4e-6, seed: int = 0, points: int = 9600) -> Profile:
         fine = gaussian_trace(points, roll=30e-6, seed=2 * seed).heights / 3
         deep = gaussian_trace(points, roll=60e-6, seed=2 * seed + 1).heights * (valley_sigma / 0.3e-6)
         return Profile(np.minimum(fine, deep + lift), 0.5e-6, name="plateau")

@@ -38,9 +38,7 @@ def test_unresolved_trace(good):
 
 
 def test_too_few_points_a_short_cutoff(good):
-    assert said(
-        warnings(replace(good, cutoffs={"cutoff": 0.8e-3, "short_cutoff": 2.5e-6})), "5.0 points a short"
-    )
+    assert said(warnings(replace(good, cutoffs={"cutoff": 0.8e-3, "short_cutoff": 2.5e-6})), "5.0 points a short")
 
 
 def test_no_short_cutoff(good):
@@ -52,17 +50,13 @@ def test_no_cutoff(good):
 
 
 def test_too_few_sampling_lengths(good):
-    assert said(
-        warnings(replace(good, cutoffs={"cutoff": 2.5e-3, "short_cutoff": 8e-6})), "3 sampling lengths"
-    )
+    assert said(warnings(replace(good, cutoffs={"cutoff": 2.5e-3, "short_cutoff": 8e-6})), "3 sampling lengths")
 
 
 def test_quantum(gaussian_trace):
     p = gaussian_trace(16_000, short=12e-6)
     coarse = Profile(np.round(p.heights / 5e-8) * 5e-8, p.spacing)
-    assert said(
-        trace_record(coarse, short_cutoff=None)[1]["warnings"], "the height step of 50 nm accounts for"
-    )
+    assert said(trace_record(coarse, short_cutoff=None)[1]["warnings"], "the height step of 50 nm accounts for")
 
 
 def test_tip(good):

@@ -95,9 +95,7 @@ def test_rules_over_the_lay(rule, m2):
 
 def test_isotropic_surface_is_the_same_under_every_rule():
     m = Moments(1e-14, 1e-3, 1e9)
-    assert {across_and_along(m, m, rule=r).m4 for r in ("geometric", "harmonic", "arithmetic", "across")} == {
-        1e9
-    }
+    assert {across_and_along(m, m, rule=r).m4 for r in ("geometric", "harmonic", "arithmetic", "across")} == {1e9}
 
 
 @pytest.mark.parametrize(

@@ -30,9 +30,7 @@ def test_sine(name, value):
 
 
 def test_slope_of_a_sine():
-    assert height_parameters(WAVE, convention="NIST").Rdq == pytest.approx(
-        2 * np.pi / 400e-6 * 0.5**0.5, rel=1e-3
-    )
+    assert height_parameters(WAVE, convention="NIST").Rdq == pytest.approx(2 * np.pi / 400e-6 * 0.5**0.5, rel=1e-3)
 
 
 def test_seven_point_slope_is_exact_for_sixth_degree():

@@ -13,9 +13,7 @@ FIGURES = [trace_figure, probability_figure, abbott_figure, spectrum_figure]
 
 @pytest.fixture
 def two(gaussian_trace, plateau_trace):
-    return [
-        roughness_profile(p, cutoff=0.8e-3, short_cutoff=8e-6) for p in (gaussian_trace(), plateau_trace())
-    ]
+    return [roughness_profile(p, cutoff=0.8e-3, short_cutoff=8e-6) for p in (gaussian_trace(), plateau_trace())]
 
 
 @pytest.mark.parametrize("draw", FIGURES)

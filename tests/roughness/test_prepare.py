@@ -13,9 +13,7 @@ def trace(z, **kw):
     return Profile(z, 1e-6, name="flank", **kw)
 
 
-@pytest.mark.parametrize(
-    ("form", "shape"), [("mean", 1 + 0 * X), ("line", 2 * X - 1), ("polynomial-4", X**4 - X)]
-)
+@pytest.mark.parametrize(("form", "shape"), [("mean", 1 + 0 * X), ("line", 2 * X - 1), ("polynomial-4", X**4 - X)])
 def test_form_is_removed_whole(form, shape):
     assert np.abs(remove_form(trace(shape), form).heights).max() < 1e-12
 
@@ -54,9 +52,7 @@ def test_masked_points_do_not_pull_the_form():
     z = 2 * X
     valid = np.ones(X.size, bool)
     valid[900:950] = False
-    assert (
-        np.abs(remove_form(trace(np.where(valid, z, 9.0), valid=valid), "line").heights[valid]).max() < 1e-12
-    )
+    assert np.abs(remove_form(trace(np.where(valid, z, 9.0), valid=valid), "line").heights[valid]).max() < 1e-12
 
 
 def test_band_records_steps_and_cutoffs():

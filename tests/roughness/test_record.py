@@ -20,12 +20,8 @@ def record(gaussian_trace):
 def test_row_has_the_agreed_names(record):
     assert set(record) == KEYS
     assert {"Ra_um", "Rq_um", "Rz_um", "Rsk", "Rku"} <= set(record["parameters"])
-    assert {"m0_um2", "m2", "m4_per_um2", "spacing_um", "short_cutoff_um", "cutoff_mm"} <= set(
-        record["moments"]
-    )
-    assert {"density_per_mm2", "radius_um", "sigma_um", "plane_offset_um", "nayak"} <= set(
-        record["asperities"]
-    )
+    assert {"m0_um2", "m2", "m4_per_um2", "spacing_um", "short_cutoff_um", "cutoff_mm"} <= set(record["moments"])
+    assert {"density_per_mm2", "radius_um", "sigma_um", "plane_offset_um", "nayak"} <= set(record["asperities"])
     assert {"verdict", "from_percent", "to_percent"} <= set(record["gaussian"])
 
 

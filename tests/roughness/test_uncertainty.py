@@ -15,11 +15,7 @@ def test_bootstrap_covers_the_truth(gaussian_trace):
     long = gaussian_trace(400_000)
     truth = moments(long).m4
     pieces = np.array_split(long.heights, 40)
-    held = [
-        low <= truth <= high
-        for z in pieces
-        for low, high in [bootstrap(Profile(z, 0.5e-6), sections=8)["m4"]]
-    ]
+    held = [low <= truth <= high for z in pieces for low, high in [bootstrap(Profile(z, 0.5e-6), sections=8)["m4"]]]
     assert np.mean(held) >= 0.75
 
 
