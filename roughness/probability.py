@@ -197,6 +197,8 @@ def _widest_line(
 
     below = ndtr(quantiles)
     density = np.exp(-0.5 * quantiles**2)
+    # a stretch of equal heights is a flat, not a Gaussian of sigma nought
+    least = 0.02 * heights.std()
     first, last = np.triu_indices(quantiles.size, k=8)
     for pick in np.lexsort((first - last, -np.round(below[last] - below[first], 3))):
         part = slice(first[pick], last[pick] + 1)
@@ -204,7 +206,7 @@ def _widest_line(
         centre = weight @ q / weight.sum()
         sigma = (weight * (q - centre)) @ z / (weight @ (q - centre) ** 2)
         mean = weight @ z / weight.sum() - sigma * centre
-        if np.all(np.abs(z - mean - sigma * q) <= sigma * np.maximum(tolerance, band[part])):
+        if sigma > least and np.all(np.abs(z - mean - sigma * q) <= sigma * np.maximum(tolerance, band[part])):
             return int(first[pick]), int(last[pick]), float(mean), float(sigma)
     middle = quantiles.size // 2
     mean, sigma = _line_weights(quantiles) @ heights

@@ -18,7 +18,7 @@ from roughness.parameters import HeightParameters, height_parameters
 from roughness.prepare import remove_form, roughness_profile
 from roughness.probability import NormalProbability, normal_probability
 from roughness.spectrum import correlation_length
-from roughness.uncertainty import bootstrap, smoothed_moments
+from roughness.uncertainty import bootstrap, short_cutoff_band, smoothed_moments
 
 _LENGTHS = ("Ra", "Rq", "Rz", "Rt", "Rp", "Rv", "Rz1max")
 
@@ -74,11 +74,14 @@ def trace_record(
     """
     profile = evaluation_profile(trace, form=form, cutoff=cutoff, short_cutoff=short_cutoff)
     present, limit = trace.cutoffs.get("short_cutoff"), profile.cutoffs.get("short_cutoff")
-    band = []
+    band: tuple[Moments, ...] = ()
     if limit is not None and present is None:
-        factors = [f for f in (0.5, 1.0, 2.0) if 2.0 * trace.spacing <= f * limit < profile.length / 2]
         kept = profile.cutoffs.get("cutoff") if "cutoff" not in trace.cutoffs else "auto"
-        band = [moments(evaluation_profile(trace, form=form, cutoff=kept, short_cutoff=f * limit)) for f in factors]
+
+        def prepare(before: Profile, short: float) -> Profile:
+            return evaluation_profile(before, form=form, cutoff=kept, short_cutoff=short)
+
+        band = short_cutoff_band(trace, limit, prepare)
     return profile, profile_record(profile, convention=convention, sections=sections, raw=trace, band=band)
 
 
@@ -172,7 +175,7 @@ def _trust(profile: Profile, found: Moments, sections: int | None, band: Sequenc
     """What other short cut-offs, and other sampling lengths, would have made of the asperities."""
     doubled = 2.0 * (found.short_cutoff or 2.0 * profile.spacing)
     if not band and doubled < profile.length / 2:
-        band = [found, smoothed_moments(profile, doubled)]
+        band = (found, smoothed_moments(profile, doubled))
     result: dict[str, object] = {
         "short_cutoff_band": [{**_moments(m), **_asperities(mccool_asperities(m))} for m in band],
     }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -15,14 +15,18 @@ from roughness.parameters import section_count
 Prepare = Callable[[Profile, float], Profile]
 
 
-def short_cutoff_band(before: Profile, short_cutoff: float, prepare: Prepare) -> tuple[Moments, Moments, Moments]:
+def short_cutoff_band(
+    before: Profile, short_cutoff: float, prepare: Prepare, *, factors: Sequence[float] = (0.5, 1.0, 2.0)
+) -> tuple[Moments, ...]:
     """Moments at half, one and two short cut-offs (m); ``prepare(before, short_cutoff)`` filters the trace.
 
     m2, m4, radius and density follow the short cut-off, by factors of thousands over its usual range: this
-    is the band to quote with them.
+    is the band to quote with them. Cut-offs of fewer than two points or more than half the trace are left out.
     """
-    half, one, two = (moments(prepare(before, factor * short_cutoff)) for factor in (0.5, 1.0, 2.0))
-    return half, one, two
+    limits = [factor * short_cutoff for factor in factors]
+    return tuple(
+        moments(prepare(before, limit)) for limit in limits if 2.0 * before.spacing <= limit < before.length / 2
+    )
 
 
 def smoothed_moments(profile: Profile, short_cutoff: float) -> Moments:
