@@ -45,8 +45,11 @@ def evaluation_profile(
     limit = trace.cutoffs.get("cutoff") if cutoff == "auto" else _length(cutoff, "cut-off")
     if limit is None and cutoff == "auto":
         chosen = choose_cutoffs(profile)
-        limit = chosen.cutoff
-        profile = replace(profile, steps=(*profile.steps, f"cut-off {limit * 1e3:g} mm by {chosen.reason}"))
+        if chosen.cutoff <= profile.length:
+            limit, step = chosen.cutoff, f"cut-off {chosen.cutoff * 1e3:g} mm by {chosen.reason}"
+        else:
+            step = f"no cut-off: the trace of {profile.length * 1e3:.3g} mm is shorter than any"
+        profile = replace(profile, steps=(*profile.steps, step))
     if short_cutoff == "auto":
         short = None if "short_cutoff" in trace.cutoffs or filtered else _short(limit)
         if short is not None and short < 2.0 * trace.spacing:
