@@ -1,13 +1,13 @@
 """Offset of the recorded channel."""
 
-from mixedlub.effect import Normal, Parameter, effect
+from mixedlub.effect import Parameter, Wide, effect
 
 
 @effect(
     stage="measurement",
     acts_on="reading",
     parameters=(
-        Parameter("offset", "-", Normal(0.0, 0.05), "added to every reading, over its typical size", null=0.0),
+        Parameter("offset", "-", Wide(0.05), "added to every reading, over its typical size", null=0.0),
     ),
     equation=r"y \leftarrow y + a\,y_0",
     source="measurement: zero error of a channel",
