@@ -16,7 +16,7 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
     r"\nabla = \frac{\lambda_w}{b_H}\left(\frac{M^{3/4}}{L^{1/2}}\right)^q,\ M = \frac{W}{\sqrt{2U}},\ L = G(2U)^{1/4}",
     source="C. H. Venner, A. A. Lubrecht, J. Tribol. 116 (1994) 751; A. A. Lubrecht, C. H. Venner, Proc. IMechE J 213 "
     "(1999) 397",
-    fingerprint={"speed": "+", "oil_temperature": "-", "roughness": "+", "slide_roll_ratio": "+"},
+    fingerprint={"speed": "+", "oil_temperature": "-", "roughness": "-", "slide_roll_ratio": "+"},
     separated_by="the short-wave filter of the roughness: long waves flatten and short ones do not, most at high load "
     "and low speed, where a plain error of Rq does not change",
     valid={"slide_roll_ratio": (0.0, 2.0)},
