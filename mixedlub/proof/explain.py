@@ -55,9 +55,7 @@ def descend(
     cost, damping = float(r @ r), 1e-3
     for _ in range(rounds):
         signs = np.where(x + STEP > high, -1.0, 1.0)
-        jacobian = np.array(
-            [(residual(x + STEP * s * e) - r) / (STEP * s) for s, e in zip(signs, np.eye(len(x)))]
-        ).T
+        jacobian = np.array([(residual(x + STEP * s * e) - r) / (STEP * s) for s, e in zip(signs, np.eye(len(x)))]).T
         slope = jacobian.T @ r
         free = ~(((x <= low) & (slope > 0)) | ((x >= high) & (slope < 0)))
         normal = jacobian[:, free].T @ jacobian[:, free]

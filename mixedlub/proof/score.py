@@ -195,9 +195,7 @@ FIGURES: tuple[Figure, ...] = (
     Figure("power", "mismatch detected where one effect is hidden", _in(*ONE), _detected),
     Figure("unknown", "unknown where so and identifiable", _clear("unknown"), _named_unknown, at_least(0.90)),
     Figure("unknown_distinct", "  of these, not made to mimic", _distinct, _named_unknown),
-    Figure(
-        "outliers_found", "outlier readings found", _spoiled, outliers_found, at_least(0.95), weight=spoiled
-    ),
+    Figure("outliers_found", "outlier readings found", _spoiled, outliers_found, at_least(0.95), weight=spoiled),
     Figure(
         "outliers_false",
         "good readings flagged as outliers",
