@@ -102,9 +102,7 @@ def _first_half(heights: np.ndarray, summed: np.ndarray, kernel: np.ndarray, ord
     return (sums[2] * summed[:half] - sums[1] * first) / (sums[2] * sums[0] - sums[1] ** 2)
 
 
-def local_regression(
-    heights: np.ndarray, weights: np.ndarray, kernel: np.ndarray, *, order: int
-) -> np.ndarray:
+def local_regression(heights: np.ndarray, weights: np.ndarray, kernel: np.ndarray, *, order: int) -> np.ndarray:
     """Value at each point of the polynomial fitted around it under kernel times weights.
 
     Order 0, 1 or 2, as the Gaussian regression filters of ISO 16610-31 (eq. 1). All sums are convolutions,

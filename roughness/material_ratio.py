@@ -119,8 +119,4 @@ def _flattest_secant(ratio: np.ndarray, heights: np.ndarray) -> tuple[float, flo
 
 def _area(excess: np.ndarray, ratio: np.ndarray) -> float:
     """Area under the curve's excess, over a ratio of 0 to 1, with the half step before the first point."""
-    return (
-        np.trapezoid(excess, ratio / 100.0)
-        + excess[0] * ratio[0] / 100.0
-        + excess[-1] * (1.0 - ratio[-1] / 100.0)
-    )
+    return np.trapezoid(excess, ratio / 100.0) + excess[0] * ratio[0] / 100.0 + excess[-1] * (1.0 - ratio[-1] / 100.0)

@@ -101,9 +101,7 @@ def moments(profile: Profile, *, estimator: str = "differences") -> Moments:
     (0.494, 0.0008)
     """
     if estimator not in ESTIMATORS:
-        raise InputError(
-            f"must be known; {nearest(estimator, ESTIMATORS)}", where="estimator", value=estimator
-        )
+        raise InputError(f"must be known; {nearest(estimator, ESTIMATORS)}", where="estimator", value=estimator)
     found = (_by_differences if estimator == "differences" else _by_spectrum)(profile)
     if min(found) <= 0:
         raise InputError("is flat: it has no roughness", where=f"profile {profile.name!r}")

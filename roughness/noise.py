@@ -28,9 +28,7 @@ def height_quantum(profile: Profile) -> float | None:
     return float(np.round(np.median(steps), 15)) if steps.size else None
 
 
-def noise_moments(
-    sigma: float, spacing: float, short_cutoff: float | None = None
-) -> tuple[float, float, float]:
+def noise_moments(sigma: float, spacing: float, short_cutoff: float | None = None) -> tuple[float, float, float]:
     r"""What white noise adds to m0, m2 and m4 by differences, before or after the short cut-off.
 
     .. math:: \sigma^2,\quad 2\sigma^2/\Delta^2,\quad 6\sigma^2/\Delta^4
@@ -64,9 +62,7 @@ def without_noise(moments: Moments, sigma: float) -> Moments:
             where="noise sigma (m)",
             value=sigma,
         )
-    return replace(
-        moments, m0=left[0], m2=left[1], m4=left[2], estimator=f"{moments.estimator}, noise removed"
-    )
+    return replace(moments, m0=left[0], m2=left[1], m4=left[2], estimator=f"{moments.estimator}, noise removed")
 
 
 def tip_traced(profile: Profile, radius: float) -> Profile:

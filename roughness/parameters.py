@@ -28,12 +28,8 @@ CONVENTIONS = {
     for c in (
         Convention("ISO 4287:1997", True, True, "ISO 4287:1997, 3.1.9 and 4; ISO 4288:1996, 4.4"),
         Convention("ISO 21920-2:2021", False, True, "ISO 21920-2:2021, 4.3 and 4.4"),
-        Convention(
-            "NIST", False, False, "NIST surface metrology algorithm testing system: profile as a whole"
-        ),
-        Convention(
-            "Mitutoyo", True, True, "SurfTest report, ISO 1997 setting: as ISO 4287 with its N sections"
-        ),
+        Convention("NIST", False, False, "NIST surface metrology algorithm testing system: profile as a whole"),
+        Convention("Mitutoyo", True, True, "SurfTest report, ISO 1997 setting: as ISO 4287 with its N sections"),
     )
 }
 
@@ -95,9 +91,7 @@ def height_parameters(
         skewness = _means(square * z, first) / variance**1.5
         kurtosis = _means(square * square, first) / variance**2
     slope = slopes(profile.heights, profile.spacing)
-    whole = np.asarray(
-        mask[6:] if mask.all() else np.lib.stride_tricks.sliding_window_view(mask, 7).all(axis=1)
-    )
+    whole = np.asarray(mask[6:] if mask.all() else np.lib.stride_tricks.sliding_window_view(mask, 7).all(axis=1))
     # a slope belongs to its middle point; the formula may look across the border of two sections
     slope, first = _kept(slope, whole, borders - 3 if rule.averages_sectioned else np.zeros(1, int))
     return HeightParameters(

@@ -45,8 +45,8 @@ def remove_form(profile: Profile, form: str) -> Profile:
     x = np.linspace(-1.0, 1.0, profile.heights.size)
     mask = _mask(profile)
     basis = np.polynomial.legendre.legvander(x, degree)
-    normal, load = basis[mask].T @ basis[mask], basis[mask].T @ profile.heights[mask]
-    fitted = basis @ np.linalg.solve(normal, load)
+    weighted = basis if mask.all() else basis * mask[:, None]
+    fitted = basis @ np.linalg.solve(weighted.T @ basis, weighted.T @ profile.heights)
     return profile.after(f"form {form} removed", profile.heights - fitted)
 
 
@@ -91,9 +91,7 @@ def roughness_profile(
         elif method == "spline":
             mean_line, kind = spline_mean_line(result.heights, result.spacing, cutoff), "spline high-pass"
         else:
-            raise InputError(
-                f"must be known; {nearest(method, METHODS)}", where="filter method", value=method
-            )
+            raise InputError(f"must be known; {nearest(method, METHODS)}", where="filter method", value=method)
         result = result.after(
             f"{kind}, cut-off {cutoff * 1e3:.6g} mm",
             result.heights - mean_line,
@@ -115,9 +113,7 @@ def primary_profile(
     )
 
 
-def waviness_profile(
-    profile: Profile, cutoff: float, *, ends: str = "regression", floored: bool = False
-) -> Profile:
+def waviness_profile(profile: Profile, cutoff: float, *, ends: str = "regression", floored: bool = False) -> Profile:
     """What is longer than the cut-off (m): the mean line that the roughness profile leaves behind."""
     return profile.after(
         f"Gaussian low-pass, cut-off {cutoff * 1e3:.6g} mm, ends {ends}",

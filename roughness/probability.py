@@ -197,6 +197,8 @@ def _widest_line(
 
     below = ndtr(quantiles)
     density = np.exp(-0.5 * quantiles**2)
+    # a stretch of equal heights is a flat, not a Gaussian of sigma nought
+    least = 0.02 * heights.std()
     first, last = np.triu_indices(quantiles.size, k=8)
     for pick in np.lexsort((first - last, -np.round(below[last] - below[first], 3))):
         part = slice(first[pick], last[pick] + 1)
@@ -204,7 +206,7 @@ def _widest_line(
         centre = weight @ q / weight.sum()
         sigma = (weight * (q - centre)) @ z / (weight @ (q - centre) ** 2)
         mean = weight @ z / weight.sum() - sigma * centre
-        if np.all(np.abs(z - mean - sigma * q) <= sigma * np.maximum(tolerance, band[part])):
+        if sigma > least and np.all(np.abs(z - mean - sigma * q) <= sigma * np.maximum(tolerance, band[part])):
             return int(first[pick]), int(last[pick]), float(mean), float(sigma)
     middle = quantiles.size // 2
     mean, sigma = _line_weights(quantiles) @ heights
@@ -273,9 +275,7 @@ def _plotted(profile: Profile) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
     ordered = profile.heights[np.asarray(profile.valid)]
     if ordered.size < 50 or np.ptp(ordered) == 0:
-        raise InputError(
-            "a probability plot needs fifty heights that differ", where=f"profile {profile.name!r}"
-        )
+        raise InputError("a probability plot needs fifty heights that differ", where=f"profile {profile.name!r}")
     sums = correlation_sums(autocorrelation(profile))
     quantiles = np.linspace(-1.0, 1.0, _LEVELS) * _reach(ordered.size / sums[1])
     return quantiles, np.quantile(ordered, ndtr(quantiles), method="median_unbiased"), sums

@@ -40,9 +40,7 @@ def power_density(profile: Profile) -> tuple[np.ndarray, np.ndarray]:
     return np.arange(density.size) / (size * profile.spacing), density
 
 
-def log_binned(
-    wavenumber: np.ndarray, density: np.ndarray, *, per_decade: int = 12
-) -> tuple[np.ndarray, np.ndarray]:
+def log_binned(wavenumber: np.ndarray, density: np.ndarray, *, per_decade: int = 12) -> tuple[np.ndarray, np.ndarray]:
     """The spectrum averaged in equal steps of the logarithm, as it is drawn."""
     f, g = wavenumber[1:], density[1:]
     bins = np.floor(np.log10(f / f[0]) * per_decade).astype(int)

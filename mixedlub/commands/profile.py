@@ -49,7 +49,7 @@ def command(
         )
         for trace in traces
     ]
-    records = [{**record, "file": str(file)} for file, (_, record) in zip(files, found)]
+    records: list[dict[str, Any]] = [{**record, "file": str(file)} for file, (_, record) in zip(files, found)]
     folder = output_folder(out, NAME, files[0].stem)
     for record in records:
         for line in told(record):

@@ -11,7 +11,7 @@ from mixedlub.effect import Parameter, Wide, effect
     source="measurement: zero error of a channel",
     fingerprint={"load": "-", "roughness": "-", "slide_roll_ratio": "-"},
     separated_by="a reading with the rig at rest: the same number everywhere",
-    after=("heat_leak", "sensor_drift", "sensor_gain", "torque_constant", "torque_offset"),
+    after=("fringe_order", "heat_leak", "sensor_drift", "sensor_gain", "torque_constant", "torque_offset"),
 )
 def sensor_offset(reading, reading_scale, *, offset):
     """The channel does not read zero at zero.

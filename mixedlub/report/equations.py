@@ -26,9 +26,9 @@ def equation(tex: str, size: float = SIZE) -> str:
     from matplotlib.textpath import TextPath, TextToPath
 
     text = f"${_simplified(tex)}$"
-    font = FontProperties(family="DejaVu Sans", math_fontfamily="stix")
+    font = FontProperties(size=size, math_fontfamily="stix")
     try:
-        width, height, depth = TextToPath().get_text_width_height_descent(text, _points(font, size), ismath=True)
+        width, height, depth = TextToPath().get_text_width_height_descent(text, font, ismath=True)
         path = TextPath((0, 0), text, size=size, prop=font)
     except ValueError:
         return f"<code>{escape(tex)}</code>"
@@ -39,12 +39,6 @@ def equation(tex: str, size: float = SIZE) -> str:
         f'<svg class="equation" role="img" aria-label="{escape(tex)}" viewBox="{box}" style="{style}">'
         f'<path d="{_drawing(path)}"/></svg>'
     )
-
-
-def _points(font, size: float):  # type: ignore[no-untyped-def]
-    sized = font.copy()
-    sized.set_size(size)
-    return sized
 
 
 def _simplified(tex: str) -> str:

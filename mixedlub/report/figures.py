@@ -119,7 +119,8 @@ def over_speed(results: Results, quantity: str, chosen: Sequence[int] | np.ndarr
     torques = some(len(levels.torque_Nm), MOST_LEVELS)
     whose = results.study.file.options.conditions_of
     loss = quantity == "power_loss"
-    figure, axes = panels(len(chosen), 3)
+    columns = min(3, len(chosen))
+    figure, axes = panels(len(chosen), columns)
     for panel, pairing in zip(axes, chosen):
         values = results[quantity][pairing, theta]
         for colour, t in zip(shades(len(torques)), torques):
@@ -128,33 +129,25 @@ def over_speed(results: Results, quantity: str, chosen: Sequence[int] | np.ndarr
         sigma = results["composite_roughness"][pairing, 0, 0, 0] * 1e6
         name = name_of(results, pairing)
         panel.set_title(f"{name}{'   ' if len(name) < 16 else chr(10)}Rq {sigma:.3f} µm", loc="left")
-    for panel in _left(axes):
+    left, bottom, right = _edges(axes, columns)
+    for panel in left:
         panel.set_ylabel("power loss (W)" if loss else "boundary area ratio (-)")
-    for panel in _bottom(axes):
+    for panel in bottom:
         panel.set_xlabel(f"{whose} speed (rpm)")
     axes[0].set_ylim(bottom=0.0)
     axes[0].set_xlim(left=0.0)
     axes[0].legend(title=f"{whose} torque", title_fontsize=7.5, loc="upper left")
     if loss:
         most = float(results["power_loss"].max())
-        for panel in _right(axes):
+        for panel in right:
             normalised_axis(panel, most)
     return figure
 
 
-def _left(axes: Sequence[Axes]) -> list[Axes]:
-    return [a for a in axes if a.get_subplotspec().is_first_col()]
-
-
-def _right(axes: Sequence[Axes]) -> list[Axes]:
-    width = max(a.get_subplotspec().colspan.start for a in axes)
-    last = axes[-1]
-    return [a for a in axes if a.get_subplotspec().colspan.start == width or a is last]
-
-
-def _bottom(axes: Sequence[Axes]) -> list[Axes]:
-    columns = {a.get_subplotspec().colspan.start: a for a in axes}
-    return list(columns.values())
+def _edges(axes: Sequence[Axes], columns: int) -> tuple[Sequence[Axes], Sequence[Axes], Sequence[Axes]]:
+    """Panels with nothing to their left, beneath, and to their right."""
+    right = [a for i, a in enumerate(axes) if i % columns == columns - 1 or a is axes[-1]]
+    return axes[::columns], axes[-columns:], right
 
 
 AXIS = {

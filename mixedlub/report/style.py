@@ -70,7 +70,7 @@ def panels(
 
 def normalised_axis(axes: Axes, most: float) -> None:
     """A second scale on the right: the same values over the largest of the study."""
-    right = axes.secondary_yaxis("right", functions=(lambda y: y / most, lambda y: y * most))
+    right = axes.secondary_yaxis("right", functions=(lambda y: np.divide(y, most), lambda y: np.multiply(y, most)))
     right.spines["right"].set_visible(True)
     right.set_ylabel("over largest (-)")
 

@@ -26,21 +26,18 @@ SHOWN = 8
 
 def surface_rows(study: Study) -> list[tuple[str, ...]]:
     """Name, Rq (um), rms slope, rms curvature (1/mm), Nayak bandwidth, summits per mm2 and their radius (um)."""
-    rows = []
-    for s in list(study.surfaces.values())[: 4 * SHOWN]:
-        moments = (s.m0, s.m2, s.m4)
-        rows.append(
-            (
-                s.name,
-                f"{np.sqrt(s.m0) * 1e6:.3f}",
-                f"{np.sqrt(s.m2):.4f}",
-                f"{np.sqrt(s.m4) * 1e-3:.3g}",
-                f"{nayak_parameter(*moments):.3g}",
-                f"{summit_density(s.m2, s.m4) * 1e-6:.3g}",
-                f"{summit_radius(s.m4) * 1e6:.3g}",
-            )
-        )
-    return rows
+    surfaces = list(study.surfaces.values())[: 4 * SHOWN]
+    m0, m2, m4 = (np.array([getattr(s, name) for s in surfaces]) for name in ("m0", "m2", "m4"))
+    columns = (
+        (np.sqrt(m0) * 1e6, ".3f"),
+        (np.sqrt(m2), ".4f"),
+        (np.sqrt(m4) * 1e-3, ".3g"),
+        (nayak_parameter(m0, m2, m4), ".3g"),
+        (summit_density(m2, m4) * 1e-6, ".0f"),
+        (summit_radius(m4) * 1e6, ".3g"),
+    )
+    cells = [[format(value, form) for value in values] for values, form in columns]
+    return [(s.name, *row) for s, row in zip(surfaces, zip(*cells, strict=True), strict=True)]
 
 
 def traced(study: Study) -> dict[str, Profile]:

@@ -73,6 +73,13 @@ def compute(plan: Plan, block: Block) -> Found:
     """Outputs and checks of one block, each of the block's shape; SI."""
     shape = tuple(s.stop - s.start for s in block)
     found = {name: np.empty(shape) for name in (*OUTPUTS, *CHECKS)}
+    with np.errstate(all="ignore"):
+        _fill(plan, block, found)
+    return found
+
+
+def _fill(plan: Plan, block: Block, found: Found) -> None:
+    shape = tuple(s.stop - s.start for s in block)
     common, own = stages(plan.model(), plan.inputs)
     inputs = _taken(plan.inputs, block)
     size = reach(shape, plan.points, PIECE_POINTS, PIECE_PAIRINGS)
@@ -85,7 +92,6 @@ def compute(plan: Plan, block: Block) -> Found:
             piece.update(own(piece, plan.parameters))
             for name, values in _reduced(piece).items():
                 found[name][(pairings, *conditions[1:])] = values[..., 0]
-    return found
 
 
 def stages(model: Model, inputs: Inputs) -> tuple[Model, Model]:

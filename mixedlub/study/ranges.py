@@ -35,7 +35,8 @@ def _clipped(results: Results) -> str:
 
 def _bandwidth(results: Results) -> str:
     moments = [np.asarray(results.study.plan.inputs[name]).ravel() for name in ("m0", "m2", "m4")]
-    low = nayak_parameter(*moments) < 1.5
+    with np.errstate(divide="ignore", over="ignore"):
+        low = nayak_parameter(*moments) < 1.5
     if not low.any():
         return ""
     return (

@@ -13,6 +13,7 @@ from mixedlub.quantities import GLOSSARY
 from mixedlub.study import batch, store
 from mixedlub.study.batch import CHECKS, OUTPUTS
 from mixedlub.study.study import AXES, Study
+from profiles.errors import InputError
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -142,7 +143,23 @@ def run_study(
         _fill(values, block, found)
         done += 1
         progress(done, total)
-    return Results(study, values)
+    results = Results(study, values)
+    _check_finite(results)
+    return results
+
+
+def _check_finite(results: Results) -> None:
+    """Refuse numbers so odd that a law left its domain."""
+    for name in OUTPUTS:
+        wrong = ~np.isfinite(results[name])
+        if wrong.any():
+            p, o, t, s = np.argwhere(wrong)[0]
+            levels = results.study.file.conditions
+            raise InputError(
+                f"no finite {name.replace('_', ' ')}; look for a number far out of range",
+                where=f"{results.study.name}.toml: {' / '.join(results.study.pairings[p])} at "
+                f"{levels.torque_Nm[t]:g} Nm, {levels.speed_rpm[s]:g} rpm, {levels.oil_temperature_C[o]:g} C",
+            )
 
 
 def _fill(values: Mapping[str, np.ndarray], block: batch.Block, found: batch.Found) -> None:

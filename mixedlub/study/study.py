@@ -91,13 +91,22 @@ def read_study(path: Path) -> Study:
     file = config.parse(StudyFile, config.read_toml(path), path.name)
     notes: list[str] = []
     try:
-        with noted(notes):
+        with noted(notes), np.errstate(all="ignore"):
             study = _resolve(path.stem, file, path.parent)
+        _check_finite(study.plan.inputs)
     except InputError as error:
         if path.name in str(error):
             raise
         raise InputError(str(error), where=path.name) from None
+    except (OverflowError, ZeroDivisionError, FloatingPointError) as error:
+        raise InputError(f"has numbers too large or too small to compute with ({error})", where=path.name) from None
     return replace(study, notes=(*notes, *study.mesh.notes))
+
+
+def _check_finite(inputs: Mapping[str, Any]) -> None:
+    for name, value in inputs.items():
+        if not np.all(np.isfinite(value)):
+            raise InputError(f"the study's numbers give no finite {name.replace('_', ' ')}")
 
 
 def pairings_of(section: Pairings | None, known: Mapping[str, object]) -> tuple[tuple[str, str], ...]:

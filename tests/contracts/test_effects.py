@@ -179,7 +179,7 @@ def test_says_what_it_is(effect: Effect) -> None:
     assert effect.equation.strip()
     assert effect.source.strip()
     assert len(effect.separated_by) > 20
-    assert effect.fingerprint
+    assert effect.fingerprint or not any(fingerprint(effect, name) for name in STANDARD)
     assert any(p.null is not None for p in effect.parameters), "nothing switches it off"
     for p in effect.parameters:
         assert p.meaning.strip()
