@@ -15,8 +15,9 @@ from mixedlub.laws.oil import roelands_viscosity
     equation=r"\ln\eta \leftarrow (1 - s)\ln\eta + s\ln\eta_R,\quad "
     r"\eta_R = \eta_0\exp\{(\ln\eta_0 + 9.67)[(1 + p/p_r)^Z - 1]\}",
     source="C. J. A. Roelands, thesis, Delft 1966, as written by L. Houpert, J. Tribol. 107 (1985) 241",
-    fingerprint={},
+    fingerprint={"hertz_pressure": "-"},
     separated_by="a high-pressure viscometer beyond 0.4 GPa: Roelands bends down for good, many liquids bend up again",
+    after=("pressure_viscosity_law",),
     kinds=("viscosity",),
     after=("pressure_viscosity_law",),
 )
