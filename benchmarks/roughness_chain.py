@@ -15,7 +15,14 @@ from collections.abc import Callable
 import numpy as np
 
 from profiles import Profile
-from roughness import height_parameters, mccool, moments, normal_probability, power_density, roughness_profile
+from roughness import (
+    height_parameters,
+    mccool_asperities,
+    moments,
+    normal_probability,
+    power_density,
+    roughness_profile,
+)
 
 SPACING = 0.5e-6
 CUTOFF = 0.8e-3
@@ -33,7 +40,7 @@ def trace(points: int) -> Profile:
 def whole_chain(profile: Profile) -> object:
     """Filter, all height parameters, spectrum, moments, McCool."""
     rough = roughness_profile(profile, cutoff=CUTOFF)
-    return height_parameters(rough), power_density(rough), mccool(moments(rough))
+    return height_parameters(rough), power_density(rough), mccool_asperities(moments(rough))
 
 
 def surfalize_chain(profile: Profile) -> Callable[[], object] | None:
@@ -107,7 +114,7 @@ def main() -> None:
         "filter": lambda: roughness_profile(profile, cutoff=CUTOFF),
         "height parameters": lambda: height_parameters(rough),
         "spectrum": lambda: power_density(rough),
-        "moments and McCool": lambda: mccool(moments(rough)),
+        "moments and McCool": lambda: mccool_asperities(moments(rough)),
         "Gaussian verdict": lambda: normal_probability(rough),
     }
     peer = surfalize_chain(profile)

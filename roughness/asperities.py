@@ -49,17 +49,17 @@ def asperities(profile: Profile, *, model: str = "McCool") -> Asperities:
         return bi_gaussian(profile)
     if model == "summit count":
         return summit_count(profile)
-    found = mccool(moments(profile))
+    found = mccool_asperities(moments(profile))
     return found if model == "McCool" else greenwood_tripp(moments(profile))
 
 
-def mccool(moments: Moments) -> Asperities:
+def mccool_asperities(moments: Moments) -> Asperities:
     """McCool's asperities of an isotropic Gaussian surface; Wear 107 (1986) 37, after Nayak 1971.
 
     Add the moments of two surfaces first. Below a bandwidth of 3/2 no such surface exists: sigma and plane
     offset are then those of 3/2.
 
-    >>> a = mccool(Moments(0.16e-12, 0.01, 0.004e12))
+    >>> a = mccool_asperities(Moments(0.16e-12, 0.01, 0.004e12))
     >>> round(a.density * 1e-6, 2), round(a.radius * 1e6, 4), round(a.sigma * 1e6, 6)
     (12251.75, 10.5094, 0.370918)
     """
@@ -83,7 +83,9 @@ def greenwood_tripp(moments: Moments) -> Asperities:
     >>> greenwood_tripp(Moments(0.16e-12, 0.01, 0.004e12)).plane_offset
     0.0
     """
-    return replace(mccool(moments), sigma=float(np.sqrt(moments.m0)), plane_offset=0.0, model="Greenwood-Tripp")
+    return replace(
+        mccool_asperities(moments), sigma=float(np.sqrt(moments.m0)), plane_offset=0.0, model="Greenwood-Tripp"
+    )
 
 
 def bi_gaussian(profile: Profile) -> Asperities:
@@ -99,7 +101,7 @@ def bi_gaussian(profile: Profile) -> Asperities:
     second = (np.diff(z, 2) / dx**2)[high[2:] & high[1:-1] & high[:-2]]
     if second.size < 20:
         raise InputError("has too few points above the knee", where=f"profile {profile.name!r}")
-    found = mccool(Moments(lines.plateau_sigma**2, float(np.mean(first**2)), float(np.mean(second**2)), dx))
+    found = mccool_asperities(Moments(lines.plateau_sigma**2, float(np.mean(first**2)), float(np.mean(second**2)), dx))
     lift = lines.plateau_mean - float(z[np.asarray(profile.valid)].mean())
     return replace(found, plane_offset=found.plane_offset + lift, model="bi-Gaussian")
 

@@ -23,7 +23,11 @@ def profile_warnings(
     *,
     raw: Profile | None = None,
 ) -> list[str]:
-    """All warnings of an evaluated profile; ``raw`` is the trace as read, where it is at hand."""
+    """All warnings of an evaluated profile; ``raw`` is the trace as read, where it is at hand.
+
+    Of what the file said (``origin``) they use ``stated``, a mapping from Ra, Rq, Rz to the values (m) that the
+    instrument printed, and ``tip_radius`` (m).
+    """
     return [
         *_band(profile, found),
         *_lengths(profile, heights),

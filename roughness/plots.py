@@ -119,11 +119,12 @@ def abbott_figure(*profiles: Profile) -> Figure:
 
 
 def spectrum_figure(*profiles: Profile) -> Figure:
-    """Power spectral density over wavelength, averaged in log steps, with the filter's cut-offs."""
+    """Power spectral density over wavelength: its spread, its mean in log steps, the filter's cut-offs."""
 
     def draw(axes: Axes, profile: Profile) -> None:
         f, g = power_density(profile)
-        axes.loglog(1e6 / f[1:], g[1:] * 1e18, color="0.85", linewidth=0.5)
+        wave, low, high = _spread(f, g)
+        axes.fill_between(wave * 1e6, low * 1e18, high * 1e18, color="0.85", linewidth=0.5)
         centre, mean = log_binned(f, g)
         axes.loglog(1e6 / centre, mean * 1e18, color=_LINE, linewidth=1.4)
         for key, name in (("short_cutoff", "λs"), ("cutoff", "λc")):
@@ -175,6 +176,13 @@ def _envelope(x: np.ndarray, z: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.
         return x, z, z
     starts = np.linspace(0, z.size, _MOST_POINTS, endpoint=False).astype(int)
     return x[starts], np.minimum.reduceat(z, starts), np.maximum.reduceat(z, starts)
+
+
+def _spread(f: np.ndarray, g: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Wavelengths, and the lowest and highest density in narrow steps of their logarithm."""
+    steps = np.floor(np.log10(f[1:] / f[1]) * 80)
+    starts = np.flatnonzero(np.diff(steps, prepend=-1.0))
+    return 1.0 / f[1:][starts], np.minimum.reduceat(g[1:], starts), np.maximum.reduceat(g[1:], starts)
 
 
 def _heights(profile: Profile) -> str:

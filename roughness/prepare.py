@@ -45,8 +45,8 @@ def remove_form(profile: Profile, form: str) -> Profile:
     x = np.linspace(-1.0, 1.0, profile.heights.size)
     mask = _mask(profile)
     basis = np.polynomial.legendre.legvander(x, degree)
-    normal, load = basis[mask].T @ basis[mask], basis[mask].T @ profile.heights[mask]
-    fitted = basis @ np.linalg.solve(normal, load)
+    weighted = basis if mask.all() else basis * mask[:, None]
+    fitted = basis @ np.linalg.solve(weighted.T @ basis, weighted.T @ profile.heights)
     return profile.after(f"form {form} removed", profile.heights - fitted)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, replace
 
 from profiles import InputError, Profile
-from roughness.asperities import Asperities, mccool
+from roughness.asperities import Asperities, mccool_asperities
 from roughness.cutoffs import choose_cutoffs, short_cutoff_for
 from roughness.defects import mask_edges, without_edges
 from roughness.elements import element_parameters
@@ -18,7 +18,7 @@ from roughness.parameters import HeightParameters, height_parameters
 from roughness.prepare import remove_form, roughness_profile
 from roughness.probability import NormalProbability, normal_probability
 from roughness.spectrum import correlation_length
-from roughness.uncertainty import bootstrap, smoothed_moments
+from roughness.uncertainty import bootstrap, short_cutoff_band, smoothed_moments
 
 _LENGTHS = ("Ra", "Rq", "Rz", "Rt", "Rp", "Rv", "Rz1max")
 
@@ -45,8 +45,11 @@ def evaluation_profile(
     limit = trace.cutoffs.get("cutoff") if cutoff == "auto" else _length(cutoff, "cut-off")
     if limit is None and cutoff == "auto":
         chosen = choose_cutoffs(profile)
-        limit = chosen.cutoff
-        profile = replace(profile, steps=(*profile.steps, f"cut-off {limit * 1e3:g} mm by {chosen.reason}"))
+        if chosen.cutoff <= profile.length:
+            limit, step = chosen.cutoff, f"cut-off {chosen.cutoff * 1e3:g} mm by {chosen.reason}"
+        else:
+            step = f"no cut-off: the trace of {profile.length * 1e3:.3g} mm is shorter than any"
+        profile = replace(profile, steps=(*profile.steps, step))
     if short_cutoff == "auto":
         short = None if "short_cutoff" in trace.cutoffs or filtered else _short(limit)
         if short is not None and short < 2.0 * trace.spacing:
@@ -74,11 +77,14 @@ def trace_record(
     """
     profile = evaluation_profile(trace, form=form, cutoff=cutoff, short_cutoff=short_cutoff)
     present, limit = trace.cutoffs.get("short_cutoff"), profile.cutoffs.get("short_cutoff")
-    band = []
+    band: tuple[Moments, ...] = ()
     if limit is not None and present is None:
-        factors = [f for f in (0.5, 1.0, 2.0) if 2.0 * trace.spacing <= f * limit < profile.length / 2]
         kept = profile.cutoffs.get("cutoff") if "cutoff" not in trace.cutoffs else "auto"
-        band = [moments(evaluation_profile(trace, form=form, cutoff=kept, short_cutoff=f * limit)) for f in factors]
+
+        def prepare(before: Profile, short: float) -> Profile:
+            return evaluation_profile(before, form=form, cutoff=kept, short_cutoff=short)
+
+        band = short_cutoff_band(trace, limit, prepare)
     return profile, profile_record(profile, convention=convention, sections=sections, raw=trace, band=band)
 
 
@@ -115,7 +121,7 @@ def profile_record(
         "steps": list(profile.steps),
         "parameters": parameters,
         "moments": _moments(found),
-        "asperities": {**_asperities(mccool(found)), **_trust(profile, found, sections, band)},
+        "asperities": {**_asperities(mccool_asperities(found)), **_trust(profile, found, sections, band)},
         "gaussian": _gaussian(gaussian),
         "warnings": warnings,
     }
@@ -172,9 +178,9 @@ def _trust(profile: Profile, found: Moments, sections: int | None, band: Sequenc
     """What other short cut-offs, and other sampling lengths, would have made of the asperities."""
     doubled = 2.0 * (found.short_cutoff or 2.0 * profile.spacing)
     if not band and doubled < profile.length / 2:
-        band = [found, smoothed_moments(profile, doubled)]
+        band = (found, smoothed_moments(profile, doubled))
     result: dict[str, object] = {
-        "short_cutoff_band": [{**_moments(m), **_asperities(mccool(m))} for m in band],
+        "short_cutoff_band": [{**_moments(m), **_asperities(mccool_asperities(m))} for m in band],
     }
     try:
         interval = bootstrap(profile, sections=sections)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from profiles import InputError, Profile
-from roughness.asperities import Asperities, mccool
+from roughness.asperities import Asperities, mccool_asperities
 from roughness.filters import gaussian_mean_line
 from roughness.moments import Moments, moments
 from roughness.parameters import section_count
@@ -15,14 +15,18 @@ from roughness.parameters import section_count
 Prepare = Callable[[Profile, float], Profile]
 
 
-def short_cutoff_band(before: Profile, short_cutoff: float, prepare: Prepare) -> tuple[Moments, Moments, Moments]:
+def short_cutoff_band(
+    before: Profile, short_cutoff: float, prepare: Prepare, *, factors: Sequence[float] = (0.5, 1.0, 2.0)
+) -> tuple[Moments, ...]:
     """Moments at half, one and two short cut-offs (m); ``prepare(before, short_cutoff)`` filters the trace.
 
     m2, m4, radius and density follow the short cut-off, by factors of thousands over its usual range: this
-    is the band to quote with them.
+    is the band to quote with them. Cut-offs of fewer than two points or more than half the trace are left out.
     """
-    half, one, two = (moments(prepare(before, factor * short_cutoff)) for factor in (0.5, 1.0, 2.0))
-    return half, one, two
+    limits = [factor * short_cutoff for factor in factors]
+    return tuple(
+        moments(prepare(before, limit)) for limit in limits if 2.0 * before.spacing <= limit < before.length / 2
+    )
 
 
 def smoothed_moments(profile: Profile, short_cutoff: float) -> Moments:
@@ -68,7 +72,7 @@ def bootstrap(
     means = np.exp(centre + (means - centre) * np.sqrt(count / (count - 1)))
     columns: dict[str, list[float]] = {}
     for m0, m2, m4 in means:
-        one: Asperities = mccool(Moments(m0, m2, m4))
+        one: Asperities = mccool_asperities(Moments(m0, m2, m4))
         row = {"m0": m0, "m2": m2, "m4": m4, "density": one.density, "radius": one.radius}
         row |= {"sigma": one.sigma, "plane_offset": one.plane_offset}
         for name, value in row.items():

@@ -9,7 +9,7 @@ _PIVOT = 3e-11
     stage="loss",
     acts_on="rolling_force",
     parameters=(
-        Parameter("strength", "-", LogNormal(1.0, 0.5), "factor on the resistance", null=0.0),
+        Parameter("strength", "-", LogNormal(1.0, 0.7), "factor on the resistance", null=0.0),
         Parameter("exponent", "-", Between(0.63, 0.77), "power of viscosity times speed"),
     ),
     equation=r"f_r \leftarrow f_r + "

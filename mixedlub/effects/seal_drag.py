@@ -11,7 +11,7 @@ _PIVOT = 20e-6
     acts_on="power_loss",
     parameters=(
         Parameter("strength", "-", LogNormal(1.0, 0.7), "factor on the torque: size and number of lips", null=0.0),
-        Parameter("viscous", "-", Between(0.0, 0.6), "power of viscosity"),
+        Parameter("viscous", "-", Between(0.0, 0.8), "power of viscosity"),
     ),
     equation=r"P \leftarrow P + "
     r"c\,T_s\,(\omega_1+\omega_2)\left(\frac{\nu}{20\,\text{mm}^2/\text{s}}\right)^{k},\quad T_s = "

@@ -1,12 +1,12 @@
 """Offset of the torque meter."""
 
-from mixedlub.effect import Normal, Parameter, effect
+from mixedlub.effect import Parameter, Wide, effect
 
 
 @effect(
     stage="measurement",
     acts_on="reading",
-    parameters=(Parameter("torque", "N m", Normal(0.0, 0.1), "what the torque meter reads at no torque", null=0.0),),
+    parameters=(Parameter("torque", "N m", Wide(0.05), "what the torque meter reads at no torque", null=0.0),),
     equation=r"y \leftarrow y + T_0\,\omega_1",
     source="power from torque times speed: an error of torque becomes one of power",
     fingerprint={"load": "-", "speed": "+", "roughness": "-"},

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from profiles import InputError, Profile
-from roughness import Moments, asperities, mccool, moments
+from roughness import Moments, asperities, mccool_asperities, moments
 from roughness.asperities import MODELS, greenwood_tripp, summit_count
 
 
@@ -17,7 +17,7 @@ def test_every_model_gives_positive_finite_summits(model, gaussian_trace):
 
 def test_counted_summits_agree_with_mccool_on_a_gaussian_trace(gaussian_trace):
     p = gaussian_trace(200_000, roll=25e-6, short=12e-6)
-    counted, predicted = summit_count(p), mccool(moments(p))
+    counted, predicted = summit_count(p), mccool_asperities(moments(p))
     assert counted.density == pytest.approx(predicted.density, rel=0.05)
     assert counted.radius == pytest.approx(predicted.radius, rel=0.05)
     assert counted.plane_offset == pytest.approx(predicted.plane_offset, rel=0.05)
@@ -36,8 +36,8 @@ def test_models_scale_as_their_units(gaussian_trace):
 def test_greenwood_tripp_forgets_the_summits_offset():
     m = Moments(0.16e-12, 0.01, 0.004e12)
     assert greenwood_tripp(m).sigma == pytest.approx(0.4e-6)
-    assert mccool(m).sigma < 0.4e-6
-    assert mccool(m).plane_offset > 0
+    assert mccool_asperities(m).sigma < 0.4e-6
+    assert mccool_asperities(m).plane_offset > 0
 
 
 def test_plateau_is_smoother_than_its_whole_profile(plateau_trace):
@@ -51,7 +51,7 @@ def test_plateau_sigma_is_that_of_the_fine_process(plateau_trace):
 
 
 def test_narrow_band_is_held_at_three_halves():
-    a = mccool(Moments(1e-12, 1e-2, 1e8))
+    a = mccool_asperities(Moments(1e-12, 1e-2, 1e8))
     assert a.nayak == pytest.approx(1.0)
     assert a.sigma == pytest.approx(1e-6 * np.sqrt(1 - 0.896806 / 1.5), rel=1e-6)
 

@@ -62,6 +62,14 @@ def test_other_laws_are_not_gaussian(make):
     assert normal_probability(profile).verdict == "not_gaussian"
 
 
+@pytest.mark.parametrize("cut", [0.0, 0.15e-6])
+def test_flat_top_is_no_gaussian_of_no_width(gaussian_trace, cut):
+    worn = Profile(np.minimum(gaussian_trace().heights, cut), 0.5e-6)
+    found = normal_probability(worn)
+    assert found.verdict in ("plateau", "not_gaussian")
+    assert found.sigma > 0.1 * worn.heights.std()
+
+
 def test_heavy_tails_leave_a_gaussian_bulk():
     heavy = np.random.default_rng(0).standard_t(4, size=8000)
     assert normal_probability(Profile(heavy, 1e-6)).verdict == "gaussian_bulk"

@@ -94,6 +94,17 @@ def test_tiny_trace_has_no_verdict_but_a_row():
     assert any("probability plot" in w for w in row["warnings"])
 
 
+@pytest.mark.parametrize(("points", "spacing"), [(128, 2e-6), (3000, 0.0166e-6), (40, 10e-6), (12, 1e-6)])
+def test_short_traces_get_a_row(points, spacing):
+    z = 1e-8 * np.random.default_rng(0).normal(size=points).cumsum()
+    assert set(trace_record(Profile(z, spacing))[1]) == KEYS
+
+
+def test_trace_shorter_than_any_cutoff_says_so():
+    p = evaluation_profile(Profile(1e-9 * np.sin(np.arange(3000.0)), 0.0166e-6))
+    assert any("shorter than any" in s for s in p.steps)
+
+
 @pytest.mark.parametrize("cutoff", [-1.0, "automatic", 0])
 def test_bad_cutoff_is_refused(gaussian_trace, cutoff):
     with pytest.raises(InputError, match="length above zero, None or 'auto'"):

@@ -40,6 +40,11 @@ def test_band_falls_with_the_short_cutoff(gaussian_trace):
     assert [m.short_cutoff for m in (half, one, two)] == [4e-6, 8e-6, 16e-6]
 
 
+def test_band_leaves_out_what_the_trace_cannot_show(gaussian_trace):
+    found = short_cutoff_band(gaussian_trace(), 1.2e-6, lambda p, s: roughness_profile(p, short_cutoff=s))
+    assert [m.short_cutoff for m in found] == [1.2e-6, 2.4e-6]
+
+
 def test_two_gaussians_are_one(gaussian_trace):
     p = gaussian_trace(40_000)
     once = moments(roughness_profile(p, short_cutoff=16e-6))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from profiles import Profile
-from roughness import height_parameters, moments, remove_form, roughness_profile, trim
+from roughness import height_parameters, moments, remove_form, roughness_profile, trace_record, trim
 from roughness.spectrum import power_density
 
 FILES = [
@@ -93,3 +93,16 @@ def test_spectrum_adds_up_to_the_variance(trace, path):
     level = remove_form(profile, "line")
     f, density = power_density(level)
     assert density.sum() * f[1] == pytest.approx(level.heights.var(), rel=0.6)
+
+
+@pytest.mark.parametrize("path", FILES)
+def test_every_trace_gets_a_row_that_json_takes(trace, path):
+    record = trace_record(trace(path)[0])[1]
+    assert json.loads(json.dumps(record, allow_nan=False))["parameters"]["Rq_um"] > 0
+
+
+@pytest.mark.parametrize("path", [f for f in FILES if "bearing" in f and "IR" in f])
+def test_unresolved_raceways_are_called_so(trace, path):
+    """Lag-1 correlation 0.03 to 0.5: the finest waves of these traces are the instrument's."""
+    warnings = trace_record(trace(path)[0])[1]["warnings"]
+    assert any("does not resolve its finest waves" in w for w in warnings)
