@@ -7,7 +7,7 @@ import shutil
 import sys
 import tempfile
 import traceback
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -57,6 +57,19 @@ def _alive(process: str) -> bool:
     except PermissionError:
         return True
     return True
+
+
+@contextmanager
+def working(first: str) -> Iterator[Callable[[str], None]]:
+    """A line on stderr that says what is being done, for work without a countable end; silent without a terminal."""
+    from rich.console import Console
+
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield lambda text: None
+        return
+    with console.status(first) as status:
+        yield lambda text: status.update(text)
 
 
 def say(text: str = "") -> None:
