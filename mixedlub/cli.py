@@ -7,6 +7,9 @@ import sys
 import warnings
 from collections.abc import Sequence
 
+# Before NumPy is loaded: matrices are small here, and threads of BLAS would wait on those of the batch engine.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 import typer
 
 from mixedlub.commands import check, diagnose, effects, import_files, profile, prove, simulate, study
