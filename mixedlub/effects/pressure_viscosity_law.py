@@ -23,7 +23,7 @@ GLASS = 1e8
     equation=r"\ln\frac{\eta}{\eta_0} \leftarrow \ln\frac{\eta}{\eta_0}\;"
     r"\frac{e^{Bp} - e^{-Cp}}{(B + C)\,p}",
     source="J. B. Irving, A. J. Barlow, J. Phys. E 4 (1971) 232, double exponential of pressure",
-    fingerprint={"load": "+"},
+    fingerprint={"hertz_pressure": "-"},
     separated_by="a high-pressure viscometer at two temperatures: an exponential is straight in a log plot, Roelands "
     "only bends down, a liquid near its glass bends up again",
 )
