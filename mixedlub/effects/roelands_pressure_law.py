@@ -19,6 +19,7 @@ from mixedlub.laws.oil import roelands_viscosity
     separated_by="a high-pressure viscometer beyond 0.4 GPa: Roelands bends down for good, many liquids bend up again",
     after=("pressure_viscosity_law",),
     kinds=("viscosity",),
+    after=("pressure_viscosity_law",),
 )
 def roelands_pressure_law(contact_viscosity, viscosity, pressure_viscosity, hertz_pressure, *, share):
     """The logarithm of viscosity grows with a power of pressure below one.
