@@ -36,9 +36,7 @@ class Profile:
         heights = np.array(self.heights, dtype=float)
         where = f"profile {self.name!r}"
         if heights.ndim != 1 or heights.size < 3:
-            raise InputError(
-                "a profile needs at least three heights in one line", where=where, value=heights.shape
-            )
+            raise InputError("a profile needs at least three heights in one line", where=where, value=heights.shape)
         if not np.isfinite(heights).all():
             first = int(np.flatnonzero(~np.isfinite(heights))[0])
             raise InputError(

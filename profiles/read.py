@@ -23,18 +23,14 @@ from profiles.readers.x3p import X3pReader
 from profiles.units import known_unit, length, metres
 
 
-def read(
-    path: str | os.PathLike[str], *, unit: str | None = None, spacing: float | str | None = None
-) -> Profile:
+def read(path: str | os.PathLike[str], *, unit: str | None = None, spacing: float | str | None = None) -> Profile:
     """The profile in a file, recognised by its content.
 
     ``unit`` names the unit of plain numbers, as ``"um"`` (both columns) or ``"mm, um"`` (position, height);
     ``spacing`` the step, in metres or as ``"0.5 um"``, for one column of heights or bad positions. Formats
     that carry their own units ignore ``unit``.
     """
-    return read_source(
-        open_source(Path(path), _units(unit), None if spacing is None else length(spacing, "spacing"))
-    )
+    return read_source(open_source(Path(path), _units(unit), None if spacing is None else length(spacing, "spacing")))
 
 
 def read_source(source: Source) -> Profile:
@@ -57,9 +53,7 @@ def open_source(path: Path, unit: tuple[str, str] | None, spacing: float | None)
         raise InputError("not a file", where=str(path))
     size = path.stat().st_size
     if size > MAX_BYTES:
-        raise InputError(
-            f"larger than {MAX_BYTES} bytes, the largest file that is read", where=where, value=size
-        )
+        raise InputError(f"larger than {MAX_BYTES} bytes, the largest file that is read", where=where, value=size)
     try:
         return Source(where, path.read_bytes(), unit, spacing)
     except OSError as error:

@@ -64,9 +64,7 @@ def checked_count(count: int, available: int, where: str) -> int:
     if not 3 <= count <= MAX_POINTS:
         raise InputError(f"the number of points must be from 3 to {MAX_POINTS}", where=where, value=count)
     if count > available:
-        raise InputError(
-            f"the file declares more points than it holds ({available})", where=where, value=count
-        )
+        raise InputError(f"the file declares more points than it holds ({available})", where=where, value=count)
     return count
 
 
@@ -78,9 +76,7 @@ def equal_spacing(positions: np.ndarray, quantum: float, where: str) -> float:
     steps = np.diff(positions)
     if not (steps >= 0).all() or positions[-1] <= positions[0]:
         row = int(np.argmin(steps > 0)) + 1
-        raise InputError(
-            "positions must increase", where=f"{where}: point {row + 1}", value=float(positions[row])
-        )
+        raise InputError("positions must increase", where=f"{where}: point {row + 1}", value=float(positions[row]))
     step = float((positions[-1] - positions[0]) / steps.size)
     off = np.abs(positions - (positions[0] + step * np.arange(positions.size)))
     worst = int(off.argmax())
@@ -115,9 +111,7 @@ def make_profile(
 ) -> Profile:
     """The profile of a file: heights and spacing in metres, missing points bridged and masked."""
     if heights.ndim != 1 or heights.size < 3:
-        raise InputError(
-            "a profile needs at least three heights in one line", where=source.where, value=heights.shape
-        )
+        raise InputError("a profile needs at least three heights in one line", where=source.where, value=heights.shape)
     if not (math.isfinite(spacing) and 1e-12 < spacing < 1.0):
         raise InputError("the spacing must lie between 1 pm and 1 m", where=source.where, value=spacing)
     if present is None:

@@ -87,9 +87,7 @@ def _is_numbers(line: str) -> bool:
 def _starts_numbers(lines: list[str], index: int) -> bool:
     """Whether the numbers begin here: this line and the next non-empty one are numbers."""
     following = [line for line in lines[index + 1 : index + 6] if line.strip()]
-    return _is_numbers(lines[index]) and (
-        not following or _is_numbers(following[0]) or _is_absent(following[0])
-    )
+    return _is_numbers(lines[index]) and (not following or _is_numbers(following[0]) or _is_absent(following[0]))
 
 
 def _is_absent(line: str) -> bool:
@@ -117,9 +115,7 @@ def table(text: str, where: str) -> Table:
     return Table(tuple(lines[:start]), columns, delimiter, _quantum(sample, delimiter), start + 1)
 
 
-def _parse(
-    body: list[str], delimiter: str | None, comma: bool, width: int, where: str, first: int
-) -> np.ndarray:
+def _parse(body: list[str], delimiter: str | None, comma: bool, width: int, where: str, first: int) -> np.ndarray:
     """All rows at once; only when that fails is the bad line looked for, one by one."""
     words = [line.rstrip(" \t" + (delimiter or "")) for line in body]
     if comma:
@@ -140,9 +136,7 @@ def _parse(
             except ValueError:
                 raise InputError("not a number", where=f"{where}: line {number}", value=cell) from None
             if not finite:
-                raise InputError(
-                    "heights must be finite numbers", where=f"{where}: line {number}", value=cell
-                )
+                raise InputError("heights must be finite numbers", where=f"{where}: line {number}", value=cell)
         if len(cells) != width:
             raise InputError(f"expected {width} numbers", where=f"{where}: line {number}", value=line.strip())
     raise InputError("the columns cannot be read as numbers", where=where)

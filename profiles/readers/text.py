@@ -120,9 +120,7 @@ def _cell_unit(cell: str) -> str | None:
     return known_unit(match[1]) if match else (known_unit(cell) if cell.lower() not in ("a", "m") else None)
 
 
-def inferred_units(
-    position_step: float | None, step: float, heights: np.ndarray, where: str
-) -> tuple[str, str]:
+def inferred_units(position_step: float | None, step: float, heights: np.ndarray, where: str) -> tuple[str, str]:
     """The only pair of units that makes the trace a plausible stylus or optical trace, or an error.
 
     Plausible: a step from 15 nm to 14 um, and a typical local slope

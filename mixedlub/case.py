@@ -1,0 +1,103 @@
+"""A case folder: what the engineer knows of the rig, what the rig recorded, where predictions are wanted."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from mixedlub import config
+from mixedlub.kinds import Kind, kind
+from mixedlub.table import BOOKKEEPING, RUN, CaseWarning, Column, Table, read_table
+from profiles.errors import InputError
+
+
+@dataclass(frozen=True)
+class Case:
+    """Everything in a case folder, checked."""
+
+    name: str
+    folder: Path
+    system: config.System
+    kind: Kind
+    recordings: Table | None
+    conditions: Table | None
+    notes: tuple[str, ...]
+
+    @property
+    def quantity(self) -> str:
+        """Name of the column the rig recorded, with its unit."""
+        return self.system.recording.quantity
+
+
+@contextmanager
+def noted(notes: list[str]) -> Iterator[None]:
+    """Collect the warnings meant for the user instead of printing them."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        yield
+    for w in caught:
+        text = str(w.message)
+        if issubclass(w.category, UserWarning):
+            if text not in notes:
+                notes.append(text)
+        else:
+            warnings.warn_explicit(w.message, w.category, w.filename, w.lineno)
+
+
+def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
+    """Read and check a case folder."""
+    if not folder.is_dir():
+        raise InputError("no such case folder", where=str(folder))
+    system = config.parse(config.System, config.read_toml(folder / "system.toml"), "system.toml")
+    found = kind(system.kind)
+    for section in found.sections:
+        if not getattr(system, section):
+            raise InputError(f"a case of kind {system.kind!r} needs the section [{section}]", where="system.toml")
+    quantity = system.recording.quantity
+    if quantity not in found.quantities:
+        raise InputError(
+            f"a case of kind {system.kind!r} records {' or '.join(found.quantities)}",
+            where="system.toml: recording.quantity",
+            value=quantity,
+        )
+    notes: list[str] = []
+    with noted(notes):
+        recordings = _read(folder / "recordings.csv", found, quantity, system, need_recordings)
+        conditions = _read(folder / "conditions.csv", found, None, system, False)
+    return Case(folder.resolve().name, folder, system, found, recordings, conditions, tuple(notes))
+
+
+def read_conditions(case: Case, path: Path) -> Table:
+    """Another table of conditions for the case."""
+    return read_table(path, (RUN, *BOOKKEEPING, *case.kind.columns, *_measured(case.system, False)))
+
+
+def _read(path: Path, found: Kind, quantity: str | None, system: config.System, needed: bool) -> Table | None:
+    if not path.exists() and not needed:
+        return None
+    columns = (RUN, *BOOKKEEPING, *found.columns, *_measured(system, quantity is not None))
+    table = read_table(path, columns)
+    if quantity is not None and np.ptp(table[quantity]) == 0 and len(table) > 2:
+        raise InputError(
+            "all readings are the same number; a stuck channel cannot be diagnosed",
+            where=f"{path.name}: {quantity}",
+            value=float(table[quantity][0]),
+        )
+    return table
+
+
+def _measured(system: config.System, required: bool) -> tuple[Column, ...]:
+    """The recorded quantity, its standard deviation, and the check channel."""
+    quantity = system.recording.quantity
+    columns = [Column(quantity, required=required), Column(f"{quantity}_sd", above=0.0, required=False)]
+    if system.recording.check is not None:
+        columns.append(Column(system.recording.check, required=False))
+    return tuple(columns)
+
+
+__all__ = ["Case", "CaseWarning", "noted", "read_case", "read_conditions"]

@@ -1,0 +1,215 @@
+"""What `system.toml` may say: one class a section, validated once, every error with its place."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import Annotated, Any, Literal, TypeVar
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from profiles.errors import InputError, nearest
+
+T = TypeVar("T", bound=BaseModel)
+Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+Number = Annotated[float, Field(allow_inf_nan=False)]
+Radius = Annotated[float, Field(gt=0)]
+KINDS = ("gear_pair", "mesh_friction", "disc", "film", "friction_history", "friction_map", "viscosity")
+
+
+class Section(BaseModel):
+    """A table of the file: unknown keys are errors, values never change."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class LoadSharing(Section):
+    table: str | None = None
+    model: Literal["ldp", "rigid"] | None = None
+    tip_relief_um: tuple[NotNegative, NotNegative] = (0.0, 0.0)
+    relief_length_mm: tuple[NotNegative, NotNegative] = (0.0, 0.0)
+    lead_crown_um: NotNegative = 0.0
+    misalignment_um: Number = 0.0
+
+    @model_validator(mode="after")
+    def _table_or_model(self) -> LoadSharing:
+        if (self.table is None) == (self.model is None):
+            raise ValueError('needs either table = "FILE" or model = "ldp" or "rigid"')
+        return self
+
+
+class Gears(Section):
+    teeth: tuple[int, int]
+    normal_module_mm: Positive
+    pressure_angle_deg: Annotated[float, Field(gt=0, lt=45)] = 20.0
+    helix_angle_deg: Annotated[float, Field(gt=-60, lt=60)] = 0.0
+    profile_shift: tuple[Number, Number] = (0.0, 0.0)
+    tip_diameter_mm: tuple[Positive, Positive] | None = None
+    centre_distance_mm: Positive | None = None
+    face_width_mm: Positive
+    youngs_modulus_GPa: tuple[Positive, Positive] = (206.0, 206.0)
+    poisson_ratio: tuple[Annotated[float, Field(ge=0, lt=0.5)], Annotated[float, Field(ge=0, lt=0.5)]] = (
+        0.3,
+        0.3,
+    )
+    load_sharing: LoadSharing = LoadSharing(model="rigid")
+
+
+class Contact(Section):
+    geometry: Literal["line", "point"] = "line"
+    radius_mm: tuple[Radius, Radius]
+    width_mm: Positive | None = None
+    youngs_modulus_GPa: tuple[Positive, Positive] = (206.0, 206.0)
+    poisson_ratio: tuple[Annotated[float, Field(ge=0, lt=0.5)], Annotated[float, Field(ge=0, lt=0.5)]] = (
+        0.3,
+        0.3,
+    )
+
+    @model_validator(mode="after")
+    def _line_has_width(self) -> Contact:
+        if self.geometry == "line" and self.width_mm is None:
+            raise ValueError("a line contact needs width_mm")
+        return self
+
+
+class Lubricant(Section):
+    name: str = "unnamed oil"
+    base: Literal["mineral", "pao", "ester", "pag"] | None = None
+    temperature_C: tuple[Number, Number] | None = None
+    kinematic_viscosity_mm2_s: tuple[Positive, Positive] | None = None
+    pressure_viscosity_per_GPa: tuple[Positive, Positive] | None = None
+    density_15C_kg_m3: Positive | None = None
+    density_change_per_K: Number | None = None
+    eyring_stress_MPa: Positive | None = None
+    thermal_conductivity_W_mK: Positive | None = None
+    specific_heat_J_kgK: Positive | None = None
+
+
+class Coating(Section):
+    name: str = "coating"
+    thickness_um: Positive
+    thermal_conductivity_W_mK: Positive
+
+
+class SurfaceSection(Section):
+    m0_um2: Positive | None = None
+    m2: Positive | None = None
+    m4_per_um2: Positive | None = None
+    profile: str | None = None
+    cutoff_mm: Positive | None = None
+    short_cutoff_um: Positive | None = None
+    form: str | None = None
+    coating: Coating | None = None
+    thermal_conductivity_W_mK: Positive = 46.0
+    density_kg_m3: Positive = 7800.0
+    specific_heat_J_kgK: Positive = 470.0
+
+    @model_validator(mode="after")
+    def _moments_or_profile(self) -> SurfaceSection:
+        moments = (self.m0_um2, self.m2, self.m4_per_um2)
+        if self.profile is None and None in moments:
+            raise ValueError("needs m0_um2, m2 and m4_per_um2, or a profile")
+        if self.profile is not None and any(m is not None for m in moments):
+            raise ValueError("has both moments and a profile; give one of them")
+        return self
+
+
+class Uncertainty(Section):
+    boundary_friction: NotNegative = 0.0
+    viscosity: NotNegative = 0.0
+    pressure_viscosity: NotNegative = 0.0
+    eyring_stress: NotNegative = 0.0
+    roughness: NotNegative = 0.0
+
+
+class Noise(Section):
+    relative: NotNegative = 0.0
+    absolute: NotNegative = 0.0
+    setup_relative: NotNegative = 0.0
+    setup_absolute: NotNegative = 0.0
+
+
+class Recording(Section):
+    quantity: Literal[
+        "power_loss_W", "friction_coefficient", "film_thickness_nm", "friction_torque_Nm", "viscosity_mPa_s"
+    ]
+    includes: str = ""
+    ambient_temperature_C: Number = 25.0
+    check: str | None = None
+    noise: Noise | None = None
+
+
+class System(Section):
+    """Everything the engineer knows about the rig."""
+
+    schema_: Literal["mixedlub-case/1"] = Field(alias="schema")
+    kind: Literal["gear_pair", "mesh_friction", "disc", "film", "friction_history", "friction_map", "viscosity"]
+    boundary_friction: Positive = 0.1
+    description: str = ""
+    gears: Gears | None = None
+    contact: Contact | None = None
+    lubricant: Lubricant | None = None
+    surfaces: dict[str, SurfaceSection] = {}
+    uncertainty: Uncertainty = Uncertainty()
+    recording: Recording
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """The file's content, or an error saying why it is not TOML."""
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise InputError("no such file", where=str(path)) from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, OSError, RecursionError) as error:
+        raise InputError(f"is not readable as TOML ({error})", where=str(path)) from None
+
+
+def parse(model: type[T], data: dict[str, Any], where: str) -> T:
+    """The validated section; the first error becomes a message that names place, value and rule."""
+    try:
+        return model.model_validate(data)
+    except ValidationError as error:
+        first = _most_telling(error)
+        place = ".".join(str(part) for part in first["loc"] if not str(part)[:1].isupper())
+        if first["type"] == "extra_forbidden":
+            known = _known_keys(model, first["loc"][:-1])
+            rule = f"key is not known; {nearest(str(first['loc'][-1]), known)}"
+            raise InputError(rule, where=f"{where}: {place}") from None
+        value = None if first["type"] == "missing" or isinstance(first["input"], dict) else first["input"]
+        rule = "is missing" if first["type"] == "missing" else first["msg"].removeprefix("Value error, ")
+        raise InputError(
+            rule[:1].lower() + rule[1:], where=f"{where}: {place}" if place else where, value=value
+        ) from None
+
+
+def _most_telling(error: ValidationError) -> Any:
+    """Unknown keys first: a misspelt key explains the missing one beside it."""
+    found = error.errors()
+    return next((e for e in found if e["type"] == "extra_forbidden"), found[0])
+
+
+def _known_keys(model: type[BaseModel], place: tuple[Any, ...]) -> list[str]:
+    """Keys allowed at a place of the nested tables."""
+    from typing import get_args
+
+    current: Any = model
+    for part in place:
+        fields = getattr(current, "model_fields", {})
+        annotation = fields[part].annotation if part in fields else current
+        options = [a for a in (annotation, *_flatten(get_args(annotation))) if _is_model(a)]
+        named = [a for a in options if a.__name__ == part]
+        if named or options:
+            current = (named or options)[0]
+    fields = getattr(current, "model_fields", {})
+    return [f.alias or name for name, f in fields.items()]
+
+
+def _flatten(args: tuple[Any, ...]) -> list[Any]:
+    from typing import get_args
+
+    return [inner for a in args for inner in (a, *_flatten(get_args(a)))]
+
+
+def _is_model(a: Any) -> bool:
+    return isinstance(a, type) and issubclass(a, BaseModel)

@@ -1,0 +1,198 @@
+"""The diagnosis of a case, from folder to answer."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mixedlub.case import Case, read_case, read_conditions
+from mixedlub.diagnosis.audit import audit
+from mixedlub.diagnosis.features import Coordinates, coordinates
+from mixedlub.diagnosis.fit import outlier_chance
+from mixedlub.diagnosis.heldout import HeldOut, held_out
+from mixedlub.diagnosis.location import Region, region
+from mixedlub.diagnosis.mismatch import Mismatch, mismatch_test
+from mixedlub.diagnosis.nexttest import NextTest, candidates, expected_bits
+from mixedlub.diagnosis.noise import is_stated, noise, noise_from_repeats, noise_from_smoothness
+from mixedlub.diagnosis.posterior import Key, Posterior, posterior
+from mixedlub.diagnosis.predict import Prediction, Refined, Rows, refine
+from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.search import Progress, Search, search
+from mixedlub.effect import find
+from mixedlub.forward import Forward
+from mixedlub.table import Table
+
+AVERAGED = 6
+SMALL = 2e-3
+
+
+@dataclass(frozen=True, eq=False)
+class Predicted:
+    """Predictions of one table: nominal base, calibrated base, the answer, its 90 % interval, mismatch in sigmas."""
+
+    table: Table
+    base: np.ndarray
+    calibrated: np.ndarray
+    predicted: np.ndarray
+    low90: np.ndarray
+    high90: np.ndarray
+    mismatch_z: np.ndarray
+    sd: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosis:
+    """Everything the answer says, and what it was computed from."""
+
+    case: Case
+    found: Search
+    test: Mismatch
+    posterior: Posterior
+    refined: dict[Key, Refined]
+    recorded: Predicted
+    wanted: Predicted | None
+    outlier_chance: np.ndarray
+    region: Region
+    heldout: HeldOut
+    next_tests: tuple[NextTest, ...]
+    warnings: tuple[str, ...]
+
+    @property
+    def outlier_runs(self) -> list[int]:
+        """Runs that are more probably outliers than not."""
+        return [int(r) for r in self.found.problem.rows["run"][self.outlier_chance > 0.5]]
+
+
+def diagnose_case(
+    folder: Path,
+    predict: Path | None = None,
+    exclude: Sequence[str] = (),
+    level: float = 0.01,
+    progress: Progress = lambda text: None,
+) -> Diagnosis:
+    """Read the case and work out what its simulation lacks."""
+    find(list(exclude))
+    case = read_case(folder)
+    assert case.recordings is not None
+    wanted = read_conditions(case, predict) if predict is not None else case.conditions
+    rows = case.recordings
+    forward = Forward(case, rows)
+    y = np.asarray(rows[case.quantity], dtype=float)
+    warnings = [*case.notes, *forward.notes, *audit(case, rows, y, forward)]
+    space = coordinates(case, rows, forward)
+    values = space.values(case, rows, forward)
+    sd, shared = noise(case, rows, y, _unstated(case, rows, y, forward, space, values))
+    problem = Problem(case, rows, forward, y, sd, shared)
+    found = search(problem, space, values, exclude, progress)
+    progress("testing against nothing missing")
+    test = mismatch_test(found, level)
+    judged = posterior(found, test)
+    refined = _refine_leaders(found, judged)
+    progress("predicting")
+    recorded = _predict(found, judged, refined, rows)
+    other = None if wanted is None else _predict(found, judged, refined, wanted)
+    chance = _outliers(found, judged, refined)
+    columns = [c.name for c in case.kind.columns if c.name in rows]
+    place = region(rows, columns, np.where(chance > 0.5, 0.0, recorded.mismatch_z))
+    progress("leaving levels out")
+    kept = held_out(found, judged.verdict, chance > 0.5)
+    tests = _next_tests(found, judged, refined, columns)
+    return Diagnosis(case, found, test, judged, refined, recorded, other, chance, place, kept, tests, tuple(warnings))
+
+
+def _unstated(
+    case: Case, rows: Table, y: np.ndarray, forward: Forward, space: Coordinates, values: list[np.ndarray]
+) -> np.ndarray:
+    """Noise to use where the recording states none: from repeats, else from what a smooth fit leaves over."""
+    sd = 0.0
+    if not is_stated(case, rows):
+        sd = noise_from_repeats(rows, y) or noise_from_smoothness(y, forward.predict(), space, values)
+    return np.full(y.size, sd)
+
+
+def _refine_leaders(found: Search, judged: Posterior) -> dict[Key, Refined]:
+    """The explanations that carry the answer, refined; none always among them."""
+    leaders = [k for k, w in judged.weights.items() if w >= SMALL and not isinstance(k, str)][:AVERAGED]
+    if () not in leaders:
+        leaders.append(())
+    return {k: refine(found, found.fits[k]) for k in leaders}
+
+
+def _predict(found: Search, judged: Posterior, refined: dict[Key, Refined], table: Table) -> Predicted:
+    problem = found.problem
+    own = table is problem.rows
+    rows = Rows(found, table, found.none.prediction if own else None)
+    calibrated = rows.problem.predict((), found.none.z)
+    if judged.verdict == ():
+        each: dict[Key, Prediction] = {(): rows.of_fit(refined[()])}
+    else:
+        each = {k: rows.of_fit(r) for k, r in refined.items() if judged.weights[k] >= SMALL}
+        if judged.weights["unknown"] >= SMALL:
+            each["unknown"] = rows.of_unknown()
+    share = np.array([judged.weights[k] for k in each])
+    share = share / share.sum()
+    means = np.array([p.mean for p in each.values()])
+    mean = share @ means
+    between = share @ (means - mean) ** 2
+    within = share @ np.array([p.variance for p in each.values()])
+    sd, shared_variance = rows.noise_at(mean)
+    half = 1.6449 * np.sqrt(sd**2 + shared_variance + within + between)
+    at_verdict = each[judged.verdict].base
+    mismatch = np.zeros(mean.size) if judged.verdict == () else (mean - at_verdict) / sd
+    nominal = rows.forward.predict()
+    return Predicted(table, nominal, calibrated, mean, mean - half, mean + half, mismatch, sd)
+
+
+def _outliers(found: Search, judged: Posterior, refined: dict[Key, Refined]) -> np.ndarray:
+    """Chance that each reading is an outlier, averaged over the explanations that carry the answer."""
+    chance = np.zeros(found.problem.y.size)
+    total = 0.0
+    for key, weight in judged.weights.items():
+        if key == "unknown":
+            residual = found.unknown.fit.residual
+        elif key in refined:
+            residual = refined[key].residual
+        else:
+            continue
+        chance += weight * outlier_chance(residual)
+        total += weight
+    return chance / max(total, 1e-300)
+
+
+def _next_tests(
+    found: Search, judged: Posterior, refined: dict[Key, Refined], columns: list[str]
+) -> tuple[NextTest, ...]:
+    keys = [k for k in refined if judged.weights[k] > 0.01]
+    if len(keys) < 2:
+        runner = next((k for k in judged.weights if not isinstance(k, str) and k not in keys and k in found.fits), None)
+        if runner is None:
+            return ()
+        refined = {**refined, runner: refine(found, found.fits[runner])}
+        keys = [*keys, runner]
+    keys = keys[:5]
+    table = candidates(found.problem.rows, columns)
+    rows = Rows(found, table)
+    predictions = [rows.of_fit(refined[k]) for k in keys]
+    weights = np.array([max(judged.weights[k], 0.05) for k in keys])
+    finite = np.isfinite(np.array([p.mean + p.variance for p in predictions])).all(axis=0)
+    bits = np.where(finite, expected_bits(weights, predictions, rows.sd), 0.0)
+    chosen: list[NextTest] = []
+    for i in np.argsort(bits)[::-1]:
+        conditions: dict[str, float | str] = {
+            name: (str(table[name][i]) if table[name].dtype.kind in "US" else float(table[name][i])) for name in columns
+        }
+        if all(_apart(conditions, t.conditions) for t in chosen):
+            names = tuple("+".join(judged.names(k)) for k in keys)
+            chosen.append(NextTest(conditions, names, float(bits[i])))
+        if len(chosen) == 3:
+            break
+    return tuple(chosen)
+
+
+def _apart(a: dict[str, Any], b: dict[str, Any]) -> bool:
+    """Whether two tests differ in at least two conditions."""
+    return sum(a[name] != b[name] for name in a) >= 2

@@ -1,0 +1,117 @@
+"""Smooth functions of the test conditions, as columns: what an unnamed mismatch may look like."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mixedlub.case import Case
+from mixedlub.forward import Forward
+from mixedlub.table import Table
+
+NODES = 12
+JITTER = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Coordinate:
+    """One condition scaled to 0..1, or a name; ``nodes`` are the places its functions are anchored at."""
+
+    name: str
+    nodes: np.ndarray
+    low: float = 0.0
+    span: float = 1.0
+    logarithmic: bool = False
+
+    @property
+    def named(self) -> bool:
+        """Whether the condition is a name, not a number."""
+        return self.nodes.dtype.kind in "US"
+
+    def scale(self, values: np.ndarray) -> np.ndarray:
+        """Values on the 0..1 axis."""
+        x = np.log(values) if self.logarithmic else values
+        return (x - self.low) / self.span
+
+    def functions(self, values: np.ndarray, length: float) -> np.ndarray:
+        """Columns whose random combination is a smooth function of the condition, variance one."""
+        if self.named:
+            return (values[:, None] == self.nodes[None, :]).astype(float)
+        nodes = self.nodes
+        kernel = _kernel(nodes, nodes, length)
+        size, vectors = np.linalg.eigh(kernel + JITTER * np.eye(nodes.size))
+        keep = size > 1e-3 * size.max()
+        return _kernel(self.scale(values), nodes, length) @ (vectors[:, keep] / np.sqrt(size[keep]))[:, ::-1]
+
+
+def _kernel(a: np.ndarray, b: np.ndarray, length: float) -> np.ndarray:
+    return np.exp(-0.5 * ((a[:, None] - b[None, :]) / length) ** 2)
+
+
+@dataclass(frozen=True, eq=False)
+class Coordinates:
+    """The conditions of a case along which its readings were varied."""
+
+    axes: tuple[Coordinate, ...]
+
+    def values(self, case: Case, table: Table, forward: Forward) -> list[np.ndarray]:
+        """The conditions of a table, one array an axis."""
+        every = raw_coordinates(case, table, forward)
+        return [every[axis.name] for axis in self.axes]
+
+    def columns(
+        self, values: list[np.ndarray], length: float, only: str | None = None, interactions: bool = False
+    ) -> np.ndarray:
+        """Function columns over all axes or one, with products of pairs if wanted; total variance about one."""
+        blocks = [
+            axis.functions(v, length)
+            for axis, v in zip(self.axes, values, strict=True)
+            if only is None or axis.name == only
+        ]
+        found = list(blocks)
+        if interactions:
+            for i, first in enumerate(blocks):
+                for second in blocks[i + 1 :]:
+                    a, b = first[:, :4], second[:, :4]
+                    found.append((a[:, :, None] * b[:, None, :]).reshape(a.shape[0], -1))
+        return np.hstack(found) / np.sqrt(len(found)) if found else np.zeros((len(values[0]) if values else 0, 0))
+
+
+def raw_coordinates(case: Case, table: Table, forward: Forward) -> dict[str, np.ndarray]:
+    """Condition columns of a table, the surfaces as a pair and as a composite roughness."""
+    found: dict[str, np.ndarray] = {}
+    names = [c for c in case.kind.columns if c.form == "name" and c.name in table]
+    for column in case.kind.columns:
+        if column.form != "name" and column.name in table:
+            found[column.name] = np.asarray(table[column.name], dtype=float)
+    if names:
+        label = table[names[0].name].astype(str)
+        for column in names[1:]:
+            label = np.char.add(np.char.add(label, " / "), table[column.name].astype(str))
+        found["surfaces"] = label
+    if "m0" in forward.inputs:
+        found["composite_roughness_um"] = np.broadcast_to(np.sqrt(forward.inputs["m0"])[:, 0] * 1e6, len(table))
+    if "sequence" in table:
+        found["sequence"] = np.asarray(table["sequence"], dtype=float)
+    return found
+
+
+def coordinates(case: Case, table: Table, forward: Forward) -> Coordinates:
+    """The axes along which a recording varies."""
+    axes = []
+    for name, values in raw_coordinates(case, table, forward).items():
+        levels = np.unique(values)
+        if levels.size < 2:
+            continue
+        if values.dtype.kind in "US":
+            axes.append(Coordinate(name, levels))
+            continue
+        logarithmic = bool(levels[0] > 0 and levels[-1] / levels[0] > 3.0 and name != "sequence")
+        x = np.log(levels) if logarithmic else levels
+        low, span = float(x[0]), float(x[-1] - x[0])
+        nodes = (x - low) / span
+        if nodes.size > NODES:
+            nodes = np.linspace(0.0, 1.0, NODES)
+        axes.append(Coordinate(name, nodes, low, span, logarithmic))
+    return Coordinates(tuple(axes))

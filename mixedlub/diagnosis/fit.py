@@ -1,0 +1,184 @@
+"""Most probable parameters of an explanation and its evidence, with readings that may be outliers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from mixedlub.diagnosis.problem import REACH, Explanation, Problem
+from mixedlub.forward import Run
+
+OUTLIER_SHARE = 0.01
+OUTLIER_WIDTH = 10.0
+_LOG_IN = np.log1p(-OUTLIER_SHARE)
+_LOG_OUT = np.log(OUTLIER_SHARE / OUTLIER_WIDTH)
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """An explanation at its most probable coordinates ``z``.
+
+    ``residual`` is (y - prediction)/sd, ``slopes`` its negative derivative with respect to z, ``weight`` the
+    precision of each reading after the chance that it is an outlier, ``evidence`` the Laplace estimate of
+    the log marginal likelihood (up to a constant common to all explanations of a problem).
+    """
+
+    explanation: Explanation
+    z: np.ndarray
+    prediction: np.ndarray
+    residual: np.ndarray
+    slopes: np.ndarray
+    weight: np.ndarray
+    evidence: float
+
+    @property
+    def anchor(self) -> np.ndarray:
+        """Residual of the linearised model at the middle of the prior."""
+        return self.residual + self.slopes @ self.z
+
+
+def log_likelihood(residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Log density of residuals under noise with rare wide errors, and each one's precision weight.
+
+    >>> bool(log_likelihood(np.array([8.0]))[1][0] < 0.02)
+    True
+    """
+    inside = _LOG_IN - 0.5 * residual**2
+    outside = _LOG_OUT - 0.5 * (residual / OUTLIER_WIDTH) ** 2
+    total = np.logaddexp(inside, outside)
+    chance = np.exp(outside - total)
+    return total, 1.0 - chance * (1.0 - OUTLIER_WIDTH**-2)
+
+
+def outlier_chance(residual: np.ndarray) -> np.ndarray:
+    """Probability that each residual came from the wide errors.
+
+    >>> outlier_chance(np.array([0.0, 6.0])).round(3).tolist()
+    [0.001, 1.0]
+    """
+    inside = _LOG_IN - 0.5 * residual**2
+    outside = _LOG_OUT - 0.5 * (residual / OUTLIER_WIDTH) ** 2
+    return np.exp(outside - np.logaddexp(inside, outside))
+
+
+@dataclass(frozen=True, eq=False)
+class Linear:
+    """A linear model at its most probable coefficients."""
+
+    evidence: float
+    coefficients: np.ndarray
+    residual: np.ndarray
+    weight: np.ndarray
+
+
+def linear_fit(target: np.ndarray, columns: np.ndarray, weight: np.ndarray | None = None, rounds: int = 30) -> Linear:
+    """Coefficients with standard-normal priors of ``target ~ columns``, outliers weighted down as they show."""
+    coefficients = np.zeros(columns.shape[1])
+    w = np.ones(target.size) if weight is None else weight
+    eye = np.eye(columns.shape[1])
+    for _ in range(rounds):
+        scaled = columns * w[:, None]
+        curvature = eye + columns.T @ scaled
+        found = np.linalg.solve(curvature, scaled.T @ target)
+        residual = target - columns @ found
+        value, new = log_likelihood(residual)
+        done = np.max(np.abs(new - w)) < 1e-3
+        coefficients, w = found, new
+        if done:
+            break
+    log_det = np.linalg.slogdet(curvature)[1]
+    evidence = float(value.sum() - 0.5 * coefficients @ coefficients - 0.5 * log_det)
+    return Linear(evidence, coefficients, residual, w)
+
+
+def map_fit(problem: Problem, explanation: Explanation, start: np.ndarray, *, warm: bool = False) -> Fit:
+    """Gauss-Newton with damping to the most probable coordinates, then Laplace's evidence.
+
+    Unless the start is ``warm``, plain least squares come first: from afar every reading looks like an outlier.
+    """
+    z = np.clip(start, -REACH, REACH)
+    shared = np.zeros(problem.shared.shape[1])
+    state = _State.at(problem, explanation, z, shared, likelihood=gaussian if not warm else log_likelihood)
+    if not warm:
+        state = _climb(problem, explanation, state, gaussian, tolerance=0.5)
+    state = _climb(problem, explanation, state, log_likelihood, tolerance=2e-3)
+    columns = np.hstack([state.slopes, problem.shared])
+    curvature = np.eye(columns.shape[1]) + columns.T @ (columns * state.weight[:, None])
+    evidence = -state.cost - 0.5 * float(np.linalg.slogdet(curvature)[1])
+    prediction = state.run.prediction
+    residual = (problem.y - prediction) / problem.sd
+    return Fit(explanation, state.z, prediction, residual, state.slopes, state.weight, evidence)
+
+
+def gaussian(residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Log density and weights of residuals under plain noise.
+
+    >>> gaussian(np.array([2.0]))[0].tolist()
+    [-2.0]
+    """
+    return -0.5 * residual**2, np.ones(residual.size)
+
+
+Likelihood = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+
+@dataclass(frozen=True, eq=False)
+class _State:
+    z: np.ndarray
+    shared: np.ndarray
+    run: Run
+    slopes: np.ndarray
+    cost: float
+    weight: np.ndarray
+
+    @classmethod
+    def at(
+        cls, problem: Problem, explanation: Explanation, z: np.ndarray, shared: np.ndarray, likelihood: Likelihood
+    ) -> _State:
+        run = problem.run(explanation, z)
+        cost, weight = _cost(problem, run.prediction, z, shared, likelihood)
+        return cls(z, shared, run, problem.jacobian(explanation, z, run), cost, weight)
+
+
+def _climb(
+    problem: Problem, explanation: Explanation, state: _State, likelihood: Likelihood, *, tolerance: float
+) -> _State:
+    """Damped Gauss-Newton steps until the gain falls below the tolerance."""
+    z, shared, run, slopes = state.z, state.shared, state.run, state.slopes
+    cost, weight = _cost(problem, run.prediction, z, shared, likelihood)
+    damping = 1e-2
+    for _ in range(20):
+        columns = np.hstack([slopes, problem.shared])
+        scaled = columns * weight[:, None]
+        curvature = np.eye(columns.shape[1]) + columns.T @ scaled
+        residual = (problem.y - run.prediction) / problem.sd - problem.shared @ shared
+        slope = scaled.T @ residual - np.concatenate([z, shared])
+        for _ in range(8):
+            step = np.linalg.solve(curvature + damping * np.diag(np.diag(curvature)), slope)
+            step *= min(1.0, 2.0 / max(np.max(np.abs(step[: z.size]), initial=0.0), 1e-12))
+            moved = np.clip(z + step[: z.size], -REACH, REACH)
+            moved_shared = shared + step[z.size :]
+            tried = problem.run(explanation, moved, run)
+            new_cost, new_weight = _cost(problem, tried.prediction, moved, moved_shared, likelihood)
+            if np.isfinite(new_cost) and new_cost <= cost:
+                break
+            damping = max(damping * 6.0, 1e-3)
+        else:
+            break
+        gain = cost - new_cost
+        z, shared, run, cost, weight = moved, moved_shared, tried, new_cost, new_weight
+        damping = max(damping / 5.0, 1e-9)
+        slopes = problem.jacobian(explanation, z, run)
+        if gain < tolerance:
+            break
+    return _State(z, shared, run, slopes, cost, weight)
+
+
+def _cost(
+    problem: Problem, prediction: np.ndarray, z: np.ndarray, shared: np.ndarray, likelihood: Likelihood
+) -> tuple[float, np.ndarray]:
+    residual = (problem.y - prediction) / problem.sd - problem.shared @ shared
+    value, weight = likelihood(residual)
+    return float(-value.sum() + 0.5 * z @ z + 0.5 * shared @ shared), weight

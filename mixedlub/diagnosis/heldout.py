@@ -1,0 +1,78 @@
+"""Does the verdict predict conditions it was not fitted to: whole levels left out, everything refitted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mixedlub.diagnosis.fit import linear_fit, map_fit
+from mixedlub.diagnosis.problem import Explanation
+from mixedlub.diagnosis.search import Search
+from mixedlub.diagnosis.unknown import shape_columns, share_of
+
+MOST_FOLDS = 8
+
+
+@dataclass(frozen=True)
+class HeldOut:
+    """Rms of (recorded - predicted)/sd on levels left out, calibration only and with the verdict."""
+
+    before: float
+    after: float
+    split: str
+    folds: int
+
+
+def held_out(found: Search, verdict: Explanation | str, outliers: np.ndarray) -> HeldOut:
+    """Leave out each level of the condition with the most levels (up to 8), refit, and predict it."""
+    name, fold = _folds(found)
+    before, after = np.zeros(found.problem.y.size), np.zeros(found.problem.y.size)
+    for k in range(int(fold.max()) + 1):
+        out = fold == k
+        train, test = found.problem.take(~out), found.problem.take(out)
+        none = map_fit(train, (), found.none.z)
+        before[out] = (test.y - test.predict((), none.z)) / test.sd
+        if verdict == "unknown":
+            after[out] = _unknown_residual(found, out)
+        elif verdict == ():
+            after[out] = before[out]
+        else:
+            fit = map_fit(train, tuple(verdict), found.fits[tuple(verdict)].z, warm=True)
+            after[out] = (test.y - test.predict(fit.explanation, fit.z)) / test.sd
+    kept = ~outliers
+    return HeldOut(
+        float(np.sqrt(np.mean(before[kept] ** 2))),
+        float(np.sqrt(np.mean(after[kept] ** 2))),
+        f"leave one level of {name} out" if name else "leave every fifth reading out",
+        int(fold.max()) + 1,
+    )
+
+
+def _unknown_residual(found: Search, out: np.ndarray) -> np.ndarray:
+    """Residual of left-out readings under the unnamed mismatch fitted to the others (linearised)."""
+    problem, none = found.problem, found.none
+    share, typical = share_of(none.prediction, problem.sd)
+    own = shape_columns(found.unknown.best, found.space, found.values, share, typical)
+    every = np.hstack([none.slopes, problem.shared, own])
+    fit = linear_fit(none.anchor[~out], every[~out])
+    return none.anchor[out] - every[out] @ fit.coefficients
+
+
+def _folds(found: Search) -> tuple[str, np.ndarray]:
+    best: tuple[int, str, np.ndarray] | None = None
+    for axis, values in zip(found.space.axes, found.values, strict=True):
+        if axis.name in ("sequence", "composite_roughness_um"):
+            continue
+        levels, label = np.unique(values, return_inverse=True)
+        if levels.size > MOST_FOLDS and not axis.named:
+            edges = np.unique(np.quantile(values, np.linspace(0, 1, MOST_FOLDS + 1)[1:-1]))
+            label = np.searchsorted(edges, values, side="right")
+        if levels.size > MOST_FOLDS and axis.named:
+            label = label % MOST_FOLDS
+        count = int(np.unique(label).size)
+        if count >= 3 and (best is None or count > best[0]):
+            best = (count, axis.name, np.unique(label, return_inverse=True)[1])
+    if best is None:
+        return "", np.arange(found.problem.y.size) % min(5, found.problem.y.size)
+    return best[1], best[2]

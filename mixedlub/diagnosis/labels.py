@@ -1,0 +1,173 @@
+"""Names of columns, explanations and equations as a reader expects them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+UNITS = {
+    "per_GPa": "1/GPa",
+    "percent": "%",
+    "mPa_s": "mPa s",
+    "m_s": "m/s",
+    "MPa": "MPa",
+    "rpm": "rpm",
+    "deg": "°",
+    "Nm": "N m",
+    "nm": "nm",
+    "um": "µm",
+    "N": "N",
+    "W": "W",
+    "C": "°C",
+    "s": "s",
+}
+"""Ending of a column's name and the unit it stands for, longer endings first."""
+
+PLAIN = {
+    r"\quad": "  ",
+    r"\left": "",
+    r"\right": "",
+    r"\,": " ",
+    r"\;": " ",
+    r"\cdot": "·",
+    r"\times": "×",
+    r"\leftarrow": "←",
+    r"\rightarrow": "→",
+    r"\leq": "≤",
+    r"\geq": "≥",
+    r"\le": "≤",
+    r"\ge": "≥",
+    r"\pm": "±",
+    r"\infty": "∞",
+    r"\int": "∫",
+    r"\sum": "Σ",
+    r"\sqrt": "√",
+    r"\partial": "∂",
+}
+LETTERS = (
+    "alpha beta gamma delta epsilon zeta eta theta kappa lambda mu nu xi pi rho sigma tau phi varphi chi psi omega "
+    "Gamma Delta Theta Lambda Sigma Phi Psi Omega"
+)
+GREEK = dict(zip(LETTERS.split(), "αβγδεζηθκλμνξπρστφφχψωΓΔΘΛΣΦΨΩ", strict=True))
+
+
+def unit_of(column: str) -> str:
+    """The unit at the end of a column's name; empty where it has none.
+
+    >>> unit_of("oil_temperature_C"), unit_of("entrainment_speed_m_s"), unit_of("slide_roll_ratio")
+    ('°C', 'm/s', '')
+    """
+    return next((unit for ending, unit in UNITS.items() if column.endswith(f"_{ending}")), "")
+
+
+def words_of(column: str) -> str:
+    """A column's name in words, without its unit.
+
+    >>> words_of("oil_temperature_C"), words_of("slide_roll_ratio")
+    ('oil temperature', 'slide-roll ratio')
+    """
+    ending = next((e for e in UNITS if column.endswith(f"_{e}")), "")
+    words = column.removesuffix(f"_{ending}").replace("_", " ")
+    return words.replace("slide roll", "slide-roll").replace("pressure viscosity", "pressure-viscosity")
+
+
+def axis_label(column: str) -> str:
+    """Words and unit for the axis of a figure.
+
+    >>> axis_label("torque_Nm"), axis_label("friction_coefficient")
+    ('torque (N m)', 'friction coefficient (-)')
+    """
+    return f"{words_of(column)} ({unit_of(column) or '-'})"
+
+
+def amount(value: float, column: str) -> str:
+    """A number with its column's unit.
+
+    >>> amount(2000.0, "speed_rpm"), amount(0.1, "slide_roll_ratio")
+    ('2000 rpm', '0.1')
+    """
+    unit = unit_of(column)
+    return f"{value:.6g}" if not unit else f"{value:.6g}{'' if unit == '°' else ' '}{unit}"
+
+
+def conditions_text(conditions: Mapping[str, float | str]) -> str:
+    """The conditions of one reading in words.
+
+    >>> conditions_text({"torque_Nm": 50.0, "pinion_surface": "ground"})
+    'torque 50 N m, pinion surface ground'
+    """
+    return ", ".join(
+        f"{words_of(name)} {value if isinstance(value, str) else amount(value, name)}"
+        for name, value in conditions.items()
+    )
+
+
+def range_text(cut: Mapping[str, Any]) -> str:
+    """One cut of a region in words.
+
+    >>> range_text({"column": "speed_rpm", "low": 2000.0, "high": 3000.0})
+    'speed 2000 to 3000 rpm'
+    """
+    name = cut["column"]
+    if "values" in cut:
+        return f"{words_of(name)} {' or '.join(cut['values'])}"
+    if cut["low"] == cut["high"]:
+        return f"{words_of(name)} {amount(cut['low'], name)}"
+    return f"{words_of(name)} {cut['low']:.6g} to {amount(cut['high'], name)}"
+
+
+def effect_words(name: str) -> str:
+    """An effect's id in words.
+
+    >>> effect_words("inlet_shear_heating")
+    'inlet shear heating'
+    """
+    special = {"none": "nothing missing", "unknown": "something outside the catalogue", "micro_ehl": "micro-EHL"}
+    return special.get(name, name.replace("_", " "))
+
+
+def explanation_words(names: Sequence[str]) -> str:
+    """An explanation in words.
+
+    >>> explanation_words(["churning", "sensor_offset"])
+    'churning and sensor offset'
+    """
+    return " and ".join(effect_words(name) for name in names)
+
+
+def plain_equation(latex: str) -> str:
+    r"""An equation's LaTeX as a line of text.
+
+    >>> plain_equation(r"h \leftarrow h\,\frac{1 - a}{1 + b\,L^{0.64}}")
+    'h ← h (1 - a)/(1 + b L^0.64)'
+    """
+    text = latex
+    while (found := re.search(r"\\[dt]?frac\s*\{", text)) is not None:
+        over, rest = _braced(text, found.end() - 1)
+        under, end = _braced(text, rest)
+        text = f"{text[: found.start()]}{_bracketed(over)}/{_bracketed(under)}{text[end:]}"
+    text = re.sub(r"\\(?:mathrm|text|operatorname|mathit)\s*\{([^{}]*)\}", r"\1", text)
+    for sign, plain in sorted(PLAIN.items(), key=lambda item: -len(item[0])):
+        text = re.sub(re.escape(sign) + (r"(?![a-zA-Z])" if sign[-1].isalpha() else ""), plain, text)
+    text = re.sub(r"\\([a-zA-Z]+)", lambda m: GREEK.get(m[1], m[1]), text)
+    text = re.sub(r"([_^])\{([^{}\s()+*/-]*|-?[\d./]+)\}", r"\1\2", text)
+    return re.sub(r" {3,}", "  ", text.replace("{", "(").replace("}", ")")).strip()
+
+
+def _braced(text: str, start: int) -> tuple[str, int]:
+    """The content of the braces that open at ``start``, and the place after them."""
+    while text[start] == " ":
+        start += 1
+    if text[start] != "{":
+        return text[start], start + 1
+    depth = 0
+    for i in range(start, len(text)):
+        depth += {"{": 1, "}": -1}.get(text[i], 0)
+        if depth == 0:
+            return text[start + 1 : i], i + 1
+    return text[start + 1 :], len(text)
+
+
+def _bracketed(text: str) -> str:
+    return text if re.fullmatch(r"\\?[a-zA-Z0-9._]+'?", text) else f"({text})"

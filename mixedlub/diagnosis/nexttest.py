@@ -1,0 +1,67 @@
+"""Which test to run next: the conditions whose outcome would tell the remaining explanations apart best."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from mixedlub.diagnosis.predict import Prediction
+from mixedlub.table import Table
+
+MOST = 600
+NODES = 21
+
+
+@dataclass(frozen=True)
+class NextTest:
+    """Conditions to run, the explanations they separate, and the information expected."""
+
+    conditions: dict[str, float | str]
+    separates: tuple[str, ...]
+    expected_bits: float
+
+
+def candidates(table: Table, names: list[str]) -> Table:
+    """A grid over the recorded levels and a little beyond them, thinned to a few hundred conditions."""
+    axes: list[np.ndarray] = []
+    for name in names:
+        levels = np.unique(table[name])
+        if levels.dtype.kind not in "US" and levels.size > 1:
+            low, high = float(levels[0]), float(levels[-1])
+            wide = 0.25 * (high - low)
+            beyond = [low - wide if low - wide > 0.3 * low or low <= 0 else 0.6 * low, high + wide]
+            inner = levels if levels.size <= 4 else np.quantile(levels, [0.0, 0.33, 0.67, 1.0])
+            levels = np.unique(np.concatenate([inner, beyond]))
+        axes.append(levels if levels.size <= 8 else levels[np.linspace(0, levels.size - 1, 8).astype(int)])
+    grid = list(product(*axes))
+    step = max(1, len(grid) // MOST)
+    grid = grid[::step]
+    columns = {name: np.array([row[i] for row in grid]) for i, name in enumerate(names)}
+    columns["run"] = np.arange(1, len(grid) + 1)
+    if "sequence" in table:
+        columns["sequence"] = np.ones(len(grid))
+    return Table(columns, "next tests")
+
+
+def expected_bits(weights: np.ndarray, predictions: list[Prediction], sd: np.ndarray) -> np.ndarray:
+    """Mutual information of one reading with the explanation, in bits, for every candidate.
+
+    >>> near = Prediction(np.zeros(1), np.zeros(1), np.zeros(1))
+    >>> far = Prediction(np.full(1, 50.0), np.zeros(1), np.zeros(1))
+    >>> expected_bits(np.array([0.5, 0.5]), [near, far], np.ones(1)).round(3).tolist()
+    [1.0]
+    """
+    share = weights / weights.sum()
+    mean = np.array([p.mean for p in predictions])
+    spread = np.sqrt(np.array([p.variance for p in predictions]) + sd**2)
+    node, mass = np.polynomial.hermite_e.hermegauss(NODES)
+    mass = mass / mass.sum()
+    gain = np.zeros(mean.shape[1])
+    for m in range(len(share)):
+        y = mean[m] + spread[m] * node[:, None]
+        log = -0.5 * ((y[None] - mean[:, None]) / spread[:, None]) ** 2 - np.log(spread)[:, None]
+        mixed = np.logaddexp.reduce(log + np.log(share)[:, None, None], axis=0)
+        gain += share[m] * (mass[:, None] * (log[m] - mixed)).sum(axis=0)
+    return np.maximum(gain, 0.0) / np.log(2.0)

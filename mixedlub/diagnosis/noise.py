@@ -1,0 +1,84 @@
+"""How much a reading scatters: as stated, as repeats show, or as a smooth fit leaves over."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mixedlub.case import Case
+from mixedlub.diagnosis.features import Coordinates
+from mixedlub.table import Table
+
+
+def is_stated(case: Case, rows: Table) -> bool:
+    """Whether the recording says how much its readings scatter."""
+    stated = case.system.recording.noise
+    return f"{case.quantity}_sd" in rows or (stated is not None and (stated.relative > 0 or stated.absolute > 0))
+
+
+def noise(case: Case, rows: Table, level: np.ndarray, unstated: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Standard deviation of each reading and, in sigmas, the columns of errors shared within a set-up.
+
+    ``level`` is the size of the readings, ``unstated`` the standard deviation where the recording gives none.
+    """
+    quantity = case.quantity
+    stated = case.system.recording.noise
+    if f"{quantity}_sd" in rows:
+        sd = rows[f"{quantity}_sd"].astype(float)
+    elif stated is not None and (stated.relative > 0 or stated.absolute > 0):
+        sd = np.hypot(stated.relative * np.abs(level), stated.absolute)
+    else:
+        sd = unstated
+    sd = np.maximum(sd, 1e-6 * float(np.median(np.abs(level))) + 1e-300)
+    shared = np.zeros((level.size, 0))
+    if stated is not None and "setup" in rows and (stated.setup_relative > 0 or stated.setup_absolute > 0):
+        names = np.unique(rows["setup"])
+        member = (rows["setup"][:, None] == names[None, :]).astype(float)
+        columns = []
+        if stated.setup_relative > 0:
+            columns.append(member * (stated.setup_relative * level / sd)[:, None])
+        if stated.setup_absolute > 0:
+            columns.append(member * (stated.setup_absolute / sd)[:, None])
+        shared = np.hstack(columns)
+    return sd, shared
+
+
+def noise_from_repeats(rows: Table, y: np.ndarray) -> float:
+    """Standard deviation from readings at equal conditions; zero when there are fewer than five repeats."""
+    skip = {"run", "sequence"}
+    keys = [
+        np.unique(column, return_inverse=True)[1]
+        for name, column in rows.columns.items()
+        if name not in skip and not np.array_equal(column, y)
+    ]
+    if not keys:
+        return 0.0
+    _, group = np.unique(np.stack(keys, axis=1), axis=0, return_inverse=True)
+    group = group.reshape(-1)
+    count = np.bincount(group)
+    mean = np.bincount(group, weights=y) / count
+    left = y - mean[group]
+    spare = int((count - 1).sum())
+    return float(np.sqrt((left**2).sum() / spare)) if spare >= 5 else 0.0
+
+
+def noise_from_smoothness(y: np.ndarray, base: np.ndarray, space: Coordinates, values: list[np.ndarray]) -> float:
+    """Standard deviation of what a rich smooth function of the conditions leaves over, outliers set aside.
+
+    The function may scale and shift the base model; the count of what it used up is taken off.
+    """
+    columns = np.hstack([np.ones((y.size, 1)), base[:, None], space.columns(values, 0.25, None, True)])
+    size = np.linalg.norm(columns, axis=0)
+    columns = columns[:, size > 0] / size[size > 0]
+    keep = np.ones(y.size, bool)
+    sd = float(np.std(y))
+    for _ in range(4):
+        ridge = 1e-4 * np.eye(columns.shape[1])
+        used = columns[keep]
+        curvature = used.T @ used
+        found = np.linalg.solve(curvature + ridge, used.T @ y[keep])
+        spent = float(np.trace(np.linalg.solve(curvature + ridge, curvature)))
+        left = y - columns @ found
+        spare = max(float(keep.sum()) - spent, 0.2 * float(keep.sum()), 1.0)
+        sd = float(np.sqrt(np.sum(left[keep] ** 2) / spare))
+        keep = np.abs(left) < 4.0 * sd
+    return sd

@@ -1,0 +1,142 @@
+"""The answer as one HTML page that needs nothing beside itself."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from importlib.resources import files
+
+from mixedlub.diagnosis.charts import colour_of
+from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.labels import words_of
+from mixedlub.diagnosis.problem import effects_of
+from mixedlub.diagnosis.style import equation_svg, inline
+from mixedlub.diagnosis.words import (
+    ALIKE,
+    GAIN,
+    LEFT_OUT,
+    MISMATCH,
+    NEXT,
+    UNNAMED,
+    WHERE,
+    Section,
+    equation_sentence,
+    number,
+)
+
+CAPTIONS = {
+    "recorded_against_simulated": (
+        MISMATCH,
+        "Recorded against simulated, and what is left in sigmas: left the base model after calibration within its "
+        "stated uncertainty, right with the answer.",
+    ),
+    "residual_map": (
+        WHERE,
+        "Residuals over the test conditions; the tiles of a block are the readings taken there (surfaces and the "
+        "other conditions, in the same order everywhere). Red: the rig reads more than simulated; crosses: outliers.",
+    ),
+    "roll_angle_map": (
+        WHERE,
+        "Residuals of tooth friction over roll angle, one line a test condition. Red: the rig reads more than "
+        "simulated.",
+    ),
+    "profiles": (WHERE, "Mean residual along each condition, with two standard errors."),
+    "missing_part": (
+        LEFT_OUT,
+        "The missing part of the reading: what was recorded less the base model at the answer's calibration, with "
+        "one standard deviation, and what the answer says. Readings of one level stand side by side.",
+    ),
+    "empirical_form": (
+        UNNAMED,
+        "The missing part against the empirical form; the line is the form, the band two standard deviations of its "
+        "coefficient. A description within the recorded conditions, not physics.",
+    ),
+    "evidence": (ALIKE, "The explanations that were weighed, by probability."),
+    "confusability": (
+        ALIKE,
+        "Which effects look alike at the recorded conditions after calibration has taken its share; those of the "
+        "answer in bold. Right: how large each would be at its usual strength.",
+    ),
+    "heldout": (GAIN, "Error on whole levels of conditions that were left out of the fit."),
+    "intervals": (GAIN, "Recorded readings against the 90 % predictive intervals."),
+    "next_test": (NEXT, "Where the recommended tests lie among the recorded conditions, and what each would tell."),
+}
+"""Section and caption of each figure."""
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A drawing ready to stand in the page."""
+
+    drawing: str
+    caption: str
+
+
+def render(d: Diagnosis, parts: Iterable[Section], drawings: Mapping[str, str]) -> str:
+    """The page; ``drawings`` are SVG by figure name."""
+    from jinja2 import Environment, StrictUndefined
+    from markupsafe import Markup
+
+    environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
+    template = environment.from_string(files("mixedlub.diagnosis").joinpath("page.html").read_text(encoding="utf-8"))
+    pictures: dict[str, list[Picture]] = defaultdict(list)
+    for name, (section, caption) in CAPTIONS.items():
+        if name in drawings:
+            pictures[section].append(Picture(Markup(inline(drawings[name], name)), caption))
+    return template.render(
+        title=f"{d.case.name}: what the simulation leaves out",
+        case=d.case.name,
+        colour=colour_of(d.posterior.verdict),
+        parts=_with_pictures(parts, pictures),
+        cards=_cards(d),
+        description=d.case.system.description or "",
+        equations={sentence: Markup(svg) for sentence, svg in _equations(d).items()},
+        pictures=pictures,
+        version=_version(),
+        readings=d.found.problem.y.size,
+        quantity=words_of(d.case.quantity),
+        level=f"{100 * d.test.level:g} %",
+    )
+
+
+def _with_pictures(parts: Iterable[Section], pictures: Mapping[str, list[Picture]]) -> list[Section]:
+    """The sections, and one for pictures whose section has nothing to say."""
+    found = list(parts)
+    titles = {part.title for part in found}
+    return found + [Section(title, ()) for title in pictures if title not in titles]
+
+
+def _equations(d: Diagnosis) -> dict[str, str]:
+    """Drawings of the verdict's equations by the sentence that they stand for."""
+    if isinstance(d.posterior.verdict, str):
+        return {}
+    found = {}
+    for e in effects_of(d.posterior.verdict):
+        drawn = equation_svg(e.equation)
+        if drawn is not None:
+            found[equation_sentence(e)] = inline(drawn, f"equation-{e.id}")
+    return found
+
+
+def _cards(d: Diagnosis) -> list[tuple[str, str]]:
+    """The few numbers a reader looks for first."""
+    p = d.test.p_value
+    cards = [
+        (f"{p:.1g}" if p < 0.001 else f"{p:.2f}", "chance of such a mismatch when nothing is missing (p)"),
+        (f"{100 * d.posterior.weights[d.posterior.verdict]:.0f} %", "probability of the first explanation"),
+        (f"{d.heldout.before:.2f}", "sigma, error on left-out levels with calibration alone"),
+    ]
+    if d.posterior.verdict != ():
+        cards.append((f"{d.heldout.after:.2f}", "sigma, the same with the answer"))
+    cards.append((number(float(len(d.outlier_runs))), f"outliers among {d.found.problem.y.size} readings"))
+    return cards
+
+
+def _version() -> str:
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        return version("mixedlub")
+    except PackageNotFoundError:
+        return ""

@@ -1,0 +1,99 @@
+"""The inference problem of a case: readings, their noise, and predictions in standard-normal coordinates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mixedlub.case import Case
+from mixedlub.diagnosis.noise import noise
+from mixedlub.effect import Effect, catalogue
+from mixedlub.forward import Forward, Run
+from mixedlub.table import Table
+
+Explanation = tuple[str, ...]
+"""Effect ids in order; empty for "none"."""
+
+STEP = 1e-4
+REACH = 4.5
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """Readings y with standard deviation sd, and the forward model of the rows they were taken at.
+
+    Every unknown has a standard-normal prior: calibration and effect parameters through their priors'
+    ``value``, errors shared within a set-up as columns of ``shared`` (in sigmas).
+    """
+
+    case: Case
+    rows: Table
+    forward: Forward
+    y: np.ndarray
+    sd: np.ndarray
+    shared: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
+
+    @property
+    def calibration_size(self) -> int:
+        """How many inputs calibration may move."""
+        return len(self.forward.calibrations)
+
+    def size(self, explanation: Explanation) -> int:
+        """Length of the coordinate vector of an explanation."""
+        return self.calibration_size + sum(len(e.parameters) for e in effects_of(explanation))
+
+    def calibration(self, z: np.ndarray) -> dict[str, float]:
+        """Calibration values at coordinates z."""
+        names = self.forward.calibrations
+        return {c.name: c.parameter.prior.value(float(x)) for c, x in zip(names, z[: len(names)], strict=True)}
+
+    def parameters(self, explanation: Explanation, z: np.ndarray) -> dict[str, dict[str, float]]:
+        """Effect parameters at coordinates z."""
+        values, start = {}, self.calibration_size
+        for e in effects_of(explanation):
+            stop = start + len(e.parameters)
+            values[e.id] = e.values(z[start:stop])
+            start = stop
+        return values
+
+    def run(self, explanation: Explanation, z: np.ndarray, near: Run | None = None) -> Run:
+        """Predicted readings at coordinates z, with the steps that lead there."""
+        return self.forward.run(self.calibration(z), self.parameters(explanation, z), near)
+
+    def predict(self, explanation: Explanation, z: np.ndarray) -> np.ndarray:
+        """Predicted readings at coordinates z."""
+        return self.run(explanation, z).prediction
+
+    def base(self, z: np.ndarray) -> np.ndarray:
+        """Predicted readings at the same calibration with nothing added."""
+        return self.forward.predict(self.calibration(z))
+
+    def jacobian(self, explanation: Explanation, z: np.ndarray, at: Run | None = None) -> np.ndarray:
+        """Derivative of predictions over sd with respect to z, by forward differences."""
+        here = self.run(explanation, z) if at is None else at
+        slopes = np.empty((self.y.size, z.size))
+        for i in range(z.size):
+            moved = z.copy()
+            moved[i] += STEP if z[i] < REACH else -STEP
+            change = self.run(explanation, moved, here).prediction - here.prediction
+            slopes[:, i] = change / (self.sd * (moved[i] - z[i]))
+        return slopes
+
+    def with_sd(self, prediction: np.ndarray) -> Problem:
+        """The same problem with the noise taken at the size of a prediction instead of the readings."""
+        sd, shared = noise(self.case, self.rows, prediction, self.sd)
+        return Problem(self.case, self.rows, self.forward, self.y, sd, shared)
+
+    def take(self, rows: np.ndarray) -> Problem:
+        """The problem on some of its rows."""
+        table = self.rows.take(rows)
+        forward = Forward(self.case, table, float(self.forward.inputs["reading_scale"]))
+        used = self.shared[rows]
+        return Problem(self.case, table, forward, self.y[rows], self.sd[rows], used[:, np.any(used != 0, axis=0)])
+
+
+def effects_of(explanation: Explanation) -> list[Effect]:
+    """The effects an explanation names."""
+    known = catalogue()
+    return [known[name] for name in explanation]

@@ -1,0 +1,221 @@
+"""Search over explanations: none, each effect, pairs of effects, and the unnamed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+
+from mixedlub.diagnosis.features import Coordinates
+from mixedlub.diagnosis.fit import Fit, linear_fit, map_fit
+from mixedlub.diagnosis.problem import Explanation, Problem, effects_of
+from mixedlub.diagnosis.unknown import Unknown, unknown_fit
+
+PRIOR = {"none": 0.42, "single": 0.38, "pair": 0.08, "unknown": 0.12}
+SAMPLES = (12, 24, 40, 56)
+LEADERS = 8
+FAR = 60.0
+PAIRS = 20
+ELASTIC = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
+"""Relative error of an effect's literature form: its rms and the weight given to it."""
+
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Sampled:
+    """Prior draws of an effect: coordinates, and the change of the readings in sigmas that each makes."""
+
+    id: str
+    z: np.ndarray
+    change: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Search:
+    """Everything the search found."""
+
+    problem: Problem
+    space: Coordinates
+    values: list[np.ndarray]
+    none: Fit
+    fits: dict[Explanation, Fit]
+    scores: dict[Explanation, float]
+    unknown: Unknown
+    sampled: tuple[Sampled, ...]
+
+    @property
+    def log_weights(self) -> dict[str | Explanation, float]:
+        """Log prior plus log evidence of every explanation; "unknown" is its own key."""
+        singles = max(len(self.sampled), 1)
+        pairs = max(singles * (singles - 1) // 2, 1)
+        share = {
+            0: np.log(PRIOR["none"]),
+            1: np.log(PRIOR["single"] / singles),
+            2: np.log(PRIOR["pair"] / pairs),
+        }
+        found: dict[str | Explanation, float] = {m: s + share[len(m)] for m, s in self.scores.items()}
+        found["unknown"] = self.unknown.evidence + np.log(PRIOR["unknown"])
+        return found
+
+
+def search(
+    problem: Problem,
+    space: Coordinates,
+    values: list[np.ndarray],
+    exclude: Sequence[str] = (),
+    progress: Progress = lambda text: None,
+) -> Search:
+    """Fit every explanation worth fitting and weigh them."""
+    progress("calibrating the base model")
+    none = map_fit(problem, (), np.zeros(problem.size(())))
+    effects = problem.forward.effects(exclude)
+    progress(f"trying {len(effects)} effects")
+    sampled = tuple(_sample(problem, e.id, none) for e in effects)
+    singles: dict[Explanation, Fit] = {(s.id,): _fit_single(problem, none, s) for s in sampled}
+    if singles:
+        best = max(singles.values(), key=lambda f: f.evidence)
+        if best.evidence > none.evidence + 3.0:
+            problem = problem.with_sd(best.prediction)
+            none = map_fit(problem, (), none.z)
+            singles = _again(problem, singles, best)
+    fits: dict[Explanation, Fit] = {(): none, **singles}
+    progress("trying pairs of effects")
+    for explanation, start in _promising_pairs(problem, singles, sampled):
+        fits[explanation] = map_fit(problem, explanation, start)
+    scores = {m: elastic_evidence(problem, none, f, space, values) for m, f in fits.items()}
+    progress("weighing an unnamed mismatch")
+    unknown = unknown_fit(problem, none, space, values)
+    return Search(problem, space, values, none, fits, scores, unknown, sampled)
+
+
+def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit) -> dict[Explanation, Fit]:
+    """The fits under a new noise level; those hopelessly behind the best only keep their distance to it."""
+    new = {m: map_fit(problem, m, f.z, warm=True) for m, f in singles.items() if f.evidence > best.evidence - FAR}
+    shift = new[best.explanation].evidence - best.evidence
+    return {m: new[m] if m in new else replace(f, evidence=f.evidence + shift) for m, f in singles.items()}
+
+
+def _sample(problem: Problem, name: str, none: Fit) -> Sampled:
+    """Spread draws over the effect's prior, denser where its strength is middling."""
+    size = len(effects_of((name,))[0].parameters)
+    z = spread(size, SAMPLES[min(size, len(SAMPLES)) - 1])
+    change = np.empty((len(z), problem.y.size))
+    run = None
+    for i, own in enumerate(z):
+        run = problem.run((name,), np.concatenate([none.z, own]), run)
+        change[i] = (run.prediction - none.prediction) / problem.sd
+    usable = np.isfinite(change).all(axis=1)
+    return Sampled(name, z[usable], change[usable])
+
+
+def spread(size: int, count: int) -> np.ndarray:
+    """Low-discrepancy standard-normal points, the same every time; shape (count, size).
+
+    >>> spread(2, 4).shape
+    (4, 2)
+    """
+    from scipy.special import ndtri
+
+    golden = 1.0
+    for _ in range(30):
+        golden = (1.0 + golden) ** (1.0 / (size + 1))
+    steps = np.array([golden ** -(i + 1) for i in range(size)])
+    uniform = (0.5 + np.arange(1, count + 1)[:, None] * steps) % 1.0
+    return ndtri(0.02 + 0.96 * uniform)
+
+
+def _fit_single(problem: Problem, none: Fit, sampled: Sampled) -> Fit:
+    """Fit from the most promising one or two draws, keep the better."""
+    columns = np.hstack([none.slopes, problem.shared])
+    scores, starts = [], []
+    for z, change in zip(sampled.z, sampled.change, strict=True):
+        linear = linear_fit(none.anchor - change, columns, rounds=4)
+        scores.append(linear.evidence - 0.5 * z @ z)
+        starts.append(np.concatenate([linear.coefficients[: none.z.size], z]))
+    order = np.argsort(scores)[::-1]
+    chosen = [order[0]]
+    for i in order[1:]:
+        if scores[i] < scores[order[0]] - 25.0:
+            break
+        if np.max(np.abs(sampled.z[i] - sampled.z[order[0]])) > 1.2:
+            chosen.append(i)
+            break
+    tries = [map_fit(problem, (sampled.id,), starts[i]) for i in chosen]
+    return max(tries, key=lambda f: f.evidence)
+
+
+def _promising_pairs(
+    problem: Problem, singles: dict[Explanation, Fit], sampled: tuple[Sampled, ...]
+) -> list[tuple[Explanation, np.ndarray]]:
+    """Pairs that the linearised model likes best, each with a start."""
+    leaders = sorted(singles.values(), key=lambda f: -f.evidence)[:LEADERS]
+    found: dict[Explanation, tuple[float, np.ndarray]] = {}
+    calibration = problem.calibration_size
+    for fit in leaders:
+        columns = np.hstack([fit.slopes, problem.shared])
+        weight = fit.weight
+        inner = np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ (columns * weight[:, None]))
+        left = fit.residual * weight
+
+        def whiten(change: np.ndarray, columns=columns, weight=weight, inner=inner) -> np.ndarray:
+            scaled = change * weight
+            return scaled - ((scaled @ columns) @ inner) @ (columns * weight[:, None]).T
+
+        for other in sampled:
+            if other.id in fit.explanation:
+                continue
+            seen = whiten(other.change)
+            gain = other.change @ left - 0.5 * np.einsum("ij,ij->i", other.change, seen)
+            gain -= 0.5 * np.einsum("ij,ij->i", other.z, other.z)
+            k = int(np.argmax(gain))
+            score = fit.evidence + float(gain[k])
+            own = {fit.explanation[0]: fit.z[calibration:], other.id: other.z[k]}
+            pair = tuple(sorted(own))
+            start = np.concatenate([fit.z[:calibration], *(own[name] for name in pair)])
+            if pair not in found or score > found[pair][0]:
+                found[pair] = (score, start)
+    ranked = sorted(found.items(), key=lambda item: -item[1][0])[:PAIRS]
+    return [(pair, start) for pair, (_, start) in ranked]
+
+
+def elastic_evidence(problem: Problem, none: Fit, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:
+    """Evidence with the effects' literature forms allowed to be a little wrong, smoothly over the conditions."""
+    if not fit.explanation:
+        return fit.evidence
+    base = np.hstack([fit.slopes, problem.shared])
+    plain = linear_fit(fit.anchor, base, fit.weight).evidence
+    net = (fit.prediction - none.prediction) / problem.sd
+    bend = elastic_columns(net, typical_size(net), space, values)
+    gains = []
+    for size, weight in ELASTIC:
+        if size == 0.0:
+            gains.append(np.log(weight))
+            continue
+        bent = linear_fit(fit.anchor, np.hstack([base, size * bend]), fit.weight).evidence
+        gains.append(np.log(weight) + bent - plain)
+    return fit.evidence + float(np.logaddexp.reduce(gains))
+
+
+def typical_size(net: np.ndarray) -> float:
+    """Root mean square."""
+    return float(np.sqrt(np.mean(net**2)))
+
+
+def elastic_columns(net: np.ndarray, typical: float, space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
+    """What an explanation adds to the calibrated base, in sigmas, times smooth functions of the numeric conditions.
+
+    Where it adds little a third of its ``typical`` size stands in: another form need not vanish there too.
+    """
+    smooth = [
+        axis.functions(v, 0.7)[:, :4]
+        for axis, v in zip(space.axes, values, strict=True)
+        if not axis.named and axis.name != "sequence"
+    ]
+    if not smooth:
+        return np.zeros((net.size, 0))
+    pairs = [(a[:, :3, None] * b[:, None, :3]).reshape(a.shape[0], -1) for a, b in combinations(smooth, 2)]
+    functions = np.hstack(smooth + pairs) / np.sqrt(len(smooth) + len(pairs))
+    return np.hypot(net, 0.3 * typical)[:, None] * functions

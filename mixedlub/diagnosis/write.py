@@ -1,0 +1,96 @@
+"""Diagnose a case and write the answer into a folder."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from mixedlub.diagnosis import words
+from mixedlub.diagnosis.answer import as_json, predictions_csv
+from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.empirical import Unnamed, unnamed
+from mixedlub.diagnosis.search import Progress
+
+
+def diagnose(
+    case_folder: Path,
+    out: Path,
+    predict: Path | None = None,
+    exclude: Sequence[str] = (),
+    level: float = 0.01,
+    progress: Progress = lambda text: None,
+) -> Diagnosis:
+    """Work out what the simulation of a case lacks and write the answer into ``out``.
+
+    Written are diagnosis.json, predictions.csv, report.txt, report.html and figures/. Each file is complete
+    or absent at any moment, and the same case gives the same bytes.
+    """
+    found = diagnose_case(case_folder, predict, exclude, level, progress)
+    progress("drawing")
+    write(files(found), out)
+    return found
+
+
+def files(d: Diagnosis) -> dict[str, str]:
+    """Everything the answer consists of, by file name."""
+    from mixedlub.diagnosis import figures, page
+    from mixedlub.diagnosis.style import as_svg
+
+    extra = unnamed(d.found) if any(key == "unknown" for key in d.posterior.tied) else None
+    parts = words.sections(d, extra)
+    drawings = {name: as_svg(figure) for name, figure in figures.all_figures(d, extra).items()}
+    return {
+        "diagnosis.json": json.dumps({**as_json(d), **_unnamed_record(extra)}, indent=1, ensure_ascii=False) + "\n",
+        "predictions.csv": predictions_csv(d),
+        "report.txt": words.as_text(f"Diagnosis of {d.case.name}", parts),
+        "report.html": page.render(d, parts, drawings),
+        **{f"figures/{name}.svg": drawing for name, drawing in drawings.items()},
+    }
+
+
+def _unnamed_record(extra: Unnamed | None) -> dict[str, Any]:
+    """What is known of an unnamed mismatch, as an entry of the answer."""
+    if extra is None:
+        return {}
+    law = extra.law
+    return {
+        "unknown": {
+            "stages": [
+                {"stage": s.stage, "quantity": s.quantity, "log_evidence_over_none": s.evidence} for s in extra.stages
+            ],
+            "empirical_form": None
+            if law is None
+            else {
+                "text": law.text,
+                "relative": law.relative,
+                "coefficient": law.coefficient,
+                "coefficient_sd": law.sd,
+                "exponents": {name: float(b) for name, b in law.factors},
+                "heldout_before": law.heldout_before,
+                "heldout_after": law.heldout_after,
+            },
+        }
+    }
+
+
+def write(contents: Mapping[str, str], out: Path) -> None:
+    """Write files aside, then rename each into place; drawings of an earlier answer are removed."""
+    aside = out / f".writing-{os.getpid()}"
+    try:
+        for name, text in contents.items():
+            path = aside / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8", newline="\n")
+        for name in contents:
+            target = out / name
+            target.parent.mkdir(parents=True, exist_ok=True)
+            (aside / name).replace(target)
+    finally:
+        shutil.rmtree(aside, ignore_errors=True)
+    for stale in (out / "figures").glob("*.svg"):
+        if f"figures/{stale.name}" not in contents:
+            stale.unlink()

@@ -1,0 +1,20 @@
+"""Gears: from the data sheet to the contact points of a tooth pair and the load each carries."""
+
+from mixedlub.gear.distribution import LdpSharing, LoadDistribution, transmission_error
+from mixedlub.gear.geometry import GearPair
+from mixedlub.gear.mesh import Mesh, at_roll_angle, mesh
+from mixedlub.gear.sharing import LoadShareWarning, RigidSharing, Sharing, TableSharing
+
+__all__ = [
+    "GearPair",
+    "LdpSharing",
+    "LoadDistribution",
+    "LoadShareWarning",
+    "Mesh",
+    "RigidSharing",
+    "Sharing",
+    "TableSharing",
+    "at_roll_angle",
+    "mesh",
+    "transmission_error",
+]

@@ -1,0 +1,381 @@
+"""The gear pair of the data sheet: involute geometry in the transverse plane.
+
+Positions ``x`` run along the line of action from the pinion's base tangent point T1; the pinion drives.
+Letters follow the usual picture: A start, B and D single-contact limits, C pitch point, E end of contact.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from profiles.errors import InputError
+
+Pair = tuple[float, float]
+
+
+def involute(angle: float) -> float:
+    """Involute function inv(a) = tan(a) - a of a pressure angle in radians.
+
+    >>> round(involute(math.radians(20)), 6)
+    0.014904
+    """
+    return math.tan(angle) - angle
+
+
+def inverse_involute(value: float) -> float:
+    """Pressure angle whose involute function is ``value`` (>= 0), to machine accuracy.
+
+    Newton's method from the small-angle root (3 inv)^(1/3), which lies above the answer, so that the
+    convex function is descended without overshoot.
+
+    >>> round(math.degrees(inverse_involute(0.0149043838)), 6)
+    20.0
+    """
+    angle = min((3.0 * value) ** (1 / 3), 1.55)
+    for _ in range(100):
+        step = (involute(angle) - value) / max(math.tan(angle) ** 2, 1e-300)
+        angle -= step
+        if abs(step) <= 1e-15 * max(angle, 1e-6):
+            break
+    return angle
+
+
+def number(key: str, value: Any, low: float, high: float, rule: str, scale: float = 1.0) -> float:
+    """A finite float strictly between ``low`` and ``high``; messages show it in the unit of its key."""
+    if isinstance(value, (bool, str, bytes)):
+        raise InputError(rule, where=key, value=value)
+    try:
+        finite = float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(rule, where=key, value=value) from None
+    if not (math.isfinite(finite) and low < finite < high):
+        raise InputError(rule, where=key, value=round(finite * scale, 9))
+    return finite
+
+
+def whole(key: str, value: Any, low: int, high: int) -> int:
+    """A whole number from ``low`` to ``high``."""
+    if isinstance(value, bool) or not hasattr(value, "__index__") or not low <= value <= high:
+        raise InputError(f"a whole number from {low} to {high}", where=key, value=value)
+    return int(value)
+
+
+def two(key: str, values: Any) -> tuple[Any, Any]:
+    """The two entries, pinion first, of a quantity given once for each wheel."""
+    if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
+        raise InputError("two values are needed, pinion first", where=key, value=values)
+    entries = tuple(values)
+    if len(entries) != 2:
+        raise InputError("two values are needed, pinion first", where=key, value=entries)
+    return entries
+
+
+@dataclass(frozen=True)
+class GearPair:
+    """A pair of external involute cylindrical gears; first entry of every pair is the driving pinion.
+
+    Lengths in m, angles in rad, moduli in Pa. ``tip_radius=None`` takes the standard addendum
+    ``r + m_n (1 + x)``; ``centre_distance=None`` takes the backlash-free one of the profile shifts.
+    Anything that is not a working gear pair is refused with the name of its key in the ``[gears]`` table.
+
+    Source: ISO 21771, geometry of cylindrical involute gears.
+
+    The back-to-back test gear FZG C (16/24, module 4.5, tips 82.46 and 118.36, centres 91.5 mm):
+
+    >>> fzg = GearPair(teeth=(16, 24), normal_module=4.5e-3, pressure_angle=math.radians(20),
+    ...                profile_shift=(0.1817, 0.1715), tip_radius=(41.23e-3, 59.18e-3),
+    ...                centre_distance=91.5e-3, face_width=14e-3)
+    >>> round(fzg.contact_ratio, 4), round(fzg.loss_factor, 4)
+    (1.4375, 0.195)
+    """
+
+    teeth: tuple[int, int]
+    normal_module: float
+    pressure_angle: float
+    face_width: float
+    helix_angle: float = 0.0
+    profile_shift: Pair = (0.0, 0.0)
+    tip_radius: Pair | None = None
+    centre_distance: float | None = None
+    youngs_modulus: Pair = (206e9, 206e9)
+    poisson_ratio: Pair = (0.3, 0.3)
+
+    def __post_init__(self) -> None:
+        teeth = two("teeth", self.teeth)
+        for count in teeth:
+            whole = number("teeth", count, 3, 10_000, "a number of teeth is a whole number from 4 to 9999")
+            if whole != int(whole):
+                raise InputError("a number of teeth is a whole number", where="teeth", value=count)
+        degrees = math.degrees(1.0)
+        checked: dict[str, Any] = {"teeth": (int(teeth[0]), int(teeth[1]))}
+        checked["normal_module"] = number(
+            "normal_module_mm",
+            self.normal_module,
+            1e-6,
+            1.0,
+            "the module is above 0.001 and below 1000 mm",
+            1e3,
+        )
+        checked["pressure_angle"] = number(
+            "pressure_angle_deg",
+            self.pressure_angle,
+            math.radians(5),
+            math.radians(45),
+            "the pressure angle lies between 5 and 45 degrees",
+            degrees,
+        )
+        checked["helix_angle"] = number(
+            "helix_angle_deg",
+            self.helix_angle,
+            -math.radians(60),
+            math.radians(60),
+            "the helix angle lies between -60 and 60 degrees",
+            degrees,
+        )
+        checked["face_width"] = number(
+            "face_width_mm", self.face_width, 0.0, 10.0, "the face width is above zero and below 10 m", 1e3
+        )
+        rules: dict[str, tuple[str, float, float, str, float]] = {
+            "profile_shift": (
+                "profile_shift",
+                -5,
+                5,
+                "a profile shift is a number of modules from -5 to 5",
+                1,
+            ),
+            "youngs_modulus": ("youngs_modulus_GPa", 0, 1e13, "Young's modulus is above zero", 1e-9),
+            "poisson_ratio": ("poisson_ratio", -1, 0.5, "Poisson's ratio lies between -1 and 0.5", 1),
+        }
+        if self.tip_radius is not None:
+            rules["tip_radius"] = ("tip_diameter_mm", 0, 100, "a tip diameter is above zero", 2e3)
+        for name, (key, low, high, rule, scale) in rules.items():
+            checked[name] = tuple(number(key, entry, low, high, rule, scale) for entry in two(key, getattr(self, name)))
+        if self.centre_distance is not None:
+            checked["centre_distance"] = number(
+                "centre_distance_mm", self.centre_distance, 0, 200, "the centre distance is above zero", 1e3
+            )
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
+        self._must_mesh()
+
+    def _must_mesh(self) -> None:
+        """Refuse data that make no working pair of external gears."""
+        nominal = sum(self.reference_radius) * math.cos(self.transverse_pressure_angle)
+        if self.centre_distance is None:
+            if self._working_involute <= 0:
+                raise InputError(
+                    "the two profile shifts are too negative: no centre distance exists",
+                    where="profile_shift",
+                    value=self.profile_shift,
+                )
+        elif self.centre_distance <= nominal:
+            raise InputError(
+                f"the centre distance must exceed the sum of the base radii, {nominal * 1e3:.6g} mm",
+                where="centre_distance_mm",
+                value=self.centre_distance * 1e3,
+            )
+        elif self.backlash < -0.1 * self.normal_module:
+            raise InputError(
+                f"flanks would overlap by {-self.backlash * 1e3:.4g} mm: too close for these profile shifts",
+                where="centre_distance_mm",
+                value=self.centre_distance * 1e3,
+            )
+        if any(tip <= base for tip, base in zip(self.tip_radii, self.base_radius)):
+            raise InputError(
+                "a tip circle must lie outside its base circle",
+                where="tip_diameter_mm",
+                value=tuple(round(2e3 * radius, 6) for radius in self.tip_radii),
+            )
+        standard = "" if self.tip_radius is not None else " (tips of the standard addendum, as none are given)"
+        shown = tuple(round(2e3 * radius, 6) for radius in self.tip_radii)
+        start, length, end = self.path_start, self.line_of_action_length, self.path_end
+        for broken, rule in (
+            (min(self.tip_thickness) <= 0, "pointed teeth: the flanks cross below the tip circle"),
+            (start < -1e-9 * length, "interference: the gear's tips pass the pinion's base tangent point (x_A < 0)"),
+            (
+                end > length * (1 + 1e-9),
+                "interference: the pinion's tips pass the gear's base tangent point (x_E > T1T2)",
+            ),
+            (not self.contact_ratio >= 1, f"the contact ratio is {self.contact_ratio:.4g}; it must be at least 1"),
+            (not start < self.pitch_point < end, "the pitch point must lie inside the path of contact"),
+        ):
+            if broken:
+                raise InputError(rule + standard, where="tip_diameter_mm", value=shown)
+
+    @property
+    def gear_ratio(self) -> float:
+        """z2/z1, also omega1/omega2."""
+        return self.teeth[1] / self.teeth[0]
+
+    @cached_property
+    def transverse_module(self) -> float:
+        """m_t = m_n / cos(beta)."""
+        return self.normal_module / math.cos(self.helix_angle)
+
+    @cached_property
+    def transverse_pressure_angle(self) -> float:
+        """tan(alpha_t) = tan(alpha_n) / cos(beta)."""
+        return math.atan(math.tan(self.pressure_angle) / math.cos(self.helix_angle))
+
+    @cached_property
+    def base_helix_angle(self) -> float:
+        """tan(beta_b) = tan(beta) cos(alpha_t)."""
+        return math.atan(math.tan(self.helix_angle) * math.cos(self.transverse_pressure_angle))
+
+    @cached_property
+    def reference_radius(self) -> Pair:
+        """Radii of the reference circles, r = m_t z / 2."""
+        return self.transverse_module * self.teeth[0] / 2, self.transverse_module * self.teeth[1] / 2
+
+    @cached_property
+    def base_radius(self) -> Pair:
+        """r_b = r cos(alpha_t)."""
+        cosine = math.cos(self.transverse_pressure_angle)
+        return self.reference_radius[0] * cosine, self.reference_radius[1] * cosine
+
+    @cached_property
+    def tip_radii(self) -> Pair:
+        """The tip radii given, or those of the standard addendum r + m_n (1 + x)."""
+        if self.tip_radius is not None:
+            return self.tip_radius
+        first, second = (
+            radius + self.normal_module * (1 + shift)
+            for radius, shift in zip(self.reference_radius, self.profile_shift)
+        )
+        return first, second
+
+    @cached_property
+    def _working_involute(self) -> float:
+        shift = 2 * math.tan(self.pressure_angle) * sum(self.profile_shift) / sum(self.teeth)
+        return involute(self.transverse_pressure_angle) + shift
+
+    @cached_property
+    def working_pressure_angle(self) -> float:
+        """alpha_wt of the given centre distance, or of the backlash-free one.
+
+        cos(alpha_wt) = (r_b1 + r_b2)/a_w, or inv(alpha_wt) = inv(alpha_t) + 2 tan(alpha_n) (x1+x2)/(z1+z2).
+        """
+        if self.centre_distance is None:
+            return inverse_involute(self._working_involute)
+        return math.acos(sum(self.base_radius) / self.centre_distance)
+
+    @cached_property
+    def working_centre_distance(self) -> float:
+        """a_w = (r_b1 + r_b2) / cos(alpha_wt)."""
+        if self.centre_distance is not None:
+            return self.centre_distance
+        return sum(self.base_radius) / math.cos(self.working_pressure_angle)
+
+    @cached_property
+    def operating_radius(self) -> Pair:
+        """Radii of the rolling pitch circles, r_w1 = a_w z1 / (z1 + z2)."""
+        share = self.teeth[0] / sum(self.teeth)
+        return self.working_centre_distance * share, self.working_centre_distance * (1 - share)
+
+    @cached_property
+    def backlash(self) -> float:
+        """Circumferential backlash at the pitch circles; negative where the flanks would overlap."""
+        excess = involute(self.working_pressure_angle) - self._working_involute
+        return 2 * self.working_centre_distance * excess
+
+    @cached_property
+    def tip_thickness(self) -> Pair:
+        """Transverse tooth thickness on the tip circles; at or below zero the tooth is pointed."""
+        first, second = (
+            2 * tip * (self.half_tooth_angle(i) - involute(math.acos(self.base_radius[i] / tip)))
+            for i, tip in enumerate(self.tip_radii)
+        )
+        return first, second
+
+    def half_tooth_angle(self, wheel: int) -> float:
+        """Half the angle of a tooth at its base circle, pi/(2z) + 2 x tan(alpha_n)/z + inv(alpha_t)."""
+        shift = 2 * self.profile_shift[wheel] * math.tan(self.pressure_angle)
+        return (math.pi / 2 + shift) / self.teeth[wheel] + involute(self.transverse_pressure_angle)
+
+    @cached_property
+    def line_of_action_length(self) -> float:
+        """T1T2 = a_w sin(alpha_wt)."""
+        return self.working_centre_distance * math.sin(self.working_pressure_angle)
+
+    @cached_property
+    def path_start(self) -> float:
+        """x_A: the gear's tip enters; T1T2 - sqrt(r_a2^2 - r_b2^2)."""
+        return self.line_of_action_length - math.sqrt(self.tip_radii[1] ** 2 - self.base_radius[1] ** 2)
+
+    @cached_property
+    def path_end(self) -> float:
+        """x_E: the pinion's tip leaves; sqrt(r_a1^2 - r_b1^2)."""
+        return math.sqrt(self.tip_radii[0] ** 2 - self.base_radius[0] ** 2)
+
+    @cached_property
+    def pitch_point(self) -> float:
+        """x_C = r_b1 tan(alpha_wt), where nothing slides."""
+        return self.base_radius[0] * math.tan(self.working_pressure_angle)
+
+    @cached_property
+    def base_pitch(self) -> float:
+        """p_bt = pi m_t cos(alpha_t), the distance of neighbouring contacts along the path."""
+        return math.pi * self.transverse_module * math.cos(self.transverse_pressure_angle)
+
+    @property
+    def lowest_single_contact(self) -> float:
+        """x_B = x_E - p_bt (for contact ratios from 1 to 2)."""
+        return self.path_end - self.base_pitch
+
+    @property
+    def highest_single_contact(self) -> float:
+        """x_D = x_A + p_bt (for contact ratios from 1 to 2)."""
+        return self.path_start + self.base_pitch
+
+    @property
+    def contact_ratio(self) -> float:
+        """Transverse contact ratio, (x_E - x_A) / p_bt."""
+        return (self.path_end - self.path_start) / self.base_pitch
+
+    @property
+    def approach_ratio(self) -> float:
+        """(x_C - x_A) / p_bt, the gear's addendum part of the contact ratio."""
+        return (self.pitch_point - self.path_start) / self.base_pitch
+
+    @property
+    def recess_ratio(self) -> float:
+        """(x_E - x_C) / p_bt, the pinion's addendum part of the contact ratio."""
+        return (self.path_end - self.pitch_point) / self.base_pitch
+
+    @property
+    def overlap_ratio(self) -> float:
+        """b sin(beta) / (pi m_n) of a helical pair; 0 for spur gears."""
+        return self.face_width * abs(math.sin(self.helix_angle)) / (math.pi * self.normal_module)
+
+    @cached_property
+    def reduced_modulus(self) -> float:
+        """E' = 2 / [(1 - nu1^2)/E1 + (1 - nu2^2)/E2] of the film formulas, twice the contact modulus."""
+        compliance = sum((1 - nu**2) / young for nu, young in zip(self.poisson_ratio, self.youngs_modulus))
+        return 2 / compliance
+
+    @cached_property
+    def loss_factor(self) -> float:
+        """Tooth loss factor of rigid teeth with equal sharing.
+
+        H_V = pi (u+1)/(z1 u cos(beta_b)) (1 - eps_alpha + eps_1^2 + eps_2^2).
+        Valid for contact ratios from 1 to 2.
+
+        Source: Ohlendorf 1958, in the form of Niemann and Winter, Maschinenelemente II.
+        """
+        ratio = self.gear_ratio
+        scale = math.pi * (ratio + 1) / (self.teeth[0] * ratio * math.cos(self.base_helix_angle))
+        return scale * (1 - self.contact_ratio + self.approach_ratio**2 + self.recess_ratio**2)
+
+    @cached_property
+    def end_mean_sliding(self) -> float:
+        """A quarter of the sum of the sliding speeds at both ends of the path, over omega1 r_b1.
+
+        Equal to 0.5 eps_alpha pi (1/z1 + 1/z2): the mean sliding speed of a path with equal approach and
+        recess, unweighted by load. Source: Hong, Aneshansley and Talbot, eq. 3 and 4.
+        """
+        speeds = (1 + 1 / self.gear_ratio) * (self.path_end - self.path_start)
+        return speeds / (4 * self.base_radius[0])

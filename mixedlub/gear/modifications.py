@@ -1,0 +1,108 @@
+"""Micro-geometry: how far a flank stands back from its involute, over path and face."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from mixedlub.gear.geometry import GearPair, Pair, two
+from profiles.errors import InputError
+
+
+@dataclass(frozen=True)
+class Modifications:
+    """Relief of both wheels, crown and misalignment; all lengths in m, first entry the pinion.
+
+    - ``tip_relief`` over ``relief_length`` along the path of contact, counted from each tip
+    - ``root_relief`` over ``root_relief_length``, counted from where the mate's tip reaches the root
+    - ``relief_form``: "linear" or "parabolic", each starting at zero where the relief starts
+    - ``lead_crown``: sum for both flanks, C (2y/b - 1)^2
+    - ``misalignment``: f y/b over the face, either sign
+    """
+
+    tip_relief: Pair = (0.0, 0.0)
+    relief_length: Pair = (0.0, 0.0)
+    root_relief: Pair = (0.0, 0.0)
+    root_relief_length: Pair = (0.0, 0.0)
+    relief_form: str = "linear"
+    lead_crown: float = 0.0
+    misalignment: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name, key, scale in (
+            ("tip_relief", "tip_relief_um", 1e6),
+            ("relief_length", "relief_length_mm", 1e3),
+            ("root_relief", "root_relief_um", 1e6),
+            ("root_relief_length", "root_relief_length_mm", 1e3),
+        ):
+            entries = tuple(_length(key, value, scale) for value in two(key, getattr(self, name)))
+            object.__setattr__(self, name, entries)
+        object.__setattr__(self, "lead_crown", _length("lead_crown_um", self.lead_crown, 1e6))
+        misalignment = _length("misalignment_um", self.misalignment, 1e6, signed=True)
+        object.__setattr__(self, "misalignment", misalignment)
+        for relief, length, key in (
+            (self.tip_relief, self.relief_length, "relief_length_mm"),
+            (self.root_relief, self.root_relief_length, "root_relief_length_mm"),
+        ):
+            if any(depth > 0 and reach < 1e-6 for depth, reach in zip(relief, length)):
+                raise InputError("a relief needs a length of at least 0.001 mm", where=key, value=length)
+        if self.relief_form not in ("linear", "parabolic"):
+            raise InputError("'linear' or 'parabolic'", where="relief_form", value=self.relief_form)
+
+    def check(self, pair: GearPair) -> None:
+        """Refuse a relief longer than the path of contact."""
+        path = pair.path_end - pair.path_start
+        for key, lengths in (
+            ("relief_length_mm", self.relief_length),
+            ("root_relief_length_mm", self.root_relief_length),
+        ):
+            if max(lengths) > path:
+                raise InputError(
+                    f"a relief must not be longer than the path of contact, {path * 1e3:.4g} mm",
+                    where=key,
+                    value=max(lengths) * 1e3,
+                )
+
+    def starts(self, pair: GearPair) -> np.ndarray:
+        """Positions (m) where a relief starts."""
+        late = [pair.path_end - self.relief_length[0], pair.path_end - self.root_relief_length[1]]
+        early = [pair.path_start + self.relief_length[1], pair.path_start + self.root_relief_length[0]]
+        return np.array(late + early)
+
+    def gap(self, pair: GearPair, position: np.ndarray, face_position: np.ndarray) -> np.ndarray:
+        """Initial separation (m) along the path normal at position x and face position y (m, broadcast).
+
+        The pinion's tip and the gear's root meet at the end of the path, the gear's tip and the pinion's root
+        at its start.
+        """
+        to_end, from_start = pair.path_end - position, position - pair.path_start
+        relief = (
+            self._relief(self.tip_relief[0], self.relief_length[0], to_end)
+            + self._relief(self.root_relief[1], self.root_relief_length[1], to_end)
+            + self._relief(self.tip_relief[1], self.relief_length[1], from_start)
+            + self._relief(self.root_relief[0], self.root_relief_length[0], from_start)
+        )
+        across = face_position / pair.face_width
+        return relief + self.lead_crown * (2 * across - 1) ** 2 + self.misalignment * across
+
+    def _relief(self, depth: float, length: float, distance: np.ndarray) -> np.ndarray:
+        if depth == 0:
+            return np.zeros_like(distance)
+        power = 1 if self.relief_form == "linear" else 2
+        return depth * np.maximum(0, 1 - distance / length) ** power
+
+
+def _length(key: str, value: Any, scale: float, signed: bool = False) -> float:
+    """A finite length in m below 0.1 m, not negative unless signed."""
+    try:
+        number = math.nan if isinstance(value, (bool, str, bytes)) else float(value)
+    except (TypeError, ValueError, OverflowError):
+        number = math.nan
+    if not math.isfinite(number) or abs(number) > 0.1 or (number < 0 and not signed):
+        rule = "a length is finite" if signed else "a length is finite and not negative"
+        shown = round(number * scale, 9) if math.isfinite(number) else value
+        raise InputError(rule, where=key, value=shown)
+    return number

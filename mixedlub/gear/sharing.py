@@ -1,0 +1,245 @@
+"""How the torque is shared between the tooth pairs in contact: from a table, or by rigid teeth.
+
+A sharing says where along the path it has kinks (so that no quadrature panel contains one), what a reader
+should know about it, and the share at the points of a mesh. The elastic one is in ``distribution.py``.
+"""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+
+from mixedlub.gear.geometry import GearPair
+from profiles.errors import InputError
+
+if TYPE_CHECKING:
+    from mixedlub.gear.mesh import Mesh
+
+
+class LoadShareWarning(UserWarning):
+    """A share was used outside the torques it was given for."""
+
+
+class Sharing(Protocol):
+    """What a mesh needs of a way to share the load."""
+
+    def default_slices(self, pair: GearPair) -> int:
+        """Slices across the face when the caller names no number."""
+
+    def check(self, pair: GearPair) -> tuple[str, ...]:
+        """Refuse a gear pair this sharing cannot serve; else what a reader should know, one line each."""
+
+    def breakpoints(self, pair: GearPair) -> np.ndarray:
+        """Positions (m) where the share may kink or jump."""
+
+    def load_share(self, mesh: Mesh, torque: np.ndarray) -> np.ndarray:
+        """Share of the base-tangent force at each point, shape ``torque.shape + (M,)``."""
+
+
+def torques_above_zero(torque: object) -> np.ndarray:
+    """Torques (Nm) as an array of the shape given, each finite and above zero."""
+    try:
+        torques = np.asarray(torque, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError("torques are numbers in Nm", where="torque_Nm", value=torque) from None
+    wrong = ~(np.isfinite(torques) & (torques > 0))
+    if np.any(wrong):
+        raise InputError("a torque is finite and above zero", where="torque_Nm", value=float(torques[wrong].flat[0]))
+    return torques
+
+
+def contact_limits(pair: GearPair) -> np.ndarray:
+    """Positions where the number of pairs in contact changes: the ends shifted by whole base pitches."""
+    shifts = pair.base_pitch * np.arange(int(pair.contact_ratio) + 1)
+    limits = np.concatenate([pair.path_start + shifts, pair.path_end - shifts])
+    return limits[(limits >= pair.path_start) & (limits <= pair.path_end)]
+
+
+def contact_line_length(pair: GearPair, position: np.ndarray) -> np.ndarray:
+    """Total length (m) of the contact lines when one of them passes ``position`` (m) on the front face.
+
+    Summed over the tooth pairs, each line x(y) = position + y tan(beta_b) cut off at the ends of the path;
+    spur gears: face width times the number of pairs in contact. Any shape; exact.
+
+    >>> spur = GearPair((17, 26), 4.2333333e-3, np.radians(22.5), 14e-3)
+    >>> contact_line_length(spur, np.array([spur.path_start + 1e-4, spur.pitch_point])) / spur.face_width
+    array([2., 1.])
+    """
+    tangent = np.tan(abs(pair.base_helix_angle))
+    rise = pair.face_width * tangent
+    phase = (np.asarray(position, dtype=float) - pair.path_start) % pair.base_pitch
+    reach = int(np.ceil((pair.path_end - pair.path_start + rise) / pair.base_pitch)) + 1
+    front = phase[..., None] + pair.base_pitch * np.arange(-reach, reach + 1)
+    length = pair.path_end - pair.path_start
+    if rise < 1e-9 * pair.base_pitch:
+        inside = (front >= -1e-9 * length) & (front <= length * (1 + 1e-9))
+        return pair.face_width * inside.sum(axis=-1)
+    overlap = np.minimum(front + rise, length) - np.maximum(front, 0)
+    return np.clip(overlap, 0, None).sum(axis=-1) / np.sin(abs(pair.base_helix_angle))
+
+
+@dataclass(frozen=True)
+class RigidSharing:
+    """Rigid, perfect teeth: the same load on every length of contact line.
+
+    Spur gears: each of the pairs in contact carries an equal share. Helical gears: the force is spread evenly
+    over the total length of the contact lines, which changes as the teeth roll through the mesh.
+    """
+
+    def default_slices(self, pair: GearPair) -> int:
+        """One for spur gears; the oblique lines of helical gears need several."""
+        return 1 if pair.helix_angle == 0 else 16
+
+    def check(self, pair: GearPair) -> tuple[str, ...]:
+        """Serves every gear pair."""
+        return ()
+
+    def breakpoints(self, pair: GearPair) -> np.ndarray:
+        """Where the number of pairs in contact changes."""
+        return contact_limits(pair)
+
+    def load_share(self, mesh: Mesh, torque: np.ndarray) -> np.ndarray:
+        """Length of each slice's line over the total length, whatever the torque."""
+        pair = mesh.pair
+        front = mesh.position - mesh.face_position * np.tan(abs(pair.base_helix_angle))
+        line = mesh.face_fraction * pair.face_width / np.cos(pair.base_helix_angle)
+        share = line / contact_line_length(pair, front)
+        return np.broadcast_to(share, np.shape(torque) + share.shape).copy()
+
+
+@dataclass(frozen=True, eq=False)
+class TableSharing:
+    """A tabulated share, from an outside gear program or a measurement, for spur gears.
+
+    One row an entry of the three arrays: pinion ``torque`` (Nm), pinion ``roll_angle`` (rad) and the
+    ``share`` of the base-tangent force T1/r_b1 that one tooth pair carries there. Used as it stands: linear
+    in roll angle between the rows of a torque; beyond the first and last row their value is held for one row
+    spacing and the share is zero further out. A torque without rows takes the nearest that has some, and
+    warns (``LoadShareWarning``).
+    """
+
+    torque: np.ndarray
+    roll_angle: np.ndarray
+    share: np.ndarray
+
+    def __post_init__(self) -> None:
+        columns = {"torque_Nm": self.torque, "roll_angle_deg": self.roll_angle, "load_share": self.share}
+        arrays = {key: column(key, values) for key, values in columns.items()}
+        if len({array.size for array in arrays.values()}) != 1:
+            raise InputError("the three columns need the same number of rows", where="load_share")
+        if np.any(arrays["torque_Nm"] <= 0):
+            raise InputError("a torque is above zero", where="torque_Nm", value=float(arrays["torque_Nm"].min()))
+        shares = arrays["load_share"]
+        if np.any((shares < 0) | (shares > 1.5)):
+            worst = shares[np.argmax(np.abs(shares - 0.5))]
+            raise InputError("a load share is a fraction from 0 to 1", where="load_share", value=float(worst))
+        order = np.lexsort((arrays["roll_angle_deg"], arrays["torque_Nm"]))
+        for name, key in zip(("torque", "roll_angle", "share"), arrays):
+            sorted_column = arrays[key][order]
+            sorted_column.flags.writeable = False
+            object.__setattr__(self, name, sorted_column)
+        for value, angle, _ in self._curves:
+            if angle.size < 2:
+                raise InputError("at least two rows a torque are needed", where="torque_Nm", value=value)
+            if np.any(np.diff(angle) <= 0):
+                twice = float(np.degrees(angle[1:][np.diff(angle) <= 0][0]))
+                raise InputError("one row a roll angle and torque", where="roll_angle_deg", value=twice)
+
+    @cached_property
+    def _curves(self) -> list[tuple[float, np.ndarray, np.ndarray]]:
+        """One (torque, roll angles, shares) a torque, by rising torque."""
+        values, starts = np.unique(self.torque, return_index=True)
+        blocks = zip(values, np.split(self.roll_angle, starts[1:]), np.split(self.share, starts[1:]))
+        return [(float(value), angle, share) for value, angle, share in blocks]
+
+    def default_slices(self, pair: GearPair) -> int:
+        """The table says nothing about the face: one."""
+        return 1
+
+    def check(self, pair: GearPair) -> tuple[str, ...]:
+        """Refuse helical pairs and tables of another gear; note gaps and sums that are not 1."""
+        if pair.helix_angle != 0:
+            raise InputError(
+                'a share table along one path serves spur gears only; use { model = "rigid" }',
+                where="load_sharing",
+            )
+        start, end = pair.path_start / pair.base_radius[0], pair.path_end / pair.base_radius[0]
+        notes = []
+        for value, angle, _ in self._curves:
+            covered = min(angle[-1], end) - max(angle[0], start)
+            if covered <= 0:
+                rows = f"{np.degrees(angle[0]):.4g} to {np.degrees(angle[-1]):.4g}"
+                path = f"{np.degrees(start):.4g} to {np.degrees(end):.4g}"
+                raise InputError(
+                    f"the rows at {value:g} Nm ({rows} deg) miss the path of contact ({path} deg)",
+                    where="roll_angle_deg",
+                )
+            if covered < 0.98 * (end - start):
+                notes.append(
+                    f"load share table: the rows at {value:g} Nm cover only "
+                    f"{covered / (end - start):.0%} of the path of contact"
+                )
+        worst = max(np.abs(self._sum_over_pairs(pair, i) - 1).max() for i in range(len(self._curves)))
+        if worst > 0.1:
+            notes.append(f"load share table: the pairs in contact carry together 1 only within {worst:.0%}")
+        return tuple(notes)
+
+    def _sum_over_pairs(self, pair: GearPair, curve: int) -> np.ndarray:
+        """Shares of all pairs in contact added up, at 64 phases inside one base pitch."""
+        phase = pair.path_start + pair.base_pitch * (np.arange(64) + 0.5) / 64
+        position = phase[:, None] + pair.base_pitch * np.arange(int(pair.contact_ratio) + 1)
+        inside = position <= pair.path_end
+        return (self._at(curve, position / pair.base_radius[0]) * inside).sum(axis=1)
+
+    def _at(self, curve: int, roll_angle: np.ndarray) -> np.ndarray:
+        _, angle, share = self._curves[curve]
+        outside = np.maximum(angle[0] - roll_angle, roll_angle - angle[-1])
+        held = outside <= np.diff(angle).max()
+        return np.where(held, np.interp(roll_angle, angle, share), 0.0)
+
+    def breakpoints(self, pair: GearPair) -> np.ndarray:
+        """The rows where the slope changes enough to matter, at any torque."""
+        kinks = []
+        for _, angle, share in self._curves:
+            slope = np.diff(share) / np.diff(angle)
+            bend = np.abs(np.diff(slope)) * np.minimum(np.diff(angle)[1:], np.diff(angle)[:-1])
+            kinks.append(angle[1:-1][bend > 0.01])
+        return np.concatenate(kinks) * pair.base_radius[0]
+
+    def nearest(self, torque: np.ndarray) -> np.ndarray:
+        """Index of the tabulated torque nearest to each torque; the lower one where two are as near."""
+        tabulated = np.array([value for value, _, _ in self._curves])
+        return np.abs(np.asarray(torque)[..., None] - tabulated).argmin(axis=-1)
+
+    def load_share(self, mesh: Mesh, torque: np.ndarray) -> np.ndarray:
+        """The table at the roll angles of the mesh, spread evenly over the slices."""
+        chosen = self.nearest(torque)
+        tabulated = np.array([value for value, _, _ in self._curves])
+        missing = np.abs(tabulated[chosen] - torque) > 1e-6 * tabulated[chosen]
+        if np.any(missing):
+            asked, used = np.asarray(torque)[missing].flat[0], tabulated[chosen][missing].flat[0]
+            warnings.warn(
+                f"load share table: no rows at {asked:g} Nm, nearest torque {used:g} Nm used"
+                + (f" (and {int(missing.sum()) - 1} more torques)" if missing.sum() > 1 else ""),
+                LoadShareWarning,
+                stacklevel=3,
+            )
+        curves = np.stack([self._at(i, mesh.roll_angle) for i in range(len(self._curves))])
+        return curves[chosen] * mesh.face_fraction
+
+
+def column(key: str, values: object) -> np.ndarray:
+    """A finite one-dimensional copy of a column of a table."""
+    try:
+        column = np.array(values, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError("a column of numbers is needed", where=key, value=values) from None
+    if column.ndim != 1 or column.size == 0:
+        raise InputError("a column of numbers is needed", where=key, value=column.shape)
+    if not np.all(np.isfinite(column)):
+        raise InputError("every row needs a finite number", where=key, value=int(np.argmin(np.isfinite(column))))
+    return column

@@ -1,0 +1,105 @@
+"""Friction coefficient of two discs, or of a ball on a disc."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from mixedlub import bodies, config
+from mixedlub.calibration import Calibration
+from mixedlub.chain import Chain
+from mixedlub.chains import LINE, POINT
+from mixedlub.kinds import unknown_oil
+from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column
+from mixedlub.kinds.surfaces import pair_of_surfaces
+from mixedlub.laws import load, loss
+from mixedlub.table import Column, Table
+from profiles.errors import InputError
+
+COLUMNS = (
+    Column("load_N", above=0.0),
+    Column("entrainment_speed_m_s", above=0.0),
+    Column("slide_roll_ratio", at_least=-200.0, at_most=200.0),
+    Column("oil_temperature_C", at_least=-60.0, at_most=300.0),
+)
+SURFACES = (Column("surface_1", "name"), Column("surface_2", "name"))
+
+
+def reading(tangential_friction: np.ndarray) -> np.ndarray:
+    """The rig reads the tangential force over the load (-).
+
+    >>> float(reading(0.05))
+    0.05
+    """
+    return tangential_friction
+
+
+def point_reading(friction: np.ndarray) -> np.ndarray:
+    """The rig reads the friction coefficient (-).
+
+    >>> float(point_reading(0.05))
+    0.05
+    """
+    return friction
+
+
+def contact_inputs(contact: config.Contact, table: Table) -> Inputs:
+    """Chain inputs of the bodies and their motion."""
+    modulus = 2.0 / sum(
+        (1.0 - nu**2) / (e * 1e9) for nu, e in zip(contact.poisson_ratio, contact.youngs_modulus_GPa, strict=True)
+    )
+    curvature = sum(1.0 / (r * 1e-3) for r in contact.radius_mm)
+    if curvature <= 0:
+        raise InputError("one of the two bodies must be curved", where="contact.radius_mm", value=contact.radius_mm)
+    radius = 1.0 / curvature
+    speed = column(table["entrainment_speed_m_s"])
+    found: Inputs = {
+        "radius": radius,
+        "transverse_radius": radius,
+        "reduced_modulus": modulus,
+        "load": column(table["load_N"]),
+        "entrainment_speed": speed,
+        "sliding_speed": np.abs(column(table["slide_roll_ratio"])) * speed,
+    }
+    if contact.width_mm is not None:
+        found["contact_width"] = contact.width_mm * 1e-3
+    return found
+
+
+def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
+    """Chain inputs of the rows of a table."""
+    assert system.contact is not None
+    temperature = column(table["oil_temperature_C"]) + 273.15
+    return {
+        **contact_inputs(system.contact, table),
+        **bodies.lubricant(system.lubricant).inputs(temperature),
+        **pair_of_surfaces(system, folder, table, "surface_1", "surface_2"),
+        **bookkeeping_inputs(system, table),
+        "oil_temperature": temperature,
+        "boundary_friction": system.boundary_friction,
+    }
+
+
+def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibration, ...]:
+    """An unnamed oil takes broad priors."""
+    return unknown_oil.calibrations(system, recorded["oil_temperature_C"] + 273.15)
+
+
+def chain(system: config.System, table: Table) -> Chain:
+    """Line contact, or point contact for a ball."""
+    if system.contact is not None and system.contact.geometry == "point":
+        return (*POINT, ("reading", point_reading))
+    tangential = ("tangential_friction", loss.tangential_friction)
+    return (("line_load", load.disc_line_load), *LINE, tangential, ("reading", reading))
+
+
+KIND = Kind(
+    name="disc",
+    quantities=("friction_coefficient",),
+    columns=(*COLUMNS, *SURFACES),
+    sections=("contact", "lubricant", "surfaces"),
+    chain=chain,
+    inputs=inputs,
+    extra_calibration=extra_calibration,
+)

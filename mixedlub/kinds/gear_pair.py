@@ -1,0 +1,102 @@
+"""Power loss of a gear pair, mean over a mesh cycle."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from mixedlub import bodies, config
+from mixedlub.chains import GEAR_LOSS
+from mixedlub.gear import Mesh, mesh
+from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column
+from mixedlub.kinds.surfaces import pair_of_surfaces
+from mixedlub.table import Column, Table
+
+PATH_POINTS = 24
+
+CONDITIONS = (
+    Column("torque_Nm", above=0.0),
+    Column("speed_rpm", above=0.0),
+    Column("oil_temperature_C", at_least=-60.0, at_most=300.0),
+    Column("pinion_surface", "name"),
+    Column("gear_surface", "name"),
+)
+
+
+def reading(power_loss: np.ndarray) -> np.ndarray:
+    """The rig reads the power lost (W).
+
+    >>> float(reading(12.0))
+    12.0
+    """
+    return power_loss
+
+
+def contact_inputs(points: Mesh, torque: np.ndarray, speed: np.ndarray) -> Inputs:
+    """Chain inputs of the contact points of a mesh; torque (N m) and pinion speed (rad/s) end in an axis of one."""
+    known, place = np.unique(torque[..., 0], return_inverse=True)
+    return {**motion_inputs(points, torque, speed), "load_share": points.load_share(known)[place]}
+
+
+def motion_inputs(points: Mesh, torque: np.ndarray, speed: np.ndarray) -> Inputs:
+    """Chain inputs of the contact points but for the load they carry."""
+    pair = points.pair
+    low, high = pair.path_start, pair.path_end
+    return {
+        "radius": points.radius,
+        "entrainment_speed": points.entrainment_per_speed * speed,
+        "sliding_speed": np.abs(points.sliding_per_speed) * speed,
+        "roll_angle": points.roll_angle,
+        "path_fraction": (points.position - low) / (high - low),
+        "face_position": points.face_position / pair.face_width,
+        "path_weight": points.weight,
+        "torque": torque,
+        "pinion_speed": speed,
+        "transmitted_force": torque / pair.base_radius[0],
+        "contact_width": points.face_fraction * pair.face_width,
+        "reduced_modulus": pair.reduced_modulus,
+        **gear_inputs(points, speed),
+    }
+
+
+def gear_inputs(points: Mesh, speed: np.ndarray) -> Inputs:
+    """What losses outside the contact read: the sizes and speeds of the two wheels."""
+    pair = points.pair
+    return {
+        "face_width": pair.face_width,
+        "gear_module": pair.normal_module,
+        "pinion_radius": pair.operating_radius[0],
+        "gear_radius": pair.operating_radius[1],
+        "gear_speed": speed / pair.gear_ratio,
+        "pinion_teeth": float(pair.teeth[0]),
+        "gear_teeth": float(pair.teeth[1]),
+        "contact_ratio": pair.contact_ratio,
+    }
+
+
+def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
+    """Chain inputs of the rows of a table."""
+    assert system.gears is not None
+    pair = bodies.gear_pair(system.gears)
+    points = mesh(pair, bodies.sharing(system.gears.load_sharing, folder), points=PATH_POINTS)
+    oil = bodies.lubricant(system.lubricant)
+    temperature = column(table["oil_temperature_C"]) + 273.15
+    return {
+        **contact_inputs(points, column(table["torque_Nm"]), column(table["speed_rpm"]) * np.pi / 30.0),
+        **oil.inputs(temperature),
+        **pair_of_surfaces(system, folder, table, "pinion_surface", "gear_surface"),
+        **bookkeeping_inputs(system, table),
+        "oil_temperature": temperature,
+        "boundary_friction": system.boundary_friction,
+    }
+
+
+KIND = Kind(
+    name="gear_pair",
+    quantities=("power_loss_W",),
+    columns=CONDITIONS,
+    sections=("gears", "lubricant", "surfaces"),
+    chain=lambda system, table: (*GEAR_LOSS, ("reading", reading)),
+    inputs=inputs,
+)

@@ -1,0 +1,74 @@
+"""What a kind of recording is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mixedlub import config
+from mixedlub.calibration import Calibration
+from mixedlub.chain import Chain
+from mixedlub.table import Column, Table
+
+Inputs = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Kind:
+    """Columns of a row, sections of the system it needs, the chain that predicts its reading.
+
+    ``inputs(system, folder, table, recorded)`` gives the chain's inputs as arrays of shape (rows, points),
+    one of the two of length one where a quantity does not depend on it; the chain ends in ``reading``,
+    shape (rows, 1), in SI. ``recorded`` is the recording of the case, from which typical sizes (the largest
+    speed, the duration) are taken, so that predictions elsewhere use the same ones; ``extra_calibration``
+    scales the priors of what is not known by it. ``reading_fault(recorded, row, excess)`` says in words what
+    an instrument of this kind does wrong when reading ``row`` is off by ``excess`` (unit of the column).
+    """
+
+    name: str
+    quantities: tuple[str, ...]
+    columns: tuple[Column, ...]
+    sections: tuple[str, ...]
+    chain: Callable[[config.System, Table], Chain]
+    inputs: Callable[[config.System, Path, Table, Table], Inputs]
+    extra_calibration: Callable[[config.System, Table], tuple[Calibration, ...]] = lambda system, recorded: ()
+    reading_fault: Callable[[Table, int, float], str | None] = lambda recorded, row, excess: None
+
+
+SCALE = {
+    "power_loss_W": 1.0,
+    "friction_coefficient": 1.0,
+    "film_thickness_nm": 1e9,
+    "friction_torque_Nm": 1.0,
+    "viscosity_mPa_s": 1e3,
+}
+"""From SI to the unit of the column."""
+
+
+def column(values: np.ndarray | float) -> np.ndarray:
+    """Values a row, shaped (rows, 1)."""
+    return np.asarray(values, dtype=float)[:, None]
+
+
+def bookkeeping_inputs(system: config.System, table: Table) -> Inputs:
+    """What effects on the measurement read: place in the programme, ambient temperature."""
+    inputs: Inputs = {"ambient_temperature": system.recording.ambient_temperature_C + 273.15}
+    if "sequence" in table:
+        inputs["sequence"] = column(table["sequence"])
+    return inputs
+
+
+def programme(table: Table, recorded: Table) -> Inputs:
+    """Where the rows carry a time: the time, and the share of the recording's duration as place in the programme."""
+    if "time_s" not in table:
+        return {}
+    found: Inputs = {"time": column(table["time_s"])}
+    if "sequence" not in table and "time_s" in recorded:
+        first, last = float(recorded["time_s"].min()), float(recorded["time_s"].max())
+        start = 0.0 if 0.0 <= first <= 0.5 * last else first
+        found["sequence"] = column((table["time_s"] - start) / ((last - start) or 1.0))
+    return found

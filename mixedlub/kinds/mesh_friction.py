@@ -1,0 +1,58 @@
+"""Friction coefficient of one tooth contact at recorded roll angles."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from mixedlub import bodies, config
+from mixedlub.chains import GEAR_CONTACT
+from mixedlub.gear import at_roll_angle
+from mixedlub.kinds.gear_pair import CONDITIONS, motion_inputs
+from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column
+from mixedlub.kinds.surfaces import pair_of_surfaces
+from mixedlub.table import Column, Table
+
+
+def reading(friction: np.ndarray) -> np.ndarray:
+    """The rig reads the friction coefficient as a positive number (-).
+
+    >>> float(reading(0.05))
+    0.05
+    """
+    return friction
+
+
+def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
+    """Chain inputs of the rows of a table: one contact point a row."""
+    assert system.gears is not None
+    pair = bodies.gear_pair(system.gears)
+    sharing = bodies.sharing(system.gears.load_sharing, folder)
+    points = at_roll_angle(pair, sharing, np.radians(table["roll_angle_deg"]), slices=1)
+    share = np.empty(len(table))
+    for level in np.unique(table["torque_Nm"]):
+        rows = table["torque_Nm"] == level
+        share[rows] = points.load_share(level)[rows]
+    along = motion_inputs(points, table["torque_Nm"], table["speed_rpm"] * np.pi / 30.0)
+    own = {name: column(value) if np.ndim(value) else value for name, value in along.items()}
+    temperature = column(table["oil_temperature_C"]) + 273.15
+    return {
+        **own,
+        "load_share": share[:, None],
+        **bodies.lubricant(system.lubricant).inputs(temperature),
+        **pair_of_surfaces(system, folder, table, "pinion_surface", "gear_surface"),
+        **bookkeeping_inputs(system, table),
+        "oil_temperature": temperature,
+        "boundary_friction": system.boundary_friction,
+    }
+
+
+KIND = Kind(
+    name="mesh_friction",
+    quantities=("friction_coefficient",),
+    columns=(*CONDITIONS, Column("roll_angle_deg")),
+    sections=("gears", "lubricant", "surfaces"),
+    chain=lambda system, table: (*GEAR_CONTACT, ("reading", reading)),
+    inputs=inputs,
+)

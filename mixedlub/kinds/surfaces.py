@@ -1,0 +1,28 @@
+"""Surfaces named in the rows of a table."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from mixedlub import bodies, config
+from mixedlub.kinds.kind import Inputs
+from mixedlub.surface import paired
+from mixedlub.table import Table
+from profiles.errors import InputError, nearest
+
+
+def pair_of_surfaces(system: config.System, folder: Path, table: Table, first: str, second: str) -> Inputs:
+    """Chain inputs of the two surfaces named in two columns, shaped (rows, 1)."""
+    known = {}
+    for place in (first, second):
+        for row, name in enumerate(table[place].tolist()):
+            if name not in system.surfaces:
+                raise InputError(
+                    f"no such surface in system.toml; {nearest(name, system.surfaces)}",
+                    where=f"{table.source}: row {row + 1}, {place}",
+                    value=name,
+                )
+            if name not in known:
+                known[name] = bodies.surface(name, system.surfaces[name], folder)
+    both = paired([known[n] for n in table[first].tolist()], [known[n] for n in table[second].tolist()])
+    return {name: values[:, None] for name, values in both.items()}

@@ -1,0 +1,1 @@
+"""The base laws: each one pure function of arrays in SI."""

@@ -1,0 +1,68 @@
+"""From friction to power."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def mesh_loss(
+    friction: np.ndarray,
+    load_share: np.ndarray,
+    transmitted_force: np.ndarray,
+    sliding_speed: np.ndarray,
+    path_weight: np.ndarray,
+) -> np.ndarray:
+    r"""Sliding power lost in the mesh, mean over a mesh cycle (W); the last axis, the path, shrinks to one.
+
+    .. math:: P = \frac{1}{p_{bt}} \int_A^E \mu\, F\, |v_s|\, dx,\quad F = s\, T_1 / r_{b1}
+
+    ``path_weight`` carries dx/p_bt. Source: A. Arana, J. Larranaga, I. Ulacia, Tribol. Int. 2019, eq. 29.
+
+    >>> path = np.array([[0.25, 0.5, 0.25]])
+    >>> float(mesh_loss(np.full((1, 3), 0.05), np.ones((1, 3)), np.array([[1000.0]]), 2.0, path)[0, 0])
+    100.0
+    """
+    return over_path(friction, load_share * transmitted_force * sliding_speed * path_weight)
+
+
+def over_path(value: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Sum of value times weight over the last axis, kept with length one; the product is never formed.
+
+    >>> over_path(np.array([1.0, 3.0]), np.array([0.5, 0.25])).tolist()
+    [1.25]
+    """
+    return np.einsum("...m,...m->...", value, weight)[..., None]
+
+
+def rolling_loss(
+    rolling_force: np.ndarray,
+    entrainment_speed: np.ndarray,
+    contact_width: np.ndarray,
+    path_weight: np.ndarray,
+) -> np.ndarray:
+    r"""Rolling power lost in the mesh, mean over a mesh cycle (W), :math:`\frac{1}{p_{bt}}\int f_r\, b\, 2u\, dx`.
+
+    Source: H. Xu, PhD thesis, Ohio State University, 2005, section 2.2, in the power form.
+
+    >>> float(rolling_loss(np.full(2, 10.0), np.full(2, 3.0), 0.01, np.array([0.5, 0.5]))[0])
+    0.6
+    """
+    return over_path(rolling_force * entrainment_speed, 2.0 * contact_width * path_weight)
+
+
+def power_loss(mesh_loss: np.ndarray, rolling_loss: np.ndarray) -> np.ndarray:
+    """Power lost, all that the chain knows of (W).
+
+    >>> float(power_loss(100.0, 2.0))
+    102.0
+    """
+    return mesh_loss + rolling_loss
+
+
+def tangential_friction(friction: np.ndarray, rolling_force: np.ndarray, line_load: np.ndarray) -> np.ndarray:
+    """Tangential over normal force on a body (-), what a traction rig weighs.
+
+    >>> float(tangential_friction(0.05, 100.0, 2e5))
+    0.0505
+    """
+    return friction + rolling_force / line_load

@@ -1,0 +1,52 @@
+"""The lubricant of a case: what is known of the oil, and its properties at a temperature."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mixedlub.laws import oil
+
+
+@dataclass(frozen=True)
+class Lubricant:
+    """An oil in SI: two points of kinematic viscosity, pressure-viscosity coefficient, density, heat."""
+
+    name: str
+    temperature: tuple[float, float]
+    kinematic_viscosity: tuple[float, float]
+    pressure_viscosity: tuple[float, float]
+    density_15: float
+    density_change: float
+    eyring_stress: float
+    conductivity: float
+    heat_capacity: float
+
+    def density(self, temperature: np.ndarray) -> np.ndarray:
+        """Density at ambient pressure (kg/m^3): linear in temperature (K)."""
+        return self.density_15 * (1.0 - self.density_change * (temperature - oil.ZERO_CELSIUS - 15.0))
+
+    def viscosity(self, temperature: np.ndarray) -> np.ndarray:
+        """Dynamic viscosity at ambient pressure (Pa s)."""
+        nu = oil.kinematic_viscosity(temperature, self.temperature, self.kinematic_viscosity)
+        return nu * self.density(temperature)
+
+    def pressure_coefficient(self, temperature: np.ndarray) -> np.ndarray:
+        """Pressure-viscosity coefficient (1/Pa): linear in temperature through its two values."""
+        (t1, t2), (a1, a2) = self.temperature, self.pressure_viscosity
+        return a1 + (a2 - a1) * (temperature - t1) / (t2 - t1)
+
+    def inputs(self, temperature: np.ndarray) -> dict[str, np.ndarray | float]:
+        """What the chain wants to know of the oil at a temperature (K), by glossary name."""
+        return {
+            "viscosity": self.viscosity(temperature),
+            "pressure_viscosity": self.pressure_coefficient(temperature),
+            "temperature_viscosity": oil.temperature_viscosity(
+                temperature, self.temperature, self.kinematic_viscosity, self.density_change
+            ),
+            "oil_density": self.density(temperature),
+            "oil_conductivity": self.conductivity,
+            "oil_heat_capacity": self.heat_capacity,
+            "eyring_stress": self.eyring_stress,
+        }

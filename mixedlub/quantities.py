@@ -1,0 +1,168 @@
+"""The glossary: every quantity's name, symbol, unit and meaning, written in this one place.
+
+Laws and effects name their arguments with these words; files name their columns with the word and a unit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """One word of the glossary; ``unit`` is SI and fixes the dimension."""
+
+    name: str
+    symbol: str
+    unit: str
+    meaning: str
+
+    @property
+    def dimension(self) -> tuple[int, int, int, int]:
+        """Powers of kilogram, metre, second and kelvin."""
+        return dimension(self.unit)
+
+
+_BASE = {
+    "kg": (1, 0, 0, 0),
+    "m": (0, 1, 0, 0),
+    "s": (0, 0, 1, 0),
+    "K": (0, 0, 0, 1),
+    "N": (1, 1, -2, 0),
+    "Pa": (1, -1, -2, 0),
+    "J": (1, 2, -2, 0),
+    "W": (1, 2, -3, 0),
+    "rad": (0, 0, 0, 0),
+    "-": (0, 0, 0, 0),
+    "1": (0, 0, 0, 0),
+}
+
+
+def dimension(unit: str) -> tuple[int, int, int, int]:
+    """Powers of kilogram, metre, second and kelvin of a unit such as ``W/(m K)``.
+
+    >>> dimension("Pa s"), dimension("1/m^2"), dimension("W/(m K)")
+    ((1, -1, -1, 0), (0, -2, 0, 0), (1, 1, -3, -1))
+    """
+    over, _, under = unit.partition("/")
+    powers = [0, 0, 0, 0]
+    for side, sign in ((over, 1), (under.strip("()"), -1)):
+        for word in side.split():
+            base, _, power = word.partition("^")
+            for i, p in enumerate(_BASE[base]):
+                powers[i] += sign * p * int(power or 1)
+    return (powers[0], powers[1], powers[2], powers[3])
+
+
+_TABLE = """
+# geometry and motion of the contact
+radius                  | R          | m       | reduced radius of curvature of the contact
+transverse_radius       | R_y        | m       | reduced radius across the direction of motion (point contact)
+entrainment_speed       | u          | m/s     | mean of the two surface speeds
+sliding_speed           | v_s        | m/s     | difference of the two surface speeds, without sign
+slide_roll_ratio        | S          | -       | sliding speed over entrainment speed
+roll_angle              | theta      | rad     | pinion roll angle of the contact point
+path_fraction           | xi         | -       | place along the path of contact, 0 at its start and 1 at its end
+contact_width           | b          | m       | width of the line contact, of one slice of the face where it is sliced
+face_width              | b_w        | m       | width of the tooth flank
+face_position           | y          | -       | place across the face, 0 to 1
+# load
+torque                  | T_1        | N m     | torque on the pinion
+pinion_speed            | omega_1    | rad/s   | angular speed of the pinion
+transmitted_force       | F_t        | N       | force at the base circle, T_1/r_b1
+load_share              | s          | -       | share of the transmitted force that this contact point carries
+load                    | F          | N       | normal force on the contact
+line_load               | w          | N/m     | normal force per length of contact
+path_weight             | dx/p_bt    | -       | quadrature weight along the path of contact
+mean_weight             | dx/g       | -       | weight of a plain mean over the path of contact
+mean_sliding_speed      | V_s        | m/s     | a quarter of the sum of the sliding speeds at both ends of the path
+# bodies
+reduced_modulus         | E'         | Pa      | 2/[(1-nu1^2)/E1 + (1-nu2^2)/E2]
+solid_conductivity      | k_s        | W/(m K) | thermal conductivity of the bodies
+solid_density           | rho_s      | kg/m^3  | density of the bodies
+solid_heat_capacity     | c_s        | J/(kg K) | specific heat of the bodies
+coating_thickness       | t_c        | m       | summed thickness of the coatings on both bodies
+coating_conductivity    | k_c        | W/(m K) | thermal conductivity of the coating
+# lubricant
+oil_temperature         | theta_oil  | K       | temperature of the oil at the inlet
+viscosity               | eta_0      | Pa s    | dynamic viscosity at oil temperature and ambient pressure
+pressure_viscosity      | alpha      | 1/Pa    | pressure-viscosity coefficient at oil temperature
+temperature_viscosity   | beta       | 1/K     | relative fall of viscosity per kelvin
+oil_density             | rho        | kg/m^3  | density of the oil
+oil_conductivity        | k_f        | W/(m K) | thermal conductivity of the oil
+oil_heat_capacity       | c_f        | J/(kg K) | specific heat of the oil
+eyring_stress           | tau_0      | Pa      | stress at which shear stops being Newtonian
+# roughness (both surfaces together unless a side is named)
+m0                      | m_0        | m^2     | variance of the profile heights
+m2                      | m_2        | -       | variance of the profile slopes
+m4                      | m_4        | 1/m^2   | variance of the profile curvatures
+composite_roughness     | sigma      | m       | root of the summed height variances
+summit_density          | D          | 1/m^2   | summits per area
+summit_radius           | R_s        | m       | radius of a summit of mean curvature
+summit_sigma            | sigma_s    | m       | standard deviation of summit heights
+plane_offset            | z_s        | m       | height of the summits' mean plane above the surface's
+# state of the contact
+hertz_pressure          | p_0        | Pa      | largest pressure of the smooth dry contact; pressure on a sample
+hertz_half_width        | b_H        | m       | half width (line) or radius (point) of the smooth dry contact
+film_thickness          | h          | m       | central film thickness
+separation              | t          | -       | gap to the summits' mean plane over summit sigma
+area_ratio              | P_B        | -       | real over nominal contact area, the share of boundary friction
+asperity_pressure       | p_a        | Pa      | mean pressure that elastic asperities would carry at this gap
+contact_viscosity       | eta_p      | Pa s    | viscosity of the film in the contact, of a sample under pressure
+shear_stress            | tau        | Pa      | shear stress of the film
+fluid_friction          | mu_E       | -       | friction coefficient of the film
+boundary_friction       | mu_B       | -       | friction coefficient of touching asperities
+friction                | mu         | -       | friction coefficient of the contact
+# what a rig reads
+power_loss              | P_L        | W       | power lost, mean over a mesh cycle
+rolling_force           | f_r        | N/m     | tangential force per length on each body that resists rolling
+rolling_loss            | P_r        | W       | rolling power lost in the mesh, mean over a mesh cycle
+tangential_friction     | mu_t       | -       | tangential force on a body over the load, rolling included
+mesh_loss               | P_m        | W       | sliding power lost in the mesh, mean over a mesh cycle
+friction_torque         | T_f        | N m     | friction torque of a drive, or its friction coefficient
+coulomb_torque          | T_c        | N m     | dry friction torque of a drive, the same in both directions
+viscous_torque          | T_v        | N m     | friction torque that grows with speed, at the reference speed
+payload_torque          | T_0        | N m     | constant torque that keeps its sign when the drive turns back
+running_friction        | T_r        | N m     | friction torque of the moving parts, signed with the speed
+drive_speed             | omega      | rad/s   | signed speed of a drive (m/s where a sliding speed is recorded)
+reference_speed         | omega_0    | rad/s   | largest speed of the recording, in the unit of drive_speed
+load_fraction           | q_F        | -       | load on a drive over the largest load of the recording
+additive_fraction       | q_a        | -       | content of an additive over the largest content tested
+gears_fitted            | -          | -       | 1 for the complete drive, the share of friction left without gears
+motor_torque            | T_m        | N m     | torque that the controller computes from the motor current
+reference_torque        | T_m0       | N m     | largest motor torque of the recording
+drive_angle             | phi        | rad     | angle the drive has turned
+pressure                | p          | Pa      | hydrostatic pressure
+time                    | t          | s       | time since the start of the recording
+sequence                | q          | -       | place in the test programme, 0 at its start and 1 at its end
+ambient_temperature     | theta_a    | K       | temperature around the rig
+reading                 | y          | *       | the number the rig records, in the unit of its channel
+reading_scale           | y_0        | *       | typical size of the recorded number, for effects given as a share of it
+pinion_radius           | r_1        | m       | operating pitch radius of the pinion
+gear_radius             | r_2        | m       | operating pitch radius of the gear
+gear_speed              | omega_2    | rad/s   | angular speed of the gear
+gear_module             | m_n        | m       | normal module
+pinion_teeth            | z_1        | -       | teeth of the pinion
+gear_teeth              | z_2        | -       | teeth of the gear
+contact_ratio           | eps_alpha  | -       | length of the path of contact over the base pitch
+# one wheel, shaft or seal of a gearbox
+wheel_radius            | r          | m       | operating pitch radius of one wheel
+wheel_speed             | omega      | rad/s   | angular speed of one wheel and its shaft
+wheel_teeth             | z          | -       | teeth of one wheel
+bearing_diameter        | d_m        | m       | mean diameter of a rolling bearing
+seal_diameter           | d          | m       | diameter of the shaft under a seal
+heat_flux               | q          | W/m^2   | heat made per nominal contact area
+"""
+
+
+def _read() -> dict[str, Quantity]:
+    table = {}
+    for line in _TABLE.strip().splitlines():
+        if not line.startswith("#"):
+            name, symbol, unit, meaning = (part.strip() for part in line.split("|"))
+            table[name] = Quantity(name, symbol, unit, meaning)
+    return table
+
+
+GLOSSARY: dict[str, Quantity] = _read()
+"""Quantity by name."""

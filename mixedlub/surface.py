@@ -1,0 +1,49 @@
+"""A flank as the chain sees it: spectral moments, coating, and the body beneath."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Surface:
+    """One surface in SI: profile moments, optional coating, thermal properties of the body (steel unless told)."""
+
+    name: str
+    m0: float
+    m2: float
+    m4: float
+    coating_thickness: float = 0.0
+    coating_conductivity: float = 2.0
+    conductivity: float = 46.0
+    density: float = 7800.0
+    heat_capacity: float = 470.0
+
+
+def paired(first: Sequence[Surface], second: Sequence[Surface]) -> dict[str, np.ndarray]:
+    """Chain inputs of surfaces taken in pairs: moments add, thermal properties average; one entry a pair.
+
+    Independent surfaces add their spectra (Nayak 1971), so moments are summed before anything else is formed.
+    """
+
+    def each(attribute: str, side: Sequence[Surface]) -> np.ndarray:
+        return np.array([getattr(s, attribute) for s in side], dtype=float)
+
+    both = {name: each(name, first) + each(name, second) for name in ("m0", "m2", "m4")}
+    for name, attribute in (
+        ("solid_conductivity", "conductivity"),
+        ("solid_density", "density"),
+        ("solid_heat_capacity", "heat_capacity"),
+    ):
+        both[name] = 0.5 * (each(attribute, first) + each(attribute, second))
+    thickness = each("coating_thickness", first) + each("coating_thickness", second)
+    if thickness.any():
+        both["coating_thickness"] = thickness
+        resistance = sum(
+            each("coating_thickness", side) / each("coating_conductivity", side) for side in (first, second)
+        )
+        both["coating_conductivity"] = np.where(thickness > 0, thickness / np.maximum(resistance, 1e-30), 1.0)
+    return both

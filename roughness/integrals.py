@@ -1,0 +1,146 @@
+r"""Integrals of the standard normal height law over the summits above a gap.
+
+.. math:: F_n(t) = \int_t^\infty (s-t)^n \varphi(s)\,ds
+
+Greenwood and Williamson, Proc. R. Soc. A 295 (1966) 300, write every contact sum with them: area with n = 1,
+load with n = 3/2, number with n = 0.
+"""
+
+from __future__ import annotations
+
+from math import gamma, pi, sqrt
+
+import numpy as np
+
+RANGE = (-4.0, 10.0)
+
+# Rational fits of ln F_n on RANGE, ascending powers of t (numerator, denominator).
+_FIT = {
+    1.0: (
+        (
+            -0.9189385459361527,
+            -1.772002865448503,
+            -1.166231884454801,
+            -0.4612729483253822,
+            -0.1194217956979818,
+            -0.02089005396264289,
+            -0.002401401230204872,
+            -0.0001652942499057593,
+            -5.194173619373127e-06,
+        ),
+        (
+            1.0,
+            0.5644430597347173,
+            0.1887059833259873,
+            0.03710562531668285,
+            0.004622067843596293,
+            0.0003292428464980268,
+            1.040440030374271e-05,
+        ),
+    ),
+    1.5: (
+        (
+            -0.8439235557854268,
+            -1.860265807041542,
+            -1.135518072943354,
+            -0.4178783293369229,
+            -0.1005563531336539,
+            -0.01645163824138451,
+            -0.001780466087024066,
+            -0.0001162575853982346,
+            -3.493684965603749e-06,
+        ),
+        (
+            1.0,
+            0.5051396805159659,
+            0.1576384319843856,
+            0.02896522173106851,
+            0.003415332723630032,
+            0.0002314134108982087,
+            6.999974548974537e-06,
+        ),
+    ),
+}
+
+# Elements a pass: small enough to stay in the first-level cache.
+_CHUNK = 8192
+
+POPULAR_FITS = {
+    "F5/2 power": (2.5, lambda t: 4.4086e-5 * np.maximum(4.0 - t, 0.0) ** 6.804),
+    "F2 power": (2.0, lambda t: 3.5e-5 * np.maximum(4.0 - t, 0.0) ** 6.9),
+    "F5/2 exponential": (2.5, lambda t: 0.6189 * np.exp(-1.973 * t)),
+    "F2 exponential": (2.0, lambda t: 0.5025 * np.exp(-1.844 * t)),
+}
+"""Approximations in circulation, by name: (n, function of t). Good for comparison, not for use."""
+
+
+def gaussian_integral(n: float, t: np.ndarray | float) -> np.ndarray:
+    r"""F_n(t) for any n > -1 and any gap ratio t, to about 1e-12 relative.
+
+    .. math:: F_n(t) = \frac{\Gamma(n+1)}{\sqrt{2\pi}}\, e^{-t^2/4}\, D_{-n-1}(t)
+
+    with the parabolic cylinder function D (Abramowitz and Stegun 19.5.3); below t = -8, where D overflows,
+    Gauss-Hermite quadrature of the then smooth integrand. Shapes: any. Dimensionless.
+
+    >>> [round(float(v), 10) for v in gaussian_integral(1.5, [0.0, 1.0, 2.0])]
+    [0.4300199937, 0.0756681774, 0.0066481776]
+    """
+    from scipy.special import pbdv
+
+    if not n > -1:
+        raise ValueError(f"F_n needs n above -1, not {n}")
+    t = np.asarray(t, dtype=float)
+    near = np.maximum(t, -8.0)
+    value = gamma(n + 1) / sqrt(2 * pi) * np.exp(-(near**2) / 4) * pbdv(-n - 1, near)[0]
+    deep = t < -8.0
+    if deep.any():
+        nodes, weights = np.polynomial.hermite_e.hermegauss(60)
+        gap = np.maximum(nodes - np.minimum(t, -8.0)[..., None], 0.0)
+        value = np.where(deep, (gap**n) @ weights / sqrt(2 * pi), value)
+    return np.where(t > 37.0, 0.0, value)
+
+
+def area_integral(t: np.ndarray | float) -> np.ndarray:
+    """F_1(t), fast: within 1e-7 relative of `gaussian_integral` on [-4, 10], exact outside.
+
+    >>> bool(abs(area_integral(2.0) / 8.490702617e-3 - 1) < 1e-7)
+    True
+    """
+    return _fast(1.0, t)
+
+
+def load_integral(t: np.ndarray | float) -> np.ndarray:
+    """F_3/2(t), fast: within 1e-7 relative of `gaussian_integral` on [-4, 10], exact outside.
+
+    >>> bool(abs(load_integral(3.0) / 2.639675543e-4 - 1) < 1e-7)
+    True
+    """
+    return _fast(1.5, t)
+
+
+def _fast(n: float, t: np.ndarray | float) -> np.ndarray:
+    numerator, denominator = _FIT[n]
+    values = np.ascontiguousarray(t, dtype=float)
+    result = np.empty_like(values)
+    flat, out = values.reshape(-1), result.reshape(-1)
+    top = np.empty(min(_CHUNK, flat.size))
+    bottom = np.empty_like(top)
+    for start in range(0, flat.size, _CHUNK):
+        x = flat[start : start + _CHUNK]
+        p, q = top[: x.size], bottom[: x.size]
+        _horner(numerator, x, p)
+        _horner(denominator, x, q)
+        p /= q
+        np.exp(p, out=out[start : start + _CHUNK])
+    if flat.size and not (flat.min() >= RANGE[0] and flat.max() <= RANGE[1]):
+        outside = ~((flat >= RANGE[0]) & (flat <= RANGE[1]))
+        out[outside] = gaussian_integral(n, flat[outside])
+    return result.reshape(np.shape(t))
+
+
+def _horner(coefficients: tuple[float, ...], x: np.ndarray, out: np.ndarray) -> None:
+    np.multiply(x, coefficients[-1], out=out)
+    for c in coefficients[-2:0:-1]:
+        out += c
+        out *= x
+    out += coefficients[0]
