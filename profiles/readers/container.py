@@ -31,9 +31,7 @@ class ZipReader:
     def read(self, source: Source) -> Profile:
         names = [name for name in members(source.data) if not name.endswith("/")]
         if len(names) > 100:
-            raise InputError(
-                "at most 100 files in an archive are looked at", where=source.where, value=len(names)
-            )
+            raise InputError("at most 100 files in an archive are looked at", where=source.where, value=len(names))
         check_archive(source.data, source.where)
         found: dict[str, Profile] = {}
         with zipfile.ZipFile(io.BytesIO(source.data)) as archive:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import itertools
 import re
 import warnings
 
@@ -21,7 +22,7 @@ _SETTING = re.compile(r"(CUT|LS|CUV|N|FIL|STD)\s+(.*?)\s*\Z")
 class MitutoyoReader:
     """SurfTest report: sheet DATA, column A the instrument's parameters, B its settings, E and F the profile.
 
-    Position in mm, height in um. The parameters go to ``origin["parameters"]`` (m, or plain numbers), so that
+    Position in mm, height in um. The values go to ``origin["parameters"]`` (m, or plain numbers), so that
     they can be compared with recomputed ones; the cut-offs of an R profile to ``cutoffs``. Checked against the
     two reports of SurfaceTopography.
     """
@@ -40,18 +41,14 @@ class MitutoyoReader:
         # openpyxl remarks on styles it does not know, which is nothing to the user of a profile.
         with foreign_parser("xlsx", where), warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            book = openpyxl.load_workbook(
-                io.BytesIO(source.data), read_only=True, data_only=True, keep_links=False
-            )
+            book = openpyxl.load_workbook(io.BytesIO(source.data), read_only=True, data_only=True, keep_links=False)
             if "DATA" not in book.sheetnames:
                 raise InputError("no sheet 'DATA': not a SurfTest report", where=where, value=book.sheetnames)
             rows = [
                 (row + (None,) * 6)[:6]
                 for row in book["DATA"].iter_rows(max_col=6, max_row=MAX_POINTS, values_only=True)
             ]
-            facts = [
-                row for row in book[book.sheetnames[0]].iter_rows(max_row=200, max_col=40, values_only=True)
-            ]
+            facts = list(book[book.sheetnames[0]].iter_rows(max_row=200, max_col=40, values_only=True))
         pairs = [(row[4], row[5]) for row in rows if row[4] is not None or row[5] is not None]
         for number, pair in enumerate(pairs, start=1):
             if not all(isinstance(value, int | float) for value in pair):
@@ -96,7 +93,7 @@ def _settings(lines: list[str], facts: list[tuple]) -> dict[str, str]:
     labels = {"Profile": "CUV", "Cut-Off": "CUT", "N": "N"}
     for row in facts:
         cells = [str(cell).strip() for cell in row if cell is not None]
-        for label, value in zip(cells, cells[1:]):
+        for label, value in itertools.pairwise(cells):
             if label in labels:
                 found.setdefault(labels[label], value)
     return found
@@ -107,9 +104,5 @@ def _cutoffs(settings: dict[str, str], where: str) -> dict[str, float]:
     if settings.get("CUV") != "R":
         return {}
     names = {"CUT": "cutoff", "LS": "short_cutoff"}
-    lengths = {
-        names[k]: v.replace("mm", " mm").replace("µm", " um").strip()
-        for k, v in settings.items()
-        if k in names
-    }
+    lengths = {names[k]: v.replace("mm", " mm").replace("µm", " um").strip() for k, v in settings.items() if k in names}
     return {name: length(text, f"{where}: {name}") for name, text in lengths.items() if text[:1].isdigit()}

@@ -34,9 +34,7 @@ class NistXmlReader:
     def read(self, source: Source) -> Profile:
         where = source.where
         if len(source.data) > MAX_UNPACKED:
-            raise InputError(
-                f"XML above {MAX_UNPACKED} bytes is not read", where=where, value=len(source.data)
-            )
+            raise InputError(f"XML above {MAX_UNPACKED} bytes is not read", where=where, value=len(source.data))
         check_xml(source.data, where)
         from xml.etree import ElementTree
 

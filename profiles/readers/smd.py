@@ -38,15 +38,11 @@ class SmdReader:
                 axes[words[0]] = words
         count, _, step_scale, step = _axis(axes.get("CX"), 7, where)
         if axes["CX"][1] != "I":
-            raise InputError(
-                "only equally spaced profiles (I) are read", where=f"{where}: CX", value=axes["CX"][1]
-            )
+            raise InputError("only equally spaced profiles (I) are read", where=f"{where}: CX", value=axes["CX"][1])
         points, _, scale, _ = _axis(axes.get("CZ"), 5, where)
         heights = table(records[2].replace("\x00", ""), f"{where}: heights").columns
         if heights.shape[0] != 1 or heights.shape[1] != count or points != count:
-            raise InputError(
-                f"the header declares {count} and {points} points", where=where, value=heights.shape[1]
-            )
+            raise InputError(f"the header declares {count} and {points} points", where=where, value=heights.shape[1])
         checked_count(count, heights.shape[1], where)
         notes = [line.replace("\x00", "").strip() for line in records[1].split("\n")]
         origin: dict[str, object] = {"format": self.format, "notes": tuple(note for note in notes if note)}
@@ -61,7 +57,5 @@ def _axis(words: list[str] | None, least: int, where: str) -> tuple[int, str, fl
         count, scale = int(words[2]), float(words[4])
         step = float(words[6]) if len(words) > 6 else math.nan
     except ValueError:
-        raise InputError(
-            "not a number in the axis line", where=f"{where}: {words[0]}", value=" ".join(words)
-        ) from None
+        raise InputError("not a number in the axis line", where=f"{where}: {words[0]}", value=" ".join(words)) from None
     return count, words[3], scale * metres(words[3], f"{where}: {words[0]}"), step

@@ -27,9 +27,7 @@ class SurfcomReader:
     def read(self, source: Source) -> Profile:
         kind = source.where.lower()[-4:]
         if kind == ".tx3":
-            raise InputError(
-                "a .tx3 file holds settings; the profiles are in .tx1 and .tx2", where=source.where
-            )
+            raise InputError("a .tx3 file holds settings; the profiles are in .tx1 and .tx2", where=source.where)
         content = table(decoded(source.data, source.where), source.where)
         named = replace(source, unit=source.unit or ("mm", "um"))
         notes = ("roughness profile filtered by the instrument, cut-offs unknown",) if kind == ".tx2" else ()

