@@ -150,6 +150,7 @@ def of_moments(
     q = step * np.arange(1, (points + 1) // 2)
     spread = math.sqrt(math.log(m0 * m4 / m2**2) / 4)
     center = 0.5 * math.log(m2 / m0) - spread**2
+    exact = None
     for _ in range(60):
         power = _lognormal(q, center, spread)
         total = power.sum()
@@ -158,11 +159,13 @@ def of_moments(
             break
         miss = math.log(first * m0 / m2), math.log(second * m0 / m4)
         if max(map(abs, miss)) < 1e-13:
-            table = power * (m0 / (total * step))
-            return from_spectrum(lambda q: table, points=points, spacing=spacing, seed=seed, name=name)
+            exact = power * (m0 / (total * step))
+            break
         grow = (miss[1] - 2 * miss[0]) / 4  # what s^2 has too much
         spread = math.sqrt(max(spread**2 - grow, spread**2 / 4))
         center -= miss[0] / 2 - grow
+    if exact is not None:
+        return from_spectrum(lambda q: exact, points=points, spacing=spacing, seed=seed, name=name)
     raise InputError(
         f"a trace of {points} points every {spacing * 1e6:g} um cannot hold the band these moments need",
         where=f"synthesis of {name!r}",
