@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.output import output_folder, say, working
+from mixedlub.commands.output import busy, output_folder, say
 from profiles.errors import InputError
 
 NAME = "diagnose"
@@ -21,7 +21,7 @@ def command(
         Path | None, typer.Option(metavar="conditions.csv", help="Conditions to predict; default the case's own.")
     ] = None,
     exclude: Annotated[
-        list[str] | None, typer.Option(metavar="ID", help="Leave an effect out; may be repeated.")
+        list[str] | None, typer.Option(metavar="ID...", help="Leave effects out of the catalogue.")
     ] = None,
     level: Annotated[float, typer.Option(min=1e-9, max=0.5, help="Level of the mismatch test.")] = 0.01,
 ) -> None:
@@ -34,7 +34,7 @@ def command(
     if not case.is_dir():
         raise InputError("no such case folder", where=str(case))
     folder = output_folder(out, NAME, case.resolve().name)
-    with working("reading") as progress:
+    with busy("reading") as progress:
         diagnose(case, folder, predict=predict, exclude=tuple(exclude or ()), level=level, progress=progress)
     say((folder / "report.txt").read_text(encoding="utf-8"))
-    say(f"report in {folder / 'report.html'}")
+    say(f"written to {folder}")

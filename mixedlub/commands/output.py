@@ -49,6 +49,19 @@ def writing(folder: Path) -> Iterator[Path]:
         shutil.rmtree(aside, ignore_errors=True)
 
 
+@contextmanager
+def busy(first: str) -> Iterator[Callable[[str], None]]:
+    """A line on stderr that says what is being done, where a person watches; gives the function that changes it."""
+    from rich.console import Console
+
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield lambda text: None
+        return
+    with console.status(first) as status:
+        yield status.update
+
+
 def _alive(process: str) -> bool:
     try:
         os.kill(int(process), 0)
@@ -57,19 +70,6 @@ def _alive(process: str) -> bool:
     except PermissionError:
         return True
     return True
-
-
-@contextmanager
-def working(first: str) -> Iterator[Callable[[str], None]]:
-    """A line on stderr that says what is being done, for work without a countable end; silent without a terminal."""
-    from rich.console import Console
-
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        yield lambda text: None
-        return
-    with console.status(first) as status:
-        yield lambda text: status.update(text)
 
 
 def say(text: str = "") -> None:
