@@ -185,7 +185,9 @@ def digitised(
     pixel_width = (x_range[1] - x_range[0]) / (right - left)
     z = z_range[1] - (middle + 0.5) * pixel_height
     said = f"digitised from a chart, pixel {pixel_width * 1e6:.4g} um x {pixel_height * 1e6:.4g} um"
-    return Profile(z, pixel_width, name=name, steps=(said,), origin={"pixel_height_m": pixel_height}, valid=present)
+    return Profile(
+        z, pixel_width, name=name, steps=(said,), origin={"pixel_height_m": pixel_height}, valid=np.asarray(present)
+    )
 
 
 def _place(place: tuple[float, float]) -> str:

@@ -41,7 +41,7 @@ def test_missing_points_are_masked():
 
 @pytest.mark.parametrize(("start", "end"), [((0, 0), (1.0, 0)), ((-1e-6, 0), (1e-4, 0)), ((0, 0), (1e-6, 0))])
 def test_a_line_off_the_map_or_too_short_is_refused(start, end):
-    with pytest.raises(InputError, match="off the map|at least three points"):
+    with pytest.raises(InputError, match=r"off the map|at least three points"):
         across(wavy(0.0), start, end)
 
 
