@@ -14,7 +14,7 @@ from mixedlub.effect import Between, BetweenLog, Normal, Parameter, effect
     equation=r"\mu_B \leftarrow \mu_B\,\bigl[1 + (v_s^{1-a} u^a/v_0)^2\bigr]^{\kappa/2}",
     source="H. Spikes, Tribol. Lett. 60 (2015) 5: friction grows with the logarithm of speed under adsorbed "
     "films and falls without; written as a small power, which is that logarithm to first order",
-    fingerprint={"load": "-", "oil_temperature": "+", "roughness": "+", "slide_roll_ratio": "+"},
+    fingerprint={"load": "-", "oil_temperature": "+", "roughness": "+"},
     separated_by="film ratios below 0.5 at small sliding: friction follows the logarithm of sliding speed where the "
     "film cannot matter; it vanishes at thick films",
 )

@@ -20,7 +20,6 @@ SHARPNESS = 60.0
     fingerprint={"film_thickness": "+"},
     separated_by="the same speed approached from above and below, or another spacer: the jump moves with the order, "
     "the film does not",
-    after=("sensor_drift", "sensor_gain"),
     kinds=("film",),
 )
 def fringe_order(reading, film_thickness, *, jump, onset):

@@ -20,7 +20,9 @@ from mixedlub.effect import Between, BetweenLog, Parameter, effect
     valid={"slide_roll_ratio": (0.0, 2.0)},
     after=("inlet_shear_heating", "starvation"),
 )
-def inlet_shear_thinning(film_thickness, viscosity, entrainment_speed, slide_roll_ratio, *, index, critical_stress, plateau):
+def inlet_shear_thinning(
+    film_thickness, viscosity, entrainment_speed, slide_roll_ratio, *, index, critical_stress, plateau
+):
     """Polymers align in the inlet, the oil thins, and the film is below that of a Newtonian oil.
 
     Against an inlet solution within 10 % for N up to 1.6 and 16 % for N 31 at n = 0.75; use for n above 0.6.

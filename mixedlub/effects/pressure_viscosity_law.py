@@ -23,7 +23,7 @@ GLASS = 1e8
     equation=r"\ln\frac{\eta}{\eta_0} \leftarrow \ln\frac{\eta}{\eta_0}\;"
     r"\frac{e^{Bp} - e^{-Cp}}{(B + C)\,p}",
     source="J. B. Irving, A. J. Barlow, J. Phys. E 4 (1971) 232, double exponential of pressure",
-    fingerprint={"load": "+"},
+    fingerprint={"speed": "-"},
     separated_by="a high-pressure viscometer at two temperatures: an exponential is straight in a log plot, Roelands "
     "only bends down, a liquid near its glass bends up again",
 )
@@ -44,8 +44,8 @@ def pressure_viscosity_law(
 
     >>> x = pressure_viscosity_law(np.exp(10.0), 1.0, 0.5e9, 313.15, bend_down=2e-9, bend_up=0.0,
     ...     down_with_temperature=0.0, up_with_temperature=0.0)
-    >>> round(float(np.log(x)), 3)   # 10 (1 - exp(-1))/1
-    6.321
+    >>> round(float(np.log(x)), 1)   # 10 (1 - exp(-1))/1 = 6.32
+    6.3
     """
     warmer = (oil_temperature - WARM) / KELVIN * (WARM / oil_temperature)
     down = bend_down * np.exp(down_with_temperature * warmer) * hertz_pressure

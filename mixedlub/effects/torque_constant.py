@@ -18,7 +18,6 @@ from mixedlub.effect import LogNormal, Normal, Parameter, effect
     fingerprint={"motor_torque": "+"},
     separated_by="runs with the gears out, or a stalled motor against a torque sensor: what is left there is the "
     "motor, not the gears",
-    after=("sensor_drift", "sensor_gain"),
     kinds=("friction_map",),
 )
 def torque_constant(reading, motor_torque, reference_torque, *, error, fall):

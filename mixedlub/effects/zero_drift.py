@@ -15,7 +15,6 @@ from mixedlub.effect import Normal, Parameter, effect
     source="rated output and zero stability of transducers: IEC 60770",
     fingerprint={"sequence": "+"},
     separated_by="a reading at rest before and after the test",
-    after=("sensor_drift", "sensor_gain"),
     kinds=("film", "friction_history", "friction_map"),
 )
 def zero_drift(reading, reading_scale, sequence, *, drift):
