@@ -91,6 +91,15 @@ def amount(value: float, column: str) -> str:
     return f"{value:.6g}" if not unit else f"{value:.6g}{'' if unit == '°' else ' '}{unit}"
 
 
+def number(value: float) -> str:
+    """A number to three digits, without needless ones.
+
+    >>> number(0.10412), number(1234.5), number(169.9), number(0.0)
+    ('0.104', '1234', '170', '0')
+    """
+    return f"{value:.0f}" if 100 <= abs(value) < 1e6 else f"{value:.3g}"
+
+
 def conditions_text(conditions: Mapping[str, float | str]) -> str:
     """The conditions of one reading in words.
 

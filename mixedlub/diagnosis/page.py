@@ -9,7 +9,7 @@ from importlib.resources import files
 
 from mixedlub.diagnosis.charts import colour_of
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.labels import words_of
+from mixedlub.diagnosis.labels import number, words_of
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.style import equation_svg, inline
 from mixedlub.diagnosis.words import (
@@ -22,7 +22,6 @@ from mixedlub.diagnosis.words import (
     WHERE,
     Section,
     equation_sentence,
-    number,
 )
 
 CAPTIONS = {

@@ -16,6 +16,7 @@ from mixedlub.diagnosis.labels import (
     conditions_text,
     effect_words,
     explanation_words,
+    number,
     plain_equation,
     range_text,
     unit_of,
@@ -68,15 +69,6 @@ def chance(p: float) -> str:
     return "below 0.01" if p < 0.006 else f"{p:.2f}"
 
 
-def number(value: float) -> str:
-    """A number to three digits, without needless ones.
-
-    >>> number(0.10412), number(1234.5), number(169.9), number(0.0)
-    ('0.104', '1234', '170', '0')
-    """
-    return f"{value:.0f}" if 100 <= abs(value) < 1e6 else f"{value:.3g}"
-
-
 def sections(d: Diagnosis, unnamed: Unnamed | None = None) -> list[Section]:
     """The whole answer, question by question."""
     alike = confusion(d.found)
@@ -117,6 +109,12 @@ def as_text(title: str, parts: Iterable[Section]) -> str:
 def headline(d: Diagnosis) -> str:
     """The verdict in one sentence."""
     judged = d.posterior
+    if judged.verdict == () and len(judged.tied) > 1:
+        others = [f"{explanation_words(judged.names(k))} ({chance(judged.weights[k])})" for k in judged.tied[1:]]
+        return (
+            f"No mismatch beyond noise: nothing needs to be missing ({chance(judged.weights[()])}). "
+            f"A tie all the same, for these readings are too few or too coarse to exclude {' or '.join(others)}."
+        )
     if len(judged.tied) > 1:
         every = [f"{explanation_words(judged.names(k))} ({chance(judged.weights[k])})" for k in judged.tied]
         return f"A tie: the readings cannot decide between {'; '.join(every[:-1])}; and {every[-1]}."
@@ -236,7 +234,11 @@ def equation_sentence(e: Effect) -> str:
 
 def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
     law = unnamed.law
-    said = [f"The mismatch is {d.found.unknown.best.words}."]
+    shape = d.found.unknown.best
+    along = "all conditions together" if shape.axis is None else words_of(shape.axis)
+    said = [
+        f"It varies smoothly with {along}, as {'a share of the reading' if shape.relative else 'an addition to it'}."
+    ]
     if unnamed.stages:
         best, *others = unnamed.stages
         said.append(
@@ -293,7 +295,10 @@ def _gain(d: Diagnosis) -> tuple[str, ...]:
     how = f"({split}, {kept.folds} folds; 1 is noise)"
     if d.posterior.verdict == ():
         return (f"Calibration alone predicts left-out levels to {kept.before:.2f} sigma {how}.",)
-    return (f"From {kept.before:.2f} sigma with calibration alone to {kept.after:.2f} sigma with the answer {how}.",)
+    change = f"from {kept.before:.2f} sigma with calibration alone to {kept.after:.2f} sigma with the answer {how}."
+    if kept.after > 0.95 * kept.before:
+        return (f"Not better: {change} Do not extrapolate it.",)
+    return (change.capitalize(),)
 
 
 def _outliers(d: Diagnosis) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
@@ -351,6 +356,9 @@ def _calibrated(d: Diagnosis) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _next_test(d: Diagnosis) -> tuple[str, ...]:
+    if d.posterior.verdict == "unknown":
+        place = ", ".join(range_text(cut) for cut in d.region.where) or "all conditions"
+        return (f"To learn its form, refine and repeat the levels around {place}.",)
     if not d.next_tests:
         return ()
     first = d.next_tests[0]
