@@ -11,6 +11,7 @@ import pytest
 
 from mixedlub.case import read_case, read_conditions
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.write import files
 from mixedlub.effect import catalogue
 from mixedlub.forward import Forward
 
@@ -188,3 +189,15 @@ def teeth(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
         return base * (1.0 + 0.3 * np.exp(-(((conditions["roll_angle_deg"] - 23.0) / 2.0) ** 2)))
 
     return diagnose_case(write_case(tmp_path_factory.mktemp("teeth"), "mesh_friction", change), exclude=left_out())
+
+
+@pytest.fixture(scope="session")
+def offset_files(offset: Diagnosis) -> dict[str, str]:
+    """Everything written for the offset rig."""
+    return files(offset)
+
+
+@pytest.fixture(scope="session")
+def unnamed_files(unnamed: Diagnosis) -> dict[str, str]:
+    """Everything written for the rig with a mismatch that has no name."""
+    return files(unnamed)
