@@ -17,6 +17,7 @@ from mixedlub.lubricant import Lubricant
 from mixedlub.surface import Surface
 from mixedlub.table import CaseWarning, Column, read_table
 from profiles.errors import InputError, nearest
+from profiles.profile import Profile
 
 ZERO_CELSIUS = 273.15
 
@@ -115,27 +116,41 @@ def lubricant(section: config.Lubricant | None) -> Lubricant:
     )
 
 
+def flank_profile(name: str, section: config.SurfaceSection, folder: Path) -> Profile:
+    """The roughness profile of a surface that names a trace: edges cut, form removed, filtered as its section says.
+
+    A short cut-off of fewer than two points is left out, as the trace does not show such waves.
+    """
+    from profiles.read import read
+    from roughness import mask_edges, remove_form, roughness_profile, without_edges
+
+    trace = read(named_file(folder, section.profile or "", f"surfaces.{name}.profile"))
+    band = {"cutoff_mm": section.cutoff_mm or 0.8, "short_cutoff_um": section.short_cutoff_um or 2.5}
+    assumed = [f"{key} = {value:g}" for key, value in band.items() if getattr(section, key) is None]
+    if assumed:
+        warnings.warn(f"surfaces.{name}: {', '.join(assumed)} assumed", CaseWarning, stacklevel=2)
+    short: float | None = band["short_cutoff_um"] * 1e-6
+    if band["short_cutoff_um"] * 1e-6 < 2.0 * trace.spacing:
+        short = None
+        warnings.warn(
+            f"surfaces.{name}: no short cut-off: {band['short_cutoff_um']:g} um is below two points of the trace, so "
+            f"slope and curvature are those of its spacing, {trace.spacing * 1e6:.3g} um",
+            CaseWarning,
+            stacklevel=2,
+        )
+    levelled = remove_form(without_edges(mask_edges(trace)), section.form or "line")
+    return roughness_profile(levelled, cutoff=band["cutoff_mm"] * 1e-3, short_cutoff=short)
+
+
 def surface(name: str, section: config.SurfaceSection, folder: Path) -> Surface:
     """One surface, from its moments or from the trace it names."""
     if section.profile is None:
         m0, m2, m4 = section.m0_um2 or 0.0, section.m2 or 0.0, section.m4_per_um2 or 0.0
         m0, m4 = m0 * 1e-12, m4 * 1e12
     else:
-        from profiles.read import read
-        from roughness import moments, remove_form, roughness_profile
+        from roughness import moments
 
-        trace = read(named_file(folder, section.profile, f"surfaces.{name}.profile"))
-        band = {"cutoff_mm": section.cutoff_mm or 0.8, "short_cutoff_um": section.short_cutoff_um or 2.5}
-        assumed = [f"{key} = {value:g}" for key, value in band.items() if getattr(section, key) is None]
-        if assumed:
-            warnings.warn(f"surfaces.{name}: {', '.join(assumed)} assumed", CaseWarning, stacklevel=2)
-        found = moments(
-            roughness_profile(
-                remove_form(trace, section.form or "line"),
-                cutoff=band["cutoff_mm"] * 1e-3,
-                short_cutoff=band["short_cutoff_um"] * 1e-6,
-            )
-        )
+        found = moments(flank_profile(name, section, folder))
         m0, m2, m4 = found.m0, found.m2, found.m4
     if m0 * m4 < 1.5 * m2**2:
         warnings.warn(

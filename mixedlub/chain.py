@@ -13,6 +13,7 @@ from profiles.errors import nearest
 Law = Callable[..., Any]
 Chain = tuple[tuple[str, Law], ...]
 State = dict[str, Any]
+Parameters = Mapping[str, Mapping[str, float]]
 
 
 class ChainError(TypeError):
@@ -42,22 +43,62 @@ class Model:
         self.effects = _in_order(effects)
         self.steps = _needed(_lay_out(chain, set(given), self.effects), self.want, set(given))
 
-    def __call__(self, inputs: Mapping[str, Any], parameters: Mapping[str, Mapping[str, float]] | None = None) -> State:
+    def __call__(self, inputs: Mapping[str, Any], parameters: Parameters | None = None) -> State:
         """Run; ``parameters`` maps effect id to its values (its null where an effect is not named)."""
         state: State = dict(inputs)
+        values = self._values(parameters)
+        for step in self.steps:
+            state.update(_call(step, state, values))
+        return {name: state[name] for name in self.want}
+
+    def record(
+        self, inputs: Mapping[str, Any], parameters: Parameters | None = None, near: Record | None = None
+    ) -> Record:
+        """Run and keep every step; steps that nothing new reaches are taken from a run ``near`` by.
+
+        The numbers are those of a full run to the last bit.
+        """
+        values = self._values(parameters)
+        if near is None:
+            changed_effects, dirty = set(values), set(inputs)
+        else:
+            changed_effects = {name for name, own in values.items() if own != near.values[name]}
+            dirty = {name for name, value in inputs.items() if value is not near.inputs[name]}
+        state: State = dict(inputs)
+        made: list[State] = []
+        for i, step in enumerate(self.steps):
+            if step.effect in changed_effects or not dirty.isdisjoint(step.reads) or near is None:
+                output = _call(step, state, values)
+                dirty.update(step.outputs)
+            else:
+                output = near.made[i]
+                dirty.difference_update(step.outputs)
+            state.update(output)
+            made.append(output)
+        return Record(inputs, values, tuple(made), {name: state[name] for name in self.want})
+
+    def _values(self, parameters: Parameters | None) -> dict[str, dict[str, float]]:
         values = {e.id: e.nulls for e in self.effects}
         values.update({k: dict(v) for k, v in (parameters or {}).items()})
-        for step in self.steps:
-            arguments = [state[name] for name in step.reads]
-            if step.effect is None:
-                state[step.outputs[0]] = step.law(*arguments)
-            else:
-                result = step.law(*arguments, **values[step.effect])
-                if len(step.outputs) == 1:
-                    state[step.outputs[0]] = result
-                else:
-                    state.update(zip(step.outputs, result, strict=True))
-        return {name: state[name] for name in self.want}
+        return values
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """A run with all its steps: what went in, what each step made, what was wanted."""
+
+    inputs: Mapping[str, Any]
+    values: Mapping[str, Mapping[str, float]]
+    made: tuple[State, ...]
+    wanted: State
+
+
+def _call(step: Step, state: State, values: Mapping[str, Mapping[str, float]]) -> State:
+    arguments = [state[name] for name in step.reads]
+    if step.effect is None:
+        return {step.outputs[0]: step.law(*arguments)}
+    result = step.law(*arguments, **values[step.effect])
+    return {step.outputs[0]: result} if len(step.outputs) == 1 else dict(zip(step.outputs, result, strict=True))
 
 
 def available(effect: Effect, chain: Chain, given: Sequence[str], want: str, kind: str) -> bool:

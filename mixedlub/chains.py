@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from mixedlub.chain import Chain
 from mixedlub.laws import contact, film, load, loss, mixture, oil, shear
-from roughness import mccool
+from roughness.mccool import plane_offset, summit_density, summit_radius, summit_sigma
 
 ASPERITIES: Chain = (
     ("composite_roughness", contact.composite_roughness),
-    ("summit_density", mccool.summit_density),
-    ("summit_radius", mccool.summit_radius),
-    ("summit_sigma", mccool.summit_sigma),
-    ("plane_offset", mccool.plane_offset),
+    ("summit_density", summit_density),
+    ("summit_radius", summit_radius),
+    ("summit_sigma", summit_sigma),
+    ("plane_offset", plane_offset),
     ("separation", contact.summit_separation),
     ("area_ratio", contact.real_area_ratio),
     ("asperity_pressure", contact.asperity_pressure),

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.metadata import entry_points
-from math import exp, log
+from math import exp, log, sinh
 from statistics import NormalDist
 from types import MappingProxyType
 
@@ -34,6 +34,20 @@ class Normal:
 
     def __str__(self) -> str:
         return f"{self.mean:g} ± {self.sd:g}"
+
+
+@dataclass(frozen=True)
+class Wide:
+    """A prior of either sign with wide wings: usually about ``scale``, now and then ten times that."""
+
+    scale: float
+
+    def value(self, z: float) -> float:
+        """The value that lies ``z`` standard deviations up the prior."""
+        return self.scale * sinh(z)
+
+    def __str__(self) -> str:
+        return f"about 0 ± {self.scale:g}, wide wings"
 
 
 @dataclass(frozen=True)
@@ -81,7 +95,7 @@ class BetweenLog:
         return f"even in order of magnitude, {self.low:g} to {self.high:g}"
 
 
-Prior = Normal | LogNormal | Between | BetweenLog
+Prior = Normal | Wide | LogNormal | Between | BetweenLog
 
 
 @dataclass(frozen=True)
@@ -159,8 +173,10 @@ def effect(
     """Register a law as an effect; its signature must say what the declaration says.
 
     The first arguments are the quantities acted on, then the quantities read, then keyword-only parameters.
-    ``fingerprint`` gives the sign of the change of the reading with growing conditions; ``after`` names
-    effects on the same quantity that come first; ``kinds`` restricts the kinds of recording (empty: all).
+    ``fingerprint`` names conditions (load, speed, slide_roll_ratio, oil_temperature, roughness, sequence) and
+    says whether the effect's share of the reading, (with - without)/without, grows (``"+"``), falls (``"-"``) or
+    stays (``"0"``) as the condition grows; falling includes growing more negative. ``after`` names effects on
+    the same quantity that come first; ``kinds`` restricts the kinds of recording (empty: all).
     """
     targets = (acts_on,) if isinstance(acts_on, str) else acts_on
 

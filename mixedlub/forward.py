@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any
 
@@ -10,12 +11,32 @@ import numpy as np
 
 from mixedlub.calibration import Calibration, calibrations
 from mixedlub.case import Case, noted
-from mixedlub.chain import Model, available
+from mixedlub.chain import Model, Parameters, Record, available
 from mixedlub.effect import Effect, catalogue
 from mixedlub.kinds.kind import SCALE
 from mixedlub.table import Table
 
-Parameters = Mapping[str, Mapping[str, float]]
+
+@dataclass(frozen=True, eq=False)
+class Move:
+    """One calibrated input: its value, what it was applied to, and what that changed."""
+
+    value: float
+    on: tuple[Any, ...]
+    changes: Mapping[str, Any] = field(default_factory=dict)
+
+    def same(self, other: Move) -> bool:
+        """Whether the same value is applied to the very same inputs."""
+        return self.value == other.value and all(a is b for a, b in zip(self.on, other.on, strict=True))
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """A prediction with the steps that made it and the calibration applied to the inputs."""
+
+    prediction: np.ndarray
+    record: Record
+    applied: Mapping[str, Move]
 
 
 class Forward:
@@ -27,18 +48,17 @@ class Forward:
     def __init__(self, case: Case, table: Table, reading_scale: float | None = None) -> None:
         self.case = case
         self.table = table
+        recorded = table if case.recordings is None else case.recordings
         notes: list[str] = []
         with noted(notes):
-            self.inputs: dict[str, Any] = case.kind.inputs(case.system, case.folder, table)
+            self.inputs: dict[str, Any] = case.kind.inputs(case.system, case.folder, table, recorded)
+            extra = case.kind.extra_calibration(case.system, recorded)
         self.notes = tuple(notes)
         self.scale = SCALE[case.quantity]
-        self.chain = case.kind.chain(case.system)
-        extra = case.kind.extra_calibration(case.system, table)
+        self.chain = case.kind.chain(case.system, table)
         self.calibrations: tuple[Calibration, ...] = tuple(
             c for c in (*calibrations(case.system), *extra) if all(n in self.inputs for n in c.needs)
         )
-        for c in extra:
-            self.inputs.update(c.apply(self.inputs, c.nominal))
         self._model = lru_cache(maxsize=1024)(self._build)
         self.inputs["reading_scale"] = 1.0
         if reading_scale is None:
@@ -53,16 +73,28 @@ class Forward:
         self, calibration: Mapping[str, float] | None = None, parameters: Parameters | None = None
     ) -> np.ndarray:
         """Readings in the unit of the recorded column, one a row."""
-        inputs = self.inputs
-        if calibration:
-            changes: dict[str, Any] = {}
-            for c in self.calibrations:
-                if c.name in calibration:
-                    changes.update(c.apply(inputs, calibration[c.name]))
-            inputs = {**inputs, **changes}
-        ids = tuple(sorted(parameters or {}))
-        reading = np.asarray(self._model(ids)(inputs, parameters)["reading"])
-        return np.broadcast_to(reading, (len(self.table), 1))[:, 0] * self.scale
+        return self.run(calibration, parameters).prediction
+
+    def run(
+        self,
+        calibration: Mapping[str, float] | None = None,
+        parameters: Parameters | None = None,
+        near: Run | None = None,
+    ) -> Run:
+        """Predict, keeping the steps; with a run of the same effects ``near`` by, only what changed is computed."""
+        inputs, applied = dict(self.inputs), {}
+        for c in self.calibrations:
+            if calibration and c.name in calibration:
+                move = Move(calibration[c.name], tuple(inputs[name] for name in c.needs))
+                known = None if near is None else near.applied.get(c.name)
+                if known is None or not known.same(move):
+                    known = replace(move, changes=c.apply(inputs, move.value))
+                applied[c.name] = known
+                inputs.update(known.changes)
+        model = self._model(tuple(sorted(parameters or {})))
+        record = model.record(inputs, parameters, None if near is None else near.record)
+        reading = np.asarray(record.wanted["reading"])
+        return Run(np.broadcast_to(reading, (len(self.table), 1))[:, 0] * self.scale, record, applied)
 
     def effects(self, exclude: Sequence[str] = ()) -> tuple[Effect, ...]:
         """Effects of the catalogue that these rows could show."""

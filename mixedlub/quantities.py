@@ -74,6 +74,8 @@ load_share              | s          | -       | share of the transmitted force 
 load                    | F          | N       | normal force on the contact
 line_load               | w          | N/m     | normal force per length of contact
 path_weight             | dx/p_bt    | -       | quadrature weight along the path of contact
+mean_weight             | dx/g       | -       | weight of a plain mean over the path of contact
+mean_sliding_speed      | V_s        | m/s     | a quarter of the sum of the sliding speeds at both ends of the path
 # bodies
 reduced_modulus         | E'         | Pa      | 2/[(1-nu1^2)/E1 + (1-nu2^2)/E2]
 solid_conductivity      | k_s        | W/(m K) | thermal conductivity of the bodies
@@ -100,13 +102,13 @@ summit_radius           | R_s        | m       | radius of a summit of mean curv
 summit_sigma            | sigma_s    | m       | standard deviation of summit heights
 plane_offset            | z_s        | m       | height of the summits' mean plane above the surface's
 # state of the contact
-hertz_pressure          | p_0        | Pa      | largest pressure of the smooth dry contact
+hertz_pressure          | p_0        | Pa      | largest pressure of the smooth dry contact; pressure on a sample
 hertz_half_width        | b_H        | m       | half width (line) or radius (point) of the smooth dry contact
 film_thickness          | h          | m       | central film thickness
 separation              | t          | -       | gap to the summits' mean plane over summit sigma
 area_ratio              | P_B        | -       | real over nominal contact area, the share of boundary friction
 asperity_pressure       | p_a        | Pa      | mean pressure that elastic asperities would carry at this gap
-contact_viscosity       | eta_p      | Pa s    | viscosity of the film in the contact
+contact_viscosity       | eta_p      | Pa s    | viscosity of the film in the contact, of a sample under pressure
 shear_stress            | tau        | Pa      | shear stress of the film
 fluid_friction          | mu_E       | -       | friction coefficient of the film
 boundary_friction       | mu_B       | -       | friction coefficient of touching asperities
@@ -117,11 +119,18 @@ rolling_force           | f_r        | N/m     | tangential force per length on 
 rolling_loss            | P_r        | W       | rolling power lost in the mesh, mean over a mesh cycle
 tangential_friction     | mu_t       | -       | tangential force on a body over the load, rolling included
 mesh_loss               | P_m        | W       | sliding power lost in the mesh, mean over a mesh cycle
-friction_torque         | T_f        | N m     | friction torque of a drive
-sliding_position        | v          | m/s     | signed sliding speed
-drive_speed             | omega      | rad/s   | signed speed of a drive
-bulk_viscosity          | eta        | Pa s    | viscosity at the recorded temperature and pressure
-pressure                | p          | Pa      | hydrostatic pressure
+friction_torque         | T_f        | N m     | friction torque of a drive, or its friction coefficient
+coulomb_torque          | T_c        | N m     | dry friction torque of a drive, the same in both directions
+viscous_torque          | T_v        | N m     | friction torque that grows with speed, at the reference speed
+payload_torque          | T_0        | N m     | constant torque that keeps its sign when the drive turns back
+running_friction        | T_r        | N m     | friction torque of the moving parts, signed with the speed
+drive_speed             | omega      | rad/s   | signed speed of a drive (m/s where a sliding speed is recorded)
+reference_speed         | omega_0    | rad/s   | largest speed of the recording, in the unit of drive_speed
+load_fraction           | q_F        | -       | load on a drive over the largest load of the recording
+gears_fitted            | -          | -       | 1 for the complete drive, the share of friction left without gears
+motor_torque            | T_m        | N m     | torque that the controller computes from the motor current
+reference_torque        | T_m0       | N m     | largest motor torque of the recording
+drive_angle             | phi        | rad     | angle the drive has turned
 time                    | t          | s       | time since the start of the recording
 sequence                | q          | -       | place in the test programme, 0 at its start and 1 at its end
 ambient_temperature     | theta_a    | K       | temperature around the rig
@@ -133,6 +142,14 @@ gear_speed              | omega_2    | rad/s   | angular speed of the gear
 gear_module             | m_n        | m       | normal module
 pinion_teeth            | z_1        | -       | teeth of the pinion
 gear_teeth              | z_2        | -       | teeth of the gear
+contact_ratio           | eps_alpha  | -       | length of the path of contact over the base pitch
+# one wheel, shaft or seal of a gearbox
+wheel_radius            | r          | m       | operating pitch radius of one wheel
+wheel_speed             | omega      | rad/s   | angular speed of one wheel and its shaft
+wheel_teeth             | z          | -       | teeth of one wheel
+bearing_diameter        | d_m        | m       | mean diameter of a rolling bearing
+seal_diameter           | d          | m       | diameter of the shaft under a seal
+heat_flux               | q          | W/m^2   | heat made per nominal contact area
 """
 
 

@@ -2,5 +2,7 @@
 
 from profiles.errors import InputError
 from profiles.profile import Profile
+from profiles.read import read
+from profiles.traces import SHIPPED, shipped
 
-__all__ = ["InputError", "Profile"]
+__all__ = ["SHIPPED", "InputError", "Profile", "read", "shipped"]

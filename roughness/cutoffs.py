@@ -83,6 +83,4 @@ def choose_cutoffs(profile: Profile) -> CutoffChoice:
         short = " (trace too short for more)" if cutoff < wanted else ""
     settled = max(cutoff, seen[-1])
     found = short_cutoff_for(settled)
-    return CutoffChoice(
-        settled, found.short_cutoff, found.tip_radius, found.spacing, reason=f"ISO 4288: {by}{short}"
-    )
+    return CutoffChoice(settled, found.short_cutoff, found.tip_radius, found.spacing, reason=f"ISO 4288: {by}{short}")

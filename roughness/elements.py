@@ -41,9 +41,7 @@ def element_parameters(
     (100.0, 2.0, 8)
     """
     if discrimination not in DISCRIMINATIONS:
-        raise InputError(
-            f"must be one of {', '.join(DISCRIMINATIONS)}", where="discrimination", value=discrimination
-        )
+        raise InputError(f"must be one of {', '.join(DISCRIMINATIONS)}", where="discrimination", value=discrimination)
     heights = height_parameters(profile, sections=sections)
     threshold = 0.1 * (heights.Rz if discrimination.endswith("Rz") else heights.Rt)
     z = profile.heights

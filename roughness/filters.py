@@ -44,7 +44,7 @@ def gaussian_kernel(cutoff: float, spacing: float, *, floored: bool = False) -> 
         raise InputError(
             f"the cut-off must be at least the spacing of {spacing * 1e6:g} um",
             where="filter cut-off (um)",
-            value=cutoff * 1e6,
+            value=round(cutoff * 1e6, 9),
         )
     width = (half if floored else cutoff / spacing) * ALPHA
     weights = np.exp(-np.pi * (np.arange(-half, half + 1) / width) ** 2)
@@ -83,15 +83,26 @@ def gaussian_mean_line(
         weights = np.ones(heights.size) if valid is None else valid.astype(float)
         return local_regression(heights, weights, kernel, order=order)
     mean_line = convolve(heights, kernel)
-    whole = np.ones(2 * half)
-    mean_line[:half] = local_regression(heights[: 2 * half], whole, kernel, order=order)[:half]
-    mean_line[-half:] = local_regression(heights[-2 * half :], whole, kernel, order=order)[-half:]
+    mean_line[:half] = _first_half(heights, mean_line, kernel, order)
+    mean_line[-half:] = _first_half(heights[::-1], mean_line[::-1], kernel, order)[::-1]
     return mean_line
 
 
-def local_regression(
-    heights: np.ndarray, weights: np.ndarray, kernel: np.ndarray, *, order: int
-) -> np.ndarray:
+def _first_half(heights: np.ndarray, summed: np.ndarray, kernel: np.ndarray, order: int) -> np.ndarray:
+    """Local constant or line at the first half kernel of points, from sums that stop at the end of the trace.
+
+    The sums of weights are running sums of the kernel, so only the first moment of the heights is new.
+    """
+    half = kernel.size // 2
+    lever = np.arange(-half, half + 1) / half
+    sums = [np.cumsum((kernel * lever**k)[::-1])[half : 2 * half] for k in range(2 * order + 1)]
+    if order == 0:
+        return summed[:half] / sums[0]
+    first = convolve(heights[: 2 * half], -kernel * lever)[:half]
+    return (sums[2] * summed[:half] - sums[1] * first) / (sums[2] * sums[0] - sums[1] ** 2)
+
+
+def local_regression(heights: np.ndarray, weights: np.ndarray, kernel: np.ndarray, *, order: int) -> np.ndarray:
     """Value at each point of the polynomial fitted around it under kernel times weights.
 
     Order 0, 1 or 2, as the Gaussian regression filters of ISO 16610-31 (eq. 1). All sums are convolutions,
@@ -128,7 +139,7 @@ def convolve(values: np.ndarray, kernel: np.ndarray) -> np.ndarray:
         return np.convolve(values, kernel, "full")[half : half + values.size]
     from scipy.fft import irfft, next_fast_len, rfft
 
-    size = next_fast_len(min(values.size + 2 * half, max(4 * kernel.size, 16384)), real=True)
+    size = next_fast_len(min(values.size + 2 * half, max(8 * kernel.size, 16384)), real=True)
     step = size - 2 * half
     spectrum = rfft(kernel, size)
     result = np.empty(values.size)

@@ -69,9 +69,7 @@ def core_parameters(profile: Profile, *, method: str = "least squares") -> CoreP
     instruments do. They differ by up to 8 %. Rpk and Rvk are the triangles of equal area.
     """
     if method not in CORE_METHODS:
-        raise InputError(
-            f"must be known; {nearest(method, CORE_METHODS)}", where="Rk method", value=method
-        )
+        raise InputError(f"must be known; {nearest(method, CORE_METHODS)}", where="Rk method", value=method)
     ratio, heights = material_ratio_curve(profile)
     if method == "class levels":
         levels = np.linspace(heights[0], heights[-1], 101)
@@ -121,6 +119,4 @@ def _flattest_secant(ratio: np.ndarray, heights: np.ndarray) -> tuple[float, flo
 
 def _area(excess: np.ndarray, ratio: np.ndarray) -> float:
     """Area under the curve's excess, over a ratio of 0 to 1, with the half step before the first point."""
-    return np.trapezoid(excess, ratio / 100.0) + excess[0] * ratio[0] / 100.0 + excess[-1] * (
-        1.0 - ratio[-1] / 100.0
-    )
+    return np.trapezoid(excess, ratio / 100.0) + excess[0] * ratio[0] / 100.0 + excess[-1] * (1.0 - ratio[-1] / 100.0)

@@ -28,12 +28,8 @@ CONVENTIONS = {
     for c in (
         Convention("ISO 4287:1997", True, True, "ISO 4287:1997, 3.1.9 and 4; ISO 4288:1996, 4.4"),
         Convention("ISO 21920-2:2021", False, True, "ISO 21920-2:2021, 4.3 and 4.4"),
-        Convention(
-            "NIST", False, False, "NIST surface metrology algorithm testing system: profile as a whole"
-        ),
-        Convention(
-            "Mitutoyo", True, True, "SurfTest report, ISO 1997 setting: as ISO 4287 with its N sections"
-        ),
+        Convention("NIST", False, False, "NIST surface metrology algorithm testing system: profile as a whole"),
+        Convention("Mitutoyo", True, True, "SurfTest report, ISO 1997 setting: as ISO 4287 with its N sections"),
     )
 }
 
@@ -82,28 +78,33 @@ def height_parameters(
             value=count,
         )
     mask = np.asarray(profile.valid)
-    parts = [z[m] for z, m in zip(np.array_split(profile.heights, count), np.array_split(mask, count))]
-    parts = [z for z in parts if z.size]
-    whole = profile.heights[mask]
-    tops = np.array([z.max() for z in parts])
-    bottoms = np.array([z.min() for z in parts])
-    if rule.averages_sectioned:
-        averages = [_averages(*pair) for pair in zip(parts, _slopes_by_section(profile, count))]
-    else:
-        averages = [_averages(whole, *_slopes_by_section(profile, 1))]
-    ra, rq, rsk, rku, rdq = np.mean(averages, axis=0)
-    top, bottom = (tops, -bottoms) if rule.extremes_sectioned else (tops.max(), -bottoms.min())
+    borders = _borders(mask.size, count)
+    z, at = _kept(profile.heights, mask, borders)
+    top, bottom = np.maximum.reduceat(z, at), -np.minimum.reduceat(z, at)
+    Rt, Rz1max = float(top.max() + bottom.max()), float((top + bottom).max())
+    if not rule.extremes_sectioned:
+        top, bottom = top.max(), bottom.max()
+    first = at if rule.averages_sectioned else np.zeros(1, int)
+    square = z * z
+    Ra, variance = _means(np.abs(z), first), _means(square, first)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        skewness = _means(square * z, first) / variance**1.5
+        kurtosis = _means(square * square, first) / variance**2
+    slope = slopes(profile.heights, profile.spacing)
+    whole = np.asarray(mask[6:] if mask.all() else np.lib.stride_tricks.sliding_window_view(mask, 7).all(axis=1))
+    # a slope belongs to its middle point; the formula may look across the border of two sections
+    slope, first = _kept(slope, whole, borders - 3 if rule.averages_sectioned else np.zeros(1, int))
     return HeightParameters(
-        Ra=float(ra),
-        Rq=float(rq),
+        Ra=float(Ra.mean()),
+        Rq=float(np.sqrt(variance).mean()),
         Rz=float(np.mean(top + bottom)),
-        Rt=float(tops.max() - bottoms.min()),
+        Rt=Rt,
         Rp=float(np.mean(top)),
         Rv=float(np.mean(bottom)),
-        Rz1max=float((tops - bottoms).max()),
-        Rsk=float(rsk),
-        Rku=float(rku),
-        Rdq=float(rdq),
+        Rz1max=Rz1max,
+        Rsk=float(skewness.mean()),
+        Rku=float(kurtosis.mean()),
+        Rdq=float(np.sqrt(_means(slope * slope, first)).mean()),
         sections=count,
         convention=rule.name,
     )
@@ -141,30 +142,25 @@ def slopes(heights: np.ndarray, spacing: float) -> np.ndarray:
     return near
 
 
-def _slopes_by_section(profile: Profile, count: int) -> list[np.ndarray]:
-    """Slopes at the points of each section; the formula may look across the border of two sections."""
-    values = slopes(profile.heights, profile.spacing)
-    mask = np.asarray(profile.valid)
-    borders = [part[0] - 3 for part in np.array_split(np.arange(mask.size), count)[1:]]
+def _borders(size: int, count: int) -> np.ndarray:
+    """First points of sections as equal as they can be, the longer ones first."""
+    short, longer = divmod(size, count)
+    return np.arange(count) * short + np.minimum(np.arange(count), longer)
+
+
+def _kept(values: np.ndarray, mask: np.ndarray, borders: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The valid values and where among them each section with any starts."""
+    borders = np.maximum(borders, 0)
     if mask.all():
-        return np.split(values, borders)
-    usable = np.lib.stride_tricks.sliding_window_view(mask, 7).all(axis=1)
-    return [v[u] for v, u in zip(np.split(values, borders), np.split(usable, borders)) if u.any()]
+        return values, borders
+    starts = np.concatenate(([0], np.cumsum(mask)))[borders]
+    ends = np.append(starts[1:], np.count_nonzero(mask))
+    return values[mask], starts[ends > starts]
 
 
-def _averages(z: np.ndarray, slope: np.ndarray) -> tuple[float, ...]:
-    square = z * z
-    variance = square.mean()
-    with np.errstate(invalid="ignore", divide="ignore"):
-        skewness = (square @ z) / z.size / variance**1.5
-        kurtosis = (square @ square) / z.size / variance**2
-    return (
-        np.abs(z).mean(),
-        np.sqrt(variance),
-        skewness,
-        kurtosis,
-        np.sqrt(slope @ slope / max(slope.size, 1)),
-    )
+def _means(values: np.ndarray, starts: np.ndarray) -> np.ndarray:
+    """Mean of each section."""
+    return np.add.reduceat(values, starts) / np.diff(np.append(starts, values.size))
 
 
 def _convention(name: str) -> Convention:

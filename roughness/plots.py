@@ -48,9 +48,7 @@ def trace_figure(*profiles: Profile, excerpt: float | None = None) -> Figure:
     return figure
 
 
-def probability_figure(
-    *profiles: Profile, results: Sequence[NormalProbability] | None = None
-) -> Figure:
+def probability_figure(*profiles: Profile, results: Sequence[NormalProbability] | None = None) -> Figure:
     """Normal probability plot of each profile: Gaussian heights lie on the straight line.
 
     The band holds 99 of 100 Gaussian profiles with the same autocorrelation; ticks on the line mark
@@ -67,9 +65,7 @@ def probability_figure(
         q = ndtri((np.arange(ordered.size) + 0.625) / (ordered.size + 0.25))
         keep = np.unique(np.searchsorted(q, np.linspace(q[0], q[-1], 700)).clip(0, q.size - 1))
         line = r.mean + r.sigma * r.quantiles
-        axes.fill_betweenx(
-            r.quantiles, (line - r.band) * 1e6, (line + r.band) * 1e6, color="0.85", linewidth=0
-        )
+        axes.fill_betweenx(r.quantiles, (line - r.band) * 1e6, (line + r.band) * 1e6, color="0.85", linewidth=0)
         reach = np.array([q[0], q[-1]])
         axes.plot((r.mean + r.sigma * reach) * 1e6, reach, color=_MARK, linewidth=1.0)
         axes.plot(ordered[keep] * 1e6, q[keep], ".", color=_LINE, markersize=2.5)
@@ -123,11 +119,12 @@ def abbott_figure(*profiles: Profile) -> Figure:
 
 
 def spectrum_figure(*profiles: Profile) -> Figure:
-    """Power spectral density over wavelength, averaged in log steps, with the filter's cut-offs."""
+    """Power spectral density over wavelength: its spread, its mean in log steps, the filter's cut-offs."""
 
     def draw(axes: Axes, profile: Profile) -> None:
         f, g = power_density(profile)
-        axes.loglog(1e6 / f[1:], g[1:] * 1e18, color="0.85", linewidth=0.5)
+        wave, low, high = _spread(f, g)
+        axes.fill_between(wave * 1e6, low * 1e18, high * 1e18, color="0.85", linewidth=0.5)
         centre, mean = log_binned(f, g)
         axes.loglog(1e6 / centre, mean * 1e18, color=_LINE, linewidth=1.4)
         for key, name in (("short_cutoff", "λs"), ("cutoff", "λc")):
@@ -179,6 +176,13 @@ def _envelope(x: np.ndarray, z: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.
         return x, z, z
     starts = np.linspace(0, z.size, _MOST_POINTS, endpoint=False).astype(int)
     return x[starts], np.minimum.reduceat(z, starts), np.maximum.reduceat(z, starts)
+
+
+def _spread(f: np.ndarray, g: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Wavelengths, and the lowest and highest density in narrow steps of their logarithm."""
+    steps = np.floor(np.log10(f[1:] / f[1]) * 80)
+    starts = np.flatnonzero(np.diff(steps, prepend=-1.0))
+    return 1.0 / f[1:][starts], np.minimum.reduceat(g[1:], starts), np.maximum.reduceat(g[1:], starts)
 
 
 def _heights(profile: Profile) -> str:

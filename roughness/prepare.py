@@ -7,8 +7,11 @@ import numpy as np
 from profiles import InputError, Profile
 from profiles.errors import nearest
 from roughness.filters import gaussian_mean_line
+from roughness.form import circle, involute
+from roughness.robust import robust_mean_line, spline_mean_line
 
-FORMS = ("none", "mean", "line", "polynomial-N", "circle")
+METHODS = ("gaussian", "robust", "spline")
+FORMS = ("none", "mean", "line", "polynomial-N", "circle", "involute-RADIUS")
 
 
 def level(profile: Profile) -> Profile:
@@ -17,9 +20,11 @@ def level(profile: Profile) -> Profile:
 
 
 def remove_form(profile: Profile, form: str) -> Profile:
-    """Take off the least-squares form: ``none``, ``mean``, ``line``, ``polynomial-2``, ``circle``.
+    """Take off the least-squares form; masked points do not pull the fit.
 
-    Polynomials of any degree to 20; the circle by orthogonal distance. Masked points do not pull the fit.
+    ``none``, ``mean``, ``line``, ``polynomial-2`` (any degree to 20), ``circle`` (by orthogonal distance) or
+    ``involute-33.245``, a tooth flank of that base radius in mm. Crowning and tip relief on top of these
+    take a polynomial of degree 4 or more.
 
     >>> p = Profile(np.array([1.0, 2.0, 3.0, 4.5, 5.0]) * 1e-6, 1e-6)
     >>> remove_form(p, "line").steps
@@ -28,14 +33,20 @@ def remove_form(profile: Profile, form: str) -> Profile:
     if form == "none":
         return profile
     if form == "circle":
-        radius, shape = _circle(profile)
+        shape, radius = circle(profile)
         return profile.after(f"form circle removed, radius {radius * 1e3:.6g} mm", profile.heights - shape)
+    if form.startswith("involute-"):
+        shape, curvature_radius = involute(profile, _base_radius(form))
+        return profile.after(
+            f"form {form} removed, radius of curvature {curvature_radius * 1e3:.6g} mm in the middle",
+            profile.heights - shape,
+        )
     degree = _degree(form)
     x = np.linspace(-1.0, 1.0, profile.heights.size)
     mask = _mask(profile)
     basis = np.polynomial.legendre.legvander(x, degree)
-    normal, load = basis[mask].T @ basis[mask], basis[mask].T @ profile.heights[mask]
-    fitted = basis @ np.linalg.solve(normal, load)
+    weighted = basis if mask.all() else basis * mask[:, None]
+    fitted = basis @ np.linalg.solve(weighted.T @ basis, weighted.T @ profile.heights)
     return profile.after(f"form {form} removed", profile.heights - fitted)
 
 
@@ -47,11 +58,14 @@ def roughness_profile(
     ends: str = "regression",
     floored: bool = False,
     trim_cutoffs: float = 0.0,
+    method: str = "gaussian",
 ) -> Profile:
     """The band between the short cut-off lambda_s and the cut-off lambda_c (m); either may be left out.
 
     ``ends`` and ``floored`` as in :func:`roughness.filters.gaussian_mean_line`; ``trim_cutoffs`` cuts that
-    many cut-offs off each end afterwards (instruments cut 0.5). ISO 16610-21, ISO 3274.
+    many cut-offs off each end afterwards (instruments cut 0.5). ``method`` is the filter of the cut-off:
+    ``gaussian`` (ISO 16610-21), ``robust`` (ISO 16610-31) or ``spline`` (ISO 16610-22), the last two with
+    their own ends; the short cut-off is always Gaussian. ISO 3274.
     """
     result = profile
     if short_cutoff is not None:
@@ -69,9 +83,17 @@ def roughness_profile(
                 where=f"profile {profile.name!r}: cut-off (mm)",
                 value=cutoff * 1e3,
             )
-        mean_line = _mean_line(result, cutoff, ends, floored)
+        if method == "gaussian":
+            mean_line, kind = _mean_line(result, cutoff, ends, floored), f"Gaussian high-pass, ends {ends}"
+        elif method == "robust":
+            mean_line = robust_mean_line(result.heights, result.spacing, cutoff, valid=_mask(result))
+            kind = "robust Gaussian regression high-pass"
+        elif method == "spline":
+            mean_line, kind = spline_mean_line(result.heights, result.spacing, cutoff), "spline high-pass"
+        else:
+            raise InputError(f"must be known; {nearest(method, METHODS)}", where="filter method", value=method)
         result = result.after(
-            f"Gaussian high-pass, cut-off {cutoff * 1e3:.6g} mm, ends {ends}",
+            f"{kind}, cut-off {cutoff * 1e3:.6g} mm",
             result.heights - mean_line,
             cutoffs={**result.cutoffs, "cutoff": cutoff},
         )
@@ -91,9 +113,7 @@ def primary_profile(
     )
 
 
-def waviness_profile(
-    profile: Profile, cutoff: float, *, ends: str = "regression", floored: bool = False
-) -> Profile:
+def waviness_profile(profile: Profile, cutoff: float, *, ends: str = "regression", floored: bool = False) -> Profile:
     """What is longer than the cut-off (m): the mean line that the roughness profile leaves behind."""
     return profile.after(
         f"Gaussian low-pass, cut-off {cutoff * 1e3:.6g} mm, ends {ends}",
@@ -133,6 +153,17 @@ def _mask(profile: Profile) -> np.ndarray:
     return np.asarray(profile.valid)
 
 
+def _base_radius(form: str) -> float:
+    """Base radius (m) out of ``involute-33.245``, in mm as on the gear's data sheet."""
+    try:
+        radius = float(form.removeprefix("involute-"))
+    except ValueError:
+        radius = 0.0
+    if not radius > 0:
+        raise InputError("needs the base radius in mm, as in involute-33.245", where="form", value=form)
+    return radius * 1e-3
+
+
 def _degree(form: str) -> int:
     if form in ("mean", "line"):
         return 0 if form == "mean" else 1
@@ -140,31 +171,3 @@ def _degree(form: str) -> int:
     if head == "polynomial" and tail.isdigit() and int(tail) <= 20:
         return int(tail)
     raise InputError(f"must be a known form; {nearest(form, FORMS)}", where="form", value=form)
-
-
-def _circle(profile: Profile) -> tuple[float, np.ndarray]:
-    """Radius and heights of the circle with the least squared distance to the valid points."""
-    from scipy.optimize import least_squares
-
-    mask = _mask(profile)
-    half = profile.length / 2
-    x = (profile.positions - half) / half
-    z = profile.heights / half
-    a, b, c = np.polynomial.polynomial.polyfit(x[mask], z[mask], 2)
-    if abs(c) < 1e-9:
-        raise InputError("is too straight for a circle", where=f"profile {profile.name!r}", value=None)
-
-    # curvature, slope and height at the middle stay finite where centre and radius would run away
-    def heights(free: np.ndarray) -> np.ndarray:
-        top, slope, curvature = free
-        cosine = 1.0 / np.sqrt(1.0 + slope**2)
-        sine = slope * cosine
-        u = np.clip(1.0 - (sine + curvature * x) ** 2, 0.0, None)
-        return top + (cosine - np.sqrt(u)) / curvature
-
-    def distance(free: np.ndarray) -> np.ndarray:
-        residual = z[mask] - heights(free)[mask]
-        return residual * np.sqrt(np.clip(1.0 - (free[1] + free[2] * x[mask]) ** 2, 0.0, 1.0))
-
-    found = least_squares(distance, (a, b, 2 * c), x_scale=(1e-3, 1e-3, abs(2 * c)), xtol=1e-15, ftol=1e-15)
-    return float(half / abs(found.x[2])), heights(found.x) * half

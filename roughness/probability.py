@@ -20,6 +20,9 @@ _REACH = 3.0902323061678132  # normal quantile of 99.9 %
 _LEAST_REACH = 1.6448536269514722  # normal quantile of 95 %
 _FEWEST = 30.0  # independent heights below which the band would forgive any shape
 _LEVELS = 121
+_DRAWS = 2000
+_KNEES = np.linspace(-2.0, 1.0, 61)
+_WIDTHS = np.array([0.05, 0.15, 0.3, 0.5, 0.8, 1.2])
 
 
 @dataclass(frozen=True)
@@ -41,6 +44,7 @@ class NormalProbability:
     ``from_percent`` and ``to_percent``, the widest range that it describes; ``band`` (m) is how far from it
     a Gaussian profile with the same autocorrelation stays at every point together in 99 of 100 cases;
     ``p_value`` is the share of such profiles that leave their line further than this one.
+    ``lines`` are the two asymptotes fitted to any profile, ``plateau`` the same where they are convincing;
     ``contact_ratio`` is the mean overlap with a plane at 1, 2 and 3 sigma over that of Gaussian heights.
     """
 
@@ -55,6 +59,7 @@ class NormalProbability:
     p_value: float
     independent_heights: float
     contact_ratio: tuple[float, float, float]
+    lines: Plateau
     plateau: Plateau | None
     words: str
 
@@ -69,7 +74,8 @@ class NormalProbability:
 def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> NormalProbability:
     """Judge whether the heights of a filtered profile are Gaussian, and between which percentages.
 
-    ``gaussian``: the line holds from end to end of what the profile can show (at most 0.1 to 99.9 %);
+    ``gaussian``: the line holds from end to end of what the profile can show (at most 0.1 to 99.9 %) and
+    leaves no more than chance or the tolerance does;
     ``gaussian_bulk``: at least from 10 to 90 %; ``plateau``: two lines, the lower one steeper, describe it;
     ``not_gaussian``: none of these. The line holds where the heights stay within ``tolerance`` sigma of it
     or within the band, whichever is wider; with fewer than 30 independent heights the band is not used,
@@ -77,23 +83,19 @@ def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> Nor
     """
     from scipy.special import ndtr
 
-    mask = np.asarray(profile.valid)
-    ordered = np.sort(profile.heights[mask])
-    if ordered.size < 50 or ordered[0] == ordered[-1]:
-        raise InputError(
-            "a probability plot needs fifty heights that differ", where=f"profile {profile.name!r}"
-        )
-    sums = correlation_sums(autocorrelation(profile))
-    independent = ordered.size / sums[1]
-    quantiles = np.linspace(-1.0, 1.0, _LEVELS) * _reach(independent)
-    heights = np.quantile(ordered, ndtr(quantiles), method="median_unbiased")
-    p_value, relative_band = _gaussian_band(quantiles, heights, sums, ordered.size)
+    quantiles, heights, sums = _plotted(profile)
+    count = int(np.count_nonzero(np.asarray(profile.valid)))
+    independent = count / sums[1]
+    p_value, relative_band = _gaussian_band(quantiles, heights, sums, count)
     if independent < _FEWEST:
         relative_band = np.zeros_like(relative_band)
     first, last, mean, sigma = _widest_line(quantiles, heights, relative_band, tolerance)
     low, high = (float(100 * ndtr(quantiles[i])) for i in (first, last))
-    plateau = _two_lines(quantiles, heights, tolerance)
-    if first == 0 and last == _LEVELS - 1:
+    lines, residual = _hyperbola(quantiles, heights)
+    plateau = lines if _convincing(lines, residual, quantiles, heights, tolerance) else None
+    whole = first == 0 and last == _LEVELS - 1
+    deviation = np.abs(heights - mean - sigma * quantiles).max() / sigma
+    if whole and (p_value >= 0.01 or deviation <= tolerance):
         verdict = "gaussian"
     elif plateau is not None and plateau.material_percent <= 95.0:
         verdict = "plateau"
@@ -103,7 +105,7 @@ def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> Nor
         verdict = "plateau"
     else:
         verdict = "not_gaussian"
-    ratio = _contact_ratio(ordered)
+    ratio = _contact_ratio(profile.heights[np.asarray(profile.valid)])
     return NormalProbability(
         quantiles=quantiles,
         heights=heights,
@@ -116,8 +118,9 @@ def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> Nor
         p_value=p_value,
         independent_heights=independent,
         contact_ratio=ratio,
+        lines=lines,
         plateau=plateau if verdict == "plateau" else None,
-        words=_words(verdict, low, high, ratio, plateau),
+        words=_words(verdict, low, high, independent, ratio, plateau),
     )
 
 
@@ -176,9 +179,9 @@ def _gaussian_band(
     residual = np.eye(quantiles.size) - np.column_stack((np.ones(quantiles.size), quantiles)) @ fit
     covariance = residual @ covariance @ residual.T / count
     spread = np.sqrt(np.maximum(np.diag(covariance), 1e-12))
-    values, vectors = np.linalg.eigh(covariance)
-    draws = np.random.default_rng(1).standard_normal((4000, quantiles.size))
-    draws = draws * np.sqrt(np.maximum(values, 0.0)) @ vectors.T
+    # taking the line off leaves two directions without scatter; the small diagonal keeps Cholesky going
+    factor = np.linalg.cholesky(covariance + 1e-9 * np.diag(covariance).max() * np.eye(quantiles.size))
+    draws = np.random.default_rng(1).standard_normal((_DRAWS, quantiles.size)) @ factor.T
     largest = np.abs(draws / spread).max(axis=1)
     slope = fit[1] @ heights
     observed = np.abs((residual @ heights) / slope / spread).max()
@@ -194,6 +197,8 @@ def _widest_line(
 
     below = ndtr(quantiles)
     density = np.exp(-0.5 * quantiles**2)
+    # a stretch of equal heights is a flat, not a Gaussian of sigma nought
+    least = 0.02 * heights.std()
     first, last = np.triu_indices(quantiles.size, k=8)
     for pick in np.lexsort((first - last, -np.round(below[last] - below[first], 3))):
         part = slice(first[pick], last[pick] + 1)
@@ -201,78 +206,108 @@ def _widest_line(
         centre = weight @ q / weight.sum()
         sigma = (weight * (q - centre)) @ z / (weight @ (q - centre) ** 2)
         mean = weight @ z / weight.sum() - sigma * centre
-        if np.all(np.abs(z - mean - sigma * q) <= sigma * np.maximum(tolerance, band[part])):
+        if sigma > least and np.all(np.abs(z - mean - sigma * q) <= sigma * np.maximum(tolerance, band[part])):
             return int(first[pick]), int(last[pick]), float(mean), float(sigma)
     middle = quantiles.size // 2
     mean, sigma = _line_weights(quantiles) @ heights
     return middle, middle, float(mean), float(sigma)
 
 
-def _two_lines(quantiles: np.ndarray, heights: np.ndarray, tolerance: float) -> Plateau | None:
-    """Hyperbola through the plot, whose asymptotes are the plateau's and the valleys' lines.
+def two_lines(profile: Profile) -> Plateau:
+    """Rpq, Rvq and Rmq of ISO 13565-3: the plateau's and the valleys' line on the probability plot.
 
-    None unless the valleys are at least twice as steep, fill 2 to 80 %, and the curve fits to 2.5 times the
-    tolerance where one line leaves four times the squares. After ISO 13565-3, annex A, which also takes the
-    asymptotes of a conic.
+    A fit for every profile; on a single Gaussian process the two lines are nearly one.
+    """
+    quantiles, heights, _ = _plotted(profile)
+    return _hyperbola(quantiles, heights)[0]
+
+
+def _hyperbola(quantiles: np.ndarray, heights: np.ndarray) -> tuple[Plateau, np.ndarray]:
+    """Hyperbola through the plot within 2.5 sigma; its asymptotes are the two lines. Also what it leaves.
+
+    After ISO 13565-3, annex A, which also takes the asymptotes of a conic.
     """
     from scipy.special import ndtr
 
     inner = np.abs(quantiles) <= 2.5
     q, z = quantiles[inner], heights[inner]
-    ones = np.ones_like(q)
-    best: tuple[float, float, np.ndarray, np.ndarray] | None = None
-    for knee in np.linspace(-2.0, 1.0, 61):
-        for width in (0.05, 0.15, 0.3, 0.5, 0.8, 1.2):
-            bend = 0.5 * (q - knee - np.sqrt((q - knee) ** 2 + width**2))
-            basis = np.column_stack((ones, q, bend))
-            free = np.linalg.lstsq(basis, z, rcond=None)[0]
-            residual = z - basis @ free
-            if best is None or residual @ residual < best[0]:
-                best = (float(residual @ residual), float(knee), free, residual)
-    assert best is not None
-    squares, knee, (mean, plateau, extra), residual = best
-    line = np.polynomial.polynomial.polyfit(q, z, 1)
-    one = z - np.polynomial.polynomial.polyval(q, line)
-    valley = plateau + extra
-    convincing = (
-        plateau > 0
-        and valley >= 2.0 * plateau
-        and 0.02 <= ndtr(knee) <= 0.8
-        and squares <= 0.25 * (one @ one)
-        and np.abs(residual).max() <= 2.5 * tolerance * z.std()
-    )
-    if not convincing:
-        return None
-    return Plateau(
+    knees, widths = (grid.reshape(-1, 1) for grid in np.meshgrid(_KNEES, _WIDTHS))
+    bends = 0.5 * (q - knees - np.sqrt((q - knees) ** 2 + widths**2))
+    straight = np.linalg.qr(np.column_stack((np.ones_like(q), q)))[0]
+    left = z - straight @ (straight.T @ z)
+    bent = bends - (bends @ straight) @ straight.T
+    squares = np.einsum("ij,ij->i", bent, bent)
+    best = int(np.argmax((bent @ left) ** 2 / squares))
+    extra = float(bent[best] @ left / squares[best])
+    residual = left - extra * bent[best]
+    knee = float(knees[best, 0])
+    mean, plateau = np.polynomial.polynomial.polyfit(q, z - extra * bends[best], 1)
+    found = Plateau(
         plateau_sigma=float(plateau),
-        valley_sigma=float(valley),
+        valley_sigma=float(plateau + extra),
         material_percent=float(100 * ndtr(-knee)),
         knee_height=float(mean + plateau * knee),
         plateau_mean=float(mean),
     )
+    return found, residual
 
 
-def _contact_ratio(ordered: np.ndarray) -> tuple[float, float, float]:
-    """Mean overlap with a plane at 1, 2, 3 sigma above the mean, over that of Gaussian heights."""
-    z = (ordered - ordered.mean()) / ordered.std()
-    first, second, third = (
-        float(np.maximum(z - h, 0.0).mean() / area_integral(h)) for h in (1.0, 2.0, 3.0)
+def _convincing(
+    lines: Plateau, residual: np.ndarray, quantiles: np.ndarray, heights: np.ndarray, tolerance: float
+) -> bool:
+    """Whether the valleys are at least twice as steep, fill 2 to 80 %, and the curve fits to 2.5 times the
+    tolerance where one line leaves four times the squares."""
+    inner = np.abs(quantiles) <= 2.5
+    q, z = quantiles[inner], heights[inner]
+    one = z - np.polynomial.polynomial.polyval(q, np.polynomial.polynomial.polyfit(q, z, 1))
+    return bool(
+        lines.plateau_sigma > 0
+        and lines.valley_sigma >= 2.0 * lines.plateau_sigma
+        and 20.0 <= lines.material_percent <= 98.0
+        and residual @ residual <= 0.25 * (one @ one)
+        and np.abs(residual).max() <= 2.5 * tolerance * z.std()
     )
+
+
+def _plotted(profile: Profile) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Normal quantiles, the heights at them, and the sums over the autocorrelation."""
+    from scipy.special import ndtr
+
+    ordered = profile.heights[np.asarray(profile.valid)]
+    if ordered.size < 50 or np.ptp(ordered) == 0:
+        raise InputError("a probability plot needs fifty heights that differ", where=f"profile {profile.name!r}")
+    sums = correlation_sums(autocorrelation(profile))
+    quantiles = np.linspace(-1.0, 1.0, _LEVELS) * _reach(ordered.size / sums[1])
+    return quantiles, np.quantile(ordered, ndtr(quantiles), method="median_unbiased"), sums
+
+
+def _contact_ratio(heights: np.ndarray) -> tuple[float, float, float]:
+    """Mean overlap with a plane at 1, 2, 3 sigma above the mean, over that of Gaussian heights."""
+    z = (heights - heights.mean()) / heights.std()
+    first, second, third = (float(np.maximum(z - h, 0.0).mean() / area_integral(h)) for h in (1.0, 2.0, 3.0))
     return first, second, third
 
 
 def _words(
-    verdict: str, low: float, high: float, ratio: tuple[float, float, float], plateau: Plateau | None
+    verdict: str,
+    low: float,
+    high: float,
+    independent: float,
+    ratio: tuple[float, float, float],
+    plateau: Plateau | None,
 ) -> str:
     area = f"real contact at a gap of 2 sigma is {ratio[1]:.2f} times the Gaussian one"
     if verdict == "gaussian":
-        return f"Gaussian from {low:.1f} to {high:.1f} % of the heights, all that the trace can show; {area}."
+        return (
+            f"Gaussian from {low:.1f} to {high:.1f} % of the heights, as far as {independent:.0f} "
+            f"independent heights can tell; {area}."
+        )
     if verdict == "gaussian_bulk":
-        return f"Gaussian from {low:.1f} to {high:.1f} %; peaks or valleys beyond leave the line; {area}."
+        return f"Gaussian from {low:.1f} to {high:.1f} %; what lies beyond leaves the line; {area}."
     if verdict == "plateau" and plateau is not None:
         return (
-            f"plateau of sigma {plateau.plateau_sigma * 1e6:.3g} um on {plateau.material_percent:.0f} % of the "
-            f"surface above valleys of sigma {plateau.valley_sigma * 1e6:.3g} um: use the plateau's sigma and "
-            f"mean for contact; {area}."
+            f"plateau of sigma {plateau.plateau_sigma * 1e6:.3g} um on {plateau.material_percent:.0f} % of "
+            f"the surface above valleys of sigma {plateau.valley_sigma * 1e6:.3g} um: use the plateau's "
+            f"sigma and mean for contact; {area}."
         )
     return f"not Gaussian: one line holds only from {low:.1f} to {high:.1f} %; {area}."

@@ -14,29 +14,33 @@ def power_density(profile: Profile) -> tuple[np.ndarray, np.ndarray]:
 
     Hann taper over the whole length, divided by the taper's mean square: without it the step between the
     two ends would fill the short waves. The sum over the returned wavenumbers times their spacing is the
-    variance, to the accuracy with which the tapered half speaks for the whole.
+    variance, to the accuracy with which the tapered half speaks for the whole. Points beyond the last length
+    that transforms fast, at most one in a hundred, are left out.
 
     >>> wave = Profile(np.sin(2 * np.pi * np.arange(4096) / 16), 1e-6)
     >>> f, density = power_density(wave)
     >>> float(f[density.argmax()]), round(float(density.sum() * f[1]), 3)
     (62500.0, 0.5)
     """
-    from scipy.fft import next_fast_len, rfft, rfftfreq
+    from scipy.fft import next_fast_len, rfft
 
-    z = profile.heights - profile.heights.mean()
-    size = next_fast_len(z.size, real=True)
-    turn = np.cos(np.linspace(np.pi / z.size, 2 * np.pi - np.pi / z.size, z.size))
-    amplitude = rfft(z * (1.0 - turn), size)
+    size = profile.heights.size
+    while size > 50 and next_fast_len(size, real=True) != size:
+        size -= 1
+    z = profile.heights[:size]
+    plain = rfft(z - z.mean())
+    # the taper 1 - cos is a difference of neighbours in the spectrum
+    beyond = np.conj(plain[size - plain.size])
+    amplitude = np.concatenate((np.conj(plain[1:2]), plain, [beyond]))
+    amplitude = amplitude[1:-1] - 0.5 * (amplitude[:-2] + amplitude[2:])
     density = amplitude.real**2 + amplitude.imag**2
     density[1 : (size + 1) // 2] *= 2.0
     # the mean square of 1 - cos is 3/2
-    density *= profile.spacing / (1.5 * z.size)
-    return rfftfreq(size, profile.spacing), density
+    density *= profile.spacing / (1.5 * size)
+    return np.arange(density.size) / (size * profile.spacing), density
 
 
-def log_binned(
-    wavenumber: np.ndarray, density: np.ndarray, *, per_decade: int = 12
-) -> tuple[np.ndarray, np.ndarray]:
+def log_binned(wavenumber: np.ndarray, density: np.ndarray, *, per_decade: int = 12) -> tuple[np.ndarray, np.ndarray]:
     """The spectrum averaged in equal steps of the logarithm, as it is drawn."""
     f, g = wavenumber[1:], density[1:]
     bins = np.floor(np.log10(f / f[0]) * per_decade).astype(int)

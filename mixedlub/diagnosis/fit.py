@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.diagnosis.problem import REACH, Explanation, Problem
+from mixedlub.forward import Run
 
 OUTLIER_SHARE = 0.01
 OUTLIER_WIDTH = 10.0
@@ -106,8 +107,9 @@ def map_fit(problem: Problem, explanation: Explanation, start: np.ndarray, *, wa
     columns = np.hstack([state.slopes, problem.shared])
     curvature = np.eye(columns.shape[1]) + columns.T @ (columns * state.weight[:, None])
     evidence = -state.cost - 0.5 * float(np.linalg.slogdet(curvature)[1])
-    residual = (problem.y - state.prediction) / problem.sd
-    return Fit(explanation, state.z, state.prediction, residual, state.slopes, state.weight, evidence)
+    prediction = state.run.prediction
+    residual = (problem.y - prediction) / problem.sd
+    return Fit(explanation, state.z, prediction, residual, state.slopes, state.weight, evidence)
 
 
 def gaussian(residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -126,7 +128,7 @@ Likelihood = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 class _State:
     z: np.ndarray
     shared: np.ndarray
-    prediction: np.ndarray
+    run: Run
     slopes: np.ndarray
     cost: float
     weight: np.ndarray
@@ -135,43 +137,43 @@ class _State:
     def at(
         cls, problem: Problem, explanation: Explanation, z: np.ndarray, shared: np.ndarray, likelihood: Likelihood
     ) -> _State:
-        prediction = problem.predict(explanation, z)
-        cost, weight = _cost(problem, prediction, z, shared, likelihood)
-        return cls(z, shared, prediction, problem.jacobian(explanation, z, prediction), cost, weight)
+        run = problem.run(explanation, z)
+        cost, weight = _cost(problem, run.prediction, z, shared, likelihood)
+        return cls(z, shared, run, problem.jacobian(explanation, z, run), cost, weight)
 
 
 def _climb(
     problem: Problem, explanation: Explanation, state: _State, likelihood: Likelihood, *, tolerance: float
 ) -> _State:
     """Damped Gauss-Newton steps until the gain falls below the tolerance."""
-    z, shared, prediction, slopes = state.z, state.shared, state.prediction, state.slopes
-    cost, weight = _cost(problem, prediction, z, shared, likelihood)
+    z, shared, run, slopes = state.z, state.shared, state.run, state.slopes
+    cost, weight = _cost(problem, run.prediction, z, shared, likelihood)
     damping = 1e-2
     for _ in range(20):
         columns = np.hstack([slopes, problem.shared])
         scaled = columns * weight[:, None]
         curvature = np.eye(columns.shape[1]) + columns.T @ scaled
-        residual = (problem.y - prediction) / problem.sd - problem.shared @ shared
+        residual = (problem.y - run.prediction) / problem.sd - problem.shared @ shared
         slope = scaled.T @ residual - np.concatenate([z, shared])
         for _ in range(8):
             step = np.linalg.solve(curvature + damping * np.diag(np.diag(curvature)), slope)
             step *= min(1.0, 2.0 / max(np.max(np.abs(step[: z.size]), initial=0.0), 1e-12))
             moved = np.clip(z + step[: z.size], -REACH, REACH)
             moved_shared = shared + step[z.size :]
-            tried = problem.predict(explanation, moved)
-            new_cost, new_weight = _cost(problem, tried, moved, moved_shared, likelihood)
+            tried = problem.run(explanation, moved, run)
+            new_cost, new_weight = _cost(problem, tried.prediction, moved, moved_shared, likelihood)
             if np.isfinite(new_cost) and new_cost <= cost:
                 break
             damping = max(damping * 6.0, 1e-3)
         else:
             break
         gain = cost - new_cost
-        z, shared, prediction, cost, weight = moved, moved_shared, tried, new_cost, new_weight
+        z, shared, run, cost, weight = moved, moved_shared, tried, new_cost, new_weight
         damping = max(damping / 5.0, 1e-9)
-        slopes = problem.jacobian(explanation, z, prediction)
+        slopes = problem.jacobian(explanation, z, run)
         if gain < tolerance:
             break
-    return _State(z, shared, prediction, slopes, cost, weight)
+    return _State(z, shared, run, slopes, cost, weight)
 
 
 def _cost(

@@ -9,7 +9,7 @@ import numpy as np
 from mixedlub.diagnosis.fit import Fit, linear_fit
 from mixedlub.diagnosis.noise import is_stated, noise
 from mixedlub.diagnosis.problem import Problem
-from mixedlub.diagnosis.search import ELASTIC, Search, elastic_columns
+from mixedlub.diagnosis.search import ELASTIC, Search, elastic_columns, typical_size
 from mixedlub.diagnosis.unknown import shape_columns, share_of
 from mixedlub.forward import Forward
 from mixedlub.table import Table
@@ -34,13 +34,16 @@ class Refined:
     coefficients: np.ndarray
     covariance: np.ndarray
     residual: np.ndarray
+    typical: float
 
 
 def refine(found: Search, fit: Fit) -> Refined:
     """Settle how much the effects' forms bend, and the coordinates with it."""
     problem = found.problem
     fixed = np.hstack([fit.slopes, problem.shared])
-    columns = elastic_columns(problem, fit, found.space, found.values) if fit.explanation else np.zeros((fit.z.size, 0))
+    net = (fit.prediction - found.none.prediction) / problem.sd
+    typical = typical_size(net)
+    columns = elastic_columns(net, typical, found.space, found.values)
     best, best_score = None, -np.inf
     for size, weight in ELASTIC:
         every = np.hstack([fixed, size * columns]) if size and columns.size else fixed
@@ -52,7 +55,7 @@ def refine(found: Search, fit: Fit) -> Refined:
             break
     assert best is not None
     covariance = np.linalg.inv(np.eye(used.shape[1]) + used.T @ (used * best.weight[:, None]))
-    return Refined(fit, best.coefficients[: fit.z.size], bend, best.coefficients, covariance, best.residual)
+    return Refined(fit, best.coefficients[: fit.z.size], bend, best.coefficients, covariance, best.residual, typical)
 
 
 class Rows:
@@ -76,13 +79,13 @@ class Rows:
         """Prediction of a catalogue explanation."""
         fit = refined.fit
         z = refined.z
-        mean = self.problem.predict(fit.explanation, z)
-        slopes = self.problem.jacobian(fit.explanation, z, mean)
+        run = self.problem.run(fit.explanation, z)
+        mean, slopes = run.prediction, self.problem.jacobian(fit.explanation, z, run)
         base = self.problem.base(z)
         columns = [slopes, np.zeros((len(self.table), self.found.problem.shared.shape[1]))]
         if refined.bend:
-            here = Fit(fit.explanation, z, mean, np.zeros_like(mean), slopes, np.ones_like(mean), 0.0)
-            own = refined.bend * elastic_columns(self.problem, here, self.found.space, self.values)
+            net = (mean - self.problem.predict((), self.found.none.z)) / self.sd
+            own = refined.bend * elastic_columns(net, refined.typical, self.found.space, self.values)
             columns.append(own)
             mean = mean + self.sd * (own @ refined.coefficients[-own.shape[1] :])
         every = np.hstack(columns)
@@ -93,8 +96,8 @@ class Rows:
         """Prediction of the base model plus the unnamed mismatch; far from the recordings it fades out."""
         found = self.found
         unknown = found.unknown
-        calibrated = self.problem.predict((), unknown.z)
-        slopes = self.problem.jacobian((), unknown.z, calibrated)
+        run = self.problem.run((), unknown.z)
+        calibrated, slopes = run.prediction, self.problem.jacobian((), unknown.z, run)
         _, typical = share_of(found.none.prediction, found.problem.sd)
         share = np.abs(self.problem.predict((), found.none.z)) / self.sd
         own = shape_columns(unknown.best, found.space, self.values, share, typical)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,7 +9,7 @@ import numpy as np
 from mixedlub.case import Case
 from mixedlub.diagnosis.noise import noise
 from mixedlub.effect import Effect, catalogue
-from mixedlub.forward import Forward
+from mixedlub.forward import Forward, Run
 from mixedlub.table import Table
 
 Explanation = tuple[str, ...]
@@ -58,24 +57,27 @@ class Problem:
             start = stop
         return values
 
+    def run(self, explanation: Explanation, z: np.ndarray, near: Run | None = None) -> Run:
+        """Predicted readings at coordinates z, with the steps that lead there."""
+        return self.forward.run(self.calibration(z), self.parameters(explanation, z), near)
+
     def predict(self, explanation: Explanation, z: np.ndarray) -> np.ndarray:
         """Predicted readings at coordinates z."""
-        return self.forward.predict(self.calibration(z), self.parameters(explanation, z))
+        return self.run(explanation, z).prediction
 
     def base(self, z: np.ndarray) -> np.ndarray:
         """Predicted readings at the same calibration with nothing added."""
         return self.forward.predict(self.calibration(z))
 
-    def jacobian(
-        self, explanation: Explanation, z: np.ndarray, at: np.ndarray, columns: Sequence[int] | None = None
-    ) -> np.ndarray:
+    def jacobian(self, explanation: Explanation, z: np.ndarray, at: Run | None = None) -> np.ndarray:
         """Derivative of predictions over sd with respect to z, by forward differences."""
-        columns = range(z.size) if columns is None else columns
-        slopes = np.empty((self.y.size, len(columns)))
-        for place, i in enumerate(columns):
+        here = self.run(explanation, z) if at is None else at
+        slopes = np.empty((self.y.size, z.size))
+        for i in range(z.size):
             moved = z.copy()
             moved[i] += STEP if z[i] < REACH else -STEP
-            slopes[:, place] = (self.predict(explanation, moved) - at) / (self.sd * (moved[i] - z[i]))
+            change = self.run(explanation, moved, here).prediction - here.prediction
+            slopes[:, i] = change / (self.sd * (moved[i] - z[i]))
         return slopes
 
     def with_sd(self, prediction: np.ndarray) -> Problem:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
@@ -16,6 +16,7 @@ from mixedlub.diagnosis.unknown import Unknown, unknown_fit
 PRIOR = {"none": 0.42, "single": 0.36, "pair": 0.12, "unknown": 0.10}
 SAMPLES = 24
 LEADERS = 8
+FAR = 60.0
 PAIRS = 20
 ELASTIC = ((0.0, 0.35), (0.08, 0.35), (0.25, 0.30))
 """Relative error of an effect's literature form: its rms and the weight given to it."""
@@ -79,15 +80,22 @@ def search(
         if best.evidence > none.evidence + 3.0:
             problem = problem.with_sd(best.prediction)
             none = map_fit(problem, (), none.z)
-            singles = {m: map_fit(problem, m, f.z, warm=True) for m, f in singles.items()}
+            singles = _again(problem, singles, best)
     fits: dict[Explanation, Fit] = {(): none, **singles}
     progress("trying pairs of effects")
     for explanation, start in _promising_pairs(problem, singles, sampled):
         fits[explanation] = map_fit(problem, explanation, start)
-    scores = {m: elastic_evidence(problem, f, space, values) for m, f in fits.items()}
+    scores = {m: elastic_evidence(problem, none, f, space, values) for m, f in fits.items()}
     progress("weighing an unnamed mismatch")
     unknown = unknown_fit(problem, none, space, values)
     return Search(problem, space, values, none, fits, scores, unknown, sampled)
+
+
+def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit) -> dict[Explanation, Fit]:
+    """The fits under a new noise level; those hopelessly behind the best only keep their distance to it."""
+    new = {m: map_fit(problem, m, f.z, warm=True) for m, f in singles.items() if f.evidence > best.evidence - FAR}
+    shift = new[best.explanation].evidence - best.evidence
+    return {m: new[m] if m in new else replace(f, evidence=f.evidence + shift) for m, f in singles.items()}
 
 
 def _sample(problem: Problem, name: str, none: Fit) -> Sampled:
@@ -95,9 +103,10 @@ def _sample(problem: Problem, name: str, none: Fit) -> Sampled:
     size = len(effects_of((name,))[0].parameters)
     z = spread(size, SAMPLES)
     change = np.empty((len(z), problem.y.size))
+    run = None
     for i, own in enumerate(z):
-        predicted = problem.predict((name,), np.concatenate([none.z, own]))
-        change[i] = (predicted - none.prediction) / problem.sd
+        run = problem.run((name,), np.concatenate([none.z, own]), run)
+        change[i] = (run.prediction - none.prediction) / problem.sd
     usable = np.isfinite(change).all(axis=1)
     return Sampled(name, z[usable], change[usable])
 
@@ -172,13 +181,14 @@ def _promising_pairs(
     return [(pair, start) for pair, (_, start) in ranked]
 
 
-def elastic_evidence(problem: Problem, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:
+def elastic_evidence(problem: Problem, none: Fit, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:
     """Evidence with the effects' literature forms allowed to be a little wrong, smoothly over the conditions."""
     if not fit.explanation:
         return fit.evidence
     base = np.hstack([fit.slopes, problem.shared])
     plain = linear_fit(fit.anchor, base, fit.weight).evidence
-    bend = elastic_columns(problem, fit, space, values)
+    net = (fit.prediction - none.prediction) / problem.sd
+    bend = elastic_columns(net, typical_size(net), space, values)
     gains = []
     for size, weight in ELASTIC:
         if size == 0.0:
@@ -189,32 +199,23 @@ def elastic_evidence(problem: Problem, fit: Fit, space: Coordinates, values: lis
     return fit.evidence + float(np.logaddexp.reduce(gains))
 
 
-def elastic_columns(problem: Problem, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
-    """Each effect's contribution in sigmas times smooth functions of the numeric conditions."""
-    blocks = []
+def typical_size(net: np.ndarray) -> float:
+    """Root mean square."""
+    return float(np.sqrt(np.mean(net**2)))
+
+
+def elastic_columns(net: np.ndarray, typical: float, space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
+    """What an explanation adds to the calibrated base, in sigmas, times smooth functions of the numeric conditions.
+
+    Where it adds little a third of its ``typical`` size stands in: another form need not vanish there too.
+    """
     smooth = [
         axis.functions(v, 0.7)[:, :4]
         for axis, v in zip(space.axes, values, strict=True)
         if not axis.named and axis.name != "sequence"
     ]
     if not smooth:
-        return np.zeros((problem.y.size, 0))
+        return np.zeros((net.size, 0))
     pairs = [(a[:, :3, None] * b[:, None, :3]).reshape(a.shape[0], -1) for a, b in combinations(smooth, 2)]
     functions = np.hstack(smooth + pairs) / np.sqrt(len(smooth) + len(pairs))
-    for name in fit.explanation:
-        others = tuple(n for n in fit.explanation if n != name)
-        z = _without(problem, fit, name)
-        change = (fit.prediction - problem.predict(others, z)) / problem.sd
-        blocks.append(change[:, None] * functions)
-    return np.hstack(blocks)
-
-
-def _without(problem: Problem, fit: Fit, name: str) -> np.ndarray:
-    """The fit's coordinates with one effect's taken out."""
-    parts, start = [fit.z[: problem.calibration_size]], problem.calibration_size
-    for e in effects_of(fit.explanation):
-        stop = start + len(e.parameters)
-        if e.id != name:
-            parts.append(fit.z[start:stop])
-        start = stop
-    return np.concatenate(parts)
+    return np.hypot(net, 0.3 * typical)[:, None] * functions

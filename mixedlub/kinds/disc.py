@@ -7,8 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from mixedlub import bodies, config
+from mixedlub.calibration import Calibration
 from mixedlub.chain import Chain
 from mixedlub.chains import LINE, POINT
+from mixedlub.kinds import unknown_oil
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws import load, loss
@@ -65,7 +67,7 @@ def contact_inputs(contact: config.Contact, table: Table) -> Inputs:
     return found
 
 
-def inputs(system: config.System, folder: Path, table: Table) -> Inputs:
+def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table."""
     assert system.contact is not None
     temperature = column(table["oil_temperature_C"]) + 273.15
@@ -79,7 +81,12 @@ def inputs(system: config.System, folder: Path, table: Table) -> Inputs:
     }
 
 
-def chain(system: config.System) -> Chain:
+def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibration, ...]:
+    """An unnamed oil takes broad priors."""
+    return unknown_oil.calibrations(system, recorded["oil_temperature_C"] + 273.15)
+
+
+def chain(system: config.System, table: Table) -> Chain:
     """Line contact, or point contact for a ball."""
     if system.contact is not None and system.contact.geometry == "point":
         return (*POINT, ("reading", point_reading))
@@ -94,4 +101,5 @@ KIND = Kind(
     sections=("contact", "lubricant", "surfaces"),
     chain=chain,
     inputs=inputs,
+    extra_calibration=extra_calibration,
 )

@@ -13,7 +13,7 @@ from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.table import Column, Table
 
-PATH_POINTS = 40
+PATH_POINTS = 24
 
 CONDITIONS = (
     Column("torque_Nm", above=0.0),
@@ -71,10 +71,11 @@ def gear_inputs(points: Mesh, speed: np.ndarray) -> Inputs:
         "gear_speed": speed / pair.gear_ratio,
         "pinion_teeth": float(pair.teeth[0]),
         "gear_teeth": float(pair.teeth[1]),
+        "contact_ratio": pair.contact_ratio,
     }
 
 
-def inputs(system: config.System, folder: Path, table: Table) -> Inputs:
+def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table."""
     assert system.gears is not None
     pair = bodies.gear_pair(system.gears)
@@ -96,6 +97,6 @@ KIND = Kind(
     quantities=("power_loss_W",),
     columns=CONDITIONS,
     sections=("gears", "lubricant", "surfaces"),
-    chain=lambda system: (*GEAR_LOSS, ("reading", reading)),
+    chain=lambda system, table: (*GEAR_LOSS, ("reading", reading)),
     inputs=inputs,
 )

@@ -21,18 +21,22 @@ Inputs = dict[str, Any]
 class Kind:
     """Columns of a row, sections of the system it needs, the chain that predicts its reading.
 
-    ``inputs(system, folder, table)`` gives the chain's inputs as arrays of shape (rows, points), one of
-    the two of length one where a quantity does not depend on it; the chain ends in ``reading``, shape
-    (rows, 1), in SI. ``scale`` turns SI into the unit of the quantity's column.
+    ``inputs(system, folder, table, recorded)`` gives the chain's inputs as arrays of shape (rows, points),
+    one of the two of length one where a quantity does not depend on it; the chain ends in ``reading``,
+    shape (rows, 1), in SI. ``recorded`` is the recording of the case, from which typical sizes (the largest
+    speed, the duration) are taken, so that predictions elsewhere use the same ones; ``extra_calibration``
+    scales the priors of what is not known by it. ``reading_fault(recorded, row, excess)`` says in words what
+    an instrument of this kind does wrong when reading ``row`` is off by ``excess`` (unit of the column).
     """
 
     name: str
     quantities: tuple[str, ...]
     columns: tuple[Column, ...]
     sections: tuple[str, ...]
-    chain: Callable[[config.System], Chain]
-    inputs: Callable[[config.System, Path, Table], Inputs]
-    extra_calibration: Callable[[config.System, Table], tuple[Calibration, ...]] = lambda system, table: ()
+    chain: Callable[[config.System, Table], Chain]
+    inputs: Callable[[config.System, Path, Table, Table], Inputs]
+    extra_calibration: Callable[[config.System, Table], tuple[Calibration, ...]] = lambda system, recorded: ()
+    reading_fault: Callable[[Table, int, float], str | None] = lambda recorded, row, excess: None
 
 
 SCALE = {
@@ -56,3 +60,15 @@ def bookkeeping_inputs(system: config.System, table: Table) -> Inputs:
     if "sequence" in table:
         inputs["sequence"] = column(table["sequence"])
     return inputs
+
+
+def programme(table: Table, recorded: Table) -> Inputs:
+    """Where the rows carry a time: the time, and the share of the recording's duration as place in the programme."""
+    if "time_s" not in table:
+        return {}
+    found: Inputs = {"time": column(table["time_s"])}
+    if "sequence" not in table and "time_s" in recorded:
+        first, last = float(recorded["time_s"].min()), float(recorded["time_s"].max())
+        start = 0.0 if 0.0 <= first <= 0.5 * last else first
+        found["sequence"] = column((table["time_s"] - start) / ((last - start) or 1.0))
+    return found

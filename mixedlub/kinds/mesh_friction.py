@@ -24,7 +24,7 @@ def reading(friction: np.ndarray) -> np.ndarray:
     return friction
 
 
-def inputs(system: config.System, folder: Path, table: Table) -> Inputs:
+def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table: one contact point a row."""
     assert system.gears is not None
     pair = bodies.gear_pair(system.gears)
@@ -53,6 +53,6 @@ KIND = Kind(
     quantities=("friction_coefficient",),
     columns=(*CONDITIONS, Column("roll_angle_deg")),
     sections=("gears", "lubricant", "surfaces"),
-    chain=lambda system: (*GEAR_CONTACT, ("reading", reading)),
+    chain=lambda system, table: (*GEAR_CONTACT, ("reading", reading)),
     inputs=inputs,
 )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from roughness import mccool
 from roughness.integrals import area_integral, load_integral
 
 
@@ -130,9 +129,3 @@ def asperity_pressure(
     """
     scale = 2.0 / 3.0 * reduced_modulus * summit_density * np.sqrt(summit_radius) * summit_sigma**1.5
     return scale * load_integral(separation)
-
-
-summit_density = mccool.summit_density
-summit_radius = mccool.summit_radius
-summit_sigma = mccool.summit_sigma
-plane_offset = mccool.plane_offset

@@ -40,7 +40,7 @@ def temperature_viscosity(
 
     .. math:: \beta = B\,\frac{(\nu+0.7)\ln(\nu+0.7)}{\nu\,T} + c
 
-    with c the relative change of density. Source: derivative of ASTM D341.
+    with c the relative change of density. The 0.7 makes the form belong to mm^2/s. Source: derivative of ASTM D341.
 
     >>> beta = temperature_viscosity(343.15, (313.15, 373.15), (34e-6, 7.2e-6), 6.5e-4)
     >>> round(float(beta), 3)   # automatic transmission fluid at 70 degC
@@ -59,7 +59,7 @@ def roelands_viscosity(viscosity: np.ndarray, pressure_viscosity: np.ndarray, he
     .. math:: \eta = \eta_0 \exp\{(\ln\eta_0 + 9.67)[(1 + p/p_r)^Z - 1]\},\quad
               Z = \frac{\alpha p_r}{\ln\eta_0 + 9.67},\quad p_r = 1.96\times10^8\ \text{Pa}
 
-    The 9.67 makes the form belong to Pa s. Slope at p = 0 is alpha. Valid to about 1 GPa for Z 0.4-0.8.
+    The 9.67 and p_r make the form belong to Pa s and Pa. Slope at p = 0 is alpha. Valid to about 1 GPa for Z 0.4-0.8.
     Source: C. J. A. Roelands, thesis, Delft 1966, as written by L. Houpert, J. Tribol. 107 (1985) 241.
 
     >>> round(float(roelands_viscosity(0.01489, 14.81e-9, 0.9642e9)), 1)

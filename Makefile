@@ -1,0 +1,51 @@
+# Each target sets up what it needs in .venv, once, and again only when pyproject.toml changes.
+
+PYTHON ?= python3
+BIN := .venv/bin
+QUICK ?=
+
+.PHONY: study test bench prove check lint types examples
+
+study: .venv/base
+	$(BIN)/mixedlub study examples/study_21_pairings.toml --out out/study
+
+test: .venv/dev
+	$(BIN)/pytest -n auto
+
+bench: .venv/dev
+	@for file in benchmarks/*.py; do $(BIN)/python $$file || exit 1; done
+
+prove: .venv/dev
+	$(BIN)/mixedlub prove --out out/prove $(if $(QUICK),--quick)
+
+check: lint types examples
+
+lint: .venv/dev
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: .venv/dev
+	$(BIN)/mypy
+
+# Examples run from a copy elsewhere, so that they use the installed package and no file they do not bring.
+examples: .venv/dev
+	@copy=$$(mktemp -d) && cp -r examples/. $$copy && here=$$(pwd) && cd $$copy && \
+	for file in [0-9]*.py; do echo "examples/$$file"; $$here/$(BIN)/python -W error $$file > $$file.log || exit 1; done; \
+	rm -rf $$copy
+
+.venv/pip:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+	    { echo "Python 3.11 or later is needed; name it with make PYTHON=..."; exit 1; }
+	@$(PYTHON) -m venv --clear .venv > /dev/null 2>&1 || \
+	    { echo "python3-venv is missing; installing it"; apt-get install -y python3-venv > /dev/null && \
+	      $(PYTHON) -m venv --clear .venv; } || \
+	    { echo "install Debian's python3-venv, then try again"; exit 1; }
+	@touch $@
+
+.venv/base: pyproject.toml | .venv/pip
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
+	@touch $@
+
+.venv/dev: pyproject.toml | .venv/pip
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	@touch $@ .venv/base

@@ -1,0 +1,166 @@
+"""The catalogue as text: what an effect is, how it shows, what it is confused with, which test separates it.
+
+Everything comes from the effect's own file or is computed on the standard rigs of `mixedlub.standard`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from textwrap import fill
+
+import numpy as np
+
+from mixedlub import standard
+from mixedlub.effect import Effect, catalogue, find
+from mixedlub.quantities import GLOSSARY
+
+RIGS = tuple(standard.CONDITIONS)
+ALIKE = 0.95
+"""Cosine of two signatures above which the standard rig cannot tell them apart."""
+
+NEGLIGIBLE = 0.02
+"""Change of the share, over its largest size, below which a condition is said not to matter."""
+
+_WIDTH = 100
+
+
+def shown(effect: Effect) -> dict[str, float]:
+    """Parameter values that show the effect: the middle of each prior, one sd up it where the middle is null."""
+    middle = effect.middle
+    return {p.name: p.prior.value(1.0) if middle[p.name] == p.null else middle[p.name] for p in effect.parameters}
+
+
+@cache
+def share(effect_id: str, rig: str) -> np.ndarray | None:
+    """What the effect adds to each reading of a standard rig over the reading; None where it cannot act."""
+    forward = standard.forward(rig)
+    effect = catalogue()[effect_id]
+    if effect not in forward.effects():
+        return None
+    base = forward.predict()
+    return (forward.predict(None, {effect_id: shown(effect)}) - base) / base
+
+
+def changes(effect: Effect, rig: str) -> dict[str, float]:
+    """Change of the effect's share from the lowest to the highest level of each condition, over its largest size."""
+    found = share(effect.id, rig)
+    if found is None or not found.any():
+        return {}
+    table = standard.forward(rig).table
+    sides = {}
+    for condition, (column, levels) in standard.CONDITIONS[rig].items():
+        if condition == "surfaces":
+            sides["roughness"] = (table[column] == "superfinished", table[column] == "coarse")
+        else:
+            sides[condition] = (table[column] == levels[0], table[column] == levels[-1])
+    if "sequence" in effect.reads:
+        sides = {"sequence": (table["sequence"] < 0.2, table["sequence"] > 0.8)}
+    largest = np.abs(found).max()
+    return {c: float((found[high].mean() - found[low].mean()) / largest) for c, (low, high) in sides.items()}
+
+
+def fingerprint(effect: Effect, rig: str) -> dict[str, str]:
+    """Sign of `changes`: how the effect's share of the reading moves as each condition grows."""
+    return {c: "0" if abs(v) < NEGLIGIBLE else "+" if v > 0 else "-" for c, v in changes(effect, rig).items()}
+
+
+@cache
+def signatures(rig: str) -> Mapping[str, tuple[np.ndarray, float]]:
+    """Each effect's change of the readings, in standard deviations, as far as calibration cannot imitate it.
+
+    A unit vector over the rows, and the share of the whole change that is left after projecting out one column
+    an input that calibration may move.
+    """
+    forward = standard.forward(rig)
+    base = forward.predict()
+    noise = forward.case.system.recording.noise
+    assert noise is not None
+    sd = np.hypot(noise.relative * base, noise.absolute)
+    moved = [forward.predict({c.name: c.parameter.prior.value(0.5)}) - base for c in forward.calibrations]
+    inputs, _ = np.linalg.qr((np.array(moved) / sd).T)
+    found = {}
+    for effect in forward.effects():
+        change = share(effect.id, rig)
+        whole = np.zeros_like(base) if change is None else change * base / sd
+        left = whole - inputs @ (inputs.T @ whole)
+        size = float(np.linalg.norm(left))
+        if size > 0:
+            found[effect.id] = (left / size, size / float(np.linalg.norm(whole)))
+    return found
+
+
+def lookalikes(effect_id: str, rig: str) -> dict[str, float]:
+    """Other effects whose signature on the standard rig has a cosine above 0.95 with this one's, nearest first."""
+    known = signatures(rig)
+    if effect_id not in known:
+        return {}
+    own = known[effect_id][0]
+    cosines = {other: float(own @ vector) for other, (vector, _) in known.items() if other != effect_id}
+    alike = {other: c for other, c in cosines.items() if abs(c) > ALIKE}
+    return dict(sorted(alike.items(), key=lambda item: -abs(item[1])))
+
+
+def effects_text(effect_id: str | None = None) -> str:
+    """The page of one effect, or the table of all of them."""
+    return _table() if effect_id is None else _page(find((effect_id,))[0])
+
+
+def _table() -> str:
+    effects = tuple(catalogue().values())
+    lines = [f"{len(effects)} effects. `mixedlub effects ID` shows one."]
+    widest = max(len(e.id) for e in effects)
+    stage = ""
+    for e in effects:
+        if e.stage != stage:
+            stage = e.stage
+            lines += ["", stage]
+        lines.append(f"  {e.id:{widest}}  {e.summary}")
+    return "\n".join(lines)
+
+
+def _page(effect: Effect) -> str:
+    acted = ", ".join(f"{name} ({GLOSSARY[name].unit})" for name in effect.acts_on)
+    parts = [
+        f"{effect.id}: {effect.summary}",
+        "",
+        _entry("stage", effect.stage),
+        _entry("changes", acted),
+        _entry("reads", ", ".join(effect.reads) or "nothing else"),
+        _entry("equation", effect.equation),
+        _entry("source", effect.source),
+    ]
+    if effect.valid:
+        ranges = (f"{name} {low:g} to {high:g} {GLOSSARY[name].unit}" for name, (low, high) in effect.valid.items())
+        parts.append(_entry("valid", "; ".join(ranges)))
+    if effect.kinds:
+        parts.append(_entry("recordings", ", ".join(effect.kinds)))
+    parts += ["", "parameters"]
+    for p in effect.parameters:
+        off = "" if p.null is None else f"; off at {p.null:g}"
+        parts.append(_entry(f"  {p.name}", f"{p.meaning}; {p.prior} {p.unit}{off}".replace(" -;", ";").rstrip(" -")))
+    parts += ["", *_on_rigs(effect), "", _entry("separated by", effect.separated_by)]
+    return "\n".join(parts)
+
+
+def _on_rigs(effect: Effect) -> list[str]:
+    lines = []
+    for rig in RIGS:
+        found = share(effect.id, rig)
+        if found is None:
+            lines.append(_entry(f"on a {rig}", "cannot act"))
+            continue
+        low, middle, high = (f"{100 * v:.3g}" for v in np.quantile(found, (0.0, 0.5, 1.0)))
+        signs = ", ".join(f"{condition} {sign}" for condition, sign in fingerprint(effect, rig).items())
+        lines.append(_entry(f"on a {rig}", f"{low} to {high} % of the reading, half of them below {middle} %"))
+        lines.append(_entry("  fingerprint", f"share of the reading with growing {signs}" if signs else "none"))
+        alike = ", ".join(f"{other} ({c:+.2f})" for other, c in lookalikes(effect.id, rig).items())
+        lines.append(_entry("  looks like", alike or "no other, after calibration"))
+        if effect.id in signatures(rig):
+            left = signatures(rig)[effect.id][1]
+            lines.append(_entry("  calibration", f"leaves {100 * left:.0f} % of it"))
+    return lines
+
+
+def _entry(name: str, text: str) -> str:
+    return fill(text, _WIDTH, initial_indent=f"{name:16}", subsequent_indent=" " * 16, break_long_words=False)

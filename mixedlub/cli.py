@@ -1,0 +1,60 @@
+"""The command `mixedlub`: its subcommands, its exit status, and what a user reads when something is wrong."""
+
+from __future__ import annotations
+
+import os
+import sys
+import warnings
+from collections.abc import Sequence
+
+import typer
+
+from mixedlub.commands import check, diagnose, effects, import_files, profile, prove, simulate, study
+from mixedlub.commands.output import note, save_traceback
+from profiles.errors import InputError
+
+COMMANDS = (profile, study, simulate, diagnose, check, import_files, effects, prove)
+
+app = typer.Typer(add_completion=False, no_args_is_help=False, rich_markup_mode=None, pretty_exceptions_enable=False)
+
+
+@app.callback()
+def _about() -> None:
+    """Surface finish, oil film and gear loss.
+
+    From roughness traces to power loss, and from recordings to the missing physics.
+    """
+
+
+for _module in COMMANDS:
+    app.command(_module.NAME, epilog=f"Example: {_module.EXAMPLE}")(_module.command)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command; 0 done, 2 bad input (one message, no traceback), 1 anything else."""
+    warnings.showwarning = lambda message, *rest, **named: note(str(message))
+    try:
+        status = typer.main.get_command(app).main(arguments, prog_name="mixedlub", standalone_mode=False)
+        sys.stdout.flush()
+        return int(status or 0)
+    except InputError as error:
+        return _failed(str(error), 2)
+    except (KeyboardInterrupt, typer.Abort):
+        return _failed("stopped", 1)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    except Exception as error:
+        if hasattr(error, "format_message") and hasattr(error, "exit_code"):
+            place = getattr(getattr(error, "ctx", None), "command_path", "mixedlub")
+            return _failed(f"{error.format_message()} (see {place} --help)", int(error.exit_code))
+        return _failed(f"unexpected {type(error).__name__}: {error}; details in {save_traceback(error)}", 1)
+
+
+def _failed(message: str, status: int) -> int:
+    print("mixedlub: " + " ".join(message.split()), file=sys.stderr)
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,113 @@
+"""`mixedlub check`: what the tool understood of a case folder, in plain words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import numpy as np
+import typer
+
+from mixedlub.commands.output import say
+
+if TYPE_CHECKING:
+    from mixedlub.case import Case
+    from mixedlub.table import Table
+
+NAME = "check"
+EXAMPLE = "mixedlub check examples/case"
+
+
+def command(case: Annotated[Path, typer.Argument(metavar="CASE", help="Case folder with system.toml.")]) -> None:
+    """Say what a case folder was understood to hold.
+
+    What is there, what is missing, and what would be assumed for it.
+    """
+    from mixedlub.case import read_case
+
+    for line in understood(read_case(case, need_recordings=False)):
+        say(line)
+
+
+def understood(case: Case) -> Iterator[str]:
+    """The case in plain words, line by line."""
+    from mixedlub.case import noted
+
+    yield f"{case.name}: a case of kind {case.system.kind}, recording {case.quantity}."
+    if case.system.description:
+        yield f"  Described as: {case.system.description}"
+    notes = list(case.notes)
+    with noted(notes):
+        bodies = list(_bodies(case))
+    yield from bodies
+    yield from _tables(case)
+    yield from _uncertain(case)
+    yield "Assumed:" if notes else "Assumed: nothing beyond what the files say."
+    yield from (f"  {text}" for text in notes)
+
+
+def _bodies(case: Case) -> Iterator[str]:
+    from mixedlub import bodies
+
+    system = case.system
+    if system.gears is not None:
+        pair = bodies.gear_pair(system.gears)
+        share = system.gears.load_sharing
+        bodies.sharing(share, case.folder)
+        yield (
+            f"Gears: {pair.teeth[0]}/{pair.teeth[1]} teeth, module {pair.normal_module * 1e3:.4g} mm, contact ratio "
+            f"{pair.contact_ratio:.3f}, load shared by "
+            f"{f'the table {share.table}' if share.table else f'the {share.model} model'}."
+        )
+    if system.contact is not None:
+        radii = " and ".join(f"{r:g}" for r in system.contact.radius_mm)
+        yield f"Contact: {system.contact.geometry} contact of radii {radii} mm."
+    if "lubricant" in case.kind.sections or system.lubricant is not None:
+        oil = bodies.lubricant(system.lubricant)
+        low, high = (t - bodies.ZERO_CELSIUS for t in oil.temperature)
+        eta = oil.viscosity(np.array(oil.temperature)) * 1e3
+        yield f"Oil: {oil.name}, {eta[0]:.3g} mPa s at {low:g} C and {eta[1]:.3g} mPa s at {high:g} C."
+    for name, section in system.surfaces.items():
+        surface = bodies.surface(name, section, case.folder)
+        origin = "its moments" if section.profile is None else f"the trace {section.profile}"
+        coated = f", coated with {section.coating.name}" if section.coating else ""
+        yield (
+            f"Surface {name}: Rq {np.sqrt(surface.m0) * 1e6:.3g} um, Nayak bandwidth "
+            f"{surface.m0 * surface.m4 / surface.m2**2:.3g}, from {origin}{coated}."
+        )
+    yield f"Boundary friction coefficient: {system.boundary_friction:g}."
+
+
+def _tables(case: Case) -> Iterator[str]:
+    for name, table in (("recordings.csv", case.recordings), ("conditions.csv", case.conditions)):
+        if table is None:
+            yield f"{name}: missing; " + (
+                "nothing can be diagnosed without it."
+                if name == "recordings.csv"
+                else "only recorded rows are predicted."
+            )
+            continue
+        yield f"{name}: {len(table)} rows."
+        yield from (f"  {column}: {_levels(table, column)}" for column in table.columns if column != "run")
+
+
+def _levels(table: Table, column: str) -> str:
+    values, counts = np.unique(table[column], return_counts=True)
+    if values.dtype.kind in "US":
+        return ", ".join(f"{v} ({c})" for v, c in zip(values, counts, strict=True))
+    if values.size <= 8:
+        return ", ".join(f"{v:g}" for v in values)
+    return f"{values[0]:g} to {values[-1]:g}"
+
+
+def _uncertain(case: Case) -> Iterator[str]:
+    moving = {k: v for k, v in case.system.uncertainty.model_dump().items() if v > 0}
+    words = ", ".join(f"{k.replace('_', ' ')} ({v:g})" for k, v in moving.items())
+    yield f"May be calibrated, with its standard deviation: {words or 'nothing; all inputs count as known'}."
+    noise = case.system.recording.noise
+    yield (
+        "Noise of a reading: not given; it would be estimated from repeats, else from the fit."
+        if noise is None
+        else f"Noise of a reading: {noise.relative:g} of its value and {noise.absolute:g} in its unit."
+    )

@@ -1,0 +1,34 @@
+"""`mixedlub diagnose`: which physics is missing from the base model of a recorded case."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from mixedlub.commands.output import output_folder
+
+NAME = "diagnose"
+EXAMPLE = "mixedlub diagnose examples/case --out out/diagnose"
+
+
+def command(
+    case: Annotated[Path, typer.Argument(metavar="CASE", help="Case folder with system.toml and recordings.csv.")],
+    out: Annotated[Path | None, typer.Option(help="Folder for the report; default out/diagnose/NAME.")] = None,
+    predict: Annotated[
+        Path | None, typer.Option(metavar="conditions.csv", help="Conditions to predict; default the case's own.")
+    ] = None,
+    exclude: Annotated[
+        list[str] | None, typer.Option(metavar="ID", help="Leave an effect out; may be repeated.")
+    ] = None,
+    level: Annotated[float, typer.Option(min=1e-9, max=0.5, help="Level of the mismatch test.")] = 0.01,
+) -> None:
+    """Name the missing physics of a recording.
+
+    How sure, where it shows, what it is confused with, and what to test next.
+    """
+    from mixedlub.diagnosis import diagnose
+
+    folder = output_folder(out, NAME, case.resolve().name)
+    diagnose(case, folder, predict=predict, exclude=tuple(exclude or ()), level=level)

@@ -1,0 +1,24 @@
+"""`mixedlub effects`: the catalogue in words."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from mixedlub.commands.output import say
+
+NAME = "effects"
+EXAMPLE = "mixedlub effects inlet_shear_heating"
+
+
+def command(
+    effect: Annotated[str | None, typer.Argument(metavar="ID", help="One effect; all of them when left out.")] = None,
+) -> None:
+    """The catalogue of effects, or one of them in full.
+
+    Equation, source, parameters, fingerprint, what it is confused with and the test that separates it.
+    """
+    from mixedlub.catalogue import effects_text
+
+    say(effects_text(effect))

@@ -1,0 +1,77 @@
+"""Where commands write: aside first, then renamed into place, so that no result is ever half overwritten."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+import tempfile
+import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from profiles.errors import InputError
+
+_opened: list[Path] = []
+
+
+def output_folder(out: Path | None, command: str, name: str) -> Path:
+    """The folder to write into, made if need be; ``out/COMMAND/NAME`` where none is given."""
+    folder = Path("out") / command / name if out is None else out
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise InputError(f"cannot be written to ({error.strerror})", where="--out", value=str(folder)) from None
+    _opened[:] = [folder]
+    return folder
+
+
+@contextmanager
+def writing(folder: Path) -> Iterator[Path]:
+    """A folder beside the results to write into; its entries replace theirs when all are written."""
+    for stale in folder.glob(".writing-*"):
+        if not _alive(stale.suffix or stale.name.rpartition("-")[2]):
+            shutil.rmtree(stale, ignore_errors=True)
+    aside = folder / f".writing-{os.getpid()}"
+    aside.mkdir()
+    try:
+        yield aside
+        entries = sorted(aside.iterdir())
+        for entry in entries:
+            target = folder / entry.name
+            if target.is_dir():
+                target.rename(aside / f"{entry.name}.before")
+            entry.replace(target)
+    finally:
+        shutil.rmtree(aside, ignore_errors=True)
+
+
+def _alive(process: str) -> bool:
+    try:
+        os.kill(int(process), 0)
+    except (ValueError, ProcessLookupError):
+        return False
+    except PermissionError:
+        return True
+    return True
+
+
+def say(text: str = "") -> None:
+    """A line for the user."""
+    print(text, flush=True)
+
+
+def note(text: str) -> None:
+    """Something assumed, ignored or doubtful that the user should know."""
+    print(f"note: {text}", file=sys.stderr, flush=True)
+
+
+def save_traceback(error: BaseException) -> Path:
+    """The full story of an unexpected error, beside the results or, where there are none, among temporary files."""
+    folder = _opened[0] if _opened else Path(tempfile.gettempdir())
+    path = folder / "mixedlub-error.log"
+    path.write_text("".join(traceback.format_exception(error)), encoding="utf-8")
+    return path

@@ -1,0 +1,99 @@
+"""`mixedlub profile`: parameters, moments and asperities of roughness traces."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from mixedlub.commands.output import note, output_folder, say, writing
+
+if TYPE_CHECKING:
+    from profiles import Profile
+
+NAME = "profile"
+EXAMPLE = "mixedlub profile examples/trace.txt --out out/profile"
+
+Record = Mapping[str, Any]
+
+
+def command(
+    files: Annotated[list[Path], typer.Argument(metavar="FILE...", help="Traces in any known format.")],
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for profile.json and figures; default out/profile/NAME.")
+    ] = None,
+    form: Annotated[str, typer.Option(help="Form to remove: none, line, circle, polynomial-N.")] = "line",
+    cutoff_mm: Annotated[float | None, typer.Option(min=1e-6, help="Long cut-off; default by ISO 4288.")] = None,
+    short_cutoff_um: Annotated[float | None, typer.Option(min=1e-6, help="Short cut-off; default by ISO 3274.")] = None,
+    unit: Annotated[str | None, typer.Option(help="Unit of plain numbers, as um or 'mm, um' (place, height).")] = None,
+    spacing: Annotated[str | None, typer.Option(help="Step of one column of heights, as '0.5 um'.")] = None,
+    figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the figures, or not.")] = True,
+) -> None:
+    """Parameters, moments and asperities of traces.
+
+    ISO parameters, spectral moments, asperities and Gaussian verdict, with figures.
+    """
+    from profiles import read
+    from roughness import trace_record
+
+    traces = [read(file, unit=unit, spacing=spacing) for file in files]
+    found = [
+        trace_record(
+            trace,
+            form=form,
+            cutoff="auto" if cutoff_mm is None else cutoff_mm * 1e-3,
+            short_cutoff="auto" if short_cutoff_um is None else short_cutoff_um * 1e-6,
+        )
+        for trace in traces
+    ]
+    records: list[dict[str, Any]] = [{**record, "file": str(file)} for file, (_, record) in zip(files, found)]
+    folder = output_folder(out, NAME, files[0].stem)
+    for record in records:
+        for line in told(record):
+            say(line)
+        for text in record["warnings"]:
+            note(f"{record['file']}: {text}")
+    with writing(folder) as aside:
+        (aside / "profile.json").write_text(json.dumps(records, indent=1) + "\n", encoding="utf-8")
+        if figures:
+            _draw(aside / "figures", [(file.stem, profile) for file, (profile, _) in zip(files, found)])
+    say(f"details in {folder / 'profile.json'}" + (f", figures in {folder / 'figures'}" if figures else ""))
+
+
+def told(record: Record) -> Iterator[str]:
+    """A trace in a few lines."""
+    p, m, a, g = (record[key] for key in ("parameters", "moments", "asperities", "gaussian"))
+    yield str(record["file"])
+    yield f"  {'; '.join(record['steps'])}"
+    yield "  " + "   ".join(f"{name} {_number(p[key])}" for name, key in _HEIGHTS)
+    yield f"  moments    m0 {_number(m['m0_um2'])} um2   m2 {_number(m['m2'])}   m4 {_number(m['m4_per_um2'])} 1/um2"
+    yield (
+        f"  asperities {_number(a['density_per_mm2'])} per mm2   radius {_number(a['radius_um'])} um   "
+        f"sigma {_number(a['sigma_um'])} um   Nayak alpha {_number(a['nayak'])}"
+    )
+    yield f"  heights    {g['verdict'].replace('_', ' ')}" + (
+        f", from {_number(g['from_percent'])} to {_number(g['to_percent'])} %" if g["from_percent"] is not None else ""
+    )
+
+
+_HEIGHTS = (("Ra", "Ra_um"), ("Rq", "Rq_um"), ("Rz", "Rz_um"), ("um   Rsk", "Rsk"), ("Rku", "Rku"))
+
+
+def _number(value: float | None) -> str:
+    return "-" if value is None else f"{value:.4g}"
+
+
+def _draw(folder: Path, named: list[tuple[str, Profile]]) -> None:
+    from mixedlub.report.style import as_svg, styled
+    from roughness import plots
+
+    folder.mkdir()
+    with styled():
+        for number, (name, profile) in enumerate(named):
+            stem = name if [n for n, _ in named].count(name) == 1 else f"{name}_{number + 1}"
+            for kind in ("trace", "probability", "abbott", "spectrum"):
+                figure = getattr(plots, f"{kind}_figure")(profile)
+                (folder / f"{stem}_{kind}.svg").write_text(as_svg(figure), encoding="utf-8")

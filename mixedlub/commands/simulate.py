@@ -1,0 +1,48 @@
+"""`mixedlub simulate`: the base model at a case's conditions, nothing fitted."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from mixedlub.commands.output import note, output_folder, say, writing
+from profiles.errors import InputError
+
+NAME = "simulate"
+EXAMPLE = "mixedlub simulate examples/case --out out/simulate"
+
+
+def command(
+    case: Annotated[Path, typer.Argument(metavar="CASE", help="Case folder with system.toml.")],
+    out: Annotated[Path | None, typer.Option(help="Folder for simulation.csv; default out/simulate/NAME.")] = None,
+    at: Annotated[Path | None, typer.Option(metavar="conditions.csv", help="Other conditions than the case's.")] = None,
+) -> None:
+    """The base model at the conditions of a case.
+
+    Those of recordings.csv and conditions.csv, or of another table; nothing is fitted.
+    """
+    from mixedlub.case import noted, read_case, read_conditions
+    from mixedlub.forward import Forward
+
+    found = read_case(case, need_recordings=False)
+    notes = list(found.notes)
+    with noted(notes):
+        tables = [read_conditions(found, at)] if at is not None else [found.recordings, found.conditions]
+        rows: dict[int, float] = {}
+        for table in tables:
+            if table is None:
+                continue
+            forward = Forward(found, table)
+            notes.extend(text for text in forward.notes if text not in notes)
+            rows.update(zip(table["run"].tolist(), forward.predict().tolist(), strict=True))
+    if not rows:
+        raise InputError("has neither recordings.csv nor conditions.csv; name a table with --at", where=str(case))
+    folder = output_folder(out, NAME, found.name)
+    for text in notes:
+        note(text)
+    with writing(folder) as aside:
+        lines = [f"run,{found.quantity}", *(f"{run},{value!r}" for run, value in rows.items())]
+        (aside / "simulation.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    say(f"{len(rows)} rows of {found.quantity} in {folder / 'simulation.csv'}")

@@ -1,0 +1,82 @@
+"""`mixedlub study`: the full factorial of a study file."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from mixedlub.commands.output import note, output_folder, say, writing
+
+NAME = "study"
+EXAMPLE = "mixedlub study examples/hong_2022.toml --out out/study"
+
+
+def command(
+    file: Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study: gears, oil, surfaces, conditions.")],
+    out: Annotated[Path | None, typer.Option(help="Folder for the results; default out/study/NAME.")] = None,
+    figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Figures and the HTML page, or not.")] = True,
+    scheduler: Annotated[str | None, typer.Option(help="Address of a Dask scheduler, e.g. tcp://host:8786.")] = None,
+) -> None:
+    """Power loss of every pairing at every condition.
+
+    Every pairing of surfaces at every torque, speed and oil temperature: table, figures, one HTML page.
+
+    A run that was stopped goes on where it was; started again with the same inputs it computes nothing twice.
+    """
+    from mixedlub.study import read_study, run_study, store
+    from mixedlub.study.ranges import out_of_range
+
+    study = read_study(file)
+    folder = output_folder(out, NAME, study.name)
+    for text in study.notes:
+        note(text)
+    levels = study.file.conditions
+    say(
+        f"{study.file.title}: {len(study.pairings)} pairings x {len(levels.torque_Nm)} torques x "
+        f"{len(levels.speed_rpm)} speeds x {len(levels.oil_temperature_C)} oil temperatures = "
+        f"{study.conditions} conditions"
+    )
+    start = time.perf_counter()
+    with progress_bar("computing") as progress:
+        results = run_study(study, parts=store.parts_folder(folder, study.plan), scheduler=scheduler, progress=progress)
+    say(f"computed in {time.perf_counter() - start:.2f} s")
+    warnings = out_of_range(results)
+    for text in warnings:
+        note(text)
+    with writing(folder) as aside:
+        results.write(aside / "results.csv", aside / "results.parquet")
+        if figures:
+            from mixedlub.report.page import write_page
+
+            write_page(results, aside, (*study.notes, *warnings))
+    store.clear(folder)
+    say(f"results in {folder / 'results.csv'} and .parquet" + (f", page {folder / 'index.html'}" if figures else ""))
+
+
+@contextmanager
+def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
+    """A bar on stderr for work of many blocks; silent for short work and where nobody watches."""
+    from rich.console import Console
+
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield lambda done, of: None
+        return
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    bar = Progress(
+        TextColumn(what),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TextColumn("blocks"),
+        TimeRemainingColumn(),
+        console=console,
+    )
+    with bar:
+        task = bar.add_task(what, total=None)
+        yield lambda done, of: bar.update(task, completed=done, total=of)

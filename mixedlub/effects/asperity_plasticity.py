@@ -1,0 +1,54 @@
+"""Plastic asperities."""
+
+import numpy as np
+
+from mixedlub.effect import LogNormal, Parameter, effect
+from roughness.integrals import area_integral
+
+_FARTHEST = 10.0
+
+
+@effect(
+    stage="contact",
+    acts_on="area_ratio",
+    parameters=(
+        Parameter("strength", "-", LogNormal(1.0, 0.5), "factor on the area that yielding adds", null=0.0),
+        Parameter("hardness", "Pa", LogNormal(6e9, 0.6), "indentation hardness of the softer flank"),
+    ),
+    equation=r"P_B \leftarrow P_B + c\,\pi D R_s\sigma_s F_1(t + w_c),\quad "
+    r"w_c = \left(\frac{\pi K H}{2E^*}\right)^2\frac{R_s}{\sigma_s},\ K = 0.577",
+    source="W. R. Chang, I. Etsion, D. B. Bogy, J. Tribol. 109 (1987) 257: A = pi R w (2 - w_c/w) above onset",
+    fingerprint={"load": "-", "speed": "-", "oil_temperature": "+", "roughness": "+", "slide_roll_ratio": "-"},
+    separated_by="profile and hardness before and after: yielding is not undone when the load goes; loss alone cannot "
+    "tell it from an error of slope or curvature of the roughness or of the boundary friction",
+    valid={"area_ratio": (0.0, 0.3)},
+    after=("skewed_heights",),
+)
+def asperity_plasticity(
+    area_ratio,
+    separation,
+    summit_density,
+    summit_radius,
+    summit_sigma,
+    reduced_modulus,
+    *,
+    strength,
+    hardness,
+):
+    """Asperities pressed beyond yield spread to up to twice the area of elastic ones.
+
+    K = 0.454 + 0.41 nu at nu = 0.3. With E* = E'/2, onset is at the plasticity index
+    (E*/H) sqrt(sigma_s/R_s) = (pi K/2) w_c^(-1/2); below 0.6 nothing yields, far above 1 everything does.
+
+    >>> elastic = np.pi * 1e-2 * area_integral(1.0)
+    >>> rough = asperity_plasticity(elastic, 1.0, 1e10, 1e-5, 1e-7, 226e9, strength=1.0, hardness=0.6e9)
+    >>> round(float(rough / elastic), 2)   # plasticity index 19
+    2.0
+    >>> smooth = asperity_plasticity(elastic, 1.0, 1e10, 1e-5, 1e-7, 226e9, strength=1.0, hardness=19e9)
+    >>> round(float(smooth / elastic), 2)   # plasticity index 0.6
+    1.0
+    """
+    onset = (np.pi * 0.577 * hardness / reduced_modulus) ** 2 * summit_radius / summit_sigma
+    yielded = area_integral(np.minimum(separation + onset, _FARTHEST))
+    added = np.pi * summit_density * summit_radius * summit_sigma * yielded
+    return np.minimum(area_ratio + strength * added, 1.0)

@@ -1,0 +1,26 @@
+"""A film that stays when the speed goes to nothing."""
+
+import numpy as np
+
+from mixedlub.effect import LogNormal, Parameter, effect
+
+
+@effect(
+    stage="boundary",
+    acts_on="film_thickness",
+    parameters=(Parameter("thickness", "m", LogNormal(4e-9, 0.8), "thickness of the layer", null=0.0),),
+    equation=r"h \leftarrow \sqrt{h^2 + h_b^2}",
+    source="layers below the reach of entrainment: G. Guangteng, H. A. Spikes, Tribol. Trans. 39 (1996) 448; joined by "
+    "the root of squares so that it fades at speed",
+    fingerprint={"speed": "-"},
+    separated_by="a zero check at rest before and after: a drifted zero shifts all films, a layer only the thinnest",
+    after=("inlet_shear_heating", "inlet_shear_thinning", "starvation", "roughness_lay"),
+    kinds=("film",),
+)
+def boundary_film(film_thickness, *, thickness):
+    """Adsorbed or reacted layers hold the surfaces apart where the fluid film would be thinner than they are.
+
+    >>> (boundary_film(np.array([3e-9, 400e-9]), thickness=4e-9) * 1e9).round(2).tolist()
+    [5.0, 400.02]
+    """
+    return film_thickness * np.hypot(1.0, thickness / film_thickness)

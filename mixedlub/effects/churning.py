@@ -1,0 +1,61 @@
+"""Churning."""
+
+from mixedlub.effect import Between, LogNormal, Parameter, effect
+from mixedlub.laws.drag import churning_changenet_velex
+
+
+@effect(
+    stage="loss",
+    acts_on="power_loss",
+    parameters=(
+        Parameter("strength", "-", LogNormal(1.0, 0.9), "factor: depth, case, number of wheels that dip", null=0.0),
+        Parameter("viscous", "-", Between(0.0, 1.0), "power of viscosity"),
+        Parameter("surplus", "-", Between(0.0, 1.1), "power of speed less that of viscosity less 1"),
+    ),
+    equation=r"P \leftarrow P + c\,\tfrac12\rho\omega_2^3 r_2^3 S_m C_m,\quad C_m \propto Re^{-q}Fr^{-f},\ f = "
+    r"\tfrac12(2 - 2q - e)",
+    source="C. Changenet, P. Velex, J. Mech. Des. 129 (2007) 128 (q = 0.21, f = 0.6); other powers reach from "
+    "there to the viscous drag of R. J. Boness, Proc. Int. Symp. Gearing 1989 (n^2 nu) and ISO/TR "
+    "14179-1 (n^3 nu)",
+    fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "roughness": "-"},
+    separated_by="the oil level, or a dry sump: it changes with depth, rolling resistance does not; out of mesh it "
+    "stays",
+)
+def churning(
+    power_loss,
+    gear_radius,
+    gear_speed,
+    face_width,
+    gear_module,
+    gear_teeth,
+    viscosity,
+    oil_density,
+    *,
+    strength,
+    viscous,
+    surplus,
+):
+    """The wheel that dips into the oil stirs it.
+
+    The wheel is taken to dip half its radius; methods differ by a factor 6 at high speed. Power goes as
+    n^(1 + q + e) nu^q, so that oil that resists by viscosity does not also rise as the cube of speed in air does.
+    The acceleration of gravity makes the form belong to m/s^2.
+
+    >>> wheel = dict(gear_radius=0.05, face_width=0.02, gear_module=4e-3, gear_teeth=25.0)
+    >>> speed = 1100 * 3.14159 / 30
+    >>> shape = dict(strength=1.0, viscous=0.21, surplus=0.38)
+    >>> round(float(churning(0.0, gear_speed=speed, viscosity=0.017, oil_density=850.0, **wheel, **shape)), 1)
+    5.5
+    """
+    stirred = churning_changenet_velex(
+        gear_radius,
+        gear_speed,
+        face_width,
+        gear_module,
+        gear_teeth,
+        viscosity,
+        oil_density,
+        viscosity_exponent=viscous,
+        gravity_exponent=1.0 - viscous - 0.5 * surplus,
+    )
+    return power_loss + strength * stirred

@@ -1,0 +1,43 @@
+"""Insulation by a coating."""
+
+from mixedlub.effect import LogNormal, Parameter, effect
+from mixedlub.laws import heating
+
+
+@effect(
+    stage="shear",
+    acts_on="shear_stress",
+    parameters=(Parameter("strength", "-", LogNormal(1.0, 0.7), "factor on the rise across the coating", null=0.0),),
+    equation=r"\tau = \tau_0 \operatorname{asinh}\left(\sinh\frac{\tau}{\tau_0}\,e^{-\beta_p\Delta "
+    r"T}\right),\quad \Delta T = c\,\frac{\tau v_s}{4}\,\frac{t_c}{k_c}",
+    source="M. Bjoerling, W. Habchi, S. Bair, R. Larsson, P. Marklund, Tribol. Lett. 53 (2014) 477 (the "
+    "mechanism); steady conduction through a layer that carries half the heat to each side",
+    fingerprint={"speed": "-", "slide_roll_ratio": "-"},
+    separated_by="a change of the coating alone: heating of uncoated steel stays, insulation goes with the coating, "
+    "and at thick films a lower boundary friction would have no effect",
+    after=("film_heating",),
+)
+def coating_insulation(
+    shear_stress,
+    eyring_stress,
+    sliding_speed,
+    viscosity,
+    contact_viscosity,
+    temperature_viscosity,
+    coating_thickness,
+    coating_conductivity,
+    *,
+    strength,
+):
+    """A coating that conducts badly keeps the heat in the film, which then shears more easily.
+
+    Valid while the coating is thin against the depth that heat reaches in the time of contact (2-3 um of
+    diamond-like carbon: about 10 us against 20-200 us). Roelands' slope makes the form belong to Pa s.
+
+    >>> tau = coating_insulation(22.58e6, 5e6, 0.7518, 0.01489, 70.2, 0.026, 6e-6, 2.0, strength=1.0)
+    >>> round(float(tau) / 1e6, 1)   # 3 um of diamond-like carbon on each flank
+    19.0
+    """
+    softening = strength * heating.contact_softening(temperature_viscosity, viscosity, contact_viscosity)
+    rise = 0.25 * sliding_speed * coating_thickness / coating_conductivity
+    return heating.softened_stress(shear_stress, eyring_stress, 0.0, softening * rise)

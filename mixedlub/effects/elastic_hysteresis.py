@@ -1,0 +1,28 @@
+"""Elastic hysteresis."""
+
+import numpy as np
+
+from mixedlub.effect import LogNormal, Parameter, effect
+
+
+@effect(
+    stage="loss",
+    acts_on="rolling_force",
+    parameters=(
+        Parameter("loss_fraction", "-", LogNormal(0.008, 0.6), "strain energy lost in a cycle, as a share", null=0.0),
+    ),
+    equation=r"f_r \leftarrow f_r + \alpha_h \frac{2\,w\,b_H}{3\pi R}",
+    source="K. L. Johnson, Contact Mechanics, 1985, section 9.2",
+    fingerprint={"speed": "+", "roughness": "-", "slide_roll_ratio": "-"},
+    separated_by="load alone: it grows with its power 1.5 and sees neither oil nor finish; as a rule too small to "
+    "matter",
+)
+def elastic_hysteresis(rolling_force, line_load, hertz_half_width, radius, *, loss_fraction):
+    """The bodies do not give back all the work of being flattened, which resists rolling.
+
+    Steel loses 0.005 to 0.02.
+
+    >>> round(float(elastic_hysteresis(0.0, 214.86e3, 0.142e-3, 8.3262e-3, loss_fraction=0.01)), 1)
+    7.8
+    """
+    return rolling_force + loss_fraction * (2.0 / (3.0 * np.pi)) * line_load * hertz_half_width / radius

@@ -1,0 +1,83 @@
+"""Heating of the film in the contact."""
+
+import numpy as np
+
+from mixedlub.effect import Between, LogNormal, Parameter, effect
+from mixedlub.laws import heating
+
+
+@effect(
+    stage="shear",
+    acts_on="shear_stress",
+    parameters=(
+        Parameter("strength", "-", LogNormal(1.0, 0.6), "factor on the rise of temperature", null=0.0),
+        Parameter("flash", "-", Between(0.0, 1.0), "weight of the surfaces over that of the film; both at 1/2"),
+        Parameter("pressure", "-", Between(0.0, 1.0), "from the softening at ambient pressure, 0, to Roelands', 1"),
+    ),
+    equation=r"\tau = \tau_0 \operatorname{asinh}\frac{\eta_p v_s e^{-\beta_p\Delta T}}{h\tau_0},\quad "
+    r"\Delta T = 2c\left[(1-d)\,\frac{\tau v_s h}{12 k_f} + "
+    r"d\,\frac{1.084\,\bar q\sqrt{b_H}}{\sqrt{k\rho c}\,(\sqrt{u_1}+\sqrt{u_2})}\right],\quad "
+    r"\beta_p = \beta\left(1 + \frac{p_0}{p_r}\right)^{kZ}",
+    source="J. F. Archard, Wear 2 (1959) 438 (film); H. Blok, Proc. Gen. Disc. Lubrication, IMechE 2 (1937) "
+    "222 (flash)",
+    fingerprint={"load": "-", "speed": "-", "oil_temperature": "+", "roughness": "+", "slide_roll_ratio": "-"},
+    separated_by="friction against sliding at fixed rolling speed: heating bends it down at high sliding and leaves "
+    "the slope at small sliding; a limiting stress does so at a level set by pressure alone",
+    valid={"slide_roll_ratio": (0.0, 2.0)},
+)
+def film_heating(
+    shear_stress,
+    eyring_stress,
+    sliding_speed,
+    film_thickness,
+    viscosity,
+    contact_viscosity,
+    temperature_viscosity,
+    oil_conductivity,
+    entrainment_speed,
+    hertz_half_width,
+    hertz_pressure,
+    solid_conductivity,
+    solid_density,
+    solid_heat_capacity,
+    boundary_friction,
+    area_ratio,
+    *,
+    strength,
+    flash,
+    pressure,
+):
+    """Sliding heats the surfaces and the film between them, and the warmer film shears more easily.
+
+    The stress sets the heat and the heat the stress; both are met at once. Heat of the asperities warms the
+    surfaces too; temperatures are means over the contact. The literature takes beta at ambient pressure (Nahme,
+    Crook) or under that of the contact. Roelands' slope makes the form belong to Pa s.
+
+    >>> steel = dict(solid_conductivity=46.0, solid_density=7800.0, solid_heat_capacity=470.0)
+    >>> oil = dict(viscosity=0.01489, contact_viscosity=70.2, temperature_viscosity=0.026, oil_conductivity=0.14)
+    >>> motion = dict(sliding_speed=0.7518, entrainment_speed=2.2417, film_thickness=0.231e-6)
+    >>> load = dict(hertz_half_width=0.148e-3, hertz_pressure=0.9437e9, boundary_friction=0.1, area_ratio=0.163)
+    >>> full = dict(strength=1.0, flash=0.5, pressure=1.0)
+    >>> tau = film_heating(22.58e6, 5e6, **steel, **oil, **motion, **load, **full)
+    >>> round(float(tau) / 1e6, 1)   # isothermal 22.6 MPa
+    19.8
+    """
+    steeper = heating.contact_softening(temperature_viscosity, viscosity, contact_viscosity) / temperature_viscosity
+    softening = strength * temperature_viscosity * steeper**pressure
+    bodies = (
+        2.0
+        * flash
+        * heating.flash_temperature(
+            0.25 * np.pi * sliding_speed,
+            hertz_half_width,
+            entrainment_speed,
+            sliding_speed,
+            solid_conductivity,
+            solid_density,
+            solid_heat_capacity,
+        )
+    )
+    film = 2.0 * (1.0 - flash) * sliding_speed * film_thickness / (12.0 * oil_conductivity)
+    by_asperities = softening * bodies * boundary_friction * hertz_pressure * area_ratio
+    by_film = softening * (film + bodies * (1.0 - area_ratio))
+    return heating.softened_stress(shear_stress, eyring_stress, by_asperities, by_film)

@@ -1,0 +1,29 @@
+"""Friction that falls as fresh surfaces run in."""
+
+import numpy as np
+
+from mixedlub.effect import LogNormal, Parameter, effect
+
+
+@effect(
+    stage="contact",
+    acts_on="boundary_friction",
+    parameters=(
+        Parameter(
+            "excess", "-", LogNormal(0.3, 0.8), "friction of the fresh surfaces over that run in, less one", null=0.0
+        ),
+        Parameter("time_constant", "-", LogNormal(0.1, 1.2), "share of the programme to lose 63 % of the excess"),
+    ),
+    equation=r"\mu_B \leftarrow \mu_B\,(1 + a\,e^{-q/q_r})",
+    source="P. J. Blau, Tribol. Int. 38 (2005) 1007, the simplest of the running-in curves",
+    fingerprint={"sequence": "-"},
+    separated_by="a profile of the track before and after; a second run on the same track starts at the lower friction",
+    kinds=("friction_history",),
+)
+def friction_run_in(boundary_friction, sequence, *, excess, time_constant):
+    """Peaks wear off and the track conforms; friction falls to the level of the run-in surfaces.
+
+    >>> friction_run_in(0.1, np.array([0.0, 1.0]), excess=0.2, time_constant=0.05).round(3).tolist()
+    [0.12, 0.1]
+    """
+    return boundary_friction * (1.0 + excess * np.exp(-np.maximum(sequence, 0.0) / time_constant))

@@ -1,0 +1,32 @@
+"""An interference order counted wrong from some film thickness on."""
+
+import numpy as np
+
+from mixedlub.effect import BetweenLog, Normal, Parameter, effect
+
+SHARPNESS = 60.0
+
+
+@effect(
+    stage="measurement",
+    acts_on="reading",
+    parameters=(
+        Parameter("jump", "m", Normal(0.0, 2e-7), "error of the reading: about 200 nm an order", null=0.0),
+        Parameter("onset", "m", BetweenLog(1e-8, 2e-6), "film thickness from which the count is off"),
+    ),
+    equation=r"y \leftarrow y + j\,\tfrac12[1 + \tanh(60\ln(h/h_s))]",
+    source="spacer-layer interferometry: G. J. Johnston, R. Wayte, H. A. Spikes, Tribol. Trans. 34 (1991) 187; one is "
+    "wavelength/(2 n)",
+    fingerprint={},
+    separated_by="the same speed approached from above and below, or another spacer: the jump moves with the order, "
+    "the film does not",
+    kinds=("film",),
+)
+def fringe_order(reading, film_thickness, *, jump, onset):
+    """All films above the miscounted order read one or more fringes too thick or too thin.
+
+    >>> (fringe_order(np.array([1e-7, 1e-6]), np.array([1e-7, 1e-6]), jump=2e-7, onset=5e-7) * 1e9).round(1).tolist()
+    [100.0, 1200.0]
+    """
+    beyond = 0.5 * (1.0 + np.tanh(SHARPNESS * np.log(film_thickness / onset)))
+    return reading + jump * beyond

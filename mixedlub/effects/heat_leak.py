@@ -1,0 +1,26 @@
+"""Heat leak."""
+
+from mixedlub.effect import LogNormal, Parameter, effect
+
+
+@effect(
+    stage="measurement",
+    acts_on="reading",
+    parameters=(
+        Parameter("share", "-", LogNormal(0.05, 0.8), "share of the power that leaves by the shafts", null=0.0),
+        Parameter("wall", "1/K", LogNormal(0.002, 0.9), "share of the typical power that leaves per kelvin", null=0.0),
+    ),
+    equation=r"y \leftarrow (1 - c)\,y - G\,(\theta_{oil} - \theta_a),\quad G = g\,y_0",
+    source="heat balance of a calorimetric rig; 5 to 8 % leave by the shafts at high speed (Measurement and Modelling "
+    "of Friction for Cylindrical Gears with Pitch Line Velocities up to 100 m/s, eq. 8)",
+    fingerprint={"load": "+", "speed": "+", "oil_temperature": "-", "roughness": "+"},
+    separated_by="another ambient or bearing oil temperature at the same point; the torque-difference method beside it",
+    kinds=("gear_pair",),
+)
+def heat_leak(reading, oil_temperature, ambient_temperature, reading_scale, *, share, wall):
+    """Heat that leaves by shafts and walls is missing from a power measured by the warming of the oil.
+
+    >>> round(heat_leak(100.0, 343.15, 298.15, 100.0, share=0.05, wall=0.002), 1)
+    86.0
+    """
+    return reading * (1.0 - share) - wall * reading_scale * (oil_temperature - ambient_temperature)

@@ -1,0 +1,29 @@
+"""Friction of a drive that grows with its load."""
+
+import numpy as np
+
+from mixedlub.effect import LogNormal, Parameter, effect
+
+
+@effect(
+    stage="loss",
+    acts_on="running_friction",
+    parameters=(
+        Parameter("growth", "-", LogNormal(0.5, 1.0), "dry friction added at the largest load, over T_c", null=0.0),
+    ),
+    equation=r"T_r \leftarrow T_r + c\,T_c\,q_F \operatorname{sgn}\omega",
+    source="Coulomb's law for the loaded flanks; A. C. Bittencourt, S. Gunnarsson, J. Dyn. Syst. Meas. Control 134 "
+    "(2012) 051013, load term",
+    fingerprint={"load": "+"},
+    separated_by="runs with the gears out: the friction of gears goes with them, an error of the motor's torque "
+    "constant stays",
+    after=("stribeck",),
+    kinds=("friction_map",),
+)
+def load_dependent_friction(running_friction, coulomb_torque, load_fraction, drive_speed, *, growth):
+    """Loaded flanks and bearings add dry friction in proportion to the load.
+
+    >>> float(load_dependent_friction(2.0, 2.0, 0.5, 10.0, growth=0.2))
+    2.2
+    """
+    return running_friction + growth * coulomb_torque * load_fraction * np.sign(drive_speed)

@@ -1,0 +1,29 @@
+"""Friction that pulsates with the mesh or the turn of a drive."""
+
+import numpy as np
+
+from mixedlub.effect import BetweenLog, Normal, Parameter, effect
+
+
+@effect(
+    stage="load",
+    acts_on="friction_torque",
+    parameters=(
+        Parameter("cosine", "-", Normal(0.0, 0.3), "amplitude in phase with position zero, over T_c", null=0.0),
+        Parameter("sine", "-", Normal(0.0, 0.3), "amplitude a quarter period later, over T_c", null=0.0),
+        Parameter("order", "-", BetweenLog(0.8, 60.0), "pulsations a turn"),
+    ),
+    equation=r"T_f \leftarrow T_f + T_c\,(a\cos N\varphi + b\sin N\varphi)",
+    source="mesh-stiffness and eccentricity ripple, e.g. H. N. Ozguven, D. R. Houser, J. Sound Vib. 121 (1988) 383",
+    fingerprint={},
+    separated_by="readings against position at one speed: the ripple keeps its place on the wheel at any speed",
+    kinds=("friction_map",),
+)
+def periodic_mesh(friction_torque, coulomb_torque, drive_angle, *, cosine, sine, order):
+    """Teeth in mesh and eccentric wheels make the torque pulsate with position.
+
+    >>> periodic_mesh(2.0, 1.0, np.array([0.0, np.pi / 4]), cosine=0.5, sine=0.0, order=4.0).round(3).tolist()
+    [2.5, 1.5]
+    """
+    ripple = cosine * np.cos(order * drive_angle) + sine * np.sin(order * drive_angle)
+    return friction_torque + coulomb_torque * ripple

@@ -1,0 +1,35 @@
+"""Rolling resistance."""
+
+from mixedlub.effect import Between, LogNormal, Parameter, effect
+
+_PIVOT = 3e-11
+
+
+@effect(
+    stage="loss",
+    acts_on="rolling_force",
+    parameters=(
+        Parameter("strength", "-", LogNormal(1.0, 0.7), "factor on the resistance", null=0.0),
+        Parameter("exponent", "-", Between(0.63, 0.77), "power of viscosity times speed"),
+    ),
+    equation=r"f_r \leftarrow f_r + "
+    r"c\,1.47\,U_\ell^{0.75}\,E'R\left(\frac{U_\ell}{3\times10^{-11}}\right)^{k-0.75},\quad U_\ell = "
+    r"\frac{2\eta_0 u}{E'R}",
+    source="N. Biboulet, L. Houpert, Proc. IMechE J 224 (2010) 765, load-independent branch (k = 0.75); P. K. "
+    "Goksem, R. A. Hargreaves, J. Lubr. Technol. 100 (1978) 346 have k = 0.66",
+    fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "roughness": "-", "slide_roll_ratio": "-"},
+    separated_by="zero load with teeth in mesh against out of mesh; churning hardly sees viscosity, rolling grows "
+    "with its power 0.7",
+)
+def rolling_resistance(rolling_force, radius, reduced_modulus, viscosity, entrainment_speed, *, strength, exponent):
+    """Oil drawn into the contact resists rolling, whatever the load.
+
+    Against numerical solutions 0.91 to 1.09 where W is above 1e-4.
+
+    >>> force = rolling_resistance(0.0, 8.3262e-3, 226.374e9, 0.01489, 2.163, strength=1.0, exponent=0.75)
+    >>> round(float(force))   # N/m on each body, U_l = 3.42e-11
+    39
+    """
+    speed = 2.0 * viscosity * entrainment_speed / (reduced_modulus * radius)
+    scale = 1.47 * reduced_modulus * radius * _PIVOT**0.75
+    return rolling_force + strength * scale * (speed / _PIVOT) ** exponent

@@ -1,0 +1,34 @@
+"""Seal drag."""
+
+from mixedlub.effect import Between, LogNormal, Parameter, effect
+from mixedlub.laws.drag import seal_torque
+
+_PIVOT = 20e-6
+
+
+@effect(
+    stage="loss",
+    acts_on="power_loss",
+    parameters=(
+        Parameter("strength", "-", LogNormal(1.0, 0.7), "factor on the torque: size and number of lips", null=0.0),
+        Parameter("viscous", "-", Between(0.0, 0.8), "power of viscosity"),
+    ),
+    equation=r"P \leftarrow P + "
+    r"c\,T_s\,(\omega_1+\omega_2)\left(\frac{\nu}{20\,\text{mm}^2/\text{s}}\right)^{k},\quad T_s = "
+    r"7.34\times10^{-5}\,r_1^2\ (\text{N m, mm})",
+    source="ISO/TR 14179-2, P = 7.69e-6 d^2 n (k = 0); H. Linke, Stirnradverzahnung, 1996, lets it halve from "
+    "40 to 90 C",
+    fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "roughness": "-"},
+    separated_by="the seals off, or a run of the shafts alone: torque that hardly changes with speed; a zero error "
+    "of the torque meter changes sign with the sense of rotation, a seal does not",
+)
+def seal_drag(power_loss, pinion_radius, pinion_speed, gear_speed, viscosity, oil_density, *, strength, viscous):
+    """A lip seal rubs on each shaft.
+
+    Shafts as thick as the pinion's pitch radius. The lip force and 20 mm^2/s make the form belong to N/m and m^2/s.
+
+    >>> round(float(seal_drag(0.0, 0.036, 157.1, 102.7, 0.017, 850.0, strength=1.0, viscous=0.0)), 1)
+    24.7
+    """
+    thinner = (viscosity / (oil_density * _PIVOT)) ** viscous
+    return power_loss + strength * seal_torque(pinion_radius) * (pinion_speed + gear_speed) * thinner

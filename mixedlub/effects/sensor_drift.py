@@ -1,0 +1,23 @@
+"""Drift of the recorded channel."""
+
+from mixedlub.effect import Parameter, Wide, effect
+
+
+@effect(
+    stage="measurement",
+    acts_on="reading",
+    parameters=(Parameter("drift", "-", Wide(0.05), "relative error at the end of the programme", null=0.0),),
+    equation=r"y \leftarrow y\,(1 + d\,q)",
+    source="measurement: scale error that grows in the course of the programme",
+    fingerprint={"sequence": "+"},
+    separated_by="the first point repeated at the end, with the surfaces measured again: running-in saturates and "
+    "leaves smoother flanks, drift does neither",
+    after=("fringe_order", "heat_leak", "torque_constant", "torque_offset", "zero_drift"),
+)
+def sensor_drift(reading, sequence, *, drift):
+    """The channel's scale creeps in the course of the programme.
+
+    >>> round(sensor_drift(100.0, 0.5, drift=0.06), 6)
+    103.0
+    """
+    return reading * (1.0 + drift * sequence)

@@ -1,0 +1,23 @@
+"""Gain of the recorded channel."""
+
+from mixedlub.effect import Parameter, Wide, effect
+
+
+@effect(
+    stage="measurement",
+    acts_on="reading",
+    parameters=(Parameter("gain", "-", Wide(0.05), "relative error of every reading", null=0.0),),
+    equation=r"y \leftarrow y\,(1 + g)",
+    source="measurement: scale error of a channel",
+    fingerprint={"load": "0", "speed": "0", "oil_temperature": "0", "roughness": "0", "slide_roll_ratio": "0"},
+    separated_by="another instrument on the same quantity, or power circulation in both directions: the same share of "
+    "every reading, whatever the surfaces",
+    after=("fringe_order", "heat_leak", "torque_constant", "torque_offset", "zero_drift"),
+)
+def sensor_gain(reading, *, gain):
+    """The channel reads the same share too much everywhere.
+
+    >>> round(sensor_gain(100.0, gain=0.02), 6)
+    102.0
+    """
+    return reading * (1.0 + gain)

@@ -1,0 +1,24 @@
+"""Offset of the recorded channel."""
+
+from mixedlub.effect import Parameter, Wide, effect
+
+
+@effect(
+    stage="measurement",
+    acts_on="reading",
+    parameters=(
+        Parameter("offset", "-", Wide(0.05), "added to every reading, over its typical size", null=0.0),
+    ),
+    equation=r"y \leftarrow y + a\,y_0",
+    source="measurement: zero error of a channel",
+    fingerprint={"load": "-", "roughness": "-", "slide_roll_ratio": "-"},
+    separated_by="a reading with the rig at rest: the same number everywhere",
+    after=("fringe_order", "heat_leak", "sensor_drift", "sensor_gain", "torque_constant", "torque_offset"),
+)
+def sensor_offset(reading, reading_scale, *, offset):
+    """The channel does not read zero at zero.
+
+    >>> sensor_offset(100.0, 50.0, offset=0.1)
+    105.0
+    """
+    return reading + offset * reading_scale

@@ -1,0 +1,29 @@
+"""A motor's torque constant that is not what its controller assumes."""
+
+import numpy as np
+
+from mixedlub.effect import LogNormal, Normal, Parameter, effect
+
+
+@effect(
+    stage="measurement",
+    acts_on="reading",
+    parameters=(
+        Parameter("error", "-", Normal(0.0, 0.08), "share by which the assumed constant is too high", null=0.0),
+        Parameter("fall", "-", LogNormal(0.08, 0.8), "further share lost at the largest torque", null=0.0),
+    ),
+    equation=r"y \leftarrow y + T_m\,(e + f\,|T_m|/T_{m0})",
+    source="saturation of the iron, e.g. J. R. Hendershot, T. J. E. Miller, Design of Brushless Permanent-Magnet "
+    "Machines, 2010, chapter 7",
+    fingerprint={},
+    separated_by="runs with the gears out, or a stalled motor against a torque sensor: what is left there is the "
+    "motor, not the gears",
+    kinds=("friction_map",),
+)
+def torque_constant(reading, motor_torque, reference_torque, *, error, fall):
+    """Torque computed from current is too high by an error that grows as the iron saturates; it looks like friction.
+
+    >>> round(float(torque_constant(0.1, 4.0, 8.0, error=0.02, fall=0.1)), 3)
+    0.38
+    """
+    return reading + motor_torque * (error + fall * np.abs(motor_torque) / reference_torque)

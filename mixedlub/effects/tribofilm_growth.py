@@ -1,0 +1,36 @@
+"""A reaction film that grows on the surfaces."""
+
+import numpy as np
+
+from mixedlub.effect import LogNormal, Normal, Parameter, effect
+
+SOFTNESS = 0.2
+
+
+@effect(
+    stage="boundary",
+    acts_on="boundary_friction",
+    parameters=(
+        Parameter("change", "-", Normal(0.3, 0.5), "relative change of friction under a complete film", null=0.0),
+        Parameter("time_constant", "-", LogNormal(0.3, 0.9), "share of the programme to cover 63 % of what is bare"),
+        Parameter("induction", "-", LogNormal(0.02, 1.2), "share of the programme before the film starts"),
+    ),
+    equation=r"\mu_B \leftarrow \mu_B\,(1 + c\,\theta),\quad \theta = 1 - e^{-\langle q - q_i\rangle/q_c}",
+    source="coverage of the first order after an induction time: H. Fujita, H. A. Spikes, Proc. IMechE J 218 (2004) "
+    "265, films of zinc dithiophosphate and their friction",
+    fingerprint={"sequence": "+"},
+    separated_by="an image or contact resistance of the track after each step shows coverage grow; running-in "
+    "of heights shows in a profile and ends within the first per cent of the test",
+)
+def tribofilm_growth(boundary_friction, sequence, *, change, time_constant, induction):
+    """Additives form a solid film on the track; friction goes with the share of the track that it covers.
+
+    The start is rounded over a fifth of the induction time, as nuclei do not all form at once.
+
+    >>> x = tribofilm_growth(0.06, np.array([0.0, 1.0]), change=1.0, time_constant=0.05, induction=0.2)
+    >>> x.round(4).tolist()
+    [0.06, 0.12]
+    """
+    width = SOFTNESS * induction
+    since = width * (np.logaddexp(0.0, (sequence - induction) / width) - np.logaddexp(0.0, -induction / width))
+    return boundary_friction * (1.0 - change * np.expm1(-np.maximum(since, 0.0) / time_constant))

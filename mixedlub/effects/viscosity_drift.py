@@ -1,0 +1,33 @@
+"""Oil or a sample that changes during the test."""
+
+import numpy as np
+
+from mixedlub.effect import LogNormal, Normal, Parameter, effect
+
+WARM = 313.15
+KELVIN = 100.0
+
+
+@effect(
+    stage="property",
+    acts_on="viscosity",
+    parameters=(
+        Parameter("drift", "-", Normal(0.0, 0.2), "log change of viscosity over the programme at 40 degC", null=0.0),
+        Parameter("power", "-", LogNormal(1.0, 0.4), "1: steady, above: it gathers pace"),
+        Parameter("cold_gain", "-", Normal(0.5, 1.5), "log growth of the drift over 100 K of cooling"),
+    ),
+    equation=r"\eta_0 \leftarrow \eta_0\,e^{d\,q^m e^{k(40\,^\circ\mathrm{C} - \theta)/100\,\mathrm{K}}}",
+    source="evaporation, oxidation or shear-down as a steady relative rate; e.g. ASTM D445 on used oils reports it so",
+    fingerprint={},
+    separated_by="a repeat of the first point at the end, with a fresh sample and a cover against evaporation",
+)
+def viscosity_drift(viscosity, sequence, oil_temperature, *, drift, power, cold_gain):
+    """The sample thickens or thins with time; no law of temperature and pressure can show it.
+
+    What a lost light fraction or a new phase adds is felt most in the cold, hence ``cold_gain``.
+
+    >>> viscosity_drift(0.04, np.array([0.0, 1.0]), 313.15, drift=0.2, power=1.0, cold_gain=1.0).round(4).tolist()
+    [0.04, 0.0489]
+    """
+    grown = drift * np.maximum(sequence, 0.0) ** power
+    return viscosity * np.exp(grown * np.exp(cold_gain * (WARM - oil_temperature) / KELVIN))

@@ -1,0 +1,49 @@
+"""Windage."""
+
+from mixedlub.effect import Between, LogNormal, Parameter, effect
+from mixedlub.laws.drag import windage_diab
+
+_PIVOT = 15.0
+
+
+@effect(
+    stage="loss",
+    acts_on="power_loss",
+    parameters=(
+        Parameter("strength", "-", LogNormal(1.0, 0.9), "factor: walls, and oil in the air", null=0.0),
+        Parameter("exponent", "-", Between(2.5, 3.0), "power of speed"),
+    ),
+    equation=r"P \leftarrow P + c\sum_i \tfrac12 C_t\rho\omega_i^3 r_i^5\left(\frac{v}{15\,\text{m/s}}\right)^{k-2.75},"
+    r"\quad C_t = 81.4\,Re^{-0.25}\left(\frac{b}{r_i}\right)^{0.8} z_i^{-0.4}",
+    source="Y. Diab, F. Ville, P. Velex, C. Changenet, Tribol. Trans. 47 (2004) 191; power 2.9 after P. H. Dawson, "
+    "Proc. IMechE A 198 (1984) 51, 2.8 after N. E. Anderson, S. H. Loewenthal, NASA TP-1622, 1980",
+    fingerprint={"load": "-", "speed": "+", "oil_temperature": "0", "roughness": "-"},
+    separated_by="a dry, shrouded or evacuated run: nearly the cube of speed, and blind to oil and its temperature",
+)
+def windage(
+    power_loss,
+    pinion_radius,
+    gear_radius,
+    pinion_speed,
+    gear_speed,
+    face_width,
+    pinion_teeth,
+    gear_teeth,
+    *,
+    strength,
+    exponent,
+):
+    """The wheels drive the air round.
+
+    The properties of air and the pivot of 15 m/s make the form belong to SI. Published formulas agree within a
+    factor 1.6 in clean air; mist adds more.
+
+    >>> speed = 10_000 * 3.14159 / 30
+    >>> alone = windage(0.0, 0.05, 1e-9, speed, 1e-9, 0.02, 25.0, 25.0, strength=1.0, exponent=2.75)
+    >>> round(float(alone), -1)   # a 100 mm wheel at 10 000 rpm
+    110.0
+    """
+    air = windage_diab(pinion_radius, pinion_speed, face_width, pinion_teeth) + windage_diab(
+        gear_radius, gear_speed, face_width, gear_teeth
+    )
+    return power_loss + strength * air * (pinion_radius * pinion_speed / _PIVOT) ** (exponent - 2.75)

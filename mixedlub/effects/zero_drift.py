@@ -1,0 +1,26 @@
+"""A zero that wanders off during the test."""
+
+from mixedlub.effect import Normal, Parameter, effect
+
+
+@effect(
+    stage="measurement",
+    acts_on="reading",
+    parameters=(
+        Parameter(
+            "drift", "-", Normal(0.0, 0.1), "change of the zero over the programme, over the typical reading", null=0.0
+        ),
+    ),
+    equation=r"y \leftarrow y + d\,y_0\,q",
+    source="rated output and zero stability of transducers: IEC 60770",
+    fingerprint={},
+    separated_by="a reading at rest before and after the test",
+    kinds=("film", "friction_history", "friction_map"),
+)
+def zero_drift(reading, reading_scale, sequence, *, drift):
+    """The reading at rest is no longer zero at the end; every reading shifts by the same amount.
+
+    >>> round(float(zero_drift(0.05, 0.05, 0.5, drift=0.1)), 4)
+    0.0525
+    """
+    return reading + drift * reading_scale * sequence

@@ -1,0 +1,122 @@
+"""Headers of instrument files to columns of a case, with units that are read, never guessed."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+import numpy as np
+
+from profiles.errors import InputError, nearest
+
+UNITS: dict[str, dict[str, tuple[float, float]]] = {
+    "m_s": {"m/s": (1.0, 0.0), "mm/s": (1e-3, 0.0), "um/s": (1e-6, 0.0)},
+    "N": {"n": (1.0, 0.0), "mn": (1e-3, 0.0), "kn": (1e3, 0.0)},
+    "C": {"degc": (1.0, 0.0), "c": (1.0, 0.0), "k": (1.0, -273.15)},
+    "rpm": {"rpm": (1.0, 0.0), "1/min": (1.0, 0.0), "rad/s": (30.0 / np.pi, 0.0), "1/s": (60.0, 0.0)},
+    "Nm": {"nm": (1.0, 0.0), "n.m": (1.0, 0.0), "mnm": (1e-3, 0.0), "mn.m": (1e-3, 0.0), "knm": (1e3, 0.0)},
+    "nm": {"nm": (1.0, 0.0), "um": (1e3, 0.0)},
+    "mPa_s": {"mpa.s": (1.0, 0.0), "mpas": (1.0, 0.0), "cp": (1.0, 0.0), "pa.s": (1e3, 0.0), "pas": (1e3, 0.0)},
+    "MPa": {"mpa": (1.0, 0.0), "gpa": (1e3, 0.0), "pa": (1e-6, 0.0), "bar": (0.1, 0.0), "atm": (0.101325, 0.0)},
+    "s": {"s": (1.0, 0.0), "min": (60.0, 0.0), "h": (3600.0, 0.0)},
+    "W": {"w": (1.0, 0.0), "kw": (1e3, 0.0)},
+    "deg": {"deg": (1.0, 0.0), "rad": (180.0 / np.pi, 0.0)},
+    "ratio": {"-": (1.0, 0.0), "1": (1.0, 0.0), "%": (0.01, 0.0)},
+}
+"""What each unit of a case's columns may be given in: factor and what is added."""
+
+
+SUFFIXES = {
+    "mm_s": "mm/s",
+    "m_s": "m/s",
+    "mPa_s": "mPa.s",
+    "Pa_s": "Pa.s",
+    "rad_s": "rad/s",
+    "percent": "%",
+    **{unit: unit for unit in ("degC", "C", "K", "mNm", "Nm", "N", "rpm", "nm", "um", "MPa", "GPa", "bar", "atm")},
+    **{unit: unit for unit in ("s", "min", "h", "W", "kW", "deg")},
+}
+"""Units as suffixes of a header; longer ones first where one ends in another."""
+
+
+@dataclass(frozen=True)
+class Target:
+    """A column of a case, its unit, and the headers under which instruments write it."""
+
+    name: str
+    unit: str
+    spoken: tuple[str, ...]
+
+
+TARGETS = (
+    Target("load_N", "N", ("load", "ball load", "pin load", "normal load", "normal force")),
+    Target("entrainment_speed_m_s", "m_s", ("rolling speed", "entrainment speed", "mean speed")),
+    Target("sliding_speed_m_s", "m_s", ("sliding speed",)),
+    Target("slide_roll_ratio", "ratio", ("srr", "slide roll ratio", "slide to roll ratio")),
+    Target(
+        "oil_temperature_C", "C", ("oil temperature", "oil temp", "lubricant temperature", "lube temp", "lube rtd temp")
+    ),
+    Target("temperature_C", "C", ("temperature", "temp")),
+    Target("pressure_MPa", "MPa", ("pressure",)),
+    Target("time_s", "s", ("time", "step time", "elapsed time", "test time")),
+    Target("speed_rpm", "rpm", ("speed", "motor speed", "rotational speed")),
+    Target("torque_Nm", "Nm", ("torque", "load torque", "pinion torque")),
+    Target("friction_torque_Nm", "Nm", ("friction torque",)),
+    Target("friction_coefficient", "ratio", ("traction coeff", "friction coefficient", "cof", "friction coeff")),
+    Target("film_thickness_nm", "nm", ("average film", "film thickness", "film", "central film thickness")),
+    Target("viscosity_mPa_s", "mPa_s", ("viscosity", "dynamic viscosity")),
+    Target("power_loss_W", "W", ("power loss", "loss")),
+    Target("roll_angle_deg", "deg", ("roll angle",)),
+    Target("fringe_order", "ratio", ("order", "fringe order")),
+)
+BY_NAME = {t.name: t for t in TARGETS}
+
+
+def split(header: str) -> tuple[str, str | None]:
+    """Words and unit of a header such as ``Rolling Speed (mm/s)``; the unit is None where there is none.
+
+    >>> split("Rolling Speed (mm/s)"), split("temperature_degC"), split("Load")
+    (('rolling speed', 'mm/s'), ('temperature', 'degC'), ('load', None))
+    """
+    found = re.fullmatch(r"\s*(.*?)\s*[(\[]\s*([^()\[\]]*?)\s*[)\]]\s*", header)
+    words, unit = (found.group(1), found.group(2)) if found else _suffixed(header)
+    return re.sub(r"[\s_]+", " ", words).strip().lower(), unit
+
+
+def _suffixed(header: str) -> tuple[str, str | None]:
+    """Words and unit of a header that carries its unit as a suffix, as ``rolling_speed_mm_s`` does."""
+    for suffix, unit in SUFFIXES.items():
+        if header.strip().endswith(f"_{suffix}"):
+            return header.strip()[: -len(suffix) - 1], unit
+    return header, None
+
+
+def target_of(header: str) -> Target | None:
+    """The column that a header means, by the words instruments use; an exact column name is itself."""
+    if header.strip() in BY_NAME:
+        return BY_NAME[header.strip()]
+    words, _ = split(header)
+    return next((t for t in TARGETS if words in t.spoken), None)
+
+
+def tidy(unit: str) -> str:
+    """A unit as the table writes it.
+
+    >>> tidy("µm"), tidy("°C"), tidy("N·m"), tidy("N m"), tidy("Pa s")
+    ('um', 'degc', 'n.m', 'n.m', 'pa.s')
+    """
+    plain = unit.strip().replace("µ", "u").replace("μ", "u").replace("°", "deg").replace("·", ".")
+    return re.sub(r"\s+", ".", plain).lower()
+
+
+def convert(values: np.ndarray, unit: str, target: Target, where: str) -> np.ndarray:
+    """Values in the unit of the target's column.
+
+    >>> convert(np.array([1.5]), "mm/s", BY_NAME["entrainment_speed_m_s"], "file").tolist()
+    [0.0015]
+    """
+    known = UNITS[target.unit]
+    if tidy(unit) not in known:
+        raise InputError(f"unit of {target.name} is not known; {nearest(tidy(unit), known)}", where=where, value=unit)
+    factor, added = known[tidy(unit)]
+    return values * factor + added

@@ -1,0 +1,96 @@
+"""What instrument files say by themselves, and the questions that remain."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+Answers = Mapping[str, Any]
+"""Answers by dotted key: keys of system.toml, or ``import.`` and what the importer itself asks."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """Something no file says: the key that answers it, the words, an example that is valid TOML."""
+
+    key: str
+    text: str
+    example: str
+    needed: bool = True
+
+
+@dataclass(frozen=True)
+class Draft:
+    """A case in the making: columns in the units of the contract, facts for system.toml, open questions."""
+
+    kind: str | None
+    quantity: str | None
+    columns: Mapping[str, np.ndarray]
+    system: Mapping[str, Any] = field(default_factory=dict)
+    questions: tuple[Question, ...] = ()
+    notes: tuple[str, ...] = ()
+
+
+CONTACT = (
+    Question("contact.radius_mm", "Radii of the two bodies in mm (inf for a flat one)", "[9.525, inf]"),
+    Question("contact.youngs_modulus_GPa", "Young's moduli of the two bodies in GPa", "[207.0, 75.0]"),
+    Question("contact.poisson_ratio", "Poisson's ratios of the two bodies", "[0.3, 0.22]"),
+)
+OIL = (
+    Question("lubricant.name", "Name of the oil", '"sample oil"', needed=False),
+    Question("lubricant.temperature_C", "Two temperatures of known viscosity in degC", "[40.0, 100.0]", needed=False),
+    Question("lubricant.kinematic_viscosity_mm2_s", "Kinematic viscosity there in mm2/s", "[30.0, 6.2]", needed=False),
+    Question("lubricant.pressure_viscosity_per_GPa", "Pressure-viscosity there in 1/GPa", "[18.0, 14.0]", needed=False),
+)
+EVERY = Question("import.every", "Keep one reading of how many", "10", needed=False)
+NOISE = (
+    Question("recording.noise.relative", "Noise of a reading, one sd as a share of it", "0.02", needed=False),
+    Question("recording.noise.absolute", "Noise of a reading, one sd in its unit", "0.0", needed=False),
+)
+
+
+def questions_of(kind: str) -> tuple[Question, ...]:
+    """What every case of a kind leaves to ask."""
+    contact = CONTACT if kind in ("film", "disc") else ()
+    oil = OIL if kind in ("film", "disc", "gear_pair", "mesh_friction") else ()
+    many = (EVERY,) if kind in ("friction_history", "viscosity") else ()
+    return (*contact, *oil, *many, *NOISE)
+
+
+def open_questions(draft: Draft, answers: Answers) -> tuple[Question, ...]:
+    """The needed questions that are not answered yet."""
+    return tuple(q for q in draft.questions if q.needed and q.key not in answers)
+
+
+def nested(answers: Answers) -> dict[str, Any]:
+    """Dotted keys as tables; what belongs to the importer is left out.
+
+    >>> nested({"contact.radius_mm": [9.5, 20.0], "import.temperature": "pot", "kind": "film"})
+    {'contact': {'radius_mm': [9.5, 20.0]}, 'kind': 'film'}
+    """
+    tree: dict[str, Any] = {}
+    for key, value in answers.items():
+        *above, last = key.split(".")
+        if above[:1] == ["import"]:
+            continue
+        place = tree
+        for part in above:
+            place = place.setdefault(part, {})
+        place[last] = value
+    return tree
+
+
+def flat(tree: Mapping[str, Any], above: str = "") -> dict[str, Any]:
+    """Tables as dotted keys.
+
+    >>> flat({"contact": {"radius_mm": [9.5, 20.0]}, "kind": "film"})
+    {'contact.radius_mm': [9.5, 20.0], 'kind': 'film'}
+    """
+    found: dict[str, Any] = {}
+    for key, value in tree.items():
+        name = f"{above}.{key}" if above else key
+        found.update(flat(value, name) if isinstance(value, Mapping) else {name: value})
+    return found

@@ -1,0 +1,70 @@
+"""Text exports of rotational rheometers: steps of tab-separated columns with a line of units."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mixedlub.importers.columns import BY_NAME, convert, target_of
+from mixedlub.importers.draft import Answers, Draft, questions_of
+from profiles.errors import InputError
+
+WANTED = ("temperature_C", "viscosity_mPa_s", "time_s")
+
+
+def matches(text: str) -> bool:
+    """Whether the text is such an export: steps marked in brackets."""
+    return any(line.strip().lower() == "[step]" for line in text.splitlines()[:200])
+
+
+def draft(text: str, name: str, answers: Answers) -> Draft:
+    """Viscosity against temperature and time; the steps follow each other."""
+    parts: dict[str, list[np.ndarray]] = {w: [] for w in WANTED}
+    elapsed, taken, left = 0.0, 0, 0
+    for lines in _steps(text):
+        found = _read(lines, name)
+        if "viscosity_mPa_s" not in found or "temperature_C" not in found:
+            left += 1
+            continue
+        if "time_s" not in found:
+            raise InputError("a step without a time cannot be put after the one before", where=f"{name}: {lines[0]}")
+        duration = float(found["time_s"][-1])
+        found["time_s"] = found["time_s"] + elapsed
+        elapsed += duration
+        taken += 1
+        for w in WANTED:
+            parts[w].append(found[w])
+    if not taken:
+        raise InputError("no step with viscosity and temperature", where=name)
+    columns = {w: np.concatenate(v) for w, v in parts.items()}
+    notes = (f"{name}: {taken} steps taken, {left} left; time runs on from step to step without the pauses between",)
+    return Draft("viscosity", "viscosity_mPa_s", columns, {}, questions_of("viscosity"), notes)
+
+
+def _steps(text: str) -> list[list[str]]:
+    found: list[list[str]] = []
+    for line in text.splitlines():
+        if line.strip().lower() == "[step]":
+            found.append([])
+        elif found and line.strip():
+            found[-1].append(line)
+    return [lines for lines in found if len(lines) > 3]
+
+
+def _read(lines: list[str], name: str) -> dict[str, np.ndarray]:
+    """Columns of one step in the units of a case: title, headers, units, rows."""
+    headers, units = (line.split("\t") for line in lines[1:3])
+    rows = [line.split("\t") for line in lines[3:]]
+    found: dict[str, np.ndarray] = {}
+    for i, header in enumerate(headers):
+        target = target_of(header)
+        if target is None or target.name not in WANTED:
+            continue
+        where = f"{name}: {lines[0]}, {header}"
+        try:
+            values = np.array([float(row[i]) for row in rows])
+        except (ValueError, IndexError):
+            raise InputError("not all cells are numbers", where=where) from None
+        if i >= len(units) or not units[i].strip():
+            raise InputError("no unit is given", where=where)
+        found[target.name] = convert(values, units[i], BY_NAME[target.name], where)
+    return found

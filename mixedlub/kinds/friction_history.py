@@ -1,0 +1,116 @@
+"""Friction coefficient against time at conditions that are held, or nearly."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from mixedlub import config
+from mixedlub.calibration import Calibration
+from mixedlub.chain import Chain
+from mixedlub.effect import LogNormal, Parameter
+from mixedlub.kinds import disc, unknown_oil
+from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, programme
+from mixedlub.table import CaseWarning, Column, Table
+
+COLUMNS = (
+    Column("time_s"),
+    *(replace(c, required=False) for c in (*disc.COLUMNS, *disc.SURFACES)),
+)
+NEEDED = tuple(c.name for c in (*disc.COLUMNS, *disc.SURFACES))
+SPREAD = 1.0
+
+
+def constant_friction(boundary_friction: np.ndarray) -> np.ndarray:
+    """Friction of surfaces that do not change (-): one coefficient.
+
+    >>> float(constant_friction(0.1))
+    0.1
+    """
+    return boundary_friction
+
+
+def resolved(system: config.System, table: Table) -> bool:
+    """Whether film and asperities can be computed: contact, oil, surfaces and all conditions are given."""
+    sections = system.contact is not None and system.lubricant is not None and bool(system.surfaces)
+    return sections and all(name in table for name in NEEDED)
+
+
+def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
+    """Chain inputs of the rows of a table."""
+    if resolved(system, table):
+        return {**disc.inputs(system, folder, table, recorded), **programme(table, recorded)}
+    absent = [name for name in NEEDED if name not in table]
+    if system.contact is not None and system.lubricant is not None and system.surfaces:
+        warnings.warn(
+            f"{table.source}: no {', '.join(absent)}, so film and asperities cannot be computed; "
+            "the base is one constant friction coefficient",
+            CaseWarning,
+            stacklevel=2,
+        )
+    return {
+        **_conditions(table),
+        **bookkeeping_inputs(system, table),
+        **programme(table, recorded),
+        "boundary_friction": _level(system, recorded),
+    }
+
+
+def _conditions(table: Table) -> Inputs:
+    """What the rows say of the operating conditions, for effects that need no more than that."""
+    found: Inputs = {}
+    if "entrainment_speed_m_s" in table:
+        found["entrainment_speed"] = column(table["entrainment_speed_m_s"])
+    if "slide_roll_ratio" in table:
+        found["slide_roll_ratio"] = np.abs(column(table["slide_roll_ratio"]))
+    if {"entrainment_speed", "slide_roll_ratio"} <= set(found):
+        found["sliding_speed"] = found["slide_roll_ratio"] * found["entrainment_speed"]
+    if "load_N" in table:
+        found["load"] = column(table["load_N"])
+    if "oil_temperature_C" in table:
+        found["oil_temperature"] = column(table["oil_temperature_C"]) + 273.15
+    return found
+
+
+def _given(system: config.System) -> bool:
+    return system.uncertainty.boundary_friction > 0
+
+
+def _level(system: config.System, recorded: Table) -> float:
+    if _given(system) or "friction_coefficient" not in recorded:
+        return system.boundary_friction
+    return max(float(np.median(np.abs(recorded["friction_coefficient"]))), 1e-3)
+
+
+def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibration, ...]:
+    """The constant coefficient where nothing is said of it; an unnamed oil where the film is computed."""
+    if resolved(system, recorded):
+        return unknown_oil.calibrations(system, recorded["oil_temperature_C"] + 273.15)
+    if _given(system):
+        return ()
+    level = _level(system, recorded)
+    parameter = Parameter(
+        "boundary_friction", "-", LogNormal(level, SPREAD), "friction coefficient at the start of the recording"
+    )
+    return (Calibration(parameter, lambda inputs, value: {"boundary_friction": value}, level, ("boundary_friction",)),)
+
+
+def chain(system: config.System, table: Table) -> Chain:
+    """The mixture of film and asperities where it can be computed, else one coefficient."""
+    if resolved(system, table):
+        return disc.chain(system, table)
+    return (("friction", constant_friction), ("reading", disc.point_reading))
+
+
+KIND = Kind(
+    name="friction_history",
+    quantities=("friction_coefficient",),
+    columns=COLUMNS,
+    sections=(),
+    chain=chain,
+    inputs=inputs,
+    extra_calibration=extra_calibration,
+)

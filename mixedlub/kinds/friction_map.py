@@ -1,0 +1,144 @@
+"""Friction of a whole drive against its speed, in both directions where both were run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mixedlub import config
+from mixedlub.calibration import Calibration
+from mixedlub.chain import Chain
+from mixedlub.effect import Between, LogNormal, Normal, Parameter
+from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, programme
+from mixedlub.laws import drive
+from mixedlub.table import Column, Table
+from profiles.errors import InputError
+
+SPEEDS = ("speed_rpm", "sliding_speed_m_s")
+LOADS = ("load_N", "torque_Nm")
+COLUMNS = (
+    *(Column(name, required=False) for name in SPEEDS),
+    *(Column(name, required=False) for name in LOADS),
+    Column("oil_temperature_C", at_least=-100.0, at_most=400.0, required=False),
+    Column("motor_torque_Nm", required=False),
+    Column("position_deg", required=False),
+    Column("time_s", required=False),
+)
+BARE = "no_gears"
+"""Name in the column ``rig`` of readings taken with the gears out."""
+BARE_SHARE = 0.3
+"""Friction of motor and sensor alone, over that of the whole drive, before the readings say it."""
+
+
+def reading(friction_torque: np.ndarray) -> np.ndarray:
+    """The rig reads the friction torque of the drive (N m), or its friction coefficient (-).
+
+    >>> float(reading(2.5))
+    2.5
+    """
+    return friction_torque
+
+
+def drive_speed(table: Table) -> np.ndarray:
+    """Signed speed of the rows: rad/s, or m/s where a sliding speed is recorded."""
+    present = [name for name in SPEEDS if name in table]
+    if len(present) != 1:
+        raise InputError(
+            f"a friction map needs one of the columns {' and '.join(SPEEDS)}", where=f"{table.source}: header"
+        )
+    return table[present[0]] * (np.pi / 30.0 if present[0] == "speed_rpm" else 1.0)
+
+
+def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
+    """Chain inputs of the rows of a table."""
+    speed = drive_speed(table)
+    size = _size(system, recorded)
+    found: Inputs = {
+        **bookkeeping_inputs(system, table),
+        **programme(table, recorded),
+        "drive_speed": column(speed),
+        "reference_speed": float(np.max(np.abs(drive_speed(recorded)))) or 1.0,
+        "coulomb_torque": size,
+        "viscous_torque": 0.5 * size,
+        "payload_torque": 0.0,
+        "gears_fitted": np.where(_bare(table), BARE_SHARE, 1.0)[:, None],
+    }
+    for name in LOADS:
+        if name in table and name in recorded and np.any(recorded[name] != 0):
+            found["load_fraction"] = column(np.abs(table[name]) / np.max(np.abs(recorded[name])))
+    if "oil_temperature_C" in table:
+        found["oil_temperature"] = column(table["oil_temperature_C"]) + 273.15
+    motor = _motor_column(recorded)
+    if motor in table:
+        found["motor_torque"] = column(table[motor])
+    found["reference_torque"] = float(np.max(np.abs(recorded[motor]))) if motor in recorded else size
+    if "position_deg" in table:
+        found["drive_angle"] = np.radians(column(table["position_deg"]))
+    return found
+
+
+def _bare(table: Table) -> np.ndarray:
+    """Rows taken with the gears out."""
+    return table["rig"] == BARE if "rig" in table else np.zeros(len(table), dtype=bool)
+
+
+def _motor_column(recorded: Table) -> str:
+    """The column that holds the motor's torque: its own, or the torque that loads the drive."""
+    return "motor_torque_Nm" if "motor_torque_Nm" in recorded else "torque_Nm"
+
+
+def _size(system: config.System, recorded: Table) -> float:
+    """Typical size of the readings of the complete drive."""
+    quantity = system.recording.quantity
+    if quantity not in recorded:
+        return 1.0
+    whole = ~_bare(recorded)
+    values = np.abs(recorded[quantity][whole] if whole.any() else recorded[quantity])
+    return float(np.median(values)) or 1.0
+
+
+def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibration, ...]:
+    """Dry, viscous and payload torque, all unknown: broad priors of the size of the readings."""
+    size = _size(system, recorded)
+
+    def unknown(name: str, prior: LogNormal | Between | Normal, nominal: float, meaning: str) -> Calibration:
+        unit = "N m" if system.recording.quantity == "friction_torque_Nm" else "-"
+        parameter = Parameter(name, unit, prior, meaning)
+        return Calibration(parameter, lambda inputs, value: {name: value}, nominal, (name,))
+
+    found = (
+        unknown("coulomb_torque", LogNormal(size, 1.0), size, "dry friction, the same in both directions"),
+        unknown("viscous_torque", Between(0.0, 3.0 * size), 0.5 * size, "viscous friction at the largest speed"),
+        unknown("payload_torque", Normal(0.0, size), 0.0, "constant part that keeps its sign"),
+    )
+    if not _bare(recorded).any():
+        return found
+    share = Parameter("bare_share", "-", LogNormal(BARE_SHARE, 1.0), "share of the friction left without the gears")
+    return (*found, Calibration(share, _bare_share, BARE_SHARE, ("gears_fitted",)))
+
+
+def _bare_share(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
+    fitted = inputs["gears_fitted"]
+    return {"gears_fitted": np.where(fitted == 1.0, 1.0, value)}
+
+
+def chain(system: config.System, table: Table) -> Chain:
+    """Coulomb and viscous friction, and a payload; without a load the motor feels nothing else."""
+    laws: Chain = (("running_friction", drive.coulomb_viscous), ("friction_torque", drive.motor_friction))
+    if _motor_column(table) not in table:
+        laws = (*laws, ("motor_torque", drive.unloaded_motor))
+    return (*laws, ("reading", reading))
+
+
+KIND = Kind(
+    name="friction_map",
+    quantities=("friction_torque_Nm", "friction_coefficient"),
+    columns=COLUMNS,
+    sections=(),
+    chain=chain,
+    inputs=inputs,
+    extra_calibration=extra_calibration,
+)

@@ -1,0 +1,127 @@
+"""An oil that nobody named: what calibration may move, and by how much."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from mixedlub import bodies, config
+from mixedlub.calibration import Calibration
+from mixedlub.effect import LogNormal, Normal, Parameter
+from mixedlub.lubricant import Lubricant
+from mixedlub.table import CaseWarning, Table
+
+VISCOSITY_SPREAD = 1.0
+PRESSURE_SPREAD = 0.35
+SLOPE_SPREAD = 0.5
+PRESSURE_SLOPE_SPREAD = 0.4
+HUNDRED_KELVIN = 100.0
+
+
+def missing(system: config.System) -> tuple[str, ...]:
+    """Which of the properties that calibration can move nothing is known about: not given, no uncertainty stated."""
+    section, sd = system.lubricant or config.Lubricant(), system.uncertainty
+    gaps = (
+        ("viscosity", section.kinematic_viscosity_mm2_s is None and sd.viscosity == 0),
+        ("pressure_viscosity", section.pressure_viscosity_per_GPa is None and sd.pressure_viscosity == 0),
+    )
+    return tuple(name for name, gap in gaps if gap)
+
+
+def steeper(oil: Lubricant, factor: float, pivot: float) -> Lubricant:
+    """The oil with its slope in ASTM D341 multiplied, its kinematic viscosity at the pivot (K) unchanged.
+
+    >>> oil = Lubricant("oil", (313.15, 373.15), (34e-6, 7.2e-6), (15e-9, 13e-9), 850.0, 6.5e-4, 5e6, 0.14, 2000.0)
+    >>> flat = steeper(oil, 0.5, 313.15)
+    >>> [round(nu * 1e6, 1) for nu in flat.kinematic_viscosity]
+    [34.0, 14.3]
+    """
+    at_pivot = np.log10(np.log10(oil.viscosity(np.array(pivot)) / oil.density(np.array(pivot)) * 1e6 + 0.7))
+    known = (np.log10(np.log10(nu * 1e6 + 0.7)) for nu in oil.kinematic_viscosity)
+    turned = [10.0 ** (10.0 ** float(at_pivot + factor * (z - at_pivot))) - 0.7 for z in known]
+    return replace(oil, kinematic_viscosity=(turned[0] * 1e-6, turned[1] * 1e-6))
+
+
+def calibrations(system: config.System, temperature: np.ndarray, *, level: float = 1.0) -> tuple[Calibration, ...]:
+    """Broad priors for what ``missing`` names; ``temperature`` (K) is that of the recording.
+
+    ``level`` is the factor on the assumed viscosity that the readings suggest, already in the inputs.
+    Where the recording spans temperatures, the slopes against temperature are unknown as well.
+    """
+    gaps = missing(system)
+    if gaps:
+        warnings.warn(
+            f"the oil's {' and '.join(g.replace('_', '-') for g in gaps)} not given: fitted with broad priors, "
+            "so what follows rests on these data and not on known properties of the oil",
+            CaseWarning,
+            stacklevel=2,
+        )
+    found = []
+    pivot = float(np.exp(np.mean(np.log(temperature))))
+    spans = np.ptp(temperature) > 2.0
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", CaseWarning)
+        oil = bodies.lubricant(system.lubricant)
+    if "viscosity" in gaps:
+        parameter = Parameter("viscosity", "-", LogNormal(level, VISCOSITY_SPREAD), "factor on the assumed viscosity")
+        found.append(Calibration(parameter, _scaled("viscosity", level), level, ("viscosity",)))
+        if spans:
+            slope = Parameter(
+                "viscosity_slope", "-", LogNormal(1.0, SLOPE_SPREAD), "factor on the assumed ASTM D341 slope"
+            )
+            found.append(Calibration(slope, _turned(oil, pivot), 1.0, ("viscosity", "oil_temperature")))
+    if "pressure_viscosity" in gaps:
+        parameter = Parameter(
+            "pressure_viscosity", "-", LogNormal(1.0, PRESSURE_SPREAD), "factor on the assumed pressure-viscosity"
+        )
+        found.append(Calibration(parameter, _scaled("pressure_viscosity", 1.0), 1.0, ("pressure_viscosity",)))
+        if spans:
+            low, high = oil.pressure_coefficient(np.array([pivot, pivot + HUNDRED_KELVIN]))
+            usual = float(high / low - 1.0)
+            fall = Parameter(
+                "pressure_viscosity_slope",
+                "-",
+                Normal(usual, PRESSURE_SLOPE_SPREAD),
+                "relative change of pressure-viscosity over 100 K, linear in temperature",
+            )
+            found.append(Calibration(fall, _tilted(usual, pivot), usual, ("pressure_viscosity", "oil_temperature")))
+    return tuple(found)
+
+
+def level_of(recorded: Table, quantity: str, guess: np.ndarray) -> float:
+    """Factor that brings a guess of the readings to their middle, for priors scaled by the data."""
+    if quantity not in recorded:
+        return 1.0
+    ratio = np.abs(recorded[quantity]) / guess
+    return float(np.exp(np.median(np.log(ratio[ratio > 0])))) if (ratio > 0).any() else 1.0
+
+
+def _scaled(name: str, nominal: float) -> Any:
+    def apply(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
+        return {name: inputs[name] * (value / nominal)}
+
+    return apply
+
+
+def _turned(oil: Lubricant, pivot: float) -> Any:
+    def apply(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
+        new, at = steeper(oil, value, pivot), inputs["oil_temperature"]
+        changed = {"viscosity": inputs["viscosity"] * (new.viscosity(at) / oil.viscosity(at))}
+        if "temperature_viscosity" in inputs:
+            changed["temperature_viscosity"] = new.inputs(at)["temperature_viscosity"]
+        return changed
+
+    return apply
+
+
+def _tilted(usual: float, pivot: float) -> Any:
+    def apply(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
+        rise = (inputs["oil_temperature"] - pivot) / HUNDRED_KELVIN
+        turned = np.maximum(1.0 + value * rise, 0.05) / np.maximum(1.0 + usual * rise, 0.05)
+        return {"pressure_viscosity": inputs["pressure_viscosity"] * turned}
+
+    return apply

@@ -1,0 +1,96 @@
+"""Viscosity of a sample against temperature and pressure."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from mixedlub import bodies, config
+from mixedlub.calibration import Calibration
+from mixedlub.chain import Chain
+from mixedlub.kinds import unknown_oil
+from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, programme
+from mixedlub.laws import oil
+from mixedlub.table import Column, Table
+
+AMBIENT_MPA = 0.101325
+NEAR_AMBIENT_MPA = 50.0
+
+COLUMNS = (
+    Column("temperature_C", at_least=-100.0, at_most=400.0),
+    Column("pressure_MPa", at_least=0.0, at_most=5000.0, required=False),
+    Column("time_s", required=False),
+)
+
+
+def reading(contact_viscosity: np.ndarray) -> np.ndarray:
+    """The rig reads the viscosity of the sample (Pa s).
+
+    >>> float(reading(0.05))
+    0.05
+    """
+    return contact_viscosity
+
+
+def under_pressure(viscosity: np.ndarray, pressure_viscosity: np.ndarray, hertz_pressure: np.ndarray) -> np.ndarray:
+    """Viscosity at the applied pressure (Pa s) by the law of Barus, which the base model starts from.
+
+    >>> round(float(under_pressure(0.01, 20e-9, 0.1e9)), 5)
+    0.07389
+    """
+    return oil.barus_viscosity(viscosity, pressure_viscosity, hertz_pressure)
+
+
+def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
+    """Chain inputs of the rows of a table; what carries no pressure was measured at ambient."""
+    temperature = column(table["temperature_C"]) + 273.15
+    found: Inputs = {
+        **bodies.lubricant(system.lubricant).inputs(temperature),
+        **bookkeeping_inputs(system, table),
+        **programme(table, recorded),
+        "oil_temperature": temperature,
+        "hertz_pressure": column(_pressure(table)),
+    }
+    found["viscosity"] = found["viscosity"] * _level(system, recorded)
+    return found
+
+
+def _pressure(table: Table) -> np.ndarray:
+    return 1e6 * (table["pressure_MPa"] if "pressure_MPa" in table else np.full(len(table), AMBIENT_MPA))
+
+
+def _level(system: config.System, recorded: Table) -> float:
+    """Factor on the assumed viscosity that the readings near ambient pressure suggest, where it is not given."""
+    if "viscosity" not in unknown_oil.missing(system):
+        return 1.0
+    near = _pressure(recorded) <= max(NEAR_AMBIENT_MPA * 1e6, float(_pressure(recorded).min()))
+    rows = recorded.take(near)
+    guess = bodies.lubricant(system.lubricant).viscosity(rows["temperature_C"] + 273.15)
+    return unknown_oil.level_of(rows, "viscosity_mPa_s", guess * 1e3)
+
+
+def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibration, ...]:
+    """An unnamed oil is fitted whole: level and slope against temperature, level and slope against pressure."""
+    pressurised = float(np.ptp(_pressure(recorded))) > 0
+    return tuple(
+        c
+        for c in unknown_oil.calibrations(system, recorded["temperature_C"] + 273.15, level=_level(system, recorded))
+        if pressurised or not c.name.startswith("pressure")
+    )
+
+
+def chain(system: config.System, table: Table) -> Chain:
+    """ASTM D341 for temperature (in the inputs), Barus for pressure."""
+    return (("contact_viscosity", under_pressure), ("reading", reading))
+
+
+KIND = Kind(
+    name="viscosity",
+    quantities=("viscosity_mPa_s",),
+    columns=COLUMNS,
+    sections=(),
+    chain=chain,
+    inputs=inputs,
+    extra_calibration=extra_calibration,
+)

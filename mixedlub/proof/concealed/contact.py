@@ -1,0 +1,143 @@
+"""Contact-stage effects: skewed heights, plasticity, micro-EHL, running-in, surface defects."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+
+from mixedlub.proof.concealed.kinds import Concealed, Knob, strength
+from mixedlub.proof.rig import Contact, overlap, summits
+
+HARDNESS = 7e9
+
+
+def _shape_of(skewness: float) -> float:
+    """Shape a of the skew-normal density with a given skewness (|skewness| < 0.995)."""
+    grown = abs(skewness) ** (2 / 3)
+    delta = np.sqrt(0.5 * np.pi * grown / (grown + (0.5 * (4 - np.pi)) ** (2 / 3)))
+    return float(np.copysign(delta / np.sqrt(max(1 - delta**2, 1e-9)), skewness))
+
+
+HEIGHTS = np.linspace(-8.0, 8.0, 1601)
+
+
+@lru_cache(maxsize=4096)
+def _overlap_table(skewness: float) -> np.ndarray:
+    """F_1 of a standardised skew-normal density at HEIGHTS: twice cumulated by the trapezoid from the top."""
+    from scipy.special import ndtr
+
+    shape = _shape_of(skewness)
+    delta = shape / np.sqrt(1 + shape**2)
+    mean, spread = delta * np.sqrt(2 / np.pi), np.sqrt(1 - 2 * delta**2 / np.pi)
+    raw = mean + spread * HEIGHTS
+    density = 2 * spread * np.exp(-0.5 * raw**2) / np.sqrt(2 * np.pi) * ndtr(shape * raw)
+    return _from_the_top(_from_the_top(density))
+
+
+def _from_the_top(values: np.ndarray) -> np.ndarray:
+    """Integral from each height up to the highest."""
+    steps = 0.5 * (HEIGHTS[1] - HEIGHTS[0]) * (values[1:] + values[:-1])
+    return np.append(np.cumsum(steps[::-1])[::-1], 0.0)
+
+
+def skewed_heights(c: Contact, strength: float) -> Contact:
+    """Plateau-like summits: the Gaussian heights become skew-normal with skewness minus the strength."""
+    s = summits(c)
+    t = (c.film - s.offset) / s.spread
+    skewness = -round(float(np.clip(strength, -0.95, 0.95)), 9)
+    change = np.interp(t, HEIGHTS, _overlap_table(skewness) - _overlap_table(0.0))
+    share = np.pi * s.density * s.radius * s.spread * (overlap(t) + change)
+    return replace(c, area=np.clip(share, 0.0, 1.0))
+
+
+def asperity_plasticity(c: Contact, strength: float) -> Contact:
+    """Summits past first yield spread at constant volume (Chang-Etsion-Bogy): F_1(t) + F_1(t + w_c/sigma).
+
+    w_c = (pi K H/(2 E*))^2 R with K = 0.577, H = 7 GPa over the strength: a soft surface yields at once.
+    """
+    if strength <= 0:
+        return c
+    s = summits(c)
+    t = (c.film - s.offset) / s.spread
+    yielding = (np.pi * 0.577 * HARDNESS / strength / c.rig.solid.reduced) ** 2 * s.radius
+    extra = np.pi * s.density * s.radius * s.spread * overlap(t + yielding / s.spread)
+    return replace(c, area=np.clip(c.area + extra, 0.0, 1.0))
+
+
+def micro_ehl(c: Contact, strength: float) -> Contact:
+    """Long waves are pressed flat: amplitude 1/(1 + 0.125 q + 0.04 q^2), q = strength (60 um/b) p0^1.5, GPa.
+
+    Slow rolling flattens more: q falls with the square root of the speed. Slopes keep half of the change in
+    logarithm, curvatures none, since short waves stay.
+    """
+    group = strength * 60e-6 / c.half_width * (c.pressure / 1e9) ** 1.5 / np.sqrt(c.entrainment)
+    amplitude = 1 / (1 + 0.125 * group + 0.04 * group**2)
+    return replace(c, m0=c.m0 * amplitude**2, m2=c.m2 * amplitude)
+
+
+def running_in(c: Contact, strength: float, pace: float) -> Contact:
+    """Heights wear off with the logarithm of time: Rq (1 - 0.2 strength ln(1 + s/pace)/ln(1 + 1/pace)).
+
+    Slopes fall with the square, curvatures with the 2.5th power of the same factor (m2 ~ f^4, m4 ~ f^5).
+    """
+    worn = np.log1p(c.rig.sequence / pace) / np.log1p(1 / pace)
+    left = np.clip(1 - 0.2 * strength * worn, 0.2, None)[:, None]
+    return replace(c, m0=c.m0 * left**2, m2=c.m2 * left**4, m4=c.m4 * left**5)
+
+
+def surface_defects(c: Contact, strength: float) -> Contact:
+    """Raised scratches touch whatever the film: P_B becomes a + (1 - a) P_B with a = 0.01 strength."""
+    always = 0.01 * strength
+    return replace(c, area=always + (1 - always) * c.area)
+
+
+EFFECTS = (
+    Concealed(
+        "skewed_heights",
+        "contact",
+        "contact",
+        skewed_heights,
+        (strength(-0.9, 0.94, (0.5, 0.9)),),
+        "skew-normal heights (Azzalini 1985)",
+        0,
+    ),
+    Concealed(
+        "asperity_plasticity",
+        "contact",
+        "contact",
+        asperity_plasticity,
+        (strength(0.0, 12.0, (0.6, 1.6)),),
+        "Chang, Etsion and Bogy 1987",
+        1,
+    ),
+    Concealed(
+        "micro_ehl",
+        "contact",
+        "surface",
+        micro_ehl,
+        (strength(0.0, 12.0, (0.8, 3.0)),),
+        "amplitude reduction after Hooke and Venner 2000",
+        -1,
+    ),
+    Concealed(
+        "running_in",
+        "contact",
+        "surface",
+        running_in,
+        (strength(0.0, 3.0, (0.6, 1.3)), Knob("pace", 0.02, 1.0, (0.03, 0.3))),
+        "logarithmic wear-in",
+        0,
+    ),
+    Concealed(
+        "surface_defects",
+        "contact",
+        "contact",
+        surface_defects,
+        (strength(0.0, 20.0, (0.8, 2.5)),),
+        "constant raised area",
+        1,
+        rarity=0.6,
+    ),
+)

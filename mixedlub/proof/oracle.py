@@ -1,0 +1,92 @@
+"""The ceiling: what one who knows the generator's own laws makes of the noisy recordings.
+
+No tool can be expected to do better; where the oracle is wrong, the noise has hidden the answer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from mixedlub.proof.baselines import Fitted, recalibrate, write_answer
+from mixedlub.proof.build import chosen, rig_of
+from mixedlub.proof.concealed import NAMED, Concealed
+from mixedlub.proof.deal import COARSE
+from mixedlub.proof.explain import Explained, Target, calibrated, explain
+from mixedlub.proof.rig import readings
+
+PRIOR_NATS = {0: np.log(0.45), 1: np.log(0.30 / len(NAMED)), 2: np.log(0.12 / len(NAMED) ** 2)}
+UNKNOWN_NATS = np.log(0.08)
+LEADERS = 3
+Names = tuple[str, ...]
+
+
+def _evidence(found: Explained, effects: Sequence[Concealed], count: int) -> float:
+    """Log posterior up to a constant: chi-square, half a log reading a knob, prior of the structure."""
+    knobs = sum(len(effect.knobs) for effect in effects)
+    return -0.5 * found.chi_square - 0.5 * knobs * np.log(count) + PRIOR_NATS[len(effects)]
+
+
+def _target(fitted: Fitted) -> Target:
+    case = chosen(fitted.case, fitted.good)
+    rows = fitted.good
+    return Target(rig_of(case, COARSE), fitted.recorded[rows], fitted.sd[rows], case.nominal, case.priors)
+
+
+def _searched(fitted: Fitted) -> tuple[dict[Names, Explained], dict[Names, float]]:
+    """Fits and evidences of none, each single effect, and pairs with the leaders where none of these fits."""
+    target, count = _target(fitted), len(fitted.good)
+    none = explain(target, begin=fitted.z)
+    fits: dict[Names, Explained] = {(): none}
+    for name, effect in NAMED.items():
+        if effect.occurs_on(fitted.rig):
+            fits[(name,)] = explain(target, (effect,), none.calibration)
+    nats = {key: _evidence(fit, [NAMED[name] for name in key], count) for key, fit in fits.items()}
+    enough = count + 2.3 * np.sqrt(2 * count)
+    if min(fit.chi_square for fit in fits.values()) > enough:
+        singles = sorted((key for key in fits if key), key=lambda key: -nats[key])
+        for lead in singles[:LEADERS]:
+            for other in singles:
+                pair = tuple(sorted({*lead, *other}))
+                if len(pair) == 2 and pair not in fits:
+                    effects = tuple(NAMED[name] for name in pair)
+                    begin = np.array([v for name in pair for v in fits[(name,)].knobs[0].values()])
+                    fits[pair] = explain(target, effects, fits[lead].calibration, [begin])
+                    nats[pair] = _evidence(fits[pair], effects, count)
+    return fits, nats
+
+
+def _unknown_nats(count: int) -> float:
+    """Evidence of something outside the laws: nothing left, paid for by a smooth map of 12 numbers."""
+    return -0.5 * count - 0.5 * 12 * np.log(count) + UNKNOWN_NATS
+
+
+def oracle(folder: Path, out: Path) -> None:
+    """Answers a case with the generator's laws; drops the outliers of the best fit and searches again."""
+    fitted = recalibrate(folder)
+    for last in (False, True):
+        fits, nats = _searched(fitted)
+        best = max(nats, key=lambda key: nats[key])
+        found = fits[best]
+        hidden = [NAMED[name].hide(values) for name, values in zip(best, found.knobs)]
+        at = calibrated(fitted.case.nominal, fitted.case.priors, found.calibration)
+        predicted = readings(fitted.rig, at, hidden)
+        left = np.abs(fitted.recorded - predicted[: fitted.seen]) / fitted.sd[: fitted.seen]
+        spoiled = left > 4.5
+        if last or spoiled.mean() > 0.1 or np.array_equal(spoiled, fitted.spoiled):
+            break
+        fitted = replace(fitted, spoiled=spoiled)
+    nats[("unknown",)] = _unknown_nats(len(fitted.good))
+    top = max(nats.values())
+    weights = {key: float(np.exp(value - top)) for key, value in nats.items()}
+    total = sum(weights.values())
+    probabilities = dict.fromkeys(NAMED, 0.0) | {"none": weights.pop(()) / total}
+    for key, weight in weights.items():
+        for name in key:
+            probabilities[name] = probabilities.get(name, 0.0) + weight / total
+    ranked = sorted(nats, key=lambda key: -nats[key])
+    near = [key or ("none",) for key in ranked if nats[key] > top - np.log(10)]
+    write_answer(fitted, out, probabilities, near, predicted, base=readings(fitted.rig, at))

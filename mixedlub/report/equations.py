@@ -1,0 +1,66 @@
+"""Equations as inline SVG: what a docstring says in TeX, readable without script or network."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+from html import escape
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from matplotlib.path import Path
+
+SIZE = 17.0
+
+_SMALL_FRACTION = re.compile(r"\\tfrac(?:(\d)(\d))?")
+
+
+@lru_cache(maxsize=512)
+def equation(tex: str, size: float = SIZE) -> str:
+    r"""A formula as an `svg` element that sits on the text's line; the TeX itself where it cannot be set.
+
+    >>> equation(r"\mu = \tau / p_0")[:11], equation(r"\nosuchcommand")
+    ('<svg class=', '<code>\\nosuchcommand</code>')
+    """
+    from matplotlib.font_manager import FontProperties
+    from matplotlib.textpath import TextPath, TextToPath
+
+    text = f"${_simplified(tex)}$"
+    font = FontProperties(size=size, math_fontfamily="stix")
+    try:
+        width, height, depth = TextToPath().get_text_width_height_descent(text, font, ismath=True)
+        path = TextPath((0, 0), text, size=size, prop=font)
+    except ValueError:
+        return f"<code>{escape(tex)}</code>"
+    pad = 0.06 * size
+    box = f"{-pad:.2f} {-(height - depth) - pad:.2f} {width + 2 * pad:.2f} {height + 2 * pad:.2f}"
+    style = f"width:{width + 2 * pad:.1f}px;height:{height + 2 * pad:.1f}px;vertical-align:{-depth - pad:.1f}px"
+    return (
+        f'<svg class="equation" role="img" aria-label="{escape(tex)}" viewBox="{box}" style="{style}">'
+        f'<path d="{_drawing(path)}"/></svg>'
+    )
+
+
+def _simplified(tex: str) -> str:
+    r"""TeX within what matplotlib sets.
+
+    >>> _simplified(r"\tfrac43 E")
+    '\\frac{4}{3} E'
+    """
+    tex = re.sub(r"\\sqrt\s*(\d)", r"\\sqrt{\1}", tex)
+    tex = _SMALL_FRACTION.sub(lambda m: rf"\frac{{{m[1]}}}{{{m[2]}}}" if m[1] else r"\frac", " ".join(tex.split()))
+    return tex.replace(r"\text{", r"\mathrm{").replace(r"\left", "").replace(r"\right", "").replace(r"\!", "")
+
+
+def _drawing(path: Path) -> str:
+    """SVG path data, y down."""
+    letters = {1: "M", 2: "L", 3: "Q", 4: "C", 79: "Z"}
+    parts = []
+    for vertices, code in path.iter_segments(curves=True, simplify=False):
+        letter = letters[int(code)]
+        if letter == "Z":
+            parts.append(letter)
+            continue
+        numbers = (f"{x:.2f} {-y:.2f}" for x, y in vertices.reshape(-1, 2))
+        parts.append(letter + " ".join(numbers))
+    return "".join(parts)

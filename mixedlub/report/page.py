@@ -1,0 +1,173 @@
+"""The page of a study: one self-contained HTML file, with the figures beside it."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from importlib.metadata import PackageNotFoundError, version
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mixedlub.report.figures import Drawn, figures
+from mixedlub.report.laws import laws_used
+from mixedlub.report.style import as_svg
+from mixedlub.report.surfaces import judgement, not_gaussian, provenance, surface_figures, surface_rows, traced
+from mixedlub.study.results import COLUMNS, DEFINITIONS, Results
+from mixedlub.study.sections import Options
+from mixedlub.study.store import fingerprint
+from mixedlub.study.variants import MEANINGS
+
+MOST_SURFACES = 12
+
+
+def write_page(results: Results, folder: Path, notes: Sequence[str]) -> None:
+    """``index.html`` and ``figures/`` in a folder."""
+    from jinja2 import Environment
+
+    drawings = folder / "figures"
+    drawings.mkdir()
+    study = results.study
+    profiles = traced(study)
+    judged = judgement(profiles)
+    shown = []
+    for drawn in (*surface_figures(study, profiles, judged), *figures(results)):
+        svg = as_svg(drawn.figure)
+        (drawings / f"{drawn.name}.svg").write_text(svg, encoding="utf-8")
+        shown.append({"name": drawn.name, "caption": drawn.caption, "svg": svg})
+    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    template = environment.from_string(files("mixedlub.report").joinpath("template.html").read_text(encoding="utf-8"))
+    said = {"notes": [*notes, *not_gaussian(judged)], "provenance": provenance(study, profiles)}
+    page = template.render(**content(results), **said, figures=shown)
+    (folder / "index.html").write_text(page, encoding="utf-8")
+
+
+def content(results: Results) -> dict[str, Any]:
+    """What the page says from the results alone."""
+    study = results.study
+    file = study.file
+    return {
+        "title": file.title,
+        "description": file.description,
+        "study": study,
+        "file": file,
+        "levels": file.conditions,
+        "findings": findings(results),
+        "roughness_table": roughness_table(results),
+        "loss_table": loss_table(results),
+        "surfaces": surface_rows(study),
+        "pair": study.pair,
+        "oil": oil_rows(results),
+        "sharing": file.gears.load_sharing,
+        "options": option_rows(file.options),
+        "effects": [(e, study.plan.parameters[e.id]) for e in study.effects],
+        "laws": list(laws_used(study.plan.model())),
+        "definitions": [(column, DEFINITIONS[name][1]) for name, (column, _) in COLUMNS.items()],
+        "fingerprint": fingerprint(study.plan),
+        "versions": f"mixedlub {_version()}, NumPy {np.__version__}, Python {sys.version.split()[0]}",
+    }
+
+
+def findings(results: Results) -> list[str]:
+    """The result in a few sentences."""
+    study, levels = results.study, results.study.file.conditions
+    loss, ratio, lam = results["power_loss"], results["area_ratio"], results["film_parameter"]
+    friction = results["mean_friction"]
+
+    def where(place: int) -> str:
+        p, o, t, s = np.unravel_index(place, loss.shape)
+        return (
+            f"{' / '.join(study.pairings[p])} at {levels.torque_Nm[t]:g} Nm, {levels.speed_rpm[s]:g} rpm, "
+            f"oil at {levels.oil_temperature_C[o]:g} °C"
+        )
+
+    hardest = tuple(i - 1 for i in loss.shape[2:])
+    column = loss[:, 0, hardest[0], hardest[1]]
+    best, worst = int(column.argmin()), int(column.argmax())
+    sentences = [
+        f"The largest power loss is {loss.max():.4g} W, of {where(int(loss.argmax()))}; the smallest is "
+        f"{loss.min():.4g} W, of {where(int(loss.argmin()))}.",
+        f"Mean friction lies between {friction.min():.3f} and {friction.max():.3f}, the boundary "
+        f" area ratio between {ratio.min():.2g} and {ratio.max():.2g}, the film parameter between "
+        f"{lam.min():.2g} and {lam.max():.2g}.",
+    ]
+    if best != worst:
+        sentences.append(
+            f"At {levels.torque_Nm[hardest[0]]:g} Nm and {levels.speed_rpm[hardest[1]]:g} rpm, "
+            f"{' / '.join(study.pairings[best])} loses {100 * (1 - column[best] / column[worst]):.0f} % less than "
+            f"{' / '.join(study.pairings[worst])}."
+        )
+    quiet = (ratio < 1e-3).any(axis=(1, 2, 3))
+    if quiet.any() and not quiet.all():
+        names = [" / ".join(study.pairings[i]) for i in np.flatnonzero(quiet)[:6]]
+        more = "" if quiet.sum() <= 6 else f" and {int(quiet.sum()) - 6} more"
+        sentences.append(
+            f"Practically free of asperity contact (area ratio below 0.001) somewhere: {', '.join(names)}{more}."
+        )
+    return sentences
+
+
+def _triangle(results: Results, values: np.ndarray, form: str) -> dict[str, Any] | None:
+    """Values of the pairings as a table of pinion against gear surface; none where it would be too wide."""
+    pinions = list(dict.fromkeys(a for a, _ in results.study.pairings))
+    gears = list(dict.fromkeys(b for _, b in results.study.pairings))
+    if max(len(pinions), len(gears)) > MOST_SURFACES:
+        return None
+    cells = {both: format(v, form) for both, v in zip(results.study.pairings, values)}
+    return {"gears": gears, "rows": [(a, [cells.get((a, b), "") for b in gears]) for a in pinions]}
+
+
+def roughness_table(results: Results) -> dict[str, Any] | None:
+    """Composite roughness of each pairing (um)."""
+    return _triangle(results, results["composite_roughness"][:, 0, 0, 0] * 1e6, ".3f")
+
+
+def loss_table(results: Results) -> dict[str, Any] | None:
+    """Power loss of each pairing at the last torque and speed (W)."""
+    return _triangle(results, results["power_loss"][:, 0, -1, -1], ".1f")
+
+
+def oil_rows(results: Results) -> list[tuple[str, str, str, str]]:
+    """Temperature, viscosity, pressure-viscosity and Eyring stress at the study's oil temperatures."""
+    levels = results.study.file.conditions.oil_temperature_C
+    inputs = results.study.plan.inputs
+    eta, alpha = (np.ravel(inputs[name]) for name in ("viscosity", "pressure_viscosity"))
+    stress = float(inputs["eyring_stress"]) * 1e-6
+    rows = zip(levels, eta, alpha)
+    return [(f"{t:g}", f"{e * 1e3:.3g}", f"{a * 1e9:.3g}", f"{stress:g}") for t, e, a in rows][:MOST_SURFACES]
+
+
+def option_rows(options: Options) -> list[tuple[str, str, str, bool]]:
+    """Option, choice, what it means, whether it is the default."""
+    standard = Options()
+    rows = []
+    for name, chosen in options.model_dump().items():
+        meaning = MEANINGS.get(name, {}).get(chosen, _PLAIN.get(name, ""))
+        shown = (
+            "as the load sharing needs"
+            if chosen is None
+            else f"{chosen:g}"
+            if isinstance(chosen, float)
+            else str(chosen)
+        )
+        rows.append((name, shown, meaning, chosen == getattr(standard, name)))
+    return rows
+
+
+_PLAIN = {
+    "bulk_temperature_rise_K": "by how much the oil at the contact's inlet is warmer than the oil temperature",
+    "path_points": "quadrature points along the path of contact, about",
+    "face_slices": "slices across the face",
+}
+
+
+def _version() -> str:
+    try:
+        return version("mixedlub")
+    except PackageNotFoundError:
+        return "from source"
+
+
+__all__ = ["Drawn", "content", "write_page"]

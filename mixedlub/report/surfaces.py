@@ -1,0 +1,102 @@
+"""What the page says of the surfaces: moments and asperities, and the traces where there are any."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mixedlub.bodies import flank_profile
+from mixedlub.case import noted
+from mixedlub.report.figures import Drawn
+from mixedlub.report.style import styled
+from mixedlub.study.study import Study, located
+from profiles import Profile
+from roughness.mccool import nayak_parameter, summit_density, summit_radius
+
+if TYPE_CHECKING:
+    from roughness import NormalProbability
+
+    Judged = dict[str, NormalProbability]
+
+SHOWN = 8
+
+
+def surface_rows(study: Study) -> list[tuple[str, ...]]:
+    """Name, Rq (um), rms slope, rms curvature (1/mm), Nayak bandwidth, summits per mm2 and their radius (um)."""
+    surfaces = list(study.surfaces.values())[: 4 * SHOWN]
+    m0, m2, m4 = (np.array([getattr(s, name) for s in surfaces]) for name in ("m0", "m2", "m4"))
+    columns = (
+        (np.sqrt(m0) * 1e6, ".3f"),
+        (np.sqrt(m2), ".4f"),
+        (np.sqrt(m4) * 1e-3, ".3g"),
+        (nayak_parameter(m0, m2, m4), ".3g"),
+        (summit_density(m2, m4) * 1e-6, ".0f"),
+        (summit_radius(m4) * 1e6, ".3g"),
+    )
+    cells = [[format(value, form) for value in values] for values, form in columns]
+    return [(s.name, *row) for s, row in zip(surfaces, zip(*cells, strict=True), strict=True)]
+
+
+def traced(study: Study) -> dict[str, Profile]:
+    """The filtered profiles of the surfaces that come from traces, at most a figure full."""
+    sections = {name: located(name, study.file.surfaces[name]) for name in study.surfaces}
+    named = [name for name, section in sections.items() if section.profile is not None][:SHOWN]
+    with noted([]):
+        profiles = {name: flank_profile(name, sections[name], study.folder.resolve()) for name in named}
+    return {name: replace(profile, name=name) for name, profile in profiles.items()}
+
+
+def surface_figures(study: Study, profiles: Mapping[str, Profile], judged: Judged) -> Iterator[Drawn]:
+    """Traces and normal probability plots of the surfaces that come from traces."""
+    if not profiles:
+        return
+    from roughness.plots import probability_figure, trace_figure
+
+    first = "" if len(profiles) == len(study.surfaces) else f" (the first {len(profiles)} of {len(study.surfaces)})"
+    with styled():
+        yield Drawn(
+            "traces",
+            f"Roughness profiles{first}, all to one scale: 1.5 mm from the middle of each.",
+            trace_figure(*profiles.values(), excerpt=1.5e-3),
+        )
+        yield Drawn(
+            "probability",
+            f"Normal probability plots of the profile heights{first}: a Gaussian surface follows the straight line, "
+            "and the band holds 99 of 100 Gaussian profiles of the same autocorrelation.",
+            probability_figure(*profiles.values(), results=list(judged.values())),
+        )
+
+
+def judgement(profiles: Mapping[str, Profile]) -> Judged:
+    """The normal probability plot of each profile, evaluated."""
+    from roughness import normal_probability
+
+    return {name: normal_probability(profile) for name, profile in profiles.items()}
+
+
+def not_gaussian(judged: Judged) -> list[str]:
+    """A sentence on surfaces whose heights are not those the asperity theory is made for."""
+    odd = [
+        f"{name} ({result.verdict.replace('_', ' ')})"
+        for name, result in judged.items()
+        if result.verdict in ("plateau", "not_gaussian")
+    ]
+    if not odd:
+        return []
+    return [f"the asperity theory takes Gaussian heights, which these surfaces do not have: {', '.join(odd)}"]
+
+
+def provenance(study: Study, profiles: Mapping[str, Profile]) -> list[tuple[str, str]]:
+    """Where each surface comes from: its moments as given, or its trace with what was done to it."""
+    rows = []
+    for name in list(study.surfaces)[: 4 * SHOWN]:
+        section = study.file.surfaces[name]
+        if section.profile is None:
+            rows.append((name, "moments as given"))
+        else:
+            steps = "; ".join(profiles[name].steps) if name in profiles else "prepared as the others"
+            rows.append((name, f"{section.profile}: {steps}"))
+    return rows

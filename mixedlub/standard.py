@@ -1,0 +1,108 @@
+"""Two standard rigs, a gear pair and a disc machine, on which the catalogue compares effects."""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mixedlub import config
+from mixedlub.case import Case
+from mixedlub.forward import Forward
+from mixedlub.kinds import kind
+from mixedlub.table import Table
+
+OIL = {
+    "name": "automatic transmission fluid",
+    "temperature_C": (40.0, 100.0),
+    "kinematic_viscosity_mm2_s": (34.0, 7.2),
+    "pressure_viscosity_per_GPa": (16.2, 13.0),
+    "density_15C_kg_m3": 850.0,
+    "density_change_per_K": 6.5e-4,
+    "eyring_stress_MPa": 5.0,
+    "thermal_conductivity_W_mK": 0.14,
+    "specific_heat_J_kgK": 2000.0,
+}
+UNCERTAINTY = {
+    "boundary_friction": 0.012,
+    "viscosity": 0.06,
+    "pressure_viscosity": 0.06,
+    "eyring_stress": 0.15,
+    "roughness": 0.04,
+}
+GEARS = {
+    "teeth": (17, 26),
+    "normal_module_mm": 25.4 / 6.0,
+    "pressure_angle_deg": 22.5,
+    "tip_diameter_mm": (80.5, 118.4),
+    "face_width_mm": 14.0,
+}
+CONTACT = {"radius_mm": (40.0, 40.0), "width_mm": 6.0}
+ROUGHNESS_UM = {"superfinished": 0.15, "ground": 0.37, "coarse": 0.58, "coated": 0.37}
+"""Rq of one surface; slopes and curvatures are the same for all, as rougher flanks are of longer waves."""
+
+CONDITIONS = {
+    "gear_pair": {
+        "load": ("torque_Nm", (50.0, 100.0, 150.0)),
+        "speed": ("speed_rpm", (500.0, 1000.0, 1500.0, 2000.0, 3000.0)),
+        "oil_temperature": ("oil_temperature_C", (50.0, 70.0, 90.0)),
+        "surfaces": ("pinion_surface", tuple(ROUGHNESS_UM)),
+    },
+    "disc": {
+        "load": ("load_N", (400.0, 1000.0, 2200.0)),
+        "speed": ("entrainment_speed_m_s", (1.0, 2.5, 6.0, 12.0)),
+        "slide_roll_ratio": ("slide_roll_ratio", (0.05, 0.2, 0.6)),
+        "oil_temperature": ("oil_temperature_C", (50.0, 70.0, 90.0)),
+        "surfaces": ("surface_1", tuple(ROUGHNESS_UM)),
+    },
+}
+"""Of each kind, what is varied: its column and the levels, all combined."""
+
+_PARTNER = {"pinion_surface": "gear_surface", "surface_1": "surface_2"}
+
+
+def table(name: str, **fixed: Any) -> Table:
+    """Every combination of the levels, in an order that hides them; ``fixed`` narrows a condition to given levels."""
+    conditions = CONDITIONS[name]
+    levels = [fixed.get(c, values) for c, (_, values) in conditions.items()]
+    rows = list(product(*levels))
+    columns = {column: np.array(cells) for (column, _), cells in zip(conditions.values(), zip(*rows), strict=True)}
+    for first, second in _PARTNER.items():
+        if first in columns:
+            columns[second] = columns[first]
+    order = np.random.default_rng(0).permutation(len(rows))
+    columns["run"] = np.arange(1, len(rows) + 1)
+    columns["sequence"] = order / max(len(rows) - 1, 1)
+    return Table(columns, f"standard {name}")
+
+
+@cache
+def case(name: str) -> Case:
+    """The standard rig of a kind: ``gear_pair`` (17/26 teeth, 91 mm centres, 16 kW) or ``disc`` (two 80 mm discs)."""
+    quantity = {"gear_pair": "power_loss_W", "disc": "friction_coefficient"}[name]
+    absolute = {"gear_pair": 0.3, "disc": 2e-4}[name]
+    surfaces = {
+        s: {"m0_um2": rq**2, "m2": 0.0025, "m4_per_um2": 0.0036}
+        | ({"coating": {"thickness_um": 3.0, "thermal_conductivity_W_mK": 2.0}} if s == "coated" else {})
+        for s, rq in ROUGHNESS_UM.items()
+    }
+    system = {
+        "schema": "mixedlub-case/1",
+        "kind": name,
+        **({"gears": GEARS} if name == "gear_pair" else {"contact": CONTACT}),
+        "lubricant": OIL,
+        "surfaces": surfaces,
+        "uncertainty": UNCERTAINTY,
+        "recording": {"quantity": quantity, "noise": {"relative": 0.01, "absolute": absolute}},
+    }
+    parsed = config.parse(config.System, system, f"standard {name}")
+    return Case(f"standard_{name}", Path("."), parsed, kind(name), None, None, ())
+
+
+@cache
+def forward(name: str) -> Forward:
+    """The forward problem of the standard rig over all its conditions."""
+    return Forward(case(name), table(name))

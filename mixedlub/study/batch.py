@@ -1,0 +1,211 @@
+"""The batch engine: a factorial in blocks, each walked in pieces that fit the cache, on threads or a cluster.
+
+Every quantity keeps length one on the axes it does not depend on, so that what no surface can change (film,
+pressure, shear) is computed once for all pairings.
+"""
+
+from __future__ import annotations
+
+import copy
+import ctypes
+import itertools
+import os
+import platform
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from mixedlub.chain import Model, Step
+from mixedlub.laws.contact import asperity_pressure
+from mixedlub.laws.loss import over_path
+from mixedlub.study.study import Plan
+from mixedlub.study.variants import mean_hertz_pressure
+from profiles.errors import InputError
+
+OUTPUTS = ("power_loss", "mean_friction", "area_ratio", "film_thickness", "film_parameter", "composite_roughness")
+CHECKS = ("asperity_load_ratio", "largest_area_ratio")
+
+PIECE_POINTS = 80_000
+PIECE_PAIRINGS = 64
+BLOCK_POINTS = 4_000_000
+
+Block = tuple[slice, slice, slice, slice]
+Inputs = Mapping[str, Any]
+Found = dict[str, np.ndarray]
+
+
+def split(shape: tuple[int, ...], reach: tuple[int, ...]) -> list[Block]:
+    """Ranges that cover a grid, each at most ``reach`` long.
+
+    >>> [tuple((s.start, s.stop) for s in b) for b in split((3, 1, 1, 1), (2, 1, 1, 1))]
+    [((0, 2), (0, 1), (0, 1), (0, 1)), ((2, 3), (0, 1), (0, 1), (0, 1))]
+    """
+    along = ([slice(i, min(i + step, n)) for i in range(0, n, step)] for n, step in zip(shape, reach, strict=True))
+    return [(p, o, t, s) for p, o, t, s in itertools.product(*along)]
+
+
+def reach(shape: tuple[int, ...], points: int, most_points: int, most_pairings: int) -> tuple[int, ...]:
+    """How far a range may go along each axis: pairings first, then speed, torque, oil temperature.
+
+    >>> reach((21, 1, 3, 6), 48, 80_000, 64), reach((1000, 1, 10, 10), 100, 80_000, 64)
+    ((21, 1, 3, 6), (64, 1, 1, 10))
+    """
+    pairings = min(shape[0], most_pairings, max(1, most_points // points))
+    room = max(1, most_points // (points * pairings))
+    found = [pairings, 1, 1, 1]
+    for axis in (3, 2, 1):
+        found[axis] = min(shape[axis], room)
+        room //= shape[axis]
+        if room < 1:
+            break
+    return tuple(found)
+
+
+def blocks(plan: Plan) -> list[Block]:
+    """The units of work: what is saved at once, and all that a killed run has to compute again."""
+    return split(plan.shape, reach(plan.shape, plan.points, BLOCK_POINTS, plan.shape[0]))
+
+
+def compute(plan: Plan, block: Block) -> Found:
+    """Outputs and checks of one block, each of the block's shape; SI."""
+    shape = tuple(s.stop - s.start for s in block)
+    found = {name: np.empty(shape) for name in (*OUTPUTS, *CHECKS)}
+    with np.errstate(all="ignore"):
+        _fill(plan, block, found)
+    return found
+
+
+def _fill(plan: Plan, block: Block, found: Found) -> None:
+    shape = tuple(s.stop - s.start for s in block)
+    common, own = stages(plan.model(), plan.inputs)
+    inputs = _taken(plan.inputs, block)
+    size = reach(shape, plan.points, PIECE_POINTS, PIECE_PAIRINGS)
+    for conditions in split((1, *shape[1:]), (1, *size[1:])):
+        shared = _taken(inputs, (slice(None), *conditions[1:]))
+        shared.update(common(shared, plan.parameters))
+        for start in range(0, shape[0], size[0]):
+            pairings = slice(start, min(start + size[0], shape[0]))
+            piece = _taken(shared, (pairings,))
+            piece.update(own(piece, plan.parameters))
+            for name, values in _reduced(piece).items():
+                found[name][(pairings, *conditions[1:])] = values[..., 0]
+
+
+def stages(model: Model, inputs: Inputs) -> tuple[Model, Model]:
+    """The model in two: steps that no surface enters, and the rest in its order."""
+    varying = {name for name, value in inputs.items() if np.ndim(value) == 5 and np.shape(value)[0] > 1}
+    common: list[Step] = []
+    own: list[Step] = []
+    read: set[str] = set()
+    for step in model.steps:
+        if varying.intersection((*step.reads, *step.outputs)) or read.intersection(step.outputs):
+            own.append(step)
+            varying.update(step.outputs)
+            read.update(step.reads)
+        else:
+            common.append(step)
+    made = {name for step in common for name in step.outputs}
+    return _part(model, common, sorted(made.intersection((*read, *model.want)))), _part(model, own, model.want)
+
+
+def _part(model: Model, steps: Sequence[Step], want: Sequence[str]) -> Model:
+    part = copy.copy(model)
+    part.steps, part.want = tuple(steps), tuple(want)
+    return part
+
+
+def _taken(inputs: Inputs, ranges: Sequence[slice]) -> dict[str, Any]:
+    """The inputs over some ranges of the leading axes; axes of length one stay as they are."""
+
+    def part(value: Any) -> Any:
+        if np.ndim(value) != 5:
+            return value
+        return value[tuple(r if n > 1 else slice(None) for r, n in zip(ranges, value.shape))]
+
+    return {name: part(value) for name, value in inputs.items()}
+
+
+def _reduced(state: Inputs) -> Found:
+    """Results of a piece, the mesh axis shrunk to one; checks are made where the film is thinnest."""
+    film, area, weight = state["film_thickness"], state["area_ratio"], state["mean_weight"]
+    power = state["load_share"] * state["transmitted_force"] * state["sliding_speed"]
+    mean_film = over_path(film, weight)
+    thinnest = np.where(weight > 0, film, np.inf).argmin(axis=-1, keepdims=True)
+
+    def there(value: np.ndarray) -> np.ndarray:
+        return np.take_along_axis(value, thinnest, axis=-1)
+
+    summits = (state["summit_density"], state["summit_radius"], state["summit_sigma"])
+    carried = asperity_pressure(there(state["separation"]), *summits, state["reduced_modulus"])
+    return {
+        "power_loss": state["power_loss"],
+        "mean_friction": state["power_loss"] / over_path(power, state["path_weight"]),
+        "area_ratio": over_path(area, weight),
+        "film_thickness": mean_film,
+        "film_parameter": mean_film / state["composite_roughness"],
+        "composite_roughness": state["composite_roughness"],
+        "asperity_load_ratio": carried / mean_hertz_pressure(there(state["hertz_pressure"])),
+        "largest_area_ratio": there(area),
+    }
+
+
+def run(
+    plan: Plan, todo: Sequence[Block] | None = None, *, scheduler: str | None = None, threads: int | None = None
+) -> Iterator[tuple[Block, Found]]:
+    """Compute blocks, in whatever order they get done.
+
+    On threads of this machine, or on the workers of the Dask scheduler at an address; the block function is
+    the same, and so are its numbers on processors of one kind.
+    """
+    todo = blocks(plan) if todo is None else todo
+    if scheduler is not None:
+        yield from _on_cluster(plan, todo, scheduler)
+        return
+    pin_allocator()
+    threads = threads or len(os.sched_getaffinity(0))
+    if threads == 1 or len(todo) < 2:
+        for block in todo:
+            yield block, compute(plan, block)
+        return
+    queue = iter(todo)
+    with ThreadPoolExecutor(threads) as pool:
+        running = {pool.submit(compute, plan, b): b for b in itertools.islice(queue, 2 * threads)}
+        while running:
+            for done in wait(running, return_when=FIRST_COMPLETED).done:
+                yield running.pop(done), done.result()
+                for block in itertools.islice(queue, 1):
+                    running[pool.submit(compute, plan, block)] = block
+
+
+def _on_cluster(plan: Plan, todo: Sequence[Block], address: str) -> Iterator[tuple[Block, Found]]:
+    try:
+        from distributed import Client, as_completed
+    except ImportError:
+        raise InputError("running on a cluster needs: pip install 'mixedlub[cluster]'", where="--scheduler") from None
+    try:
+        client = Client(address, timeout="10s", set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise InputError(f"no scheduler answers there ({error})", where="--scheduler", value=address) from None
+    with client:
+        shared = client.scatter(plan, broadcast=True)
+        tasks = {client.submit(compute, shared, b, pure=False): b for b in todo}
+        for done in as_completed(tasks, loop=client.loop):
+            yield tasks.pop(done), done.result()
+            done.release()
+
+
+@cache
+def pin_allocator() -> bool:
+    """Tell glibc to keep the pages of freed arrays; two to four times faster, and a process-wide setting.
+
+    Without it every temporary is given back to the system and taken again page by page. Set
+    MIXEDLUB_PIN_ALLOCATOR=0 to leave the allocator alone. Returns whether it was set.
+    """
+    if os.environ.get("MIXEDLUB_PIN_ALLOCATOR") == "0" or platform.libc_ver()[0] != "glibc":
+        return False
+    libc = ctypes.CDLL(None)
+    trim_threshold, top_pad, mmap_threshold, size = -1, -2, -3, 1 << 28
+    return all(libc.mallopt(option, size) == 1 for option in (trim_threshold, top_pad, mmap_threshold))

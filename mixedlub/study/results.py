@@ -1,0 +1,167 @@
+"""The result of a study: arrays labelled by pairing, oil temperature, torque and speed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mixedlub.quantities import GLOSSARY
+from mixedlub.study import batch, store
+from mixedlub.study.batch import CHECKS, OUTPUTS
+from mixedlub.study.study import AXES, Study
+from profiles.errors import InputError
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+    import xarray as xr
+
+COLUMNS = {
+    "power_loss": ("power_loss_W", 1.0),
+    "mean_friction": ("mean_friction", 1.0),
+    "area_ratio": ("boundary_area_ratio", 1.0),
+    "film_thickness": ("film_thickness_um", 1e6),
+    "film_parameter": ("film_parameter", 1.0),
+    "composite_roughness": ("composite_roughness_um", 1e6),
+}
+"""Column of each output, and the factor from SI to its unit."""
+
+DEFINITIONS = {
+    "power_loss": ("W", "power lost in the mesh, mean over a mesh cycle"),
+    "mean_friction": ("-", "power loss over the path integral of load times sliding speed"),
+    "area_ratio": ("-", "boundary area ratio, plain mean over the path of contact"),
+    "film_thickness": ("m", "film thickness, plain mean over the path of contact"),
+    "film_parameter": ("-", "mean film thickness over composite roughness"),
+    "composite_roughness": ("m", GLOSSARY["composite_roughness"].meaning),
+    "asperity_load_ratio": ("-", "pressure elastic asperities would carry over mean Hertz pressure, at thinnest film"),
+    "largest_area_ratio": ("-", "boundary area ratio at the thinnest film of the path"),
+}
+"""Unit and meaning of each output."""
+
+_ROWS = 200_000
+
+
+@dataclass(frozen=True, eq=False)
+class Results:
+    """Outputs of a study in SI, each of shape (pairing, oil temperature, torque, speed)."""
+
+    study: Study
+    values: Mapping[str, np.ndarray]
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self.values[name]
+
+    def dataset(self) -> xr.Dataset:
+        """The labelled result, in SI, with units and meanings as attributes."""
+        import xarray as xr
+
+        levels = self.study.file.conditions
+        coordinates: dict[str, Any] = {
+            "pairing": [f"{a} / {b}" for a, b in self.study.pairings],
+            "pinion_surface": ("pairing", [a for a, _ in self.study.pairings]),
+            "gear_surface": ("pairing", [b for _, b in self.study.pairings]),
+            "oil_temperature": ("oil_temperature", list(levels.oil_temperature_C), {"units": "degC"}),
+            "torque": ("torque", list(levels.torque_Nm), {"units": "N m"}),
+            "speed": ("speed", list(levels.speed_rpm), {"units": "rpm"}),
+        }
+        variables = {
+            name: (AXES, values, {"units": DEFINITIONS[name][0], "long_name": DEFINITIONS[name][1]})
+            for name, values in self.values.items()
+        }
+        return xr.Dataset(variables, coordinates, {"title": self.study.file.title})
+
+    def tables(self) -> Iterator[pa.Table]:
+        """The rows as tables of bounded size, pairing by pairing."""
+        import pyarrow as pa
+
+        levels = self.study.file.conditions
+        axes = (levels.oil_temperature_C, levels.torque_Nm, levels.speed_rpm)
+        theta, torque, speed = (grid.ravel() for grid in np.meshgrid(*axes, indexing="ij"))
+        step = max(1, _ROWS // theta.size)
+        for start in range(0, len(self.study.pairings), step):
+            pairings = self.study.pairings[start : start + step]
+            columns: dict[str, Any] = {
+                name: pa.array([both[side] for both in pairings]).take(
+                    pa.array(np.repeat(range(len(pairings)), theta.size))
+                )
+                for side, name in enumerate(("pinion_surface", "gear_surface"))
+            }
+            for name, level in (("torque_Nm", torque), ("speed_rpm", speed), ("oil_temperature_C", theta)):
+                columns[name] = np.tile(level, len(pairings))
+            for name, (column, scale) in COLUMNS.items():
+                columns[column] = self.values[name][start : start + step].ravel() * scale
+            yield pa.table(columns)
+
+    def write(self, csv_path: Path, parquet_path: Path) -> None:
+        """The rows as CSV and Parquet."""
+        import pyarrow.csv as pc
+        import pyarrow.parquet as pq
+
+        plain = not any(mark in name for both in self.study.pairings for name in both for mark in ',"\n\r')
+        quoting = "none" if plain else "needed"
+        options = pc.WriteOptions(quoting_style=quoting, quoting_header="none")
+        csv_writer = parquet_writer = None
+        try:
+            for table in self.tables():
+                csv_writer = csv_writer or pc.CSVWriter(csv_path, table.schema, write_options=options)
+                parquet_writer = parquet_writer or pq.ParquetWriter(parquet_path, table.schema)
+                csv_writer.write_table(table)
+                parquet_writer.write_table(table)
+        finally:
+            for writer in (csv_writer, parquet_writer):
+                if writer is not None:
+                    writer.close()
+
+
+def run_study(
+    study: Study,
+    *,
+    parts: Path | None = None,
+    scheduler: str | None = None,
+    threads: int | None = None,
+    progress: Callable[[int, int], None] = lambda done, of: None,
+) -> Results:
+    """Run a study; with a folder for parts, blocks are saved as they get done and those saved before are kept."""
+    values = {name: np.empty(study.plan.shape) for name in (*OUTPUTS, *CHECKS)}
+    todo = batch.blocks(study.plan)
+    waiting = {store.block_name(b): b for b in todo}
+    total, done = len(todo), 0
+    if total == 1:
+        parts = None
+    if parts is not None:
+        for block, found in store.kept(parts, todo):
+            _fill(values, block, found)
+            del waiting[store.block_name(block)]
+        done = total - len(waiting)
+    progress(done, total)
+    for block, found in batch.run(study.plan, list(waiting.values()), scheduler=scheduler, threads=threads):
+        if parts is not None:
+            store.keep(parts, block, found)
+        _fill(values, block, found)
+        done += 1
+        progress(done, total)
+    results = Results(study, values)
+    _check_finite(results)
+    return results
+
+
+def _check_finite(results: Results) -> None:
+    """Refuse numbers so odd that a law left its domain."""
+    for name in OUTPUTS:
+        wrong = ~np.isfinite(results[name])
+        if wrong.any():
+            p, o, t, s = np.argwhere(wrong)[0]
+            levels = results.study.file.conditions
+            raise InputError(
+                f"no finite {name.replace('_', ' ')}; look for a number far out of range",
+                where=f"{results.study.name}.toml: {' / '.join(results.study.pairings[p])} at "
+                f"{levels.torque_Nm[t]:g} Nm, {levels.speed_rpm[s]:g} rpm, {levels.oil_temperature_C[o]:g} C",
+            )
+
+
+def _fill(values: Mapping[str, np.ndarray], block: batch.Block, found: batch.Found) -> None:
+    for name, part in found.items():
+        values[name][block] = part

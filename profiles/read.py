@@ -1,0 +1,66 @@
+"""Any profile file in, a Profile out: the first reader that recognises the content reads it."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from profiles.errors import InputError
+from profiles.profile import Profile
+from profiles.readers.base import MAX_BYTES, Reader, Source
+from profiles.readers.text import TextReader
+from profiles.units import known_unit, length, metres
+
+# From the most specific content to the least: each reader may claim only what those above it left.
+READERS: tuple[Reader, ...] = (
+    # Text accepts any characters, so it must come last.
+    TextReader(),
+)
+
+
+def read(path: str | os.PathLike[str], *, unit: str | None = None, spacing: float | str | None = None) -> Profile:
+    """The profile in a file, recognised by its content.
+
+    ``unit`` names the unit of plain numbers, as ``"um"`` (both columns) or ``"mm, um"`` (position, height);
+    ``spacing`` the step, in metres or as ``"0.5 um"``, for one column of heights or bad positions. Formats
+    that carry their own units ignore ``unit``.
+    """
+    return read_source(open_source(Path(path), _units(unit), None if spacing is None else length(spacing, "spacing")))
+
+
+def read_source(source: Source) -> Profile:
+    """The profile in a file's bytes, by the first reader that recognises them."""
+    if not source.data.strip(b"\x00 \t\r\n"):
+        raise InputError("the file is empty", where=source.where)
+    for reader in READERS:
+        if reader.magic(source.data):
+            return reader.read(source)
+    formats = "; ".join(reader.format for reader in READERS)
+    raise InputError(f"no known profile format; known are {formats}", where=source.where)
+
+
+def open_source(path: Path, unit: tuple[str, str] | None, spacing: float | None) -> Source:
+    """The bytes of a file, refused when it is missing, a folder or larger than any trace."""
+    where = path.name
+    if not path.exists():
+        raise InputError("no such file", where=str(path))
+    if not path.is_file():
+        raise InputError("not a file", where=str(path))
+    size = path.stat().st_size
+    if size > MAX_BYTES:
+        raise InputError(f"larger than {MAX_BYTES} bytes, the largest file that is read", where=where, value=size)
+    try:
+        return Source(where, path.read_bytes(), unit, spacing)
+    except OSError as error:
+        raise InputError(f"cannot be opened ({error.strerror})", where=str(path)) from None
+
+
+def _units(unit: str | None) -> tuple[str, str] | None:
+    if unit is None:
+        return None
+    words = [word for word in unit.replace(",", " ").split() if word]
+    if not 1 <= len(words) <= 2:
+        raise InputError("one unit, or two for position and height", where="unit", value=unit)
+    for word in words:
+        metres(word, "unit")
+    return str(known_unit(words[0])), str(known_unit(words[-1]))

@@ -1,0 +1,124 @@
+"""What every reader is, and the checks that every reader shares."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import PurePath
+from typing import Protocol
+
+import numpy as np
+
+from profiles.errors import InputError
+from profiles.profile import Profile
+
+MAX_BYTES = 512 * 2**20
+MAX_POINTS = 20_000_000
+
+
+@dataclass(frozen=True)
+class Source:
+    """One file as a reader sees it: its bytes, what messages call it, and what the caller said of it.
+
+    ``unit`` holds the units of position and height the caller named (None: as the file says), ``spacing``
+    the step (m) the caller named.
+    """
+
+    where: str
+    data: bytes
+    unit: tuple[str, str] | None = None
+    spacing: float | None = None
+
+    @property
+    def name(self) -> str:
+        return PurePath(self.where).stem or self.where
+
+
+class Reader(Protocol):
+    """One file format. ``magic`` looks at the content only and is cheap; ``read`` may raise InputError."""
+
+    name: str
+    format: str
+
+    def magic(self, data: bytes) -> bool: ...
+
+    def read(self, source: Source) -> Profile: ...
+
+
+def checked_count(count: int, available: int, where: str) -> int:
+    """A declared number of points, refused before memory is spent when the file cannot hold it."""
+    if not 3 <= count <= MAX_POINTS:
+        raise InputError(f"the number of points must be from 3 to {MAX_POINTS}", where=where, value=count)
+    if count > available:
+        raise InputError(f"the file declares more points than it holds ({available})", where=where, value=count)
+    return count
+
+
+def equal_spacing(positions: np.ndarray, quantum: float, where: str) -> float:
+    """The step of positions that are equally spaced but for the rounding ``quantum`` they were written with.
+
+    A column rounded to 0.1 um still has the step it was measured with: first to last over the count.
+    """
+    steps = np.diff(positions)
+    if not (steps >= 0).all() or positions[-1] <= positions[0]:
+        row = int(np.argmin(steps > 0)) + 1
+        raise InputError("positions must increase", where=f"{where}: point {row + 1}", value=float(positions[row]))
+    step = float((positions[-1] - positions[0]) / steps.size)
+    off = np.abs(positions - (positions[0] + step * np.arange(positions.size)))
+    worst = int(off.argmax())
+    if off[worst] > max(1.01 * quantum, 1e-3 * step) or quantum > 0.75 * step:
+        raise InputError(
+            "positions must be equally spaced (name the step with spacing= if only the column is bad)",
+            where=f"{where}: point {worst + 1}",
+            value=float(positions[worst]),
+        )
+    return step
+
+
+def bridged(heights: np.ndarray, present: np.ndarray, where: str) -> np.ndarray:
+    """Heights with missing points bridged by straight lines; at least half must be there."""
+    if present.all():
+        return heights
+    if 2 * np.count_nonzero(present) < heights.size or np.count_nonzero(present) < 3:
+        raise InputError("more than half of the points are missing", where=where, value=int((~present).sum()))
+    index = np.arange(heights.size)
+    return np.interp(index, index[present], heights[present])
+
+
+def make_profile(
+    source: Source,
+    heights: np.ndarray,
+    spacing: float,
+    origin: dict[str, object],
+    *,
+    present: np.ndarray | None = None,
+    steps: tuple[str, ...] = (),
+    cutoffs: dict[str, float] | None = None,
+) -> Profile:
+    """The profile of a file: heights and spacing in metres, missing points bridged and masked."""
+    if heights.ndim != 1 or heights.size < 3:
+        raise InputError("a profile needs at least three heights in one line", where=source.where, value=heights.shape)
+    if not (math.isfinite(spacing) and 1e-12 < spacing < 1.0):
+        raise InputError("the spacing must lie between 1 pm and 1 m", where=source.where, value=spacing)
+    if present is None:
+        present = np.ones(heights.size, bool)
+    elif not present.all():
+        steps = (*steps, f"{int((~present).sum())} missing points bridged and masked")
+        heights = bridged(heights, present, source.where)
+    bad = ~(np.abs(heights) < 1.0)
+    if bad.any():
+        row = int(bad.argmax())
+        raise InputError(
+            "heights must be finite and below 1 m",
+            where=f"{source.where}: point {row + 1}",
+            value=float(heights[row]),
+        )
+    return Profile(
+        heights,
+        source.spacing or spacing,
+        name=source.name,
+        steps=steps,
+        cutoffs=cutoffs or {},
+        origin={"file": source.where, **origin},
+        valid=present,
+    )

@@ -1,0 +1,153 @@
+"""Columns of numbers in text, as programs and people write them."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import re
+from dataclasses import dataclass
+
+import numpy as np
+
+from profiles.errors import InputError
+from profiles.readers.base import MAX_POINTS
+
+_NUMBER = re.compile(r"[-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d+)?\Z")
+_ABSENT = re.compile(r"[-+]?(?:nan|inf|infinity|n/a|na|null|none|-+|\*+|#n/a|bad)\Z", re.IGNORECASE)
+_SAMPLE = 200
+
+
+@dataclass(frozen=True)
+class Table:
+    """The lines above the numbers, and the columns of numbers; ``first_line`` counts from one."""
+
+    header: tuple[str, ...]
+    columns: np.ndarray
+    delimiter: str | None
+    quantum: float
+    first_line: int
+
+
+def decoded(data: bytes, where: str) -> str:
+    """Text of a file in UTF-8, UTF-16 with its mark, or Latin-1; line ends of every system made one."""
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        try:
+            text = data.decode("utf-16")
+        except UnicodeDecodeError:
+            raise InputError("damaged UTF-16 text", where=where) from None
+    else:
+        try:
+            text = data.decode("utf-8-sig")
+        except UnicodeDecodeError:
+            text = data.decode("latin-1")
+    return text.replace("\r\r\n", "\n").replace("\r\n", "\n").replace("\r", "\n")
+
+
+def split(line: str, delimiter: str | None) -> list[str]:
+    """The cells of a line; empty cells at its end are dropped."""
+    cells = [cell.strip() for cell in line.split(delimiter)]
+    while cells and not cells[-1]:
+        cells.pop()
+    return cells
+
+
+def _style(lines: list[str]) -> tuple[str | None, bool]:
+    """Delimiter and whether the comma is the decimal sign, from the first lines of numbers."""
+    body = "\n".join(lines)
+    if ";" in body:
+        return ";", "," in body
+    if "\t" in body:
+        return "\t", "," in body and "." not in body
+    if "," not in body:
+        return None, False
+    # A comma beside blanks within one line, or alone with no point anywhere, may be the decimal sign.
+    if all(len(line.split()) > 1 and not re.search(r",\s|,\Z", line.strip()) for line in lines):
+        return None, True
+    counts = {line.strip().rstrip(",").count(",") for line in lines}
+    if counts == {1} and "." not in body and not _increasing([line.split(",")[0] for line in lines]):
+        return None, True
+    return ",", False
+
+
+def _increasing(words: list[str]) -> bool:
+    """Whether the words are whole numbers that count upwards: a column of positions, not integer parts."""
+    try:
+        values = [int(word) for word in words]
+    except ValueError:
+        return False
+    return len(values) > 1 and all(low < high for low, high in itertools.pairwise(values))
+
+
+def _is_numbers(line: str) -> bool:
+    cells = [cell for cell in re.split(r"[;\s]+", line) if cell]
+    parts = [part for cell in cells for part in ([cell] if _NUMBER.match(cell) else cell.split(",")) if part]
+    return bool(parts) and all(_NUMBER.match(part) for part in parts)
+
+
+def _starts_numbers(lines: list[str], index: int) -> bool:
+    """Whether the numbers begin here: this line and the next non-empty one are numbers."""
+    following = [line for line in lines[index + 1 : index + 6] if line.strip()]
+    return _is_numbers(lines[index]) and (not following or _is_numbers(following[0]) or _is_absent(following[0]))
+
+
+def _is_absent(line: str) -> bool:
+    cells = [cell for cell in re.split(r"[,;\s]+", line.strip()) if cell]
+    return any(_ABSENT.match(cell) for cell in cells)
+
+
+def table(text: str, where: str) -> Table:
+    """The one block of numbers of a text, with what stands above it."""
+    if "\x00" in text[:4096]:
+        raise InputError("not a text of numbers (it holds binary zeros)", where=where)
+    lines = text.split("\n")
+    while lines and not lines[-1].strip(" \t\x1a\x00"):
+        lines.pop()
+    start = next((i for i in range(min(len(lines), 2000)) if _starts_numbers(lines, i)), None)
+    if start is None:
+        raise InputError("no column of numbers found in the text", where=where)
+    body = lines[start:]
+    if len(body) > MAX_POINTS:
+        raise InputError(f"at most {MAX_POINTS} points can be read", where=where, value=len(body))
+    sample = [line for line in body[:_SAMPLE] if line.strip() and _is_numbers(line)]
+    delimiter, comma = _style(sample)
+    width = len(split(sample[0], delimiter))
+    columns = _parse(body, delimiter, comma, width, where, start + 1)
+    return Table(tuple(lines[:start]), columns, delimiter, _quantum(sample, delimiter), start + 1)
+
+
+def _parse(body: list[str], delimiter: str | None, comma: bool, width: int, where: str, first: int) -> np.ndarray:
+    """All rows at once; only when that fails is the bad line looked for, one by one."""
+    words = [line.rstrip(" \t" + (delimiter or "")) for line in body]
+    if comma:
+        words = [line.replace(",", ".") for line in words]
+    try:
+        columns = np.loadtxt(words, delimiter=delimiter, ndmin=2, comments=None)
+    except ValueError:
+        columns = None
+    if columns is not None and columns.shape[1] == width and np.isfinite(columns).all():
+        return columns.T
+    for number, line in enumerate(words, start=first):
+        if not line.strip():
+            continue
+        cells = split(line, delimiter)
+        for cell in cells:
+            try:
+                finite = math.isfinite(float(cell))
+            except ValueError:
+                raise InputError("not a number", where=f"{where}: line {number}", value=cell) from None
+            if not finite:
+                raise InputError("heights must be finite numbers", where=f"{where}: line {number}", value=cell)
+        if len(cells) != width:
+            raise InputError(f"expected {width} numbers", where=f"{where}: line {number}", value=line.strip())
+    raise InputError("the columns cannot be read as numbers", where=where)
+
+
+def _quantum(sample: list[str], delimiter: str | None) -> float:
+    """The rounding of the first column: one unit of its last written digit, the finest of the sample."""
+    finest = math.inf
+    for line in sample:
+        digits, _, power = split(line, delimiter)[0].replace(",", ".").lower().partition("e")
+        places = len(digits.partition(".")[2])
+        if float(digits or 0) != 0:
+            finest = min(finest, 10.0 ** (max(-300, min(300, int(power or 0))) - places))
+    return finest if math.isfinite(finest) else 0.0

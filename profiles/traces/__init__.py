@@ -1,0 +1,33 @@
+"""The six shipped traces: synthetic, so labelled, with the Ra, Rq and Rz of six finished gear flanks.
+
+Named after their Ra in nanometres, as in table 1 of Hong, Aneshansley and Talbot. They are not the authors'
+measurements, which are not public: the recipes in ``recipes.toml`` say what was put in and why.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from importlib import resources
+
+from profiles.errors import InputError, nearest
+from profiles.profile import Profile
+
+SHIPPED = ("0036", "0122", "0219", "0258", "0302", "0450")
+
+
+def shipped(name: str) -> Profile:
+    """One of the shipped traces, by its name.
+
+    >>> trace = shipped("0258")
+    >>> trace.name, trace.origin["kind"], round(trace.length * 1e3, 3)
+    ('0258', 'synthetic, not a measurement', 4.8)
+    """
+    from profiles.read import read_source
+    from profiles.readers.base import Source
+
+    if name not in SHIPPED:
+        raise InputError(
+            f"no such shipped trace; {nearest(name, SHIPPED)}", where="shipped trace", value=name
+        )
+    data = resources.files("profiles.traces").joinpath(f"{name}.txt").read_bytes()
+    return replace(read_source(Source(f"{name}.txt", data)), name=name)

@@ -1,0 +1,111 @@
+"""Points that are not the surface: spikes, scratches, pits and edges, masked and bridged, never deleted."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from profiles import InputError, Profile
+from roughness.robust import robust_mean_line
+
+
+def mask_outliers(
+    profile: Profile,
+    *,
+    cutoff: float = 0.25e-3,
+    sigmas: float = 5.0,
+    side: str = "both",
+    margin: float | None = None,
+) -> Profile:
+    """Mask what stands further than ``sigmas`` robust sigmas off the robust mean line of a cut-off (m).
+
+    ``side`` is ``peaks`` (spikes, dirt), ``valleys`` (scratches, pits) or ``both``. ``margin`` (m) widens
+    each mask, by default to where the residual has come back within one sigma. Masked stretches are bridged
+    by straight lines; parameters and moments leave them out.
+
+    >>> z = 1e-8 * np.sin(np.arange(2000) * 0.7); z[1000] = 1e-6
+    >>> np.flatnonzero(~mask_outliers(Profile(z, 1e-6), margin=0.0).valid)
+    array([1000])
+    """
+    if side not in ("both", "peaks", "valleys"):
+        raise InputError("must be 'both', 'peaks' or 'valleys'", where="side of the outliers", value=side)
+    mask = np.asarray(profile.valid)
+    mean_line = robust_mean_line(profile.heights, profile.spacing, min(cutoff, profile.length), valid=mask)
+    residual = profile.heights - mean_line
+    residual = residual - np.median(residual[mask])
+    sigma = float(np.median(np.abs(residual[mask]))) / 0.6744897501960817
+    scaled = {"both": np.abs(residual), "peaks": residual, "valleys": -residual}[side]
+    found = scaled > sigmas * sigma
+    if margin is None:
+        found = _grown(found, scaled > sigma)
+    elif margin > 0:
+        reach = round(margin / profile.spacing)
+        found = np.convolve(found, np.ones(2 * reach + 1), "same") > 0.5
+    return masked(profile, found, f"outliers beyond {sigmas:g} sigma masked ({side})")
+
+
+def mask_edges(profile: Profile, *, steepness: float = 8.0, share: float = 0.02) -> Profile:
+    """Mask the chamfers, steps and falling ends of a trace that runs over the edges of a part.
+
+    A window of ``share`` of the length, within the first or last fifth, whose mean slope is more than
+    ``steepness`` sigmas (from the deciles) off the median slope is edge; so is all between it and the end.
+
+    >>> x = np.arange(1000)
+    >>> found = mask_edges(Profile(np.where(x > 900, -1e-6 * (x - 900.0), 1e-8 * np.sin(x)), 1e-6))
+    >>> bool(found.valid[:880].all()), bool(found.valid[905:].any())
+    (True, False)
+    """
+    z = profile.heights
+    if z.size < 50:
+        return profile
+    window = max(int(share * z.size), 3)
+    rise = (z[window:] - z[:-window]) / (window * profile.spacing)
+    fifth = rise.size // 5
+    low, centre, high = np.quantile(rise[fifth:-fifth], (0.1, 0.5, 0.9))
+    steep = np.abs(rise - centre) > steepness * (high - low) / 2.563
+    edge = np.zeros(z.size, bool)
+    left, right = np.flatnonzero(steep[:fifth]), np.flatnonzero(steep[-fifth:])
+    # the last window that is still steep on its far side reaches furthest into the surface
+    if left.size:
+        edge[: left[-1] + window] = True
+    if right.size:
+        edge[rise.size - fifth + right[0] :] = True
+    return masked(profile, edge, "edges masked")
+
+
+def masked(profile: Profile, away: np.ndarray, step: str) -> Profile:
+    """The profile with more points masked, and straight bridges over all that is masked."""
+    valid = np.asarray(profile.valid) & ~away
+    count = int(np.count_nonzero(valid))
+    if count < max(3, 0.2 * valid.size):
+        raise InputError(
+            "masking would leave less than a fifth of the points",
+            where=f"profile {profile.name!r}: points left",
+            value=count,
+        )
+    if not away.any():
+        return profile
+    at = np.arange(valid.size)
+    heights = np.where(valid, profile.heights, np.interp(at, at[valid], profile.heights[valid]))
+    newly = int(np.count_nonzero(away))
+    return profile.after(f"{step}: {newly} points", heights, valid=valid)
+
+
+def without_edges(profile: Profile) -> Profile:
+    """The longest stretch without masked ends: what is left between the edges of a part."""
+    kept = np.flatnonzero(np.asarray(profile.valid))
+    first, last = int(kept[0]), int(kept[-1]) + 1
+    if first == 0 and last == profile.heights.size:
+        return profile
+    return profile.after(
+        f"ends cut, {first} and {profile.heights.size - last} points",
+        profile.heights[first:last],
+        valid=np.asarray(profile.valid)[first:last],
+    )
+
+
+def _grown(seeds: np.ndarray, around: np.ndarray) -> np.ndarray:
+    """Each run of ``around`` that holds a seed."""
+    from scipy.ndimage import label
+
+    runs, _ = label(around | seeds)
+    return (runs > 0) & np.isin(runs, np.unique(runs[seeds]))

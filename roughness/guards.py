@@ -1,0 +1,145 @@
+"""Warnings a profile earns: each says what is wrong, by how much, and what it does to the numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from profiles import Profile
+from roughness.moments import Moments, moments
+from roughness.noise import height_quantum, noise_moments, tip_limited_wavelength
+from roughness.parameters import HeightParameters, section_count
+from roughness.probability import NormalProbability
+
+_HEADER_TOLERANCE = 0.05
+
+
+def profile_warnings(
+    profile: Profile,
+    heights: HeightParameters,
+    found: Moments,
+    gaussian: NormalProbability | None,
+    *,
+    raw: Profile | None = None,
+) -> list[str]:
+    """All warnings of an evaluated profile; ``raw`` is the trace as read, where it is at hand.
+
+    Of what the file said (``origin``) they use ``stated``, a mapping from Ra, Rq, Rz to the values (m) that the
+    instrument printed, and ``tip_radius`` (m).
+    """
+    return [
+        *_band(profile, found),
+        *_lengths(profile, heights),
+        *_resolution(profile, found),
+        *_instrument(profile, found, raw if raw is not None else profile),
+        *_stated(profile, heights),
+        *_shape(gaussian),
+    ]
+
+
+def _band(profile: Profile, found: Moments) -> Iterator[str]:
+    alpha = found.bandwidth
+    if alpha < 1.5:
+        yield (
+            f"bandwidth alpha {alpha:.3g} is below 1.5: no isotropic Gaussian surface has it; the summits' "
+            "sigma and plane offset are those of 1.5"
+        )
+    z = profile.heights - profile.heights.mean()
+    lag_one = float(z[1:] @ z[:-1] / (z @ z))
+    if lag_one < 0.5 or 1.5 <= alpha < 1.6:
+        yield (
+            f"neighbouring heights correlate by {lag_one:.2f} only (alpha {alpha:.3g}; white noise gives 0 "
+            "and 1.5): the trace does not resolve its finest waves, so m2, m4, radius and density are those "
+            "of the sampling"
+        )
+    short = profile.cutoffs.get("short_cutoff")
+    if short is None:
+        yield (
+            "no short cut-off: m2, m4, summit radius and density are set by the sampling interval of "
+            f"{profile.spacing * 1e6:.3g} um, not by the surface"
+        )
+    elif short < 7.99 * profile.spacing:
+        yield (
+            f"{short / profile.spacing:.1f} points a short cut-off of {short * 1e6:.3g} um, fewer than 8: "
+            "m4 by differences comes out low"
+        )
+
+
+def _lengths(profile: Profile, heights: HeightParameters) -> Iterator[str]:
+    cutoff = profile.cutoffs.get("cutoff")
+    if cutoff is None:
+        yield "no cut-off: heights contain waviness and what is left of the form"
+    elif section_count(profile) < 5:
+        yield (
+            f"{section_count(profile)} sampling lengths of {cutoff * 1e3:.3g} mm, fewer than the 5 of ISO "
+            "4288: Rz and the moments scatter more"
+        )
+    mean = float(profile.heights.mean())
+    if abs(mean) > 0.1 * heights.Rq:
+        yield (
+            f"the mean of the heights lies {mean * 1e6:.3g} um off the zero line: form, edges or spikes are "
+            "left in the profile"
+        )
+    masked = 1.0 - float(np.mean(np.asarray(profile.valid)))
+    if masked > 0.05:
+        yield f"{100 * masked:.1f} % of the points are masked"
+
+
+def _resolution(profile: Profile, found: Moments) -> Iterator[str]:
+    other = moments(profile, estimator="spectral")
+    if not 0.7 < found.m4 / other.m4 < 1.4:
+        yield (
+            f"m4 by differences is {found.m4 / other.m4:.2f} of m4 by spectral integration: the finest waves "
+            "are not resolved or not stationary"
+        )
+
+
+def _instrument(profile: Profile, found: Moments, raw: Profile) -> Iterator[str]:
+    quantum = height_quantum(raw)
+    if quantum is not None:
+        added = noise_moments(quantum / np.sqrt(12.0), profile.spacing, profile.cutoffs.get("short_cutoff"))
+        share = added[2] / found.m4
+        if share > 0.05:
+            yield (
+                f"the height step of {quantum * 1e9:.3g} nm accounts for {100 * min(share, 1.0):.0f} % of "
+                "m4: summit radius comes out small and density large"
+            )
+    radius = raw.origin.get("tip_radius")
+    if isinstance(radius, (int, float)) and radius > 0:
+        limit = tip_limited_wavelength(raw, float(radius))
+        short = profile.cutoffs.get("short_cutoff", 0.0)
+        if limit > max(short, 2 * profile.spacing):
+            yield (
+                f"below {limit * 1e6:.3g} um the trace shows the tip of {radius * 1e6:.3g} um radius: a "
+                "short cut-off above that is needed"
+            )
+
+
+def _stated(profile: Profile, heights: HeightParameters) -> Iterator[str]:
+    stated = profile.origin.get("stated")
+    if not isinstance(stated, Mapping):
+        return
+    for name in ("Ra", "Rq", "Rz"):
+        value = stated.get(name)
+        if not isinstance(value, (int, float)) or not value > 0:
+            continue
+        ours = getattr(heights, name)
+        if abs(ours / value - 1.0) > _HEADER_TOLERANCE:
+            yield (
+                f"the file states {name} {value * 1e6:.4g} um, its profile gives {ours * 1e6:.4g} um: header "
+                "and heights do not belong together, or not to this filter"
+            )
+
+
+def _shape(gaussian: NormalProbability | None) -> Iterator[str]:
+    if gaussian is None:
+        yield "too few differing heights for a probability plot"
+        return
+    if gaussian.independent_heights < 30:
+        yield (
+            f"only {gaussian.independent_heights:.0f} independent heights: whether they are Gaussian was "
+            "judged by the shape alone"
+        )
+    if gaussian.verdict in ("plateau", "not_gaussian"):
+        yield f"heights are {gaussian.words}" if gaussian.verdict == "not_gaussian" else gaussian.words

@@ -1,0 +1,238 @@
+"""One profile, evaluated: the row that goes into ``profile.json``."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import asdict, replace
+
+from profiles import InputError, Profile
+from roughness.asperities import Asperities, mccool_asperities
+from roughness.cutoffs import choose_cutoffs, short_cutoff_for
+from roughness.defects import mask_edges, without_edges
+from roughness.elements import element_parameters
+from roughness.guards import profile_warnings
+from roughness.material_ratio import core_parameters
+from roughness.moments import Moments, moments
+from roughness.parameters import HeightParameters, height_parameters
+from roughness.prepare import remove_form, roughness_profile
+from roughness.probability import NormalProbability, normal_probability
+from roughness.spectrum import correlation_length
+from roughness.uncertainty import bootstrap, short_cutoff_band, smoothed_moments
+
+_LENGTHS = ("Ra", "Rq", "Rz", "Rt", "Rp", "Rv", "Rz1max")
+
+
+def evaluation_profile(
+    trace: Profile,
+    *,
+    form: str = "line",
+    cutoff: float | str | None = "auto",
+    short_cutoff: float | str | None = "auto",
+) -> Profile:
+    """The roughness profile of a trace by the usual steps: edges, form, lambda_s, lambda_c, ends.
+
+    Cut-offs in m, None for none, or ``auto``: those the file says it has already passed are kept and not
+    applied again, else ISO 4288 and ISO 3274 choose. A short cut-off of fewer than two points is left out.
+    Half a cut-off is cut off each end where five sampling lengths remain; otherwise the ends are kept by
+    local regression. Edges of the part that the trace ran over are cut and recorded.
+    """
+    filtered = cutoff == "auto" and "cutoff" in trace.cutoffs
+    if filtered and form == "line":
+        profile = trace
+    else:
+        profile = remove_form(trace if filtered else without_edges(mask_edges(trace)), form)
+    limit = trace.cutoffs.get("cutoff") if cutoff == "auto" else _length(cutoff, "cut-off")
+    if limit is None and cutoff == "auto":
+        chosen = choose_cutoffs(profile)
+        if chosen.cutoff <= profile.length:
+            limit, step = chosen.cutoff, f"cut-off {chosen.cutoff * 1e3:g} mm by {chosen.reason}"
+        else:
+            step = f"no cut-off: the trace of {profile.length * 1e3:.3g} mm is shorter than any"
+        profile = replace(profile, steps=(*profile.steps, step))
+    if short_cutoff == "auto":
+        short = None if "short_cutoff" in trace.cutoffs or filtered else _short(limit)
+        if short is not None and short < 2.0 * trace.spacing:
+            step = f"no short cut-off: {short * 1e6:g} um is below two points"
+            profile, short = replace(profile, steps=(*profile.steps, step)), None
+    else:
+        short = _length(short_cutoff, "short cut-off")
+    limit = None if filtered else limit
+    cut = 0.5 if limit is not None and profile.length >= 5.999 * limit else 0.0
+    return roughness_profile(profile, cutoff=limit, short_cutoff=short, trim_cutoffs=cut)
+
+
+def trace_record(
+    trace: Profile,
+    *,
+    form: str = "line",
+    cutoff: float | str | None = "auto",
+    short_cutoff: float | str | None = "auto",
+    convention: str = "ISO 4287:1997",
+    sections: int | None = None,
+) -> tuple[Profile, dict[str, object]]:
+    """A trace as read, evaluated: its roughness profile and its ``profile.json`` row.
+
+    The row carries the asperities at half, one and two short cut-offs, as far as the trace shows them.
+    """
+    profile = evaluation_profile(trace, form=form, cutoff=cutoff, short_cutoff=short_cutoff)
+    present, limit = trace.cutoffs.get("short_cutoff"), profile.cutoffs.get("short_cutoff")
+    band: tuple[Moments, ...] = ()
+    if limit is not None and present is None:
+        kept = profile.cutoffs.get("cutoff") if "cutoff" not in trace.cutoffs else "auto"
+
+        def prepare(before: Profile, short: float) -> Profile:
+            return evaluation_profile(before, form=form, cutoff=kept, short_cutoff=short)
+
+        band = short_cutoff_band(trace, limit, prepare)
+    return profile, profile_record(profile, convention=convention, sections=sections, raw=trace, band=band)
+
+
+def profile_record(
+    profile: Profile,
+    *,
+    convention: str = "ISO 4287:1997",
+    sections: int | None = None,
+    raw: Profile | None = None,
+    band: Sequence[Moments] = (),
+) -> dict[str, object]:
+    """The ``profile.json`` row of an evaluated profile; units in the names, None for what is undefined.
+
+    ``raw`` is the trace as read: it shows the height step and the tip that filters hide. ``band`` holds the
+    moments at other short cut-offs; without it the profile is smoothed to twice its own. Sections default
+    to those the file states (``origin["sampling_lengths"]``), else to whole cut-offs.
+    """
+    stated = profile.origin.get("sampling_lengths")
+    if sections is None and isinstance(stated, int):
+        sections = stated
+    heights = height_parameters(profile, convention=convention, sections=sections)
+    found = moments(profile)
+    try:
+        gaussian = normal_probability(profile)
+    except InputError:
+        gaussian = None
+    warnings = profile_warnings(profile, heights, found, gaussian, raw=raw)
+    parameters = _parameters(profile, heights, gaussian, sections)
+    if parameters.pop("s_shaped") is False:
+        warnings.append("the material ratio curve is not S-shaped: the Rk family is undefined and left out")
+        parameters |= dict.fromkeys(("Rk_um", "Rpk_um", "Rvk_um", "Mr1_percent", "Mr2_percent"))
+    row = {
+        "file": str(profile.origin.get("file", profile.name)),
+        "steps": list(profile.steps),
+        "parameters": parameters,
+        "moments": _moments(found),
+        "asperities": {**_asperities(mccool_asperities(found)), **_trust(profile, found, sections, band)},
+        "gaussian": _gaussian(gaussian),
+        "warnings": warnings,
+    }
+    return {name: _plain(value) for name, value in row.items()}
+
+
+def _parameters(
+    profile: Profile, heights: HeightParameters, gaussian: NormalProbability | None, sections: int | None
+) -> dict[str, object]:
+    values = asdict(heights)
+    row: dict[str, object] = {f"{n}_um": values[n] * 1e6 for n in _LENGTHS}
+    row |= {"Rsk": heights.Rsk, "Rku": heights.Rku, "Rdq": heights.Rdq}
+    core = core_parameters(profile)
+    row |= {"Rk_um": core.Rk * 1e6, "Rpk_um": core.Rpk * 1e6, "Rvk_um": core.Rvk * 1e6}
+    row |= {"Mr1_percent": core.Mr1, "Mr2_percent": core.Mr2, "s_shaped": core.s_shaped}
+    layers = None if gaussian is None else gaussian.lines
+    if layers is not None and not 0 < layers.plateau_sigma < layers.valley_sigma:
+        layers = None
+    row |= {
+        "Rpq_um": None if layers is None else layers.plateau_sigma * 1e6,
+        "Rvq_um": None if layers is None else layers.valley_sigma * 1e6,
+        "Rmq_percent": None if layers is None else layers.material_percent,
+    }
+    elements = element_parameters(profile, sections=sections)
+    row |= {"RSm_um": elements.RSm * 1e6, "Rc_um": elements.Rc * 1e6}
+    row |= {"correlation_length_um": correlation_length(profile) * 1e6}
+    return row | {"sections": heights.sections, "convention": heights.convention}
+
+
+def _moments(found: Moments) -> dict[str, object]:
+    return {
+        "m0_um2": found.m0 * 1e12,
+        "m2": found.m2,
+        "m4_per_um2": found.m4 * 1e-12,
+        "spacing_um": None if found.spacing is None else found.spacing * 1e6,
+        "short_cutoff_um": None if found.short_cutoff is None else found.short_cutoff * 1e6,
+        "cutoff_mm": None if found.cutoff is None else found.cutoff * 1e3,
+        "estimator": found.estimator,
+    }
+
+
+def _asperities(found: Asperities) -> dict[str, object]:
+    return {
+        "density_per_mm2": found.density * 1e-6,
+        "radius_um": found.radius * 1e6,
+        "sigma_um": found.sigma * 1e6,
+        "plane_offset_um": found.plane_offset * 1e6,
+        "nayak": found.nayak,
+        "model": found.model,
+    }
+
+
+def _trust(profile: Profile, found: Moments, sections: int | None, band: Sequence[Moments]) -> dict[str, object]:
+    """What other short cut-offs, and other sampling lengths, would have made of the asperities."""
+    doubled = 2.0 * (found.short_cutoff or 2.0 * profile.spacing)
+    if not band and doubled < profile.length / 2:
+        band = (found, smoothed_moments(profile, doubled))
+    result: dict[str, object] = {
+        "short_cutoff_band": [{**_moments(m), **_asperities(mccool_asperities(m))} for m in band],
+    }
+    try:
+        interval = bootstrap(profile, sections=sections)
+    except InputError:
+        return result
+    scale = {"density": ("density_per_mm2", 1e-6), "radius": ("radius_um", 1e6)}
+    result["bootstrap90"] = {
+        label: [bound * factor for bound in interval[name]] for name, (label, factor) in scale.items()
+    }
+    return result
+
+
+def _gaussian(found: NormalProbability | None) -> dict[str, object]:
+    if found is None:
+        return {"verdict": "not_gaussian", "from_percent": None, "to_percent": None}
+    row: dict[str, object] = {
+        "verdict": found.verdict,
+        "from_percent": round(found.from_percent, 3),
+        "to_percent": round(found.to_percent, 3),
+        "sigma_um": found.sigma * 1e6,
+        "p_value": found.p_value,
+        "independent_heights": found.independent_heights,
+        "contact_ratio_at_1_2_3_sigma": list(found.contact_ratio),
+        "words": found.words,
+    }
+    if found.plateau is not None:
+        row["plateau"] = {
+            "Rpq_um": found.plateau.plateau_sigma * 1e6,
+            "Rvq_um": found.plateau.valley_sigma * 1e6,
+            "Rmq_percent": found.plateau.material_percent,
+            "knee_um": found.plateau.knee_height * 1e6,
+            "mean_um": found.plateau.plateau_mean * 1e6,
+        }
+    return row
+
+
+def _plain(value: object) -> object:
+    """Without nan and infinity, which JSON does not have."""
+    if isinstance(value, dict):
+        return {k: _plain(v) for k, v in value.items()}
+    if isinstance(value, list):
+        return [_plain(v) for v in value]
+    if isinstance(value, float):
+        return float(value) if math.isfinite(value) else None
+    return value
+
+
+def _length(value: float | str | None, what: str) -> float | None:
+    if value is None or (isinstance(value, (int, float)) and value > 0):
+        return value
+    raise InputError("must be a length above zero, None or 'auto'", where=what, value=value)
+
+
+def _short(cutoff: float | None) -> float | None:
+    return None if cutoff is None else short_cutoff_for(cutoff).short_cutoff

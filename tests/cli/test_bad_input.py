@@ -1,0 +1,98 @@
+"""Whatever the input, a user reads one message, never a traceback."""
+
+import random
+import tempfile
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from mixedlub.cli import main
+from tests.cli.test_commands import STUDY
+
+QUIET = settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+
+
+def refused(capsys, *arguments):
+    status = main(list(arguments))
+    said = capsys.readouterr().err
+    assert "Traceback" not in said
+    assert "mixedlub: unexpected" not in said, said
+    assert status in (0, 2)
+    return status, said
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "named"),
+    [
+        ("torque_Nm = [50, 150]", "torque_Nm = [0, 150]", "torque_Nm"),
+        ("torque_Nm", "torque_lbft", "torque_Nm"),
+        ("normal_module_mm = 4.2333333", "normal_module_mm = -4", "normal_module_mm"),
+        ("teeth = [17, 26]", "teeth = [5, 60]", "interference"),
+        ("teeth", "teet", "teeth"),
+        ("[60.0, 100.0]", "[60.0, 60.0]", "temperature_C"),
+        ("fine = {", "fine = { colour = 1,", "colour"),
+        ("[conditions]", "[condition", "TOML"),
+        ("m0_um2 = 0.02", "m0_um2 = nan", "m0_um2"),
+    ],
+)
+def test_message_names_place_and_value(old, new, named, tmp_path, capsys):
+    path = tmp_path / "trial.toml"
+    path.write_text(STUDY.replace(old, new))
+    status, said = refused(capsys, "study", str(path), "--no-figures", "--out", str(tmp_path / "o"))
+    assert status == 2
+    assert "trial.toml" in said
+    assert named in said
+    assert said.count("\n") == 1
+
+
+@pytest.mark.parametrize("command", ["study", "simulate", "check", "profile"])
+def test_missing_input_is_named(command, tmp_path, capsys):
+    status, said = refused(capsys, command, str(tmp_path / "absent"))
+    assert status == 2
+    assert "absent" in said
+
+
+@QUIET
+@given(st.binary(max_size=400))
+def test_bytes_as_a_study_never_give_a_traceback(capsys, data):
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "any.toml"
+        path.write_bytes(data)
+        assert refused(capsys, "study", str(path), "--no-figures", "--out", str(Path(folder) / "o"))[0] == 2
+
+
+@QUIET
+@given(st.binary(max_size=400))
+def test_bytes_as_a_trace_never_give_a_traceback(capsys, data):
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "any.csv"
+        path.write_bytes(data)
+        refused(capsys, "profile", str(path), "--no-figures", "--out", str(Path(folder) / "o"))
+
+
+VALUES = ["-1", "0", "nan", "inf", "1e300", "1e-300", '"x"', "[]", "[1]", "[1, 2, 3]", "true", "{}", "1979-05-27", "''"]
+
+
+@QUIET
+@given(st.integers(0, 2**32 - 1))
+def test_mangled_study_never_gives_a_traceback(capsys, seed):
+    """One value of a good study replaced by another of odd type or size."""
+    chance = random.Random(seed)
+    lines = STUDY.strip().splitlines()
+    place = chance.choice([i for i, line in enumerate(lines) if "=" in line])
+    head, _, tail = lines[place].partition("=")
+    if tail.strip().startswith("{"):
+        parts = tail.split(",")
+        at = chance.randrange(len(parts))
+        key, _, rest = parts[at].rpartition("=")
+        parts[at] = f"{key}= {chance.choice(VALUES)}{' }' if '}' in rest else ''}"
+        tail = ",".join(parts)
+    else:
+        tail = chance.choice(VALUES)
+    lines[place] = f"{head}= {tail}"
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "mangled.toml"
+        path.write_text("\n".join(lines))
+        refused(capsys, "study", str(path), "--no-figures", "--out", str(Path(folder) / "o"))

@@ -1,0 +1,195 @@
+"""The command line as a user meets it: help, results, exit status."""
+
+import csv
+import json
+import subprocess
+import sys
+
+import pytest
+
+from mixedlub.cli import COMMANDS, main
+
+STUDY = """
+schema = "mixedlub-study/1"
+title = "Trial"
+[gears]
+teeth = [17, 26]
+normal_module_mm = 4.2333333
+pressure_angle_deg = 22.5
+face_width_mm = 14.0
+[lubricant]
+temperature_C = [60.0, 100.0]
+kinematic_viscosity_mm2_s = [18.05, 7.2]
+pressure_viscosity_per_GPa = [14.8, 13.0]
+density_15C_kg_m3 = 850.0
+density_change_per_K = 6.5e-4
+eyring_stress_MPa = 5.0
+thermal_conductivity_W_mK = 0.14
+specific_heat_J_kgK = 2000.0
+[surfaces]
+fine = { m0_um2 = 0.02, m2 = 0.0025, m4_per_um2 = 0.0036 }
+coarse = { m0_um2 = 0.3, m2 = 0.003, m4_per_um2 = 0.004 }
+[conditions]
+torque_Nm = [50, 150]
+speed_rpm = [500, 3000]
+oil_temperature_C = [60]
+"""
+
+
+@pytest.fixture
+def study(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "trial.toml"
+    path.write_text(STUDY)
+    return path
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=lambda module: module.NAME)
+def test_help_shows_an_example(command, capsys):
+    assert main([command.NAME, "--help"]) == 0
+    assert f"mixedlub {command.NAME}" in " ".join(capsys.readouterr().out.split("Example:")[1].split())
+
+
+def test_no_command_is_bad_input(capsys):
+    assert main([]) == 2
+    assert "--help" in capsys.readouterr().err
+
+
+def test_misspelt_command_names_the_nearest(capsys):
+    assert main(["studdy"]) == 2
+    assert "study" in capsys.readouterr().err
+
+
+def test_misspelt_option_is_bad_input(study, capsys):
+    assert main(["study", str(study), "--no-figure"]) == 2
+    assert "--no-figures" in capsys.readouterr().err
+
+
+def test_study_writes_where_it_is_told(study, tmp_path):
+    assert main(["study", str(study), "--no-figures", "--out", "here"]) == 0
+    assert sorted(p.name for p in (tmp_path / "here").iterdir()) == ["results.csv", "results.parquet"]
+
+
+def test_study_writes_under_its_name_by_default(study, tmp_path):
+    assert main(["study", str(study), "--no-figures"]) == 0
+    assert (tmp_path / "out" / "study" / "trial" / "results.csv").is_file()
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["out", "trial.toml"]
+
+
+def test_study_again_replaces_its_results_and_keeps_other_files(study, tmp_path):
+    main(["study", str(study), "--no-figures", "--out", "here"])
+    (tmp_path / "here" / "mine.txt").write_text("kept")
+    study.write_text(STUDY.replace("[50, 150]", "[50]"))
+    assert main(["study", str(study), "--no-figures", "--out", "here"]) == 0
+    with (tmp_path / "here" / "results.csv").open() as file:
+        assert len(list(csv.reader(file))) == 1 + 3 * 2
+    assert (tmp_path / "here" / "mine.txt").read_text() == "kept"
+
+
+def test_failed_run_leaves_earlier_results_alone(study, tmp_path, monkeypatch):
+    main(["study", str(study), "--no-figures", "--out", "here"])
+    before = {p.name: p.read_bytes() for p in (tmp_path / "here").iterdir()}
+    study.write_text(STUDY.replace("[50, 150]", "[50]"))
+
+    def broken(*arguments):
+        raise RuntimeError("no page today")
+
+    monkeypatch.setattr("mixedlub.report.page.write_page", broken)
+    assert main(["study", str(study), "--out", "here"]) == 1
+    (tmp_path / "here" / "mixedlub-error.log").unlink()
+    assert {p.name: p.read_bytes() for p in (tmp_path / "here").iterdir()} == before
+
+
+def test_unexpected_error_is_one_line_and_names_its_log(study, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr("mixedlub.study.run_study", lambda *a, **k: 1 / 0)
+    assert main(["study", str(study), "--no-figures", "--out", "here"]) == 1
+    said = capsys.readouterr().err.strip().splitlines()[-1]
+    assert "ZeroDivisionError" in said
+    assert "Traceback" not in said
+    log = tmp_path / "here" / "mixedlub-error.log"
+    assert str(log.relative_to(tmp_path)) in said
+    assert "Traceback" in log.read_text()
+
+
+def test_unwritable_out_is_bad_input(study, tmp_path, capsys):
+    (tmp_path / "file").write_text("")
+    assert main(["study", str(study), "--no-figures", "--out", "file"]) == 2
+    assert "--out" in capsys.readouterr().err
+
+
+def test_no_scheduler_is_bad_input(study, capsys):
+    pytest.importorskip("distributed")
+    assert main(["study", str(study), "--no-figures", "--out", "here", "--scheduler", "nonsense://nowhere"]) == 2
+    assert "nonsense" in capsys.readouterr().err
+
+
+def test_progress_and_notes_keep_off_stdout(study):
+    run = subprocess.run(
+        [sys.executable, "-m", "mixedlub", "study", str(study), "--no-figures"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert "note:" in run.stderr
+    assert "note:" not in run.stdout
+    assert run.stdout.count("\n") == 3
+
+
+def test_warm_import_needs_no_heavy_package():
+    heavy = "pandas matplotlib scipy xarray pyarrow skimage distributed"
+    code = f"import sys, mixedlub, mixedlub.cli; print([m for m in '{heavy}'.split() if m in sys.modules])"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout.strip() == "[]"
+
+
+def test_profile_writes_its_record(tmp_path, monkeypatch, capsys):
+    import numpy as np
+
+    monkeypatch.chdir(tmp_path)
+    x = np.arange(9000) * 0.5
+    z = np.convolve(np.random.default_rng(1).normal(size=9000), np.ones(20) / 20, "same")
+    np.savetxt("ground.csv", np.column_stack([x, z]), delimiter=",", header="x (um),z (um)", comments="")
+    assert main(["profile", "ground.csv", "--out", "p"]) == 0
+    (row,) = json.loads((tmp_path / "p" / "profile.json").read_text())
+    assert row["file"] == "ground.csv"
+    assert {"Ra_um", "Rq_um", "Rz_um", "Rsk", "Rku"} <= set(row["parameters"])
+    wanted = {"m0_um2", "m2", "m4_per_um2", "spacing_um", "short_cutoff_um", "cutoff_mm"}
+    assert wanted <= set(row["moments"])
+    assert {"density_per_mm2", "radius_um", "sigma_um", "plane_offset_um", "nayak"} <= set(row["asperities"])
+    assert row["gaussian"]["verdict"] in ("gaussian", "gaussian_bulk", "plateau", "not_gaussian")
+    drawn = {p.name for p in (tmp_path / "p" / "figures").iterdir()}
+    assert drawn == {f"ground_{kind}.svg" for kind in ("trace", "probability", "abbott", "spectrum")}
+    assert "Ra" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("case", [f"case_00{i}" for i in range(8)])
+def test_simulate_meets_the_base_values_of_the_practice_cases(case, shared, tmp_path):
+    folder = shared / "cases" / case
+    assert main(["simulate", str(folder), "--out", str(tmp_path)]) == 0
+    rows = json.loads((folder / "truth.json").read_text())["rows"]
+    nominal = dict(zip(rows["run"], rows["nominal"], strict=True))
+    with (tmp_path / "simulation.csv").open() as file:
+        header, *lines = csv.reader(file)
+    assert header[0] == "run"
+    found = {int(run): float(value) for run, value in lines}
+    assert found.keys() == nominal.keys()
+    for run, value in found.items():
+        assert value == pytest.approx(nominal[run], rel=5e-4), run
+
+
+def test_simulate_at_other_conditions(shared, tmp_path):
+    folder = shared / "cases" / "case_000"
+    at = folder / "conditions.csv"
+    assert main(["simulate", str(folder), "--out", str(tmp_path), "--at", str(at)]) == 0
+    with (tmp_path / "simulation.csv").open() as file:
+        found = [row[0] for row in csv.reader(file)]
+    with at.open() as file:
+        assert found == [row[0] for row in csv.reader(file)]
+
+
+@pytest.mark.parametrize("case", [f"case_00{i}" for i in range(8)])
+def test_check_tells_kind_and_tables(case, shared, capsys):
+    assert main(["check", str(shared / "cases" / case)]) == 0
+    said = capsys.readouterr().out
+    assert "recordings.csv" in said
+    assert "Assumed" in said

@@ -1,0 +1,219 @@
+"""What every effect of the catalogue must do; a new file is tested without a line of test code."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from itertools import combinations
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+import pytest
+
+from mixedlub.catalogue import RIGS as STANDARD
+from mixedlub.catalogue import effects_text, fingerprint, lookalikes
+from mixedlub.chain import Model
+from mixedlub.effect import Effect, catalogue
+from mixedlub.quantities import GLOSSARY, dimension
+from profiles.errors import InputError
+from tests.contracts.rigs import EFFECTS, RIGS, acting, apply, cases, moved, rig, states
+
+each = pytest.mark.parametrize("effect", EFFECTS, ids=[e.id for e in EFFECTS])
+each_case = pytest.mark.parametrize(("name", "effect_id"), cases())
+
+PHYSICAL = {
+    "film_thickness": (1e-10, 1e-4),
+    "area_ratio": (0.0, 1.0),
+    "boundary_friction": (0.0, 1.0),
+    "shear_stress": (0.0, 1e9),
+    "contact_viscosity": (1e-4, 1e9),
+    "friction": (0.0, 1.0),
+    "load_share": (0.0, 1.5),
+    "line_load": (0.0, 1e8),
+    "transmitted_force": (0.0, 1e6),
+    "m0": (0.0, 1e-10),
+    "m2": (0.0, 1.0),
+    "m4": (0.0, 1e12),
+    "rolling_force": (0.0, 1e4),
+    "power_loss": (0.0, 1e5),
+}
+"""Bounds that a quantity keeps whatever the parameters; others must only stay finite."""
+
+CONDITIONS = ("load", "speed", "slide_roll_ratio", "oil_temperature", "roughness", "sequence")
+
+
+def positive_loss(name: str, effects: tuple[Effect, ...]) -> None:
+    """With these effects on, readings are finite and the loss (not its measurement) positive wherever it slides."""
+    forward = rig(name)
+    want = "power_loss" if name == "gear_pair" else "tangential_friction"
+    model = Model(forward.chain, tuple(forward.inputs), ("reading", want), effects)
+    found = model(forward.inputs, {e.id: moved(e) for e in effects})
+    assert np.isfinite(found["reading"]).all()
+    slides = forward.inputs["sliding_speed"].max(axis=-1, keepdims=True) > 0
+    assert (found[want] >= 0).all()
+    assert found[want][np.broadcast_to(slides, found[want].shape)].min() > 0
+
+
+@each_case
+def test_null_is_the_base_model_bit_for_bit(name: str, effect_id: str) -> None:
+    effect = catalogue()[effect_id]
+    assert np.array_equal(rig(name).predict(), rig(name).predict(None, {effect_id: effect.nulls}))
+
+
+@each
+@pytest.mark.parametrize("name", RIGS)
+def test_null_leaves_what_it_acts_on_untouched(name: str, effect: Effect) -> None:
+    state = states()[name]
+    after = apply(effect, state, effect.nulls)
+    for quantity in effect.acts_on:
+        assert np.array_equal(*np.broadcast_arrays(after[quantity], state[quantity])), quantity
+
+
+@each_case
+def test_switched_on_it_changes_the_reading(name: str, effect_id: str) -> None:
+    values = moved(catalogue()[effect_id])
+    assert not np.allclose(rig(name).predict(), rig(name).predict(None, {effect_id: values}), rtol=1e-6)
+
+
+@each_case
+def test_alone_and_in_every_pair_the_loss_is_finite_and_positive(name: str, effect_id: str) -> None:
+    effect = catalogue()[effect_id]
+    positive_loss(name, (effect,))
+    for other in acting(name):
+        if other.id > effect_id:
+            positive_loss(name, (effect, other))
+
+
+@pytest.mark.parametrize("name", RIGS)
+def test_all_on_the_loss_is_finite_and_positive(name: str) -> None:
+    positive_loss(name, acting(name))
+
+
+def sharing_a_quantity() -> list[tuple[Effect, Effect]]:
+    return [(a, b) for a, b in combinations(EFFECTS, 2) if set(a.acts_on) & set(b.acts_on)]
+
+
+@pytest.mark.parametrize(("a", "b"), sharing_a_quantity(), ids=lambda e: e.id)
+def test_effects_on_one_quantity_commute_or_are_ordered(a: Effect, b: Effect) -> None:
+    if a.kinds and b.kinds and not set(a.kinds) & set(b.kinds):
+        return
+    ordered = (b.id in a.after) + (a.id in b.after)
+    assert ordered < 2, "each waits for the other"
+    if ordered:
+        return
+    for name in RIGS:
+        state = states()[name]
+        one = apply(b, apply(a, state, moved(a)), moved(b))
+        other = apply(a, apply(b, state, moved(b)), moved(a))
+        for quantity in set(a.acts_on) | set(b.acts_on):
+            np.testing.assert_allclose(one[quantity], other[quantity], rtol=1e-13, err_msg=quantity)
+
+
+@each
+@pytest.mark.parametrize("name", STANDARD)
+def test_declared_fingerprint_is_the_computed_one(name: str, effect: Effect) -> None:
+    computed = fingerprint(effect, name)
+    for condition, sign in effect.fingerprint.items():
+        assert condition in CONDITIONS or condition in GLOSSARY, condition
+        assert sign in ("+", "-", "0"), sign
+        assert computed.get(condition, sign) == sign, f"{condition}: declared {sign}, computed {computed[condition]}"
+
+
+@each
+def test_typical_parameters_keep_the_quantity_physical(effect: Effect) -> None:
+    bounds = [p.typical for p in effect.parameters]
+    corners = np.array(np.meshgrid(*bounds)).reshape(len(bounds), -1).T
+    for name in RIGS:
+        for corner in corners:
+            values = dict(zip((p.name for p in effect.parameters), map(float, corner), strict=True))
+            after = apply(effect, states()[name], values)
+            for quantity in effect.acts_on:
+                found = np.asarray(after[quantity])
+                low, high = PHYSICAL.get(quantity, (-np.inf, np.inf))
+                assert np.isfinite(found).all(), (quantity, values)
+                assert found.min() >= low, (quantity, values)
+                assert found.max() <= high, (quantity, values)
+
+
+@each_case
+def test_smooth_in_its_parameters(name: str, effect_id: str) -> None:
+    """Central differences over two small steps agree."""
+    effect = catalogue()[effect_id]
+
+    def slope(k: int, step: float) -> np.ndarray:
+        low, high = (
+            rig(name).predict(
+                None, {effect_id: effect.values(np.where(np.arange(len(effect.parameters)) == k, z, 0.3))}
+            )
+            for z in (0.3 - step, 0.3 + step)
+        )
+        return (high - low) / (2.0 * step)
+
+    for k in range(len(effect.parameters)):
+        coarse, fine = slope(k, 0.04), slope(k, 0.01)
+        assert np.abs(coarse - fine).max() <= 0.03 * np.abs(fine).max(), effect.parameters[k].name
+
+
+@each_case
+def test_costs_no_more_than_a_few_base_evaluations(name: str, effect_id: str) -> None:
+    forward = rig(name)
+    values = {effect_id: moved(catalogue()[effect_id])}
+
+    def fastest(call: Callable[[], object]) -> float:
+        times = []
+        for _ in range(7):
+            start = perf_counter()
+            call()
+            times.append(perf_counter() - start)
+        return min(times)
+
+    assert fastest(lambda: forward.predict(None, values)) < 5.0 * fastest(forward.predict)
+
+
+@each
+def test_says_what_it_is(effect: Effect) -> None:
+    text = inspect.getdoc(effect.law) or ""
+    assert effect.summary.endswith(".")
+    assert ">>>" in text, "no worked number"
+    assert effect.equation.strip()
+    assert effect.source.strip()
+    assert len(effect.separated_by) > 20
+    assert effect.fingerprint or not any(fingerprint(effect, name) for name in STANDARD)
+    assert any(p.null is not None for p in effect.parameters), "nothing switches it off"
+    for p in effect.parameters:
+        assert p.meaning.strip()
+        dimension(p.unit)
+        assert p.typical[0] < p.typical[1]
+
+
+@each
+def test_one_file_one_effect(effect: Effect) -> None:
+    module = inspect.getmodule(effect.law)
+    assert module is not None
+    assert Path(module.__file__ or "").stem == effect.id
+    assert [e.id for e in EFFECTS if e.law.__module__ == module.__name__] == [effect.id]
+
+
+@each
+def test_page_shows_equation_source_and_separating_test(effect: Effect) -> None:
+    page = " ".join(effects_text(effect.id).split())
+    for part in (effect.summary, effect.equation, effect.source, effect.separated_by):
+        assert " ".join(part.split()) in page
+
+
+def test_table_lists_every_effect() -> None:
+    table = effects_text(None)
+    assert all(e.id in table for e in EFFECTS)
+
+
+def test_unknown_effect_names_the_nearest() -> None:
+    with pytest.raises(InputError, match="windage"):
+        effects_text("windag")
+
+
+@pytest.mark.parametrize("name", STANDARD)
+def test_lookalikes_are_mutual(name: str) -> None:
+    for effect in EFFECTS:
+        for other in lookalikes(effect.id, name):
+            assert effect.id in lookalikes(other, name)

@@ -1,0 +1,228 @@
+"""Effects and their laws against published numbers and against integrals of the physics they shorten."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy import integrate, optimize, stats
+
+from mixedlub import standard
+from mixedlub.catalogue import lookalikes, shown, signatures
+from mixedlub.effect import catalogue
+from mixedlub.effects.asperity_plasticity import asperity_plasticity
+from mixedlub.effects.film_heating import film_heating
+from mixedlub.effects.inlet_shear_heating import inlet_shear_heating
+from mixedlub.effects.inlet_shear_thinning import inlet_shear_thinning
+from mixedlub.effects.rolling_resistance import rolling_resistance
+from mixedlub.effects.skewed_heights import _skewed_area_integral
+from mixedlub.effects.tip_relief import tip_relief
+from mixedlub.laws import drag, heating
+from roughness.integrals import area_integral
+
+PROTOTYPE = {"roughness_lay": {"lay": 1.0, "onset": 0.15, "decay": 1.0}, "micro_ehl": {"texture": 1.0}}
+"""Parameters of the prototype where they are not the middle of the priors: h + 0.15 sigma, all moments alike."""
+
+
+class TestLiterature:
+    """Published numbers, at the tolerance they support."""
+
+    @pytest.mark.parametrize(
+        ("loading", "sliding", "factor"),
+        [
+            (0.1, 0.0, 0.930),
+            (1.0, 0.0, 0.770),
+            (10.0, 0.0, 0.428),
+            (0.1, 0.5, 0.878),
+            (1.0, 0.5, 0.631),
+            (10.0, 0.5, 0.267),
+        ],
+    )
+    def test_inlet_heating_of_gupta(self, loading: float, sliding: float, factor: float) -> None:
+        found = inlet_shear_heating(1.0, 1.0, loading, 1.0, 1.0, sliding, 0.005, 1.0, strength=1.0, sliding=1.0)
+        assert found == pytest.approx(factor, rel=0.03)
+
+    @pytest.mark.parametrize(
+        ("diameter", "width", "teeth", "rpm", "watts"),
+        [(0.1, 0.02, 25, 10_000, 114), (0.2794, 0.0284, 44, 10_000, 5390), (0.288, 0.03, 72, 6685, 1710),
+         (1.16, 0.19, 72, 1000, 6980)],
+    )  # fmt: skip
+    def test_windage_of_diab(self, diameter: float, width: float, teeth: int, rpm: float, watts: float) -> None:
+        found = drag.windage_diab(diameter / 2, rpm * np.pi / 30, width, float(teeth))
+        assert found == pytest.approx(watts, rel=0.05)
+
+    def test_windage_is_above_a_smooth_disc_in_air(self) -> None:
+        """Two faces of a turbulent disc, 0.073 Re^-0.2 rho omega^3 R^5, bound it from below."""
+        omega, radius = 1000.0, 0.14
+        reynolds = drag.AIR_DENSITY * omega * radius**2 / drag.AIR_VISCOSITY
+        disc = 0.073 * reynolds**-0.2 * drag.AIR_DENSITY * omega**3 * radius**5
+        assert drag.windage_diab(radius, omega, 0.028, 44.0) > disc
+
+    @pytest.mark.parametrize(("rpm", "watts"), [(1000, 5.8), (2000, 17), (3000, 33), (5000, 74)])
+    def test_churning_of_changenet_and_velex(self, rpm: float, watts: float) -> None:
+        found = drag.churning_changenet_velex(0.05, rpm * np.pi / 30, 0.02, 4e-3, 25.0, 50e-6 * 850, 850.0)
+        assert found == pytest.approx(watts, rel=0.03)
+
+    def test_palmgren_joins_its_two_ranges(self) -> None:
+        """160e-7 f0 d^3 below nu n of 2000 mm^2/s rpm."""
+        slow = drag.palmgren_idle_torque(1e-6 * 850, 850.0, np.pi / 30, 0.045)
+        assert slow == pytest.approx(160e-7 * 2 * 45**3 * 1e-3, rel=0.01)
+
+    @pytest.mark.parametrize("speed", [1.0, 2.2, 5.0])
+    def test_rolling_near_goksem_and_hargreaves(self, speed: float) -> None:
+        """4.318 (G U)^0.658 W^0.0126 R/alpha; the two laws meet within 40 % at gear conditions."""
+        radius, modulus, eta, alpha, load = 8.3262e-3, 226.374e9, 0.01489, 14.81e-9, 1.14e-4
+        group = alpha * modulus * eta * speed / (modulus * radius)
+        goksem = 4.318 * group**0.658 * load**0.0126 * radius / alpha
+        found = rolling_resistance(0.0, radius, modulus, eta, speed, strength=1.0, exponent=0.75)
+        assert found == pytest.approx(goksem, rel=0.4)
+
+    @pytest.mark.parametrize(
+        ("effect_id", "torque", "speed"),
+        [
+            ("inlet_shear_heating", 0.8, 2.4),
+            ("film_heating", 1.5, 1.7),
+            ("coating_insulation", 1.35, 1.8),
+            ("rolling_resistance", 0.0, 1.75),
+            ("windage", 0.0, 2.75),
+            ("bearing_drag", 0.6, 1.3),
+            ("elastic_hysteresis", 1.5, 1.0),
+            ("micro_ehl", 1.1, 0.75),
+            ("asperity_plasticity", 1.0, 0.5),
+            ("roughness_lay", 0.8, 0.9),
+            ("boundary_film_temperature", 1.1, 0.4),
+            ("surface_defects", 0.9, 1.0),
+            ("tip_relief", 0.67, 0.96),
+            ("torque_offset", 0.0, 1.0),
+            ("sensor_gain", 1.17, 0.93),
+        ],
+    )
+    def test_powers_of_torque_and_speed_on_the_standard_gear(self, effect_id: str, torque: float, speed: float) -> None:
+        """Exponents of the change of loss that an independent prototype of this gear gave; they are good to 0.3."""
+        forward = standard.forward("gear_pair")
+        values = shown(catalogue()[effect_id]) | PROTOTYPE.get(effect_id, {})
+        change = np.abs(forward.predict(None, {effect_id: values}) - forward.predict())
+        rows = change > 1e-9 * change.max()
+        table = forward.table
+        columns = [np.ones(rows.sum()), np.log(table["torque_Nm"][rows]), np.log(table["speed_rpm"][rows])]
+        temperature = table["oil_temperature_C"][rows] / 10.0
+        rough = [table["pinion_surface"][rows] == s for s in standard.ROUGHNESS_UM]
+        design = np.array([*columns[1:], temperature, *rough], dtype=float).T
+        powers, *_ = np.linalg.lstsq(design, np.log(change[rows]), rcond=None)
+        assert powers[0] == pytest.approx(torque, abs=0.3)
+        assert powers[1] == pytest.approx(speed, abs=0.3)
+
+
+class TestIntegrals:
+    """Closed forms and iterations against the integrals and equations behind them."""
+
+    @pytest.mark.parametrize("skewness", [-2.0, -0.8, -0.05, 0.05, 0.6, 1.5])
+    @pytest.mark.parametrize("gap", [-1.5, 0.0, 1.0, 2.2])
+    def test_skewed_area_integral_is_that_of_lognormal_heights(self, skewness: float, gap: float) -> None:
+        def skew(shape: float) -> float:
+            return float(stats.lognorm(shape).stats(moments="s")) - abs(skewness)
+
+        law = stats.lognorm(optimize.brentq(skew, 1e-4, 2.0, xtol=1e-14))
+        side = np.sign(skewness)
+        mean, sd = law.mean(), law.std()
+
+        def excess(height: float) -> float:
+            return max(side * (height - mean) / sd - gap, 0.0) * law.pdf(height)
+
+        edge = mean + side * gap * sd
+        ends = (max(edge, 0.0), np.inf) if side > 0 else (0.0, max(edge, 0.0))
+        expected = integrate.quad(excess, *ends, limit=200, epsabs=1e-13)[0]
+        assert _skewed_area_integral(np.array(gap), skewness) == pytest.approx(expected, abs=1e-8)
+
+    def test_skewed_area_integral_joins_the_normal_one(self) -> None:
+        gaps = np.linspace(-2.0, 3.0, 11)
+        below, above = (_skewed_area_integral(gaps, s) for s in (-0.99999e-4, -1.00001e-4))
+        np.testing.assert_allclose(below, above, atol=2e-9)
+        np.testing.assert_allclose(_skewed_area_integral(gaps, 0.0), area_integral(gaps), rtol=1e-15)
+
+    def test_plastic_area_is_the_sum_over_asperities(self) -> None:
+        """Each summit has pi R w below onset w_c and pi R w (2 - w_c/w) above."""
+        gap, onset = 0.7, 0.4
+        radius, sigma, density, modulus = 1e-5, 1e-7, 1e10, 226e9
+        hardness = np.sqrt(onset * sigma / radius) * modulus / (np.pi * 0.577)
+
+        def area(height: float) -> float:
+            w = height - gap
+            return (w if w < onset else 2.0 * w - onset) * stats.norm.pdf(height)
+
+        expected = np.pi * density * radius * sigma * integrate.quad(area, gap, 12.0, points=[gap + onset])[0]
+        elastic = np.pi * density * radius * sigma * area_integral(gap)
+        found = asperity_plasticity(elastic, gap, density, radius, sigma, modulus, strength=1.0, hardness=hardness)
+        assert found == pytest.approx(expected, rel=1e-6)
+
+    def test_flash_temperature_integrates_a_moving_source(self) -> None:
+        """Mean over the contact of a semi-elliptic flux that one fast body carries off alone, halved between two."""
+        width, speed, steel = 0.2e-3, 4.0, (46.0, 7800.0, 470.0)
+        effusivity = np.sqrt(np.prod(steel))
+
+        def rise(x: float) -> float:
+            def source(s: float) -> float:
+                return 2.0 * np.sqrt(max(width**2 - (x - s**2) ** 2, 0.0)) / width
+
+            return integrate.quad(source, 0.0, np.sqrt(x + width))[0] / (effusivity * np.sqrt(np.pi * speed))
+
+        mean = integrate.quad(rise, -width, width)[0] / (2.0 * width)
+        per_flux = mean / (np.pi / 4.0) / 2.0
+        assert heating.flash_temperature(1.0, width, speed, 0.0, *steel) == pytest.approx(per_flux, rel=5e-3)
+
+    @pytest.mark.parametrize("given", [0.0, 1.5])
+    def test_softened_stress_meets_its_own_equation(self, given: float) -> None:
+        stress = np.linspace(0.1, 90.0, 40)[:, None] * 1e6
+        per_stress = np.geomspace(1e-10, 3e-6, 30)
+        found = heating.softened_stress(stress, 5e6, given, per_stress)
+        again = 5e6 * np.arcsinh(np.sinh(stress / 5e6) * np.exp(-given - per_stress * found))
+        np.testing.assert_allclose(found, again, rtol=2e-3)
+
+    def test_film_rise_is_that_of_a_sheared_sheet(self) -> None:
+        """Uniform shear between walls at one temperature warms the film by tau v_s h / (12 k) on average."""
+        tau, eyring, slip, film, conductivity = 20e6, 5e6, 3.0, 0.4e-6, 0.14
+        steel = {"solid_conductivity": 46.0, "solid_density": 7800.0, "solid_heat_capacity": 470.0}
+        oil = {"viscosity": 0.0149, "contact_viscosity": 70.0, "temperature_viscosity": 0.026}
+        contact = {"hertz_half_width": 1.5e-4, "hertz_pressure": 1e9, "boundary_friction": 0.1, "area_ratio": 0.0}
+        found = film_heating(
+            tau, eyring, slip, film, oil_conductivity=conductivity, entrainment_speed=5.0, **steel, **oil, **contact,
+            strength=0.5, flash=0.0, pressure=1.0,
+        )  # fmt: skip
+        softening = heating.contact_softening(
+            **{k: oil[k] for k in ("temperature_viscosity", "viscosity", "contact_viscosity")}
+        )
+        rise = -np.log(np.sinh(found / eyring) / np.sinh(tau / eyring)) / softening
+        assert rise == pytest.approx(found * slip * film / (12.0 * conductivity), rel=1e-3)
+
+    def test_thinning_grows_with_stress_and_stops_for_a_newtonian_oil(self) -> None:
+        films = [inlet_shear_thinning(2e-7, 0.015, 2.0, 0.0, index=n, critical_stress=5e3) for n in (1.0, 0.9, 0.7)]
+        assert films[0] == 2e-7
+        assert films[0] > films[1] > films[2] > 0.2 * films[0]
+
+    @pytest.mark.parametrize("relief", [5e-6, 30e-6])
+    def test_relief_hands_load_on_without_losing_any(self, relief: float) -> None:
+        inputs = standard.forward("gear_pair").inputs
+        words = ("load_share", "path_fraction", "contact_ratio", "transmitted_force", "contact_width", "face_width")
+        before = inputs["load_share"]
+        after = tip_relief(*(inputs[w] for w in words), relief=relief, length=0.2)
+        total = ((after - before) * inputs["path_weight"]).sum(axis=-1)
+        moved = (np.abs(after - before) * inputs["path_weight"]).sum(axis=-1)
+        assert (np.abs(total) < 0.01 * moved).all()
+
+
+class TestLookalikes:
+    """What the standard rigs can and cannot tell apart."""
+
+    def test_rolling_churning_and_bearings_look_alike_on_a_gear(self) -> None:
+        assert {"churning", "bearing_drag"} <= set(lookalikes("rolling_resistance", "gear_pair"))
+
+    def test_windage_does_not_look_like_churning(self) -> None:
+        assert "churning" not in lookalikes("windage", "gear_pair")
+
+    def test_calibration_hides_a_gain_and_leaves_starvation(self) -> None:
+        left = {name: kept for name, (_, kept) in signatures("gear_pair").items()}
+        assert left["sensor_gain"] < 0.05 < 0.4 < left["starvation"]
+
+    def test_shown_values_are_never_null(self) -> None:
+        for effect in catalogue().values():
+            values = shown(effect)
+            assert all(values[p.name] != p.null for p in effect.parameters), effect.id

@@ -1,0 +1,70 @@
+"""Small cases of each kind, and plain least squares on them."""
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mixedlub.case import Case, read_case
+from mixedlub.effect import catalogue
+from mixedlub.forward import Forward
+from mixedlub.importers import write_case
+
+BALL = {"geometry": "point", "radius_mm": [9.525, float("inf")], "youngs_modulus_GPa": [207.0, 75.0]}
+BALL["poisson_ratio"] = [0.3, 0.22]
+OIL = {
+    "temperature_C": [40.0, 100.0],
+    "kinematic_viscosity_mm2_s": [67.0, 18.9],
+    "pressure_viscosity_per_GPa": [20.0, 15.0],
+    "density_15C_kg_m3": 870.0,
+    "density_change_per_K": 7e-4,
+    "eyring_stress_MPa": 5.0,
+    "thermal_conductivity_W_mK": 0.14,
+    "specific_heat_J_kgK": 2000.0,
+}
+
+
+@pytest.fixture
+def make(tmp_path: Path) -> Callable[..., Case]:
+    """A case from sections and columns."""
+
+    def build(system: Mapping[str, Any], columns: Mapping[str, Any]) -> Case:
+        return read_case(write_case(tmp_path / "case", system, columns))
+
+    return build
+
+
+def system(kind: str, quantity: str, **sections: Any) -> dict[str, Any]:
+    """Sections of a case of a kind, with the noise of a good rig."""
+    recording = {"quantity": quantity, "noise": {"relative": 0.01}}
+    return {"kind": kind, "recording": recording, **sections}
+
+
+def least_squares(
+    case: Case, ids: Sequence[str], sd: np.ndarray, starts: int = 4
+) -> tuple[float, dict[str, Any], np.ndarray]:
+    """Smallest chi-square with prior of some effects: its value, their parameters, the prediction."""
+    from scipy.optimize import least_squares as solve
+
+    assert case.recordings is not None
+    forward = Forward(case, case.recordings)
+    y = case.recordings[case.quantity]
+    effects = [catalogue()[e] for e in ids]
+    sizes = [len(forward.calibrations), *(len(e.parameters) for e in effects)]
+
+    def predicted(z: np.ndarray) -> tuple[np.ndarray, dict[str, Any]]:
+        parts = np.split(z, np.cumsum(sizes)[:-1])
+        moved = {c.name: c.parameter.prior.value(x) for c, x in zip(forward.calibrations, parts[0], strict=True)}
+        values = {e.id: e.values(part) for e, part in zip(effects, parts[1:], strict=True)}
+        return forward.predict(moved, values), values
+
+    rng = np.random.default_rng(1)
+    tries = [np.zeros(sum(sizes)), *(0.7 * rng.standard_normal((starts - 1, sum(sizes))))]
+    found = [
+        solve(lambda z: np.concatenate([(y - predicted(z)[0]) / sd, z]), start, bounds=(-5.0, 5.0)) for start in tries
+    ]
+    best = min(found, key=lambda f: f.cost)
+    prediction, values = predicted(best.x)
+    return 2.0 * float(best.cost), values, prediction

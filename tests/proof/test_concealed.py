@@ -1,0 +1,173 @@
+"""Every concealed effect: absent at zero strength, finite, of the sign and shape that physics gives it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mixedlub.proof.build import rig_of
+from mixedlub.proof.concealed import MEASUREMENT, NAMED, OUTSIDE
+from mixedlub.proof.concealed.contact import HEIGHTS, _overlap_table
+from mixedlub.proof.concealed.shear import film_heating, flash
+from mixedlub.proof.rig import lubricate, press, readings, run, shear, start, thick, touch
+
+EVERY = {**NAMED, **OUTSIDE}
+ON = [(name, kind) for name, effect in EVERY.items() for kind in effect.kinds]
+GEAR_IDS = {
+    *("inlet_shear_heating", "starvation", "inlet_shear_thinning", "roughness_lay", "film_heating"),
+    *("limiting_shear_stress", "coating_insulation", "skewed_heights", "asperity_plasticity", "micro_ehl"),
+    *("running_in", "surface_defects", "boundary_film_temperature", "boundary_speed_dependence"),
+    *("tribofilm_growth", "dynamic_load", "misalignment", "tip_relief", "rolling_resistance", "windage"),
+    *("churning", "bearing_drag", "seal_drag", "elastic_hysteresis", "pressure_viscosity_law"),
+    *("viscosity_drift", "heat_leak", "sensor_offset", "sensor_gain", "sensor_drift", "torque_offset"),
+}
+
+
+def _change(rigs, name, kind, **knobs):
+    rig, nominal = rigs[kind]
+    effect = EVERY[name]
+    values = {knob.name: 0.5 * sum(knob.typical) for knob in effect.knobs} | knobs
+    return readings(rig, nominal, [effect.hide(values)]) - readings(rig, nominal)
+
+
+def test_every_gear_and_disc_id_has_a_law():
+    assert set(NAMED) == GEAR_IDS | {"contact_creep"}
+
+
+def test_at_least_six_effects_lie_outside_any_catalogue():
+    assert len(OUTSIDE) >= 6
+    assert not set(OUTSIDE) & set(NAMED)
+
+
+@pytest.mark.parametrize(("name", "kind"), ON)
+def test_zero_strength_is_the_base_model(rigs, name, kind):
+    rig, nominal = rigs[kind]
+    change = _change(rigs, name, kind, strength=0.0)
+    np.testing.assert_allclose(change / readings(rig, nominal), 0.0, atol=1e-9)
+
+
+@pytest.mark.parametrize(("name", "kind"), ON)
+def test_usual_strength_changes_some_reading_and_stays_finite(rigs, name, kind):
+    rig, nominal = rigs[kind]
+    change = _change(rigs, name, kind) / readings(rig, nominal)
+    assert np.all(np.isfinite(change))
+    assert np.max(np.abs(change)) > 1e-3
+
+
+@pytest.mark.parametrize(("name", "kind"), [pair for pair in ON if EVERY[pair[0]].sign])
+def test_sign_where_physics_gives_one(rigs, name, kind):
+    rig, nominal = rigs[kind]
+    change = _change(rigs, name, kind) * EVERY[name].sign
+    assert np.min(change / readings(rig, nominal)) > -1e-6
+    assert np.sum(change) > 0
+
+
+@pytest.mark.parametrize("name", ["inlet_shear_heating", "starvation", "inlet_shear_thinning"])
+@pytest.mark.parametrize("kind", ["gear_pair", "disc"])
+def test_thinner_films_raise_the_loss_of_mixed_contacts(rigs, name, kind):
+    assert np.sum(_change(rigs, name, kind)) > 0
+
+
+def test_transverse_lay_lowers_and_longitudinal_lay_raises_the_loss(rigs):
+    assert np.all(_change(rigs, "roughness_lay", "gear_pair", strength=1.0) < 0)
+    assert np.all(_change(rigs, "roughness_lay", "gear_pair", strength=-0.7) > 0)
+
+
+def _power(rigs, name, column):
+    """Least-squares exponent of an extra loss in one condition, the others taken as they come."""
+    rig, _ = rigs["gear_pair"]
+    extra = np.log(np.abs(_change(rigs, name, "gear_pair")))
+    names = ("torque_Nm", "speed_rpm", "oil_temperature_C")
+    table = [np.log(rig.conditions[n].astype(float)) for n in names]
+    slopes = np.linalg.lstsq(np.column_stack([*table, np.ones(len(extra))]), extra, rcond=None)[0]
+    return slopes[names.index(column)]
+
+
+@pytest.mark.parametrize(
+    ("name", "torque", "speed"),
+    [
+        ("windage", (0.0, 0.0), (2.7, 3.0)),
+        ("churning", (0.0, 0.0), (1.3, 2.1)),
+        ("rolling_resistance", (-0.05, 0.1), (1.5, 1.8)),
+        ("elastic_hysteresis", (1.4, 1.6), (0.95, 1.05)),
+        ("bearing_drag", (0.3, 1.3), (0.8, 1.7)),
+        ("torque_offset", (0.0, 0.0), (1.0, 1.0)),
+        ("seal_drag", (0.0, 0.0), (1.0, 1.0)),
+    ],
+)
+def test_exponents_of_extra_losses(rigs, name, torque, speed):
+    assert torque[0] - 1e-6 <= _power(rigs, name, "torque_Nm") <= torque[1] + 1e-6
+    assert speed[0] - 1e-6 <= _power(rigs, name, "speed_rpm") <= speed[1] + 1e-6
+
+
+def test_starvation_sets_in_at_speed_and_leaves_slow_readings_alone(rigs):
+    rig, nominal = rigs["gear_pair"]
+    change = _change(rigs, "starvation", "gear_pair") / readings(rig, nominal)
+    speed = rig.conditions["speed_rpm"]
+    assert change[speed == speed.max()].mean() > 10 * change[speed == speed.min()].mean()
+
+
+def test_heated_film_is_in_balance_with_its_own_heat(rigs):
+    rig, nominal = rigs["disc"]
+    cold = shear(touch(lubricate(press(start(rig, nominal)))))
+    hot = film_heating(cold, 1.0)
+    friction = hot.fluid_friction * (1 - hot.area) + hot.boundary_friction * hot.area
+    rise = flash(hot, friction) + hot.stress * hot.sliding * hot.film / (12 * rig.oil.conductivity)
+    eyring = hot.eyring_stress
+    expected = eyring * np.arcsinh(thick(hot, rise) * hot.sliding / (hot.film * eyring))
+    np.testing.assert_allclose(hot.stress, expected, rtol=1e-9)
+
+
+def test_literature_flash_rise_against_the_standard(rigs):
+    """ISO/TR 13989-1 writes the maximum with 0.62 w^0.75 (E/R)^0.25; the mean is 0.542/0.786 of it."""
+    rig, nominal = rigs["disc"]
+    contact = press(start(rig, nominal))
+    solid = rig.solid
+    effusivity = np.sqrt(solid.conductivity * solid.density * solid.specific_heat)
+    standard = 0.62 * 0.05 * contact.line_load**0.75 * (solid.reduced / rig.radius) ** 0.25
+    standard = standard * contact.sliding / (effusivity * (np.sqrt(rig.speed_1) + np.sqrt(rig.speed_2)))
+    np.testing.assert_allclose(flash(contact, 0.05), 0.542 / 0.786 * standard, rtol=0.01)
+
+
+def test_limiting_stress_is_never_passed(rigs):
+    rig, nominal = rigs["disc"]
+    contact = run(rig, nominal, [NAMED["limiting_shear_stress"].hide({"strength": 1.0})])
+    assert np.all(contact.stress <= 0.045 * 0.25 * np.pi * contact.pressure)
+
+
+@pytest.fixture(scope="module")
+def equal_sharing(gear_case):
+    """The gear rig with equal sharing between the pairs in contact, on a fine path."""
+    return rig_of(replace(gear_case, share=None), 480), gear_case.nominal
+
+
+def test_tip_relief_keeps_the_sum_of_both_pairs(equal_sharing):
+    rig, nominal = equal_sharing
+    contact = run(rig, nominal, [NAMED["tip_relief"].hide({"strength": 0.8})])
+    np.testing.assert_allclose(contact.force.sum(axis=1), rig.share_force.sum(axis=1), rtol=2e-3)
+
+
+def test_tip_relief_of_equal_sharing_lowers_the_loss(equal_sharing):
+    rig, nominal = equal_sharing
+    change = readings(rig, nominal, [NAMED["tip_relief"].hide({"strength": 0.5})]) - readings(rig, nominal)
+    assert np.all(change < 0)
+
+
+def test_skewed_heights_have_the_skewness_asked_for():
+    """Third moment of the density behind the overlap, by differencing the overlap twice."""
+    step = HEIGHTS[1] - HEIGHTS[0]
+    density = np.diff(_overlap_table(-0.7), 2) / step**2
+    height = HEIGHTS[1:-1]
+    assert np.sum(density) * step == pytest.approx(1.0, abs=1e-4)
+    assert np.sum(height * density) * step == pytest.approx(0.0, abs=1e-4)
+    assert np.sum(height**3 * density) * step == pytest.approx(-0.7, abs=2e-3)
+
+
+@pytest.mark.parametrize("name", sorted(MEASUREMENT & set(NAMED)))
+def test_faults_act_on_the_record_alone(rigs, name):
+    rig, nominal = rigs["gear_pair"]
+    effect = NAMED[name]
+    values = {knob.name: knob.typical[1] for knob in effect.knobs}
+    faulty, sound = run(rig, nominal, [effect.hide(values)]), run(rig, nominal)
+    np.testing.assert_array_equal(faulty.friction, sound.friction)
+    assert not np.allclose(faulty.recorded, sound.recorded)

@@ -1,0 +1,96 @@
+"""Each guard speaks when it should, and keeps still on a good trace."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from profiles import Profile
+from roughness import profile_record, roughness_profile, trace_record
+
+
+def warnings(profile, **kw):
+    return profile_record(profile, **kw)["warnings"]
+
+
+def said(found, phrase):
+    return any(phrase in w for w in found)
+
+
+@pytest.fixture
+def good(gaussian_trace):
+    return roughness_profile(gaussian_trace(16_000, short=12e-6), cutoff=0.8e-3, short_cutoff=8e-6)
+
+
+def test_good_trace_earns_none(good):
+    assert warnings(good) == []
+
+
+def test_narrow_band(good):
+    wave = replace(good, heights=1e-6 * np.sin(2 * np.pi * np.arange(16_000) / 200))
+    assert said(warnings(wave), "below 1.5")
+
+
+def test_unresolved_trace(good):
+    noise = replace(good, heights=1e-7 * np.random.default_rng(0).normal(size=16_000))
+    assert said(warnings(noise), "neighbouring heights correlate by 0.0")
+    assert said(warnings(noise), "of m4 by spectral integration")
+
+
+def test_too_few_points_a_short_cutoff(good):
+    assert said(warnings(replace(good, cutoffs={"cutoff": 0.8e-3, "short_cutoff": 2.5e-6})), "5.0 points a short")
+
+
+def test_no_short_cutoff(good):
+    assert said(warnings(replace(good, cutoffs={"cutoff": 0.8e-3})), "no short cut-off")
+
+
+def test_no_cutoff(good):
+    assert said(warnings(replace(good, cutoffs={"short_cutoff": 8e-6})), "no cut-off")
+
+
+def test_too_few_sampling_lengths(good):
+    assert said(warnings(replace(good, cutoffs={"cutoff": 2.5e-3, "short_cutoff": 8e-6})), "3 sampling lengths")
+
+
+def test_quantum(gaussian_trace):
+    p = gaussian_trace(16_000, short=12e-6)
+    coarse = Profile(np.round(p.heights / 5e-8) * 5e-8, p.spacing)
+    assert said(trace_record(coarse, short_cutoff=None)[1]["warnings"], "the height step of 50 nm accounts for")
+
+
+def test_tip(good):
+    steep = replace(good, heights=20 * good.heights, origin={"tip_radius": 5e-6})
+    assert said(warnings(steep), "shows the tip of 5 um")
+
+
+def test_stated_value_that_disagrees(good):
+    found = warnings(replace(good, origin={"stated": {"Ra": 1e-7, "Rq": 0.0, "Rz": "n/a"}}))
+    assert said(found, "the file states Ra 0.1 um")
+    assert not said(found, "states Rq")
+
+
+def test_lifted_profile(good):
+    assert said(warnings(replace(good, heights=good.heights + 1e-7)), "off the zero line")
+
+
+def test_masked_share(good):
+    valid = np.ones(16_000, bool)
+    valid[1000:2000] = False
+    assert said(warnings(replace(good, valid=valid)), "6.2 % of the points are masked")
+
+
+def test_curve_that_is_not_s_shaped(good):
+    wave = replace(good, heights=1e-6 * np.sin(2 * np.pi * np.arange(16_000) / 200))
+    record = profile_record(wave)
+    assert said(record["warnings"], "not S-shaped")
+    assert record["parameters"]["Rk_um"] is None
+
+
+def test_plateau_is_told(plateau_trace):
+    assert said(warnings(plateau_trace()), "plateau of sigma")
+
+
+def test_few_independent_heights(good):
+    slow = 1e-6 * np.sin(2 * np.pi * np.arange(16_000) / 4000)
+    assert said(warnings(replace(good, heights=slow)), "independent heights")

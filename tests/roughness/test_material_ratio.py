@@ -1,0 +1,67 @@
+"""Material ratio curve and Rk family against closed forms."""
+
+import numpy as np
+import pytest
+
+from profiles import InputError, Profile
+from roughness import core_parameters, material_ratio, material_ratio_curve
+from roughness.material_ratio import CORE_METHODS, height_at_ratio, section_height_difference
+
+
+def normal_heights(points=40_000):
+    from scipy.special import ndtri
+
+    z = ndtri((np.arange(points) + 0.5) / points)
+    return Profile(np.random.default_rng(0).permutation(z), 1e-6)
+
+
+def test_ratio_and_height_are_inverse():
+    p = normal_heights()
+    for percent in (5, 20, 50, 93):
+        assert material_ratio(p, height_at_ratio(p, percent)) == pytest.approx(percent, abs=0.01)
+
+
+def test_curve_falls():
+    ratio, heights = material_ratio_curve(normal_heights())
+    assert (np.diff(ratio) > 0).all()
+    assert (np.diff(heights) <= 0).all()
+
+
+def test_section_height_difference_of_normal_heights():
+    assert section_height_difference(normal_heights(), 15.865525, 84.134475) == pytest.approx(2, rel=1e-3)
+
+
+@pytest.mark.parametrize("method", CORE_METHODS)
+def test_core_of_normal_heights(method):
+    """The secant of the middle 40 % of a normal law spans 2.5 x 2 x 0.5244 sigma."""
+    c = core_parameters(normal_heights(), method=method)
+    assert c.Rk == pytest.approx(2.5 * 2 * 0.524401, rel=0.02)
+    assert c.Mr1 == pytest.approx(100 - c.Mr2, abs=1.0)
+    assert c.Rpk == pytest.approx(c.Rvk, rel=0.1)
+    assert c.s_shaped
+
+
+@pytest.mark.parametrize("method", CORE_METHODS)
+def test_reduced_heights_are_triangles_of_equal_area(method, gaussian_trace):
+    c = core_parameters(gaussian_trace(), method=method)
+    assert c.Rpk == pytest.approx(2 * c.A1 / (c.Mr1 / 100))
+    assert c.Rvk == pytest.approx(2 * c.A2 / (1 - c.Mr2 / 100))
+
+
+def test_plateau_has_deep_valleys(plateau_trace):
+    c = core_parameters(plateau_trace())
+    assert c.Rvk > 2 * c.Rpk
+
+
+@pytest.mark.parametrize("method", CORE_METHODS)
+@pytest.mark.parametrize(
+    "wave",
+    [np.sin(2 * np.pi * np.arange(8000) / 400), np.sign(np.sin(2 * np.pi * (np.arange(8000) + 0.5) / 400))],
+)
+def test_sine_and_square_are_flagged(method, wave):
+    assert not core_parameters(Profile(wave, 1e-6), method=method).s_shaped
+
+
+def test_unknown_method_is_refused():
+    with pytest.raises(InputError, match="nearest known: 'class levels'"):
+        core_parameters(normal_heights(100), method="levels")

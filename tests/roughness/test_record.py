@@ -1,0 +1,116 @@
+"""The profile.json row."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from profiles import InputError, Profile
+from roughness import evaluation_profile, profile_record, trace_record
+
+KEYS = {"file", "steps", "parameters", "moments", "asperities", "gaussian", "warnings"}
+
+
+@pytest.fixture
+def record(gaussian_trace):
+    return trace_record(gaussian_trace(16_000, short=12e-6))[1]
+
+
+def test_row_has_the_agreed_names(record):
+    assert set(record) == KEYS
+    assert {"Ra_um", "Rq_um", "Rz_um", "Rsk", "Rku"} <= set(record["parameters"])
+    assert {"m0_um2", "m2", "m4_per_um2", "spacing_um", "short_cutoff_um", "cutoff_mm"} <= set(record["moments"])
+    assert {"density_per_mm2", "radius_um", "sigma_um", "plane_offset_um", "nayak"} <= set(record["asperities"])
+    assert {"verdict", "from_percent", "to_percent"} <= set(record["gaussian"])
+
+
+def test_row_survives_json(record):
+    assert json.loads(json.dumps(record, allow_nan=False)) == record
+
+
+def test_units_are_those_of_the_names(record):
+    m, a = record["moments"], record["asperities"]
+    assert m["cutoff_mm"] == pytest.approx(0.8)
+    assert m["short_cutoff_um"] == pytest.approx(2.5)
+    assert a["nayak"] == pytest.approx(m["m0_um2"] * m["m4_per_um2"] / m["m2"] ** 2)
+    assert a["radius_um"] == pytest.approx(0.375 * np.sqrt(np.pi / m["m4_per_um2"]))
+    assert record["parameters"]["Rq_um"] == pytest.approx(np.sqrt(m["m0_um2"]), rel=0.05)
+
+
+def test_band_is_half_one_and_two_short_cutoffs(record):
+    band = record["asperities"]["short_cutoff_band"]
+    assert [row["short_cutoff_um"] for row in band] == pytest.approx([1.25, 2.5, 5.0])
+    assert band[1]["radius_um"] == pytest.approx(record["asperities"]["radius_um"])
+    assert band[0]["density_per_mm2"] > band[2]["density_per_mm2"]
+
+
+def test_bootstrap_interval_holds_the_value(record):
+    low, high = record["asperities"]["bootstrap90"]["radius_um"]
+    assert low < record["asperities"]["radius_um"] < high
+
+
+def test_steps_tell_the_story(record):
+    told = " | ".join(record["steps"])
+    for word in (
+        "form line",
+        "cut-off 0.8 mm by ISO 4288",
+        "short cut-off 2.5 um",
+        "high-pass",
+        "trimmed 0.4 mm",
+    ):
+        assert word in told
+
+
+def test_filtered_trace_is_not_filtered_again(gaussian_trace):
+    done = replace(gaussian_trace(), cutoffs={"cutoff": 0.8e-3, "short_cutoff": 8e-6})
+    assert evaluation_profile(done) is done
+    assert profile_record(done)["steps"] == []
+
+
+def test_asked_cutoffs_are_used(gaussian_trace):
+    p = evaluation_profile(gaussian_trace(), form="polynomial-2", cutoff=0.25e-3, short_cutoff=8e-6)
+    assert p.cutoffs == {"cutoff": 0.25e-3, "short_cutoff": 8e-6}
+
+
+def test_short_trace_keeps_its_ends(gaussian_trace):
+    assert evaluation_profile(gaussian_trace(3000), cutoff=0.8e-3).heights.size == 3000
+
+
+def test_coarse_trace_says_why_it_has_no_short_cutoff(gaussian_trace):
+    p = evaluation_profile(gaussian_trace(spacing=2e-6))
+    assert any("2.5 um is below two points" in s for s in p.steps)
+
+
+def test_plateau_is_in_the_row(plateau_trace):
+    row = profile_record(plateau_trace())["gaussian"]
+    assert row["verdict"] == "plateau"
+    assert row["plateau"]["Rvq_um"] > 2 * row["plateau"]["Rpq_um"]
+
+
+def test_tiny_trace_has_no_verdict_but_a_row():
+    row = profile_record(Profile(np.sin(np.arange(40.0)) * 1e-6, 1e-6))
+    assert row["gaussian"]["verdict"] == "not_gaussian"
+    assert any("probability plot" in w for w in row["warnings"])
+
+
+@pytest.mark.parametrize(("points", "spacing"), [(128, 2e-6), (3000, 0.0166e-6), (40, 10e-6), (12, 1e-6)])
+def test_short_traces_get_a_row(points, spacing):
+    z = 1e-8 * np.random.default_rng(0).normal(size=points).cumsum()
+    assert set(trace_record(Profile(z, spacing))[1]) == KEYS
+
+
+def test_trace_shorter_than_any_cutoff_says_so():
+    p = evaluation_profile(Profile(1e-9 * np.sin(np.arange(3000.0)), 0.0166e-6))
+    assert any("shorter than any" in s for s in p.steps)
+
+
+@pytest.mark.parametrize("cutoff", [-1.0, "automatic", 0])
+def test_bad_cutoff_is_refused(gaussian_trace, cutoff):
+    with pytest.raises(InputError, match="length above zero, None or 'auto'"):
+        evaluation_profile(gaussian_trace(), cutoff=cutoff)
+
+
+def test_flat_trace_is_refused():
+    with pytest.raises(InputError, match="flat"):
+        trace_record(Profile(np.zeros(5000), 1e-6))

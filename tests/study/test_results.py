@@ -1,0 +1,118 @@
+"""What a study leaves: the columns other programs read, labels, units."""
+
+import csv
+
+import numpy as np
+import pytest
+
+from mixedlub.study import read_study, run_study
+from mixedlub.study.ranges import out_of_range
+from mixedlub.study.results import COLUMNS, DEFINITIONS
+
+HEADER = [
+    "pinion_surface",
+    "gear_surface",
+    "torque_Nm",
+    "speed_rpm",
+    "oil_temperature_C",
+    "power_loss_W",
+    "mean_friction",
+    "boundary_area_ratio",
+    "film_thickness_um",
+    "film_parameter",
+    "composite_roughness_um",
+]
+
+
+@pytest.fixture
+def results(write_study):
+    return run_study(read_study(write_study()))
+
+
+def test_table_has_the_agreed_columns_and_a_row_a_condition(results, tmp_path):
+    results.write(tmp_path / "r.csv", tmp_path / "r.parquet")
+    with (tmp_path / "r.csv").open(newline="") as file:
+        rows = list(csv.reader(file))
+    assert rows[0] == HEADER
+    assert len(rows) == 1 + 6 * 2 * 2 * 3
+    assert len({tuple(row[:5]) for row in rows[1:]}) == len(rows) - 1
+
+
+def test_csv_and_parquet_hold_the_same_numbers(results, tmp_path):
+    import pyarrow.parquet as pq
+
+    results.write(tmp_path / "r.csv", tmp_path / "r.parquet")
+    table = pq.read_table(tmp_path / "r.parquet")
+    assert table.column_names == HEADER
+    with (tmp_path / "r.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    for name in HEADER[2:]:
+        assert np.array_equal([float(row[name]) for row in rows], table[name].to_numpy())
+    for name in HEADER[:2]:
+        assert [row[name] for row in rows] == table[name].to_pylist()
+
+
+def test_surface_names_with_commas_survive_the_csv(write_study, tmp_path):
+    odd = {"ground, fine": {"m0_um2": 0.02, "m2": 0.0025, "m4_per_um2": 0.0036}}
+    run_study(read_study(write_study(surfaces=odd))).write(tmp_path / "r.csv", tmp_path / "r.parquet")
+    with (tmp_path / "r.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert rows[0]["pinion_surface"] == "ground, fine"
+    assert float(rows[0]["torque_Nm"]) == 50
+
+
+def test_rows_and_labelled_result_agree(results, tmp_path):
+    import pyarrow.parquet as pq
+
+    results.write(tmp_path / "r.csv", tmp_path / "r.parquet")
+    row = pq.read_table(tmp_path / "r.parquet").to_pylist()[17]
+    data = results.dataset().set_index(pairing=["pinion_surface", "gear_surface"])
+    one = data.sel(
+        pairing=(row["pinion_surface"], row["gear_surface"]),
+        torque=row["torque_Nm"],
+        speed=row["speed_rpm"],
+        oil_temperature=row["oil_temperature_C"],
+    )
+    for name, (column, scale) in COLUMNS.items():
+        assert float(one[name]) * scale == row[column]
+
+
+def test_labelled_result_carries_units_and_meanings(results):
+    data = results.dataset()
+    assert data["power_loss"].dims == ("pairing", "oil_temperature", "torque", "speed")
+    for name, (unit, meaning) in DEFINITIONS.items():
+        assert data[name].attrs == {"units": unit, "long_name": meaning}
+
+
+def test_mean_friction_is_loss_over_the_integral_of_load_and_sliding(results):
+    inputs = results.study.plan.inputs
+    force = inputs["load_share"] * inputs["transmitted_force"] * inputs["sliding_speed"]
+    integral = (force * inputs["path_weight"]).sum(axis=-1)
+    assert results["mean_friction"] == pytest.approx(results["power_loss"] / integral, rel=1e-12)
+
+
+def test_film_parameter_is_mean_film_over_composite_roughness(results):
+    assert results["film_parameter"] == pytest.approx(results["film_thickness"] / results["composite_roughness"])
+
+
+def test_load_balance_is_flagged(results):
+    texts = " ".join(out_of_range(results))
+    assert "more than the Hertz pressure" in texts
+
+
+def test_thick_films_are_not_flagged(write_study):
+    polished = {"a": {"m0_um2": 4e-4, "m2": 2e-4, "m4_per_um2": 4e-4}}
+    study = read_study(write_study(surfaces=polished, conditions__speed_rpm=[3000], conditions__oil_temperature_C=[40]))
+    assert out_of_range(run_study(study)) == ()
+
+
+def test_low_bandwidth_is_flagged(write_study):
+    low = {"a": {"m0_um2": 0.001, "m2": 0.0025, "m4_per_um2": 0.0036}}
+    assert any("Nayak" in text for text in out_of_range(run_study(read_study(write_study(surfaces=low)))))
+
+
+def test_area_ratio_held_at_one_is_flagged(write_study):
+    wide = {"a": {"m0_um2": 100.0, "m2": 0.0025, "m4_per_um2": 0.9}}
+    found = run_study(read_study(write_study(surfaces=wide)))
+    assert found["area_ratio"].max() == 1.0
+    assert any("held at 1" in text for text in out_of_range(found))

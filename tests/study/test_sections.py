@@ -1,0 +1,86 @@
+"""A study file that is wrong is refused with its place, its value and the rule."""
+
+import pytest
+
+from mixedlub.study import read_study
+from profiles.errors import InputError
+
+WRONG = {
+    "unknown key": ({"gears__teeht": [17, 26]}, "teeth"),
+    "unknown table": ({"condition": {}}, "conditions"),
+    "unit in the name": ({"conditions__torque_kNm": [1]}, "torque_Nm"),
+    "negative module": ({"gears__normal_module_mm": -4.0}, "normal_module_mm"),
+    "zero torque": ({"conditions__torque_Nm": [0, 50]}, "torque_Nm"),
+    "negative speed": ({"conditions__speed_rpm": [-500]}, "speed_rpm"),
+    "speed not a number": ({"conditions__speed_rpm": [float("nan")]}, "speed_rpm"),
+    "no speeds": ({"conditions__speed_rpm": []}, "speed_rpm"),
+    "speed twice": ({"conditions__speed_rpm": [500, 500]}, "speed_rpm"),
+    "spread of wrong keys": ({"conditions__speed_rpm": {"from": 1, "to": 2, "steps": 3}}, "speed_rpm"),
+    "spread of one": ({"conditions__speed_rpm": {"from": 1, "to": 2, "count": 1}}, "speed_rpm"),
+    "temperature out of range": ({"conditions__oil_temperature_C": [900]}, "oil_temperature_C"),
+    "no conditions": ({"conditions": None}, "conditions"),
+    "no surfaces": ({"surfaces": {}}, "surfaces"),
+    "surface in no list": ({"pairings__every": ["fine", "midd"]}, "'mid'"),
+    "half a pairing": ({"pairings__pinion": ["fine"]}, "pinion"),
+    "both ways of pairing": ({"pairings": {"every": ["fine"], "pinion": ["fine"], "gear": ["mid"]}}, "every"),
+    "missing trace": ({"surfaces__fine": {"profile": "nowhere.csv"}}, "nowhere.csv"),
+    "no such shipped trace": ({"surfaces__fine": {"profile": "shipped:0037"}}, "shipped:0037"),
+    "moments and trace": ({"surfaces__fine__profile": "a.csv"}, "both"),
+    "interference": ({"gears__teeth": [6, 60]}, "interference"),
+    "tips that do not meet": ({"gears__centre_distance_mm": 150.0}, "trial.toml"),
+    "unknown option": ({"options__film": "hamrock"}, "film"),
+    "unknown effect": ({"effects__starvatoin": {}}, "starvatoin"),
+    "unknown effect parameter": ({"effects__inlet_shear_heating": {"stength": 1.0}}, "'strength'"),
+    "wrong schema": ({"schema": "mixedlub-case/1"}, "schema"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_wrong_input_is_refused_naming_the_place(name, write_study):
+    changes, named = WRONG[name]
+    with pytest.raises(InputError) as refused:
+        read_study(write_study(**changes))
+    assert "trial.toml" in str(refused.value)
+    assert named in str(refused.value)
+
+
+def test_missing_file_is_named(tmp_path):
+    with pytest.raises(InputError, match=r"none\.toml"):
+        read_study(tmp_path / "none.toml")
+
+
+def test_folder_is_refused(tmp_path):
+    with pytest.raises(InputError, match="folder"):
+        read_study(tmp_path)
+
+
+@pytest.mark.parametrize(
+    "body",
+    ["0 0.1\n1 nan\n2 0.1\n3 0.2\n", "0 0.1\n2 0.3\n1 0.1\n3 0.2\n"],
+    ids=["NaN in a trace", "unsorted x"],
+)
+def test_bad_trace_is_refused(body, write_study, tmp_path):
+    (tmp_path / "bad.csv").write_text("# x um, z um\n" + body)
+    with pytest.raises(InputError, match=r"bad\.csv"):
+        read_study(write_study(surfaces__fine={"profile": "bad.csv"}))
+
+
+def test_spread_is_spelt_out(write_study):
+    study = read_study(write_study(conditions__speed_rpm={"from": 500, "to": 3000, "count": 6}))
+    assert study.file.conditions.speed_rpm == (500, 1000, 1500, 2000, 2500, 3000)
+
+
+def test_every_unordered_pair_is_the_default(write_study):
+    pairings = read_study(write_study()).pairings
+    assert len(pairings) == 6
+    assert len({frozenset(p) for p in pairings}) == 6
+
+
+def test_pinion_list_against_gear_list(write_study):
+    study = read_study(write_study(pairings={"pinion": ["fine"], "gear": ["mid", "coarse"]}))
+    assert study.pairings == (("fine", "mid"), ("fine", "coarse"))
+
+
+def test_idle_surface_is_noted(write_study):
+    study = read_study(write_study(pairings={"every": ["fine"]}))
+    assert any("mid, coarse" in note for note in study.notes)
