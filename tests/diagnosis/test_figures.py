@@ -13,7 +13,8 @@ from mixedlub.diagnosis import charts, figures, maps
 from mixedlub.diagnosis.confusion import confusion
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.empirical import unnamed as describe
-from mixedlub.diagnosis.style import as_svg, equation_svg, inline, look
+from mixedlub.diagnosis.style import inline, look
+from mixedlub.report.style import as_svg
 
 
 def labels(figure: Figure) -> str:
@@ -152,12 +153,5 @@ def test_equal_figures_are_equal_text(offset: Diagnosis) -> None:
 
 
 def test_ids_are_prefixed_where_defined_and_where_used() -> None:
-    svg = '<?xml?><svg><g id="a"/><use xlink:href="#a"/><path clip-path="url(#a)"/></svg>'
+    svg = '<svg><g id="a"/><use xlink:href="#a"/><path clip-path="url(#a)"/></svg>'
     assert inline(svg, "x") == '<svg><g id="x-a"/><use xlink:href="#x-a"/><path clip-path="url(#x-a)"/></svg>'
-
-
-def test_equation_is_drawn_or_left_to_the_words() -> None:
-    drawn = equation_svg(r"h \leftarrow h\,\frac{1}{1 + L^{0.64}}")
-    assert drawn is not None
-    assert drawn.rstrip().endswith("</svg>")
-    assert equation_svg(r"\begin{cases} 1 \end{cases}") is None

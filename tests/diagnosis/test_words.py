@@ -6,11 +6,13 @@ from dataclasses import replace
 
 import pytest
 
-from mixedlub.diagnosis import words
+from mixedlub.diagnosis import page, words
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.empirical import unnamed as describe
 from mixedlub.diagnosis.labels import plain_equation
 from mixedlub.diagnosis.posterior import Key, Posterior
+from mixedlub.effect import catalogue
+from mixedlub.report.equations import equation
 
 
 def told(d: Diagnosis) -> dict[str, str]:
@@ -134,10 +136,22 @@ def test_warnings_come_last(teeth: Diagnosis) -> None:
     [
         (r"\tau \leftarrow \tau/(1 + \beta)", "τ ← τ/(1 + β)"),
         (r"\frac{\eta_0 u}{E'}", "(η_0 u)/E'"),
-        (r"\mathrm{asinh}(x)^{-1/2}", "asinh(x)^-1/2"),
+        (r"\mathrm{asinh}(x)^{-1/2}", "asinh(x)^(-1/2)"),
         (r"\dfrac{a}{\frac{b}{c}}", "a/(b/c)"),
         (r"\sqrt{x} \cdot y_{max}", "√(x) · y_max"),
+        (r"\tfrac12\rho\,\bigl[1 + s\operatorname{sgn}\omega\bigr]", "½ρ [1 + s sgn ω]"),
     ],
 )
 def test_equations_are_readable_without_latex(latex: str, plain: str) -> None:
     assert plain_equation(latex) == plain
+
+
+def test_every_equation_of_the_catalogue_reads_as_text() -> None:
+    for e in catalogue().values():
+        assert "\\" not in plain_equation(e.equation), e.id
+        assert "frac" not in plain_equation(e.equation), e.id
+
+
+def test_every_equation_of_the_catalogue_is_drawn() -> None:
+    for e in catalogue().values():
+        assert equation(page.bare(e.equation)).startswith("<svg"), e.id
