@@ -37,6 +37,7 @@ OUTLIERS = "Outlier readings"
 CALIBRATION = "What calibration was moved to"
 NEXT = "Next test"
 STRAINED = 2.0
+MOST_TIED = 5
 STAGE_WORDS = {
     "film": "the oil film",
     "shear": "shear of the film",
@@ -109,15 +110,16 @@ def as_text(title: str, parts: Iterable[Section]) -> str:
 def headline(d: Diagnosis) -> str:
     """The verdict in one sentence."""
     judged = d.posterior
-    if judged.verdict == () and len(judged.tied) > 1:
-        others = [f"{explanation_words(judged.names(k))} ({chance(judged.weights[k])})" for k in judged.tied[1:]]
-        return (
-            f"No mismatch beyond noise: nothing needs to be missing ({chance(judged.weights[()])}). "
-            f"A tie all the same, for these readings are too few or too coarse to exclude {' or '.join(others)}."
-        )
     if len(judged.tied) > 1:
-        every = [f"{explanation_words(judged.names(k))} ({chance(judged.weights[k])})" for k in judged.tied]
-        return f"A tie: the readings cannot decide between {'; '.join(every[:-1])}; and {every[-1]}."
+        named = [f"{explanation_words(judged.names(k))} ({chance(judged.weights[k])})" for k in judged.tied[:MOST_TIED]]
+        more = len(judged.tied) - MOST_TIED
+        rest = [f"{more} less probable one{'s' if more > 1 else ''}"] if more > 0 else []
+        if judged.verdict == ():
+            return (
+                f"No mismatch beyond noise: nothing needs to be missing ({chance(judged.weights[()])}). A tie all the "
+                f"same, for these readings are too few or too coarse to exclude {_listed([*named[1:], *rest], 'or')}."
+            )
+        return f"A tie: the readings cannot decide between {_listed([*named, *rest], 'and')}."
     p = chance(judged.weights[judged.verdict])
     if judged.verdict == ():
         return f"Nothing is missing that these readings could show: the calibrated model explains them ({p})."
@@ -134,6 +136,15 @@ def headline(d: Diagnosis) -> str:
             f"(probability {p})."
         )
     return f"Missing physics: {' and '.join(physics)} (probability {p})."
+
+
+def _listed(items: list[str], last: str) -> str:
+    """Items with semicolons, the last one joined by a word.
+
+    >>> _listed(["a", "b and c", "d"], "or")
+    'a; b and c; or d'
+    """
+    return items[0] if len(items) == 1 else f"{'; '.join(items[:-1])}; {last} {items[-1]}"
 
 
 def _standing(d: Diagnosis) -> list[str]:

@@ -76,6 +76,14 @@ def test_tie_is_said_with_the_test_that_separates(offset: Diagnosis) -> None:
     assert "To separate them: " in said[words.ALIKE]
 
 
+def test_long_ties_are_cut_short(offset: Diagnosis) -> None:
+    names = ("sensor_offset", "sensor_gain", "churning", "inlet_shear_heating")
+    every: dict[Key, float] = {("unknown"): 0.3, (): 0.2, **{(n,): 0.1 for n in names}}
+    said = words.headline(judged(offset, every, 6))
+    assert said.endswith("; and 1 less probable one.")
+    assert "inlet shear heating" not in said
+
+
 def test_what_tied_explanations_share_is_said(offset: Diagnosis) -> None:
     pair: dict[Key, float] = {("sensor_offset",): 0.6, ("inlet_shear_heating", "sensor_offset"): 0.39}
     assert "In every one of them: sensor offset (0.99)." in told(judged(offset, pair, 2))[words.ANSWER]
