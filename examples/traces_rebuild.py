@@ -80,11 +80,7 @@ def fitted_waves(recipe: dict) -> np.ndarray:
 
 def main() -> None:
     for name, recipe in recipes().items():
-        found = (
-            {"wave_coefficients_um": fitted_waves(recipe)}
-            if recipe["wave_periods_mm"]
-            else fitted_bending(recipe)
-        )
+        found = {"wave_coefficients_um": fitted_waves(recipe)} if recipe["wave_periods_mm"] else fitted_bending(recipe)
         for key, value in found.items():
             print(f"{name}  {key}: fitted {np.round(value, 6).tolist()}, recipe {recipe[key]}")
     print("\nname      Ra    Rq    Rz (um)   m0 (um2)    m2       m4 (1/um2)  alpha   R (um)  D (1/mm2)")

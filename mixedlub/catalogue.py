@@ -120,7 +120,8 @@ def _table() -> str:
 
 
 def _page(effect: Effect) -> str:
-    acted = ", ".join(f"{name} ({GLOSSARY[name].unit})" for name in effect.acts_on)
+    units = ((name, _unit(GLOSSARY[name].unit).strip()) for name in effect.acts_on)
+    acted = ", ".join(f"{name} ({unit})" if unit else name for name, unit in units)
     parts = [
         f"{effect.id}: {effect.summary}",
         "",
@@ -131,14 +132,16 @@ def _page(effect: Effect) -> str:
         _entry("source", effect.source),
     ]
     if effect.valid:
-        ranges = (f"{name} {low:g} to {high:g} {GLOSSARY[name].unit}" for name, (low, high) in effect.valid.items())
+        ranges = (
+            f"{name} {low:g} to {high:g}{_unit(GLOSSARY[name].unit)}" for name, (low, high) in effect.valid.items()
+        )
         parts.append(_entry("valid", "; ".join(ranges)))
     if effect.kinds:
         parts.append(_entry("recordings", ", ".join(effect.kinds)))
     parts += ["", "parameters"]
     for p in effect.parameters:
         off = "" if p.null is None else f"; off at {p.null:g}"
-        parts.append(_entry(f"  {p.name}", f"{p.meaning}; {p.prior} {p.unit}{off}".replace(" -;", ";").rstrip(" -")))
+        parts.append(_entry(f"  {p.name}", f"{p.meaning}; {p.prior}{_unit(p.unit)}{off}"))
     parts += ["", *_on_rigs(effect), "", _entry("separated by", effect.separated_by)]
     return "\n".join(parts)
 
@@ -160,6 +163,10 @@ def _on_rigs(effect: Effect) -> list[str]:
             left = signatures(rig)[effect.id][1]
             lines.append(_entry("  calibration", f"leaves {100 * left:.0f} % of it"))
     return lines
+
+
+def _unit(unit: str) -> str:
+    return {"-": "", "*": " unit of the channel"}.get(unit, f" {unit}")
 
 
 def _entry(name: str, text: str) -> str:

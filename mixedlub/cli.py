@@ -7,6 +7,9 @@ import sys
 import warnings
 from collections.abc import Sequence
 
+# Before NumPy is loaded: matrices are small here, and threads of BLAS would wait on those of the batch engine.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 import typer
 
 from mixedlub.commands import check, diagnose, effects, import_files, profile, prove, simulate, study
@@ -34,7 +37,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; 0 done, 2 bad input (one message, no traceback), 1 anything else."""
     warnings.showwarning = lambda message, *rest, **named: note(str(message))
     try:
-        status = typer.main.get_command(app).main(arguments, prog_name="mixedlub", standalone_mode=False)
+        words = spread_lists(list(sys.argv[1:] if arguments is None else arguments))
+        status = typer.main.get_command(app).main(words, prog_name="mixedlub", standalone_mode=False)
         sys.stdout.flush()
         return int(status or 0)
     except InputError as error:
@@ -49,6 +53,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
             place = getattr(getattr(error, "ctx", None), "command_path", "mixedlub")
             return _failed(f"{error.format_message()} (see {place} --help)", int(error.exit_code))
         return _failed(f"unexpected {type(error).__name__}: {error}; details in {save_traceback(error)}", 1)
+
+
+def spread_lists(words: list[str]) -> list[str]:
+    """``--exclude a b`` as ``--exclude a --exclude b``: the option takes every word up to the next option.
+
+    >>> spread_lists(["diagnose", "CASE", "--exclude", "windage", "churning", "--level", "0.05"])
+    ['diagnose', 'CASE', '--exclude', 'windage', '--exclude', 'churning', '--level', '0.05']
+    """
+    found: list[str] = []
+    listing = False
+    for word in words:
+        if listing and not word.startswith("-") and found[-1] != "--exclude" and not os.path.isdir(word):
+            found += ["--exclude", word]
+        else:
+            found.append(word)
+            listing = word == "--exclude" or (listing and not word.startswith("-") and not os.path.isdir(word))
+    return found
 
 
 def _failed(message: str, status: int) -> int:

@@ -127,10 +127,12 @@ running_friction        | T_r        | N m     | friction torque of the moving p
 drive_speed             | omega      | rad/s   | signed speed of a drive (m/s where a sliding speed is recorded)
 reference_speed         | omega_0    | rad/s   | largest speed of the recording, in the unit of drive_speed
 load_fraction           | q_F        | -       | load on a drive over the largest load of the recording
+additive_fraction       | q_a        | -       | content of an additive over the largest content tested
 gears_fitted            | -          | -       | 1 for the complete drive, the share of friction left without gears
 motor_torque            | T_m        | N m     | torque that the controller computes from the motor current
 reference_torque        | T_m0       | N m     | largest motor torque of the recording
 drive_angle             | phi        | rad     | angle the drive has turned
+pressure                | p          | Pa      | hydrostatic pressure
 time                    | t          | s       | time since the start of the recording
 sequence                | q          | -       | place in the test programme, 0 at its start and 1 at its end
 ambient_temperature     | theta_a    | K       | temperature around the rig

@@ -8,14 +8,19 @@ from pathlib import Path
 from profiles.errors import InputError
 from profiles.profile import Profile
 from profiles.readers.base import MAX_BYTES, Reader, Source
+from profiles.readers.container import ZipReader
+from profiles.readers.dektak import DektakReader
+from profiles.readers.hfm import HfmReader
+from profiles.readers.mitutoyo import MitutoyoReader
+from profiles.readers.nist_xml import NistXmlReader
+from profiles.readers.opdx import OpdxReader
+from profiles.readers.prf import PrfReader
+from profiles.readers.sdf import SdfReader
+from profiles.readers.smd import SmdReader
+from profiles.readers.surfcom import SurfcomReader
 from profiles.readers.text import TextReader
+from profiles.readers.x3p import X3pReader
 from profiles.units import known_unit, length, metres
-
-# From the most specific content to the least: each reader may claim only what those above it left.
-READERS: tuple[Reader, ...] = (
-    # Text accepts any characters, so it must come last.
-    TextReader(),
-)
 
 
 def read(path: str | os.PathLike[str], *, unit: str | None = None, spacing: float | str | None = None) -> Profile:
@@ -33,7 +38,7 @@ def read_source(source: Source) -> Profile:
     if not source.data.strip(b"\x00 \t\r\n"):
         raise InputError("the file is empty", where=source.where)
     for reader in READERS:
-        if reader.magic(source.data):
+        if reader.magic(source):
             return reader.read(source)
     formats = "; ".join(reader.format for reader in READERS)
     raise InputError(f"no known profile format; known are {formats}", where=source.where)
@@ -64,3 +69,24 @@ def _units(unit: str | None) -> tuple[str, str] | None:
     for word in words:
         metres(word, "unit")
     return str(known_unit(words[0])), str(known_unit(words[-1]))
+
+
+# From the most specific content to the least: each reader may claim only what those above it left.
+READERS: tuple[Reader, ...] = (
+    OpdxReader(),
+    SdfReader(),
+    SmdReader(),
+    X3pReader(),
+    MitutoyoReader(),
+    # Any zip: after x3p and xlsx, which are zips with a known member.
+    ZipReader(read_source),
+    NistXmlReader(),
+    # The rest are texts of numbers with a telling first line,
+    PrfReader(),
+    HfmReader(),
+    DektakReader(),
+    # told by the file's name alone, so after those told by content,
+    SurfcomReader(),
+    # and any characters at all, so last.
+    TextReader(),
+)

@@ -51,9 +51,7 @@ def uniform(seed: int, count: int) -> np.ndarray:
     return ((raw >> np.uint64(11)).astype(float) + 0.5) * 2.0**-53
 
 
-def from_spectrum(
-    spectrum: Spectrum, *, points: int, spacing: float, seed: int, name: str = "synthetic"
-) -> Synthetic:
+def from_spectrum(spectrum: Spectrum, *, points: int, spacing: float, seed: int, name: str = "synthetic") -> Synthetic:
     """Gaussian trace of a one-sided power spectrum S(q) (m3) of angular wavenumber q (rad/m).
 
     .. math:: z(x) = \\sum_k \\sqrt{2 S(q_k) \\Delta q} \\cos(q_k x + \\varphi_k),\\quad m_n = \\int S q^n dq
@@ -70,9 +68,7 @@ def from_spectrum(
     q = step * np.arange(1, (points + 1) // 2)
     power = np.asarray(spectrum(q), dtype=float) * step
     if not np.isfinite(power).all() or (power < 0).any() or not power.any():
-        raise InputError(
-            "the spectrum must be finite, not negative and not all zero", where=f"synthesis of {name!r}"
-        )
+        raise InputError("the spectrum must be finite, not negative and not all zero", where=f"synthesis of {name!r}")
     phases = 2 * math.pi * uniform(seed, q.size)
     coefficients = np.zeros(points // 2 + 1, complex)
     coefficients[1 : q.size + 1] = np.sqrt(power / 2) * points * np.exp(1j * phases)
@@ -127,9 +123,7 @@ def scaled(trace: Synthetic, rms: float) -> Synthetic:
         raise InputError("must be above zero", where="rms height (m)", value=rms)
     factor = rms**2 / trace.m0
     profile = trace.profile
-    stretched = Profile(
-        profile.heights * math.sqrt(factor), profile.spacing, name=profile.name, origin=profile.origin
-    )
+    stretched = Profile(profile.heights * math.sqrt(factor), profile.spacing, name=profile.name, origin=profile.origin)
     return Synthetic(stretched, rms**2, trace.m2 * factor, trace.m4 * factor, trace.exact)
 
 
@@ -151,13 +145,12 @@ def of_moments(
     """
     values = (m0, m2, m4)
     if not all(math.isfinite(m) and m > 0 for m in values) or m0 * m4 <= m2**2 * (1 + 1e-9):
-        raise InputError(
-            "moments must be above zero with m0 m4 > m2^2", where=f"synthesis of {name!r}", value=values
-        )
+        raise InputError("moments must be above zero with m0 m4 > m2^2", where=f"synthesis of {name!r}", value=values)
     step = 2 * math.pi / (points * spacing)
     q = step * np.arange(1, (points + 1) // 2)
     spread = math.sqrt(math.log(m0 * m4 / m2**2) / 4)
     center = 0.5 * math.log(m2 / m0) - spread**2
+    exact = None
     for _ in range(60):
         power = _lognormal(q, center, spread)
         total = power.sum()
@@ -166,11 +159,13 @@ def of_moments(
             break
         miss = math.log(first * m0 / m2), math.log(second * m0 / m4)
         if max(map(abs, miss)) < 1e-13:
-            table = power * (m0 / (total * step))
-            return from_spectrum(lambda q: table, points=points, spacing=spacing, seed=seed, name=name)
+            exact = power * (m0 / (total * step))
+            break
         grow = (miss[1] - 2 * miss[0]) / 4  # what s^2 has too much
         spread = math.sqrt(max(spread**2 - grow, spread**2 / 4))
         center -= miss[0] / 2 - grow
+    if exact is not None:
+        return from_spectrum(lambda q: exact, points=points, spacing=spacing, seed=seed, name=name)
     raise InputError(
         f"a trace of {points} points every {spacing * 1e6:g} um cannot hold the band these moments need",
         where=f"synthesis of {name!r}",
@@ -261,9 +256,7 @@ def fitted_tails(
         heights = reshape_tails(base.heights, rq * math.exp(free[0]), free[1], math.exp(free[2]), long, knee)
         return np.log(measure(heights)) - target
 
-    found = least_squares(
-        miss, [0.0, 0.0, 0.0], bounds=([-1, -0.05, -3], [1, 0.1, 2]), xtol=1e-14, ftol=1e-15
-    )
+    found = least_squares(miss, [0.0, 0.0, 0.0], bounds=([-1, -0.05, -3], [1, 0.1, 2]), xtol=1e-14, ftol=1e-15)
     if np.abs(found.fun).max() > 1e-6:
         raise InputError(
             "no gentle reshaping of this trace gives these Ra, Rq, Rz (another seed or roll-off may)",

@@ -13,8 +13,8 @@ from roughness.spectrum import autocorrelation
 TOLERANCE = 0.1
 """Deviation from the line, in its own sigma, that Greenwood-Williamson may be asked to overlook."""
 
-BULK = (10.0, 90.0)
-"""Cumulative percentages that the straight part must span to be called the bulk."""
+BULK = 80.0
+"""Percentage of the heights, those from 20 to 80 % among them, on the straight part that is called the bulk."""
 
 _REACH = 3.0902323061678132  # normal quantile of 99.9 %
 _LEAST_REACH = 1.6448536269514722  # normal quantile of 95 %
@@ -76,7 +76,7 @@ def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> Nor
 
     ``gaussian``: the line holds from end to end of what the profile can show (at most 0.1 to 99.9 %) and
     leaves no more than chance or the tolerance does;
-    ``gaussian_bulk``: at least from 10 to 90 %; ``plateau``: two lines, the lower one steeper, describe it;
+    ``gaussian_bulk``: over at least 80 % of the heights; ``plateau``: two lines, the lower one steeper, describe it;
     ``not_gaussian``: none of these. The line holds where the heights stay within ``tolerance`` sigma of it
     or within the band, whichever is wider; with fewer than 30 independent heights the band is not used,
     for it would forgive any shape. Valleys below 5 % do not make a plateau of a bulk that is straight.
@@ -99,7 +99,7 @@ def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> Nor
         verdict = "gaussian"
     elif plateau is not None and plateau.material_percent <= 95.0:
         verdict = "plateau"
-    elif low <= BULK[0] and high >= BULK[1]:
+    elif high - low >= BULK and low <= 20.0 and high >= 80.0:
         verdict = "gaussian_bulk"
     elif plateau is not None:
         verdict = "plateau"

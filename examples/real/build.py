@@ -135,14 +135,18 @@ def viscosity_pressure() -> Iterator[Found]:
 
 
 def friction_modifiers() -> Iterator[Found]:
-    """One case a sample: few readings, wide scatter between tests."""
+    """The oils together by their content, and each grease: few readings, wide scatter between tests."""
     t = table("friction_modifier_concentration")
-    relative = float((t["friction_sd"] / t["friction_mean"]).median())
-    for sample, rows in t.groupby("sample"):
+    relative = (t["friction_sd"] / t["friction_mean"]).groupby(t["sample"]).transform("max")
+    t["friction_sd"] = t["friction_sd"].fillna(relative * t["friction_mean"])
+    t["content"] = pd.to_numeric(t["sample"].str.extract(r"^OA-(\d+)$")[0])
+    oils = t["content"].notna()
+    for sample, rows in (("oils", t[oils]), *t[~oils].groupby("sample")):
+        content = {"additive_percent": rows["content"]} if sample == "oils" else {}
         system = {
             "kind": "friction_map",
-            "description": f"reciprocating friction, sample {sample}; sd is that between tests, "
-            "where none is given the median relative one of the table",
+            "description": f"reciprocating friction, {sample}; sd is that between tests, where none is given the "
+            "largest relative one of the sample; oleic acid by the names of the oils, unit not stated",
             "recording": {"quantity": "friction_coefficient"},
         }
         yield (
@@ -151,8 +155,9 @@ def friction_modifiers() -> Iterator[Found]:
             {
                 "sliding_speed_m_s": rows["sliding_speed_mm_s"] * 1e-3,
                 "load_N": rows["load_N"],
+                **content,
                 "friction_coefficient": rows["friction_mean"],
-                "friction_coefficient_sd": rows["friction_sd"].fillna(relative * rows["friction_mean"]),
+                "friction_coefficient_sd": rows["friction_sd"],
             },
         )
 
@@ -194,12 +199,12 @@ def traction_cycles(data: Path) -> Iterator[Found]:
     t = pd.read_csv(data / "etm_traction_500_cycles" / "traction_points.csv")
     t["srr"] = t["slide_roll_ratio_percent"].abs()
     t = t[(t["srr"] < 22) & ((t["cycle"] % 10 == 1) | (t["cycle"] < 8))]
-    edges = [0.0, 0.3, 0.7, 1.0, 1.5, 2.0, 2.6, 3.3, 5.0, 8.0, 12.0, 16.0, 22.0]
+    edges = [0.0, 0.5, 1.0, 1.75, 2.5, 3.5, 6.0, 12.0, 22.0]
     t["bin"] = pd.cut(t["srr"], edges, include_lowest=True)
     started = pd.to_datetime(t["cycle_start"], dayfirst=True)
     t["time"] = (started - started.min()).dt.total_seconds() + t["step_time_s"]
     mean = t.groupby(["cycle", "bin"], observed=True).mean(numeric_only=True).reset_index()
-    level = mean[mean["srr"] > 12].groupby("cycle")["friction_coefficient"].mean()
+    level = mean[mean["srr"] > 12.0].groupby("cycle")["friction_coefficient"].mean()
     relative = mean["friction_coefficient"] / mean["cycle"].map(level)
     scatter = relative.groupby(mean["bin"], observed=True).agg(lambda x: 1.4826 * (x - x.median()).abs().median())
     sd = np.hypot(mean["bin"].map(scatter).astype(float) * mean["friction_coefficient"].mean(), 0.001)

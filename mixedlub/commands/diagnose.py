@@ -20,7 +20,7 @@ def command(
         Path | None, typer.Option(metavar="conditions.csv", help="Conditions to predict; default the case's own.")
     ] = None,
     exclude: Annotated[
-        list[str] | None, typer.Option(metavar="ID", help="Leave an effect out; may be repeated.")
+        list[str] | None, typer.Option(metavar="ID...", help="Leave effects out of the catalogue.")
     ] = None,
     level: Annotated[float, typer.Option(min=1e-9, max=0.5, help="Level of the mismatch test.")] = 0.01,
 ) -> None:
@@ -28,7 +28,11 @@ def command(
 
     How sure, where it shows, what it is confused with, and what to test next.
     """
-    from mixedlub.diagnosis import diagnose
+    from mixedlub.commands.output import busy
+    from mixedlub.diagnosis.write import diagnose
 
     folder = output_folder(out, NAME, case.resolve().name)
-    diagnose(case, folder, predict=predict, exclude=tuple(exclude or ()), level=level)
+    with busy("reading") as say:
+        diagnose(case, folder, predict=predict, exclude=tuple(exclude or ()), level=level, progress=say)
+    print((folder / "report.txt").read_text(encoding="utf-8"))
+    print(f"written to {folder}")

@@ -2,23 +2,31 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 NAME = "import"
-EXAMPLE = "mixedlub import traction.txt --out my_case"
+EXAMPLE = "mixedlub import traction.txt --out my_case --set import.temperature=pot"
 
 
 def command(
     files: Annotated[list[Path], typer.Argument(metavar="FILE...", help="Files as the instrument wrote them.")],
     out: Annotated[Path, typer.Option(metavar="CASE", help="Case folder to write.")],
+    settings: Annotated[
+        list[str], typer.Option("--set", metavar="KEY=VALUE", help="An answer, with its key in system.toml.")
+    ] = [],  # noqa: B006  (typer reads the default, nothing changes it)
+    answers: Annotated[
+        Path | None, typer.Option(metavar="FILE.toml", help="Answers, written as in system.toml.")
+    ] = None,
 ) -> None:
     """Turn instrument files into a case folder.
 
-    One that simulate, check and diagnose understand.
+    One that simulate, check and diagnose understand. What the files do not say is asked, or listed
+    where nobody is there to answer; units are never guessed.
     """
-    from mixedlub.importers import import_files
+    from mixedlub.importers.wizard import run
 
-    import_files(files, out)
+    run(files, out, settings, answers, ask=input if sys.stdin.isatty() else None)

@@ -7,7 +7,7 @@ import shutil
 import sys
 import tempfile
 import traceback
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -47,6 +47,19 @@ def writing(folder: Path) -> Iterator[Path]:
             entry.replace(target)
     finally:
         shutil.rmtree(aside, ignore_errors=True)
+
+
+@contextmanager
+def busy(first: str) -> Iterator[Callable[[str], None]]:
+    """A line on stderr that says what is being done, where a person watches; gives the function that changes it."""
+    from rich.console import Console
+
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield lambda text: None
+        return
+    with console.status(first) as status:
+        yield status.update
 
 
 def _alive(process: str) -> bool:

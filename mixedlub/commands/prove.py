@@ -13,14 +13,35 @@ NAME = "prove"
 EXAMPLE = "mixedlub prove --out out/prove"
 
 
+FULL, QUICK = 240, 24
+
+
 def command(
     out: Annotated[Path | None, typer.Option(help="Folder for the score table; default out/prove/battery.")] = None,
-    quick: Annotated[bool, typer.Option("--quick", help="A handful of cases instead of all.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help=f"{QUICK} cases and no baselines instead of {FULL}.")] = False,
+    seed: Annotated[int, typer.Option(min=0, help="Which battery: every seed deals other cases.")] = 2,
+    jobs: Annotated[int, typer.Option(min=1, help="Cases at a time.")] = 2,
 ) -> None:
     """Put the diagnosis to a blind test.
 
-    Concealed cases made by an independent rig model are diagnosed, and the score is printed.
+    Concealed cases made by an independent rig model are diagnosed, and the score is printed. A run broken
+    off goes on where it stopped.
     """
-    from mixedlub.proof import prove
+    from rich.console import Console
+    from rich.progress import Progress
 
-    prove(output_folder(out, NAME, "battery"), quick=quick)
+    from mixedlub.diagnosis.write import diagnose
+    from mixedlub.proof.prove import prove
+
+    folder = output_folder(out, NAME, "quick" if quick else "battery")
+    with Progress(console=Console(stderr=True)) as bar:
+        tasks = {}
+
+        def show(stage: str, done: int, total: int) -> None:
+            if stage not in tasks:
+                tasks[stage] = bar.add_task(stage, total=total)
+            bar.update(tasks[stage], completed=done)
+
+        prove(folder, diagnose, QUICK if quick else FULL, seed, jobs, not quick, show)
+    print((folder / "score.txt").read_text(encoding="utf-8"))
+    print(f"written to {folder}")

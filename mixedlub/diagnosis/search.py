@@ -13,12 +13,12 @@ from mixedlub.diagnosis.fit import Fit, linear_fit, map_fit
 from mixedlub.diagnosis.problem import Explanation, Problem, effects_of
 from mixedlub.diagnosis.unknown import Unknown, unknown_fit
 
-PRIOR = {"none": 0.42, "single": 0.36, "pair": 0.12, "unknown": 0.10}
-SAMPLES = 24
+PRIOR = {"none": 0.42, "single": 0.38, "pair": 0.08, "unknown": 0.12}
+SAMPLES = (12, 24, 40, 56)
 LEADERS = 8
 FAR = 60.0
 PAIRS = 20
-ELASTIC = ((0.0, 0.35), (0.08, 0.35), (0.25, 0.30))
+ELASTIC = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
 """Relative error of an effect's literature form: its rms and the weight given to it."""
 
 Progress = Callable[[str], None]
@@ -101,7 +101,7 @@ def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit) -> dict
 def _sample(problem: Problem, name: str, none: Fit) -> Sampled:
     """Spread draws over the effect's prior, denser where its strength is middling."""
     size = len(effects_of((name,))[0].parameters)
-    z = spread(size, SAMPLES)
+    z = spread(size, SAMPLES[min(size, len(SAMPLES)) - 1])
     change = np.empty((len(z), problem.y.size))
     run = None
     for i, own in enumerate(z):

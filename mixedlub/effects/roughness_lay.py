@@ -18,7 +18,7 @@ from mixedlub.effect import Between, LogNormal, Normal, Parameter, effect
     separated_by="the same Rq with turned lay or an isotropic finish: it changes sign or vanishes, an error of Rq "
     "does not",
     valid={"composite_roughness": (0.0, 5e-6)},
-    after=("boundary_film", "inlet_shear_heating", "inlet_shear_thinning", "starvation"),
+    after=("inlet_shear_heating", "inlet_shear_thinning", "starvation"),
 )
 def roughness_lay(film_thickness, composite_roughness, *, lay, onset, decay):
     """Ridges across the motion hold oil back and thicken the film, ridges along it let the oil out.

@@ -15,7 +15,7 @@ from mixedlub.effect import LogNormal, Normal, Parameter, effect
     equation=r"y \leftarrow y + T_m\,(e + f\,|T_m|/T_{m0})",
     source="saturation of the iron, e.g. J. R. Hendershot, T. J. E. Miller, Design of Brushless Permanent-Magnet "
     "Machines, 2010, chapter 7",
-    fingerprint={},
+    fingerprint={"motor_torque": "+"},
     separated_by="runs with the gears out, or a stalled motor against a torque sensor: what is left there is the "
     "motor, not the gears",
     kinds=("friction_map",),

@@ -18,7 +18,7 @@ KELVIN = 100.0
     ),
     equation=r"\eta_0 \leftarrow \eta_0\,e^{d\,q^m e^{k(40\,^\circ\mathrm{C} - \theta)/100\,\mathrm{K}}}",
     source="evaporation, oxidation or shear-down as a steady relative rate; e.g. ASTM D445 on used oils reports it so",
-    fingerprint={},
+    fingerprint={"sequence": "-"},
     separated_by="a repeat of the first point at the end, with a fresh sample and a cover against evaporation",
 )
 def viscosity_drift(viscosity, sequence, oil_temperature, *, drift, power, cold_gain):

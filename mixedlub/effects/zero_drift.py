@@ -13,7 +13,7 @@ from mixedlub.effect import Normal, Parameter, effect
     ),
     equation=r"y \leftarrow y + d\,y_0\,q",
     source="rated output and zero stability of transducers: IEC 60770",
-    fingerprint={},
+    fingerprint={"sequence": "+"},
     separated_by="a reading at rest before and after the test",
     kinds=("film", "friction_history", "friction_map"),
 )

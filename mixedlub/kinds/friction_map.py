@@ -23,6 +23,7 @@ COLUMNS = (
     *(Column(name, required=False) for name in SPEEDS),
     *(Column(name, required=False) for name in LOADS),
     Column("oil_temperature_C", at_least=-100.0, at_most=400.0, required=False),
+    Column("additive_percent", at_least=0.0, at_most=100.0, required=False),
     Column("motor_torque_Nm", required=False),
     Column("position_deg", required=False),
     Column("time_s", required=False),
@@ -69,6 +70,8 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
     for name in LOADS:
         if name in table and name in recorded and np.any(recorded[name] != 0):
             found["load_fraction"] = column(np.abs(table[name]) / np.max(np.abs(recorded[name])))
+    if "additive_percent" in table and "additive_percent" in recorded and recorded["additive_percent"].any():
+        found["additive_fraction"] = column(table["additive_percent"] / np.max(recorded["additive_percent"]))
     if "oil_temperature_C" in table:
         found["oil_temperature"] = column(table["oil_temperature_C"]) + 273.15
     motor = _motor_column(recorded)

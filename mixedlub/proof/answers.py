@@ -111,8 +111,7 @@ def read_answer(folder: Path) -> Answer:
         outliers=frozenset(said.get("outlier_runs", [])),
         location={int(run): float(z) for run, z in said.get("location", {}).get("rows", {}).items()},
         calibration={
-            name: (float(value["low90"]), float(value["high90"]))
-            for name, value in said.get("calibration", {}).items()
+            name: (float(value["low90"]), float(value["high90"])) for name, value in said.get("calibration", {}).items()
         },
         run=table["run"],
         calibrated=table["calibrated"],

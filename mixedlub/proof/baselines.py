@@ -33,9 +33,7 @@ def _learner(name: str) -> ModuleType:
     try:
         return importlib.import_module(f"sklearn.{name}")
     except ModuleNotFoundError as error:
-        raise InputError(
-            "the baselines need scikit-learn: pip install 'mixedlub[proof]'", where="proof"
-        ) from error
+        raise InputError("the baselines need scikit-learn: pip install 'mixedlub[proof]'", where="proof") from error
 
 
 @dataclass(frozen=True)
@@ -120,10 +118,7 @@ def _features(fitted: Fitted) -> np.ndarray:
     """Logarithms of the conditions and of the composite roughness, temperature as it is, all standardised."""
     columns = fitted.case.columns
     names = [n for n in columns if n not in ("run", "setup", "rig", *SURFACE_COLUMNS[fitted.case.kind])]
-    table = [
-        columns[n] if n in ("oil_temperature_C", "sequence") else np.log(columns[n].astype(float))
-        for n in names
-    ]
+    table = [columns[n] if n in ("oil_temperature_C", "sequence") else np.log(columns[n].astype(float)) for n in names]
     matrix = np.column_stack([*table, np.log(fitted.rig.moments[:, 0])]).astype(float)
     return (matrix - matrix.mean(axis=0)) / np.maximum(matrix.std(axis=0), 1e-9)
 

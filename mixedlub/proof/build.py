@@ -73,9 +73,7 @@ def gears_of(settings: Mapping[str, Any]) -> Gears:
     )
 
 
-def share_at(
-    path: ContactPath, rows: np.ndarray | None, torque: np.ndarray, position: np.ndarray
-) -> np.ndarray:
+def share_at(path: ContactPath, rows: np.ndarray | None, torque: np.ndarray, position: np.ndarray) -> np.ndarray:
     """Load share, readings by points: from rows of (torque, roll angle in degrees, share); None is equal."""
     if rows is None:
         single = (position > path.low_single) & (position < path.high_single)
@@ -92,8 +90,7 @@ def _moments(case: Case) -> tuple[np.ndarray, np.ndarray]:
     first, second = (case.columns[name] for name in SURFACE_COLUMNS[case.kind])
     units = np.array([1e-12, 1.0, 1e12])
     table = {
-        name: np.array([s["m0_um2"], s["m2"], s["m4_per_um2"]]) * units
-        for name, s in case.settings["surfaces"].items()
+        name: np.array([s["m0_um2"], s["m2"], s["m4_per_um2"]]) * units for name, s in case.settings["surfaces"].items()
     }
     coated = {name: "coating" in s for name, s in case.settings["surfaces"].items()}
     both = np.array([table[a] + table[b] for a, b in zip(first, second)])
@@ -185,9 +182,7 @@ def read_columns(file: Path) -> dict[str, np.ndarray]:
     import pandas as pd
 
     frame = pd.read_csv(file)
-    return {
-        str(name): frame[name].to_numpy(dtype=object if "surface" in str(name) else None) for name in frame
-    }
+    return {str(name): frame[name].to_numpy(dtype=object if "surface" in str(name) else None) for name in frame}
 
 
 def read_case(folder: Path, table: str = "recordings.csv") -> Case:

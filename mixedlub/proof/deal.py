@@ -51,9 +51,7 @@ class Hand:
     seen: float
 
 
-def values_of(
-    rig: Rig, case: Case, z: np.ndarray, effects: Sequence[Concealed], knobs: Sequence[dict]
-) -> np.ndarray:
+def values_of(rig: Rig, case: Case, z: np.ndarray, effects: Sequence[Concealed], knobs: Sequence[dict]) -> np.ndarray:
     hidden = [effect.hide(values) for effect, values in zip(effects, knobs)]
     return readings(rig, calibrated(case.nominal, case.priors, z), hidden)
 

@@ -31,8 +31,7 @@ def score_table(scores: Sequence[Score]) -> Figure:
     axes.set_axis_off()
     columns = ["figure", *(one.tool for one in scores), "goal"]
     cells = [
-        [row.text.replace("  ", "   "), *(_shown(one[row.key].value) for one in scores), _goal(row)]
-        for row in rows
+        [row.text.replace("  ", "   "), *(_shown(one[row.key].value) for one in scores), _goal(row)] for row in rows
     ]
     table = axes.table(cells, colLabels=columns, bbox=Bbox.unit(), cellLoc="center", edges="horizontal")
     table.auto_set_font_size(False)
@@ -47,9 +46,7 @@ def score_table(scores: Sequence[Score]) -> Figure:
         elif 0 < column <= len(scores):
             met = scores[column - 1].rows[line - 1].met
             cell.get_text().set_color({True: GOOD, False: BAD, None: INK}[met])
-    axes.set_title(
-        f"Blind battery: goals met in green, missed in red ({_cases(scores[0])} cases)", fontsize=10
-    )
+    axes.set_title(f"Blind battery: goals met in green, missed in red ({_cases(scores[0])} cases)", fontsize=10)
     return figure
 
 
@@ -86,9 +83,7 @@ def reliability(scores: Sequence[Score]) -> Figure:
         axes.plot(given, so, label=one.tool, **_line(place))
     for _, given_mean, so_mean, count in scores[0].reliability:
         axes.annotate(str(count), (given_mean, so_mean), (5, -11), textcoords="offset points", fontsize=7.5)
-    axes.set(
-        xlabel="probability given (-)", ylabel="share that was so (-)", xlim=(-0.03, 1.03), ylim=(-0.03, 1.03)
-    )
+    axes.set(xlabel="probability given (-)", ylabel="share that was so (-)", xlim=(-0.03, 1.03), ylim=(-0.03, 1.03))
     axes.set_title("Reliability of the probabilities", fontsize=11)
     axes.legend(frameon=False, fontsize=8.5)
     return figure
@@ -103,16 +98,14 @@ def identification(scores: Sequence[Score]) -> Figure:
         right = [row[2] for row in one.identification]
         axes.plot(seen, right, label=one.tool, **_line(place))
     for _, seen_mean, right_mean, count in scores[0].identification:
-        axes.annotate(
-            f"n={count}", (seen_mean, right_mean), (4, -12), textcoords="offset points", fontsize=7.5
-        )
+        axes.annotate(f"n={count}", (seen_mean, right_mean), (4, -12), textcoords="offset points", fontsize=7.5)
     axes.set(
         xlabel="visibility: root of the chi-square that recalibration leaves (-)",
         ylabel="named rightly (-)",
         ylim=(-0.03, 1.05),
     )
     axes.set_title("Single effects named rightly, by visibility", fontsize=11)
-    axes.legend(frameon=False, fontsize=8.5)
+    figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=8.5)
     return figure
 
 

@@ -59,9 +59,7 @@ def _withheld(truth: Truth, answer: Answer, column: np.ndarray) -> np.ndarray:
 def held_out(truth: Truth, answer: Answer) -> tuple[float, float]:
     """Rms error in sds at withheld conditions against the noise-free truth: of predicted, of calibrated."""
     target, sd = truth.values[truth.withheld], truth.sd[truth.withheld]
-    errors = [
-        (_withheld(truth, answer, column) - target) / sd for column in (answer.predicted, answer.calibrated)
-    ]
+    errors = [(_withheld(truth, answer, column) - target) / sd for column in (answer.predicted, answer.calibrated)]
     return float(np.sqrt(np.mean(errors[0] ** 2))), float(np.sqrt(np.mean(errors[1] ** 2)))
 
 

@@ -42,6 +42,7 @@ DEFINITIONS = {
 """Unit and meaning of each output."""
 
 _ROWS = 200_000
+_REPEATING = ["pinion_surface", "gear_surface", "torque_Nm", "speed_rpm", "oil_temperature_C"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,16 +84,14 @@ class Results:
         step = max(1, _ROWS // theta.size)
         for start in range(0, len(self.study.pairings), step):
             pairings = self.study.pairings[start : start + step]
-            columns: dict[str, Any] = {
-                name: pa.array([both[side] for both in pairings]).take(
-                    pa.array(np.repeat(range(len(pairings)), theta.size))
-                )
+            columns = {
+                name: store.words([both[side] for both in pairings], theta.size)
                 for side, name in enumerate(("pinion_surface", "gear_surface"))
             }
             for name, level in (("torque_Nm", torque), ("speed_rpm", speed), ("oil_temperature_C", theta)):
-                columns[name] = np.tile(level, len(pairings))
+                columns[name] = store.floats(np.tile(level, len(pairings)))
             for name, (column, scale) in COLUMNS.items():
-                columns[column] = self.values[name][start : start + step].ravel() * scale
+                columns[column] = store.floats(self.values[name][start : start + step] * scale)
             yield pa.table(columns)
 
     def write(self, csv_path: Path, parquet_path: Path) -> None:
@@ -107,7 +106,7 @@ class Results:
         try:
             for table in self.tables():
                 csv_writer = csv_writer or pc.CSVWriter(csv_path, table.schema, write_options=options)
-                parquet_writer = parquet_writer or pq.ParquetWriter(parquet_path, table.schema)
+                parquet_writer = parquet_writer or pq.ParquetWriter(parquet_path, table.schema, use_dictionary=_REPEATING)
                 csv_writer.write_table(table)
                 parquet_writer.write_table(table)
         finally:

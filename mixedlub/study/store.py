@@ -10,9 +10,10 @@ import hashlib
 import json
 import os
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,6 +21,9 @@ import mixedlub
 import roughness
 from mixedlub.study.batch import CHECKS, OUTPUTS, Block, Found
 from mixedlub.study.study import Plan
+
+if TYPE_CHECKING:
+    import pyarrow as pa
 
 
 def fingerprint(plan: Plan) -> str:
@@ -76,8 +80,28 @@ def keep(folder: Path, block: Block, found: Found) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / block_name(block)
     aside = path.with_suffix(f".{os.getpid()}")
-    pq.write_table(pa.table({name: values.ravel() for name, values in found.items()}), aside, compression="none")
+    table = pa.table({name: floats(values) for name, values in found.items()})
+    pq.write_table(table, aside, compression="none", use_dictionary=False)
     aside.replace(path)
+
+
+def floats(values: np.ndarray) -> pa.Array:
+    """A column of numbers, made without the detour over pandas that ``pa.array`` imports it for."""
+    import pyarrow as pa
+
+    flat = np.ascontiguousarray(values, dtype=float).ravel()
+    return pa.Array.from_buffers(pa.float64(), flat.size, [None, pa.py_buffer(flat)])
+
+
+def words(names: Sequence[str], times: int) -> pa.Array:
+    """A column of names, each repeated so many times; made as `floats`."""
+    import pyarrow as pa
+
+    encoded = [name.encode() for name in names]
+    ends = np.cumsum(np.repeat([len(e) for e in encoded], times), dtype=np.int32)
+    offsets = pa.py_buffer(np.concatenate([np.zeros(1, np.int32), ends]))
+    data = pa.py_buffer(b"".join(e * times for e in encoded))
+    return pa.StringArray.from_buffers(ends.size, offsets, data)
 
 
 def clear(out: Path) -> None:

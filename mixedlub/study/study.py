@@ -84,11 +84,15 @@ class Study:
         return int(np.prod(self.plan.shape))
 
 
-def read_study(path: Path) -> Study:
-    """Read a study file and lay it out; traces are read relative to its folder."""
+def read_study(path: Path, file: StudyFile | None = None) -> Study:
+    """Read a study file and lay it out; traces are read relative to its folder.
+
+    ``file`` takes the place of what the file says: a study altered in Python.
+    """
     if path.is_dir():
         raise InputError("is a folder; a study is one TOML file", where=str(path))
-    file = config.parse(StudyFile, config.read_toml(path), path.name)
+    if file is None:
+        file = config.parse(StudyFile, config.read_toml(path), path.name)
     notes: list[str] = []
     try:
         with noted(notes), np.errstate(all="ignore"):

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import PurePath
 from typing import Protocol
@@ -35,14 +37,26 @@ class Source:
 
 
 class Reader(Protocol):
-    """One file format. ``magic`` looks at the content only and is cheap; ``read`` may raise InputError."""
+    """One file format. ``magic`` is cheap and never raises; ``read`` raises InputError and nothing else."""
 
     name: str
     format: str
 
-    def magic(self, data: bytes) -> bool: ...
+    def magic(self, source: Source) -> bool: ...
 
     def read(self, source: Source) -> Profile: ...
+
+
+@contextmanager
+def foreign_parser(what: str, where: str) -> Iterator[None]:
+    """Around another project's parser: whatever it raises on a damaged file becomes an InputError."""
+    try:
+        yield
+    except InputError:
+        raise
+    except Exception as error:
+        said = str(error).strip().splitlines()[0][:160] if str(error).strip() else type(error).__name__
+        raise InputError(f"damaged {what} file ({said})", where=where) from None
 
 
 def checked_count(count: int, available: int, where: str) -> int:

@@ -33,16 +33,18 @@ class TextReader:
     name = "text"
     format = "plain text or CSV: [position,] height"
 
-    def magic(self, data: bytes) -> bool:
-        head = data[:4096]
+    def magic(self, source: Source) -> bool:
+        head = source.data[:4096]
         return head[:2] in (b"\xff\xfe", b"\xfe\xff") or b"\x00" not in head
 
     def read(self, source: Source) -> Profile:
         return read_table(source, table(decoded(source.data, source.where), source.where))
 
 
-def read_table(source: Source, content: Table) -> Profile:
-    """The profile of a table of one or two columns."""
+def read_table(
+    source: Source, content: Table, origin: dict[str, object] | None = None, notes: tuple[str, ...] = ()
+) -> Profile:
+    """The profile of a table of one or two columns; ``origin`` and ``notes`` are what its reader knows."""
     settings = header_settings(content.header)
     columns = content.columns
     if columns.shape[0] > 2:
@@ -52,20 +54,22 @@ def read_table(source: Source, content: Table) -> Profile:
     if columns.shape[1] < 3:
         raise InputError("a profile needs at least three heights", where=source.where, value=columns.shape[1])
     named = source.unit or _header_units(content, settings)
-    origin: dict[str, object] = {"format": TextReader.format, **settings}
+    origin = {"format": TextReader.format, **settings} if origin is None else dict(origin)
     if columns.shape[0] == 1:
         spacing = source.spacing or _header_spacing(settings, source.where)
         if spacing is None:
             raise InputError("one column of heights needs its step: name spacing=", where=source.where)
         if named is None:
             raise InputError("the unit of the heights is not in the file: name unit=", where=source.where)
-        return make_profile(source, columns[0] * metres(named[1], source.where), spacing, origin)
+        return make_profile(source, columns[0] * metres(named[1], source.where), spacing, origin, steps=notes)
     position, heights = columns
     step = source.spacing or equal_spacing(position, content.quantum, source.where)
-    notes: tuple[str, ...] = ()
     if named is None:
         named = inferred_units(step if source.spacing is None else None, step, heights, source.where)
-        notes = (f"units inferred from the numbers: position {named[0]}, height {named[1]}",)
+        notes = (
+            *notes,
+            f"units inferred from the numbers: position {named[0]}, height {named[1]}",
+        )
     if source.spacing is None:
         step *= metres(named[0], source.where)
     origin["units"] = f"position {named[0]}, height {named[1]}"

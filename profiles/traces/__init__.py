@@ -26,8 +26,6 @@ def shipped(name: str) -> Profile:
     from profiles.readers.base import Source
 
     if name not in SHIPPED:
-        raise InputError(
-            f"no such shipped trace; {nearest(name, SHIPPED)}", where="shipped trace", value=name
-        )
+        raise InputError(f"no such shipped trace; {nearest(name, SHIPPED)}", where="shipped trace", value=name)
     data = resources.files("profiles.traces").joinpath(f"{name}.txt").read_bytes()
     return replace(read_source(Source(f"{name}.txt", data)), name=name)

@@ -16,9 +16,7 @@ from profiles.traces import SHIPPED
 
 def recipes() -> dict[str, dict]:
     """The recipes by name; lengths carry their unit in the key."""
-    return tomllib.loads(
-        resources.files("profiles.traces").joinpath("recipes.toml").read_text(encoding="utf-8")
-    )
+    return tomllib.loads(resources.files("profiles.traces").joinpath("recipes.toml").read_text(encoding="utf-8"))
 
 
 def texture(recipe: Mapping) -> tuple[np.ndarray, np.ndarray | None]:
@@ -60,12 +58,8 @@ def envelope(gains: Sequence[float], points: int) -> np.ndarray:
 def heights(recipe: Mapping) -> np.ndarray:
     """Heights (m) of the trace a recipe describes."""
     base, long = texture(recipe)
-    bent = reshape_tails(
-        base, recipe["rms_um"] * 1e-6, recipe["cubic"], recipe["extremes"], long, recipe["knee"]
-    )
-    return bent * envelope(recipe["gains"], bent.size) + waves(
-        recipe, np.array(recipe["wave_coefficients_um"])
-    )
+    bent = reshape_tails(base, recipe["rms_um"] * 1e-6, recipe["cubic"], recipe["extremes"], long, recipe["knee"])
+    return bent * envelope(recipe["gains"], bent.size) + waves(recipe, np.array(recipe["wave_coefficients_um"]))
 
 
 def text(name: str, recipe: Mapping) -> str:

@@ -27,7 +27,6 @@ PHYSICAL = {
     "area_ratio": (0.0, 1.0),
     "boundary_friction": (0.0, 1.0),
     "shear_stress": (0.0, 1e9),
-    "contact_viscosity": (1e-4, 1e9),
     "friction": (0.0, 1.0),
     "load_share": (0.0, 1.5),
     "line_load": (0.0, 1e8),

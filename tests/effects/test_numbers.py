@@ -19,7 +19,7 @@ from mixedlub.effects.tip_relief import tip_relief
 from mixedlub.laws import drag, heating
 from roughness.integrals import area_integral
 
-PROTOTYPE = {"roughness_lay": {"lay": 1.0, "onset": 0.15, "decay": 1.0}, "micro_ehl": {"texture": 1.0}}
+PROTOTYPE = {"roughness_lay": {"lay": 1.0, "onset": 0.15, "decay": 1.0}, "micro_ehl": {"exponent": 1.0, "texture": 1.0}}
 """Parameters of the prototype where they are not the middle of the priors: h + 0.15 sigma, all moments alike."""
 
 

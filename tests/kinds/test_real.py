@@ -134,11 +134,19 @@ def test_viscosity_under_pressure_needs_a_law_that_bends_twice(typed_in):
     assert log_residual(case, "pressure_viscosity_law") < 0.06
 
 
-@pytest.mark.parametrize("sample", ["OA-0", "OA-10", "OA-20", "TOCN", "C20A_OA-2"])
+@pytest.mark.parametrize("sample", ["TOCN", "C20A_OA-2"])
 def test_friction_modifier_readings_show_nothing_beyond_their_scatter(typed_in, sample):
     case = read_case(typed_in / f"friction_modifier_{sample}")
     _, base, _ = fit(case)
     assert base < 2.0 * len(case.recordings)
+
+
+def test_oleic_acid_lowers_friction_of_the_oils_beyond_their_scatter(typed_in):
+    case = read_case(typed_in / "friction_modifier_oils")
+    _, base, _ = fit(case)
+    _, layer, values = fit(case, "friction_modifier_film")
+    assert base > layer + 15.0
+    assert 0.2 < values["friction_modifier_film"]["drop"] < 0.5
 
 
 def test_motors_without_gears_name_the_torque_constant(from_files):

@@ -74,9 +74,7 @@ def bearing_drag(c: Contact, strength: float, sliding_share: float) -> Contact:
     load = c.rig.conditions["torque_Nm"].astype(float) / 150
     boundary = np.exp(-2.6e-8 * (n * nu) ** 1.4 * size)
     sliding = (0.12 * boundary + 0.05 * (1 - boundary)) / 0.05
-    moment = shear * starved * load**0.54 * (n * nu / 22500) ** 0.6 + sliding_share * sliding * load ** (
-        5 / 3
-    )
+    moment = shear * starved * load**0.54 * (n * nu / 22500) ** 0.6 + sliding_share * sliding * load ** (5 / 3)
     return _added(c, strength * 0.08 * moment * n * np.pi / 30)
 
 

@@ -59,12 +59,8 @@ EFFECTS = (
         "instrument zero",
         0,
     ),
-    Concealed(
-        "sensor_gain", "measurement", "sensor", sensor_gain, (strength(-4.0, 6.0),), "instrument span", 0
-    ),
-    Concealed(
-        "sensor_drift", "measurement", "sensor", sensor_drift, (strength(-6.0, 8.0),), "instrument drift", 0
-    ),
+    Concealed("sensor_gain", "measurement", "sensor", sensor_gain, (strength(-4.0, 6.0),), "instrument span", 0),
+    Concealed("sensor_drift", "measurement", "sensor", sensor_drift, (strength(-6.0, 8.0),), "instrument drift", 0),
     Concealed(
         "torque_offset",
         "measurement",

@@ -1,0 +1,17 @@
+"""Run a study from Python and ask the labelled result a question: what does smoothing one flank buy?"""
+
+from pathlib import Path
+
+from mixedlub.study import read_study, run_study
+
+results = run_study(read_study(Path(__file__).with_name("study_21_pairings.toml")))
+data = results.dataset().set_index(pairing=["pinion_surface", "gear_surface"]).sel(oil_temperature=60)
+loss = data["power_loss"]
+
+print("Power loss (W) at 100 Nm, against 0450 / 0450")
+for rpm in loss.speed.values:
+    rough = float(loss.sel(pairing=("0450", "0450"), torque=100, speed=rpm))
+    one = float(loss.sel(pairing=("0036", "0450"), torque=100, speed=rpm))
+    both = float(loss.sel(pairing=("0036", "0036"), torque=100, speed=rpm))
+    saved = f"one flank smooth {one:6.1f} ({one / rough - 1:+.0%}), both {both:6.1f} ({both / rough - 1:+.0%})"
+    print(f"{rpm:6.0f} rpm: {rough:6.1f}; {saved}")

@@ -1,0 +1,58 @@
+"""Zip archives and XML from strangers: sizes checked before anything is unpacked, no entities."""
+
+from __future__ import annotations
+
+import io
+import lzma
+import zipfile
+import zlib
+
+from profiles.errors import InputError
+
+MAX_UNPACKED = 128 * 2**20
+
+ZIP_FAULTS = (
+    zipfile.BadZipFile,
+    zlib.error,
+    lzma.LZMAError,
+    ValueError,
+    NotImplementedError,
+    RuntimeError,
+    OSError,
+    EOFError,
+)
+"""What Python's zip module raises on a damaged or locked archive."""
+
+
+def members(data: bytes) -> tuple[str, ...]:
+    """Names in a zip archive; empty for anything else."""
+    if data[:4] != b"PK\x03\x04":
+        return ()
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            return tuple(archive.namelist())
+    except ZIP_FAULTS:
+        return ()
+
+
+def check_archive(data: bytes, where: str, limit: int = MAX_UNPACKED) -> None:
+    """Refuse an archive whose members unpack to more than the limit, or that says XML entities may grow."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            total = sum(info.file_size for info in archive.infolist())
+            if total > limit or len(archive.infolist()) > 10_000:
+                raise InputError(f"the archive unpacks to more than {limit} bytes", where=where, value=total)
+            for info in archive.infolist():
+                if info.filename.lower().endswith((".xml", ".rels")):
+                    check_xml(archive.read(info), f"{where}: {info.filename}")
+    except InputError:
+        raise
+    except ZIP_FAULTS as fault:
+        raise InputError(f"damaged archive ({fault})", where=where) from None
+
+
+def check_xml(data: bytes, where: str) -> None:
+    """Refuse XML that declares entities, which is how a small file grows to fill the memory."""
+    plain = data.replace(b"\x00", b"") if b"\x00" in data[:4] else data
+    if b"<!ENTITY" in plain:
+        raise InputError("XML entities are not allowed in a profile file", where=where)

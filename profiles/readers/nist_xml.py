@@ -1,0 +1,79 @@
+"""Softgauge XML of the NIST surface metrology database."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from profiles.errors import InputError
+from profiles.profile import Profile
+from profiles.readers.archive import MAX_UNPACKED, check_xml
+from profiles.readers.base import Source, checked_count, foreign_parser, make_profile
+from profiles.units import known_unit, metres
+
+if TYPE_CHECKING:
+    from xml.etree.ElementTree import Element
+
+
+class NistXmlReader:
+    """NIST XML: ``DATAFILE`` with UNITS, NUMPOINTS, SPACING and DATA_POINT_VALUES.
+
+    What NIST computed goes to ``origin["parameters"]`` (m, or plain numbers), and whether it belongs to the
+    raw profile or to the one after the short cut-off to ``origin["parameters_of"]``. Checked against four
+    softgauges (NPL mill and EDM, ASME sine and square).
+    """
+
+    name = "NIST XML"
+    format = "NIST softgauge XML"
+
+    def magic(self, source: Source) -> bool:
+        head = source.data[:2048]
+        return b"<DATA>" in head and b"<?xml" in head
+
+    def read(self, source: Source) -> Profile:
+        where = source.where
+        if len(source.data) > MAX_UNPACKED:
+            raise InputError(f"XML above {MAX_UNPACKED} bytes is not read", where=where, value=len(source.data))
+        check_xml(source.data, where)
+        from xml.etree import ElementTree
+
+        with foreign_parser("XML", where):
+            root = ElementTree.fromstring(source.data)
+        file = root.find("DATAFILE")
+        if file is None:
+            raise InputError("no element DATAFILE", where=where)
+        unit = file.findtext("UNITS", "").strip()
+        scale = metres(unit, f"{where}: UNITS")
+        try:
+            count = int(file.findtext("NUMPOINTS", ""))
+            spacing = float(file.findtext("SPACING", "")) * scale
+            heights = np.array(file.findtext("DATA_POINT_VALUES", "").split(), dtype=float) * scale
+        except ValueError as error:
+            raise InputError(f"not a number ({error})", where=f"{where}: DATAFILE") from None
+        if checked_count(count, heights.size, where) != heights.size:
+            raise InputError(f"the header declares {count} points", where=where, value=heights.size)
+        origin: dict[str, object] = {"format": self.format, "parameters": {}}
+        for results in root.iter():
+            if results.tag.endswith("_SURFACE_PARAMETERS"):
+                values = _values(results)
+                if values and not origin["parameters"]:
+                    origin["parameters"] = values
+                    origin["parameters_of"] = results.tag.removesuffix("_SURFACE_PARAMETERS").lower()
+        origin["part"] = (root.findtext("PART/PART_DESCRIPTION") or "").strip()
+        return make_profile(source, heights, spacing, origin)
+
+
+def _values(results: Element) -> dict[str, float]:
+    """Parameters of one result block; those with a length in m."""
+    unit = known_unit(results.findtext("UNITS", "").strip())
+    scale = metres(unit) if unit else 1.0
+    found = {}
+    for item in results:
+        try:
+            value = float(item.text or "")
+        except ValueError:
+            continue
+        name = item.tag.capitalize() if item.tag.isupper() else item.tag
+        found[name] = value if name[1:].lower() in ("sk", "ku", "dq") else value * scale
+    return found

@@ -1,0 +1,93 @@
+"""The page of a study: self-contained, and it opens in a real browser."""
+
+import re
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+from mixedlub.cli import main
+from tests.cli.test_commands import STUDY
+
+CHROMIUM = next(
+    (found for name in ("chromium", "chromium-browser", "google-chrome") if (found := shutil.which(name))), None
+)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    here = tmp_path_factory.mktemp("page")
+    study = STUDY.replace('title = "Trial"', 'title = "Trial <of> a & page"')
+    (here / "trial.toml").write_text(study + "[effects]\ninlet_shear_heating = { strength = 0.5 }\n")
+    assert main(["study", str(here / "trial.toml"), "--out", str(here / "out")]) == 0
+    return here / "out"
+
+
+@pytest.fixture(scope="module")
+def page(folder):
+    return (folder / "index.html").read_text(encoding="utf-8")
+
+
+def test_page_needs_nothing_from_elsewhere(page):
+    assert "<script" not in page
+    assert not re.search(r"""(?:src|href|url)\s*[=(]\s*["']?(?:https?:)?//""", page)
+    links = {link for link in re.findall(r'href="([^"#][^"]*)"', page) if not link.startswith("#")}
+    assert links == {"results.csv", "results.parquet", "figures/"}
+
+
+def test_page_escapes_what_the_user_wrote(page):
+    assert "Trial &lt;of&gt; a &amp; page" in page
+    assert "<of>" not in page
+
+
+def test_page_states_options_definitions_warnings_laws_and_effects(page):
+    for words in (
+        "dowson_toyoda_central",
+        "mesh_integral",
+        "power loss over the path integral of load times sliding speed",
+        "plain mean over the path of contact",
+        "more than the Hertz pressure",
+        "D. Dowson, A. Toyoda",
+        "J. A. Greenwood, J. B. P. Williamson",
+        "P. K. Gupta",
+        "inlet_shear_heating",
+        "Composite roughness",
+    ):
+        assert words in page, words
+
+
+def test_every_equation_is_set(page):
+    laws = page[page.index('id="laws"') :]
+    assert laws.count('class="equation"') > 10
+    assert "<code>" not in laws
+
+
+def test_figures_lie_beside_the_page_as_files(folder, page):
+    names = {p.name for p in (folder / "figures").iterdir()}
+    assert {"power_loss_equal.svg", "loss_over_roughness.svg", "loss_over_film_parameter.svg"} <= names
+    assert page.count("<figure") == len(names)
+
+
+def test_same_study_gives_the_same_page(folder, tmp_path):
+    assert main(["study", str(folder.parent / "trial.toml"), "--out", str(tmp_path / "again")]) == 0
+    assert (tmp_path / "again" / "index.html").read_bytes() == (folder / "index.html").read_bytes()
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no chromium")
+def test_page_opens_in_a_browser(folder, tmp_path):
+    from matplotlib.image import imread
+
+    shot = tmp_path / "page.png"
+    flags = ["--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--window-size=1000,2400"]
+    profile = f"--user-data-dir={tmp_path / 'browser'}"
+    address = (folder / "index.html").as_uri()
+    command = [str(CHROMIUM), *flags, profile, f"--screenshot={shot}", address]
+    subprocess.run(command, check=True, capture_output=True, timeout=120)
+    picture = imread(shot)[..., :3]
+    assert picture.shape[:2] == (2400, 1000)
+    inked = (picture < 0.95).any(axis=2)
+    assert 0.02 < inked.mean() < 0.6
+    assert inked[1200:].any()
+    coloured = np.ptp(picture, axis=2) > 0.3
+    assert coloured.sum() > 500
