@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -9,9 +10,9 @@ from importlib.resources import files
 
 from mixedlub.diagnosis.charts import colour_of
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.labels import words_of
+from mixedlub.diagnosis.labels import number, words_of
 from mixedlub.diagnosis.problem import effects_of
-from mixedlub.diagnosis.style import equation_svg, inline
+from mixedlub.diagnosis.style import inline
 from mixedlub.diagnosis.words import (
     ALIKE,
     GAIN,
@@ -22,8 +23,8 @@ from mixedlub.diagnosis.words import (
     WHERE,
     Section,
     equation_sentence,
-    number,
 )
+from mixedlub.report.equations import equation
 
 CAPTIONS = {
     "recorded_against_simulated": (
@@ -111,12 +112,13 @@ def _equations(d: Diagnosis) -> dict[str, str]:
     """Drawings of the verdict's equations by the sentence that they stand for."""
     if isinstance(d.posterior.verdict, str):
         return {}
-    found = {}
-    for e in effects_of(d.posterior.verdict):
-        drawn = equation_svg(e.equation)
-        if drawn is not None:
-            found[equation_sentence(e)] = inline(drawn, f"equation-{e.id}")
-    return found
+    return {equation_sentence(e): equation(bare(e.equation)) for e in effects_of(d.posterior.verdict)}
+
+
+def bare(tex: str) -> str:
+    """An equation as the drawing takes it: brackets without sizes, every fraction in braces."""
+    tex = re.sub(r"\\[bB]igg?[lr]?(?![a-zA-Z])", "", tex)
+    return re.sub(r"\\frac\s+(\w)\s*(\w)", r"\\frac{\1}{\2}", tex)
 
 
 def _cards(d: Diagnosis) -> list[tuple[str, str]]:
