@@ -16,7 +16,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from loop_reference import power_losses
+from reference.loop import power_losses
 
 from mixedlub.study import batch, read_study, run_study
 

@@ -33,7 +33,7 @@ def output_folder(out: Path | None, command: str, name: str) -> Path:
 def writing(folder: Path) -> Iterator[Path]:
     """A folder beside the results to write into; its entries replace theirs when all are written."""
     for stale in folder.glob(".writing-*"):
-        if not _alive(stale.suffix or stale.name.rpartition("-")[2]):
+        if not _alive(stale.name.rpartition("-")[2]):
             shutil.rmtree(stale, ignore_errors=True)
     aside = folder / f".writing-{os.getpid()}"
     aside.mkdir()

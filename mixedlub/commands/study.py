@@ -78,5 +78,5 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
         console=console,
     )
     with bar:
-        task = bar.add_task(what, total=None)
-        yield lambda done, of: bar.update(task, completed=done, total=of)
+        task = bar.add_task(what, total=None, visible=False)
+        yield lambda done, of: bar.update(task, completed=done, total=of, visible=of > 1)
