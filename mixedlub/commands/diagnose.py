@@ -7,7 +7,8 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.output import output_folder
+from mixedlub.commands.output import busy, output_folder, say
+from profiles.errors import InputError
 
 NAME = "diagnose"
 EXAMPLE = "mixedlub diagnose examples/case --out out/diagnose"
@@ -28,11 +29,12 @@ def command(
 
     How sure, where it shows, what it is confused with, and what to test next.
     """
-    from mixedlub.commands.output import busy
     from mixedlub.diagnosis.write import diagnose
 
+    if not case.is_dir():
+        raise InputError("no such case folder", where=str(case))
     folder = output_folder(out, NAME, case.resolve().name)
-    with busy("reading") as say:
-        diagnose(case, folder, predict=predict, exclude=tuple(exclude or ()), level=level, progress=say)
-    print((folder / "report.txt").read_text(encoding="utf-8"))
-    print(f"written to {folder}")
+    with busy("reading") as progress:
+        diagnose(case, folder, predict=predict, exclude=tuple(exclude or ()), level=level, progress=progress)
+    say((folder / "report.txt").read_text(encoding="utf-8"))
+    say(f"written to {folder}")

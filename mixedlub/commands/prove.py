@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.output import output_folder
+from mixedlub.commands.output import output_folder, say
 
 NAME = "prove"
 EXAMPLE = "mixedlub prove --out out/prove"
@@ -43,5 +43,5 @@ def command(
             bar.update(tasks[stage], completed=done)
 
         prove(folder, diagnose, QUICK if quick else FULL, seed, jobs, not quick, show)
-    print((folder / "score.txt").read_text(encoding="utf-8"))
-    print(f"written to {folder}")
+    say((folder / "score.txt").read_text(encoding="utf-8"))
+    say(f"written to {folder}")

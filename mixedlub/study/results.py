@@ -36,7 +36,7 @@ DEFINITIONS = {
     "film_thickness": ("m", "film thickness, plain mean over the path of contact"),
     "film_parameter": ("-", "mean film thickness over composite roughness"),
     "composite_roughness": ("m", GLOSSARY["composite_roughness"].meaning),
-    "asperity_load_ratio": ("-", "pressure elastic asperities would carry over mean Hertz pressure, at thinnest film"),
+    "asperity_load_ratio": ("-", "pressure elastic asperities would carry over mean Hertz pressure, thinnest film"),
     "largest_area_ratio": ("-", "boundary area ratio at the thinnest film of the path"),
 }
 """Unit and meaning of each output."""
@@ -106,7 +106,9 @@ class Results:
         try:
             for table in self.tables():
                 csv_writer = csv_writer or pc.CSVWriter(csv_path, table.schema, write_options=options)
-                parquet_writer = parquet_writer or pq.ParquetWriter(parquet_path, table.schema, use_dictionary=_REPEATING)
+                parquet_writer = parquet_writer or pq.ParquetWriter(
+                    parquet_path, table.schema, use_dictionary=_REPEATING
+                )
                 csv_writer.write_table(table)
                 parquet_writer.write_table(table)
         finally:

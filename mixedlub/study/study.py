@@ -59,7 +59,8 @@ class Plan:
 
     def model(self) -> Model:
         """The chain under the options with the effects switched on."""
-        return Model(study_chain(self.options), tuple(self.inputs), WANTED, find(sorted(self.parameters)))
+        effects = find(sorted(self.parameters)) if self.parameters else ()
+        return Model(study_chain(self.options), tuple(self.inputs), WANTED, effects)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,0 +1,50 @@
+"""What the README shows runs."""
+
+import re
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mixedlub.cli import COMMANDS, main
+
+ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def block(language: str) -> str:
+    (found,) = re.findall(rf"```{language}\n(.*?)```", README, re.DOTALL)
+    return found
+
+
+def test_study_of_the_readme_runs(tmp_path):
+    (tmp_path / "traces").mkdir()
+    x = np.arange(12000) * 0.5
+    z = np.convolve(np.random.default_rng(2).normal(size=x.size), np.ones(30) / 30, "same")
+    np.savetxt(
+        tmp_path / "traces/ground.csv", np.column_stack([x, z]), delimiter=",", header="x (um),z (um)", comments=""
+    )
+    (tmp_path / "mine.toml").write_text(block("toml"))
+    assert main(["study", str(tmp_path / "mine.toml"), "--no-figures", "--out", str(tmp_path / "out")]) == 0
+
+
+def test_python_of_the_readme_runs(monkeypatch, capsys):
+    monkeypatch.chdir(ROOT)
+    exec(compile(block("python"), "README", "exec"), {})
+    assert "power_loss" in capsys.readouterr().out
+
+
+def test_every_command_is_in_the_readme():
+    for command in COMMANDS:
+        assert f"`mixedlub {command.NAME}" in README
+
+
+@pytest.mark.parametrize("name", re.findall(r"\]\(([^)]+)\)", README))
+def test_linked_files_exist(name):
+    assert (ROOT / name).is_file()
+
+
+def test_version_is_in_the_changelog():
+    version = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
+    assert f"## {version}" in (ROOT / "CHANGELOG.md").read_text()
