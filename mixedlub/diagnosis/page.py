@@ -35,7 +35,8 @@ CAPTIONS = {
     "residual_map": (
         WHERE,
         "Residuals over the test conditions; the tiles of a block are the readings taken there (surfaces and the "
-        "other conditions, in the same order everywhere). Red: the rig reads more than simulated; crosses: outliers.",
+        "other conditions, in the same order everywhere). Red: the rig reads more than simulated; grey "
+        "with a cross: outlier.",
     ),
     "roll_angle_map": (
         WHERE,
