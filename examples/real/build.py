@@ -51,7 +51,7 @@ def film_31() -> Iterator[Found]:
         "ehd_film_31C_50N",
         system,
         {
-            "load_N": t["ball_load_N"],
+            "load_N": t["ball_load_N"].round(),
             "entrainment_speed_m_s": t["rolling_speed_mm_s"] * 1e-3,
             "slide_roll_ratio": np.zeros(len(t)),
             "oil_temperature_C": t["lube_temperature_C"],
@@ -180,7 +180,7 @@ def film_two_oils(data: Path) -> Iterator[Found]:
             f"ehd_film_{oil}",
             system,
             {
-                "load_N": t["ball_load_N"],
+                "load_N": t["ball_load_N"].round(),
                 "entrainment_speed_m_s": t["rolling_speed_mm_s"] * 1e-3,
                 "slide_roll_ratio": np.zeros(len(t)),
                 "oil_temperature_C": t["lube_temp_degC"],
@@ -219,7 +219,7 @@ def traction_cycles(data: Path) -> Iterator[Found]:
         system,
         {
             "time_s": mean["time"],
-            "load_N": mean["ball_load_N"],
+            "load_N": mean["ball_load_N"].round(-1),
             "entrainment_speed_m_s": mean["rolling_speed_mm_s"] * 1e-3,
             "slide_roll_ratio": mean["srr"] / 100.0,
             "oil_temperature_C": mean["lube_probe_temp_degC"],

@@ -11,7 +11,7 @@ import numpy as np
 
 from mixedlub.chain import Model
 from mixedlub.diagnosis.fit import linear_fit
-from mixedlub.diagnosis.labels import unit_of, words_of
+from mixedlub.diagnosis.labels import number, unit_of, words_of
 from mixedlub.diagnosis.search import Search
 from mixedlub.diagnosis.unknown import SIZES
 from mixedlub.effect import Effect, Normal, Parameter
@@ -33,6 +33,7 @@ BEAM = 12
 CELLS = 4_000_000
 MOST_BLOCKS = 6
 GAIN = 3.0
+WORTH = 0.7
 STEP = 1e-4
 
 
@@ -69,7 +70,11 @@ class Law:
     @property
     def text(self) -> str:
         """The law as a line of text."""
-        head = f"{self.coefficient:.3g} {self.unit}".rstrip() if not self.relative else f"{self.coefficient:.3g} × base"
+        head = (
+            f"{number(self.coefficient)} {self.unit}".rstrip()
+            if not self.relative
+            else f"{number(self.coefficient)} × base"
+        )
         parts = [f"({_words(name)}/{_middle(name, x)})^{_power(b)}" for (name, b), x in self._items]
         return "missing part = " + " × ".join([head, *parts])
 
@@ -279,8 +284,8 @@ def _with(powers: np.ndarray, place: int, b: Fraction) -> np.ndarray:
 def power_law(found: Search) -> Law | None:
     """The shortest power law that predicts whole levels it was not fitted to; None where there is none.
 
-    The law is chosen anew in every fold; it must lower the held-out error over all folds and in most of the
-    conditions whose levels are left out in turn.
+    The law is chosen anew in every fold; it must lower the held-out error clearly over all folds, and in most
+    of the conditions whose levels are left out in turn.
     """
     values = features(found)
     if not values:
@@ -296,7 +301,7 @@ def power_law(found: Search) -> Law | None:
     if score < GAIN:
         return None
     before, after, wins = _held_out(found, every)
-    if not after < before or not wins:
+    if after > WORTH * before or not wins:
         return None
     own = every.columns(powers[None], np.array([relative]))[0]
     coefficient, sd, c = _coefficient(every, own)
@@ -363,8 +368,8 @@ def _middle(name: str, value: float) -> str:
     """The middle of a quantity with its unit, as the law is written."""
     unit = unit_of(name) if unit_of(name) else GLOSSARY[name].unit if name in GLOSSARY else "-"
     if unit == "Pa":
-        return f"{value * 1e-9:.3g} GPa"
-    return f"{value:.3g}" if unit in ("-", "") else f"{value:.3g} {unit}"
+        return f"{number(value * 1e-9)} GPa"
+    return number(value) if unit in ("-", "") else f"{number(value)} {unit}"
 
 
 def _power(b: Fraction) -> str:

@@ -24,16 +24,18 @@ UNITS = {
 }
 """Ending of a column's name and the unit it stands for, longer endings first."""
 
-PLAIN = {
-    r"\quad": "  ",
-    r"\left": "",
-    r"\right": "",
+SIGNS = {
+    r"\qquad": "~ ",
+    r"\quad": "~ ",
     r"\,": " ",
     r"\;": " ",
+    r"\ ": " ",
+    r"\!": "",
     r"\cdot": "·",
     r"\times": "×",
     r"\leftarrow": "←",
     r"\rightarrow": "→",
+    r"\propto": "∝",
     r"\leq": "≤",
     r"\geq": "≥",
     r"\le": "≤",
@@ -44,6 +46,11 @@ PLAIN = {
     r"\sum": "Σ",
     r"\sqrt": "√",
     r"\partial": "∂",
+    r"\nabla": "∇",
+    r"\ell": "ℓ",
+    r"\ast": "*",
+    r"\langle": "⟨",
+    r"\rangle": "⟩",
 }
 LETTERS = (
     "alpha beta gamma delta epsilon zeta eta theta kappa lambda mu nu xi pi rho sigma tau phi varphi chi psi omega "
@@ -89,6 +96,15 @@ def amount(value: float, column: str) -> str:
     """
     unit = unit_of(column)
     return f"{value:.6g}" if not unit else f"{value:.6g}{'' if unit == '°' else ' '}{unit}"
+
+
+def number(value: float) -> str:
+    """A number to three digits, without needless ones.
+
+    >>> number(0.10412), number(1234.5), number(169.9), number(0.0)
+    ('0.104', '1234', '170', '0')
+    """
+    return f"{value:.0f}" if 100 <= abs(value) < 1e6 else f"{value:.3g}"
 
 
 def conditions_text(conditions: Mapping[str, float | str]) -> str:
@@ -142,23 +158,33 @@ def plain_equation(latex: str) -> str:
     >>> plain_equation(r"h \leftarrow h\,\frac{1 - a}{1 + b\,L^{0.64}}")
     'h ← h (1 - a)/(1 + b L^0.64)'
     """
-    text = latex
-    while (found := re.search(r"\\[dt]?frac\s*\{", text)) is not None:
-        over, rest = _braced(text, found.end() - 1)
-        under, end = _braced(text, rest)
-        text = f"{text[: found.start()]}{_bracketed(over)}/{_bracketed(under)}{text[end:]}"
-    text = re.sub(r"\\(?:mathrm|text|operatorname|mathit)\s*\{([^{}]*)\}", r"\1", text)
-    for sign, plain in sorted(PLAIN.items(), key=lambda item: -len(item[0])):
+    text = re.sub(r"\\(?:left|right|[bB]igg?[lr]?)(?![a-zA-Z])", "", " ".join(latex.split()))
+    text = re.sub(r"\\[dt]?frac(\d)(\d)", r"\\frac{\1}{\2}", text).replace(r"^\circ", "°")
+    text = text.replace(r"\{", "(").replace(r"\}", ")")
+    while (found := re.search(r"\\[dt]?frac(?![a-zA-Z])\s*", text)) is not None:
+        over, rest = _argument(text, found.end())
+        under, end = _argument(text, rest)
+        ratio = "½" if (over, under) == ("1", "2") else f"{_bracketed(over)}/{_bracketed(under)}"
+        text = f"{text[: found.start()]}{ratio}{text[end:]}"
+    text = re.sub(r"\\bar\s*\{?\s*(\w)\}?", "\\1\u0304", text)
+    text = re.sub(r"\\(?:mathrm|text|operatorname|mathit)\s*\{([^{}]*)\}", r" \1 ", text)
+    for sign, plain in SIGNS.items():
         text = re.sub(re.escape(sign) + (r"(?![a-zA-Z])" if sign[-1].isalpha() else ""), plain, text)
-    text = re.sub(r"\\([a-zA-Z]+)", lambda m: GREEK.get(m[1], m[1]), text)
-    text = re.sub(r"([_^])\{([^{}\s()+*/-]*|-?[\d./]+)\}", r"\1\2", text)
-    return re.sub(r" {3,}", "  ", text.replace("{", "(").replace("}", ")")).strip()
+    text = re.sub(r"\\([a-zA-Z]+)", lambda m: GREEK.get(m[1], f" {m[1]} "), text)
+    text = re.sub(r"(_\s*\{(?=[^\W\d_]+\})|[_^]\s*\{(?=(?:\w|\*|-?[\d.]+)\}))([^}]*)\}", lambda m: m[1][0] + m[2], text)
+    text = text.replace("{", "(").replace("}", ")")
+    text = re.sub(r"(?<=[(\[]) +| +(?=[)\],^_])", "", re.sub(r" +", " ", text))
+    text = re.sub(r"\b(a?sinh|cosh|tanh|sin|cos|ln|log|exp|sgn) (?=[(\[])", r"\1", text)
+    return text.replace(" ~", "  ").replace("~", " ").replace("° C", "°C").strip()
 
 
-def _braced(text: str, start: int) -> tuple[str, int]:
-    """The content of the braces that open at ``start``, and the place after them."""
-    while text[start] == " ":
+def _argument(text: str, start: int) -> tuple[str, int]:
+    """What a LaTeX command takes from ``start`` on, and the place after it: braces, a command or one sign."""
+    while text[start : start + 1] == " ":
         start += 1
+    if text[start] == "\\":
+        end = start + 1 + len(re.match(r"[a-zA-Z]*", text[start + 1 :])[0])  # type: ignore[index]
+        return text[start:end], end
     if text[start] != "{":
         return text[start], start + 1
     depth = 0
@@ -170,4 +196,4 @@ def _braced(text: str, start: int) -> tuple[str, int]:
 
 
 def _bracketed(text: str) -> str:
-    return text if re.fullmatch(r"\\?[a-zA-Z0-9._]+'?", text) else f"({text})"
+    return text if re.fullmatch(r"\\?[a-zA-Z0-9.]+'?(_(\w|\{\w+\}))?", text) else f"({text})"

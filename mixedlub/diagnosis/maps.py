@@ -15,6 +15,7 @@ from mixedlub.diagnosis.style import DIVERGING, INK, MUTED, OUTLIER, PAPER, blan
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.colors import Normalize
     from matplotlib.figure import Figure
 
 ACROSS = ("speed_rpm", "entrainment_speed_m_s", "sliding_speed_m_s", "time_s", "pressure_MPa", "torque_Nm", "load_N")
@@ -111,7 +112,7 @@ def _levels(values: np.ndarray, most: int, name: str) -> tuple[np.ndarray, list[
 
 
 def _tiles(
-    axes: Axes, d: Diagnosis, frame: Frame, here: np.ndarray, z: np.ndarray, norm: object, outlier: np.ndarray
+    axes: Axes, d: Diagnosis, frame: Frame, here: np.ndarray, z: np.ndarray, norm: Normalize, outlier: np.ndarray
 ) -> None:
     """One panel: a block for every pair of levels, in it a tile for every reading taken there."""
     from matplotlib.collections import PatchCollection
@@ -128,7 +129,7 @@ def _tiles(
         members.sort(key=lambda i: _order(d, i))
         for (left, low, wide, tall), i in zip(_block(len(members)), members, strict=True):
             patches.append(Rectangle((x + left, y + low), wide, tall))
-            colours.append(z[i])
+            colours.append(np.nan if outlier[i] else z[i])
             if outlier[i]:
                 crosses.append((x + left + 0.5 * wide, y + low + 0.5 * tall))
     axes.set_facecolor(PAPER)
@@ -138,7 +139,7 @@ def _tiles(
     axes.add_collection(tiles)
     if crosses:
         place = np.array(crosses)
-        axes.scatter(place[:, 0], place[:, 1], marker="x", s=14, color=OUTLIER, linewidths=1.0)
+        axes.scatter(place[:, 0], place[:, 1], marker="x", s=22, color=OUTLIER, linewidths=1.2)
     axes.set_xlim(-0.55, len(across_names) - 0.45)
     axes.set_ylim(-0.55, len(up_names) - 0.45)
     axes.set_xticks(range(len(across_names)), across_names, rotation=45 if len(across_names) > 6 else 0)
@@ -200,9 +201,7 @@ def roll_angle_map(d: Diagnosis) -> Figure | None:
     for panel, z, what in zip(
         axes, (before, after), ("before: calibrated base model", "after: with the answer"), strict=True
     ):
-        panel.scatter(
-            table["roll_angle_deg"], place, c=z, cmap=DIVERGING, norm=norm, marker="s", s=34, edgecolors="none"
-        )
+        _cells(panel, np.asarray(table["roll_angle_deg"], dtype=float), place, z, norm)
         if outlier.any():
             panel.scatter(table["roll_angle_deg"][outlier], place[outlier], marker="x", s=14, color=OUTLIER)
         panel.set_title(what)
@@ -215,6 +214,27 @@ def roll_angle_map(d: Diagnosis) -> Figure | None:
     bar.set_label("(recorded − simulated) / sd")
     bar.outline.set_visible(False)
     return figure
+
+
+def _cells(axes: Axes, x: np.ndarray, row: np.ndarray, z: np.ndarray, norm: Normalize) -> None:
+    """A tile for every reading, reaching half way to its neighbours in the row."""
+    from matplotlib.collections import PatchCollection
+    from matplotlib.patches import Rectangle
+
+    widest = float(np.median(np.diff(np.unique(x)))) if np.unique(x).size > 1 else 1.0
+    patches, colours = [], []
+    for k in np.unique(row):
+        own = np.flatnonzero(row == k)
+        own = own[np.argsort(x[own], kind="stable")]
+        gap = np.minimum(np.diff(x[own]), 2.0 * widest) / 2.0
+        left, right = np.append(widest / 2.0, gap), np.append(gap, widest / 2.0)
+        for i, before, after in zip(own, left, right, strict=True):
+            patches.append(Rectangle((x[i] - before, k - 0.44), before + after, 0.88))
+            colours.append(z[i])
+    tiles = PatchCollection(patches, cmap=DIVERGING, norm=norm, edgecolor="white", linewidth=0.3)
+    tiles.set_array(np.array(colours))
+    axes.add_collection(tiles)
+    axes.set_xlim(x.min() - widest, x.max() + widest)
 
 
 def _short(name: str, value: float | str) -> str:

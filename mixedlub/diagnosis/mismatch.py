@@ -27,6 +27,12 @@ class Mismatch:
     statistic: float
 
 
+def judged_weight(found: Search) -> np.ndarray:
+    """Which readings are outliers, as the best explanation judges: the base model may write off what it lacks."""
+    best = max(found.log_weights.items(), key=lambda item: item[1])[0]
+    return found.unknown.fit.weight if isinstance(best, str) else found.fits[best].weight
+
+
 def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch:
     """Compare the data's Bayes factor against none with its law when nothing is missing.
 
@@ -36,7 +42,7 @@ def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch
     """
     problem, none = found.problem, found.none
     fixed = np.hstack([none.slopes, problem.shared])
-    weight = none.weight
+    weight = judged_weight(found)
     inner = np.linalg.inv(np.eye(fixed.shape[1]) + fixed.T @ (fixed * weight[:, None]))
     directions = [s.change for s in found.sampled]
     effects = np.vstack(directions) if directions else np.zeros((0, problem.y.size))

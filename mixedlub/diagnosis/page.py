@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -9,9 +10,9 @@ from importlib.resources import files
 
 from mixedlub.diagnosis.charts import colour_of
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.labels import words_of
+from mixedlub.diagnosis.labels import number, words_of
 from mixedlub.diagnosis.problem import effects_of
-from mixedlub.diagnosis.style import equation_svg, inline
+from mixedlub.diagnosis.style import inline
 from mixedlub.diagnosis.words import (
     ALIKE,
     GAIN,
@@ -22,8 +23,8 @@ from mixedlub.diagnosis.words import (
     WHERE,
     Section,
     equation_sentence,
-    number,
 )
+from mixedlub.report.equations import equation
 
 CAPTIONS = {
     "recorded_against_simulated": (
@@ -34,7 +35,8 @@ CAPTIONS = {
     "residual_map": (
         WHERE,
         "Residuals over the test conditions; the tiles of a block are the readings taken there (surfaces and the "
-        "other conditions, in the same order everywhere). Red: the rig reads more than simulated; crosses: outliers.",
+        "other conditions, in the same order everywhere). Red: the rig reads more than simulated; grey "
+        "with a cross: outlier.",
     ),
     "roll_angle_map": (
         WHERE,
@@ -94,7 +96,7 @@ def render(d: Diagnosis, parts: Iterable[Section], drawings: Mapping[str, str]) 
         equations={sentence: Markup(svg) for sentence, svg in _equations(d).items()},
         pictures=pictures,
         version=_version(),
-        readings=d.found.problem.y.size,
+        readings=d.readings.size,
         quantity=words_of(d.case.quantity),
         level=f"{100 * d.test.level:g} %",
     )
@@ -111,12 +113,13 @@ def _equations(d: Diagnosis) -> dict[str, str]:
     """Drawings of the verdict's equations by the sentence that they stand for."""
     if isinstance(d.posterior.verdict, str):
         return {}
-    found = {}
-    for e in effects_of(d.posterior.verdict):
-        drawn = equation_svg(e.equation)
-        if drawn is not None:
-            found[equation_sentence(e)] = inline(drawn, f"equation-{e.id}")
-    return found
+    return {equation_sentence(e): equation(bare(e.equation)) for e in effects_of(d.posterior.verdict)}
+
+
+def bare(tex: str) -> str:
+    """An equation as the drawing takes it: brackets without sizes, every fraction in braces."""
+    tex = re.sub(r"\\[bB]igg?[lr]?(?![a-zA-Z])", "", tex)
+    return re.sub(r"\\frac\s+(\w)\s*(\w)", r"\\frac{\1}{\2}", tex)
 
 
 def _cards(d: Diagnosis) -> list[tuple[str, str]]:
@@ -129,7 +132,7 @@ def _cards(d: Diagnosis) -> list[tuple[str, str]]:
     ]
     if d.posterior.verdict != ():
         cards.append((f"{d.heldout.after:.2f}", "sigma, the same with the answer"))
-    cards.append((number(float(len(d.outlier_runs))), f"outliers among {d.found.problem.y.size} readings"))
+    cards.append((number(float(len(d.outlier_runs))), f"outliers among {d.readings.size} readings"))
     return cards
 
 

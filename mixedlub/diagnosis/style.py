@@ -1,13 +1,15 @@
-"""The look of the figures, and how they become SVG that is the same every time."""
+"""What the figures of a diagnosis add to the common look: colours by meaning, plain logarithmic ticks."""
 
 from __future__ import annotations
 
-import io
 import re
-from contextlib import AbstractContextManager
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+from mixedlub.report.style import styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,21 +22,11 @@ SERIES = ("#1d6f8a", "#c8553d", "#8a6d1d", "#5b8c5a", "#7a4d9b", "#d39b2a", "#4a
 DIVERGING = "RdBu_r"
 
 RULES: Any = {
-    "font.family": "DejaVu Sans",
-    "font.size": 8.5,
-    "axes.titlesize": 9.0,
     "axes.titlelocation": "left",
     "axes.titleweight": "bold",
-    "axes.labelsize": 8.5,
     "axes.edgecolor": MUTED,
     "axes.labelcolor": INK,
-    "axes.linewidth": 0.7,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "axes.axisbelow": True,
     "grid.color": GRID,
-    "grid.linewidth": 0.6,
     "text.color": INK,
     "xtick.color": MUTED,
     "ytick.color": MUTED,
@@ -42,19 +34,16 @@ RULES: Any = {
     "ytick.labelcolor": INK,
     "xtick.labelsize": 8.0,
     "ytick.labelsize": 8.0,
-    "legend.frameon": False,
-    "legend.fontsize": 8.0,
-    "svg.hashsalt": "mixedlub",
-    "svg.fonttype": "path",
-    "mathtext.fontset": "dejavusans",
 }
 
 
-def look() -> AbstractContextManager[None]:
-    """Everything drawn and saved inside has the look of the figures."""
+@contextmanager
+def look() -> Iterator[None]:
+    """Everything drawn inside has the common look, with what the figures of a diagnosis add to it."""
     from matplotlib import rc_context
 
-    return rc_context(RULES)
+    with styled(), rc_context(RULES):
+        yield
 
 
 def blank(width: float, height: float) -> Figure:
@@ -64,37 +53,19 @@ def blank(width: float, height: float) -> Figure:
     return Figure(figsize=(width, height), layout="constrained")
 
 
-def as_svg(figure: Figure) -> str:
-    """The figure as SVG without a date, so that equal figures are equal text."""
-    text = io.StringIO()
-    with look():
-        figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None})
-    return text.getvalue()
-
-
-def equation_svg(latex: str) -> str | None:
-    """An equation drawn as SVG; None where it is beyond matplotlib's mathematical text."""
-    from matplotlib.font_manager import FontProperties
-    from matplotlib.mathtext import MathTextParser
-
-    text = latex.replace(r"\text{", r"\mathrm{").replace(r"\le ", r"\leq ").replace(r"\ge ", r"\geq ")
-    with look():
-        font = FontProperties(size=11)
-        try:
-            width, height, *_ = MathTextParser("path").parse(f"${text}$", 72, font)
-        except ValueError:
-            return None
-        figure = blank((width + 4.0) / 72.0, (height + 8.0) / 72.0)
+def settled(figure: Figure) -> Figure:
+    """The figure with its layout done once and for all, so that saving need not draw it twice."""
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        with look():
+            engine.execute(figure)
         figure.set_layout_engine("none")
-        figure.text(0.0, 0.5, f"${text}$", fontproperties=font, color=INK, va="center")
-        figure.patch.set_alpha(0.0)
-    return as_svg(figure)
+    return figure
 
 
 def inline(svg: str, prefix: str) -> str:
-    """An SVG without its XML head, its ids made unique by a prefix so that many can stand in one page."""
-    body = svg[svg.index("<svg") :]
-    body = re.sub(r'\bid="([^"]+)"', rf'id="{prefix}-\1"', body)
+    """An SVG element with its ids made unique by a prefix, so that many can stand in one page."""
+    body = re.sub(r'\bid="([^"]+)"', rf'id="{prefix}-\1"', svg)
     body = re.sub(r"url\(#([^)]+)\)", rf"url(#{prefix}-\1)", body)
     return re.sub(r'xlink:href="#([^"]+)"', rf'xlink:href="#{prefix}-\1"', body)
 
@@ -106,9 +77,9 @@ def wide(values: np.ndarray, ratio: float = 8.0) -> bool:
 
 def log_ticks(axes: Axes, which: str) -> None:
     """Plain numbers at 1, 2, 5 on a logarithmic axis."""
-    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
     axis = axes.xaxis if which == "x" else axes.yaxis
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
-    axis.set_minor_formatter(NullFormatter())
+    axis.set_minor_locator(NullLocator())

@@ -16,6 +16,7 @@ from mixedlub.diagnosis.labels import (
     conditions_text,
     effect_words,
     explanation_words,
+    number,
     plain_equation,
     range_text,
     unit_of,
@@ -36,6 +37,7 @@ OUTLIERS = "Outlier readings"
 CALIBRATION = "What calibration was moved to"
 NEXT = "Next test"
 STRAINED = 2.0
+MOST_TIED = 5
 STAGE_WORDS = {
     "film": "the oil film",
     "shear": "shear of the film",
@@ -66,15 +68,6 @@ def chance(p: float) -> str:
     if p > 0.994:
         return "above 0.99"
     return "below 0.01" if p < 0.006 else f"{p:.2f}"
-
-
-def number(value: float) -> str:
-    """A number to three digits, without needless ones.
-
-    >>> number(0.10412), number(1234.5), number(169.9), number(0.0)
-    ('0.104', '1234', '170', '0')
-    """
-    return f"{value:.0f}" if 100 <= abs(value) < 1e6 else f"{value:.3g}"
 
 
 def sections(d: Diagnosis, unnamed: Unnamed | None = None) -> list[Section]:
@@ -118,8 +111,15 @@ def headline(d: Diagnosis) -> str:
     """The verdict in one sentence."""
     judged = d.posterior
     if len(judged.tied) > 1:
-        every = [f"{explanation_words(judged.names(k))} ({chance(judged.weights[k])})" for k in judged.tied]
-        return f"A tie: the readings cannot decide between {'; '.join(every[:-1])}; and {every[-1]}."
+        named = [f"{explanation_words(judged.names(k))} ({chance(judged.weights[k])})" for k in judged.tied[:MOST_TIED]]
+        more = len(judged.tied) - MOST_TIED
+        rest = [f"{more} less probable one{'s' if more > 1 else ''}"] if more > 0 else []
+        if judged.verdict == ():
+            return (
+                f"No mismatch beyond noise: nothing needs to be missing ({chance(judged.weights[()])}). A tie all the "
+                f"same, for these readings are too few or too coarse to exclude {_listed([*named[1:], *rest], 'or')}."
+            )
+        return f"A tie: the readings cannot decide between {_listed([*named, *rest], 'and')}."
     p = chance(judged.weights[judged.verdict])
     if judged.verdict == ():
         return f"Nothing is missing that these readings could show: the calibrated model explains them ({p})."
@@ -136,6 +136,15 @@ def headline(d: Diagnosis) -> str:
             f"(probability {p})."
         )
     return f"Missing physics: {' and '.join(physics)} (probability {p})."
+
+
+def _listed(items: list[str], last: str) -> str:
+    """Items with semicolons, the last one joined by a word.
+
+    >>> _listed(["a", "b and c", "d"], "or")
+    'a; b and c; or d'
+    """
+    return items[0] if len(items) == 1 else f"{'; '.join(items[:-1])}; {last} {items[-1]}"
 
 
 def _standing(d: Diagnosis) -> list[str]:
@@ -236,7 +245,11 @@ def equation_sentence(e: Effect) -> str:
 
 def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
     law = unnamed.law
-    said = [f"The mismatch is {d.found.unknown.best.words}."]
+    shape = d.found.unknown.best
+    along = "all conditions together" if shape.axis is None else words_of(shape.axis)
+    said = [
+        f"It varies smoothly with {along}, as {'a share of the reading' if shape.relative else 'an addition to it'}."
+    ]
     if unnamed.stages:
         best, *others = unnamed.stages
         said.append(
@@ -293,7 +306,10 @@ def _gain(d: Diagnosis) -> tuple[str, ...]:
     how = f"({split}, {kept.folds} folds; 1 is noise)"
     if d.posterior.verdict == ():
         return (f"Calibration alone predicts left-out levels to {kept.before:.2f} sigma {how}.",)
-    return (f"From {kept.before:.2f} sigma with calibration alone to {kept.after:.2f} sigma with the answer {how}.",)
+    change = f"from {kept.before:.2f} sigma with calibration alone to {kept.after:.2f} sigma with the answer {how}."
+    if kept.after > 0.95 * kept.before:
+        return (f"Not better: {change} Do not extrapolate it.",)
+    return (change.capitalize(),)
 
 
 def _outliers(d: Diagnosis) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
@@ -302,7 +318,7 @@ def _outliers(d: Diagnosis) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...
         return (), ()
     unit = unit_of(d.case.quantity) or "-"
     table = [("run", f"recorded ({unit})", f"predicted ({unit})", "off by", "conditions")]
-    y = d.found.problem.y
+    y = d.readings
     for i in rows[:12]:
         off = (y[i] - d.recorded.predicted[i]) / d.recorded.sd[i]
         table.append(
@@ -351,6 +367,9 @@ def _calibrated(d: Diagnosis) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _next_test(d: Diagnosis) -> tuple[str, ...]:
+    if d.posterior.verdict == "unknown":
+        place = ", ".join(range_text(cut) for cut in d.region.where) or "all conditions"
+        return (f"To learn its form, refine and repeat the levels around {place}.",)
     if not d.next_tests:
         return ()
     first = d.next_tests[0]

@@ -15,6 +15,8 @@ from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.empirical import Unnamed, unnamed
 from mixedlub.diagnosis.search import Progress
 
+XML = '<?xml version="1.0" encoding="utf-8" standalone="no"?>\n'
+
 
 def diagnose(
     case_folder: Path,
@@ -38,17 +40,18 @@ def diagnose(
 def files(d: Diagnosis) -> dict[str, str]:
     """Everything the answer consists of, by file name."""
     from mixedlub.diagnosis import figures, page
-    from mixedlub.diagnosis.style import as_svg
+    from mixedlub.diagnosis.style import settled
+    from mixedlub.report.style import as_svg
 
     extra = unnamed(d.found) if any(key == "unknown" for key in d.posterior.tied) else None
     parts = words.sections(d, extra)
-    drawings = {name: as_svg(figure) for name, figure in figures.all_figures(d, extra).items()}
+    drawings = {name: as_svg(settled(figure)) for name, figure in figures.all_figures(d, extra).items()}
     return {
         "diagnosis.json": json.dumps({**as_json(d), **_unnamed_record(extra)}, indent=1, ensure_ascii=False) + "\n",
         "predictions.csv": predictions_csv(d),
         "report.txt": words.as_text(f"Diagnosis of {d.case.name}", parts),
         "report.html": page.render(d, parts, drawings),
-        **{f"figures/{name}.svg": drawing for name, drawing in drawings.items()},
+        **{f"figures/{name}.svg": XML + drawing for name, drawing in drawings.items()},
     }
 
 

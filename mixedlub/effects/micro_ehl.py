@@ -2,18 +2,20 @@
 
 from mixedlub.effect import Between, LogNormal, Parameter, effect
 
+REFERENCE = 0.01
+
 
 @effect(
     stage="contact",
     acts_on=("m0", "m2", "m4"),
     parameters=(
         Parameter("wavelength", "m", LogNormal(60e-6, 0.8), "length of the waves that carry the roughness", null=0.0),
-        Parameter("exponent", "-", Between(0.5, 1.3), "power of the load and speed groups, 1 in the source"),
+        Parameter("viscous", "-", Between(0.0, 1.0), "power of viscosity over that of speed, 1 in the source"),
         Parameter("texture", "-", Between(0.0, 1.0), "attenuation of slopes and curvatures over that of heights"),
     ),
     equation=r"m_0 \leftarrow m_0 A^2,\ m_{2,4} \leftarrow m_{2,4} A^{2r},\quad A = \frac{1}{1 + 0.15\nabla + "
-    r"0.015\nabla^2},\quad \nabla = \frac{\lambda_w}{b_H}\left(\frac{M^{3/4}}{L^{1/2}}\right)^q,\ M = "
-    r"\frac{W}{\sqrt{2U}},\ L = G(2U)^{1/4}",
+    r"0.015\nabla^2},\quad \nabla = \frac{\lambda_w}{b_H}\frac{M^{3/4}}{L^{1/2}},\ M = "
+    r"\frac{W}{\sqrt{2U}},\ L = G(2U)^{1/4},\ U = \frac{\eta_0^a\eta_r^{1-a}u}{E'R}",
     source="C. H. Venner, A. A. Lubrecht, J. Tribol. 116 (1994) 751; A. A. Lubrecht, C. H. Venner, Proc. "
     "IMechE J 213 (1999) 397",
     fingerprint={"speed": "+", "oil_temperature": "-", "roughness": "-", "slide_roll_ratio": "+"},
@@ -34,24 +36,26 @@ def micro_ehl(
     pressure_viscosity,
     *,
     wavelength,
-    exponent,
+    viscous,
     texture,
 ):
     """The pressure of the film flattens long waves of the roughness inside the contact.
 
-    W is taken from the Hertz pressure, 2 pi (p0/E')^2. Derived for pure rolling and waves across the motion.
-    Slopes and curvatures sit in shorter waves, which stay.
+    W is taken from the Hertz pressure, 2 pi (p0/E')^2. Forms differ in whether the inlet's viscosity counts; the
+    reference viscosity 0.01 Pa s for those without makes the form belong to Pa s. Derived for pure rolling and
+    waves across the motion.
 
     >>> here = dict(hertz_half_width=0.18e-3, hertz_pressure=0.9642e9, radius=8.3262e-3, reduced_modulus=226.374e9)
     >>> oil = dict(viscosity=0.01489, entrainment_speed=2.163, pressure_viscosity=14.81e-9)
-    >>> m0, _, _ = micro_ehl(1.0, 1.0, 1.0, **here, **oil, wavelength=60e-6, exponent=1.0, texture=1.0)
+    >>> m0, _, _ = micro_ehl(1.0, 1.0, 1.0, **here, **oil, wavelength=60e-6, viscous=1.0, texture=1.0)
     >>> round(m0**0.5, 2)   # amplitude left at nabla = 1.1
     0.85
     """
-    speed = 2.0 * viscosity * entrainment_speed / (reduced_modulus * radius)
+    inlet = REFERENCE * (viscosity / REFERENCE) ** viscous
+    speed = 2.0 * inlet * entrainment_speed / (reduced_modulus * radius)
     load = 6.283185307179586 * (hertz_pressure / reduced_modulus) ** 2
     moes = (load / speed**0.5) ** 0.75 / (pressure_viscosity * reduced_modulus * speed**0.25) ** 0.5
-    length = wavelength / hertz_half_width * moes**exponent
+    length = wavelength / hertz_half_width * moes
     attenuation = (1.0 + 0.15 * length + 0.015 * length**2) ** -2
     short = attenuation**texture
     return m0 * attenuation, m2 * short, m4 * short

@@ -17,6 +17,7 @@ from mixedlub.laws.oil import roelands_viscosity
     source="C. J. A. Roelands, thesis, Delft 1966, as written by L. Houpert, J. Tribol. 107 (1985) 241",
     fingerprint={"hertz_pressure": "-"},
     separated_by="a high-pressure viscometer beyond 0.4 GPa: Roelands bends down for good, many liquids bend up again",
+    after=("pressure_viscosity_law",),
     kinds=("viscosity",),
 )
 def roelands_pressure_law(contact_viscosity, viscosity, pressure_viscosity, hertz_pressure, *, share):

@@ -76,20 +76,36 @@ def descend(
     return x, cost
 
 
-def _starts(effects: Sequence[Concealed]) -> list[np.ndarray]:
-    """Knob starts in units of their span: both signs where allowed, shapes at the middle and the ends."""
-    choices: list[tuple[float, ...]] = []
+def _guesses(effects: Sequence[Concealed]) -> list[np.ndarray]:
+    """Knob values to begin from: strengths over a factor of 30, of both signs, shapes at usual ends."""
+    choices: list[list[float]] = []
     for effect in effects:
-        for place, knob in enumerate(effect.knobs):
+        for knob in effect.knobs:
             low, high = knob.typical
-            if place == 0:
-                middle = 0.5 * (low + high)
-                choices.append((middle, -middle) if knob.low < 0 else (middle,))
-            elif len(effect.knobs) == 2:
-                choices.append((low, high))
-            else:
-                choices.append((0.5 * (low + high),))
+            middle = 0.5 * (low + high)
+            sizes = [middle * factor for factor in (0.1, 0.2, 0.35, 0.6, 1.0, 1.8, 3.0)]
+            signed = [*sizes, *(-size for size in sizes)] if knob.low < 0 else sizes
+            strengths = [float(np.clip(value, knob.low, knob.high)) for value in signed]
+            choices.append(strengths if knob.name == "strength" else [low, high])
     return [np.array(values) for values in itertools.product(*choices)]
+
+
+def _promising(
+    guesses: Sequence[np.ndarray],
+    residual: Callable[[np.ndarray], np.ndarray],
+    origin: np.ndarray,
+    slopes: np.ndarray,
+    count: int = 3,
+) -> list[np.ndarray]:
+    """The guesses that leave least when the calibration may move linearly (``slopes``) about ``origin``."""
+    if len(guesses) <= 1:
+        return list(guesses)
+    basis, _ = np.linalg.qr(slopes)
+    left = []
+    for guess in guesses:
+        r = residual(np.concatenate([origin, guess]))
+        left.append(float(r @ r - np.sum((basis.T @ r) ** 2)))
+    return [guesses[i] for i in np.argsort(left)[:count]]
 
 
 def explain(
@@ -118,8 +134,11 @@ def explain(
 
     origin = np.zeros(count) if begin is None else begin
     best: tuple[np.ndarray, float] | None = None
-    for guess in _starts(effects) if starts is None else starts:
-        found = descend(residual, np.concatenate([origin, guess / unit]), low, high)
+    guesses = [guess / unit for guess in (_guesses(effects) if starts is None else starts)]
+    moves = sensitivity(target.rig, target.nominal, target.priors, origin) / target.sd[:, None]
+    slopes = np.concatenate([moves, np.eye(count)])
+    for guess in _promising(guesses, residual, origin, slopes):
+        found = descend(residual, np.concatenate([origin, guess]), low, high)
         if best is None or found[1] < best[1]:
             best = found
     assert best is not None

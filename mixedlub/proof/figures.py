@@ -105,7 +105,7 @@ def identification(scores: Sequence[Score]) -> Figure:
         ylim=(-0.03, 1.05),
     )
     axes.set_title("Single effects named rightly, by visibility", fontsize=11)
-    axes.legend(frameon=False, fontsize=8.5)
+    figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=8.5)
     return figure
 
 

@@ -180,6 +180,10 @@ def _distinct(truth: Truth, answer: Answer) -> bool:
     return truth.group == "unknown" and truth.identifiable and not truth.mimic
 
 
+def _glaring(truth: Truth, answer: Answer) -> bool:
+    return truth.group == "unknown" and truth.identifiable and truth.visibility >= 12
+
+
 ONE, SOME = ("single", "measurement"), ("single", "measurement", "pair")
 HIDDEN = (*SOME, "unknown")
 FIGURES: tuple[Figure, ...] = (
@@ -195,6 +199,7 @@ FIGURES: tuple[Figure, ...] = (
     Figure("power", "mismatch detected where one effect is hidden", _in(*ONE), _detected),
     Figure("unknown", "unknown where so and identifiable", _clear("unknown"), _named_unknown, at_least(0.90)),
     Figure("unknown_distinct", "  of these, not made to mimic", _distinct, _named_unknown),
+    Figure("unknown_clear", "  of these, clearly visible (12 or more)", _glaring, _named_unknown),
     Figure("outliers_found", "outlier readings found", _spoiled, outliers_found, at_least(0.95), weight=spoiled),
     Figure(
         "outliers_false",

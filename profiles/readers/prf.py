@@ -7,7 +7,7 @@ import numpy as np
 from profiles.errors import InputError
 from profiles.profile import Profile
 from profiles.readers.base import Source, checked_count, make_profile
-from profiles.units import length, metres
+from profiles.units import metres
 
 
 class PrfReader:
@@ -55,6 +55,6 @@ class PrfReader:
             raise InputError(f"the header declares {count} points", where=where, value=heights.size)
         origin: dict[str, object] = {"format": self.format}
         radius = lines.get("STYLUS_RADIUS", [])
-        if len(radius) > 2 and radius[1].replace(".", "").replace("e", "").replace("+", "").strip("0"):
-            origin["stylus_radius_m"] = length(" ".join(radius[1:3]), f"{where}: STYLUS_RADIUS")
+        if len(radius) > 1:
+            origin["stylus radius"] = " ".join(radius[1:3])
         return make_profile(source, heights * scale, spacing, origin)

@@ -1,0 +1,158 @@
+"""Figures show what the answer says, with units."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from matplotlib.collections import PatchCollection
+from matplotlib.figure import Figure
+
+from mixedlub.diagnosis import charts, figures, maps
+from mixedlub.diagnosis.confusion import confusion
+from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.empirical import unnamed as describe
+from mixedlub.diagnosis.style import inline, look
+from mixedlub.report.style import as_svg
+
+
+def labels(figure: Figure) -> str:
+    """Every axis label of a figure."""
+    return " | ".join(axes.get_xlabel() + " | " + axes.get_ylabel() for axes in figure.axes)
+
+
+@pytest.fixture(scope="module")
+def drawn(offset: Diagnosis) -> dict[str, Figure]:
+    """Every figure of the offset rig."""
+    return figures.all_figures(offset)
+
+
+def test_every_figure_of_a_gear_case_is_drawn(drawn: dict[str, Figure]) -> None:
+    assert set(drawn) >= {
+        "recorded_against_simulated",
+        "missing_part",
+        "residual_map",
+        "profiles",
+        "evidence",
+        "confusability",
+        "heldout",
+        "intervals",
+    }
+    assert "roll_angle_map" not in drawn
+
+
+def test_nothing_missing_has_no_missing_part(complete: Diagnosis) -> None:
+    assert figures.missing_part(complete) is None
+
+
+def test_roll_angle_map_takes_the_place_of_the_condition_map(teeth: Diagnosis) -> None:
+    figure = maps.roll_angle_map(teeth)
+    assert figure is not None
+    assert "roll angle (°)" in labels(figure)
+    assert maps.residual_map(teeth) is None
+
+
+@pytest.mark.parametrize(
+    ("name", "wanted"),
+    [
+        ("recorded_against_simulated", "simulated power loss (W)"),
+        ("missing_part", "missing part of the reading (W)"),
+        ("residual_map", "torque (N m)"),
+        ("profiles", "oil temperature (°C)"),
+        ("heldout", "(sigma)"),
+        ("intervals", "recorded − predicted (%)"),
+        ("evidence", "probability"),
+    ],
+)
+def test_axes_carry_units(drawn: dict[str, Figure], name: str, wanted: str) -> None:
+    assert wanted in labels(drawn[name])
+
+
+def test_map_has_a_tile_for_every_reading(offset: Diagnosis) -> None:
+    with look():
+        figure = maps.residual_map(offset)
+    assert figure is not None
+    tiles = [c for axes in figure.axes for c in axes.collections if isinstance(c, PatchCollection)]
+    assert sum(len(c.get_paths()) for c in tiles) == 2 * offset.found.problem.y.size
+
+
+def test_tiles_carry_the_residuals(offset: Diagnosis) -> None:
+    before, after = maps.residuals(offset)
+    figure = maps.residual_map(offset)
+    assert figure is not None
+    shown = np.concatenate([c.get_array() for axes in figure.axes for c in axes.collections[:1] if axes.get_title()])
+    sound = offset.outlier_chance <= 0.5
+    np.testing.assert_allclose(np.sort(shown[np.isfinite(shown)]), np.sort([*before[sound], *after[sound]]))
+
+
+def test_roll_angle_cells_do_not_overlap(teeth: Diagnosis) -> None:
+    figure = maps.roll_angle_map(teeth)
+    assert figure is not None
+    boxes = [p.get_extents() for p in figure.axes[0].collections[0].get_paths()]
+    rows: dict[float, list[tuple[float, float]]] = {}
+    for box in boxes:
+        rows.setdefault(round(box.y0, 3), []).append((box.x0, box.x1))
+    for spans in rows.values():
+        ordered = sorted(spans)
+        assert all(a[1] <= b[0] + 1e-9 for a, b in pairwise(ordered))
+
+
+def test_block_of_tiles_fills_its_square() -> None:
+    for count in range(1, 14):
+        tiles = maps._block(count)
+        assert len(tiles) == count
+        assert sum(w * h for _, _, w, h in tiles) == pytest.approx(0.92**2)
+
+
+def test_outliers_are_marked(offset: Diagnosis) -> None:
+    figure = figures.recorded_against_simulated(offset)
+    hollow = figure.axes[0].collections[-1]
+    np.testing.assert_allclose(
+        np.sort(hollow.get_offsets()[:, 1]), np.sort(offset.found.problem.y[offset.outlier_chance > 0.5])
+    )
+
+
+def test_evidence_shows_the_probabilities(offset: Diagnosis) -> None:
+    figure = charts.evidence(offset)
+    shown = [line.get_xdata()[-1] for line in figure.axes[0].lines if len(line.get_xdata()) == 2]
+    assert shown[0] == pytest.approx(offset.posterior.weights[offset.posterior.verdict])
+
+
+def test_instrument_and_physics_have_their_own_colours() -> None:
+    colours = {charts.colour_of(k) for k in ((), "unknown", ("sensor_offset",), ("inlet_shear_heating",))}
+    assert len(colours) == 4
+
+
+def test_cosines_are_symmetric_with_one_on_the_diagonal(offset: Diagnosis) -> None:
+    alike = confusion(offset.found)
+    np.testing.assert_allclose(alike.cosine, alike.cosine.T, atol=1e-9)
+    np.testing.assert_allclose(np.diag(alike.cosine), 1.0, atol=1e-9)
+
+
+def test_calibration_takes_its_share_of_every_effect(offset: Diagnosis) -> None:
+    alike = confusion(offset.found)
+    assert (alike.absorbed >= 0.0).all()
+    assert (alike.absorbed <= 1.0).all()
+
+
+def test_map_of_conditions_puts_speed_across_torque_up(offset: Diagnosis) -> None:
+    assert maps.frame_of(offset) == maps.Frame("speed_rpm", "torque_Nm", "oil_temperature_C")
+
+
+def test_stages_that_absorb_the_unnamed_are_drawn_in_order(unnamed: Diagnosis) -> None:
+    figure = charts.empirical_form(unnamed, describe(unnamed.found))
+    assert figure is not None
+    widths = [bar.get_width() for bar in figure.axes[0].patches]
+    assert widths == sorted(widths, reverse=True)
+
+
+def test_equal_figures_are_equal_text(offset: Diagnosis) -> None:
+    first, second = (as_svg(charts.evidence(offset)) for _ in range(2))
+    assert first == second
+    assert "<dc:date>" not in first
+
+
+def test_ids_are_prefixed_where_defined_and_where_used() -> None:
+    svg = '<svg><g id="a"/><use xlink:href="#a"/><path clip-path="url(#a)"/></svg>'
+    assert inline(svg, "x") == '<svg><g id="x-a"/><use xlink:href="#x-a"/><path clip-path="url(#x-a)"/></svg>'

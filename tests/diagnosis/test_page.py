@@ -1,0 +1,125 @@
+"""The page stands alone: opened offline in a browser it shows everything."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+
+from mixedlub.diagnosis import words
+from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.page import render
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+
+
+class Reader(HTMLParser):
+    """Collects ids, tags, links and visible text."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.ids: list[str] = []
+        self.tags: list[str] = []
+        self.links: list[str] = []
+        self.text: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        for name, value in attrs:
+            if name == "id":
+                self.ids.append(value or "")
+            if name in ("src", "href", "xlink:href"):
+                self.links.append(value or "")
+
+    def handle_data(self, data: str) -> None:
+        self.text.append(data)
+
+
+@pytest.fixture(scope="module")
+def page(offset_files: dict[str, str]) -> str:
+    """The page of the offset rig."""
+    return offset_files["report.html"]
+
+
+@pytest.fixture(scope="module")
+def read(page: str) -> Reader:
+    """The page, parsed."""
+    reader = Reader()
+    reader.feed(page)
+    return reader
+
+
+def test_page_needs_nothing_beside_itself(read: Reader) -> None:
+    assert all(link.startswith(("#", "data:image/png;")) for link in read.links)
+    assert not {"script", "link", "img", "iframe"} & set(read.tags)
+
+
+def test_ids_of_all_drawings_are_unique(read: Reader) -> None:
+    assert len(read.ids) == len(set(read.ids))
+
+
+def test_drawings_refer_only_to_what_is_there(page: str, read: Reader) -> None:
+    used = set(re.findall(r"url\(#([^)]+)\)", page)) | {link[1:] for link in read.links if link[0] == "#"}
+    assert used <= set(read.ids)
+
+
+def test_every_figure_stands_in_the_page(offset_files: dict[str, str], page: str) -> None:
+    names = [n.removeprefix("figures/").removesuffix(".svg") for n in offset_files if n.startswith("figures/")]
+    assert page.count("<figure>") == len(names)
+    for name in names:
+        assert f'id="{name}-figure_1"' in page
+
+
+def test_every_figure_has_a_caption(page: str) -> None:
+    assert page.count("<figcaption>") == page.count("<figure>")
+
+
+def test_page_and_text_say_the_same(offset: Diagnosis, read: Reader) -> None:
+    shown = re.sub(r"\s+", " ", " ".join(read.text))
+    for section in words.sections(offset):
+        for sentence in section.sentences:
+            if not sentence.startswith("Equation:"):
+                assert sentence in shown
+
+
+def test_page_of_an_unnamed_mismatch_is_written(unnamed_files: dict[str, str]) -> None:
+    page = unnamed_files["report.html"]
+    assert "If it is something unknown" in page
+    assert 'id="empirical_form-figure_1"' in page
+
+
+def test_case_text_is_escaped(offset: Diagnosis) -> None:
+    system = offset.case.system.model_copy(update={"description": "<b>loss & more</b>"})
+    named = replace(offset, case=replace(offset.case, system=system))
+    assert "&lt;b&gt;loss &amp; more&lt;/b&gt;" in render(named, words.sections(named), {})
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium here")
+def test_browser_shows_the_page_offline(page: str, tmp_path: Path) -> None:
+    assert CHROMIUM is not None
+    path = tmp_path / "report.html"
+    path.write_text(page, encoding="utf-8")
+    picture = tmp_path / "page.png"
+    command = [
+        CHROMIUM,
+        "--headless",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--hide-scrollbars",
+        "--host-resolver-rules=MAP * ~NOTFOUND",
+        f"--user-data-dir={tmp_path / 'browser'}",
+        "--window-size=900,3000",
+        f"--screenshot={picture}",
+        path.as_uri(),
+    ]
+    subprocess.run(command, check=True, capture_output=True, timeout=90)
+    from matplotlib.image import imread
+
+    seen = imread(picture)[..., :3]
+    blocks = [seen[top : top + 600].std() for top in range(0, 3000, 600)]
+    assert min(blocks) > 0.02, "a part of the page is blank"

@@ -1,0 +1,193 @@
+"""What is written: the schema field by field, equal bytes for equal cases, nothing half overwritten."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mixedlub.diagnosis.answer import as_json, predictions_csv
+from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.write import diagnose, write
+from mixedlub.effect import STAGES, catalogue
+
+
+def number(value: Any) -> bool:
+    return isinstance(value, float | int) and not isinstance(value, bool) and value == value and abs(value) < 1e300
+
+
+def probability(value: Any) -> bool:
+    return number(value) and 0.0 < value < 1.0
+
+
+@pytest.fixture(params=["complete", "offset", "unnamed", "teeth"])
+def answer(request: pytest.FixtureRequest) -> tuple[Diagnosis, dict[str, Any]]:
+    """A diagnosis and its JSON."""
+    d = request.getfixturevalue(request.param)
+    return d, json.loads(json.dumps(as_json(d)))
+
+
+def test_schema_and_case_are_named(answer: tuple[Diagnosis, dict[str, Any]]) -> None:
+    d, said = answer
+    assert said["schema"] == "mixedlub-diagnosis/1"
+    assert said["case"] == d.case.folder.name
+
+
+def test_mismatch_field(answer: tuple[Diagnosis, dict[str, Any]]) -> None:
+    d, said = answer
+    field = said["mismatch"]
+    assert set(field) == {"detected", "p_value", "level", "chi2_before", "rows"}
+    assert isinstance(field["detected"], bool)
+    assert 0.0 <= field["p_value"] <= 1.0
+    assert field["detected"] == (field["p_value"] <= field["level"])
+    assert number(field["chi2_before"])
+    assert field["chi2_before"] >= 0
+    assert field["rows"] == d.found.problem.y.size
+
+
+def test_verdict_and_ties(answer: tuple[Diagnosis, dict[str, Any]]) -> None:
+    _, said = answer
+    allowed = {*catalogue(), "none", "unknown"}
+    assert said["tied"][0] == said["verdict"]
+    for explanation in said["tied"]:
+        assert set(explanation) <= allowed
+        assert len(explanation) == len(set(explanation)) > 0
+        assert len(explanation) == 1 or not {"none", "unknown"} & set(explanation)
+
+
+def test_probabilities_are_never_certain(answer: tuple[Diagnosis, dict[str, Any]]) -> None:
+    _, said = answer
+    assert {"none", "unknown"} <= set(said["probabilities"]) <= {*catalogue(), "none", "unknown"}
+    assert all(probability(p) for p in said["probabilities"].values())
+
+
+def test_stages(answer: tuple[Diagnosis, dict[str, Any]]) -> None:
+    _, said = answer
+    assert set(said["stage"]) == set(STAGES)
+    assert all(probability(p) for p in said["stage"].values())
+
+
+def test_location(answer: tuple[Diagnosis, dict[str, Any]]) -> None:
+    d, said = answer
+    place = said["location"]
+    assert set(place) == {"rows", "where", "text"}
+    assert set(place["rows"]) == {str(int(run)) for run in d.recorded.table["run"]}
+    assert all(number(z) for z in place["rows"].values())
+    assert place["text"]
+    for cut in place["where"]:
+        assert cut["column"] in d.recorded.table
+        assert set(cut) in ({"column", "low", "high"}, {"column", "values"})
+    if said["verdict"] == ["none"]:
+        assert set(place["rows"].values()) == {0.0}
+
+
+def test_effects(answer: tuple[Diagnosis, dict[str, Any]]) -> None:
+    _, said = answer
+    named = [] if said["verdict"] in (["none"], ["unknown"]) else said["verdict"]
+    assert [e["id"] for e in said["effects"]] == named
+    for e in said["effects"]:
+        assert set(e) == {"id", "parameters", "source", "equation"}
+        assert e["source"]
+        assert e["equation"]
+        assert [p["name"] for p in e["parameters"]] == [p.name for p in catalogue()[e["id"]].parameters]
+        for p in e["parameters"]:
+            assert set(p) == {"name", "unit", "value", "low90", "high90"}
+            assert p["low90"] <= p["value"] <= p["high90"]
+
+
+def test_calibration(answer: tuple[Diagnosis, dict[str, Any]]) -> None:
+    _, said = answer
+    assert set(said["calibration"]) == {
+        "boundary_friction",
+        "viscosity",
+        "pressure_viscosity",
+        "eyring_stress",
+        "roughness",
+    }
+    for c in said["calibration"].values():
+        assert set(c) == {"value", "low90", "high90"}
+        assert c["low90"] < c["value"] < c["high90"]
+
+
+def test_fit(answer: tuple[Diagnosis, dict[str, Any]]) -> None:
+    _, said = answer
+    fit = said["fit"]
+    assert set(fit) == {"noise_rms", "heldout_before", "heldout_after", "split", "folds"}
+    assert all(number(fit[k]) and fit[k] > 0 for k in ("noise_rms", "heldout_before", "heldout_after"))
+    assert isinstance(fit["folds"], int)
+    assert fit["folds"] >= 2
+    assert fit["split"].startswith("leave ")
+
+
+def test_outliers_next_tests_and_warnings(answer: tuple[Diagnosis, dict[str, Any]]) -> None:
+    d, said = answer
+    runs = {int(run) for run in d.recorded.table["run"]}
+    assert set(said["outlier_runs"]) <= runs
+    names = {c.name for c in d.case.kind.columns}
+    for test in said["next_tests"]:
+        assert set(test) == {"conditions", "separates", "expected_bits", "text"}
+        assert set(test["conditions"]) <= names
+        assert test["expected_bits"] >= 0
+        assert all(isinstance(s, str) for s in test["separates"])
+    assert all(isinstance(w, str) for w in said["warnings"])
+
+
+def test_written_answer_is_the_answer(offset: Diagnosis, offset_files: dict[str, str]) -> None:
+    assert json.loads(offset_files["diagnosis.json"]) == json.loads(json.dumps(as_json(offset)))
+
+
+def test_unnamed_mismatch_carries_its_description(unnamed_files: dict[str, str]) -> None:
+    said = json.loads(unnamed_files["diagnosis.json"])["unknown"]
+    assert said["stages"][0]["quantity"]
+    assert said["empirical_form"] is None
+
+
+def test_predictions_have_a_row_a_run(answer: tuple[Diagnosis, dict[str, Any]]) -> None:
+    d, _ = answer
+    rows = list(csv.DictReader(io.StringIO(predictions_csv(d))))
+    assert list(rows[0]) == ["run", "base", "calibrated", "predicted", "low90", "high90", "mismatch_z"]
+    assert [int(r["run"]) for r in rows] == d.recorded.table["run"].tolist()
+    assert all(float(r["low90"]) < float(r["predicted"]) < float(r["high90"]) for r in rows)
+
+
+def test_the_same_case_twice_gives_the_same_bytes(
+    offset_folder: Path, offset_files: dict[str, str], excluded: tuple[str, ...], tmp_path: Path
+) -> None:
+    diagnose(offset_folder, tmp_path, exclude=excluded)
+    written = {p.relative_to(tmp_path).as_posix(): p.read_bytes() for p in tmp_path.rglob("*.*")}
+    assert written == {name: text.encode() for name, text in offset_files.items()}
+    assert set(written) >= {"diagnosis.json", "predictions.csv", "report.txt", "report.html"}
+
+
+def test_files_carry_no_date_and_no_path(offset: Diagnosis, offset_files: dict[str, str]) -> None:
+    for text in offset_files.values():
+        assert not re.search(r"\b20\d\d-\d\d-\d\d\b", text)
+        assert str(offset.case.folder.parent) not in text
+
+
+def test_wanted_conditions_are_predicted(offset_folder: Path, excluded: tuple[str, ...], tmp_path: Path) -> None:
+    wanted = tmp_path / "wanted.csv"
+    header = "run,sequence,torque_Nm,speed_rpm,oil_temperature_C,pinion_surface,gear_surface\n"
+    wanted.write_text(header + "901,1,75,1200,70,ground,ground\n", encoding="utf-8")
+    d = diagnose_case(offset_folder, predict=wanted, exclude=[*excluded, "churning", "sensor_gain"])
+    rows = predictions_csv(d).splitlines()
+    assert rows[-1].startswith("901,")
+
+
+def test_a_failed_write_leaves_the_old_answer(tmp_path: Path) -> None:
+    write({"a.txt": "old", "b.txt": "old"}, tmp_path)
+    with pytest.raises(UnicodeEncodeError):
+        write({"a.txt": "new", "b.txt": "\ud800"}, tmp_path)
+    assert {p.name: p.read_text() for p in tmp_path.iterdir()} == {"a.txt": "old", "b.txt": "old"}
+
+
+def test_drawings_of_an_earlier_answer_go(tmp_path: Path) -> None:
+    write({"figures/old.svg": "x", "figures/kept.svg": "x"}, tmp_path)
+    write({"figures/kept.svg": "y"}, tmp_path)
+    assert [p.name for p in (tmp_path / "figures").iterdir()] == ["kept.svg"]
+    assert (tmp_path / "figures" / "kept.svg").read_text() == "y"
