@@ -65,20 +65,21 @@ def _at_temperature(results: Results, theta: int, several: bool) -> Iterator[Dra
             if len(chosen):
                 figure = over_speed(results, quantity, chosen, theta)
                 yield Drawn(f"{quantity}_{key}{suffix}", f"{title} against pinion speed: {words}{at}.", figure)
+    symbols = _markers(results)
     yield Drawn(
         f"loss_over_roughness{suffix}",
-        f"Power loss against composite roughness, with a straight line fitted at each torque and speed{at}. {_markers(results)}",
+        f"Power loss against composite roughness, with a straight line fitted at each torque and speed{at}. {symbols}",
         loss_over(results, "composite_roughness", theta, fitted=True),
     )
     yield Drawn(
         f"loss_over_film_parameter{suffix}",
-        f"Power loss against film parameter{at}. {_markers(results)} The dashed line marks a film as thick as the composite "
+        f"Power loss against film parameter{at}. {symbols} The dashed line marks a film as thick as the composite "
         "roughness.",
         loss_over(results, "film_parameter", theta),
     )
     yield Drawn(
         f"loss_over_area_ratio{suffix}",
-        f"Power loss against boundary area ratio, with a straight line fitted at each torque and speed{at}. {_markers(results)}",
+        f"Power loss against boundary area ratio, with a straight line fitted at each torque and speed{at}. {symbols}",
         loss_over(results, "area_ratio", theta, fitted=True),
     )
     yield Drawn(
