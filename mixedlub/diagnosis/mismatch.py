@@ -40,6 +40,8 @@ def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch
     Data without mismatch are drawn from the linearised base model: calibration from its prior, noise from its
     law. Beyond the largest draw the bound P(B > b) <= 1/b of any Bayes factor gives the p-value.
     """
+    full = found
+    found = full.screened
     problem, none = found.problem, found.none
     fixed = np.hstack([none.slopes, problem.shared])
     weight = judged_weight(found)
@@ -88,5 +90,5 @@ def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch
     p = (1.0 + float((drawn >= observed).sum())) / (count + 1.0)
     if observed > drawn.max():
         p = min(p, float(np.exp(-min(observed, 700.0))))
-    chi2 = float((none.residual**2).sum() + none.z @ none.z)
-    return Mismatch(bool(p <= level), p, level, chi2, int(problem.y.size), observed)
+    chi2 = float((full.none.residual**2).sum() + full.none.z @ full.none.z)
+    return Mismatch(bool(p <= level), p, level, chi2, int(full.problem.y.size), observed)
