@@ -17,9 +17,11 @@ PRIOR = {"none": 0.42, "single": 0.38, "pair": 0.08, "unknown": 0.12}
 SAMPLES = (12, 24, 40, 56)
 LEADERS = 8
 FAR = 60.0
-PAIRS = 20
+PAIRS = 30
 ELASTIC = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
 """Relative error of an effect's literature form: its rms and the weight given to it."""
+BEND_LIMIT = 8.0
+"""Most that bending may add to the log evidence: a form a little wrong is not another effect."""
 
 Progress = Callable[[str], None]
 
@@ -196,7 +198,7 @@ def elastic_evidence(problem: Problem, none: Fit, fit: Fit, space: Coordinates, 
             continue
         bent = linear_fit(fit.anchor, np.hstack([base, size * bend]), fit.weight).evidence
         gains.append(np.log(weight) + bent - plain)
-    return fit.evidence + float(np.logaddexp.reduce(gains))
+    return fit.evidence + min(float(np.logaddexp.reduce(gains)), BEND_LIMIT / len(fit.explanation))
 
 
 def typical_size(net: np.ndarray) -> float:
