@@ -13,7 +13,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import typer
 
 from mixedlub.commands import check, diagnose, effects, import_files, profile, prove, simulate, study
-from mixedlub.commands.output import note, save_traceback
+from mixedlub.commands.output import forget_folder, note, save_traceback
 from profiles.errors import InputError
 
 COMMANDS = (profile, study, simulate, diagnose, check, import_files, effects, prove)
@@ -35,9 +35,14 @@ for _module in COMMANDS:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; 0 done, 2 bad input (one message, no traceback), 1 anything else."""
-    warnings.showwarning = lambda message, *rest, **named: note(str(message))
+    forget_folder()
+    with warnings.catch_warnings():
+        warnings.showwarning = lambda message, *rest, **named: note(str(message))
+        return _run(spread_lists(list(sys.argv[1:] if arguments is None else arguments)))
+
+
+def _run(words: list[str]) -> int:
     try:
-        words = spread_lists(list(sys.argv[1:] if arguments is None else arguments))
         status = typer.main.get_command(app).main(words, prog_name="mixedlub", standalone_mode=False)
         sys.stdout.flush()
         return int(status or 0)

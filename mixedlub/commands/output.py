@@ -29,11 +29,16 @@ def output_folder(out: Path | None, command: str, name: str) -> Path:
     return folder
 
 
+def forget_folder() -> None:
+    """Start afresh: no folder is being written to."""
+    _opened.clear()
+
+
 @contextmanager
 def writing(folder: Path) -> Iterator[Path]:
     """A folder beside the results to write into; its entries replace theirs when all are written."""
     for stale in folder.glob(".writing-*"):
-        if not _alive(stale.suffix or stale.name.rpartition("-")[2]):
+        if not _alive(stale.name.rpartition("-")[2]):
             shutil.rmtree(stale, ignore_errors=True)
     aside = folder / f".writing-{os.getpid()}"
     aside.mkdir()
@@ -72,6 +77,15 @@ def _alive(process: str) -> bool:
     return True
 
 
+@contextmanager
+def within_range(where: str) -> Iterator[None]:
+    """Numbers of the input too large or too small for arithmetic are bad input."""
+    try:
+        yield
+    except ArithmeticError as error:
+        raise InputError(f"has numbers too large or too small to compute with ({error})", where=where) from None
+
+
 def say(text: str = "") -> None:
     """A line for the user."""
     print(text, flush=True)
@@ -84,7 +98,12 @@ def note(text: str) -> None:
 
 def save_traceback(error: BaseException) -> Path:
     """The full story of an unexpected error, beside the results or, where there are none, among temporary files."""
-    folder = _opened[0] if _opened else Path(tempfile.gettempdir())
-    path = folder / "mixedlub-error.log"
-    path.write_text("".join(traceback.format_exception(error)), encoding="utf-8")
-    return path
+    told = "".join(traceback.format_exception(error))
+    for folder in (*_opened, Path(tempfile.gettempdir())):
+        path = folder / "mixedlub-error.log"
+        try:
+            path.write_text(told, encoding="utf-8")
+        except OSError:
+            continue
+        return path
+    return Path("nowhere: no folder can be written to")

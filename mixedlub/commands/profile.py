@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from profiles import Profile
 
 NAME = "profile"
-EXAMPLE = "mixedlub profile examples/trace.txt --out out/profile"
+EXAMPLE = "mixedlub profile profiles/traces/0258.txt --out out/profile"
 
 Record = Mapping[str, Any]
 

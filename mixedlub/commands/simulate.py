@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.output import note, output_folder, say, writing
+from mixedlub.commands.output import note, output_folder, say, within_range, writing
 from profiles.errors import InputError
 
 NAME = "simulate"
@@ -28,7 +28,7 @@ def command(
 
     found = read_case(case, need_recordings=False)
     notes = list(found.notes)
-    with noted(notes):
+    with noted(notes), within_range(str(case)):
         tables = [read_conditions(found, at)] if at is not None else [found.recordings, found.conditions]
         rows: dict[int, float] = {}
         for table in tables:

@@ -10,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.output import note, output_folder, say, writing
+from mixedlub.commands.output import note, output_folder, say, within_range, writing
 
 NAME = "study"
 EXAMPLE = "mixedlub study examples/hong_2022.toml --out out/study"
@@ -31,7 +31,8 @@ def command(
     from mixedlub.study import read_study, run_study, store
     from mixedlub.study.ranges import out_of_range
 
-    study = read_study(file)
+    with within_range(str(file)):
+        study = read_study(file)
     folder = output_folder(out, NAME, study.name)
     for text in study.notes:
         note(text)
@@ -78,5 +79,5 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
         console=console,
     )
     with bar:
-        task = bar.add_task(what, total=None)
-        yield lambda done, of: bar.update(task, completed=done, total=of)
+        task = bar.add_task(what, total=None, visible=False)
+        yield lambda done, of: bar.update(task, completed=done, total=of, visible=of > 1)

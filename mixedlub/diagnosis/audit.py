@@ -21,6 +21,9 @@ def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]
     where = f"recordings.csv: {case.quantity}"
     if y.size < FEWEST:
         raise InputError(f"needs at least {FEWEST} readings to say anything", where=where, value=y.size)
+    if case.kind.logarithmic and np.any(y <= 0):
+        bad = float(y[y <= 0][0])
+        raise InputError(f"readings of kind {case.kind.name!r} must be above zero", where=where, value=bad)
     base = forward.predict()
     if not np.isfinite(base).all():
         bad = int(rows["run"][~np.isfinite(base)][0])

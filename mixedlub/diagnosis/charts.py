@@ -51,6 +51,7 @@ def evidence(d: Diagnosis) -> Figure:
         text = f"{weight:.2f}" if weight >= 0.01 else (f"{weight:.0e}" if weight > FAINT else "below 1e-04")
         axes.annotate(text, (weight, place), xytext=(7, 0), textcoords="offset points", va="center", fontsize=7.5)
     axes.set_xscale("log")
+    axes.minorticks_off()
     axes.set_xlim(FAINT, 2.2)
     axes.set_yticks(range(len(rows)), names)
     axes.set_ylim(len(rows) - 0.4, -0.6)

@@ -37,6 +37,7 @@ def confusion(found: Search) -> Confusion:
     A signature is the change of the readings in sigmas, as fitted where the recording asks for the effect,
     otherwise at the draw nearest the middle of its prior.
     """
+    found = found.screened
     none = found.none
     columns = np.hstack([none.slopes, found.problem.shared])
     scaled = columns * none.weight[:, None]

@@ -17,7 +17,7 @@ from mixedlub.diagnosis.heldout import HeldOut, held_out
 from mixedlub.diagnosis.location import Region, region
 from mixedlub.diagnosis.mismatch import Mismatch, mismatch_test
 from mixedlub.diagnosis.nexttest import NextTest, candidates, expected_bits
-from mixedlub.diagnosis.noise import is_stated, noise, noise_from_repeats, noise_from_smoothness
+from mixedlub.diagnosis.noise import is_stated, noise_from_repeats, noise_from_smoothness
 from mixedlub.diagnosis.posterior import Key, Posterior, posterior
 from mixedlub.diagnosis.predict import Prediction, Refined, Rows, refine
 from mixedlub.diagnosis.problem import Problem
@@ -62,6 +62,11 @@ class Diagnosis:
     warnings: tuple[str, ...]
 
     @property
+    def readings(self) -> np.ndarray:
+        """The recorded numbers in the unit of their column."""
+        return self.found.problem.level(self.found.problem.y)
+
+    @property
     def outlier_runs(self) -> list[int]:
         """Runs that are more probably outliers than not."""
         return [int(r) for r in self.found.problem.rows["run"][self.outlier_chance > 0.5]]
@@ -85,8 +90,7 @@ def diagnose_case(
     warnings = [*case.notes, *forward.notes, *audit(case, rows, y, forward)]
     space = coordinates(case, rows, forward)
     values = space.values(case, rows, forward)
-    sd, shared = noise(case, rows, y, _unstated(case, rows, y, forward, space, values))
-    problem = Problem(case, rows, forward, y, sd, shared)
+    problem = Problem.of(case, rows, forward, y, _unstated(case, rows, y, forward, space, values))
     found = search(problem, space, values, exclude, progress)
     progress("testing against nothing missing")
     test = mismatch_test(found, level)
@@ -110,7 +114,10 @@ def _unstated(
     """Noise to use where the recording states none: from repeats, else from what a smooth fit leaves over."""
     sd = 0.0
     if not is_stated(case, rows):
-        sd = noise_from_repeats(rows, y) or noise_from_smoothness(y, forward.predict(), space, values)
+        base = forward.predict()
+        if case.kind.logarithmic:
+            y, base = np.log(y), np.log(base)
+        sd = noise_from_repeats(rows, y) or noise_from_smoothness(y, base, space, values)
     return np.full(y.size, sd)
 
 
@@ -144,7 +151,11 @@ def _predict(found: Search, judged: Posterior, refined: dict[Key, Refined], tabl
     at_verdict = each[judged.verdict].base
     mismatch = np.zeros(mean.size) if judged.verdict == () else (mean - at_verdict) / sd
     nominal = rows.forward.predict()
-    return Predicted(table, nominal, calibrated, mean, mean - half, mean + half, mismatch, sd)
+    ends = problem.level(mean - half), problem.level(mean + half)
+    size = np.abs(problem.level(mean)) if problem.case.kind.logarithmic else 1.0
+    return Predicted(
+        table, nominal, problem.level(calibrated), problem.level(mean), *ends, mismatch, np.asarray(sd * size)
+    )
 
 
 def _outliers(found: Search, judged: Posterior, refined: dict[Key, Refined]) -> np.ndarray:

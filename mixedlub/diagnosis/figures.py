@@ -55,14 +55,14 @@ def all_figures(d: Diagnosis, extra: Unnamed | None = None) -> dict[str, Figure]
 
 def _shown(d: Diagnosis) -> np.ndarray:
     """Rows drawn one by one: all, or an even selection of very many; outliers always."""
-    count = d.found.problem.y.size
+    count = d.readings.size
     rows = np.unique(np.linspace(0, count - 1, min(count, MOST_POINTS)).astype(int))
     return np.union1d(rows, np.flatnonzero(d.outlier_chance > 0.5))
 
 
 def recorded_against_simulated(d: Diagnosis) -> Figure:
     """Recorded against simulated, and what is left in sigmas: calibrated base model and answer side by side."""
-    y, p = d.found.problem.y, d.recorded
+    y, p = d.readings, d.recorded
     rows = _shown(d)
     bad = d.outlier_chance > 0.5
     before, after = maps.residuals(d)
@@ -142,7 +142,7 @@ def missing_part(d: Diagnosis) -> Figure | None:
     """What the base model lacks, in the unit of the reading, against the conditions: recorded and as explained."""
     if d.posterior.verdict == ():
         return None
-    p, y = d.recorded, d.found.problem.y
+    p, y = d.recorded, d.readings
     names = [n for n in (maps.frame_of(d).across, maps.frame_of(d).up, maps.frame_of(d).panel) if n]
     names = ["roll_angle_deg", *names[:2]] if "roll_angle_deg" in p.table else names
     if not names:
@@ -246,7 +246,7 @@ def _profile(axes: Axes, values: np.ndarray, before: np.ndarray, after: np.ndarr
 
 def intervals(d: Diagnosis) -> Figure:
     """Recorded readings against the 90 % predictive interval, sorted by the predicted value."""
-    p, y = d.recorded, d.found.problem.y
+    p, y = d.recorded, d.readings
     order = np.argsort(p.predicted, kind="stable")
     order = order[np.isin(order, _shown(d))]
     percent = bool((p.predicted > 0).all() and p.predicted.min() > 1e-3 * p.predicted.max())

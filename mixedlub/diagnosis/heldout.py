@@ -26,6 +26,9 @@ class HeldOut:
 
 def held_out(found: Search, verdict: Explanation | str, outliers: np.ndarray) -> HeldOut:
     """Leave out each level of the condition with the most levels (up to 8), refit, and predict it."""
+    if found.screen is not None:
+        rows = np.isin(found.problem.rows["run"], found.screen.problem.rows["run"])
+        found, outliers = found.screen, outliers[rows]
     name, fold = _folds(found)
     before, after = np.zeros(found.problem.y.size), np.zeros(found.problem.y.size)
     for k in range(int(fold.max()) + 1):

@@ -129,7 +129,7 @@ def _tiles(
         members.sort(key=lambda i: _order(d, i))
         for (left, low, wide, tall), i in zip(_block(len(members)), members, strict=True):
             patches.append(Rectangle((x + left, y + low), wide, tall))
-            colours.append(z[i])
+            colours.append(np.nan if outlier[i] else z[i])
             if outlier[i]:
                 crosses.append((x + left + 0.5 * wide, y + low + 0.5 * tall))
     axes.set_facecolor(PAPER)
@@ -139,7 +139,7 @@ def _tiles(
     axes.add_collection(tiles)
     if crosses:
         place = np.array(crosses)
-        axes.scatter(place[:, 0], place[:, 1], marker="x", s=14, color=OUTLIER, linewidths=1.0)
+        axes.scatter(place[:, 0], place[:, 1], marker="x", s=22, color=OUTLIER, linewidths=1.2)
     axes.set_xlim(-0.55, len(across_names) - 0.45)
     axes.set_ylim(-0.55, len(up_names) - 0.45)
     axes.set_xticks(range(len(across_names)), across_names, rotation=45 if len(across_names) > 6 else 0)

@@ -27,6 +27,12 @@ class Mismatch:
     statistic: float
 
 
+def judged_weight(found: Search) -> np.ndarray:
+    """Which readings are outliers, as the best explanation judges: the base model may write off what it lacks."""
+    best = max(found.log_weights.items(), key=lambda item: item[1])[0]
+    return found.unknown.fit.weight if isinstance(best, str) else found.fits[best].weight
+
+
 def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch:
     """Compare the data's Bayes factor against none with its law when nothing is missing.
 
@@ -34,9 +40,11 @@ def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch
     Data without mismatch are drawn from the linearised base model: calibration from its prior, noise from its
     law. Beyond the largest draw the bound P(B > b) <= 1/b of any Bayes factor gives the p-value.
     """
+    full = found
+    found = full.screened
     problem, none = found.problem, found.none
     fixed = np.hstack([none.slopes, problem.shared])
-    weight = none.weight
+    weight = judged_weight(found)
     inner = np.linalg.inv(np.eye(fixed.shape[1]) + fixed.T @ (fixed * weight[:, None]))
     directions = [s.change for s in found.sampled]
     effects = np.vstack(directions) if directions else np.zeros((0, problem.y.size))
@@ -82,5 +90,5 @@ def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch
     p = (1.0 + float((drawn >= observed).sum())) / (count + 1.0)
     if observed > drawn.max():
         p = min(p, float(np.exp(-min(observed, 700.0))))
-    chi2 = float((none.residual**2).sum() + none.z @ none.z)
-    return Mismatch(bool(p <= level), p, level, chi2, int(problem.y.size), observed)
+    chi2 = float((full.none.residual**2).sum() + full.none.z @ full.none.z)
+    return Mismatch(bool(p <= level), p, level, chi2, int(full.problem.y.size), observed)

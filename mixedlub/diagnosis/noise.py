@@ -15,6 +15,13 @@ def is_stated(case: Case, rows: Table) -> bool:
     return f"{case.quantity}_sd" in rows or (stated is not None and (stated.relative > 0 or stated.absolute > 0))
 
 
+def seen_noise(case: Case, rows: Table, level: np.ndarray, unstated: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """`noise` of readings as they are compared: relative where that is by the logarithm, ``unstated`` likewise."""
+    size = np.abs(level) if case.kind.logarithmic else np.ones(level.size)
+    sd, shared = noise(case, rows, level, unstated * size)
+    return sd / size, shared
+
+
 def noise(case: Case, rows: Table, level: np.ndarray, unstated: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Standard deviation of each reading and, in sigmas, the columns of errors shared within a set-up.
 

@@ -35,7 +35,8 @@ CAPTIONS = {
     "residual_map": (
         WHERE,
         "Residuals over the test conditions; the tiles of a block are the readings taken there (surfaces and the "
-        "other conditions, in the same order everywhere). Red: the rig reads more than simulated; crosses: outliers.",
+        "other conditions, in the same order everywhere). Red: the rig reads more than simulated; grey "
+        "with a cross: outlier.",
     ),
     "roll_angle_map": (
         WHERE,
@@ -95,7 +96,7 @@ def render(d: Diagnosis, parts: Iterable[Section], drawings: Mapping[str, str]) 
         equations={sentence: Markup(svg) for sentence, svg in _equations(d).items()},
         pictures=pictures,
         version=_version(),
-        readings=d.found.problem.y.size,
+        readings=d.readings.size,
         quantity=words_of(d.case.quantity),
         level=f"{100 * d.test.level:g} %",
     )
@@ -131,7 +132,7 @@ def _cards(d: Diagnosis) -> list[tuple[str, str]]:
     ]
     if d.posterior.verdict != ():
         cards.append((f"{d.heldout.after:.2f}", "sigma, the same with the answer"))
-    cards.append((number(float(len(d.outlier_runs))), f"outliers among {d.found.problem.y.size} readings"))
+    cards.append((number(float(len(d.outlier_runs))), f"outliers among {d.readings.size} readings"))
     return cards
 
 

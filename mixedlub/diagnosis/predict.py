@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.diagnosis.fit import Fit, linear_fit
-from mixedlub.diagnosis.noise import is_stated, noise
+from mixedlub.diagnosis.noise import is_stated, seen_noise
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search import ELASTIC, Search, elastic_columns, typical_size
 from mixedlub.diagnosis.unknown import shape_columns, share_of
@@ -67,13 +67,14 @@ class Rows:
         self.forward = Forward(found.problem.case, table, scale)
         self.table = table
         self.values = found.space.values(found.problem.case, table, self.forward)
-        start = self.forward.predict(found.problem.calibration(found.none.z)) if level is None else level
-        self.sd, _ = _noise_at(found.problem, table, start)
+        known = found.problem
+        start = known.seen(self.forward.predict(known.calibration(found.none.z))) if level is None else level
+        self.sd, _ = _noise_at(known, table, start)
         self.problem = Problem(found.problem.case, table, self.forward, start, self.sd, np.zeros((len(table), 0)))
 
-    def noise_at(self, level: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Noise of a reading at a predicted level, and the variance of its set-up's error."""
-        return _noise_at(self.found.problem, self.table, level)
+    def noise_at(self, seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Noise of a reading where a prediction is seen, and the variance of its set-up's error."""
+        return _noise_at(self.found.problem, self.table, seen)
 
     def of_fit(self, refined: Refined) -> Prediction:
         """Prediction of a catalogue explanation."""
@@ -108,13 +109,15 @@ class Rows:
         return Prediction(mean, variance, calibrated)
 
 
-def _noise_at(problem: Problem, table: Table, level: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Noise of a new reading at a predicted level, and the variance of its set-up's error."""
+def _noise_at(problem: Problem, table: Table, seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Noise of a new reading where a prediction is ``seen``, and the variance of its set-up's error."""
     typical = np.full(len(table), float(np.median(problem.sd)))
     own = f"{problem.case.quantity}_sd"
+    level = problem.level(seen)
     if is_stated(problem.case, problem.rows) and (own in table or own not in problem.rows):
-        typical, _ = noise(problem.case, table, level, typical)
+        typical, _ = seen_noise(problem.case, table, level, typical)
     stated = problem.case.system.recording.noise
     if stated is None:
         return typical, np.zeros(len(table))
-    return typical, (stated.setup_relative * level) ** 2 + stated.setup_absolute**2
+    size = np.abs(level) if problem.case.kind.logarithmic else 1.0
+    return typical, ((stated.setup_relative * level) ** 2 + stated.setup_absolute**2) / size**2

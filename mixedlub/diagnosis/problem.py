@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from mixedlub.case import Case
-from mixedlub.diagnosis.noise import noise
+from mixedlub.diagnosis.noise import seen_noise
 from mixedlub.effect import Effect, catalogue
 from mixedlub.forward import Forward, Run
 from mixedlub.table import Table
@@ -23,6 +23,9 @@ REACH = 4.5
 class Problem:
     """Readings y with standard deviation sd, and the forward model of the rows they were taken at.
 
+    Kinds that span decades are seen by the logarithm: ``y``, ``sd`` and every prediction are then those of
+    ln(reading); ``level`` gives readings back.
+
     Every unknown has a standard-normal prior: calibration and effect parameters through their priors'
     ``value``, errors shared within a set-up as columns of ``shared`` (in sigmas).
     """
@@ -33,6 +36,20 @@ class Problem:
     y: np.ndarray
     sd: np.ndarray
     shared: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
+
+    @classmethod
+    def of(cls, case: Case, rows: Table, forward: Forward, y: np.ndarray, unstated: np.ndarray) -> Problem:
+        """The problem of a recording; ``unstated`` is the sd where the recording gives none."""
+        sd, shared = seen_noise(case, rows, y, unstated)
+        return cls(case, rows, forward, np.log(y) if case.kind.logarithmic else y, sd, shared)
+
+    def seen(self, level: np.ndarray) -> np.ndarray:
+        """Readings as they are compared."""
+        return np.log(level) if self.case.kind.logarithmic else level
+
+    def level(self, seen: np.ndarray) -> np.ndarray:
+        """Readings in the unit of their column."""
+        return np.exp(seen) if self.case.kind.logarithmic else seen
 
     @property
     def calibration_size(self) -> int:
@@ -59,7 +76,8 @@ class Problem:
 
     def run(self, explanation: Explanation, z: np.ndarray, near: Run | None = None) -> Run:
         """Predicted readings at coordinates z, with the steps that lead there."""
-        return self.forward.run(self.calibration(z), self.parameters(explanation, z), near)
+        run = self.forward.run(self.calibration(z), self.parameters(explanation, z), near)
+        return replace(run, prediction=self.seen(run.prediction)) if self.case.kind.logarithmic else run
 
     def predict(self, explanation: Explanation, z: np.ndarray) -> np.ndarray:
         """Predicted readings at coordinates z."""
@@ -67,7 +85,7 @@ class Problem:
 
     def base(self, z: np.ndarray) -> np.ndarray:
         """Predicted readings at the same calibration with nothing added."""
-        return self.forward.predict(self.calibration(z))
+        return self.seen(self.forward.predict(self.calibration(z)))
 
     def jacobian(self, explanation: Explanation, z: np.ndarray, at: Run | None = None) -> np.ndarray:
         """Derivative of predictions over sd with respect to z, by forward differences."""
@@ -82,7 +100,7 @@ class Problem:
 
     def with_sd(self, prediction: np.ndarray) -> Problem:
         """The same problem with the noise taken at the size of a prediction instead of the readings."""
-        sd, shared = noise(self.case, self.rows, prediction, self.sd)
+        sd, shared = seen_noise(self.case, self.rows, self.level(prediction), self.sd)
         return Problem(self.case, self.rows, self.forward, self.y, sd, shared)
 
     def take(self, rows: np.ndarray) -> Problem:

@@ -17,9 +17,12 @@ PRIOR = {"none": 0.42, "single": 0.38, "pair": 0.08, "unknown": 0.12}
 SAMPLES = (12, 24, 40, 56)
 LEADERS = 8
 FAR = 60.0
-PAIRS = 20
+PAIRS = 30
+MANY = 3000
 ELASTIC = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
 """Relative error of an effect's literature form: its rms and the weight given to it."""
+BEND_LIMIT = 8.0
+"""Most that bending may add to the log evidence: a form a little wrong is not another effect."""
 
 Progress = Callable[[str], None]
 
@@ -45,6 +48,12 @@ class Search:
     scores: dict[Explanation, float]
     unknown: Unknown
     sampled: tuple[Sampled, ...]
+    screen: Search | None = None
+
+    @property
+    def screened(self) -> Search:
+        """The search that looked at every explanation: on a share of the rows where there are very many."""
+        return self if self.screen is None else self.screen
 
     @property
     def log_weights(self) -> dict[str | Explanation, float]:
@@ -68,7 +77,34 @@ def search(
     exclude: Sequence[str] = (),
     progress: Progress = lambda text: None,
 ) -> Search:
-    """Fit every explanation worth fitting and weigh them."""
+    """Fit every explanation worth fitting and weigh them.
+
+    Beyond MANY rows all explanations are tried on a spread of them, and the leaders are weighed on all.
+    """
+    if problem.y.size <= MANY:
+        return _search(problem, space, values, exclude, progress)
+    rows = _spread_rows(values, problem.y.size)
+    screen = _search(problem.take(rows), space, [v[rows] for v in values], exclude, progress)
+    progress(f"weighing the leaders on all {problem.y.size} readings")
+    ranked = sorted(screen.scores, key=lambda m: -screen.log_weights[m])
+    leaders = dict.fromkeys([(), *ranked[:LEADERS]])
+    best = map_fit(problem, ranked[0], screen.fits[ranked[0]].z, warm=True)
+    problem = problem.with_sd(best.prediction)
+    fits = {m: map_fit(problem, m, screen.fits[m].z, warm=True) for m in leaders}
+    scores = {m: elastic_evidence(problem, fits[()], f, space, values) for m, f in fits.items()}
+    unknown = unknown_fit(problem, fits[()], space, values)
+    return Search(problem, space, values, fits[()], fits, scores, unknown, screen.sampled, screen)
+
+
+def _spread_rows(values: list[np.ndarray], count: int) -> np.ndarray:
+    """A share of the rows that covers the conditions evenly."""
+    order = np.lexsort(values[::-1]) if values else np.arange(count)
+    return np.sort(order[np.linspace(0, count - 1, MANY // 2).astype(int)])
+
+
+def _search(
+    problem: Problem, space: Coordinates, values: list[np.ndarray], exclude: Sequence[str], progress: Progress
+) -> Search:
     progress("calibrating the base model")
     none = map_fit(problem, (), np.zeros(problem.size(())))
     effects = problem.forward.effects(exclude)
@@ -78,9 +114,11 @@ def search(
     if singles:
         best = max(singles.values(), key=lambda f: f.evidence)
         if best.evidence > none.evidence + 3.0:
+            old = problem.sd
             problem = problem.with_sd(best.prediction)
             none = map_fit(problem, (), none.z)
             singles = _again(problem, singles, best)
+            sampled = tuple(replace(s, change=s.change * (old / problem.sd)) for s in sampled)
     fits: dict[Explanation, Fit] = {(): none, **singles}
     progress("trying pairs of effects")
     for explanation, start in _promising_pairs(problem, singles, sampled):
@@ -196,7 +234,7 @@ def elastic_evidence(problem: Problem, none: Fit, fit: Fit, space: Coordinates, 
             continue
         bent = linear_fit(fit.anchor, np.hstack([base, size * bend]), fit.weight).evidence
         gains.append(np.log(weight) + bent - plain)
-    return fit.evidence + float(np.logaddexp.reduce(gains))
+    return fit.evidence + min(float(np.logaddexp.reduce(gains)), BEND_LIMIT / len(fit.explanation))
 
 
 def typical_size(net: np.ndarray) -> float:

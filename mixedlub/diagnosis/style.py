@@ -53,6 +53,16 @@ def blank(width: float, height: float) -> Figure:
     return Figure(figsize=(width, height), layout="constrained")
 
 
+def settled(figure: Figure) -> Figure:
+    """The figure with its layout done once and for all, so that saving need not draw it twice."""
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        with look():
+            engine.execute(figure)
+        figure.set_layout_engine("none")
+    return figure
+
+
 def inline(svg: str, prefix: str) -> str:
     """An SVG element with its ids made unique by a prefix, so that many can stand in one page."""
     body = re.sub(r'\bid="([^"]+)"', rf'id="{prefix}-\1"', svg)
@@ -67,9 +77,9 @@ def wide(values: np.ndarray, ratio: float = 8.0) -> bool:
 
 def log_ticks(axes: Axes, which: str) -> None:
     """Plain numbers at 1, 2, 5 on a logarithmic axis."""
-    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
     axis = axes.xaxis if which == "x" else axes.yaxis
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
-    axis.set_minor_formatter(NullFormatter())
+    axis.set_minor_locator(NullLocator())

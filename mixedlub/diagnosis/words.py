@@ -318,7 +318,7 @@ def _outliers(d: Diagnosis) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...
         return (), ()
     unit = unit_of(d.case.quantity) or "-"
     table = [("run", f"recorded ({unit})", f"predicted ({unit})", "off by", "conditions")]
-    y = d.found.problem.y
+    y = d.readings
     for i in rows[:12]:
         off = (y[i] - d.recorded.predicted[i]) / d.recorded.sd[i]
         table.append(

@@ -40,11 +40,12 @@ def diagnose(
 def files(d: Diagnosis) -> dict[str, str]:
     """Everything the answer consists of, by file name."""
     from mixedlub.diagnosis import figures, page
+    from mixedlub.diagnosis.style import settled
     from mixedlub.report.style import as_svg
 
     extra = unnamed(d.found) if any(key == "unknown" for key in d.posterior.tied) else None
     parts = words.sections(d, extra)
-    drawings = {name: as_svg(figure) for name, figure in figures.all_figures(d, extra).items()}
+    drawings = {name: as_svg(settled(figure)) for name, figure in figures.all_figures(d, extra).items()}
     return {
         "diagnosis.json": json.dumps({**as_json(d), **_unnamed_record(extra)}, indent=1, ensure_ascii=False) + "\n",
         "predictions.csv": predictions_csv(d),

@@ -41,9 +41,9 @@ def micro_ehl(
 ):
     """The pressure of the film flattens long waves of the roughness inside the contact.
 
-    W is taken from the Hertz pressure, 2 pi (p0/E')^2; forms differ in whether the inlet's viscosity counts, and
-    the reference viscosity 0.01 Pa s for those without makes the form belong to Pa s. Derived for pure rolling and waves across the motion.
-    Slopes and curvatures sit in shorter waves, which stay.
+    W is taken from the Hertz pressure, 2 pi (p0/E')^2. Forms differ in whether the inlet's viscosity counts; the
+    reference viscosity 0.01 Pa s for those without makes the form belong to Pa s. Derived for pure rolling and
+    waves across the motion.
 
     >>> here = dict(hertz_half_width=0.18e-3, hertz_pressure=0.9642e9, radius=8.3262e-3, reduced_modulus=226.374e9)
     >>> oil = dict(viscosity=0.01489, entrainment_speed=2.163, pressure_viscosity=14.81e-9)

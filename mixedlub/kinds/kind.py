@@ -27,6 +27,7 @@ class Kind:
     speed, the duration) are taken, so that predictions elsewhere use the same ones; ``extra_calibration``
     scales the priors of what is not known by it. ``reading_fault(recorded, row, excess)`` says in words what
     an instrument of this kind does wrong when reading ``row`` is off by ``excess`` (unit of the column).
+    ``logarithmic`` kinds span decades and are compared by the logarithm of the reading.
     """
 
     name: str
@@ -37,6 +38,7 @@ class Kind:
     inputs: Callable[[config.System, Path, Table, Table], Inputs]
     extra_calibration: Callable[[config.System, Table], tuple[Calibration, ...]] = lambda system, recorded: ()
     reading_fault: Callable[[Table, int, float], str | None] = lambda recorded, row, excess: None
+    logarithmic: bool = False
 
 
 SCALE = {

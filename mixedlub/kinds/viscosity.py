@@ -93,4 +93,5 @@ KIND = Kind(
     chain=chain,
     inputs=inputs,
     extra_calibration=extra_calibration,
+    logarithmic=True,
 )

@@ -200,9 +200,7 @@ FIGURES: tuple[Figure, ...] = (
     Figure("unknown", "unknown where so and identifiable", _clear("unknown"), _named_unknown, at_least(0.90)),
     Figure("unknown_distinct", "  of these, not made to mimic", _distinct, _named_unknown),
     Figure("unknown_clear", "  of these, clearly visible (12 or more)", _glaring, _named_unknown),
-    Figure(
-        "outliers_found", "outlier readings found", _spoiled, outliers_found, at_least(0.95), weight=spoiled
-    ),
+    Figure("outliers_found", "outlier readings found", _spoiled, outliers_found, at_least(0.95), weight=spoiled),
     Figure(
         "outliers_false",
         "good readings flagged as outliers",

@@ -17,8 +17,14 @@ if TYPE_CHECKING:
 
 MOST_PANELS = 6
 MOST_LEVELS = 6
+MOST_PAIRINGS = 300
 
-_MARKERS = "Filled: both surfaces alike; open: unlike."
+
+def _markers(results: Results) -> str:
+    """What the symbols mean, and how many of the pairings they stand for."""
+    count = len(results.study.pairings)
+    part = f" {MOST_PAIRINGS} of {count} pairings are shown." if count > MOST_PAIRINGS else ""
+    return f"Filled: both surfaces alike; open: unlike.{part}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +56,8 @@ def figures(results: Results) -> Iterator[Drawn]:
 def _at_temperature(results: Results, theta: int, several: bool) -> Iterator[Drawn]:
     oil = results.study.file.conditions.oil_temperature_C[theta]
     suffix, at = (f"_{oil:g}C", f", oil at {oil:g} °C") if several else ("", f" (oil at {oil:g} °C)")
-    groups = [("equal", "equal surfaces", equal_pairings(results))]
+    alike = any(a == b for a, b in results.study.pairings)
+    groups = [("equal", "equal surfaces" if alike else "some pairings", equal_pairings(results))]
     smoothest = smoothest_surface(results)
     groups.append(("smooth", f"surfaces paired with {smoothest}", pairings_with(results, smoothest)))
     for quantity, title in (("power_loss", "Power loss"), ("area_ratio", "Boundary area ratio")):
@@ -58,20 +65,21 @@ def _at_temperature(results: Results, theta: int, several: bool) -> Iterator[Dra
             if len(chosen):
                 figure = over_speed(results, quantity, chosen, theta)
                 yield Drawn(f"{quantity}_{key}{suffix}", f"{title} against pinion speed: {words}{at}.", figure)
+    symbols = _markers(results)
     yield Drawn(
         f"loss_over_roughness{suffix}",
-        f"Power loss against composite roughness, with a straight line fitted at each torque and speed{at}. {_MARKERS}",
+        f"Power loss against composite roughness, with a straight line fitted at each torque and speed{at}. {symbols}",
         loss_over(results, "composite_roughness", theta, fitted=True),
     )
     yield Drawn(
         f"loss_over_film_parameter{suffix}",
-        f"Power loss against film parameter{at}. {_MARKERS} The dashed line marks a film as thick as the composite "
+        f"Power loss against film parameter{at}. {symbols} The dashed line marks a film as thick as the composite "
         "roughness.",
         loss_over(results, "film_parameter", theta),
     )
     yield Drawn(
         f"loss_over_area_ratio{suffix}",
-        f"Power loss against boundary area ratio, with a straight line fitted at each torque and speed{at}. {_MARKERS}",
+        f"Power loss against boundary area ratio, with a straight line fitted at each torque and speed{at}. {symbols}",
         loss_over(results, "area_ratio", theta, fitted=True),
     )
     yield Drawn(
@@ -125,7 +133,7 @@ def over_speed(results: Results, quantity: str, chosen: Sequence[int] | np.ndarr
         values = results[quantity][pairing, theta]
         for colour, t in zip(shades(len(torques)), torques):
             marker = "o" if len(levels.speed_rpm) <= 25 else ""
-            panel.plot(levels.speed_rpm, values[t], marker=marker, color=colour, label=f"{levels.torque_Nm[t]:g} Nm")
+            panel.plot(levels.speed_rpm, values[t], marker=marker, color=colour, label=f"{levels.torque_Nm[t]:.4g} Nm")
         sigma = results["composite_roughness"][pairing, 0, 0, 0] * 1e6
         name = name_of(results, pairing)
         panel.set_title(f"{name}{'   ' if len(name) < 16 else chr(10)}Rq {sigma:.3f} µm", loc="left")
@@ -158,18 +166,20 @@ AXIS = {
 
 
 def loss_over(results: Results, quantity: str, theta: int, *, fitted: bool = False) -> Figure:
-    """Power loss of every pairing over a quantity, a panel a torque, a colour a speed."""
+    """Power loss of the pairings over a quantity, a panel a torque, a colour a speed; lines are fitted to all."""
     levels = results.study.file.conditions
     torques = some(len(levels.torque_Nm), 3)
     speeds = some(len(levels.speed_rpm), MOST_LEVELS)
     label, scale = AXIS[quantity]
     figure, axes = panels(len(torques), 3, height=3.0)
     same = np.array([a == b for a, b in results.study.pairings])
+    shown = np.zeros(same.size, dtype=bool)
+    shown[np.argsort(results["composite_roughness"][:, 0, 0, 0])[some(same.size, MOST_PAIRINGS)]] = True
     for panel, t, letter in zip(axes, torques, "abc"):
         for colour, n in zip(shades(len(speeds)), speeds):
             x = results[quantity][:, theta, t, n] * scale
             y = results["power_loss"][:, theta, t, n]
-            text = f"{levels.speed_rpm[n]:g} rpm"
+            text = f"{levels.speed_rpm[n]:.5g} rpm"
             if fitted and np.ptp(x) > 1e-12 * np.abs(x).max() and np.ptp(y) > 0:
                 slope, start = np.polyfit(x, y, 1)
                 ends = np.array([x.min(), x.max()])
@@ -178,9 +188,10 @@ def loss_over(results: Results, quantity: str, theta: int, *, fitted: bool = Fal
             else:
                 order = np.argsort(x)
                 panel.plot(x[order], y[order], color=colour, linewidth=0.6)
-            panel.plot(x[same], y[same], "o", color=colour, label=text)
-            panel.plot(x[~same], y[~same], "o", color=colour, markerfacecolor="white", markeredgewidth=0.8)
-        panel.set_title(f"({letter}) {levels.torque_Nm[t]:g} Nm", loc="left")
+            alike, unlike = shown & same, shown & ~same
+            panel.plot(x[alike], y[alike], "o", color=colour, label=text)
+            panel.plot(x[unlike], y[unlike], "o", color=colour, markerfacecolor="white", markeredgewidth=0.8)
+        panel.set_title(f"({letter}) {levels.torque_Nm[t]:.4g} Nm", loc="left")
         panel.set_xlabel(label)
         if fitted or panel is axes[0]:
             _legend_above(panel, "speed, R² of the line" if fitted else "speed")
@@ -237,7 +248,7 @@ def film_and_friction(results: Results, theta: int) -> Figure:
     for panel, (label, values, title) in zip(axes, draw):
         for colour, t in zip(shades(len(torques)), torques):
             marker = "o" if len(levels.speed_rpm) <= 25 else ""
-            panel.plot(levels.speed_rpm, values(t), marker=marker, color=colour, label=f"{levels.torque_Nm[t]:g} Nm")
+            panel.plot(levels.speed_rpm, values(t), marker=marker, color=colour, label=f"{levels.torque_Nm[t]:.4g} Nm")
         panel.set_title(title, loc="left")
         panel.set_ylabel(label)
         panel.set_xlabel(f"{results.study.file.options.conditions_of} speed (rpm)")

@@ -32,8 +32,8 @@ COLUMNS = {
 DEFINITIONS = {
     "power_loss": ("W", "power lost in the mesh, mean over a mesh cycle"),
     "mean_friction": ("-", "power loss over the path integral of load times sliding speed"),
-    "area_ratio": ("-", "boundary area ratio, plain mean over the path of contact"),
-    "film_thickness": ("m", "film thickness, plain mean over the path of contact"),
+    "area_ratio": ("-", "boundary area ratio, plain mean over the path of contact as far as it carries load"),
+    "film_thickness": ("m", "film thickness, plain mean over the path of contact as far as it carries load"),
     "film_parameter": ("-", "mean film thickness over composite roughness"),
     "composite_roughness": ("m", GLOSSARY["composite_roughness"].meaning),
     "asperity_load_ratio": ("-", "pressure elastic asperities would carry over mean Hertz pressure, thinnest film"),

@@ -103,8 +103,6 @@ def read_study(path: Path, file: StudyFile | None = None) -> Study:
         if path.name in str(error):
             raise
         raise InputError(str(error), where=path.name) from None
-    except (OverflowError, ZeroDivisionError, FloatingPointError) as error:
-        raise InputError(f"has numbers too large or too small to compute with ({error})", where=path.name) from None
     return replace(study, notes=(*notes, *study.mesh.notes))
 
 

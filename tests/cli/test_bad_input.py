@@ -1,7 +1,9 @@
 """Whatever the input, a user reads one message, never a traceback."""
 
 import random
+import shutil
 import tempfile
+import warnings
 from pathlib import Path
 
 import pytest
@@ -96,3 +98,30 @@ def test_mangled_study_never_gives_a_traceback(capsys, seed):
         path = Path(folder) / "mangled.toml"
         path.write_text("\n".join(lines))
         refused(capsys, "study", str(path), "--no-figures", "--out", str(Path(folder) / "o"))
+
+
+CASE = Path(__file__).parents[2] / "examples" / "case"
+
+
+@QUIET
+@given(st.integers(0, 2**32 - 1), st.sampled_from(["check", "simulate"]))
+def test_mangled_case_never_gives_a_traceback(capsys, seed, command):
+    chance = random.Random(seed)
+    lines = (CASE / "system.toml").read_text(encoding="utf-8").strip().splitlines()
+    place = chance.choice([i for i, line in enumerate(lines) if "=" in line and not line.startswith("#")])
+    lines[place] = f"{lines[place].partition('=')[0]}= {chance.choice(VALUES)}"
+    with tempfile.TemporaryDirectory() as folder:
+        case = shutil.copytree(CASE, Path(folder) / "case")
+        (case / "system.toml").write_text("\n".join(lines), encoding="utf-8")
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)
+            refused(capsys, command, str(case), *(["--out", str(Path(folder) / "o")] if command == "simulate" else []))
+
+
+@QUIET
+@given(st.binary(max_size=300))
+def test_bytes_as_a_recording_never_give_a_traceback(capsys, data):
+    with tempfile.TemporaryDirectory() as folder:
+        case = shutil.copytree(CASE, Path(folder) / "case")
+        (case / "recordings.csv").write_bytes(data)
+        assert refused(capsys, "simulate", str(case), "--out", str(Path(folder) / "o"))[0] == 2

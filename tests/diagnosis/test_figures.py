@@ -82,7 +82,8 @@ def test_tiles_carry_the_residuals(offset: Diagnosis) -> None:
     figure = maps.residual_map(offset)
     assert figure is not None
     shown = np.concatenate([c.get_array() for axes in figure.axes for c in axes.collections[:1] if axes.get_title()])
-    np.testing.assert_allclose(np.sort(shown), np.sort(np.concatenate([before, after])))
+    sound = offset.outlier_chance <= 0.5
+    np.testing.assert_allclose(np.sort(shown[np.isfinite(shown)]), np.sort([*before[sound], *after[sound]]))
 
 
 def test_roll_angle_cells_do_not_overlap(teeth: Diagnosis) -> None:

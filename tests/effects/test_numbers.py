@@ -194,7 +194,7 @@ class TestIntegrals:
         assert rise == pytest.approx(found * slip * film / (12.0 * conductivity), rel=1e-3)
 
     def test_thinning_grows_with_stress_and_stops_for_a_newtonian_oil(self) -> None:
-        oil = {"critical_stress": 5e3, "plateau": 0.0, "stress_rule": 1.0}
+        oil = {"critical_stress": 5e3, "plateau": 0.0, "stress_rule": 1.0, "onset": 1.0}
         films = [inlet_shear_thinning(2e-7, 0.015, 2.0, 0.0, index=n, **oil) for n in (1.0, 0.9, 0.7)]
         assert films[0] == 2e-7
         assert films[0] > films[1] > films[2] > 0.2 * films[0]

@@ -1,0 +1,39 @@
+"""Figures stay readable whatever the size of the study."""
+
+import pytest
+
+from mixedlub.report.figures import MOST_LEVELS, MOST_PAIRINGS, MOST_PANELS, figures
+from mixedlub.study import read_study, run_study
+
+
+@pytest.fixture(scope="module")
+def many(tmp_path_factory):
+    from tests.study.conftest import BASE, toml
+
+    surfaces = {f"s{i}": {"m0_um2": 0.01 + 0.006 * i, "m2": 0.0025, "m4_per_um2": 0.0036} for i in range(26)}
+    levels = {"from": 10, "to": 200, "count": 9}
+    conditions = {"torque_Nm": levels, "speed_rpm": levels, "oil_temperature_C": [40, 60, 80]}
+    path = tmp_path_factory.mktemp("many") / "many.toml"
+    data = {**BASE, "surfaces": surfaces, "conditions": conditions}
+    path.write_text("\n".join(f"{key} = {toml(value)}" for key, value in data.items()))
+    return run_study(read_study(path))
+
+
+def test_many_levels_are_thinned_and_said(many):
+    drawn = {d.name: d for d in figures(many)}
+    assert {name.rpartition("_")[2] for name in drawn} == {"40C", "80C"}
+    panels = [a for a in drawn["power_loss_equal_40C"].figure.axes if a.lines]
+    assert len(panels) == MOST_PANELS
+    assert all(len(a.lines) == MOST_LEVELS for a in panels)
+    assert f"{MOST_PAIRINGS} of 351 pairings" in drawn["loss_over_roughness_40C"].caption
+
+
+def test_axes_carry_quantity_and_unit(many):
+    for drawn in figures(many):
+        labels = {a.get_xlabel() for a in drawn.figure.axes} | {a.get_ylabel() for a in drawn.figure.axes}
+        assert all("(" in label for label in labels if label), drawn.name
+
+
+def test_without_equal_pairings_others_take_their_place(write_study):
+    study = read_study(write_study(pairings={"pinion": ["fine"], "gear": ["mid", "coarse"]}))
+    assert any(d.name.startswith("power_loss_equal") for d in figures(run_study(study)))
