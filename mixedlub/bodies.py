@@ -117,14 +117,18 @@ def lubricant(section: config.Lubricant | None) -> Lubricant:
 
 
 def flank_profile(name: str, section: config.SurfaceSection, folder: Path) -> Profile:
-    """The roughness profile of a surface that names a trace: edges cut, form removed, filtered as its section says.
+    """The roughness profile of a surface that names a trace, prepared as `mixedlub profile` does.
 
+    Cut-offs are those of its section; without any, a profile that its file says is filtered stays as it is.
     A short cut-off of fewer than two points is left out, as the trace does not show such waves.
     """
     from profiles.read import read
-    from roughness import mask_edges, remove_form, roughness_profile, without_edges
+    from roughness import evaluation_profile
 
     trace = read(named_file(folder, section.profile or "", f"surfaces.{name}.profile"))
+    form = section.form or "line"
+    if "cutoff" in trace.cutoffs and section.cutoff_mm is None and section.short_cutoff_um is None:
+        return evaluation_profile(trace, form=form)
     band = {"cutoff_mm": section.cutoff_mm or 0.8, "short_cutoff_um": section.short_cutoff_um or 2.5}
     assumed = [f"{key} = {value:g}" for key, value in band.items() if getattr(section, key) is None]
     if assumed:
@@ -138,8 +142,7 @@ def flank_profile(name: str, section: config.SurfaceSection, folder: Path) -> Pr
             CaseWarning,
             stacklevel=2,
         )
-    levelled = remove_form(without_edges(mask_edges(trace)), section.form or "line")
-    return roughness_profile(levelled, cutoff=band["cutoff_mm"] * 1e-3, short_cutoff=short)
+    return evaluation_profile(trace, form=form, cutoff=band["cutoff_mm"] * 1e-3, short_cutoff=short)
 
 
 def surface(name: str, section: config.SurfaceSection, folder: Path) -> Surface:

@@ -16,8 +16,14 @@ class Profile:
     """A measured or synthetic trace: heights (m) at equal spacing (m); immutable.
 
     ``valid`` is False where a point was masked (dropout, spike, scratch) and bridged; ``steps`` tells in
-    order what was done to the heights, ``cutoffs`` the filter limits (m) they passed, ``origin`` what the
-    file said about itself.
+    order what was done to the heights, ``cutoffs`` the filter limits (m) they passed (``cutoff``,
+    ``short_cutoff``), ``origin`` what the file said about itself. Of its keys these are acted upon, so every
+    reader that knows them uses these names:
+
+    ``stated``: parameters the file prints beside its heights, by ISO symbol (``Rq``, ``Pq``), lengths in m,
+    ratios in percent, the rest as printed; ``stated_short_cutoff``: the low-pass (m) they were taken after,
+    where the heights are stored before it; ``convention``: the convention they follow;
+    ``sampling_lengths``: how many the instrument averaged over; ``tip_radius``: of the stylus (m).
 
     >>> p = Profile(np.array([0.0, 1e-6, 0.0]), 0.5e-6, name="peak")
     >>> p.length, p.steps
@@ -30,7 +36,7 @@ class Profile:
     steps: tuple[str, ...] = ()
     cutoffs: Mapping[str, float] = field(default_factory=dict)
     origin: Mapping[str, object] = field(default_factory=dict)
-    valid: np.ndarray | None = None
+    valid: np.ndarray = None  # type: ignore[assignment]  # left out it is all True, from construction on
 
     def __post_init__(self) -> None:
         heights = np.array(self.heights, dtype=float)

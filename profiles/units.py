@@ -58,6 +58,18 @@ def metres(word: str, where: str = "unit") -> float:
     return METRES[unit]
 
 
+def known_length(text: str) -> float | None:
+    """The length in metres that a text names, or None for any other text: for what a header says in passing.
+
+    >>> known_length("2.5 um"), known_length("2.5"), known_length("0 um")
+    (2.5e-06, None, None)
+    """
+    try:
+        return length(text, "")
+    except InputError:
+        return None
+
+
 def length(value: float | str, where: str) -> float:
     """A length in metres from a number (metres) or a text with its unit.
 

@@ -63,7 +63,7 @@ def mccool_asperities(moments: Moments) -> Asperities:
     >>> round(a.density * 1e-6, 2), round(a.radius * 1e6, 4), round(a.sigma * 1e6, 6)
     (12251.75, 10.5094, 0.370918)
     """
-    m0, m2, m4 = (np.asarray(m) for m in (moments.m0, moments.m2, moments.m4))
+    m0, m2, m4 = moments.m0, moments.m2, moments.m4
     return Asperities(
         density=float(summit_density(m2, m4)),
         radius=float(summit_radius(m4)),
@@ -96,13 +96,13 @@ def bi_gaussian(profile: Profile) -> Asperities:
     """
     lines = two_lines(profile)
     z, dx = profile.heights, profile.spacing
-    high = (z > lines.knee_height) & np.asarray(profile.valid)
+    high = (z > lines.knee_height) & profile.valid
     first = (np.diff(z) / dx)[high[1:] & high[:-1]]
     second = (np.diff(z, 2) / dx**2)[high[2:] & high[1:-1] & high[:-2]]
     if second.size < 20:
         raise InputError("has too few points above the knee", where=f"profile {profile.name!r}")
     found = mccool_asperities(Moments(lines.plateau_sigma**2, float(np.mean(first**2)), float(np.mean(second**2)), dx))
-    lift = lines.plateau_mean - float(z[np.asarray(profile.valid)].mean())
+    lift = lines.plateau_mean - float(z[profile.valid].mean())
     return replace(found, plane_offset=found.plane_offset + lift, model="bi-Gaussian")
 
 
@@ -116,7 +116,7 @@ def summit_count(profile: Profile) -> Asperities:
     """
     z, dx = profile.heights, profile.spacing
     middle = z[1:-1]
-    peak = (middle > z[:-2]) & (middle >= z[2:]) & np.asarray(profile.valid)[1:-1]
+    peak = (middle > z[:-2]) & (middle >= z[2:]) & profile.valid[1:-1]
     count = int(np.count_nonzero(peak))
     if count < 10:
         raise InputError("has fewer than ten peaks", where=f"profile {profile.name!r}", value=count)

@@ -28,7 +28,7 @@ def mask_outliers(
     """
     if side not in ("both", "peaks", "valleys"):
         raise InputError("must be 'both', 'peaks' or 'valleys'", where="side of the outliers", value=side)
-    mask = np.asarray(profile.valid)
+    mask = profile.valid
     mean_line = robust_mean_line(profile.heights, profile.spacing, min(cutoff, profile.length), valid=mask)
     residual = profile.heights - mean_line
     residual = residual - np.median(residual[mask])
@@ -74,7 +74,7 @@ def mask_edges(profile: Profile, *, steepness: float = 8.0, share: float = 0.02)
 
 def masked(profile: Profile, away: np.ndarray, step: str) -> Profile:
     """The profile with more points masked, and straight bridges over all that is masked."""
-    valid = np.asarray(profile.valid) & ~away
+    valid = profile.valid & ~away
     count = int(np.count_nonzero(valid))
     if count < max(3, 0.2 * valid.size):
         raise InputError(
@@ -92,14 +92,14 @@ def masked(profile: Profile, away: np.ndarray, step: str) -> Profile:
 
 def without_edges(profile: Profile) -> Profile:
     """The longest stretch without masked ends: what is left between the edges of a part."""
-    kept = np.flatnonzero(np.asarray(profile.valid))
+    kept = np.flatnonzero(profile.valid)
     first, last = int(kept[0]), int(kept[-1]) + 1
     if first == 0 and last == profile.heights.size:
         return profile
     return profile.after(
         f"ends cut, {first} and {profile.heights.size - last} points",
         profile.heights[first:last],
-        valid=np.asarray(profile.valid)[first:last],
+        valid=profile.valid[first:last],
     )
 
 

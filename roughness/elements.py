@@ -9,7 +9,7 @@ import numpy as np
 from profiles import InputError, Profile
 from roughness.parameters import height_parameters
 
-DISCRIMINATIONS = ("10 % of Rz", "10 % of Rt")
+DISCRIMINATIONS = {"10 % of Rz": (0.1, "Rz"), "10 % of Rt": (0.1, "Rt"), "5 % of Rz": (0.05, "Rz")}
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,8 @@ def element_parameters(
 
     A stretch above (below) the zero line counts where it rises (falls) by the discrimination; what does not
     count joins its neighbour. An element runs from one rise through the zero line to the next.
-    ISO 4287:1997, 3.2.7, 4.3.1 and 4.1.4, which takes 10 % of Rz; instruments also use 10 % of Rt.
+    ISO 4287:1997, 3.2.7, 4.3.1 and 4.1.4, which takes 10 % of Rz; instruments also use 10 % of Rt, and NIST
+    reads the 10 % as 5 % to either side. None has a least width here.
 
     >>> wave = Profile(1e-6 * np.sin(2 * np.pi * (np.arange(1000) + 0.5) / 100), 1e-6)
     >>> e = element_parameters(wave)
@@ -42,8 +43,8 @@ def element_parameters(
     """
     if discrimination not in DISCRIMINATIONS:
         raise InputError(f"must be one of {', '.join(DISCRIMINATIONS)}", where="discrimination", value=discrimination)
-    heights = height_parameters(profile, sections=sections)
-    threshold = 0.1 * (heights.Rz if discrimination.endswith("Rz") else heights.Rt)
+    share, height = DISCRIMINATIONS[discrimination]
+    threshold = share * getattr(height_parameters(profile, sections=sections), height)
     z = profile.heights
     starts = np.concatenate(([0], np.flatnonzero(np.diff(z >= 0)) + 1))
     above = z[starts] >= 0

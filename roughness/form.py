@@ -79,7 +79,7 @@ def involute(profile: Profile, base_radius: float) -> tuple[np.ndarray, float]:
 
         found = _fit(profile, heights, lambda free: 1.0, (height, slope, roll))
         fitted = heights(found)
-        left = (profile.heights / half - fitted)[np.asarray(profile.valid)]
+        left = (profile.heights / half - fitted)[profile.valid]
         results.append((float(left @ left), fitted, abs(float(found[2]))))
     _, fitted, theta = min(results, key=lambda r: r[0])
     return fitted * half, base_radius * theta
@@ -88,7 +88,7 @@ def involute(profile: Profile, base_radius: float) -> tuple[np.ndarray, float]:
 def _parabola(profile: Profile) -> np.ndarray:
     """Height, slope and half the curvature in the middle, in half lengths."""
     half = profile.length / 2
-    mask = np.asarray(profile.valid)
+    mask = profile.valid
     x = (profile.positions - half) / half
     start = np.polynomial.polynomial.polyfit(x[mask], profile.heights[mask] / half, 2)
     if abs(start[2]) < 1e-9:
@@ -104,7 +104,7 @@ def _fit(
 ) -> np.ndarray:
     from scipy.optimize import least_squares
 
-    mask = np.asarray(profile.valid)
+    mask = profile.valid
     z = profile.heights / (profile.length / 2)
 
     def distance(free: np.ndarray) -> np.ndarray:

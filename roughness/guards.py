@@ -9,10 +9,12 @@ import numpy as np
 from profiles import Profile
 from roughness.moments import Moments, moments
 from roughness.noise import height_quantum, noise_moments, tip_limited_wavelength
-from roughness.parameters import HeightParameters, section_count
+from roughness.parameters import CONVENTIONS, HeightParameters, height_parameters, section_count
+from roughness.prepare import primary_profile
 from roughness.probability import NormalProbability
 
 _HEADER_TOLERANCE = 0.05
+_COMPARED = ("a", "q", "z", "t", "p", "v")
 
 
 def profile_warnings(
@@ -23,17 +25,15 @@ def profile_warnings(
     *,
     raw: Profile | None = None,
 ) -> list[str]:
-    """All warnings of an evaluated profile; ``raw`` is the trace as read, where it is at hand.
-
-    Of what the file said (``origin``) they use ``stated``, a mapping from Ra, Rq, Rz to the values (m) that the
-    instrument printed, and ``tip_radius`` (m).
-    """
+    """All warnings of an evaluated profile; ``raw`` is the trace as read, where it is at hand."""
+    as_read = profile if raw is None else raw
     return [
+        *_stated(as_read),
         *_band(profile, found),
         *_lengths(profile, heights),
+        *_alike(heights, found),
         *_resolution(profile, found),
-        *_instrument(profile, found, raw if raw is not None else profile),
-        *_stated(profile, heights),
+        *_instrument(profile, found, as_read),
         *_shape(gaussian),
     ]
 
@@ -70,9 +70,9 @@ def _lengths(profile: Profile, heights: HeightParameters) -> Iterator[str]:
     cutoff = profile.cutoffs.get("cutoff")
     if cutoff is None:
         yield "no cut-off: heights contain waviness and what is left of the form"
-    elif section_count(profile) < 5:
+    elif (count := section_count(profile)) < 5:
         yield (
-            f"{section_count(profile)} sampling lengths of {cutoff * 1e3:.3g} mm, fewer than the 5 of ISO "
+            f"{count} sampling length{'s' * (count > 1)} of {cutoff * 1e3:.3g} mm, fewer than the 5 of ISO "
             "4288: Rz and the moments scatter more"
         )
     mean = float(profile.heights.mean())
@@ -81,9 +81,18 @@ def _lengths(profile: Profile, heights: HeightParameters) -> Iterator[str]:
             f"the mean of the heights lies {mean * 1e6:.3g} um off the zero line: form, edges or spikes are "
             "left in the profile"
         )
-    masked = 1.0 - float(np.mean(np.asarray(profile.valid)))
+    masked = 1.0 - float(np.mean(profile.valid))
     if masked > 0.05:
         yield f"{100 * masked:.1f} % of the points are masked"
+
+
+def _alike(heights: HeightParameters, found: Moments) -> Iterator[str]:
+    whole = float(np.sqrt(found.m0))
+    if heights.sections > 1 and whole > 1.05 * heights.Rq:
+        yield (
+            f"the rms over the whole, sqrt(m0) {whole * 1e6:.3g} um, is above Rq {heights.Rq * 1e6:.3g} um, the mean "
+            f"of {heights.sections} sampling lengths: the surface is not alike along the trace"
+        )
 
 
 def _resolution(profile: Profile, found: Moments) -> Iterator[str]:
@@ -116,19 +125,28 @@ def _instrument(profile: Profile, found: Moments, raw: Profile) -> Iterator[str]
             )
 
 
-def _stated(profile: Profile, heights: HeightParameters) -> Iterator[str]:
-    stated = profile.origin.get("stated")
+def _stated(raw: Profile) -> Iterator[str]:
+    """What the file prints against what its own heights give, by the file's own rules and before any of ours."""
+    stated = raw.origin.get("stated")
     if not isinstance(stated, Mapping):
         return
-    for name in ("Ra", "Rq", "Rz"):
-        value = stated.get(name)
+    short, sections = raw.origin.get("stated_short_cutoff"), raw.origin.get("sampling_lengths")
+    named = str(raw.origin.get("convention"))
+    ours = height_parameters(
+        primary_profile(raw, short, floored=True) if isinstance(short, float) else raw,
+        convention=named if named in CONVENTIONS else "ISO 4287:1997",
+        sections=sections if isinstance(sections, int) else None,
+    )
+    for name, value in stated.items():
+        if name[:1] not in ("R", "P") or name[1:] not in _COMPARED:
+            continue
         if not isinstance(value, (int, float)) or not value > 0:
             continue
-        ours = getattr(heights, name)
-        if abs(ours / value - 1.0) > _HEADER_TOLERANCE:
+        found = getattr(ours, f"R{name[1:]}")
+        if abs(found / value - 1.0) > _HEADER_TOLERANCE:
             yield (
-                f"the file states {name} {value * 1e6:.4g} um, its profile gives {ours * 1e6:.4g} um: header "
-                "and heights do not belong together, or not to this filter"
+                f"the file states {name} {value * 1e6:.4g} um, its heights give {found * 1e6:.4g} um: header and "
+                "heights do not belong together, or not to this filter"
             )
 
 

@@ -38,7 +38,7 @@ def material_ratio_curve(profile: Profile) -> tuple[np.ndarray, np.ndarray]:
     >>> ratio, heights
     (array([12.5, 37.5, 62.5, 87.5]), array([ 2.,  1.,  0., -1.]))
     """
-    heights = np.sort(profile.heights[np.asarray(profile.valid)])[::-1]
+    heights = np.sort(profile.heights[profile.valid])[::-1]
     return 100.0 * (np.arange(heights.size) + 0.5) / heights.size, heights
 
 
@@ -48,12 +48,12 @@ def material_ratio(profile: Profile, height: float) -> float:
     >>> material_ratio(Profile(np.array([2.0, 0.0, 1.0, -1.0]), 1e-6), 0.5)
     50.0
     """
-    return float(100.0 * np.mean(profile.heights[np.asarray(profile.valid)] >= height))
+    return float(100.0 * np.mean(profile.heights[profile.valid] >= height))
 
 
 def height_at_ratio(profile: Profile, percent: float) -> float:
     """Height (m) above which a percentage of the profile lies. The inverse of :func:`material_ratio`."""
-    return float(np.quantile(profile.heights[np.asarray(profile.valid)], 1.0 - percent / 100.0))
+    return float(np.quantile(profile.heights[profile.valid], 1.0 - percent / 100.0))
 
 
 def section_height_difference(profile: Profile, upper_percent: float, lower_percent: float) -> float:

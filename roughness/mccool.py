@@ -7,13 +7,18 @@ Wear 107 (1986) 37. Two independent surfaces combine by adding moments first. Ar
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import numpy as np
+
+Values = TypeVar("Values", float, np.ndarray)
+"""Numbers in, a number out; arrays in, their broadcast out."""
 
 SUMMIT_VARIANCE = 1.0 + 16.0 / np.pi - 3.0 * np.sqrt(3.0)
 """The exact constant of the summit variance, 0.896806 (McCool prints 0.8968)."""
 
 
-def nayak_parameter(m0: np.ndarray, m2: np.ndarray, m4: np.ndarray) -> np.ndarray:
+def nayak_parameter(m0: Values, m2: Values, m4: Values) -> Values:
     r"""Bandwidth :math:`\alpha = m_0 m_4 / m_2^2` (-); at least 3/2 on a real isotropic Gaussian surface.
 
     >>> round(float(nayak_parameter(0.16, 0.01, 0.004)), 6)
@@ -22,7 +27,7 @@ def nayak_parameter(m0: np.ndarray, m2: np.ndarray, m4: np.ndarray) -> np.ndarra
     return m0 * m4 / m2**2
 
 
-def summit_density(m2: np.ndarray, m4: np.ndarray) -> np.ndarray:
+def summit_density(m2: Values, m4: Values) -> Values:
     r"""Summits per area (1/m^2), :math:`D = m_4 / (6\pi\sqrt3\, m_2)`; Nayak 1971.
 
     >>> round(float(summit_density(0.01, 0.004)), 8)
@@ -31,7 +36,7 @@ def summit_density(m2: np.ndarray, m4: np.ndarray) -> np.ndarray:
     return m4 / (6.0 * np.pi * np.sqrt(3.0) * m2)
 
 
-def summit_radius(m4: np.ndarray) -> np.ndarray:
+def summit_radius(m4: Values) -> Values:
     r"""Radius belonging to the mean summit curvature (m), :math:`R = \tfrac38\sqrt{\pi/m_4}`; McCool 1986.
 
     >>> round(float(summit_radius(0.004)), 6)
@@ -40,7 +45,7 @@ def summit_radius(m4: np.ndarray) -> np.ndarray:
     return 0.375 * np.sqrt(np.pi / m4)
 
 
-def summit_sigma(m0: np.ndarray, m2: np.ndarray, m4: np.ndarray) -> np.ndarray:
+def summit_sigma(m0: Values, m2: Values, m4: Values) -> Values:
     r"""Standard deviation of summit heights (m), :math:`\sigma_s = \sqrt{(1 - 0.8968/\alpha)\,m_0}`.
 
     Below alpha = 3/2 the theory has no summits; alpha is held at 3/2 there and the caller warns.
@@ -51,7 +56,7 @@ def summit_sigma(m0: np.ndarray, m2: np.ndarray, m4: np.ndarray) -> np.ndarray:
     return np.sqrt((1.0 - SUMMIT_VARIANCE / np.maximum(nayak_parameter(m0, m2, m4), 1.5)) * m0)
 
 
-def plane_offset(m0: np.ndarray, m2: np.ndarray, m4: np.ndarray) -> np.ndarray:
+def plane_offset(m0: Values, m2: Values, m4: Values) -> Values:
     r"""Height of the summit mean plane above the surface mean plane (m), :math:`z_s = 4\sqrt{m_0/(\pi\alpha)}`.
 
     >>> round(float(plane_offset(0.16, 0.01, 0.004)), 6)

@@ -55,7 +55,7 @@ class Moments:
     @property
     def bandwidth(self) -> float:
         """Nayak's alpha = m0 m4 / m2^2; at least 3/2 on an isotropic Gaussian surface."""
-        return float(nayak_parameter(*(np.asarray(m) for m in (self.m0, self.m2, self.m4))))
+        return float(nayak_parameter(self.m0, self.m2, self.m4))
 
 
 def across_and_along(across: Moments, along: Moments, *, rule: str = "geometric") -> Moments:
@@ -120,7 +120,7 @@ def _shared(one: float | None, other: float | None) -> float | None:
 
 def _by_differences(profile: Profile) -> tuple[float, float, float]:
     z, dx = profile.heights, profile.spacing
-    mask = np.asarray(profile.valid)
+    mask = profile.valid
     first = np.diff(z)
     second = np.diff(first)
     height = z - z.mean()

@@ -14,13 +14,16 @@ from profiles.errors import nearest
 class Convention:
     """Which parameters are means over sampling lengths; the rest are taken over the whole profile.
 
-    No convention moves the zero line: the filter or the form removal has put it there.
+    No convention moves the zero line: the filter or the form removal has put it there. ``discrimination`` is
+    the height that an element of RSm and Rc must have, ``core`` the way to the line of the Rk family.
     """
 
     name: str
     averages_sectioned: bool  # Ra Rq Rsk Rku Rdq
     extremes_sectioned: bool  # Rp Rv Rz
     source: str
+    discrimination: str = "10 % of Rz"
+    core: str = "least squares"
 
 
 CONVENTIONS = {
@@ -28,8 +31,21 @@ CONVENTIONS = {
     for c in (
         Convention("ISO 4287:1997", True, True, "ISO 4287:1997, 3.1.9 and 4; ISO 4288:1996, 4.4"),
         Convention("ISO 21920-2:2021", False, True, "ISO 21920-2:2021, 4.3 and 4.4"),
-        Convention("NIST", False, False, "NIST surface metrology algorithm testing system: profile as a whole"),
-        Convention("Mitutoyo", True, True, "SurfTest report, ISO 1997 setting: as ISO 4287 with its N sections"),
+        Convention(
+            "NIST",
+            False,
+            False,
+            "NIST surface metrology algorithm testing system: profile as a whole, elements above 5 % of Pz",
+            "5 % of Rz",
+        ),
+        Convention(
+            "Mitutoyo",
+            True,
+            True,
+            "SurfTest report, ISO 1997 setting: what reproduces the values it prints",
+            "10 % of Rt",
+            "class levels",
+        ),
     )
 }
 
@@ -62,14 +78,15 @@ def height_parameters(
 
     Without ``sections`` the profile is split into as many equal sampling lengths as cut-offs fit into it,
     or none where no cut-off is recorded. Rdq uses the seven-point slope. A flat profile has no Rsk and Rku
-    (nan).
+    (nan). A mean of section Rq is at most the rms of the whole, sqrt(m0), and less where the sections differ:
+    it describes the finish, m0 the contact.
 
     >>> wave = Profile(np.sqrt(2) * np.sin(2 * np.pi * np.arange(8000) / 400), 1.0)
     >>> p = height_parameters(wave, sections=4)
     >>> round(p.Rq, 12), round(p.Rku, 12), round(p.Rdq * 400 / (2 * np.pi), 2)
     (1.0, 1.5, 1.0)
     """
-    rule = _convention(convention)
+    rule = named_convention(convention)
     count = section_count(profile) if sections is None else sections
     if not 1 <= count <= profile.heights.size // 8:
         raise InputError(
@@ -77,7 +94,7 @@ def height_parameters(
             where=f"profile {profile.name!r}: number of sections",
             value=count,
         )
-    mask = np.asarray(profile.valid)
+    mask = profile.valid
     borders = _borders(mask.size, count)
     z, at = _kept(profile.heights, mask, borders)
     top, bottom = np.maximum.reduceat(z, at), -np.minimum.reduceat(z, at)
@@ -163,7 +180,8 @@ def _means(values: np.ndarray, starts: np.ndarray) -> np.ndarray:
     return np.add.reduceat(values, starts) / np.diff(np.append(starts, values.size))
 
 
-def _convention(name: str) -> Convention:
+def named_convention(name: str) -> Convention:
+    """One of ``CONVENTIONS``."""
     try:
         return CONVENTIONS[name]
     except KeyError:

@@ -61,7 +61,7 @@ def probability_figure(*profiles: Profile, results: Sequence[NormalProbability] 
 
     def draw(axes: Axes, profile: Profile) -> None:
         r = judged[id(profile)]
-        ordered = np.sort(profile.heights[np.asarray(profile.valid)])
+        ordered = np.sort(profile.heights[profile.valid])
         q = ndtri((np.arange(ordered.size) + 0.625) / (ordered.size + 0.25))
         keep = np.unique(np.searchsorted(q, np.linspace(q[0], q[-1], 700)).clip(0, q.size - 1))
         line = r.mean + r.sigma * r.quantiles

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from profiles import InputError, Profile
@@ -43,7 +45,7 @@ def remove_form(profile: Profile, form: str) -> Profile:
         )
     degree = _degree(form)
     x = np.linspace(-1.0, 1.0, profile.heights.size)
-    mask = _mask(profile)
+    mask = profile.valid
     basis = np.polynomial.legendre.legvander(x, degree)
     weighted = basis if mask.all() else basis * mask[:, None]
     fitted = basis @ np.linalg.solve(weighted.T @ basis, weighted.T @ profile.heights)
@@ -86,7 +88,7 @@ def roughness_profile(
         if method == "gaussian":
             mean_line, kind = _mean_line(result, cutoff, ends, floored), f"Gaussian high-pass, ends {ends}"
         elif method == "robust":
-            mean_line = robust_mean_line(result.heights, result.spacing, cutoff, valid=_mask(result))
+            mean_line = robust_mean_line(result.heights, result.spacing, cutoff, valid=result.valid)
             kind = "robust Gaussian regression high-pass"
         elif method == "spline":
             mean_line, kind = spline_mean_line(result.heights, result.spacing, cutoff), "spline high-pass"
@@ -95,7 +97,7 @@ def roughness_profile(
         result = result.after(
             f"{kind}, cut-off {cutoff * 1e3:.6g} mm",
             result.heights - mean_line,
-            cutoffs={**result.cutoffs, "cutoff": cutoff},
+            cutoffs={**result.cutoffs, "cutoff": min(cutoff, result.cutoffs.get("cutoff", cutoff))},
         )
         if trim_cutoffs:
             result = trim(result, trim_cutoffs * cutoff, trim_cutoffs * cutoff)
@@ -105,11 +107,17 @@ def roughness_profile(
 def primary_profile(
     profile: Profile, short_cutoff: float, *, ends: str = "regression", floored: bool = False
 ) -> Profile:
-    """The trace without what is shorter than lambda_s (m). ISO 3274, ISO 16610-21."""
+    """The trace without what is shorter than lambda_s (m). ISO 3274, ISO 16610-21.
+
+    Two Gaussian low-passes in a row act as one whose cut-off squared is the sum of theirs, and so it is recorded.
+    """
     return profile.after(
         f"Gaussian low-pass, short cut-off {short_cutoff * 1e6:.6g} um, ends {ends}",
         _mean_line(profile, short_cutoff, ends, floored),
-        cutoffs={**profile.cutoffs, "short_cutoff": short_cutoff},
+        cutoffs={
+            **profile.cutoffs,
+            "short_cutoff": math.hypot(short_cutoff, profile.cutoffs.get("short_cutoff", 0.0)),
+        },
     )
 
 
@@ -139,18 +147,12 @@ def trim(profile: Profile, start: float = 0.0, end: float = 0.0) -> Profile:
     return profile.after(
         f"trimmed {start * 1e3:.6g} mm and {end * 1e3:.6g} mm",
         profile.heights[first:last],
-        valid=_mask(profile)[first:last],
+        valid=profile.valid[first:last],
     )
 
 
 def _mean_line(profile: Profile, cutoff: float, ends: str, floored: bool) -> np.ndarray:
-    return gaussian_mean_line(
-        profile.heights, profile.spacing, cutoff, ends=ends, floored=floored, valid=_mask(profile)
-    )
-
-
-def _mask(profile: Profile) -> np.ndarray:
-    return np.asarray(profile.valid)
+    return gaussian_mean_line(profile.heights, profile.spacing, cutoff, ends=ends, floored=floored, valid=profile.valid)
 
 
 def _base_radius(form: str) -> float:

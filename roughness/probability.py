@@ -84,7 +84,7 @@ def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> Nor
     from scipy.special import ndtr
 
     quantiles, heights, sums = _plotted(profile)
-    count = int(np.count_nonzero(np.asarray(profile.valid)))
+    count = int(np.count_nonzero(profile.valid))
     independent = count / sums[1]
     p_value, relative_band = _gaussian_band(quantiles, heights, sums, count)
     if independent < _FEWEST:
@@ -105,7 +105,7 @@ def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> Nor
         verdict = "plateau"
     else:
         verdict = "not_gaussian"
-    ratio = _contact_ratio(profile.heights[np.asarray(profile.valid)])
+    ratio = _contact_ratio(profile.heights[profile.valid])
     return NormalProbability(
         quantiles=quantiles,
         heights=heights,
@@ -273,7 +273,7 @@ def _plotted(profile: Profile) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Normal quantiles, the heights at them, and the sums over the autocorrelation."""
     from scipy.special import ndtr
 
-    ordered = profile.heights[np.asarray(profile.valid)]
+    ordered = profile.heights[profile.valid]
     if ordered.size < 50 or np.ptp(ordered) == 0:
         raise InputError("a probability plot needs fifty heights that differ", where=f"profile {profile.name!r}")
     sums = correlation_sums(autocorrelation(profile))

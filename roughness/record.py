@@ -9,12 +9,12 @@ from dataclasses import asdict, replace
 from profiles import InputError, Profile
 from roughness.asperities import Asperities, mccool_asperities
 from roughness.cutoffs import choose_cutoffs, short_cutoff_for
-from roughness.defects import mask_edges, without_edges
+from roughness.defects import mask_edges, mask_outliers, without_edges
 from roughness.elements import element_parameters
 from roughness.guards import profile_warnings
 from roughness.material_ratio import core_parameters
 from roughness.moments import Moments, moments
-from roughness.parameters import HeightParameters, height_parameters
+from roughness.parameters import HeightParameters, height_parameters, named_convention
 from roughness.prepare import remove_form, roughness_profile
 from roughness.probability import NormalProbability, normal_probability
 from roughness.spectrum import correlation_length
@@ -29,19 +29,26 @@ def evaluation_profile(
     form: str = "line",
     cutoff: float | str | None = "auto",
     short_cutoff: float | str | None = "auto",
+    method: str = "gaussian",
+    outliers: float | None = None,
+    trim_cutoffs: float = 0.0,
 ) -> Profile:
-    """The roughness profile of a trace by the usual steps: edges, form, lambda_s, lambda_c, ends.
+    """The roughness profile of a trace by the usual steps: edges, form, outliers, lambda_s, lambda_c.
 
     Cut-offs in m, None for none, or ``auto``: those the file says it has already passed are kept and not
-    applied again, else ISO 4288 and ISO 3274 choose. A short cut-off of fewer than two points is left out.
-    Half a cut-off is cut off each end where five sampling lengths remain; otherwise the ends are kept by
-    local regression. Edges of the part that the trace ran over are cut and recorded.
+    applied again, nor a line taken off, else ISO 4288 and ISO 3274 choose. A short cut-off of fewer than two
+    points is left out. Edges of the part that the trace ran over are cut; ``outliers`` masks what stands
+    further than so many robust sigmas off. The ends are kept by local regression, which on Gaussian surfaces
+    estimates Rq, m2 and m4 at least as well as the shorter profile does that is left when instruments cut
+    half a cut-off (``trim_cutoffs`` 0.5). ``method`` as in :func:`roughness_profile`.
     """
     filtered = cutoff == "auto" and "cutoff" in trace.cutoffs
     if filtered and form == "line":
         profile = trace
     else:
         profile = remove_form(trace if filtered else without_edges(mask_edges(trace)), form)
+    if outliers is not None:
+        profile = mask_outliers(profile, sigmas=outliers)
     limit = trace.cutoffs.get("cutoff") if cutoff == "auto" else _length(cutoff, "cut-off")
     if limit is None and cutoff == "auto":
         chosen = choose_cutoffs(profile)
@@ -57,9 +64,13 @@ def evaluation_profile(
             profile, short = replace(profile, steps=(*profile.steps, step)), None
     else:
         short = _length(short_cutoff, "short cut-off")
-    limit = None if filtered else limit
-    cut = 0.5 if limit is not None and profile.length >= 5.999 * limit else 0.0
-    return roughness_profile(profile, cutoff=limit, short_cutoff=short, trim_cutoffs=cut)
+    return roughness_profile(
+        profile,
+        cutoff=None if filtered else limit,
+        short_cutoff=short,
+        method=method,
+        trim_cutoffs=trim_cutoffs,
+    )
 
 
 def trace_record(
@@ -68,30 +79,42 @@ def trace_record(
     form: str = "line",
     cutoff: float | str | None = "auto",
     short_cutoff: float | str | None = "auto",
-    convention: str = "ISO 4287:1997",
+    method: str = "gaussian",
+    outliers: float | None = None,
+    trim_cutoffs: float = 0.0,
+    convention: str | None = None,
     sections: int | None = None,
 ) -> tuple[Profile, dict[str, object]]:
     """A trace as read, evaluated: its roughness profile and its ``profile.json`` row.
 
-    The row carries the asperities at half, one and two short cut-offs, as far as the trace shows them.
+    Preparation as in :func:`evaluation_profile`, the rest as in :func:`profile_record`. The row carries the
+    asperities at half, one and two short cut-offs, as far as the trace shows them.
     """
-    profile = evaluation_profile(trace, form=form, cutoff=cutoff, short_cutoff=short_cutoff)
-    present, limit = trace.cutoffs.get("short_cutoff"), profile.cutoffs.get("short_cutoff")
+
+    def prepare(before: Profile, long: float | str | None, short: float | str | None) -> Profile:
+        return evaluation_profile(
+            before,
+            form=form,
+            cutoff=long,
+            short_cutoff=short,
+            method=method,
+            outliers=outliers,
+            trim_cutoffs=trim_cutoffs,
+        )
+
+    profile = prepare(trace, cutoff, short_cutoff)
+    limit = profile.cutoffs.get("short_cutoff")
     band: tuple[Moments, ...] = ()
-    if limit is not None and present is None:
-        kept = profile.cutoffs.get("cutoff") if "cutoff" not in trace.cutoffs else "auto"
-
-        def prepare(before: Profile, short: float) -> Profile:
-            return evaluation_profile(before, form=form, cutoff=kept, short_cutoff=short)
-
-        band = short_cutoff_band(trace, limit, prepare)
+    if limit is not None and "short_cutoff" not in trace.cutoffs:
+        kept = profile.cutoffs.get("cutoff") if "cutoff" not in trace.cutoffs else cutoff
+        band = short_cutoff_band(trace, limit, lambda before, short: prepare(before, kept, short))
     return profile, profile_record(profile, convention=convention, sections=sections, raw=trace, band=band)
 
 
 def profile_record(
     profile: Profile,
     *,
-    convention: str = "ISO 4287:1997",
+    convention: str | None = None,
     sections: int | None = None,
     raw: Profile | None = None,
     band: Sequence[Moments] = (),
@@ -99,12 +122,13 @@ def profile_record(
     """The ``profile.json`` row of an evaluated profile; units in the names, None for what is undefined.
 
     ``raw`` is the trace as read: it shows the height step and the tip that filters hide. ``band`` holds the
-    moments at other short cut-offs; without it the profile is smoothed to twice its own. Sections default
-    to those the file states (``origin["sampling_lengths"]``), else to whole cut-offs.
+    moments at other short cut-offs; without it the profile is smoothed to twice its own. Convention and
+    sections default to those of the file (``origin``) where the profile is the one it was filtered to, else to
+    ISO 4287:1997 and to whole cut-offs.
     """
-    stated = profile.origin.get("sampling_lengths")
-    if sections is None and isinstance(stated, int):
-        sections = stated
+    own, sections_of_file = _rules_of_the_file(profile, profile if raw is None else raw)
+    convention = convention or own
+    sections = sections or sections_of_file
     heights = height_parameters(profile, convention=convention, sections=sections)
     found = moments(profile)
     try:
@@ -112,7 +136,7 @@ def profile_record(
     except InputError:
         gaussian = None
     warnings = profile_warnings(profile, heights, found, gaussian, raw=raw)
-    parameters = _parameters(profile, heights, gaussian, sections)
+    parameters = _parameters(profile, heights, gaussian)
     if parameters.pop("s_shaped") is False:
         warnings.append("the material ratio curve is not S-shaped: the Rk family is undefined and left out")
         parameters |= dict.fromkeys(("Rk_um", "Rpk_um", "Rvk_um", "Mr1_percent", "Mr2_percent"))
@@ -128,13 +152,20 @@ def profile_record(
     return {name: _plain(value) for name, value in row.items()}
 
 
-def _parameters(
-    profile: Profile, heights: HeightParameters, gaussian: NormalProbability | None, sections: int | None
-) -> dict[str, object]:
+def _rules_of_the_file(profile: Profile, raw: Profile) -> tuple[str, int | None]:
+    """Convention and number of sections that go with the heights."""
+    convention, sections = raw.origin.get("convention"), raw.origin.get("sampling_lengths")
+    if "cutoff" not in raw.cutoffs or dict(profile.cutoffs) != dict(raw.cutoffs):
+        return "ISO 4287:1997", None
+    return str(convention or "ISO 4287:1997"), sections if isinstance(sections, int) else None
+
+
+def _parameters(profile: Profile, heights: HeightParameters, gaussian: NormalProbability | None) -> dict[str, object]:
+    rule = named_convention(heights.convention)
     values = asdict(heights)
     row: dict[str, object] = {f"{n}_um": values[n] * 1e6 for n in _LENGTHS}
     row |= {"Rsk": heights.Rsk, "Rku": heights.Rku, "Rdq": heights.Rdq}
-    core = core_parameters(profile)
+    core = core_parameters(profile, method=rule.core)
     row |= {"Rk_um": core.Rk * 1e6, "Rpk_um": core.Rpk * 1e6, "Rvk_um": core.Rvk * 1e6}
     row |= {"Mr1_percent": core.Mr1, "Mr2_percent": core.Mr2, "s_shaped": core.s_shaped}
     layers = None if gaussian is None else gaussian.lines
@@ -145,7 +176,7 @@ def _parameters(
         "Rvq_um": None if layers is None else layers.valley_sigma * 1e6,
         "Rmq_percent": None if layers is None else layers.material_percent,
     }
-    elements = element_parameters(profile, sections=sections)
+    elements = element_parameters(profile, discrimination=rule.discrimination, sections=heights.sections)
     row |= {"RSm_um": elements.RSm * 1e6, "Rc_um": elements.Rc * 1e6}
     row |= {"correlation_length_um": correlation_length(profile) * 1e6}
     return row | {"sections": heights.sections, "convention": heights.convention}

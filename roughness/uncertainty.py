@@ -63,7 +63,7 @@ def bootstrap(
         )
     parts = [
         moments(Profile(z, profile.spacing, valid=m))
-        for z, m in zip(np.array_split(profile.heights, count), np.array_split(np.asarray(profile.valid), count))
+        for z, m in zip(np.array_split(profile.heights, count), np.array_split(profile.valid, count))
     ]
     table = np.log([(p.m0, p.m2, p.m4) for p in parts])
     centre = np.log(np.exp(table).mean(axis=0))

@@ -25,9 +25,22 @@ def command(
     out: Annotated[
         Path | None, typer.Option(help="Folder for profile.json and figures; default out/profile/NAME.")
     ] = None,
-    form: Annotated[str, typer.Option(help="Form to remove: none, line, circle, polynomial-N.")] = "line",
+    form: Annotated[
+        str, typer.Option(help="Form to remove: none, mean, line, polynomial-N, circle, involute-BASE_RADIUS_MM.")
+    ] = "line",
     cutoff_mm: Annotated[float | None, typer.Option(min=1e-6, help="Long cut-off; default by ISO 4288.")] = None,
     short_cutoff_um: Annotated[float | None, typer.Option(min=1e-6, help="Short cut-off; default by ISO 3274.")] = None,
+    method: Annotated[str, typer.Option(help="Filter of the long cut-off: gaussian, robust, spline.")] = "gaussian",
+    outliers: Annotated[
+        float | None, typer.Option(min=1.0, help="Mask spikes and pits further off than so many robust sigmas.")
+    ] = None,
+    trim: Annotated[
+        float, typer.Option(min=0.0, help="Cut-offs to cut off each end afterwards; instruments cut 0.5.")
+    ] = 0.0,
+    convention: Annotated[
+        str | None,
+        typer.Option(help="'ISO 4287:1997', 'ISO 21920-2:2021', NIST, Mitutoyo; default the file's, else the first."),
+    ] = None,
     unit: Annotated[str | None, typer.Option(help="Unit of plain numbers, as um or 'mm, um' (place, height).")] = None,
     spacing: Annotated[str | None, typer.Option(help="Step of one column of heights, as '0.5 um'.")] = None,
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the figures, or not.")] = True,
@@ -46,6 +59,10 @@ def command(
             form=form,
             cutoff="auto" if cutoff_mm is None else cutoff_mm * 1e-3,
             short_cutoff="auto" if short_cutoff_um is None else short_cutoff_um * 1e-6,
+            method=method,
+            outliers=outliers,
+            trim_cutoffs=trim,
+            convention=convention,
         )
         for trace in traces
     ]
@@ -67,23 +84,32 @@ def told(record: Record) -> Iterator[str]:
     """A trace in a few lines."""
     p, m, a, g = (record[key] for key in ("parameters", "moments", "asperities", "gaussian"))
     yield str(record["file"])
-    yield f"  {'; '.join(record['steps'])}"
-    yield "  " + "   ".join(f"{name} {_number(p[key])}" for name, key in _HEIGHTS)
+    yield f"  steps      {'; '.join(record['steps']) or 'none: evaluated as read'}"
+    yield f"  by         {p['convention']}, sampling lengths: {p['sections']}"
+    yield "  heights    " + "   ".join(f"{name} {_number(p[key], 5)}{unit}" for name, key, unit in _HEIGHTS)
     yield f"  moments    m0 {_number(m['m0_um2'])} um2   m2 {_number(m['m2'])}   m4 {_number(m['m4_per_um2'])} 1/um2"
     yield (
         f"  asperities {_number(a['density_per_mm2'])} per mm2   radius {_number(a['radius_um'])} um   "
         f"sigma {_number(a['sigma_um'])} um   Nayak alpha {_number(a['nayak'])}"
     )
-    yield f"  heights    {g['verdict'].replace('_', ' ')}" + (
-        f", from {_number(g['from_percent'])} to {_number(g['to_percent'])} %" if g["from_percent"] is not None else ""
-    )
+    for row in a["short_cutoff_band"]:
+        if row["short_cutoff_um"] != m["short_cutoff_um"]:
+            yield (
+                f"    at short cut-off {_number(row['short_cutoff_um'])} um: m2 {_number(row['m2'])}, "
+                f"m4 {_number(row['m4_per_um2'])} 1/um2, {_number(row['density_per_mm2'])} per mm2, "
+                f"radius {_number(row['radius_um'])} um"
+            )
+    yield f"  Gaussian?  {g['words']}" if "words" in g else f"  Gaussian?  {g['verdict'].replace('_', ' ')}"
 
 
-_HEIGHTS = (("Ra", "Ra_um"), ("Rq", "Rq_um"), ("Rz", "Rz_um"), ("um   Rsk", "Rsk"), ("Rku", "Rku"))
+_HEIGHTS = (
+    *((name, f"{name}_um", " um") for name in ("Ra", "Rq", "Rz")),
+    *((name, name, "") for name in ("Rsk", "Rku", "Rdq")),
+)
 
 
-def _number(value: float | None) -> str:
-    return "-" if value is None else f"{value:.4g}"
+def _number(value: float | None, digits: int = 4) -> str:
+    return "-" if value is None else f"{value:.{digits}g}"
 
 
 def _draw(folder: Path, named: list[tuple[str, Profile]]) -> None:

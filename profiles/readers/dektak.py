@@ -7,6 +7,7 @@ from profiles.profile import Profile
 from profiles.readers.base import Source
 from profiles.readers.numbers import decoded, table
 from profiles.readers.text import read_table
+from profiles.units import known_length
 
 
 class DektakReader:
@@ -31,4 +32,6 @@ class DektakReader:
             key, comma, value = line.partition(",")
             if comma and key:
                 origin.setdefault(key.strip().lower(), value.strip())
+        if radius := known_length(str(origin.get("stylus", "")).removeprefix("Radius:")):
+            origin["tip_radius"] = radius
         return read_table(source, table(body, f"{source.where}: Scan Data"), origin)

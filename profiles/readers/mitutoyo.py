@@ -22,9 +22,9 @@ _SETTING = re.compile(r"(CUT|LS|CUV|N|FIL|STD)\s+(.*?)\s*\Z")
 class MitutoyoReader:
     """SurfTest report: sheet DATA, column A the instrument's parameters, B its settings, E and F the profile.
 
-    Position in mm, height in um. The values go to ``origin["parameters"]`` (m, or plain numbers), so that
-    they can be compared with recomputed ones; the cut-offs of an R profile to ``cutoffs``. Checked against the
-    two reports of SurfaceTopography.
+    Position in mm, height in um. The instrument's values, its convention and its number of sampling lengths go
+    to ``origin``, so that they can be recomputed and compared; the cut-offs of an R profile to ``cutoffs``.
+    Checked against the two reports of SurfaceTopography.
     """
 
     name = "Mitutoyo report"
@@ -56,17 +56,21 @@ class MitutoyoReader:
         if len(pairs) < 3:
             raise InputError("no profile in columns E and F of sheet DATA", where=where)
         x, z = np.array(pairs, dtype=float).T
-        parameters, unit = _parameters([row[0] for row in rows if isinstance(row[0], str)], where)
+        stated, unit = _stated([row[0] for row in rows if isinstance(row[0], str)], where)
         settings = _settings([row[1] for row in rows if isinstance(row[1], str)], facts)
         cutoffs = _cutoffs(settings, where)
-        origin: dict[str, object] = {"format": self.format, "parameters": parameters, "settings": settings}
+        origin: dict[str, object] = {"format": self.format, "settings": settings, "convention": "Mitutoyo"}
+        if stated:
+            origin["stated"] = stated
+        if settings.get("N", "").isdigit() and int(settings["N"]) > 0:
+            origin["sampling_lengths"] = int(settings["N"])
         steps = ("roughness profile filtered by the instrument",) if cutoffs else ()
         step = equal_spacing(x, 1e-4, where) * 1e-3
         return make_profile(source, z * metres(unit, where), step, origin, steps=steps, cutoffs=cutoffs)
 
 
-def _parameters(lines: list[str], where: str) -> tuple[dict[str, float], str]:
-    """Instrument values by name, lengths in m, and the unit heights are written in."""
+def _stated(lines: list[str], where: str) -> tuple[dict[str, float], str]:
+    """Instrument values by ISO symbol, lengths in m, and the unit heights are written in."""
     found: dict[str, float] = {}
     unit = "um"
     for line in lines:
@@ -77,12 +81,11 @@ def _parameters(lines: list[str], where: str) -> tuple[dict[str, float], str]:
             value = float(match[2])
         except ValueError:
             raise InputError("not a number", where=f"{where}: DATA, {match[1]}", value=match[2]) from None
-        name = match[1].replace("µ", "u").replace("μ", "u")
+        # the report writes Rku with the sign for micro
+        name = match[1].replace("µ", "u").replace("μ", "u").replace("Dq", "dq")
         if known_unit(match[3]):
             value *= metres(match[3], where)
             unit = str(known_unit(match[3])) if name == "Ra" else unit
-        elif match[3] == "%":
-            value /= 100
         found[name] = value
     return found, unit
 

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 class NistXmlReader:
     """NIST XML: ``DATAFILE`` with UNITS, NUMPOINTS, SPACING and DATA_POINT_VALUES.
 
-    What NIST computed goes to ``origin["parameters"]`` (m, or plain numbers), and whether it belongs to the
-    raw profile or to the one after the short cut-off to ``origin["parameters_of"]``. Checked against four
-    softgauges (NPL mill and EDM, ASME sine and square).
+    What NIST computed goes to ``origin["stated"]``; where it belongs to the profile after a short cut-off, that
+    one to ``origin["stated_short_cutoff"]``. Checked against four softgauges (NPL mill and EDM, ASME sine and
+    square).
     """
 
     name = "NIST XML"
@@ -53,19 +53,32 @@ class NistXmlReader:
             raise InputError(f"not a number ({error})", where=f"{where}: DATAFILE") from None
         if checked_count(count, heights.size, where) != heights.size:
             raise InputError(f"the header declares {count} points", where=where, value=heights.size)
-        origin: dict[str, object] = {"format": self.format, "parameters": {}}
-        for results in root.iter():
-            if results.tag.endswith("_SURFACE_PARAMETERS"):
-                values = _values(results)
-                if values and not origin["parameters"]:
-                    origin["parameters"] = values
-                    origin["parameters_of"] = results.tag.removesuffix("_SURFACE_PARAMETERS").lower()
+        origin: dict[str, object] = {"format": self.format, "convention": "NIST"}
+        after, short = _values(root, "SHORT_CUTOFF_PROFILE"), _short_cutoff(root)
+        if after and short:
+            origin |= {"stated": after, "stated_short_cutoff": short}
+        elif raw := _values(root, "RAW_PROFILE"):
+            origin["stated"] = raw
         origin["part"] = (root.findtext("PART/PART_DESCRIPTION") or "").strip()
         return make_profile(source, heights, spacing, origin)
 
 
-def _values(results: Element) -> dict[str, float]:
-    """Parameters of one result block; those with a length in m."""
+def _short_cutoff(root: Element) -> float | None:
+    """The short cut-off (m) that NIST applied; None where it applied none."""
+    try:
+        cutoff = float(root.findtext("ANALYSIS/FILTER/SHORT_CUTOFF", "")) * metres(
+            root.findtext("ANALYSIS/FILTER/UNITS", "")
+        )
+    except ValueError:
+        return None
+    return cutoff if cutoff > 0 else None
+
+
+def _values(root: Element, profile: str) -> dict[str, float]:
+    """Parameters of one profile by ISO symbol, those with a length in m; none where the file leaves them empty."""
+    results = root.find(f".//{profile}_SURFACE_PARAMETERS")
+    if results is None:
+        return {}
     unit = known_unit(results.findtext("UNITS", "").strip())
     scale = metres(unit) if unit else 1.0
     found = {}
@@ -74,6 +87,6 @@ def _values(results: Element) -> dict[str, float]:
             value = float(item.text or "")
         except ValueError:
             continue
-        name = item.tag.capitalize() if item.tag.isupper() else item.tag
-        found[name] = value if name[1:].lower() in ("sk", "ku", "dq") else value * scale
+        name = item.tag.capitalize() if item.tag.isupper() else item.tag.replace("Dq", "dq")
+        found[name] = value if name[1:] in ("sk", "ku", "dq") else value * scale
     return found

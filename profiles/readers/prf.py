@@ -7,7 +7,7 @@ import numpy as np
 from profiles.errors import InputError
 from profiles.profile import Profile
 from profiles.readers.base import Source, checked_count, make_profile
-from profiles.units import metres
+from profiles.units import known_length, metres
 
 
 class PrfReader:
@@ -54,7 +54,7 @@ class PrfReader:
         if checked_count(count, heights.size, where) != heights.size:
             raise InputError(f"the header declares {count} points", where=where, value=heights.size)
         origin: dict[str, object] = {"format": self.format}
-        radius = lines.get("STYLUS_RADIUS", [])
-        if len(radius) > 1:
-            origin["stylus radius"] = " ".join(radius[1:3])
+        match lines.get("STYLUS_RADIUS"):
+            case [_, number, unit, *_] if known_length(f"{number} {unit}"):
+                origin["tip_radius"] = known_length(f"{number} {unit}")
         return make_profile(source, heights * scale, spacing, origin)

@@ -103,12 +103,20 @@ def test_instrument_and_nist_values_are_kept(shared):
         if f["path"] == "reference/mitutoyo_2_mock.xlsx"
     )
     values = entry["reference_values"]["values"]
-    kept = report.origin["parameters"]
+    kept = report.origin["stated"]
     for name in ("Ra", "Rq", "Rz", "Rp", "Rv", "RSm", "Rc", "Rt", "Rz1max", "Rk", "Rpk", "Rvk"):
         assert kept[name] * 1e6 == pytest.approx(values[name], rel=1e-12)
-    for name in ("Rsk", "Rku", "RDq"):
+    for name in ("Rsk", "Rku"):
         assert kept[name] == values[name]
+    assert kept["Rdq"] == values["RDq"]
+    assert kept["Mr2"] == values["Mr2_%"]
+    assert report.origin["sampling_lengths"] == 4
+    assert report.origin["convention"] == "Mitutoyo"
     assert dict(report.cutoffs) == pytest.approx({"cutoff": 2.5e-3, "short_cutoff": 8e-6})
     mill = read(folder / "mill.xml").origin
-    assert mill["parameters_of"] == "short_cutoff_profile"
-    assert mill["parameters"]["Pq"] == pytest.approx(0.24942e-6)
+    assert mill["stated_short_cutoff"] == pytest.approx(0.8e-6)
+    assert mill["stated"]["Pq"] == pytest.approx(0.24942e-6)
+    edm = read(folder / "edm.xml").origin
+    assert "stated_short_cutoff" not in edm
+    assert edm["stated"]["Pq"] == pytest.approx(0.55994e-6)
+    assert read(folder.parent / "stylus_misc" / "dektak-1.csv").origin["tip_radius"] == pytest.approx(2.5e-6)

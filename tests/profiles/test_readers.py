@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from profiles import InputError, Profile, read
 from profiles.read import READERS, read_source
 from profiles.readers.base import Source
+from roughness.parameters import CONVENTIONS
 from tests.profiles import samples
 
 BUILT = {name: build() for name, (build, _) in samples.SAMPLES.items()}
@@ -192,8 +193,28 @@ def test_mostly_missing_profile_is_refused():
 
 def test_instrument_values_are_kept_beside_the_heights():
     profile = read_source(Source("report.xlsx", samples.mitutoyo()))
-    assert profile.origin["parameters"] == {"Ra": pytest.approx(0.191e-6)}
+    assert profile.origin["stated"] == {"Ra": pytest.approx(0.191e-6)}
     assert dict(profile.cutoffs) == {"cutoff": pytest.approx(0.08e-3)}
+
+
+@pytest.mark.parametrize("name", BUILT)
+def test_what_the_file_says_goes_by_the_agreed_names(name):
+    origin = read_source(Source(name, BUILT[name])).origin
+    assert all(isinstance(v, float) for v in dict(origin.get("stated", {})).values())
+    for key in ("stated_short_cutoff", "tip_radius"):
+        assert 0 < origin.get(key, 1e-6) < 1e-3
+    assert isinstance(origin.get("sampling_lengths", 1), int)
+    assert origin.get("convention", "NIST") in CONVENTIONS
+
+
+@pytest.mark.parametrize(("name", "radius"), [("dektak.csv", 2.5e-6), ("trace.prf", 2e-6)])
+def test_tip_radius_is_kept(name, radius):
+    assert read_source(Source(name, BUILT[name])).origin["tip_radius"] == pytest.approx(radius)
+
+
+def test_unknown_tip_is_no_reason_to_refuse_a_trace():
+    data = BUILT["trace.prf"].replace(b"STYLUS_RADIUS 2.000000e-003 MM", b"STYLUS_RADIUS not known")
+    assert "tip_radius" not in read_source(Source("trace.prf", data)).origin
 
 
 def test_areal_map_is_not_taken_for_a_profile():

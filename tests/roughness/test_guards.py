@@ -70,6 +70,30 @@ def test_stated_value_that_disagrees(good):
     assert not said(found, "states Rq")
 
 
+def test_stated_value_is_held_against_the_heights_as_read(good):
+    """A primary profile's Pq is not the Rq that our filter leaves of it."""
+    wave = 1e-6 * np.sin(2 * np.pi * np.arange(16_000) / 8000)
+    trace = Profile(good.heights + wave, good.spacing, origin={"stated": {"Pq": float(np.std(good.heights + wave))}})
+    _, record = trace_record(trace)
+    assert record["parameters"]["Rq_um"] < 0.7e6 * trace.heights.std()
+    assert not said(record["warnings"], "the file states")
+    wrong = replace(trace, origin={"stated": {"Pq": 0.9 * trace.origin["stated"]["Pq"]}})
+    assert said(trace_record(wrong)[1]["warnings"], "the file states Pq")
+
+
+def test_stated_value_after_a_short_cutoff(good):
+    rough = np.random.default_rng(0).normal(size=16_000) * 1e-7
+    origin = {"stated": {"Pa": float(np.abs(good.heights).mean())}, "stated_short_cutoff": 40e-6}
+    noisy = Profile(good.heights + 10 * rough, good.spacing, origin=origin)
+    assert not said(warnings(noisy), "the file states Pa 1 um")
+    assert said(warnings(replace(noisy, origin={"stated": origin["stated"]})), "the file states Pa")
+
+
+def test_surface_that_changes_along_the_trace(good):
+    louder = np.where(np.arange(16_000) < 4000, 3.0, 1.0) * good.heights
+    assert said(warnings(replace(good, heights=louder)), "not alike along the trace")
+
+
 def test_lifted_profile(good):
     assert said(warnings(replace(good, heights=good.heights + 1e-7)), "off the zero line")
 

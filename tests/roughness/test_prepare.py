@@ -114,3 +114,14 @@ def test_every_filter_takes_off_a_long_wave(method):
 def test_bad_input_is_named(call, message):
     with pytest.raises(InputError, match=message):
         call(trace(X))
+
+
+def test_second_filter_does_not_hide_the_first(gaussian_trace):
+    """A profile low-passed at 8 um and then at 6 um holds what one pass at 10 um leaves, and says so."""
+    once = primary_profile(gaussian_trace(), 8e-6)
+    twice = primary_profile(once, 6e-6)
+    assert twice.cutoffs["short_cutoff"] == pytest.approx(10e-6)
+    single = primary_profile(gaussian_trace(), 10e-6)
+    assert twice.heights[40:-40] == pytest.approx(single.heights[40:-40], abs=1e-10)
+    narrow = roughness_profile(gaussian_trace(), cutoff=0.25e-3)
+    assert roughness_profile(narrow, cutoff=0.8e-3).cutoffs["cutoff"] == 0.25e-3

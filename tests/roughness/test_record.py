@@ -57,9 +57,41 @@ def test_steps_tell_the_story(record):
         "cut-off 0.8 mm by ISO 4288",
         "short cut-off 2.5 um",
         "high-pass",
-        "trimmed 0.4 mm",
     ):
         assert word in told
+
+
+def test_ends_are_trimmed_where_asked(gaussian_trace):
+    p = evaluation_profile(gaussian_trace(), trim_cutoffs=0.5)
+    assert any("trimmed 0.4 mm and 0.4 mm" in s for s in p.steps)
+    assert p.heights.size == 9600 - 1600
+
+
+def test_outliers_are_masked_where_asked(gaussian_trace):
+    trace = gaussian_trace()
+    pitted = replace(trace, heights=trace.heights - np.where(np.abs(np.arange(9600) - 5000) < 20, 2e-5, 0.0))
+    assert evaluation_profile(pitted).valid.all()
+    p = evaluation_profile(pitted, outliers=6.0)
+    assert not p.valid[5000]
+    assert profile_record(p)["parameters"]["Rq_um"] == pytest.approx(
+        profile_record(evaluation_profile(trace))["parameters"]["Rq_um"], rel=0.05
+    )
+
+
+@pytest.mark.parametrize("method", ["robust", "spline"])
+def test_other_filters_are_used_where_asked(gaussian_trace, method):
+    assert any(method in s for s in evaluation_profile(gaussian_trace(), method=method).steps)
+
+
+def test_rules_of_the_file_hold_for_its_own_profile_only(gaussian_trace):
+    origin = {"convention": "Mitutoyo", "sampling_lengths": 4}
+    done = replace(gaussian_trace(), cutoffs={"cutoff": 0.8e-3, "short_cutoff": 8e-6}, origin=origin)
+    told = trace_record(done)[1]["parameters"]
+    assert (told["convention"], told["sections"]) == ("Mitutoyo", 4)
+    again = trace_record(done, cutoff=0.25e-3)[1]["parameters"]
+    assert (again["convention"], again["sections"]) == ("ISO 4287:1997", 19)
+    named = trace_record(done, convention="NIST")[1]["parameters"]
+    assert (named["convention"], named["sections"]) == ("NIST", 4)
 
 
 def test_filtered_trace_is_not_filtered_again(gaussian_trace):

@@ -1,0 +1,157 @@
+"""`mixedlub profile` over every measured file and every shipped trace, as a user runs it."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+import profiles
+from mixedlub.cli import main
+from tests.profiles.test_manifest import FILES, SDF, X3P
+
+TRACES = Path(profiles.__file__).parent / "traces"
+
+# Mitutoyo SurfTest report: what the instrument printed, with the unit of the last printed digit
+INSTRUMENT = {
+    "Ra_um": (3.308, 1e-3),
+    "Rq_um": (3.959, 1e-3),
+    "Rz_um": (18.485, 1e-3),
+    "Rp_um": (8.244, 1e-3),
+    "Rv_um": (10.240, 1e-3),
+    "Rt_um": (22.233, 1e-3),
+    "Rz1max_um": (22.062, 1e-3),
+    "Rsk": (-0.144, 1e-3),
+    "Rku": (2.463, 1e-3),
+    "Rdq": (0.157, 1e-3),
+}
+
+# Hong, Aneshansley and Talbot, "Mechanical Power Loss of Spur Gears Subject to Various Surface Finish
+# Pairings", table 1: Ra, Rq, Rz (um)
+TABLE_1 = {
+    "0036": (0.036, 0.046, 0.275),
+    "0122": (0.122, 0.151, 0.510),
+    "0219": (0.219, 0.274, 1.400),
+    "0258": (0.258, 0.321, 1.643),
+    "0302": (0.302, 0.374, 1.777),
+    "0450": (0.450, 0.579, 3.400),
+}
+
+
+@pytest.fixture
+def evaluated(tmp_path):
+    """The row of one file, through the command line."""
+
+    def run(file, *options):
+        assert main(["profile", str(file), "--no-figures", "--out", str(tmp_path), *options]) == 0
+        (row,) = json.loads((tmp_path / "profile.json").read_text())
+        return row
+
+    return run
+
+
+@pytest.mark.parametrize(
+    "path", [*FILES, "stylus_misc/opdx-3.txt", *(f"format_samples/{name}" for name in (*SDF, *X3P))]
+)
+def test_every_measured_file(shared, evaluated, capsys, path):
+    file = shared / "data" / "profiles" / path
+    row = evaluated(file)
+    assert row["file"] == str(file)
+    assert 0 < row["parameters"]["Ra_um"] <= row["parameters"]["Rq_um"] <= row["parameters"]["Rz_um"]
+    assert all(row["moments"][name] > 0 for name in ("m0_um2", "m2", "m4_per_um2", "spacing_um"))
+    assert all(row["asperities"][name] > 0 for name in ("density_per_mm2", "radius_um", "sigma_um", "nayak"))
+    assert row["gaussian"]["verdict"] in ("gaussian", "gaussian_bulk", "plateau", "not_gaussian")
+    said = capsys.readouterr()
+    assert all(word in said.out for word in ("Ra ", "m4 ", "radius ", "Gaussian"))
+    assert said.err.count("note:") == len(row["warnings"])
+
+
+@pytest.mark.parametrize("name", TABLE_1)
+def test_shipped_traces_have_the_published_parameters(evaluated, name):
+    row = evaluated(TRACES / f"{name}.txt", "--cutoff-mm", "0.8")["parameters"]
+    assert tuple(round(row[key], 3) for key in ("Ra_um", "Rq_um", "Rz_um")) == TABLE_1[name]
+
+
+@pytest.mark.parametrize("name", [n for n in TABLE_1 if n != "0036"])
+def test_shipped_traces_ask_for_the_cutoff_of_the_table_by_themselves(evaluated, name):
+    assert evaluated(TRACES / f"{name}.txt")["moments"]["cutoff_mm"] == pytest.approx(0.8)
+
+
+def test_instruments_values_come_back_under_its_own_convention(shared, evaluated):
+    row = evaluated(shared / "data" / "profiles" / "reference" / "mitutoyo_2_mock.xlsx")
+    assert row["parameters"]["convention"] == "Mitutoyo"
+    for name, (value, digit) in INSTRUMENT.items():
+        # a tie between two last digits (18.48455) may fall either way in print
+        assert row["parameters"][name] == pytest.approx(value, abs=0.501 * digit), name
+    for name, value in {"Rk_um": 11.440, "Rpk_um": 2.912, "Rvk_um": 3.980}.items():
+        assert row["parameters"][name] == pytest.approx(value, rel=0.08), name
+    assert not any("the file states" in w for w in row["warnings"])
+
+
+def test_core_parameters_under_iso_lie_within_eight_percent_of_the_instrument(shared, evaluated):
+    file = shared / "data" / "profiles" / "reference" / "mitutoyo_2_mock.xlsx"
+    row = evaluated(file, "--convention", "ISO 4287:1997")["parameters"]
+    assert row["Rk_um"] != pytest.approx(11.440, rel=0.02)
+    for name, value in {"Rk_um": 11.440, "Rpk_um": 2.912, "Rvk_um": 3.980}.items():
+        assert row[name] == pytest.approx(value, rel=0.08), name
+
+
+def test_header_of_the_trap_disagrees(shared, evaluated, capsys):
+    row = evaluated(shared / "data" / "profiles" / "reference" / "mitutoyo_mock.xlsx")
+    for name in ("Ra 0.018", "Rq 0.027", "Rz 0.191"):
+        assert any(f"the file states {name} um" in w for w in row["warnings"]), name
+    assert "header and heights do not belong together" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["edm", "mill", "sine", "square"])
+def test_softgauges_agree_with_what_nist_stored_in_them(shared, evaluated, name):
+    row = evaluated(shared / "data" / "profiles" / "reference" / f"{name}.xml")
+    assert not any("the file states" in w for w in row["warnings"])
+
+
+def test_pit_is_masked_on_request(shared, evaluated):
+    file = shared / "data" / "profiles" / "stylus_misc" / "xy-4.txt"
+    plain, masked = evaluated(file), evaluated(file, "--outliers", "5", "--method", "robust")
+    assert masked["parameters"]["Rq_um"] < 0.5 * plain["parameters"]["Rq_um"]
+    assert any("outliers beyond 5 sigma masked" in step for step in masked["steps"])
+    assert any("robust Gaussian" in step for step in masked["steps"])
+
+
+@pytest.mark.parametrize(
+    ("options", "named"),
+    [
+        (("--convention", "ISO 4287"), "'ISO 4287:1997'"),
+        (("--method", "gauss"), "'gaussian'"),
+        (("--form", "cirkle"), "'circle'"),
+        (("--cutoff-mm", "80"), "shorter than the cut-off"),
+        (("--short-cutoff-um", "900", "--cutoff-mm", "0.8"), "below the cut-off"),
+        (("--trim", "9"), "no profile of"),
+    ],
+)
+def test_option_that_cannot_be_is_told(tmp_path, capsys, options, named):
+    assert main(["profile", str(TRACES / "0258.txt"), "--out", str(tmp_path / "o"), *options]) == 2
+    said = capsys.readouterr().err
+    assert named in said
+    assert "Traceback" not in said
+    assert not (tmp_path / "o").exists()
+
+
+def test_study_and_profile_prepare_a_trace_alike(evaluated):
+    """One preparation: the moments of a study's surface are those that the command prints."""
+    from mixedlub.bodies import surface
+    from mixedlub.config import SurfaceSection
+
+    row = evaluated(TRACES / "0450.txt")["moments"]
+    made = surface("rough", SurfaceSection(profile="0450.txt", cutoff_mm=0.8, short_cutoff_um=2.5), TRACES)
+    assert made.m0 * 1e12 == pytest.approx(row["m0_um2"], rel=1e-12)
+    assert made.m2 == pytest.approx(row["m2"], rel=1e-12)
+    assert made.m4 * 1e-12 == pytest.approx(row["m4_per_um2"], rel=1e-12)
+
+
+def test_study_keeps_a_profile_that_the_instrument_filtered(shared):
+    from mixedlub.bodies import flank_profile
+    from mixedlub.config import SurfaceSection
+
+    folder = shared / "data" / "profiles" / "reference"
+    kept = flank_profile("turned", SurfaceSection(profile="mitutoyo_2_mock.xlsx"), folder)
+    assert dict(kept.cutoffs) == pytest.approx({"cutoff": 2.5e-3, "short_cutoff": 8e-6})
+    assert len(kept.steps) == 1
