@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.case import Case
-from mixedlub.diagnosis.noise import noise_from_repeats
+from mixedlub.diagnosis.noise import is_stated, noise_from_repeats
 from mixedlub.forward import Forward
 from mixedlub.table import Table
 from profiles.errors import InputError
@@ -40,15 +40,16 @@ def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]
                 notes.append(
                     f"readings are about a {word} of what the base model gives: check the unit of {case.quantity}"
                 )
-    if np.median(base[positive]) > 0 and np.median(y[positive]) < 0:
-        notes.append("most readings are negative where the base model is positive: check the sign")
+        if np.median(base[positive]) > 0 and np.median(y[positive]) < 0:
+            notes.append("most readings are negative where the base model is positive: check the sign")
     stated = case.system.recording.noise
-    repeats = noise_from_repeats(rows, y)
-    if stated is None and f"{case.quantity}_sd" not in rows:
+    repeats = noise_from_repeats(case, rows, np.log(y) if case.kind.logarithmic else y)
+    if not is_stated(case, rows):
         source = "repeats" if repeats > 0 else "the fit"
         notes.append(f"no noise given: the standard deviation of a reading is estimated from {source}")
     elif repeats > 0 and stated is not None:
-        typical = float(np.median(np.hypot(stated.relative * np.abs(y), stated.absolute)))
+        size = np.abs(y) if case.kind.logarithmic else np.ones(y.size)
+        typical = float(np.median(np.hypot(stated.relative * np.abs(y), stated.absolute) / size))
         if repeats > 4.0 * typical > 0:
             notes.append(
                 f"readings at equal conditions contradict each other: they scatter by {repeats:.3g} where the stated "

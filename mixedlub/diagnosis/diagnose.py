@@ -125,7 +125,7 @@ def _unstated(
         base = forward.predict()
         if case.kind.logarithmic:
             y, base = np.log(y), np.log(base)
-        sd = noise_from_repeats(rows, y) or noise_from_smoothness(y, base, space, values)
+        sd = noise_from_repeats(case, rows, y) or noise_from_smoothness(y, base, space, values)
     return np.full(y.size, sd)
 
 

@@ -49,14 +49,10 @@ def noise(case: Case, rows: Table, level: np.ndarray, unstated: np.ndarray) -> t
     return sd, shared
 
 
-def noise_from_repeats(rows: Table, y: np.ndarray) -> float:
+def noise_from_repeats(case: Case, rows: Table, y: np.ndarray) -> float:
     """Standard deviation from readings at equal conditions; zero when there are fewer than five repeats."""
-    skip = {"run", "sequence"}
-    keys = [
-        np.unique(column, return_inverse=True)[1]
-        for name, column in rows.columns.items()
-        if name not in skip and not np.array_equal(column, y)
-    ]
+    names = [*(c.name for c in case.kind.columns), "rig", "setup"]
+    keys = [np.unique(rows[name], return_inverse=True)[1] for name in names if name in rows]
     if not keys:
         return 0.0
     _, group = np.unique(np.stack(keys, axis=1), axis=0, return_inverse=True)

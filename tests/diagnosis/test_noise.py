@@ -1,0 +1,79 @@
+"""The scatter of a reading where nobody states it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mixedlub.case import Case, read_case
+from mixedlub.diagnosis.audit import audit
+from mixedlub.diagnosis.noise import noise_from_repeats
+from mixedlub.forward import Forward
+
+
+def repeated(folder: Path, scatter: float, columns: dict[str, Callable[[int], object]] | None = None) -> Case:
+    """The case with each of its first six readings taken five times, ``scatter`` apart (relative), noise not stated."""
+    path, extra = folder / "recordings.csv", columns or {}
+    lines = [line.split(",") for line in path.read_text(encoding="utf-8").splitlines()]
+    rng = np.random.default_rng(3)
+    rows = [[*lines[0], *extra]]
+    for i in range(30):
+        cells = lines[1 + i % 6]
+        reading = float(cells[-1]) * np.exp(scatter * rng.standard_normal())
+        rows.append([str(i + 1), *cells[1:-1], f"{reading:.9g}", *(str(make(i)) for make in extra.values())])
+    path.write_text("\n".join(",".join(row) for row in rows) + "\n", encoding="utf-8")
+    system = folder / "system.toml"
+    kept = [line for line in system.read_text(encoding="utf-8").splitlines() if not line.startswith("noise")]
+    kept += [f'check = "{name}"' for name in extra if name == "coverage"]
+    system.write_text("\n".join(kept) + "\n", encoding="utf-8")
+    return read_case(folder)
+
+
+def seen(case: Case) -> np.ndarray:
+    """The readings as they are compared."""
+    assert case.recordings is not None
+    y = np.asarray(case.recordings[case.quantity], dtype=float)
+    return np.log(y) if case.kind.logarithmic else y
+
+
+def test_repeats_count_where_readings_are_compared_by_the_logarithm(
+    make_case: Callable[..., Path], tmp_path: Path
+) -> None:
+    case = repeated(make_case(tmp_path / "case", "viscosity"), 0.03)
+    assert case.recordings is not None
+    assert noise_from_repeats(case, case.recordings, seen(case)) == pytest.approx(0.03, rel=0.35)
+
+
+def test_a_second_channel_does_not_hide_repeats(make_case: Callable[..., Path], tmp_path: Path) -> None:
+    folder = make_case(tmp_path / "case", "disc")
+    plain = repeated(make_case(tmp_path / "plain", "disc"), 0.03)
+    case = repeated(folder, 0.03, {"coverage": lambda i: 10.0 + i})
+    assert case.recordings is not None
+    assert plain.recordings is not None
+    expected = noise_from_repeats(plain, plain.recordings, seen(plain))
+    assert expected > 0
+    assert noise_from_repeats(case, case.recordings, seen(case)) == expected
+
+
+@pytest.mark.parametrize("kind", ["disc", "viscosity"])
+def test_the_source_of_the_noise_is_said(make_case: Callable[..., Path], tmp_path: Path, kind: str) -> None:
+    case = repeated(make_case(tmp_path / "case", kind), 0.03)
+    assert case.recordings is not None
+    y = np.asarray(case.recordings[case.quantity], dtype=float)
+    notes = audit(case, case.recordings, y, Forward(case, case.recordings))
+    assert any("estimated from repeats" in note for note in notes)
+
+
+def test_a_stated_noise_of_zero_is_none(make_case: Callable[..., Path], tmp_path: Path) -> None:
+    folder = make_case(tmp_path / "case", "gear_pair")
+    path = folder / "system.toml"
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace("relative = 0.01, absolute = 0.3", "relative = 0.0, absolute = 0.0"), encoding="utf-8")
+    case = read_case(folder)
+    assert case.recordings is not None
+    y = np.asarray(case.recordings[case.quantity], dtype=float)
+    notes = audit(case, case.recordings, y, Forward(case, case.recordings))
+    assert any("estimated from the fit" in note for note in notes)
