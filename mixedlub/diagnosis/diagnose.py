@@ -25,6 +25,7 @@ from mixedlub.diagnosis.search import Progress, Search, search
 from mixedlub.effect import find
 from mixedlub.forward import Forward
 from mixedlub.table import Table
+from profiles.errors import InputError
 
 AVERAGED = 6
 SMALL = 2e-3
@@ -89,6 +90,8 @@ def diagnose_case(
     y = np.asarray(rows[case.quantity], dtype=float)
     warnings = [*case.notes, *assumed, *forward.notes, *audit(case, rows, y, forward)]
     space = coordinates(case, rows, forward)
+    if not space.axes:
+        raise InputError("all readings were taken at the same conditions; vary at least one", where="recordings.csv")
     values = space.values(case, rows, forward)
     problem = Problem.of(case, rows, forward, y, _unstated(case, rows, y, forward, space, values))
     found = search(problem, space, values, exclude, progress)

@@ -75,7 +75,7 @@ class Coordinates:
                 for second in blocks[i + 1 :]:
                     a, b = first[:, :4], second[:, :4]
                     found.append((a[:, :, None] * b[:, None, :]).reshape(a.shape[0], -1))
-        return np.hstack(found) / np.sqrt(len(found)) if found else np.zeros((len(values[0]) if values else 0, 0))
+        return np.hstack(found) / np.sqrt(len(found))
 
 
 def raw_coordinates(case: Case, table: Table, forward: Forward) -> dict[str, np.ndarray]:

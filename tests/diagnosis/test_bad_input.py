@@ -67,6 +67,15 @@ def test_all_readings_equal(folder: Path) -> None:
     assert "all readings are the same number" in refused(folder)
 
 
+def test_all_conditions_equal(folder: Path) -> None:
+    path = folder / "recordings.csv"
+    lines = path.read_text(encoding="utf-8").splitlines()
+    first = lines[1].split(",")[1:-1]
+    rows = [",".join([str(run), *first, str(50.0 + run % 3)]) for run in range(1, 21)]
+    path.write_text("\n".join([lines[0], *rows]), encoding="utf-8")
+    assert "at the same conditions" in refused(folder)
+
+
 @pytest.mark.parametrize("value", ["nan", "inf", "", "twelve"])
 def test_reading_that_is_no_number(folder: Path, value: str) -> None:
     spoil_cell(folder, 5, "power_loss_W", value)
