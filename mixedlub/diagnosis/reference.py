@@ -1,4 +1,7 @@
-"""Slow, trusted evidence to check the fast one against: importance sampling and nested sampling."""
+"""Slow, trusted evidence to check the fast one against: importance sampling and nested sampling.
+
+For recordings without errors shared within a set-up, which it does not count.
+"""
 
 from __future__ import annotations
 
@@ -64,6 +67,7 @@ def nested_evidence(problem: Problem, explanation: Explanation, points: int = 30
         lambda unit: ndtri(np.clip(unit, 1e-9, 1.0 - 1e-9)),
         problem.size(explanation),
         nlive=points,
+        sample="rwalk",
         rstate=np.random.default_rng(seed),
     )
     sampler.run_nested(print_progress=False, dlogz=0.1)
@@ -72,7 +76,7 @@ def nested_evidence(problem: Problem, explanation: Explanation, points: int = 30
 
 
 def _log_likelihood(problem: Problem, explanation: Explanation, z: np.ndarray) -> float:
-    """Log likelihood with errors shared within a set-up taken at their most probable values."""
+    """Log likelihood of all readings at coordinates z."""
     with np.errstate(all="ignore"):
         residual = (problem.y - problem.predict(explanation, z)) / problem.sd
     if not np.isfinite(residual).all():
