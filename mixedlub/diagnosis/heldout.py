@@ -1,4 +1,7 @@
-"""Does the verdict predict conditions it was not fitted to: whole levels left out, everything refitted."""
+"""Does the verdict predict conditions it was not fitted to: whole levels left out, its parameters refitted.
+
+Which effect it names, which readings are outliers and the form of an unnamed mismatch stay as all readings chose them.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +28,7 @@ class HeldOut:
 
 
 def held_out(found: Search, verdict: Explanation | str, outliers: np.ndarray) -> HeldOut:
-    """Leave out each level of the condition with the most levels (up to 8), refit, and predict it."""
+    """Leave out each level of the condition with the most levels (up to 8), refit the parameters, and predict it."""
     if found.screen is not None:
         rows = np.isin(found.problem.rows["run"], found.screen.problem.rows["run"])
         found, outliers = found.screen, outliers[rows]

@@ -68,6 +68,7 @@ def nested_evidence(problem: Problem, explanation: Explanation, points: int = 30
         problem.size(explanation),
         nlive=points,
         sample="rwalk",
+        bootstrap=0,
         rstate=np.random.default_rng(seed),
     )
     sampler.run_nested(print_progress=False, dlogz=0.1)

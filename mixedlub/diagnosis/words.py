@@ -311,7 +311,7 @@ def _gain(d: Diagnosis) -> tuple[str, ...]:
     split = kept.split
     for axis in d.found.space.axes:
         split = split.replace(axis.name, words_of(axis.name))
-    how = f"({split}, {kept.folds} folds; 1 is noise)"
+    how = f"({split}, {kept.folds} folds, parameters refitted; 1 is noise)"
     if d.posterior.verdict == ():
         return (f"Calibration alone predicts left-out levels to {kept.before:.2f} sigma {how}.",)
     change = f"from {kept.before:.2f} sigma with calibration alone to {kept.after:.2f} sigma with the answer {how}."
