@@ -27,6 +27,7 @@ from mixedlub.diagnosis.problem import effects_of
 from mixedlub.effect import Effect
 
 WIDTH = 88
+REFITTED = "Parameters were refitted without each level; what the answer is was settled with all of them."
 ANSWER = "Answer"
 MISMATCH = "Is there a mismatch beyond noise and calibration?"
 WHERE = "Where?"
@@ -311,13 +312,13 @@ def _gain(d: Diagnosis) -> tuple[str, ...]:
     split = kept.split
     for axis in d.found.space.axes:
         split = split.replace(axis.name, words_of(axis.name))
-    how = f"({split}, {kept.folds} folds, parameters refitted; 1 is noise)"
+    how = f"({split}, {kept.folds} folds; 1 is noise)"
     if d.posterior.verdict == ():
         return (f"Calibration alone predicts left-out levels to {kept.before:.2f} sigma {how}.",)
     change = f"from {kept.before:.2f} sigma with calibration alone to {kept.after:.2f} sigma with the answer {how}."
     if kept.after > 0.95 * kept.before:
-        return (f"Not better: {change} Do not extrapolate it.",)
-    return (change.capitalize(),)
+        return (f"Not better: {change} Do not extrapolate it.", REFITTED)
+    return (change.capitalize(), REFITTED)
 
 
 def _outliers(d: Diagnosis) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:

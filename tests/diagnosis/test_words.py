@@ -163,3 +163,8 @@ def test_every_equation_of_the_catalogue_reads_as_text() -> None:
 def test_every_equation_of_the_catalogue_is_drawn() -> None:
     for e in catalogue().values():
         assert equation(page.bare(e.equation)).startswith("<svg"), e.id
+
+
+def test_the_gain_says_what_was_not_refitted(offset: Diagnosis, complete: Diagnosis) -> None:
+    assert any(words.REFITTED in text for text in told(offset).values())
+    assert not any(words.REFITTED in text for text in told(complete).values())
