@@ -15,7 +15,7 @@ _PIVOT = 3e-11
     equation=r"f_r \leftarrow f_r + "
     r"c\,1.47\,U_\ell^{0.75}\,E'R\left(\frac{U_\ell}{3\times10^{-11}}\right)^{k-0.75},\quad U_\ell = "
     r"\frac{2\eta_0 u}{E'R}",
-    source="N. Biboulet, L. Houpert, Proc. IMechE J 224 (2010) 765, load-independent branch (k = 0.75); P. K. "
+    source="N. Biboulet, L. Houpert, Proc. IMechE J 224 (2010) 765, load-independent branch (k = 0.75); P. G. "
     "Goksem, R. A. Hargreaves, J. Lubr. Technol. 100 (1978) 346 have k = 0.66",
     fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "roughness": "-", "slide_roll_ratio": "-"},
     separated_by="zero load with teeth in mesh against out of mesh; churning hardly sees viscosity, rolling grows "

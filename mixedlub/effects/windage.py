@@ -15,7 +15,7 @@ _PIVOT = 15.0
     ),
     equation=r"P \leftarrow P + c\sum_i \tfrac12 C_t\rho\omega_i^3 r_i^5\left(\frac{v}{15\,\text{m/s}}\right)^{k-2.75},"
     r"\quad C_t = 81.4\,Re^{-0.25}\left(\frac{b}{r_i}\right)^{0.8} z_i^{-0.4}",
-    source="Y. Diab, F. Ville, P. Velex, C. Changenet, Tribol. Trans. 47 (2004) 191; power 2.9 after P. H. Dawson, "
+    source="Y. Diab, F. Ville, P. Velex, C. Changenet, J. Mech. Des. 126 (2004) 903; power 2.9 after P. H. Dawson, "
     "Proc. IMechE A 198 (1984) 51, 2.8 after N. E. Anderson, S. H. Loewenthal, NASA TP-1622, 1980",
     fingerprint={"load": "-", "speed": "+", "oil_temperature": "0", "roughness": "-"},
     separated_by="a dry, shrouded or evacuated run: nearly the cube of speed, and blind to oil and its temperature",

@@ -20,7 +20,7 @@ def windage_diab(
 
     for walls no nearer than half a radius. Within a factor 1.6 of the formulas of Dawson and of Anderson and
     Loewenthal. The density and viscosity of air make the form belong to SI.
-    Source: Y. Diab, F. Ville, P. Velex, C. Changenet, Tribol. Trans. 47 (2004) 191; constants as quoted in reviews.
+    Source: Y. Diab, F. Ville, P. Velex, C. Changenet, J. Mech. Des. 126 (2004) 903; constants as quoted in reviews.
 
     >>> round(float(windage_diab(0.05, 10_000 * np.pi / 30, 0.02, 25.0)), -1)   # Anderson-Loewenthal: 70 W
     110.0

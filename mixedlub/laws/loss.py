@@ -16,7 +16,7 @@ def mesh_loss(
 
     .. math:: P = \frac{1}{p_{bt}} \int_A^E \mu\, F\, |v_s|\, dx,\quad F = s\, T_1 / r_{b1}
 
-    ``path_weight`` carries dx/p_bt. Source: A. Arana, J. Larranaga, I. Ulacia, Tribol. Int. 2019, eq. 29.
+    ``path_weight`` carries dx/p_bt. Source: A. Arana, J. Larranaga, I. Ulacia, Proc. IMechE J 233 (2019) 303, eq. 29.
 
     >>> path = np.array([[0.25, 0.5, 0.25]])
     >>> float(mesh_loss(np.full((1, 3), 0.05), np.ones((1, 3)), np.array([[1000.0]]), 2.0, path)[0, 0])
