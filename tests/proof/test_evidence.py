@@ -36,9 +36,7 @@ def problems(tmp_path_factory: pytest.TempPathFactory) -> list[Problem]:
 
 
 @pytest.mark.parametrize("explanation", [(), ("sensor_gain",), ("inlet_shear_heating",)])
-def test_fast_evidence_agrees_with_nested_sampling(
-    problems: list[Problem], explanation: tuple[str, ...]
-) -> None:
+def test_fast_evidence_agrees_with_nested_sampling(problems: list[Problem], explanation: tuple[str, ...]) -> None:
     pytest.importorskip("dynesty")
     p = problems[0]
     fit = map_fit(p, explanation, np.zeros(p.size(explanation)))
