@@ -30,6 +30,11 @@ def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]
         raise InputError(
             "the base model has no finite answer for this run's conditions", where=f"{where}, run", value=bad
         )
+    if "rig" in rows and case.kind.name != "friction_map" and np.unique(rows["rig"]).size > 1:
+        names = ", ".join(np.unique(rows["rig"]).tolist())
+        notes.append(
+            f"readings of the rigs {names} are all compared with the whole base model: no part rig is modelled"
+        )
     if y.size < SCARCE:
         notes.append(f"only {y.size} readings: expect ties and wide intervals")
     positive = (np.abs(base) > 0) & (np.abs(y) > 0)

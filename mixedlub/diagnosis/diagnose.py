@@ -88,7 +88,7 @@ def diagnose_case(
     wanted, assumed = _completed(read_conditions(case, predict) if predict is not None else case.conditions, rows)
     forward = Forward(case, rows)
     y = np.asarray(rows[case.quantity], dtype=float)
-    warnings = [*case.notes, *assumed, *forward.notes, *audit(case, rows, y, forward)]
+    warnings = [*case.notes, *assumed, *_hidden(case, wanted, rows), *forward.notes, *audit(case, rows, y, forward)]
     space = coordinates(case, rows, forward)
     if not space.axes:
         raise InputError("all readings were taken at the same conditions; vary at least one", where="recordings.csv")
@@ -117,6 +117,17 @@ def _completed(wanted: Table | None, rows: Table) -> tuple[Table | None, list[st
         return wanted, []
     columns = {**wanted.columns, "sequence": np.ones(len(wanted))}
     return Table(columns, wanted.source), [f"{wanted.source} has no sequence: predicted for the end of the programme"]
+
+
+def _hidden(case: Case, wanted: Table | None, rows: Table) -> list[str]:
+    """Conditions that carry the run number of a reading taken at others: the answer lists each run once."""
+    if wanted is None:
+        return []
+    _, here, there = np.intersect1d(wanted["run"], rows["run"], return_indices=True)
+    names = [c.name for c in case.kind.columns if c.name in wanted and c.name in rows]
+    other = np.any([wanted[name][here] != rows[name][there] for name in names], axis=0)
+    runs = ", ".join(str(run) for run in wanted["run"][here][other].tolist())
+    return [f"{wanted.source}: not predicted, as readings at other conditions have the run: {runs}"] if runs else []
 
 
 def _unstated(

@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -191,3 +192,28 @@ def test_drawings_of_an_earlier_answer_go(tmp_path: Path) -> None:
     write({"figures/kept.svg": "y"}, tmp_path)
     assert [p.name for p in (tmp_path / "figures").iterdir()] == ["kept.svg"]
     assert (tmp_path / "figures" / "kept.svg").read_text() == "y"
+
+
+def test_conditions_hidden_by_the_run_of_a_reading_are_named(
+    make_case: Callable[..., Path], tmp_path: Path, excluded: tuple[str, ...]
+) -> None:
+    folder = make_case(tmp_path / "case", "disc")
+    lines = (folder / "recordings.csv").read_text(encoding="utf-8").splitlines()
+    head, same, other = (line.rsplit(",", 1)[0] for line in (lines[0], lines[1], lines[2]))
+    other = other.replace("1500.0", "2000.0")
+    (folder / "conditions.csv").write_text("\n".join([head, same, other]) + "\n", encoding="utf-8")
+    warned = [text for text in diagnose_case(folder, exclude=excluded).warnings if "not predicted" in text]
+    assert len(warned) == 1
+    assert warned[0].endswith("have the run: 2")
+
+
+def test_a_part_rig_that_no_chain_models_is_named(
+    make_case: Callable[..., Path], tmp_path: Path, excluded: tuple[str, ...]
+) -> None:
+    folder = make_case(tmp_path / "case", "gear_pair")
+    path = folder / "recordings.csv"
+    lines = path.read_text(encoding="utf-8").splitlines()
+    rigs = ["rig", *("no_gears" if i < 5 else "whole" for i in range(len(lines) - 1))]
+    path.write_text("\n".join(f"{a},{b}" for a, b in zip(lines, rigs, strict=True)) + "\n", encoding="utf-8")
+    warned = diagnose_case(folder, exclude=excluded).warnings
+    assert any("no_gears, whole" in text for text in warned)
