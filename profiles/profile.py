@@ -21,7 +21,7 @@ def frozen(values: ArrayLike, kind: type) -> np.ndarray:
     """
     if isinstance(values, np.ndarray) and values.dtype == kind and values.base is None and not values.flags.writeable:
         return values
-    copy = np.array(values, dtype=kind)
+    copy: np.ndarray = np.array(values, dtype=kind)
     copy.flags.writeable = False
     return copy
 
