@@ -89,13 +89,14 @@ def story(first: Diagnosis, second: Diagnosis, truth: dict) -> dict[str, str]:
         "first_bias": f"{float(np.mean(recorded - base)):+.1f} W",
         "first_rms": f"{float(np.sqrt(np.mean(((recorded - base) / first.recorded.sd) ** 2))):.1f}",
         "first_p": f"{first.test.p_value:.1g}",
+        "first_verdict": "Something is missing, but what?" if first.test.detected else "That is not enough to be sure.",
         "first_headline": words.headline(first),
         "first_test": conditions_text(first.next_tests[0].conditions),
         "first_rivals": ", ".join(explanation_words(n.split("+")) for n in first.next_tests[0].separates),
         "second_p": f"{second.test.p_value:.1g}",
         "second_headline": words.headline(second),
         "second_where": explained.get(words.WHERE, ""),
-        "second_left_out": explained.get(words.LEFT_OUT, ""),
+        "second_left_out": left_out(second),
         "second_alike": explained.get(words.ALIKE, ""),
         "heldout_before": f"{second.heldout.before:.2f}",
         "heldout_after": f"{second.heldout.after:.2f}",
@@ -112,6 +113,12 @@ def story(first: Diagnosis, second: Diagnosis, truth: dict) -> dict[str, str]:
         "withheld": str(true_loss.size),
         "calibration": "\n".join(rows),
     }
+
+
+def left_out(d: Diagnosis) -> str:
+    """What was left out, a paragraph a sentence, equations as code."""
+    said = [text for s in words.sections(d) if s.title == words.LEFT_OUT for text in s.sentences]
+    return "\n\n".join(f"`{t.removeprefix('Equation: ')}`" if t.startswith("Equation: ") else t for t in said)
 
 
 def calibration(d: Diagnosis) -> list[dict]:

@@ -83,11 +83,11 @@ def diagnose_case(
     find(list(exclude))
     case = read_case(folder)
     assert case.recordings is not None
-    wanted = read_conditions(case, predict) if predict is not None else case.conditions
     rows = case.recordings
+    wanted, assumed = _completed(read_conditions(case, predict) if predict is not None else case.conditions, rows)
     forward = Forward(case, rows)
     y = np.asarray(rows[case.quantity], dtype=float)
-    warnings = [*case.notes, *forward.notes, *audit(case, rows, y, forward)]
+    warnings = [*case.notes, *assumed, *forward.notes, *audit(case, rows, y, forward)]
     space = coordinates(case, rows, forward)
     values = space.values(case, rows, forward)
     problem = Problem.of(case, rows, forward, y, _unstated(case, rows, y, forward, space, values))
@@ -106,6 +106,14 @@ def diagnose_case(
     kept = held_out(found, judged.verdict, chance > 0.5)
     tests = _next_tests(found, judged, refined, columns)
     return Diagnosis(case, found, test, judged, refined, recorded, other, chance, place, kept, tests, tuple(warnings))
+
+
+def _completed(wanted: Table | None, rows: Table) -> tuple[Table | None, list[str]]:
+    """Conditions to predict with the place in the programme that recordings have: its end where none is given."""
+    if wanted is None or "sequence" in wanted or "sequence" not in rows:
+        return wanted, []
+    columns = {**wanted.columns, "sequence": np.ones(len(wanted))}
+    return Table(columns, wanted.source), [f"{wanted.source} has no sequence: predicted for the end of the programme"]
 
 
 def _unstated(

@@ -32,6 +32,7 @@ ALIKE = 0.999
 BEAM = 12
 CELLS = 4_000_000
 MOST_BLOCKS = 6
+MOST_READINGS = 1500
 GAIN = 3.0
 WORTH = 0.7
 STEP = 1e-4
@@ -119,7 +120,7 @@ def absorbing_stages(found: Search) -> tuple[Absorbed, ...]:
 
 
 def _log_slope(found: Search, name: str) -> np.ndarray | None:
-    """Change of the reading with the logarithm of a quantity of the chain, all along the path."""
+    """Change of the reading, as compared, with the logarithm of a quantity of the chain, all along the path."""
     problem, forward = found.problem, found.problem.forward
     if name not in forward.inputs and name not in {step for step, _ in forward.chain}:
         return None
@@ -143,8 +144,15 @@ def _log_slope(found: Search, name: str) -> np.ndarray | None:
     model = Model(forward.chain, tuple(inputs), ("reading",), (free,))
     here = np.asarray(model(inputs, {"free_factor": {"log_factor": 0.0}})["reading"])
     moved = np.asarray(model(inputs, {"free_factor": {"log_factor": STEP}})["reading"])
-    slope = (moved - here) / STEP * forward.scale
-    return np.broadcast_to(slope, (problem.y.size, 1))[:, 0]
+    slope = np.broadcast_to((moved - here) / STEP * forward.scale, (problem.y.size, 1))[:, 0]
+    return slope / _unit_size(found)
+
+
+def _unit_size(found: Search) -> np.ndarray:
+    """Change of a reading, in its unit, for a change of one in what is compared."""
+    if found.problem.case.kind.logarithmic:
+        return np.abs(found.problem.level(found.none.prediction))
+    return np.ones(found.problem.y.size)
 
 
 def _calibrated_inputs(found: Search) -> dict[str, object]:
@@ -294,17 +302,20 @@ def power_law(found: Search) -> Law | None:
     names = tuple(values)
     middles = np.array([float(f"{np.exp(np.mean(np.log(v))):.2g}") for v in values.values()])
     logs = np.log(np.array(list(values.values())).T / middles)
-    share = np.column_stack([np.abs(none.prediction) / problem.sd, 1.0 / problem.sd])
+    one = problem.sd * _unit_size(found)
+    share = np.column_stack([np.abs(problem.level(none.prediction)) / one, 1.0 / one])
     fixed = np.hstack([none.slopes, problem.shared])
-    every = _Search(names, logs, share, fixed, none.anchor, found.unknown.fit.weight)
+    whole = _Search(names, logs, share, fixed, none.anchor, found.unknown.fit.weight)
+    thin = np.unique(np.linspace(0, problem.y.size - 1, min(problem.y.size, MOST_READINGS)).astype(int))
+    every = whole.take(thin)
     score, powers, relative = every.best()
     if score < GAIN:
         return None
-    before, after, wins = _held_out(found, every)
+    before, after, wins = _held_out(found, every, thin)
     if after > WORTH * before or not wins:
         return None
-    own = every.columns(powers[None], np.array([relative]))[0]
-    coefficient, sd, c = _coefficient(every, own)
+    own = whole.columns(powers[None], np.array([relative]))[0]
+    coefficient, sd, c = _coefficient(whole, own)
     chosen = np.flatnonzero(powers)
     exponent = {float(b): b for b in EXPONENTS}
     return Law(
@@ -317,8 +328,8 @@ def power_law(found: Search) -> Law | None:
         evidence=score,
         heldout_before=before,
         heldout_after=after,
-        shape=own * problem.sd,
-        observed=(every.target - fixed @ c[:-1]) * problem.sd,
+        shape=own * one,
+        observed=(whole.target - fixed @ c[:-1]) * one,
     )
 
 
@@ -333,11 +344,11 @@ def _coefficient(every: _Search, own: np.ndarray) -> tuple[float, float, np.ndar
     return float(coefficients[-1]), float(np.sqrt(spread[-1, -1]) * scale), coefficients
 
 
-def _held_out(found: Search, every: _Search) -> tuple[float, float, bool]:
+def _held_out(found: Search, every: _Search, thin: np.ndarray) -> tuple[float, float, bool]:
     """Rms error in sigmas on levels left out, without a law and with one chosen on the others; do most splits win."""
     squares: list[tuple[float, float, float]] = []
     for axis, values in zip(found.space.axes, found.values, strict=True):
-        levels, label = np.unique(values, return_inverse=True)
+        levels, label = np.unique(values[thin], return_inverse=True)
         if levels.size < 3 or axis.name == "sequence":
             continue
         label = label * min(levels.size, MOST_BLOCKS) // levels.size

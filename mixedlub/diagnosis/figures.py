@@ -20,6 +20,7 @@ from mixedlub.diagnosis.style import (
     OUTLIER,
     SERIES,
     blank,
+    by_decades,
     log_ticks,
     look,
     wide,
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-MOST_POINTS = 3000
+MOST_POINTS = 1500
 
 
 def all_figures(d: Diagnosis, extra: Unnamed | None = None) -> dict[str, Figure]:
@@ -142,13 +143,12 @@ def missing_part(d: Diagnosis) -> Figure | None:
     """What the base model lacks, in the unit of the reading, against the conditions: recorded and as explained."""
     if d.posterior.verdict == ():
         return None
-    p, y = d.recorded, d.readings
+    p = d.recorded
     names = [n for n in (maps.frame_of(d).across, maps.frame_of(d).up, maps.frame_of(d).panel) if n]
     names = ["roll_angle_deg", *names[:2]] if "roll_angle_deg" in p.table else names
     if not names:
         return None
-    explained = p.mismatch_z * p.sd
-    observed = y - (p.predicted - explained)
+    observed, explained = maps.missing(d)
     good = _shown(d)[d.outlier_chance[_shown(d)] <= 0.5]
     unit = unit_of(d.case.quantity) or "-"
     figure = blank(2.75 * len(names) + 0.6, 3.0)
@@ -161,7 +161,7 @@ def missing_part(d: Diagnosis) -> Figure | None:
         )
         panel.scatter(x[good], explained[good], s=8, color=AFTER, zorder=3, linewidths=0)
         panel.set_xlabel(axis_label(name))
-        if wide(np.asarray(p.table[name], dtype=float), 10.0):
+        if by_decades(np.asarray(p.table[name], dtype=float)):
             panel.set_xscale("log")
             log_ticks(panel, "x")
     axes[0].set_ylabel(f"missing part of the reading ({unit})")
@@ -181,7 +181,7 @@ def _spread(x: np.ndarray, by: np.ndarray) -> np.ndarray:
         own = np.flatnonzero(label == k)
         own = own[np.argsort(by[own], kind="stable")]
         place[own] = np.linspace(-1.0, 1.0, own.size) if own.size > 1 else 0.0
-    if wide(levels, 10.0):
+    if by_decades(levels):
         return np.asarray(x * (levels[1:] / levels[:-1]).min() ** (0.22 * place))
     return np.asarray(x + 0.22 * float(np.diff(levels).min()) * place)
 
@@ -202,7 +202,7 @@ def profiles(d: Diagnosis) -> Figure | None:
     axes = figure.subplots(down, across, sharey=True, squeeze=False)
     for panel, name in zip(axes.flat, names, strict=False):
         _profile(panel, np.asarray(table[name])[good], before[good], after[good])
-        if name != "sequence" and table[name].dtype.kind != "U" and wide(np.asarray(table[name], dtype=float), 10.0):
+        if name != "sequence" and table[name].dtype.kind != "U" and by_decades(np.asarray(table[name], dtype=float)):
             panel.set_xscale("log")
             log_ticks(panel, "x")
         panel.set_xlabel(

@@ -95,7 +95,11 @@ def amount(value: float, column: str) -> str:
     ('2000 rpm', '0.1')
     """
     unit = unit_of(column)
-    return f"{value:.6g}" if not unit else f"{value:.6g}{'' if unit == '°' else ' '}{unit}"
+    return f"{_four(value)}{'' if unit in ('', '°') else ' '}{unit}"
+
+
+def _four(value: float) -> str:
+    return f"{value:.0f}" if 1e4 <= abs(value) < 1e7 else f"{value:.4g}"
 
 
 def number(value: float) -> str:
@@ -130,7 +134,7 @@ def range_text(cut: Mapping[str, Any]) -> str:
         return f"{words_of(name)} {' or '.join(cut['values'])}"
     if cut["low"] == cut["high"]:
         return f"{words_of(name)} {amount(cut['low'], name)}"
-    return f"{words_of(name)} {cut['low']:.6g} to {amount(cut['high'], name)}"
+    return f"{words_of(name)} {_four(cut['low'])} to {amount(cut['high'], name)}"
 
 
 def effect_words(name: str) -> str:

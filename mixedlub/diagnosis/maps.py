@@ -10,7 +10,7 @@ import numpy as np
 
 from mixedlub.diagnosis.confusion import Confusion
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.labels import amount, axis_label, effect_words, words_of
+from mixedlub.diagnosis.labels import amount, axis_label, effect_words, number, words_of
 from mixedlub.diagnosis.style import DIVERGING, INK, MUTED, OUTLIER, PAPER, blank
 
 if TYPE_CHECKING:
@@ -23,7 +23,10 @@ UP = ("torque_Nm", "slide_roll_ratio", "load_N", "temperature_C", "oil_temperatu
 PANELS = ("oil_temperature_C", "temperature_C", "load_N", "slide_roll_ratio", "torque_Nm")
 MOST_LEVELS = 14
 MOST_PANELS = 4
+MOST_TILES = 2000
+MOST_ROWS = 40
 LIMIT = 5.0
+DRIFT = 0.05
 
 
 @dataclass(frozen=True)
@@ -48,18 +51,29 @@ def frame_of(d: Diagnosis) -> Frame:
 
 
 def _varied(d: Diagnosis) -> list[str]:
+    """Numeric conditions that were varied, by more than they drift by themselves."""
     table = d.recorded.table
-    return [
-        c.name
-        for c in d.case.kind.columns
-        if c.form != "name" and c.name in table and np.unique(table[c.name]).size > 1
-    ]
+    names = [c.name for c in d.case.kind.columns if c.form != "name" and c.name in table]
+    return [n for n in names if np.ptp(table[n]) > DRIFT * np.max(np.abs(table[n]))]
 
 
 def residuals(d: Diagnosis) -> tuple[np.ndarray, np.ndarray]:
-    """(recorded - simulated)/sd with the calibrated base model, and with the answer."""
-    y, p = d.found.problem.y, d.recorded
-    return (y - p.calibrated) / p.sd, (y - p.predicted) / p.sd
+    """(recorded - simulated)/sd, as they are compared, with the calibrated base model and with the answer."""
+    problem, p = d.found.problem, d.recorded
+    sd = seen_sd(d)
+    return (problem.y - problem.seen(p.calibrated)) / sd, (problem.y - problem.seen(p.predicted)) / sd
+
+
+def seen_sd(d: Diagnosis) -> np.ndarray:
+    """Standard deviation of the readings as they are compared."""
+    return d.recorded.sd / np.abs(d.recorded.predicted) if d.case.kind.logarithmic else d.recorded.sd
+
+
+def missing(d: Diagnosis) -> tuple[np.ndarray, np.ndarray]:
+    """What the base model at the answer's calibration lacks, in the unit of the reading: as recorded, as explained."""
+    problem, p = d.found.problem, d.recorded
+    base = problem.level(problem.seen(p.predicted) - p.mismatch_z * seen_sd(d))
+    return d.readings - base, p.predicted - base
 
 
 def residual_map(d: Diagnosis) -> Figure | None:
@@ -114,7 +128,10 @@ def _levels(values: np.ndarray, most: int, name: str) -> tuple[np.ndarray, list[
 def _tiles(
     axes: Axes, d: Diagnosis, frame: Frame, here: np.ndarray, z: np.ndarray, norm: Normalize, outlier: np.ndarray
 ) -> None:
-    """One panel: a block for every pair of levels, in it a tile for every reading taken there."""
+    """One panel: a block for every pair of levels, in it a tile for every reading taken there.
+
+    Where readings are very many a tile is the mean of a few.
+    """
     from matplotlib.collections import PatchCollection
     from matplotlib.patches import Rectangle
 
@@ -125,12 +142,15 @@ def _tiles(
     for i in np.flatnonzero(here).tolist():
         groups.setdefault((int(across[i]), int(up[i])), []).append(i)
     patches, colours, crosses = [], [], []
+    most = max(MOST_TILES // (len(groups) * MOST_PANELS), 4)
     for (x, y), members in groups.items():
         members.sort(key=lambda i: _order(d, i))
-        for (left, low, wide, tall), i in zip(_block(len(members)), members, strict=True):
+        shared = [part.tolist() for part in np.array_split(members, min(len(members), most))]
+        for (left, low, wide, tall), own in zip(_block(len(shared)), shared, strict=True):
+            sound = [i for i in own if not outlier[i]]
             patches.append(Rectangle((x + left, y + low), wide, tall))
-            colours.append(np.nan if outlier[i] else z[i])
-            if outlier[i]:
+            colours.append(float(np.mean(z[sound])) if sound else np.nan)
+            if not sound:
                 crosses.append((x + left + 0.5 * wide, y + low + 0.5 * tall))
     axes.set_facecolor(PAPER)
     axes.grid(False)
@@ -163,10 +183,10 @@ def _ticks(values: np.ndarray) -> tuple[np.ndarray, list[str]]:
     """Level of each value and the ticks' texts; bins where there are too many levels."""
     levels, label = np.unique(values, return_inverse=True)
     if levels.size <= MOST_LEVELS:
-        return label, [f"{v:.4g}" for v in levels]
+        return label, [number(float(v)) for v in levels]
     edges = np.unique(np.quantile(values, np.linspace(0.0, 1.0, MOST_LEVELS + 1)))
     label = np.clip(np.searchsorted(edges, values, side="right") - 1, 0, edges.size - 2)
-    return label, [f"{0.5 * (a + b):.3g}" for a, b in pairwise(edges)]
+    return label, [number(0.5 * float(a + b)) for a, b in pairwise(edges)]
 
 
 def _order(d: Diagnosis, row: int) -> tuple[str, ...]:
@@ -191,12 +211,13 @@ def roll_angle_map(d: Diagnosis) -> Figure | None:
     keys = [table[n] for n in reversed(used)] or [np.zeros(len(table))]
     order = np.lexsort(keys)
     rows = list(dict.fromkeys(texts[order].tolist()))
-    place = np.array([rows.index(t) for t in texts.tolist()])
+    row_of = {text: i for i, text in enumerate(rows)}
+    place = np.array([row_of[text] for text in texts.tolist()])
     before, after = residuals(d)
     outlier = d.outlier_chance > 0.5
     limit = _limit(before[~outlier])
     norm = Normalize(-limit, limit)
-    figure = blank(8.6, 1.4 + 0.24 * min(len(rows), 40))
+    figure = blank(8.6, 1.4 + 0.24 * min(len(rows), MOST_ROWS))
     axes = figure.subplots(1, 2, sharex=True, sharey=True)
     for panel, z, what in zip(
         axes, (before, after), ("before: calibrated base model", "after: with the answer"), strict=True
@@ -208,7 +229,8 @@ def roll_angle_map(d: Diagnosis) -> Figure | None:
         panel.set_xlabel(axis_label("roll_angle_deg"))
         panel.set_facecolor(PAPER)
         panel.grid(False)
-    axes[0].set_yticks(range(len(rows)), rows, fontsize=7.5 if len(rows) <= 20 else 5.5)
+    step = -(-len(rows) // MOST_ROWS)
+    axes[0].set_yticks(range(0, len(rows), step), rows[::step], fontsize=7.5 if len(rows) <= 20 else 5.5)
     axes[0].set_ylim(-0.7, len(rows) - 0.3)
     bar = figure.colorbar(ScalarMappable(norm, DIVERGING), ax=axes, extend="both", aspect=30, pad=0.02)
     bar.set_label("(recorded − simulated) / sd")
@@ -233,6 +255,7 @@ def _cells(axes: Axes, x: np.ndarray, row: np.ndarray, z: np.ndarray, norm: Norm
             colours.append(z[i])
     tiles = PatchCollection(patches, cmap=DIVERGING, norm=norm, edgecolor="white", linewidth=0.3)
     tiles.set_array(np.array(colours))
+    tiles.set_rasterized(len(patches) > MOST_TILES)
     axes.add_collection(tiles)
     axes.set_xlim(x.min() - widest, x.max() + widest)
 

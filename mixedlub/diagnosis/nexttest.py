@@ -31,7 +31,7 @@ def candidates(table: Table, names: list[str]) -> Table:
         if levels.dtype.kind not in "US" and levels.size > 1:
             low, high = float(levels[0]), float(levels[-1])
             wide = 0.25 * (high - low)
-            beyond = [low - wide if low - wide > 0.3 * low or low <= 0 else 0.6 * low, high + wide]
+            beyond = [low - wide if low < 0 else max(low - wide, 0.6 * low), high + wide]
             inner = levels if levels.size <= 4 else np.quantile(levels, [0.0, 0.33, 0.67, 1.0])
             levels = np.unique(np.concatenate([inner, beyond]))
         axes.append(levels if levels.size <= 8 else levels[np.linspace(0, levels.size - 1, 8).astype(int)])

@@ -17,6 +17,7 @@ Explanation = tuple[str, ...]
 
 STEP = 1e-4
 REACH = 4.5
+LEAST = 1e-30
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +46,7 @@ class Problem:
 
     def seen(self, level: np.ndarray) -> np.ndarray:
         """Readings as they are compared."""
-        return np.log(level) if self.case.kind.logarithmic else level
+        return np.log(np.maximum(level, LEAST)) if self.case.kind.logarithmic else level
 
     def level(self, seen: np.ndarray) -> np.ndarray:
         """Readings in the unit of their column."""

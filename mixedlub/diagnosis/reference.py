@@ -64,6 +64,8 @@ def nested_evidence(problem: Problem, explanation: Explanation, points: int = 30
         lambda unit: ndtri(np.clip(unit, 1e-9, 1.0 - 1e-9)),
         problem.size(explanation),
         nlive=points,
+        sample="rwalk",
+        bootstrap=0,
         rstate=np.random.default_rng(seed),
     )
     sampler.run_nested(print_progress=False, dlogz=0.1)

@@ -75,11 +75,22 @@ def wide(values: np.ndarray, ratio: float = 8.0) -> bool:
     return bool((values > 0).all() and values.max() > ratio * values.min())
 
 
+def by_decades(values: np.ndarray) -> bool:
+    """Whether a condition was varied by factors rather than by steps.
+
+    >>> by_decades(np.array([0.5, 1.5, 10.0])), by_decades(np.arange(1.0, 100.0))
+    (True, False)
+    """
+    levels = np.unique(values)
+    return wide(levels, 10.0) and float(np.median(levels)) < 0.35 * float(levels[-1])
+
+
 def log_ticks(axes: Axes, which: str) -> None:
-    """Plain numbers at 1, 2, 5 on a logarithmic axis."""
+    """Plain numbers on a logarithmic axis: at 1, 2, 5, or at the decades where there are many."""
     from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
     axis = axes.xaxis if which == "x" else axes.yaxis
-    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    low, high = axis.get_view_interval()
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < 300.0 * low else (1.0,)))
     axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
     axis.set_minor_locator(NullLocator())

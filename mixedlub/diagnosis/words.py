@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.diagnosis.answer import effect_records, interval, separating_text, verdict_fit
+from mixedlub.diagnosis.answer import effect_records, interval, verdict_fit
 from mixedlub.diagnosis.confusion import Confusion, confusion
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.empirical import Unnamed
+from mixedlub.diagnosis.empirical import Absorbed, Unnamed
 from mixedlub.diagnosis.labels import (
     conditions_text,
     effect_words,
@@ -22,6 +22,7 @@ from mixedlub.diagnosis.labels import (
     unit_of,
     words_of,
 )
+from mixedlub.diagnosis.maps import missing
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.effect import Effect
 
@@ -188,8 +189,8 @@ def _where(d: Diagnosis) -> tuple[str, ...]:
             np.isin(column, cut["values"]) if "values" in cut else (column >= cut["low"]) & (column <= cut["high"])
         )
     place = ", ".join(range_text(cut) for cut in d.region.where) or "everywhere"
-    part, whole = d.recorded.mismatch_z * d.recorded.sd, np.abs(d.recorded.predicted)
-    share = float(np.median(np.abs(part[inside]) / np.maximum(whole[inside], 1e-300)))
+    part = missing(d)[1] / np.maximum(np.abs(d.recorded.predicted), 1e-300)
+    share = float(np.median(np.abs(part[inside])))
     sign = "more" if np.sum(z[inside]) > 0 else "less"
     said = [
         f"Above all at {place}: there the rig reads {sign} than the model without it, by {_rms(z[inside]):.1f} sigma "
@@ -253,7 +254,7 @@ def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
     if unnamed.stages:
         best, *others = unnamed.stages
         said.append(
-            f"A smooth free factor on {words_of(best.quantity)} ({STAGE_WORDS[best.stage]}) absorbs it best"
+            f"A smooth free factor on {words_of(best.quantity)}{_stage(best)} absorbs it best"
             + "".join(f"; on {words_of(o.quantity)} {best.evidence - o.evidence:.1f} nats worse" for o in others[:3])
             + "."
         )
@@ -269,12 +270,19 @@ def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
     return Section(UNNAMED, tuple(said))
 
 
+def _stage(found: Absorbed) -> str:
+    stage = STAGE_WORDS[found.stage]
+    return "" if stage == words_of(found.quantity) else f" ({stage})"
+
+
 def _ties(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
     judged = d.posterior
     said = []
     if len(judged.tied) > 1:
-        names = tuple("+".join(judged.names(k)) for k in judged.tied)
-        said.append(f"To separate them: {separating_text(d, names)}." if separating_text(d, names) else "")
+        names = tuple(dict.fromkeys(name for k in judged.tied if not isinstance(k, str) for name in k))
+        tests = [f"{effect_words(e.id)}: {e.separated_by}" for e in effects_of(names)]
+        if tests:
+            said.append(f"To separate them: {'; '.join(tests)}.")
     if not isinstance(judged.verdict, str):
         for name in judged.verdict:
             i = alike.ids.index(name)
@@ -295,7 +303,7 @@ def _ties(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
             + ", ".join(effect_words(name) for name in unseen)
             + "."
         )
-    return tuple(s for s in said if s)
+    return tuple(said)
 
 
 def _gain(d: Diagnosis) -> tuple[str, ...]:
@@ -332,7 +340,12 @@ def _outliers(d: Diagnosis) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...
         )
     more = f" The first {len(table) - 1}:" if rows.size > 12 else ""
     count = "One reading is" if rows.size == 1 else f"{rows.size} readings are"
-    return (f"{count} more probably wrong than right, and counted for little.{more}",), tuple(table)
+    said = [f"{count} more probably wrong than right, and counted for little.{more}"]
+    for i in rows.tolist():
+        fault = d.case.kind.reading_fault(d.recorded.table, i, float(y[i] - d.recorded.predicted[i]))
+        if fault is not None:
+            said.append(f"Run {int(d.recorded.table['run'][i])}: {fault}.")
+    return tuple(said), tuple(table)
 
 
 def _calibration(d: Diagnosis) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:

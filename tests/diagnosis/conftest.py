@@ -66,6 +66,7 @@ RIGS = {
     "gear_pair": (GEARS, "power_loss_W", 0.01, 0.3),
     "mesh_friction": (GEARS, "friction_coefficient", 0.02, 0.0003),
     "disc": (DISCS, "friction_coefficient", 0.02, 0.0002),
+    "viscosity": ("", "viscosity_mPa_s", 0.02, 0.0),
 }
 GRIDS = {
     "gear_pair": {
@@ -90,6 +91,10 @@ GRIDS = {
         "oil_temperature_C": (40.0, 80.0),
         "surface_1": ("ground", "polished"),
         "surface_2": ("polished",),
+    },
+    "viscosity": {
+        "temperature_C": (30.0, 50.0, 70.0, 90.0),
+        "pressure_MPa": (0.1, 100.0, 200.0, 300.0, 400.0, 500.0),
     },
 }
 CANDIDATES = ("inlet_shear_heating", "churning", "sensor_offset", "sensor_gain")
@@ -189,6 +194,18 @@ def teeth(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
         return base * (1.0 + 0.3 * np.exp(-(((conditions["roll_angle_deg"] - 23.0) / 2.0) ** 2)))
 
     return diagnose_case(write_case(tmp_path_factory.mktemp("teeth"), "mesh_friction", change), exclude=left_out())
+
+
+@pytest.fixture(scope="session")
+def thickening(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
+    """A viscometer whose oil is a quarter thinner at the highest pressures than exponential growth says."""
+
+    def change(conditions: dict[str, np.ndarray], base: np.ndarray) -> np.ndarray:
+        return base * np.exp(-0.3 * (conditions["pressure_MPa"] / 500.0) ** 2)
+
+    return diagnose_case(
+        write_case(tmp_path_factory.mktemp("thickening"), "viscosity", change), exclude=("sensor_offset",)
+    )
 
 
 @pytest.fixture(scope="session")

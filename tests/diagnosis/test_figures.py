@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -15,6 +16,7 @@ from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.empirical import unnamed as describe
 from mixedlub.diagnosis.style import inline, look
 from mixedlub.report.style import as_svg
+from mixedlub.table import Table
 
 
 def labels(figure: Figure) -> str:
@@ -103,6 +105,30 @@ def test_block_of_tiles_fills_its_square() -> None:
         tiles = maps._block(count)
         assert len(tiles) == count
         assert sum(w * h for _, _, w, h in tiles) == pytest.approx(0.92**2)
+
+
+def test_readings_over_decades_are_compared_by_the_logarithm(thickening: Diagnosis) -> None:
+    before, _ = maps.residuals(thickening)
+    ratio = np.log(thickening.readings / thickening.recorded.calibrated)
+    np.testing.assert_allclose(before, ratio / 0.02, rtol=0.01)
+
+
+@pytest.mark.parametrize("rig", ["offset", "thickening"])
+def test_missing_part_is_what_the_answer_adds(rig: str, request: pytest.FixtureRequest) -> None:
+    d = request.getfixturevalue(rig)
+    observed, explained = maps.missing(d)
+    np.testing.assert_allclose(d.readings - observed, d.recorded.predicted - explained)
+    assert np.sign(explained[np.argmax(np.abs(d.recorded.mismatch_z))]) == np.sign(
+        d.recorded.mismatch_z[np.argmax(np.abs(d.recorded.mismatch_z))]
+    )
+
+
+def test_condition_that_only_drifts_has_no_axis(offset: Diagnosis) -> None:
+    columns = dict(offset.recorded.table.columns)
+    columns["oil_temperature_C"] = 60.0 + 0.01 * np.arange(len(offset.recorded.table))
+    drifting = replace(offset, recorded=replace(offset.recorded, table=Table(columns)))
+    assert "oil_temperature_C" not in (maps.frame_of(drifting).across, maps.frame_of(drifting).up)
+    assert maps.frame_of(drifting).panel == ""
 
 
 def test_outliers_are_marked(offset: Diagnosis) -> None:

@@ -73,7 +73,7 @@ def test_tie_is_said_with_the_test_that_separates(offset: Diagnosis) -> None:
         "A tie: the readings cannot decide between sensor offset (0.50); and inlet shear heating (0.40)."
         in said[words.ANSWER]
     )
-    assert "To separate them: " in said[words.ALIKE]
+    assert "To separate them: sensor offset: " in said[words.ALIKE]
 
 
 def test_long_ties_are_cut_short(offset: Diagnosis) -> None:

@@ -1,0 +1,116 @@
+"""The engine: reruns, evidence, outliers, noise, many readings."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mixedlub.diagnosis import search as searching
+from mixedlub.diagnosis.features import coordinates
+from mixedlub.diagnosis.fit import linear_fit, map_fit, outlier_chance
+from mixedlub.diagnosis.mismatch import mismatch_test
+from mixedlub.diagnosis.noise import noise_from_repeats, noise_from_smoothness
+from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.reference import importance_evidence
+from mixedlub.effect import catalogue
+from mixedlub.standard import case, forward
+
+KEPT = ("inlet_shear_heating", "churning", "sensor_offset", "sensor_gain")
+OTHERS = [name for name in catalogue() if name not in KEPT]
+
+
+def problem(kind: str = "gear_pair", seed: int = 1, extra: float = 0.0, relative: float = 0.01) -> Problem:
+    """The standard rig with readings of its base model at another calibration, noise, and a loss by hand."""
+    model = forward(kind)
+    rng = np.random.default_rng(seed)
+    base = model.predict({"viscosity": 1.05, "boundary_friction": 0.105})
+    speed = model.table["speed_rpm"] if "speed_rpm" in model.table else model.table["entrainment_speed_m_s"]
+    added = extra * np.median(base) * (speed / speed.max()) ** 1.7
+    sd = relative * base
+    y = base + added + sd * rng.standard_normal(base.size)
+    return Problem(case(kind), model.table, model, y, sd, np.zeros((base.size, 0)))
+
+
+@pytest.mark.parametrize("kind", ["gear_pair", "disc"])
+def test_a_rerun_near_another_run_is_the_full_run_to_the_last_bit(kind: str) -> None:
+    p = problem(kind)
+    explanation = ("inlet_shear_heating", "sensor_gain")
+    z = np.linspace(-0.5, 0.5, p.size(explanation))
+    here = p.run(explanation, z)
+    for i in range(z.size):
+        moved = z.copy()
+        moved[i] += 0.3
+        assert np.array_equal(p.run(explanation, moved, here).prediction, p.run(explanation, moved).prediction)
+
+
+def test_evidence_of_a_linear_model_is_the_closed_form() -> None:
+    rng = np.random.default_rng(3)
+    columns = rng.standard_normal((40, 5)) * 2.0
+    target = columns @ rng.standard_normal(5) + rng.standard_normal(40)
+    covariance = np.eye(40) + columns @ columns.T
+    sign, log_det = np.linalg.slogdet(covariance)
+    exact = -0.5 * target @ np.linalg.solve(covariance, target) - 0.5 * log_det
+    fit = linear_fit(target, columns)
+    chance = 40 * np.log1p(-0.01)
+    assert sign > 0
+    assert fit.evidence - chance == pytest.approx(exact, abs=0.6)
+
+
+@pytest.mark.parametrize("explanation", [(), ("churning",)])
+def test_fast_evidence_agrees_with_importance_sampling(explanation: tuple[str, ...]) -> None:
+    p = problem(extra=0.05)
+    fit = map_fit(p, explanation, np.zeros(p.size(explanation)))
+    sampled = importance_evidence(p, fit, draws=1500)
+    assert sampled.effective_share > 0.05
+    assert fit.evidence == pytest.approx(sampled.value, abs=0.3 + 3.0 * sampled.error)
+
+
+def test_planted_outliers_are_found_and_no_others() -> None:
+    p = problem()
+    y = p.y.copy()
+    y[[4, 17]] += 9.0 * p.sd[[4, 17]]
+    fit = map_fit(Problem(p.case, p.rows, p.forward, y, p.sd, p.shared), (), np.zeros(p.size(())))
+    assert np.flatnonzero(outlier_chance(fit.residual) > 0.5).tolist() == [4, 17]
+
+
+def found_in(p: Problem) -> searching.Search:
+    """The search with a few effects left in."""
+    space = coordinates(p.case, p.rows, p.forward)
+    return searching.search(p, space, space.values(p.case, p.rows, p.forward), OTHERS)
+
+
+def test_nothing_missing_is_not_detected_and_a_loss_is() -> None:
+    assert not mismatch_test(found_in(problem(seed=5)), 0.01).detected
+    assert mismatch_test(found_in(problem(seed=5, extra=0.05)), 0.01).detected
+
+
+def test_very_many_readings_give_the_answer_of_all(monkeypatch: pytest.MonkeyPatch) -> None:
+    p = problem(extra=0.05)
+    all_rows = found_in(p)
+    monkeypatch.setattr(searching, "MANY", p.y.size - 1)
+    thinned = found_in(p)
+    assert thinned.screen is not None
+    assert thinned.screen.problem.y.size < p.y.size
+    best = max(all_rows.scores, key=lambda m: all_rows.scores[m])
+    assert max(thinned.scores, key=lambda m: thinned.scores[m]) == best
+    assert thinned.fits[best].evidence == pytest.approx(all_rows.fits[best].evidence, abs=0.5)
+
+
+def test_bending_cannot_rescue_a_wrong_effect_without_bound() -> None:
+    found = found_in(problem(extra=0.3))
+    for explanation, score in found.scores.items():
+        if explanation:
+            bonus = score - found.fits[explanation].evidence
+            assert bonus <= searching.BEND_LIMIT / len(explanation) + 1e-9
+
+
+def test_unstated_noise_is_what_repeats_or_smoothness_show() -> None:
+    p = problem(relative=0.02)
+    space = coordinates(p.case, p.rows, p.forward)
+    values = space.values(p.case, p.rows, p.forward)
+    level = float(np.sqrt(np.mean(p.sd**2)))
+    assert noise_from_smoothness(p.y, p.forward.predict(), space, values) == pytest.approx(level, rel=0.5)
+    doubled = p.rows.take(np.repeat(np.arange(len(p.rows)), 2))
+    rng = np.random.default_rng(2)
+    y = np.repeat(p.y, 2) + 0.5 * rng.standard_normal(2 * p.y.size)
+    assert noise_from_repeats(doubled, y) == pytest.approx(0.5, rel=0.25)
