@@ -53,7 +53,7 @@ def read_table(
         )
     if columns.shape[1] < 3:
         raise InputError("a profile needs at least three heights", where=source.where, value=columns.shape[1])
-    named = source.unit or _header_units(content, settings)
+    named = source.unit or _header_units(content, settings, source.where)
     origin = {"format": TextReader.format, **settings} if origin is None else dict(origin)
     if columns.shape[0] == 1:
         spacing = source.spacing or _header_spacing(settings, source.where)
@@ -96,16 +96,19 @@ def _header_spacing(settings: dict[str, str], where: str) -> float | None:
     return None
 
 
-def _header_units(content: Table, settings: dict[str, str]) -> tuple[str, str] | None:
-    """Units written in the header: over the columns, or as a setting."""
+def _header_units(content: Table, settings: dict[str, str], where: str) -> tuple[str, str] | None:
+    """Units written in the header: over the columns, or as a setting; a length beside a volt is refused."""
     width = content.columns.shape[0]
     for line in reversed(content.header[-3:]):
         cells = split(line.lstrip("#%* "), content.delimiter)
         if len(cells) != width:
             cells = split(line.lstrip("#%* "), None)
-        if len(cells) == width and all(_cell_unit(cell) for cell in cells):
-            units = [str(_cell_unit(cell)) for cell in cells]
-            return units[0], units[-1]
+        known = [_cell_unit(cell) for cell in cells] if len(cells) == width else []
+        if known and all(known):
+            return str(known[0]), str(known[-1])
+        other = next((c for c, unit in zip(cells, known) if not unit and _BRACKETED.search(c.strip(' "'))), None)
+        if any(known) and other is not None:
+            raise InputError("names no unit of length: name unit=", where=f"{where}: heading", value=other)
     height = next((settings[name] for name in _UNIT_NAMES if name in settings), None)
     position = next((settings[name] for name in _POSITION_UNIT_NAMES if name in settings), None)
     if height is None or position is None:

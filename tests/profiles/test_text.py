@@ -152,3 +152,11 @@ def test_whole_numbers_count_as_equal_steps():
     """Positions 0, 1, 2 are as good as their steps are equal, though written to no more than the step itself."""
     rows = "x_um z_um\n" + "".join(f"{i} {z}\n" for i, z in enumerate((0.1, 0.3, -0.2, 0.4, 0.0)))
     assert read_source(Source("whole.txt", rows.encode())).spacing == pytest.approx(1e-6)
+
+
+@pytest.mark.parametrize("heading", ["x_um,z_volt", "x [mm],signal [mV]"])
+def test_heading_that_names_no_length_is_not_guessed(heading):
+    rows = "".join(f"{i * 0.001:.3f},{0.01 * (i % 7)}\n" for i in range(50))
+    with pytest.raises(InputError, match="names no unit of length"):
+        read_source(Source("volt.csv", f"{heading}\n{rows}".encode()))
+    assert read_source(Source("volt.csv", f"{heading}\n{rows}".encode(), ("mm", "um"))).spacing == pytest.approx(1e-6)
