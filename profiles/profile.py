@@ -7,8 +7,23 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from profiles.errors import InputError
+
+
+def frozen(values: ArrayLike, kind: type) -> np.ndarray:
+    """The values as a read-only array: themselves where they are one that owns its numbers, else a copy.
+
+    >>> z = np.zeros(3)
+    >>> frozen(z, float) is z, frozen(frozen(z, float), float).flags.writeable
+    (False, False)
+    """
+    if isinstance(values, np.ndarray) and values.dtype == kind and values.base is None and not values.flags.writeable:
+        return values
+    copy: np.ndarray = np.array(values, dtype=kind)
+    copy.flags.writeable = False
+    return copy
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +54,7 @@ class Profile:
     valid: np.ndarray = None  # type: ignore[assignment]  # left out it is all True, from construction on
 
     def __post_init__(self) -> None:
-        heights = np.array(self.heights, dtype=float)
+        heights = frozen(self.heights, float)
         where = f"profile {self.name!r}"
         if heights.ndim != 1 or heights.size < 3:
             raise InputError("a profile needs at least three heights in one line", where=where, value=heights.shape)
@@ -50,11 +65,9 @@ class Profile:
             )
         if not (np.isfinite(self.spacing) and self.spacing > 0):
             raise InputError("spacing must be above zero", where=where, value=self.spacing)
-        valid = np.ones(heights.size, bool) if self.valid is None else np.array(self.valid, dtype=bool)
+        valid = frozen(np.ones(heights.size, bool) if self.valid is None else self.valid, bool)
         if valid.shape != heights.shape:
             raise InputError("the mask must be as long as the heights", where=where, value=valid.shape)
-        heights.flags.writeable = False
-        valid.flags.writeable = False
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "valid", valid)
         object.__setattr__(self, "cutoffs", MappingProxyType(dict(self.cutoffs)))

@@ -40,6 +40,8 @@ def read_source(source: Source) -> Profile:
     for reader in READERS:
         if reader.magic(source):
             return reader.read(source)
+    if source.data[:4] == b"PK\x03\x04":
+        raise InputError("damaged zip archive, which x3p and xlsx files are too: cut off?", where=source.where)
     formats = "; ".join(reader.format for reader in READERS)
     raise InputError(f"no known profile format; known are {formats}", where=source.where)
 

@@ -61,8 +61,8 @@ def metres(word: str, where: str = "unit") -> float:
 def known_length(text: str) -> float | None:
     """The length in metres that a text names, or None for any other text: for what a header says in passing.
 
-    >>> known_length("2.5 um"), known_length("2.5"), known_length("0 um")
-    (2.5e-06, None, None)
+    >>> known_length("2 mm"), known_length("2.5"), known_length("0 um")
+    (0.002, None, None)
     """
     try:
         return length(text, "")

@@ -79,7 +79,7 @@ def _lengths(profile: Profile, heights: HeightParameters) -> Iterator[str]:
     if abs(mean) > 0.1 * heights.Rq:
         yield (
             f"the mean of the heights lies {mean * 1e6:.3g} um off the zero line: form, edges or spikes are "
-            "left in the profile"
+            "left in the profile (another form, as polynomial-2, or masked outliers may serve)"
         )
     masked = 1.0 - float(np.mean(profile.valid))
     if masked > 0.05:

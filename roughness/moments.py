@@ -123,8 +123,9 @@ def _by_differences(profile: Profile) -> tuple[float, float, float]:
     mask = profile.valid
     first = np.diff(z)
     second = np.diff(first)
-    height = z - z.mean()
-    if not mask.all():
+    if mask.all():
+        height = z - z.mean()
+    else:
         height = z[mask] - z[mask].mean()
         first = first[mask[1:] & mask[:-1]]
         second = second[mask[2:] & mask[1:-1] & mask[:-2]]

@@ -102,11 +102,12 @@ def height_parameters(
     if not rule.extremes_sectioned:
         top, bottom = top.max(), bottom.max()
     first = at if rule.averages_sectioned else np.zeros(1, int)
-    square = z * z
-    Ra, variance = _means(np.abs(z), first), _means(square, first)
+    # two buffers for all powers: fresh memory costs as much as the sums
+    power, square = np.abs(z), z * z
+    Ra, variance = _means(power, first), _means(square, first)
     with np.errstate(invalid="ignore", divide="ignore"):
-        skewness = _means(square * z, first) / variance**1.5
-        kurtosis = _means(square * square, first) / variance**2
+        skewness = _means(np.multiply(square, z, out=power), first) / variance**1.5
+        kurtosis = _means(np.multiply(square, square, out=power), first) / variance**2
     slope = slopes(profile.heights, profile.spacing)
     whole = np.asarray(mask[6:] if mask.all() else np.lib.stride_tricks.sliding_window_view(mask, 7).all(axis=1))
     # a slope belongs to its middle point; the formula may look across the border of two sections
@@ -121,7 +122,7 @@ def height_parameters(
         Rz1max=Rz1max,
         Rsk=float(skewness.mean()),
         Rku=float(kurtosis.mean()),
-        Rdq=float(np.sqrt(_means(slope * slope, first)).mean()),
+        Rdq=float(np.sqrt(_means(np.square(slope, out=slope), first)).mean()),
         sections=count,
         convention=rule.name,
     )

@@ -9,7 +9,7 @@ import numpy as np
 
 from profiles import Profile
 from roughness.material_ratio import core_parameters, material_ratio_curve
-from roughness.parameters import height_parameters
+from roughness.parameters import height_parameters, named_convention
 from roughness.probability import NormalProbability, normal_probability
 from roughness.spectrum import log_binned, power_density
 
@@ -23,7 +23,9 @@ _PERCENT = (0.1, 1, 5, 20, 50, 80, 95, 99, 99.9)
 _MOST_POINTS = 4000
 
 
-def trace_figure(*profiles: Profile, excerpt: float | None = None) -> Figure:
+def trace_figure(
+    *profiles: Profile, excerpt: float | None = None, convention: str = "ISO 4287:1997", sections: int | None = None
+) -> Figure:
     """Heights along each profile, all to one scale; ``excerpt`` shows only that length (m) of the middle."""
 
     def draw(axes: Axes, profile: Profile) -> None:
@@ -35,7 +37,7 @@ def trace_figure(*profiles: Profile, excerpt: float | None = None) -> Figure:
         x, low, high = _envelope(x, z)
         axes.fill_between(x * 1e3, low * 1e6, high * 1e6, color=_LINE, linewidth=0.4)
         axes.axhline(0.0, color="0.6", linewidth=0.6)
-        axes.set_title(f"{profile.name}   {_heights(profile)}", loc="left", fontsize=9)
+        axes.set_title(f"{profile.name}   {_heights(profile, convention, sections)}", loc="left", fontsize=9)
         axes.set_ylabel("height (µm)")
 
     figure, panels = _panels(profiles, draw, columns=1, width=7.0, height=1.7)
@@ -89,14 +91,18 @@ def probability_figure(*profiles: Profile, results: Sequence[NormalProbability] 
     return _panels(profiles, draw, columns=3, width=3.4, height=3.2)[0]
 
 
-def abbott_figure(*profiles: Profile) -> Figure:
-    """Material ratio curve of each profile with the core line and Rk, Rpk, Rvk of ISO 13565-2."""
+def abbott_figure(*profiles: Profile, convention: str = "ISO 4287:1997") -> Figure:
+    """Material ratio curve of each profile with the core line and Rk, Rpk, Rvk of ISO 13565-2.
+
+    ``convention`` says how the line is laid through the core.
+    """
+    method = named_convention(convention).core
 
     def draw(axes: Axes, profile: Profile) -> None:
         ratio, heights = material_ratio_curve(profile)
         keep = np.unique(np.linspace(0, ratio.size - 1, 1500).astype(int))
         axes.plot(ratio[keep], heights[keep] * 1e6, color=_LINE, linewidth=1.3)
-        core = core_parameters(profile)
+        core = core_parameters(profile, method=method)
         title = profile.name
         if core.s_shaped:
             top = float(np.interp(core.Mr1, ratio, heights))
@@ -185,6 +191,6 @@ def _spread(f: np.ndarray, g: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.nd
     return 1.0 / f[1:][starts], np.minimum.reduceat(g[1:], starts), np.maximum.reduceat(g[1:], starts)
 
 
-def _heights(profile: Profile) -> str:
-    p = height_parameters(profile)
+def _heights(profile: Profile, convention: str, sections: int | None) -> str:
+    p = height_parameters(profile, convention=convention, sections=sections)
     return f"Ra {p.Ra * 1e6:.3g}  Rq {p.Rq * 1e6:.3g}  Rz {p.Rz * 1e6:.3g} µm"

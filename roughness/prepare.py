@@ -94,9 +94,12 @@ def roughness_profile(
             mean_line, kind = spline_mean_line(result.heights, result.spacing, cutoff), "spline high-pass"
         else:
             raise InputError(f"must be known; {nearest(method, METHODS)}", where="filter method", value=method)
+        rough = np.subtract(result.heights, mean_line, out=mean_line)
+        # handed over for good, so the profile need not copy it
+        rough.flags.writeable = False
         result = result.after(
             f"{kind}, cut-off {cutoff * 1e3:.6g} mm",
-            result.heights - mean_line,
+            rough,
             cutoffs={**result.cutoffs, "cutoff": min(cutoff, result.cutoffs.get("cutoff", cutoff))},
         )
         if trim_cutoffs:

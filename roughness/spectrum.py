@@ -28,12 +28,18 @@ def power_density(profile: Profile) -> tuple[np.ndarray, np.ndarray]:
     while size > 50 and next_fast_len(size, real=True) != size:
         size -= 1
     z = profile.heights[:size]
-    plain = rfft(z - z.mean())
-    # the taper 1 - cos is a difference of neighbours in the spectrum
-    beyond = np.conj(plain[size - plain.size])
-    amplitude = np.concatenate((np.conj(plain[1:2]), plain, [beyond]))
-    amplitude = amplitude[1:-1] - 0.5 * (amplitude[:-2] + amplitude[2:])
-    density = amplitude.real**2 + amplitude.imag**2
+    amplitude = rfft(z - z.mean(), overwrite_x=True)
+    # the taper 1 - cos is a difference of neighbours in the spectrum, which repeats beyond its ends
+    beyond = np.conj(amplitude[size - amplitude.size])
+    neighbours = amplitude[:-2] + amplitude[2:]
+    neighbours *= 0.5
+    ends = amplitude[1].real, 0.5 * (amplitude[-2] + beyond)
+    amplitude[1:-1] -= neighbours
+    amplitude[0] -= ends[0]
+    amplitude[-1] -= ends[1]
+    parts = amplitude.view(float)
+    parts *= parts
+    density = parts[::2] + parts[1::2]
     density[1 : (size + 1) // 2] *= 2.0
     # the mean square of 1 - cos is 3/2
     density *= profile.spacing / (1.5 * size)

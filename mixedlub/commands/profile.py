@@ -76,7 +76,7 @@ def command(
     with writing(folder) as aside:
         (aside / "profile.json").write_text(json.dumps(records, indent=1) + "\n", encoding="utf-8")
         if figures:
-            _draw(aside / "figures", [(file.stem, profile) for file, (profile, _) in zip(files, found)])
+            _draw(aside / "figures", [file.stem for file in files], [profile for profile, _ in found], records)
     say(f"details in {folder / 'profile.json'}" + (f", figures in {folder / 'figures'}" if figures else ""))
 
 
@@ -112,14 +112,20 @@ def _number(value: float | None, digits: int = 4) -> str:
     return "-" if value is None else f"{value:.{digits}g}"
 
 
-def _draw(folder: Path, named: list[tuple[str, Profile]]) -> None:
+def _draw(folder: Path, names: list[str], profiles: list[Profile], records: list[dict[str, Any]]) -> None:
     from mixedlub.report.style import as_svg, styled
     from roughness import plots
 
     folder.mkdir()
     with styled():
-        for number, (name, profile) in enumerate(named):
-            stem = name if [n for n, _ in named].count(name) == 1 else f"{name}_{number + 1}"
-            for kind in ("trace", "probability", "abbott", "spectrum"):
-                figure = getattr(plots, f"{kind}_figure")(profile)
+        for number, (name, profile, record) in enumerate(zip(names, profiles, records), start=1):
+            stem = name if names.count(name) == 1 else f"{name}_{number}"
+            rule, sections = record["parameters"]["convention"], record["parameters"]["sections"]
+            drawn = {
+                "trace": plots.trace_figure(profile, convention=rule, sections=sections),
+                "probability": plots.probability_figure(profile),
+                "abbott": plots.abbott_figure(profile, convention=rule),
+                "spectrum": plots.spectrum_figure(profile),
+            }
+            for kind, figure in drawn.items():
                 (folder / f"{stem}_{kind}.svg").write_text(as_svg(figure), encoding="utf-8")

@@ -80,7 +80,7 @@ def equal_spacing(positions: np.ndarray, quantum: float, where: str) -> float:
     step = float((positions[-1] - positions[0]) / steps.size)
     off = np.abs(positions - (positions[0] + step * np.arange(positions.size)))
     worst = int(off.argmax())
-    if off[worst] > max(1.01 * quantum, 1e-3 * step) or quantum > 0.75 * step:
+    if off[worst] > 1e-3 * step and (off[worst] > 1.01 * quantum or quantum > 0.75 * step):
         raise InputError(
             "positions must be equally spaced (name the step with spacing= if only the column is bad)",
             where=f"{where}: point {worst + 1}",

@@ -239,3 +239,9 @@ def test_file_larger_than_the_limit_is_not_opened(tmp_path, monkeypatch):
     file.write_bytes(bytes(11))
     with pytest.raises(InputError, match="larger than 10 bytes"):
         read(file)
+
+
+@pytest.mark.parametrize("name", ["trace.x3p", "report.xlsx", "box.zip"])
+def test_cut_off_archive_is_called_so(name):
+    with pytest.raises(InputError, match="damaged zip archive"):
+        read_source(Source(name, BUILT[name][: len(BUILT[name]) // 2]))

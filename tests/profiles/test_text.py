@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from profiles import InputError, read
+from profiles.read import read_source
+from profiles.readers.base import Source
 
 HEIGHTS = 0.2 * np.sin(np.arange(50) / 3.0)  # um
 POSITIONS = 0.5 * np.arange(50)  # um
@@ -144,3 +146,9 @@ def test_missing_file_and_folder(tmp_path):
         read(tmp_path / "absent.txt")
     with pytest.raises(InputError, match="not a file"):
         read(tmp_path)
+
+
+def test_whole_numbers_count_as_equal_steps():
+    """Positions 0, 1, 2 are as good as their steps are equal, though written to no more than the step itself."""
+    rows = "x_um z_um\n" + "".join(f"{i} {z}\n" for i, z in enumerate((0.1, 0.3, -0.2, 0.4, 0.0)))
+    assert read_source(Source("whole.txt", rows.encode())).spacing == pytest.approx(1e-6)

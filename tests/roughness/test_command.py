@@ -87,6 +87,15 @@ def test_instruments_values_come_back_under_its_own_convention(shared, evaluated
     assert not any("the file states" in w for w in row["warnings"])
 
 
+def test_figures_show_what_the_record_says(shared, tmp_path):
+    file = shared / "data" / "profiles" / "reference" / "mitutoyo_2_mock.xlsx"
+    assert main(["profile", str(file), "--out", str(tmp_path)]) == 0
+    drawn = {p.stem.rpartition("_")[2]: p.read_text() for p in (tmp_path / "figures").iterdir()}
+    assert set(drawn) == {"trace", "probability", "abbott", "spectrum"}
+    assert "Rk 11.4, Rpk 2.73, Rvk 3.95" in drawn["abbott"]
+    assert "Ra 3.31  Rq 3.96  Rz 18.5" in drawn["trace"]
+
+
 def test_core_parameters_under_iso_lie_within_eight_percent_of_the_instrument(shared, evaluated):
     file = shared / "data" / "profiles" / "reference" / "mitutoyo_2_mock.xlsx"
     row = evaluated(file, "--convention", "ISO 4287:1997")["parameters"]
