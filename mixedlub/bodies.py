@@ -13,13 +13,12 @@ import numpy as np
 
 from mixedlub import config
 from mixedlub.gear import GearPair, LdpSharing, RigidSharing, Sharing, TableSharing
+from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.lubricant import Lubricant
 from mixedlub.surface import Surface
 from mixedlub.table import CaseWarning, Column, read_table
 from profiles.errors import InputError, nearest
 from profiles.profile import Profile
-
-ZERO_CELSIUS = 273.15
 
 
 def gear_pair(section: config.Gears) -> GearPair:

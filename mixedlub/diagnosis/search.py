@@ -109,7 +109,7 @@ def _search(
     none = map_fit(problem, (), np.zeros(problem.size(())))
     effects = problem.forward.effects(exclude)
     progress(f"trying {len(effects)} effects")
-    sampled = tuple(_sample(problem, e.id, none) for e in effects)
+    sampled = tuple(s for s in (_sample(problem, e.id, none) for e in effects) if len(s.z))
     singles: dict[Explanation, Fit] = {(s.id,): _fit_single(problem, none, s) for s in sampled}
     if singles:
         best = max(singles.values(), key=lambda f: f.evidence)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -10,9 +12,10 @@ from mixedlub.diagnosis.features import coordinates
 from mixedlub.diagnosis.fit import linear_fit, map_fit, outlier_chance
 from mixedlub.diagnosis.mismatch import mismatch_test
 from mixedlub.diagnosis.noise import noise_from_repeats, noise_from_smoothness
-from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.problem import Explanation, Problem
 from mixedlub.diagnosis.reference import importance_evidence
 from mixedlub.effect import catalogue
+from mixedlub.forward import Run
 from mixedlub.standard import case, forward
 
 KEPT = ("inlet_shear_heating", "churning", "sensor_offset", "sensor_gain")
@@ -114,3 +117,17 @@ def test_unstated_noise_is_what_repeats_or_smoothness_show() -> None:
     rng = np.random.default_rng(2)
     y = np.repeat(p.y, 2) + 0.5 * rng.standard_normal(2 * p.y.size)
     assert noise_from_repeats(p.case, doubled, y) == pytest.approx(0.5, rel=0.25)
+
+
+def test_an_effect_without_any_finite_answer_is_not_considered(monkeypatch: pytest.MonkeyPatch) -> None:
+    p = problem()
+    run = Problem.run
+
+    def broken(self: Problem, explanation: Explanation, z: np.ndarray, near: Run | None = None) -> Run:
+        found = run(self, explanation, z, near)
+        return replace(found, prediction=found.prediction * np.nan) if "churning" in explanation else found
+
+    monkeypatch.setattr(Problem, "run", broken)
+    found = found_in(p)
+    assert "churning" not in [s.id for s in found.sampled]
+    assert ("sensor_gain",) in found.fits
