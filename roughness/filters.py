@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
@@ -107,7 +108,7 @@ def _half_kernels(heights: np.ndarray, summed: np.ndarray, kernel: np.ndarray, o
     # what wraps round at this length falls outside the points that are wanted
     size = next_fast_len(3 * half + 1, real=True)
     outer = np.stack((heights[: 2 * half], heights[: -2 * half - 1 : -1]))
-    tilt = irfft(rfft(outer, size) * rfft(-kernel * lever, size), size)[:, half : 2 * half]
+    tilt = irfft(rfft(outer, size) * _spectrum((-kernel * lever).tobytes(), size), size)[:, half : 2 * half]
     return (sums[2] * level - sums[1] * tilt) / (sums[2] * sums[0] - sums[1] ** 2)
 
 
@@ -137,6 +138,16 @@ def local_regression(heights: np.ndarray, weights: np.ndarray, kernel: np.ndarra
     return np.where((sums[0] > 1e-9) & np.isfinite(fitted), fitted, heights)
 
 
+@lru_cache(maxsize=16)
+def _spectrum(kernel: bytes, size: int) -> np.ndarray:
+    """Transform of a kernel; kept, as a batch of traces passes the same few filters."""
+    from scipy.fft import rfft
+
+    found: np.ndarray = rfft(np.frombuffer(kernel), size)
+    found.flags.writeable = False
+    return found
+
+
 def convolve(values: np.ndarray, kernel: np.ndarray) -> np.ndarray:
     """Convolution as long as the values, zeros beyond them; odd kernel.
 
@@ -155,7 +166,7 @@ def convolve(values: np.ndarray, kernel: np.ndarray) -> np.ndarray:
     blocks = -(-values.size // step)
     padded = np.pad(values, (half, half + blocks * step - values.size))
     windows = np.lib.stride_tricks.sliding_window_view(padded, size)[::step]
-    spectrum = rfft(kernel, size)
+    spectrum = _spectrum(kernel.tobytes(), size)
     result = np.empty(values.size)
     for first in range(0, blocks, _TOGETHER):
         waves = rfft(windows[first : first + _TOGETHER])

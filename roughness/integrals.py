@@ -74,6 +74,18 @@ POPULAR_FITS = {
 """Approximations in circulation, by name: (n, function of t). Good for comparison, not for use."""
 
 
+def popular_fit_error(name: str, t: np.ndarray | float) -> np.ndarray:
+    """Relative error of an approximation in circulation at gap ratios t; ``name`` is a key of `POPULAR_FITS`.
+
+    >>> error = popular_fit_error("F5/2 power", [0.0, 1.0, 2.0, 3.0])
+    >>> [round(100 * float(e), 1) for e in error]   # percent
+    [-10.7, -3.5, -9.2, -74.2]
+    """
+    n, fit = POPULAR_FITS[name]
+    t = np.asarray(t, dtype=float)
+    return fit(t) / gaussian_integral(n, t) - 1.0
+
+
 def gaussian_integral(n: float, t: np.ndarray | float) -> np.ndarray:
     r"""F_n(t) for any n > -1 and any gap ratio t, to about 1e-12 relative.
 

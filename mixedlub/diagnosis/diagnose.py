@@ -156,16 +156,14 @@ def _predict(found: Search, judged: Posterior, refined: dict[Key, Refined], tabl
     own = table is problem.rows
     rows = Rows(found, table, found.none.prediction if own else None)
     calibrated = rows.problem.predict((), found.none.z)
-    if judged.verdict == ():
-        each: dict[Key, Prediction] = {(): rows.of_fit(refined[()])}
-    else:
-        each = {k: rows.of_fit(r) for k, r in refined.items() if judged.weights[k] >= SMALL}
-        if judged.weights["unknown"] >= SMALL:
-            each["unknown"] = rows.of_unknown()
+    each: dict[Key, Prediction] = {k: rows.of_fit(r) for k, r in refined.items() if judged.weights[k] >= SMALL}
+    if judged.weights["unknown"] >= SMALL:
+        each["unknown"] = rows.of_unknown()
+    each = {k: p for k, p in each.items() if np.isfinite(p.mean + p.variance).all() or k == judged.verdict}
     share = np.array([judged.weights[k] for k in each])
     share = share / share.sum()
     means = np.array([p.mean for p in each.values()])
-    mean = share @ means
+    mean = each[()].mean if judged.verdict == () else share @ means
     between = share @ (means - mean) ** 2
     within = share @ np.array([p.variance for p in each.values()])
     sd, shared_variance = rows.noise_at(mean)
