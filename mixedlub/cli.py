@@ -13,7 +13,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import typer
 
 from mixedlub.commands import check, diagnose, effects, import_files, profile, prove, simulate, study
-from mixedlub.commands.output import forget_folder, note, save_traceback
+from mixedlub.commands.output import drop_empty_folders, forget_folder, note, save_traceback
 from profiles.errors import InputError
 
 COMMANDS = (profile, study, simulate, diagnose, check, import_files, effects, prove)
@@ -47,6 +47,7 @@ def _run(words: list[str]) -> int:
         sys.stdout.flush()
         return int(status or 0)
     except InputError as error:
+        drop_empty_folders()
         return _failed(str(error), 2)
     except (KeyboardInterrupt, typer.Abort):
         return _failed("stopped", 1)

@@ -7,8 +7,7 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.output import busy, output_folder, say
-from profiles.errors import InputError
+from mixedlub.commands.output import busy, case_folder, output_folder, say
 
 NAME = "diagnose"
 EXAMPLE = "mixedlub diagnose examples/case --out out/diagnose"
@@ -31,9 +30,7 @@ def command(
     """
     from mixedlub.diagnosis.write import diagnose
 
-    if not case.is_dir():
-        raise InputError("no such case folder", where=str(case))
-    folder = output_folder(out, NAME, case.resolve().name)
+    folder = output_folder(out, NAME, case_folder(case).resolve().name)
     with busy("reading") as progress:
         diagnose(case, folder, predict=predict, exclude=tuple(exclude or ()), level=level, progress=progress)
     say((folder / "report.txt").read_text(encoding="utf-8"))

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 NAME = "import"
-EXAMPLE = "mixedlub import traction.txt --out my_case --set import.temperature=pot"
+EXAMPLE = "mixedlub import examples/case/recordings.csv --out out/import --answers examples/case/system.toml"
 
 
 def command(

@@ -14,11 +14,13 @@ from pathlib import Path
 from profiles.errors import InputError
 
 _opened: list[Path] = []
+_made: list[Path] = []
 
 
 def output_folder(out: Path | None, command: str, name: str) -> Path:
     """The folder to write into, made if need be; ``out/COMMAND/NAME`` where none is given."""
     folder = Path("out") / command / name if out is None else out
+    _made[:] = [path for path in (folder, *folder.parents) if not path.exists()]
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
@@ -32,6 +34,25 @@ def output_folder(out: Path | None, command: str, name: str) -> Path:
 def forget_folder() -> None:
     """Start afresh: no folder is being written to."""
     _opened.clear()
+    _made.clear()
+
+
+def drop_empty_folders() -> None:
+    """Take away the folders made for results that never came."""
+    for folder in _made:
+        try:
+            folder.rmdir()
+        except OSError:
+            return
+
+
+def case_folder(case: Path) -> Path:
+    """The case folder a user named."""
+    if case.is_file():
+        raise InputError("is a file; name the case folder that holds it", where=str(case))
+    if not case.is_dir():
+        raise InputError("no such case folder", where=str(case))
+    return case
 
 
 @contextmanager

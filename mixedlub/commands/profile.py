@@ -99,7 +99,7 @@ def told(record: Record) -> Iterator[str]:
                 f"m4 {_number(row['m4_per_um2'])} 1/um2, {_number(row['density_per_mm2'])} per mm2, "
                 f"radius {_number(row['radius_um'])} um"
             )
-    yield f"  Gaussian?  {g['words']}" if "words" in g else f"  Gaussian?  {g['verdict'].replace('_', ' ')}"
+    yield f"  Gaussian?  {g['words']}" if "words" in g else "  Gaussian?  cannot be judged, so not taken as Gaussian"
 
 
 _HEIGHTS = (

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.output import note, output_folder, say, within_range, writing
+from mixedlub.commands.output import case_folder, note, output_folder, say, within_range, writing
 from profiles.errors import InputError
 
 NAME = "simulate"
@@ -26,7 +26,7 @@ def command(
     from mixedlub.case import noted, read_case, read_conditions
     from mixedlub.forward import Forward
 
-    found = read_case(case, need_recordings=False)
+    found = read_case(case_folder(case), need_recordings=False)
     notes = list(found.notes)
     with noted(notes), within_range(str(case)):
         tables = [read_conditions(found, at)] if at is not None else [found.recordings, found.conditions]

@@ -13,7 +13,7 @@ import typer
 from mixedlub.commands.output import note, output_folder, say, within_range, writing
 
 NAME = "study"
-EXAMPLE = "mixedlub study examples/hong_2022.toml --out out/study"
+EXAMPLE = "mixedlub study examples/study_21_pairings.toml --out out/study"
 
 
 def command(
@@ -26,9 +26,9 @@ def command(
 
     Every pairing of surfaces at every torque, speed and oil temperature: table, figures, one HTML page.
 
-    A run that was stopped goes on where it was; started again with the same inputs it computes nothing twice.
+    A run that was stopped, started again with the same inputs, goes on where it was.
     """
-    from mixedlub.study import read_study, run_study, store
+    from mixedlub.study import counted, factors, read_study, run_study, store
     from mixedlub.study.ranges import out_of_range
 
     with within_range(str(file)):
@@ -36,12 +36,7 @@ def command(
     folder = output_folder(out, NAME, study.name)
     for text in study.notes:
         note(text)
-    levels = study.file.conditions
-    say(
-        f"{study.file.title}: {len(study.pairings)} pairings x {len(levels.torque_Nm)} torques x "
-        f"{len(levels.speed_rpm)} speeds x {len(levels.oil_temperature_C)} oil temperatures = "
-        f"{study.conditions} conditions"
-    )
+    say(f"{study.file.title}: {' x '.join(factors(study))} = {counted(study.conditions, 'condition')}")
     start = time.perf_counter()
     with progress_bar("computing") as progress:
         results = run_study(study, parts=store.parts_folder(folder, study.plan), scheduler=scheduler, progress=progress)

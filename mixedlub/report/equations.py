@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 SIZE = 17.0
 
 _SMALL_FRACTION = re.compile(r"\\tfrac(?:(\d)(\d))?")
+_GROWING = re.compile(r"\\(?:left|right)(?![A-Za-z])")
 
 
 @lru_cache(maxsize=512)
@@ -46,10 +47,12 @@ def _simplified(tex: str) -> str:
 
     >>> _simplified(r"\tfrac43 E")
     '\\frac{4}{3} E'
+    >>> _simplified(r"h \leftarrow \left(h\right)")
+    'h \\leftarrow (h)'
     """
     tex = re.sub(r"\\sqrt\s*(\d)", r"\\sqrt{\1}", tex)
     tex = _SMALL_FRACTION.sub(lambda m: rf"\frac{{{m[1]}}}{{{m[2]}}}" if m[1] else r"\frac", " ".join(tex.split()))
-    return tex.replace(r"\text{", r"\mathrm{").replace(r"\left", "").replace(r"\right", "").replace(r"\!", "")
+    return _GROWING.sub("", tex.replace(r"\text{", r"\mathrm{")).replace(r"\!", "")
 
 
 def _drawing(path: Path) -> str:

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 MOST_PANELS = 6
 MOST_LEVELS = 6
 MOST_PAIRINGS = 300
+LONGEST = 22
+SIDE_BY_SIDE = 12
 
 
 def _markers(results: Results) -> str:
@@ -45,11 +47,20 @@ def some(count: int, most: int) -> np.ndarray:
     return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
 
 
+def spread(levels: Sequence[float], most: int) -> np.ndarray:
+    """Places of at most so many levels, lowest first, whatever their order in the study.
+
+    >>> spread([3000, 500, 1500], 6).tolist()
+    [1, 2, 0]
+    """
+    return np.argsort(levels)[some(len(levels), most)]
+
+
 def figures(results: Results) -> Iterator[Drawn]:
     """All figures of a study; at its coldest and its hottest oil where there are several temperatures."""
     levels = results.study.file.conditions.oil_temperature_C
     with styled():
-        for place in some(len(levels), 2):
+        for place in spread(levels, 2):
             yield from _at_temperature(results, int(place), len(levels) > 1)
 
 
@@ -60,11 +71,13 @@ def _at_temperature(results: Results, theta: int, several: bool) -> Iterator[Dra
     groups = [("equal", "equal surfaces" if alike else "some pairings", equal_pairings(results))]
     smoothest = smoothest_surface(results)
     groups.append(("smooth", f"surfaces paired with {smoothest}", pairings_with(results, smoothest)))
+    whose = results.study.file.options.conditions_of
+    told = "Above each panel, pinion / gear and their composite roughness."
     for quantity, title in (("power_loss", "Power loss"), ("area_ratio", "Boundary area ratio")):
         for key, words, chosen in groups:
             if len(chosen):
                 figure = over_speed(results, quantity, chosen, theta)
-                yield Drawn(f"{quantity}_{key}{suffix}", f"{title} against pinion speed: {words}{at}.", figure)
+                yield Drawn(f"{quantity}_{key}{suffix}", f"{title} against {whose} speed: {words}{at}. {told}", figure)
     symbols = _markers(results)
     yield Drawn(
         f"loss_over_roughness{suffix}",
@@ -82,10 +95,10 @@ def _at_temperature(results: Results, theta: int, several: bool) -> Iterator[Dra
         f"Power loss against boundary area ratio, with a straight line fitted at each torque and speed{at}. {symbols}",
         loss_over(results, "area_ratio", theta, fitted=True),
     )
+    whose_film = "the same for all pairings" if _one_film(results) else "of the smoothest pairing"
     yield Drawn(
         f"film_and_friction{suffix}",
-        f"Mean film thickness, the same for all pairings unless an effect changes it, and mean friction of the "
-        f"smoothest and the roughest pairing{at}.",
+        f"Mean film thickness, {whose_film}, and mean friction of the smoothest and the roughest pairing{at}.",
         film_and_friction(results, theta),
     )
 
@@ -121,10 +134,28 @@ def name_of(results: Results, pairing: int) -> str:
     return " / ".join(results.study.pairings[pairing])
 
 
+def _titled(results: Results, pairing: int, more: str = "") -> str:
+    """A pairing above a panel, a line a surface where both do not fit into one."""
+    pinion, gear = (s if len(s) <= LONGEST else f"{s[: LONGEST - 1]}…" for s in results.study.pairings[pairing])
+    long = len(pinion) + len(gear) > SIDE_BY_SIDE
+    pinion, gear = (s.replace("$", r"\$") for s in (pinion, gear))
+    if long:
+        return f"{pinion} /\n{gear}" + (f"\n{more}" if more else "")
+    return f"{pinion} / {gear}" + (f"   {more}" if more else "")
+
+
+def _one_film(results: Results) -> bool:
+    """Whether the film is the same for all pairings; some effects make it depend on the surfaces."""
+    film = results["film_thickness"]
+    return bool(np.allclose(film, film[:1], rtol=1e-9, atol=0.0))
+
+
 def over_speed(results: Results, quantity: str, chosen: Sequence[int] | np.ndarray, theta: int) -> Figure:
     """A quantity over speed, a line a torque, a panel a pairing."""
     levels = results.study.file.conditions
-    torques = some(len(levels.torque_Nm), MOST_LEVELS)
+    torques = spread(levels.torque_Nm, MOST_LEVELS)
+    speeds = np.argsort(levels.speed_rpm)
+    rpm = np.array(levels.speed_rpm)[speeds]
     whose = results.study.file.options.conditions_of
     loss = quantity == "power_loss"
     columns = min(3, len(chosen))
@@ -133,10 +164,9 @@ def over_speed(results: Results, quantity: str, chosen: Sequence[int] | np.ndarr
         values = results[quantity][pairing, theta]
         for colour, t in zip(shades(len(torques)), torques):
             marker = "o" if len(levels.speed_rpm) <= 25 else ""
-            panel.plot(levels.speed_rpm, values[t], marker=marker, color=colour, label=f"{levels.torque_Nm[t]:.4g} Nm")
+            panel.plot(rpm, values[t, speeds], marker=marker, color=colour, label=f"{levels.torque_Nm[t]:.4g} Nm")
         sigma = results["composite_roughness"][pairing, 0, 0, 0] * 1e6
-        name = name_of(results, pairing)
-        panel.set_title(f"{name}{'   ' if len(name) < 16 else chr(10)}Rq {sigma:.3f} µm", loc="left")
+        panel.set_title(_titled(results, pairing, f"Rq {sigma:.3f} µm"), loc="left")
     left, bottom, right = _edges(axes, columns)
     for panel in left:
         panel.set_ylabel("power loss (W)" if loss else "boundary area ratio (-)")
@@ -144,7 +174,17 @@ def over_speed(results: Results, quantity: str, chosen: Sequence[int] | np.ndarr
         panel.set_xlabel(f"{whose} speed (rpm)")
     axes[0].set_ylim(bottom=0.0)
     axes[0].set_xlim(left=0.0)
-    axes[0].legend(title=f"{whose} torque", title_fontsize=7.5, loc="upper left")
+    handles, labels = axes[0].get_legend_handles_labels()
+    title = f"{whose} torque"
+    figure.legend(
+        handles,
+        labels,
+        title=title,
+        title_fontsize=7.5,
+        alignment="left",
+        loc="outside upper left",
+        ncols=len(labels),
+    )
     if loss:
         most = float(results["power_loss"].max())
         for panel in right:
@@ -168,8 +208,8 @@ AXIS = {
 def loss_over(results: Results, quantity: str, theta: int, *, fitted: bool = False) -> Figure:
     """Power loss of the pairings over a quantity, a panel a torque, a colour a speed; lines are fitted to all."""
     levels = results.study.file.conditions
-    torques = some(len(levels.torque_Nm), 3)
-    speeds = some(len(levels.speed_rpm), MOST_LEVELS)
+    torques = spread(levels.torque_Nm, 3)
+    speeds = spread(levels.speed_rpm, MOST_LEVELS)
     label, scale = AXIS[quantity]
     figure, axes = panels(len(torques), 3, height=3.0)
     same = np.array([a == b for a, b in results.study.pairings])
@@ -227,17 +267,23 @@ def _legend_above(panel: Axes, title: str) -> None:
 def film_and_friction(results: Results, theta: int) -> Figure:
     """Film thickness over speed, and friction of the smoothest and roughest pairing."""
     levels = results.study.file.conditions
-    torques = some(len(levels.torque_Nm), MOST_LEVELS)
+    torques = spread(levels.torque_Nm, MOST_LEVELS)
+    speeds = np.argsort(levels.speed_rpm)
+    rpm = np.array(levels.speed_rpm)[speeds]
     sigma = results["composite_roughness"][:, 0, 0, 0]
     ends = {"smoothest": int(sigma.argmin()), "roughest": int(sigma.argmax())}
     draw: list[tuple[str, Callable[[int], np.ndarray], str]] = [
         (
             "mean film thickness (µm)",
             lambda t: results["film_thickness"][ends["smoothest"], theta, t] * 1e6,
-            "film, all pairings",
+            "film, all pairings" if _one_film(results) else f"film, {_titled(results, ends['smoothest'])}",
         ),
         *(
-            ("mean friction coefficient (-)", lambda t, i=i: results["mean_friction"][i, theta, t], name_of(results, i))
+            (
+                "mean friction coefficient (-)",
+                lambda t, i=i: results["mean_friction"][i, theta, t],
+                _titled(results, i),
+            )
             for i in dict.fromkeys(ends.values())
         ),
     ]
@@ -248,14 +294,14 @@ def film_and_friction(results: Results, theta: int) -> Figure:
     for panel, (label, values, title) in zip(axes, draw):
         for colour, t in zip(shades(len(torques)), torques):
             marker = "o" if len(levels.speed_rpm) <= 25 else ""
-            panel.plot(levels.speed_rpm, values(t), marker=marker, color=colour, label=f"{levels.torque_Nm[t]:.4g} Nm")
+            panel.plot(rpm, values(t)[speeds], marker=marker, color=colour, label=f"{levels.torque_Nm[t]:.4g} Nm")
         panel.set_title(title, loc="left")
         panel.set_ylabel(label)
         panel.set_xlabel(f"{results.study.file.options.conditions_of} speed (rpm)")
         panel.set_xlim(left=0.0)
         panel.set_ylim(bottom=0.0)
     if len(axes) > 2:
-        top = max(panel.get_ylim()[1] for panel in axes[1:])
+        top = 1.05 * float(results["mean_friction"][list(ends.values()), theta].max())
         for panel in axes[1:]:
             panel.set_ylim(0.0, top)
     axes[0].legend()

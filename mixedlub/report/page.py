@@ -15,6 +15,7 @@ from mixedlub.report.figures import Drawn, figures
 from mixedlub.report.laws import laws_used
 from mixedlub.report.style import as_svg
 from mixedlub.report.surfaces import judgement, not_gaussian, provenance, surface_figures, surface_rows, traced
+from mixedlub.study import counted, factors
 from mixedlub.study.results import COLUMNS, DEFINITIONS, Results
 from mixedlub.study.sections import Options
 from mixedlub.study.store import fingerprint
@@ -52,6 +53,8 @@ def content(results: Results) -> dict[str, Any]:
         "title": file.title,
         "description": file.description,
         "study": study,
+        "factors": factors(study),
+        "counted": counted,
         "file": file,
         "levels": file.conditions,
         "findings": findings(results),
@@ -90,12 +93,13 @@ def findings(results: Results) -> list[str]:
         f"The largest power loss is {loss.max():.4g} W, of {where(int(loss.argmax()))}; the smallest is "
         f"{loss.min():.4g} W, of {where(int(loss.argmin()))}.",
         f"Mean friction lies between {friction.min():.3f} and {friction.max():.3f}, the boundary "
-        f" area ratio between {ratio.min():.2g} and {ratio.max():.2g}, the film parameter between "
+        f"area ratio between {ratio.min():.2g} and {ratio.max():.2g}, the film parameter between "
         f"{lam.min():.2g} and {lam.max():.2g}.",
     ]
     if best != worst:
         sentences.append(
-            f"At {levels.torque_Nm[hardest[0]]:g} Nm and {levels.speed_rpm[hardest[1]]:g} rpm, "
+            f"At {levels.torque_Nm[hardest[0]]:g} Nm, {levels.speed_rpm[hardest[1]]:g} rpm and oil at "
+            f"{levels.oil_temperature_C[0]:g} °C, "
             f"{' / '.join(study.pairings[best])} loses {100 * (1 - column[best] / column[worst]):.0f} % less than "
             f"{' / '.join(study.pairings[worst])}."
         )

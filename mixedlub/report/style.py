@@ -72,7 +72,7 @@ def normalised_axis(axes: Axes, most: float) -> None:
     """A second scale on the right: the same values over the largest of the study."""
     right = axes.secondary_yaxis("right", functions=(lambda y: np.divide(y, most), lambda y: np.multiply(y, most)))
     right.spines["right"].set_visible(True)
-    right.set_ylabel("over largest (-)")
+    right.set_ylabel("share of largest (-)")
 
 
 def as_svg(figure: Figure) -> str:

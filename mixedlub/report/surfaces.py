@@ -55,7 +55,8 @@ def surface_figures(study: Study, profiles: Mapping[str, Profile], judged: Judge
         return
     from roughness.plots import probability_figure, trace_figure
 
-    first = "" if len(profiles) == len(study.surfaces) else f" (the first {len(profiles)} of {len(study.surfaces)})"
+    count = sum(study.file.surfaces[name].profile is not None for name in study.surfaces)
+    first = "" if len(profiles) == count else f" (the first {len(profiles)} of {count})"
     with styled():
         yield Drawn(
             "traces",
@@ -65,7 +66,8 @@ def surface_figures(study: Study, profiles: Mapping[str, Profile], judged: Judge
         yield Drawn(
             "probability",
             f"Normal probability plots of the profile heights{first}: a Gaussian surface follows the straight line, "
-            "and the band holds 99 of 100 Gaussian profiles of the same autocorrelation.",
+            "and the band holds 99 of 100 Gaussian profiles of the same autocorrelation. Heights beyond the red "
+            "marks are no part of what is called Gaussian.",
             probability_figure(*profiles.values(), results=list(judged.values())),
         )
 

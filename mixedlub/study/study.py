@@ -15,7 +15,7 @@ import numpy as np
 from mixedlub import bodies, config
 from mixedlub.case import noted
 from mixedlub.chain import Model, available
-from mixedlub.effect import Effect, find
+from mixedlub.effect import BetweenLog, Effect, LogNormal, find
 from mixedlub.gear import GearPair, Mesh, mesh
 from mixedlub.kinds.gear_pair import motion_inputs
 from mixedlub.laws.load import LEAST_SHARE
@@ -110,6 +110,22 @@ def _check_finite(inputs: Mapping[str, Any]) -> None:
     for name, value in inputs.items():
         if not np.all(np.isfinite(value)):
             raise InputError(f"the study's numbers give no finite {name.replace('_', ' ')}")
+
+
+def counted(count: int, thing: str) -> str:
+    """A number of things in words.
+
+    >>> counted(1, "speed"), counted(6, "speed")
+    ('1 speed', '6 speeds')
+    """
+    return f"{count} {thing}{'' if count == 1 else 's'}"
+
+
+def factors(study: Study) -> tuple[str, ...]:
+    """What is combined with what in a study, each with its number of levels."""
+    things = ("pairing", "oil temperature", "torque", "speed")
+    pairings, oil, torque, speed = map(counted, study.plan.shape, things)
+    return (pairings, torque, speed, oil)
 
 
 def pairings_of(section: Pairings | None, known: Mapping[str, object]) -> tuple[tuple[str, str], ...]:
@@ -207,6 +223,9 @@ def _effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, 
                 raise InputError(
                     f"no such parameter of {e.id}; {nearest(name, values)}", where=f"effects.{e.id}", value=name
                 )
+            prior = next(p.prior for p in e.parameters if p.name == name)
+            if value < 0 and isinstance(prior, LogNormal | BetweenLog):
+                raise InputError("must not be negative", where=f"effects.{e.id}.{name}", value=value)
             values[name] = value
         parameters[e.id] = values
     return effects, parameters

@@ -49,6 +49,29 @@ def test_message_names_place_and_value(old, new, named, tmp_path, capsys):
     assert said.count("\n") == 1
 
 
+def test_negative_strength_of_a_positive_effect_is_refused(tmp_path, capsys):
+    path = tmp_path / "trial.toml"
+    path.write_text(STUDY + "[effects]\ninlet_shear_heating = { strength = -5 }\n")
+    status, said = refused(capsys, "study", str(path), "--no-figures", "--out", str(tmp_path / "o"))
+    assert status == 2
+    assert "effects.inlet_shear_heating.strength: -5" in said
+
+
+@pytest.mark.parametrize("command", ["simulate", "check", "diagnose"])
+def test_a_file_in_place_of_a_case_folder_is_called_one(command, tmp_path, capsys):
+    status, said = refused(capsys, command, str(CASE / "system.toml"))
+    assert status == 2
+    assert "is a file; name the case folder" in said
+
+
+def test_refused_case_leaves_no_folder(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    case = shutil.copytree(CASE, tmp_path / "case")
+    (case / "recordings.csv").write_text("")
+    assert refused(capsys, "diagnose", str(case))[0] == 2
+    assert [p.name for p in tmp_path.iterdir()] == ["case"]
+
+
 @pytest.mark.parametrize("command", ["study", "simulate", "check", "profile"])
 def test_missing_input_is_named(command, tmp_path, capsys):
     status, said = refused(capsys, command, str(tmp_path / "absent"))

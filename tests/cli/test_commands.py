@@ -2,12 +2,16 @@
 
 import csv
 import json
+import shlex
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
 from mixedlub.cli import COMMANDS, main
+
+ROOT = Path(__file__).parents[2]
 
 STUDY = """
 schema = "mixedlub-study/1"
@@ -48,6 +52,34 @@ def study(tmp_path, monkeypatch):
 def test_help_shows_an_example(command, capsys):
     assert main([command.NAME, "--help"]) == 0
     assert f"mixedlub {command.NAME}" in " ".join(capsys.readouterr().out.split("Example:")[1].split())
+
+
+@pytest.mark.parametrize("command", [c for c in COMMANDS if c.NAME not in ("prove", "diagnose")], ids=lambda c: c.NAME)
+def test_the_example_of_the_help_runs(command, tmp_path, monkeypatch):
+    for name in ("examples", "profiles"):
+        (tmp_path / name).symlink_to(ROOT / name)
+    monkeypatch.chdir(tmp_path)
+    words = shlex.split(command.EXAMPLE)
+    assert words[:2] == ["mixedlub", command.NAME]
+    assert main(words[1:]) == 0
+    assert {p.name for p in tmp_path.iterdir()} <= {"examples", "profiles", "out"}
+
+
+def test_diagnose_example_names_a_case_that_is_there():
+    words = shlex.split(next(c.EXAMPLE for c in COMMANDS if c.NAME == "diagnose"))
+    assert (ROOT / words[2] / "system.toml").is_file()
+
+
+def test_one_of_a_thing_is_not_a_plural(study, capsys):
+    study.write_text(STUDY.replace("[50, 150]", "[50]").replace("[500, 3000]", "[500]"))
+    assert main(["study", str(study), "--no-figures"]) == 0
+    assert "3 pairings x 1 torque x 1 speed x 1 oil temperature = 3 conditions" in capsys.readouterr().out
+
+
+def test_short_trace_is_not_called_not_gaussian(tmp_path, capsys):
+    (tmp_path / "few.csv").write_text("x (um),z (um)\n" + "".join(f"{i}.0,{i % 3}.5\n" for i in range(12)))
+    assert main(["profile", str(tmp_path / "few.csv"), "--no-figures", "--out", str(tmp_path / "o")]) == 0
+    assert "cannot be judged" in capsys.readouterr().out
 
 
 def test_no_command_is_bad_input(capsys):

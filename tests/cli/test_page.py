@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from mixedlub.cli import main
+from mixedlub.report.equations import equation
 from tests.cli.test_commands import STUDY
 
 CHROMIUM = next(
@@ -61,6 +62,12 @@ def test_every_equation_is_set(page):
     laws = page[page.index('id="laws"') :]
     assert laws.count('class="equation"') > 10
     assert "<code>" not in laws
+
+
+def test_arrows_are_set_as_arrows():
+    drawn = equation(r"h \leftarrow \left(h\right)")
+    assert "<svg" in drawn
+    assert drawn.count("M") < equation(r"h arrow (h)").count("M")
 
 
 def test_figures_lie_beside_the_page_as_files(folder, page):

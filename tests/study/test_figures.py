@@ -37,3 +37,34 @@ def test_axes_carry_quantity_and_unit(many):
 def test_without_equal_pairings_others_take_their_place(write_study):
     study = read_study(write_study(pairings={"pinion": ["fine"], "gear": ["mid", "coarse"]}))
     assert any(d.name.startswith("power_loss_equal") for d in figures(run_study(study)))
+
+
+def test_levels_in_any_order_are_drawn_from_low_to_high(write_study):
+    levels = {"conditions__speed_rpm": [3000, 500, 1500], "conditions__torque_Nm": [150, 50]}
+    results = run_study(read_study(write_study(**levels)))
+    for drawn in figures(results):
+        for panel in drawn.figure.axes:
+            for line in panel.lines if "speed" in panel.get_xlabel() else ():
+                assert list(line.get_xdata()) == [500, 1500, 3000], drawn.name
+        if drawn.name.startswith("power_loss"):
+            (legend,) = drawn.figure.legends
+            assert [text.get_text() for text in legend.get_texts()] == ["50 Nm", "150 Nm"]
+
+
+def test_long_names_stay_within_their_panels(write_study):
+    moments = {"m0_um2": 0.02, "m2": 0.0025, "m4_per_um2": 0.0036}
+    surfaces = {f"superfinished $ vibratory, batch {i}": moments for i in range(3)}
+    results = run_study(read_study(write_study(surfaces=surfaces)))
+    for drawn in figures(results):
+        drawn.figure.draw_without_rendering()
+        shown = [panel for panel in drawn.figure.axes if panel.get_title(loc="left")]
+        boxes = [panel._left_title.get_window_extent() for panel in shown]
+        assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i]), drawn.name
+        assert all(box.x1 <= drawn.figure.bbox.x1 for box in boxes), drawn.name
+
+
+def test_no_curve_is_cut_by_its_panel(write_study):
+    results = run_study(read_study(write_study()))
+    (drawn, *_) = (d for d in figures(results) if d.name.startswith("film_and_friction"))
+    for panel in drawn.figure.axes[1:]:
+        assert max(line.get_ydata().max() for line in panel.lines) < panel.get_ylim()[1]
