@@ -160,7 +160,7 @@ def plain_equation(latex: str) -> str:
     r"""An equation's LaTeX as a line of text.
 
     >>> plain_equation(r"h \leftarrow h\,\frac{1 - a}{1 + b\,L^{0.64}}")
-    'h ← h (1 - a)/(1 + b L^0.64)'
+    'h ← h ((1 - a)/(1 + b L^0.64))'
     """
     text = re.sub(r"\\(?:left|right|[bB]igg?[lr]?)(?![a-zA-Z])", "", " ".join(latex.split()))
     text = re.sub(r"\\[dt]?frac(\d)(\d)", r"\\frac{\1}{\2}", text).replace(r"^\circ", "°")
@@ -169,6 +169,9 @@ def plain_equation(latex: str) -> str:
         over, rest = _argument(text, found.end())
         under, end = _argument(text, rest)
         ratio = "½" if (over, under) == ("1", "2") else f"{_bracketed(over)}/{_bracketed(under)}"
+        before = re.sub(r"(\\quad|\\,|\\;|\\ )\s*$", "", text[: found.start()].rstrip()).rstrip()
+        if ratio != "½" and before and before[-1] not in "=,([{+-<>" and not before.endswith(r"\leftarrow"):
+            ratio = f"({ratio})"
         text = f"{text[: found.start()]}{ratio}{text[end:]}"
     text = re.sub(r"\\bar\s*\{?\s*(\w)\}?", "\\1\u0304", text)
     text = re.sub(r"\\(?:mathrm|text|operatorname|mathit)\s*\{([^{}]*)\}", r" \1 ", text)
