@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import BetweenLog, LogNormal, Parameter, effect
+from mixedlub.effect import LogNormal, Parameter, effect
 
 
 @effect(
@@ -16,7 +16,7 @@ from mixedlub.effect import BetweenLog, LogNormal, Parameter, effect
             "added force at resonance times twice the damping, as a share",
             null=0.0,
         ),
-        Parameter("resonance", "1/s", BetweenLog(100.0, 5000.0), "natural frequency of the gear pair"),
+        Parameter("resonance", "1/s", LogNormal(4000.0, 0.8), "natural frequency of the gear pair"),
         Parameter("damping", "-", LogNormal(0.1, 0.5), "share of critical damping"),
     ),
     equation=r"F \leftarrow F\left[1 + \frac{a\,r}{\sqrt{(1-r^2)^2 + (2\zeta r)^2}}\right],\quad "
@@ -30,7 +30,8 @@ def dynamic_load(transmitted_force, pinion_speed, pinion_teeth, *, amplitude, re
     """Near resonance of the mesh the teeth carry more than the static force.
 
     Damping of gear pairs is 0.05 to 0.10 of critical. The rise is linear in speed far below resonance, as in the
-    standard, between the responses to a varying stiffness and to a transmission error.
+    standard, between the responses to a varying stiffness and to a transmission error. Steel discs of 70 and 110 mm
+    meshing at 20 N/(mm um) resonate at 6 kHz by ISO 6336-1; shafts and what turns with them bring that down.
 
     >>> at_resonance = 2 * np.pi * 850.0 / 17   # 3000 rpm at 17 teeth
     >>> round(float(dynamic_load(1.0, at_resonance, 17.0, amplitude=0.05, resonance=850.0, damping=0.1)), 3)
