@@ -14,6 +14,8 @@ T = TypeVar("T", bound=BaseModel)
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 Number = Annotated[float, Field(allow_inf_nan=False)]
+Modulus = Annotated[float, Field(ge=0.1, le=2000)]
+Density = Annotated[float, Field(ge=300, le=3000)]
 Radius = Annotated[float, Field(gt=0)]
 KINDS = ("gear_pair", "mesh_friction", "disc", "film", "friction_history", "friction_map", "viscosity")
 
@@ -48,7 +50,7 @@ class Gears(Section):
     tip_diameter_mm: tuple[Positive, Positive] | None = None
     centre_distance_mm: Positive | None = None
     face_width_mm: Positive
-    youngs_modulus_GPa: tuple[Positive, Positive] = (206.0, 206.0)
+    youngs_modulus_GPa: tuple[Modulus, Modulus] = (206.0, 206.0)
     poisson_ratio: tuple[Annotated[float, Field(ge=0, lt=0.5)], Annotated[float, Field(ge=0, lt=0.5)]] = (
         0.3,
         0.3,
@@ -60,7 +62,7 @@ class Contact(Section):
     geometry: Literal["line", "point"] = "line"
     radius_mm: tuple[Radius, Radius]
     width_mm: Positive | None = None
-    youngs_modulus_GPa: tuple[Positive, Positive] = (206.0, 206.0)
+    youngs_modulus_GPa: tuple[Modulus, Modulus] = (206.0, 206.0)
     poisson_ratio: tuple[Annotated[float, Field(ge=0, lt=0.5)], Annotated[float, Field(ge=0, lt=0.5)]] = (
         0.3,
         0.3,
@@ -79,7 +81,7 @@ class Lubricant(Section):
     temperature_C: tuple[Number, Number] | None = None
     kinematic_viscosity_mm2_s: tuple[Positive, Positive] | None = None
     pressure_viscosity_per_GPa: tuple[Positive, Positive] | None = None
-    density_15C_kg_m3: Positive | None = None
+    density_15C_kg_m3: Density | None = None
     density_change_per_K: Number | None = None
     eyring_stress_MPa: Positive | None = None
     thermal_conductivity_W_mK: Positive | None = None
