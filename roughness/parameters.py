@@ -138,6 +138,9 @@ def section_count(profile: Profile) -> int:
     return 1 if cutoff is None else max(1, int(profile.heights.size * profile.spacing / cutoff + 0.01))
 
 
+SEVEN_POINTS = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0])
+
+
 def slopes(heights: np.ndarray, spacing: float) -> np.ndarray:
     """Slope at each point with three neighbours to either side, seven-point formula of ISO 4287, 4.4.1.
 
@@ -148,16 +151,7 @@ def slopes(heights: np.ndarray, spacing: float) -> np.ndarray:
     >>> slopes(np.arange(8.0) ** 3, 1.0)
     array([27., 48.])
     """
-    z = heights
-    near = z[4:-2] - z[2:-4]
-    near *= 45.0
-    middle = z[5:-1] - z[1:-5]
-    middle *= 9.0
-    near -= middle
-    near += z[6:]
-    near -= z[:-6]
-    near /= 60.0 * spacing
-    return near
+    return np.correlate(heights, SEVEN_POINTS / (60.0 * spacing), "valid")
 
 
 def _borders(size: int, count: int) -> np.ndarray:
