@@ -18,8 +18,9 @@ FULL, QUICK = 240, 24
 
 def command(
     out: Annotated[Path | None, typer.Option(help="Folder for the score table; default out/prove/battery.")] = None,
-    quick: Annotated[bool, typer.Option("--quick", help=f"{QUICK} cases and no baselines instead of {FULL}.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help=f"{QUICK} cases and no baselines instead of all.")] = False,
     seed: Annotated[int, typer.Option(min=0, help="Which battery: every seed deals other cases.")] = 4127,
+    cases: Annotated[int, typer.Option(min=5, help="How many cases to deal.")] = FULL,
     jobs: Annotated[int, typer.Option(min=1, help="Cases at a time.")] = 2,
 ) -> None:
     """Put the diagnosis to a blind test.
@@ -42,6 +43,6 @@ def command(
                 tasks[stage] = bar.add_task(stage, total=total)
             bar.update(tasks[stage], completed=done)
 
-        prove(folder, diagnose, QUICK if quick else FULL, seed, jobs, not quick, show)
+        prove(folder, diagnose, QUICK if quick else cases, seed, jobs, not quick, show)
     say((folder / "score.txt").read_text(encoding="utf-8"))
     say(f"written to {folder}")
