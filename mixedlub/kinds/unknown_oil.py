@@ -12,6 +12,7 @@ import numpy as np
 from mixedlub import bodies, config
 from mixedlub.calibration import Calibration
 from mixedlub.effect import LogNormal, Normal, Parameter
+from mixedlub.laws.oil import from_d341, to_d341
 from mixedlub.lubricant import Lubricant
 from mixedlub.table import CaseWarning, Table
 
@@ -40,10 +41,10 @@ def steeper(oil: Lubricant, factor: float, pivot: float) -> Lubricant:
     >>> [round(nu * 1e6, 1) for nu in flat.kinematic_viscosity]
     [34.0, 14.3]
     """
-    at_pivot = np.log10(np.log10(oil.viscosity(np.array(pivot)) / oil.density(np.array(pivot)) * 1e6 + 0.7))
-    known = (np.log10(np.log10(nu * 1e6 + 0.7)) for nu in oil.kinematic_viscosity)
-    turned = [10.0 ** (10.0 ** float(at_pivot + factor * (z - at_pivot))) - 0.7 for z in known]
-    return replace(oil, kinematic_viscosity=(turned[0] * 1e-6, turned[1] * 1e-6))
+    at_pivot = to_d341(oil.viscosity(np.array(pivot)) / oil.density(np.array(pivot)))
+    known = (to_d341(np.array(nu)) for nu in oil.kinematic_viscosity)
+    first, second = (float(from_d341(at_pivot + factor * (z - at_pivot))) for z in known)
+    return replace(oil, kinematic_viscosity=(first, second))
 
 
 def calibrations(system: config.System, temperature: np.ndarray, *, level: float = 1.0) -> tuple[Calibration, ...]:

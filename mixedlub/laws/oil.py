@@ -24,10 +24,34 @@ def kinematic_viscosity(
     >>> [round(float(v) * 1e3, 1) for v in nu * 850.0 * (1.0 - 6.5e-4 * (celsius - 15.0))]
     [14.9, 8.9, 5.8]
     """
-    t1, t2 = known_temperature
-    z1, z2 = (np.log10(np.log10(v * 1e6 + 0.7)) for v in known_viscosity)
-    slope = (z1 - z2) / np.log10(t2 / t1)
-    return (10.0 ** (10.0 ** (z1 - slope * np.log10(temperature / t1))) - 0.7) * 1e-6
+    start, slope = _d341_line(known_temperature, known_viscosity)
+    return from_d341(start - slope * np.log10(temperature / known_temperature[0]))
+
+
+def to_d341(kinematic_viscosity: np.ndarray) -> np.ndarray:
+    """The ordinate of the ASTM D341 chart, log log (nu + 0.7), which makes the form belong to mm^2/s.
+
+    >>> round(float(to_d341(99.3e-6)), 5)   # nu + 0.7 = 100
+    0.30103
+    """
+    return np.log10(np.log10(kinematic_viscosity * 1e6 + 0.7))
+
+
+def from_d341(ordinate: np.ndarray) -> np.ndarray:
+    """Kinematic viscosity (m^2/s) at an ordinate of the ASTM D341 chart, which makes the form belong to mm^2/s.
+
+    >>> round(float(from_d341(to_d341(34e-6))) * 1e6, 9)
+    34.0
+    """
+    return (10.0 ** (10.0**ordinate) - 0.7) * 1e-6
+
+
+def _d341_line(
+    known_temperature: tuple[float, float], known_viscosity: tuple[float, float]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Ordinate at the first known point and the fall a decade of temperature."""
+    z1, z2 = (to_d341(np.asarray(v)) for v in known_viscosity)
+    return z1, (z1 - z2) / np.log10(known_temperature[1] / known_temperature[0])
 
 
 def temperature_viscosity(
@@ -46,9 +70,7 @@ def temperature_viscosity(
     >>> round(float(beta), 3)   # automatic transmission fluid at 70 degC
     0.026
     """
-    t1, t2 = known_temperature
-    z1, z2 = (np.log10(np.log10(v * 1e6 + 0.7)) for v in known_viscosity)
-    slope = (z1 - z2) / np.log10(t2 / t1)
+    _, slope = _d341_line(known_temperature, known_viscosity)
     nu = kinematic_viscosity(temperature, known_temperature, known_viscosity) * 1e6
     return slope * (nu + 0.7) * np.log(nu + 0.7) / (nu * temperature) + density_change
 

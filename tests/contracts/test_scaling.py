@@ -27,6 +27,8 @@ OTHER_ARGUMENTS = {
     "pressure": (2e8, "Pa"),
     "known_temperature": ((313.15, 373.15), "K"),
     "known_viscosity": ((34e-6, 7.2e-6), "m^2/s"),
+    "kinematic_viscosity": (34e-6, "m^2/s"),
+    "ordinate": (0.18, "-"),
     "value": (np.array([3.0, 2.0]), "Pa"),
     "weight": (np.array([0.3, 0.4]), "-"),
     "given": (0.4, "-"),
@@ -34,7 +36,14 @@ OTHER_ARGUMENTS = {
 }
 """Arguments of laws that are no words of the glossary: a value and its unit."""
 
-OTHER_OUTPUTS = {"over_path": "Pa", "nayak_parameter": "-", "kinematic_viscosity": "m^2/s", "contact_softening": "1/K"}
+OTHER_OUTPUTS = {
+    "over_path": "Pa",
+    "nayak_parameter": "-",
+    "kinematic_viscosity": "m^2/s",
+    "to_d341": "-",
+    "from_d341": "m^2/s",
+    "contact_softening": "1/K",
+}
 """Units of answers that neither the name nor the end of the summary gives."""
 
 READING = {"gear_pair": "W", "film": "m", "friction_map": "N m", "viscosity": "Pa s"}
