@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from mixedlub.laws.contact import reduced_modulus
 from profiles.errors import InputError
 
 Pair = tuple[float, float]
@@ -354,8 +355,7 @@ class GearPair:
     @cached_property
     def reduced_modulus(self) -> float:
         """E' = 2 / [(1 - nu1^2)/E1 + (1 - nu2^2)/E2] of the film formulas, twice the contact modulus."""
-        compliance = sum((1 - nu**2) / young for nu, young in zip(self.poisson_ratio, self.youngs_modulus))
-        return 2 / compliance
+        return reduced_modulus(self.youngs_modulus, self.poisson_ratio)
 
     @cached_property
     def loss_factor(self) -> float:

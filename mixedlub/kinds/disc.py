@@ -14,6 +14,7 @@ from mixedlub.kinds import unknown_oil
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws import load, loss
+from mixedlub.laws.contact import reduced_modulus
 from mixedlub.table import Column, Table
 from profiles.errors import InputError
 
@@ -46,9 +47,8 @@ def point_reading(friction: np.ndarray) -> np.ndarray:
 
 def contact_inputs(contact: config.Contact, table: Table) -> Inputs:
     """Chain inputs of the bodies and their motion."""
-    modulus = 2.0 / sum(
-        (1.0 - nu**2) / (e * 1e9) for nu, e in zip(contact.poisson_ratio, contact.youngs_modulus_GPa, strict=True)
-    )
+    first, second = contact.youngs_modulus_GPa
+    modulus = reduced_modulus((first * 1e9, second * 1e9), contact.poisson_ratio)
     curvature = sum(1.0 / (r * 1e-3) for r in contact.radius_mm)
     if curvature <= 0:
         raise InputError("one of the two bodies must be curved", where="contact.radius_mm", value=contact.radius_mm)

@@ -7,6 +7,15 @@ import numpy as np
 from roughness.integrals import area_integral, load_integral
 
 
+def reduced_modulus(youngs_modulus: tuple[float, float], poisson_ratio: tuple[float, float]) -> float:
+    r"""E' of the film formulas (Pa), twice the contact modulus: :math:`2/[(1-\nu_1^2)/E_1 + (1-\nu_2^2)/E_2]`.
+
+    >>> round(reduced_modulus((206e9, 206e9), (0.3, 0.3)) / 1e9, 3)
+    226.374
+    """
+    return 2.0 / sum((1.0 - nu**2) / young for nu, young in zip(poisson_ratio, youngs_modulus, strict=True))
+
+
 def line_hertz_pressure(line_load: np.ndarray, radius: np.ndarray, reduced_modulus: np.ndarray) -> np.ndarray:
     r"""Largest pressure of a line contact (Pa), :math:`p_0 = \sqrt{w E' / (2\pi R)}`; Hertz 1881.
 
