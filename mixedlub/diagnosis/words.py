@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.diagnosis.answer import effect_records, interval, verdict_fit
+from mixedlub.diagnosis.carriers import NOTHING, READING
 from mixedlub.diagnosis.confusion import Confusion, confusion
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.empirical import Absorbed, Unnamed
@@ -249,9 +250,7 @@ def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
     law = unnamed.law
     shape = d.found.unknown.best
     along = "all conditions together" if shape.axis is None else words_of(shape.axis)
-    said = [
-        f"It varies smoothly with {along}, as {'a share of the reading' if shape.relative else 'an addition to it'}."
-    ]
+    said = [f"It varies smoothly with {along}, as {_carried(shape.carrier)}."]
     if unnamed.stages:
         best, *others = unnamed.stages
         said.append(
@@ -269,6 +268,11 @@ def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
             f"the error falls from {law.heldout_before:.2f} to {law.heldout_after:.2f} sigma."
         )
     return Section(UNNAMED, tuple(said))
+
+
+def _carried(carrier: str) -> str:
+    outside = {READING: "a share of the reading", NOTHING: "an addition to it"}
+    return outside.get(carrier, f"a factor on {words_of(carrier)}")
 
 
 def _stage(found: Absorbed) -> str:
