@@ -76,9 +76,7 @@ def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibrati
     pressurised = float(np.ptp(_pressure(recorded))) > 0
     return tuple(
         c
-        for c in unknown_oil.calibrations(
-            system, recorded["temperature_C"] + oil.ZERO_CELSIUS, level=_level(system, recorded)
-        )
+        for c in unknown_oil.calibrations(system, kelvin, level=_level(system, recorded))
         if pressurised or not c.name.startswith("pressure")
     )
 
