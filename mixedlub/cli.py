@@ -6,6 +6,7 @@ import os
 import sys
 import warnings
 from collections.abc import Sequence
+from typing import Annotated
 
 # Before NumPy is loaded: matrices are small here, and threads of BLAS would wait on those of the batch engine.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -13,7 +14,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import typer
 
 from mixedlub.commands import check, diagnose, effects, import_files, profile, prove, simulate, study
-from mixedlub.commands.output import drop_empty_folders, forget_folder, note, save_traceback
+from mixedlub.commands.output import drop_empty_folders, forget_folder, note, save_traceback, say
 from profiles.errors import InputError
 
 COMMANDS = (profile, study, simulate, diagnose, check, import_files, effects, prove)
@@ -21,8 +22,20 @@ COMMANDS = (profile, study, simulate, diagnose, check, import_files, effects, pr
 app = typer.Typer(add_completion=False, no_args_is_help=False, rich_markup_mode=None, pretty_exceptions_enable=False)
 
 
+def _say_version(wanted: bool) -> None:
+    if wanted:
+        from mixedlub.version import installed_version
+
+        say(f"mixedlub {installed_version()}")
+        raise typer.Exit
+
+
 @app.callback()
-def _about() -> None:
+def _about(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_say_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
     """Surface finish, oil film and gear loss.
 
     From roughness traces to power loss, and from recordings to the missing physics.

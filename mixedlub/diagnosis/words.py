@@ -17,7 +17,6 @@ from mixedlub.diagnosis.labels import (
     effect_words,
     explanation_words,
     number,
-    plain_equation,
     range_text,
     unit_of,
     words_of,
@@ -25,6 +24,7 @@ from mixedlub.diagnosis.labels import (
 from mixedlub.diagnosis.maps import missing
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.effect import Effect
+from mixedlub.report.plain import plain_equation
 
 WIDTH = 88
 REFITTED = "Parameters were refitted without each level; what the answer is was settled with all of them."

@@ -9,10 +9,10 @@ import pytest
 from mixedlub.diagnosis import page, words
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.empirical import unnamed as describe
-from mixedlub.diagnosis.labels import plain_equation
 from mixedlub.diagnosis.posterior import Key, Posterior
 from mixedlub.effect import catalogue
 from mixedlub.report.equations import equation
+from mixedlub.report.plain import plain_equation
 
 
 def told(d: Diagnosis) -> dict[str, str]:
@@ -147,6 +147,7 @@ def test_warnings_come_last(teeth: Diagnosis) -> None:
         (r"\mathrm{asinh}(x)^{-1/2}", "asinh(x)^(-1/2)"),
         (r"\dfrac{a}{\frac{b}{c}}", "a/(b/c)"),
         (r"\sqrt{x} \cdot y_{max}", "√(x) · y_max"),
+        (r"\pi D R_s\sigma_s", "π D R_s σ_s"),
         (r"\tfrac12\rho\,\bigl[1 + s\operatorname{sgn}\omega\bigr]", "½ρ [1 + s sgn ω]"),
     ],
 )
