@@ -100,9 +100,13 @@ def _alive(process: str) -> bool:
 
 @contextmanager
 def within_range(where: str) -> Iterator[None]:
-    """Numbers of the input too large or too small for arithmetic are bad input."""
+    """Bad input gets its place: numbers outside arithmetic that of the input, keys of a case their file."""
+    from mixedlub.config import in_file
+
     try:
         yield
+    except InputError as error:
+        raise in_file(error, "system.toml") from None
     except ArithmeticError as error:
         raise InputError(f"has numbers too large or too small to compute with ({error})", where=where) from None
 

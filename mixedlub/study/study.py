@@ -100,8 +100,9 @@ def read_study(path: Path, file: StudyFile | None = None) -> Study:
             study = _resolve(path.stem, file, path.parent)
         _check_finite(study.plan.inputs)
     except InputError as error:
-        if path.name in str(error):
-            raise
+        placed = config.in_file(error, path.name)
+        if path.name in str(placed):
+            raise placed from None
         raise InputError(str(error), where=path.name) from None
     return replace(study, notes=(*notes, *study.mesh.notes))
 
