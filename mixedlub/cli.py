@@ -15,6 +15,7 @@ import typer
 
 from mixedlub.commands import check, diagnose, effects, import_files, profile, prove, simulate, study
 from mixedlub.commands.output import drop_empty_folders, forget_folder, note, save_traceback, say
+from mixedlub.refusal import of_option
 from profiles.errors import InputError
 
 COMMANDS = (profile, study, simulate, diagnose, check, import_files, effects, prove)
@@ -70,7 +71,7 @@ def _run(words: list[str]) -> int:
     except Exception as error:
         if hasattr(error, "format_message") and hasattr(error, "exit_code"):
             place = getattr(getattr(error, "ctx", None), "command_path", "mixedlub")
-            return _failed(f"{error.format_message()} (see {place} --help)", int(error.exit_code))
+            return _failed(f"{of_option(error.format_message())} (see {place} --help)", int(error.exit_code))
         return _failed(f"unexpected {type(error).__name__}: {error}; details in {save_traceback(error)}", 1)
 
 

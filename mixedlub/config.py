@@ -202,7 +202,8 @@ def in_file(error: InputError, file: str) -> InputError:
     system.toml: gears.teeth: [5, 60]: teeth interfere
     """
     key = re.split(r"[.,\[]", error.where)[0]
-    for table, section in {"": System, "gears.": Gears, "gears.load_sharing.": LoadSharing}.items():
+    tables: dict[str, type[Section]] = {"": System, "gears.": Gears, "gears.load_sharing.": LoadSharing}
+    for table, section in tables.items():
         if key in section.model_fields and (table == "" or key == error.where):
             return InputError(error.rule, where=f"{file}: {table}{error.where}", value=error.value)
     return error

@@ -56,6 +56,27 @@ def rule(error: Mapping[str, Any]) -> str:
     return text[:1].lower() + text[1:]
 
 
+OF_OPTIONS = {
+    "Input should be greater than or equal to": "must be at least",
+    "Input should be less than or equal to": "must be at most",
+    "Input should be a valid number, unable to parse string as a number": "must be a number",
+    "Input should be a valid integer, unable to parse string as an integer": "must be a whole number",
+    "Input should be": "must be",
+    "Invalid value for '": "'",
+}
+
+
+def of_option(text: str) -> str:
+    """What the command line says of an option, in the words used of keys.
+
+    >>> of_option("Invalid value for '--cutoff-mm': Input should be greater than or equal to 0.000001")
+    "'--cutoff-mm': must be at least 0.000001"
+    """
+    for said, meant in OF_OPTIONS.items():
+        text = text.replace(said, meant)
+    return text
+
+
 def counted(count: int) -> str:
     """So many entries.
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from mixedlub.commands.output import note, output_folder, say, writing
+from profiles.errors import InputError
 
 if TYPE_CHECKING:
     from profiles import Profile
@@ -52,20 +54,21 @@ def command(
     from profiles import read
     from roughness import trace_record
 
-    traces = [read(file, unit=unit, spacing=spacing) for file in files]
-    found = [
-        trace_record(
-            trace,
-            form=form,
-            cutoff="auto" if cutoff_mm is None else cutoff_mm * 1e-3,
-            short_cutoff="auto" if short_cutoff_um is None else short_cutoff_um * 1e-6,
-            method=method,
-            outliers=outliers,
-            trim_cutoffs=trim,
-            convention=convention,
-        )
-        for trace in traces
-    ]
+    with named_options():
+        traces = [read(file, unit=unit, spacing=spacing) for file in files]
+        found = [
+            trace_record(
+                trace,
+                form=form,
+                cutoff="auto" if cutoff_mm is None else cutoff_mm * 1e-3,
+                short_cutoff="auto" if short_cutoff_um is None else short_cutoff_um * 1e-6,
+                method=method,
+                outliers=outliers,
+                trim_cutoffs=trim,
+                convention=convention,
+            )
+            for trace in traces
+        ]
     records: list[dict[str, Any]] = [{**record, "file": str(file)} for file, (_, record) in zip(files, found)]
     folder = output_folder(out, NAME, files[0].stem)
     for record in records:
@@ -78,6 +81,20 @@ def command(
         if figures:
             _draw(aside / "figures", [file.stem for file in files], [profile for profile, _ in found], records)
     say(f"details in {folder / 'profile.json'}" + (f", figures in {folder / 'figures'}" if figures else ""))
+
+
+OPTIONS = ("unit", "spacing", "form", "method", "convention")
+
+
+@contextmanager
+def named_options() -> Iterator[None]:
+    """What is wrong with an option, under the name it has on the command line."""
+    try:
+        yield
+    except InputError as error:
+        place = f"--{error.where}" if error.where in OPTIONS else error.where
+        rule = error.rule.replace("as unit '", "as --unit '").replace("as spacing '", "as --spacing '")
+        raise InputError(rule, where=place, value=error.value) from None
 
 
 def told(record: Record) -> Iterator[str]:
