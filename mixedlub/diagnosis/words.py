@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mixedlub.diagnosis.advice import next_test
 from mixedlub.diagnosis.answer import effect_records, interval, verdict_fit
 from mixedlub.diagnosis.confusion import Confusion, confusion
 from mixedlub.diagnosis.diagnose import Diagnosis
@@ -85,7 +86,7 @@ def sections(d: Diagnosis, unnamed: Unnamed | None = None) -> list[Section]:
         Section(GAIN, _gain(d)),
         Section(OUTLIERS, *_outliers(d)),
         Section(CALIBRATION, *_calibration(d)),
-        Section(NEXT, _next_test(d)),
+        Section(NEXT, next_test(d)),
         Section("Warnings", d.warnings),
     ]
     return [s for s in found if s.sentences or s.table]
@@ -378,22 +379,3 @@ def _calibrated(d: Diagnosis) -> tuple[np.ndarray, np.ndarray]:
         return d.found.unknown.z, np.sqrt(np.diag(d.found.unknown.covariance))
     refined = verdict_fit(d)
     return refined.z, np.sqrt(np.diag(refined.covariance))
-
-
-def _next_test(d: Diagnosis) -> tuple[str, ...]:
-    if d.posterior.verdict == "unknown":
-        place = ", ".join(range_text(cut) for cut in d.region.where) or "all conditions"
-        return (f"To learn its form, refine and repeat the levels around {place}.",)
-    if not d.next_tests:
-        return ()
-    first = d.next_tests[0]
-    if first.expected_bits < 0.01:
-        return ("No single reading near these conditions would say more.",)
-    said = []
-    if first.expected_bits < 0.1:
-        said.append("No single reading would tell much more; the best would be:")
-    names = "; ".join(explanation_words(name.split("+")) for name in first.separates)
-    said.append(
-        f"Run {conditions_text(first.conditions)}: {first.expected_bits:.2f} bit towards telling apart {names}."
-    )
-    return tuple(said)

@@ -153,8 +153,6 @@ def inferred_units(position_step: float | None, step: float, heights: np.ndarray
         if 1e-3 <= rise * METRES[z] / (step * METRES[x]) <= 0.5
     ]
     if len(pairs) != 1:
-        rule = (
-            "the units are not in the file and cannot be inferred: put them in a heading 'x_mm, z_um', or give them as "
-        )
-        raise InputError(f"{rule}unit 'mm, um'", where=where)
+        rule = "no units in the file, and none can be inferred: heading 'x_mm, z_um', or give them as unit 'mm, um'"
+        raise InputError(rule, where=where)
     return pairs[0]
