@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from mixedlub.commands.output import note, output_folder, say, writing
+from mixedlub.commands.output import note, output_folder, say
+from mixedlub.writing import writing
 from profiles.errors import InputError
 
 if TYPE_CHECKING:

@@ -7,7 +7,8 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.output import case_folder, note, output_folder, say, within_range, writing
+from mixedlub.commands.output import case_folder, note, output_folder, say, within_range
+from mixedlub.writing import writing
 from profiles.errors import InputError
 
 NAME = "simulate"

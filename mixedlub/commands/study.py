@@ -10,7 +10,8 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.output import note, output_folder, say, within_range, writing
+from mixedlub.commands.output import note, output_folder, say, within_range
+from mixedlub.writing import writing
 
 NAME = "study"
 EXAMPLE = "mixedlub study examples/study_21_pairings.toml --out out/study"
