@@ -8,6 +8,7 @@ import pytest
 import profiles
 from mixedlub.cli import main
 from tests.profiles.test_manifest import FILES, SDF, X3P
+from tests.profiles.test_shipped import TABLE_1
 
 TRACES = Path(profiles.__file__).parent / "traces"
 
@@ -23,17 +24,6 @@ INSTRUMENT = {
     "Rsk": (-0.144, 1e-3),
     "Rku": (2.463, 1e-3),
     "Rdq": (0.157, 1e-3),
-}
-
-# Hong, Aneshansley and Talbot, "Mechanical Power Loss of Spur Gears Subject to Various Surface Finish
-# Pairings", table 1: Ra, Rq, Rz (um)
-TABLE_1 = {
-    "0036": (0.036, 0.046, 0.275),
-    "0122": (0.122, 0.151, 0.510),
-    "0219": (0.219, 0.274, 1.400),
-    "0258": (0.258, 0.321, 1.643),
-    "0302": (0.302, 0.374, 1.777),
-    "0450": (0.450, 0.579, 3.400),
 }
 
 
