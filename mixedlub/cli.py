@@ -16,7 +16,7 @@ import typer
 from mixedlub.commands import check, diagnose, effects, import_files, profile, prove, simulate, study
 from mixedlub.commands.output import drop_empty_folders, forget_folder, note, save_traceback, say
 from mixedlub.refusal import of_option
-from profiles.errors import InputError
+from profiles.errors import InputError, nearest
 
 COMMANDS = (profile, study, simulate, diagnose, check, import_files, effects, prove)
 
@@ -57,6 +57,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(words: list[str]) -> int:
     try:
+        if words and not words[0].startswith("-") and words[0] not in (names := [c.NAME for c in COMMANDS]):
+            raise InputError(f"no such command; {nearest(words[0], names)}", where="command", value=words[0])
         status = typer.main.get_command(app).main(words, prog_name="mixedlub", standalone_mode=False)
         sys.stdout.flush()
         return int(status or 0)

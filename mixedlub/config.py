@@ -4,18 +4,28 @@ from __future__ import annotations
 
 import re
 import tomllib
+from itertools import chain
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
 from mixedlub import refusal
 from profiles.errors import InputError, nearest
 
 T = TypeVar("T", bound=BaseModel)
-Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
-NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
-Number = Annotated[float, Field(allow_inf_nan=False)]
+
+
+def _no_switch(value: Any) -> Any:
+    if isinstance(value, bool):
+        raise ValueError("must be a number")
+    return value
+
+
+Float = Annotated[float, BeforeValidator(_no_switch)]
+Positive = Annotated[Float, Field(gt=0, allow_inf_nan=False)]
+NotNegative = Annotated[Float, Field(ge=0, allow_inf_nan=False)]
+Number = Annotated[Float, Field(allow_inf_nan=False)]
 Modulus = Annotated[float, Field(ge=0.1, le=2000)]
 Density = Annotated[float, Field(ge=300, le=3000)]
 Radius = Annotated[float, Field(gt=0)]
@@ -180,8 +190,10 @@ def parse(model: type[T], data: dict[str, Any], where: str) -> T:
 
 
 def _refused(model: type[BaseModel], errors: list[Any], where: str) -> InputError:
-    """What to say of the errors: unknown keys first, as a misspelt key explains the missing one beside it."""
-    first = next((e for e in errors if e["type"] == "extra_forbidden"), errors[0])
+    """What to say of the errors: another kind of file first, then unknown keys, which explain missing ones."""
+    other = (e for e in errors if e["loc"] == ("schema",) and e["type"] == "literal_error")
+    unknown = (e for e in errors if e["type"] == "extra_forbidden")
+    first = next(chain(other, unknown), errors[0])
     *table, last = first["loc"] or ("",)
     if first["type"] == "extra_forbidden":
         hint = nearest(str(last), _known_keys(model, tuple(table)))

@@ -15,14 +15,18 @@ EXAMPLE = "mixedlub diagnose examples/case --out out/diagnose"
 
 def command(
     case: Annotated[Path, typer.Argument(metavar="CASE", help="Case folder with system.toml and recordings.csv.")],
-    out: Annotated[Path | None, typer.Option(help="Folder for the report; default out/diagnose/NAME.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Folder for the report; default out/diagnose/NAME.")
+    ] = None,
     predict: Annotated[
         Path | None, typer.Option(metavar="conditions.csv", help="Conditions to predict; default the case's own.")
     ] = None,
     exclude: Annotated[
         list[str] | None, typer.Option(metavar="ID...", help="Leave effects out of the catalogue.")
     ] = None,
-    level: Annotated[float, typer.Option(min=1e-9, max=0.5, help="Level of the mismatch test.")] = 0.01,
+    level: Annotated[
+        float, typer.Option(metavar="CHANCE", min=1e-9, max=0.5, help="Level of the mismatch test.")
+    ] = 0.01,
 ) -> None:
     """Name the missing physics of a recording.
 

@@ -26,26 +26,44 @@ Record = Mapping[str, Any]
 def command(
     files: Annotated[list[Path], typer.Argument(metavar="FILE...", help="Traces in any known format.")],
     out: Annotated[
-        Path | None, typer.Option(help="Folder for profile.json and figures; default out/profile/NAME.")
+        Path | None, typer.Option(metavar="DIR", help="Folder for profile.json and figures; default out/profile/NAME.")
     ] = None,
     form: Annotated[
-        str, typer.Option(help="Form to remove: none, mean, line, polynomial-N, circle, involute-BASE_RADIUS_MM.")
+        str,
+        typer.Option(
+            metavar="FORM", help="Form to remove: none, mean, line, polynomial-N, circle, involute-BASE_RADIUS_MM."
+        ),
     ] = "line",
-    cutoff_mm: Annotated[float | None, typer.Option(min=1e-6, help="Long cut-off; default by ISO 4288.")] = None,
-    short_cutoff_um: Annotated[float | None, typer.Option(min=1e-6, help="Short cut-off; default by ISO 3274.")] = None,
-    method: Annotated[str, typer.Option(help="Filter of the long cut-off: gaussian, robust, spline.")] = "gaussian",
+    cutoff_mm: Annotated[
+        float | None, typer.Option(metavar="MM", min=1e-6, help="Long cut-off; default by ISO 4288.")
+    ] = None,
+    short_cutoff_um: Annotated[
+        float | None, typer.Option(metavar="UM", min=1e-6, help="Short cut-off; default by ISO 3274.")
+    ] = None,
+    method: Annotated[
+        str, typer.Option(metavar="NAME", help="Filter of the long cut-off: gaussian, robust, spline.")
+    ] = "gaussian",
     outliers: Annotated[
-        float | None, typer.Option(min=1.0, help="Mask spikes and pits further off than so many robust sigmas.")
+        float | None,
+        typer.Option(metavar="SIGMAS", min=1.0, help="Mask spikes and pits further off than so many robust sigmas."),
     ] = None,
     trim: Annotated[
-        float, typer.Option(min=0.0, help="Cut-offs to cut off each end afterwards; instruments cut 0.5.")
+        float,
+        typer.Option(metavar="CUTOFFS", min=0.0, help="Cut-offs to cut off each end afterwards; instruments cut 0.5."),
     ] = 0.0,
     convention: Annotated[
         str | None,
-        typer.Option(help="'ISO 4287:1997', 'ISO 21920-2:2021', NIST, Mitutoyo; default the file's, else the first."),
+        typer.Option(
+            metavar="NAME",
+            help="'ISO 4287:1997', 'ISO 21920-2:2021', NIST, Mitutoyo; default the file's, else the first.",
+        ),
     ] = None,
-    unit: Annotated[str | None, typer.Option(help="Unit of plain numbers, as um or 'mm, um' (place, height).")] = None,
-    spacing: Annotated[str | None, typer.Option(help="Step of one column of heights, as '0.5 um'.")] = None,
+    unit: Annotated[
+        str | None, typer.Option(metavar="UNIT", help="Unit of plain numbers, as um or 'mm, um' (place, height).")
+    ] = None,
+    spacing: Annotated[
+        str | None, typer.Option(metavar="LENGTH", help="Step of one column of heights, as '0.5 um'.")
+    ] = None,
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the figures, or not.")] = True,
 ) -> None:
     """Parameters, moments and asperities of traces.

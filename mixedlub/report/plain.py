@@ -62,6 +62,7 @@ def plain_equation(latex: str) -> str:
         text = re.sub(re.escape(sign) + (r"(?![a-zA-Z])" if sign[-1].isalpha() else ""), plain, text)
     text = re.sub(r"(?<=_\w)(?=\\[a-zA-Z])", " ", text)
     text = re.sub(r"\\([a-zA-Z]+)", lambda m: GREEK.get(m[1], f" {m[1]} "), text)
+    text = re.sub(r"([α-ω])(?=[α-ω])", r"\1 ", text)
     text = re.sub(r"(_\s*\{(?=[^\W\d_]+\})|[_^]\s*\{(?=(?:\w|\*|-?[\d.]+)\}))([^}]*)\}", lambda m: m[1][0] + m[2], text)
     text = text.replace("{", "(").replace("}", ")")
     text = re.sub(r"(?<=[(\[]) +| +(?=[)\],^_])", "", re.sub(r" +", " ", text))

@@ -159,6 +159,16 @@ def located(name: str, section: config.SurfaceSection) -> config.SurfaceSection:
     return section.model_copy(update={"profile": str(known[wanted])})
 
 
+def _surface(name: str, section: config.SurfaceSection, folder: Path) -> Surface:
+    """One surface; what is wrong with its trace is said with its name."""
+    try:
+        return bodies.surface(name, located(name, section), folder.resolve())
+    except InputError as error:
+        if error.where.startswith("surfaces."):
+            raise
+        raise InputError(error.rule, where=f"surfaces.{name}: {error.where}", value=error.value) from None
+
+
 def _resolve(name: str, file: StudyFile, folder: Path) -> Study:
     chosen = pairings_of(file.pairings, file.surfaces)
     used = dict.fromkeys(s for both in chosen for s in both)
@@ -170,7 +180,7 @@ def _resolve(name: str, file: StudyFile, folder: Path) -> Study:
     options = file.options
     points = mesh(pair, share, points=options.path_points, slices=options.face_slices)
     oil = bodies.lubricant(file.lubricant)
-    surfaces = {s: bodies.surface(s, located(s, file.surfaces[s]), folder.resolve()) for s in used}
+    surfaces = {s: _surface(s, file.surfaces[s], folder) for s in used}
     inputs = {
         **_condition_inputs(file, pair, points, oil),
         **_pairing_inputs([(surfaces[a], surfaces[b]) for a, b in chosen]),

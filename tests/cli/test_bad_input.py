@@ -64,6 +64,12 @@ def test_a_file_in_place_of_a_case_folder_is_called_one(command, tmp_path, capsy
     assert "is a file; name the case folder" in said
 
 
+def test_a_misspelt_command_gets_the_nearest(capsys):
+    status, said = refused(capsys, "diagnos", str(CASE))
+    assert status == 2
+    assert "command: 'diagnos': no such command; nearest known: 'diagnose'" in said
+
+
 def test_refused_case_leaves_no_folder(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     case = shutil.copytree(CASE, tmp_path / "case")

@@ -173,6 +173,7 @@ def test_no_useful_test_is_said(offset: Diagnosis) -> None:
         (r"\dfrac{a}{\frac{b}{c}}", "a/(b/c)"),
         (r"\sqrt{x} \cdot y_{max}", "√(x) · y_max"),
         (r"\pi D R_s\sigma_s", "π D R_s σ_s"),
+        (r"\beta\eta_0\Delta\theta", "β η_0 Δθ"),
         (r"\tfrac12\rho\,\bigl[1 + s\operatorname{sgn}\omega\bigr]", "½ρ [1 + s sgn ω]"),
     ],
 )
