@@ -22,6 +22,7 @@ from mixedlub.diagnosis.posterior import Key, Posterior, posterior
 from mixedlub.diagnosis.predict import Prediction, Refined, Rows, refine
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search import Progress, Search, search
+from mixedlub.diagnosis.validity import beyond_range
 from mixedlub.effect import find
 from mixedlub.forward import Forward
 from mixedlub.table import Table
@@ -108,6 +109,8 @@ def diagnose_case(
     columns = [c.name for c in case.kind.columns if c.name in rows]
     place = region(rows, columns, np.where(chance > 0.5, 0.0, recorded.mismatch_z))
     tests = _next_tests(found, judged, refined, columns)
+    if not isinstance(judged.verdict, str):
+        warnings += beyond_range(found.problem, judged.verdict, refined[judged.verdict].z)
     return Diagnosis(case, found, test, judged, refined, recorded, other, chance, place, kept, tests, tuple(warnings))
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mixedlub.diagnosis.advice import next_test
 from mixedlub.diagnosis.answer import effect_records, interval, verdict_fit
 from mixedlub.diagnosis.carriers import NOTHING, READING
 from mixedlub.diagnosis.confusion import Confusion, confusion
@@ -18,7 +19,6 @@ from mixedlub.diagnosis.labels import (
     effect_words,
     explanation_words,
     number,
-    plain_equation,
     range_text,
     unit_of,
     words_of,
@@ -26,6 +26,7 @@ from mixedlub.diagnosis.labels import (
 from mixedlub.diagnosis.maps import missing
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.effect import Effect
+from mixedlub.report.plain import plain_equation
 
 WIDTH = 88
 REFITTED = "Parameters were refitted without each level; what the answer is was settled with all of them."
@@ -86,7 +87,7 @@ def sections(d: Diagnosis, unnamed: Unnamed | None = None) -> list[Section]:
         Section(GAIN, _gain(d)),
         Section(OUTLIERS, *_outliers(d)),
         Section(CALIBRATION, *_calibration(d)),
-        Section(NEXT, _next_test(d)),
+        Section(NEXT, next_test(d)),
         Section("Warnings", d.warnings),
     ]
     return [s for s in found if s.sentences or s.table]
@@ -382,22 +383,3 @@ def _calibrated(d: Diagnosis) -> tuple[np.ndarray, np.ndarray]:
         return d.found.unknown.z, np.sqrt(np.diag(d.found.unknown.covariance))
     refined = verdict_fit(d)
     return refined.z, np.sqrt(np.diag(refined.covariance))
-
-
-def _next_test(d: Diagnosis) -> tuple[str, ...]:
-    if d.posterior.verdict == "unknown":
-        place = ", ".join(range_text(cut) for cut in d.region.where) or "all conditions"
-        return (f"To learn its form, refine and repeat the levels around {place}.",)
-    if not d.next_tests:
-        return ()
-    first = d.next_tests[0]
-    if first.expected_bits < 0.01:
-        return ("No single reading near these conditions would say more.",)
-    said = []
-    if first.expected_bits < 0.1:
-        said.append("No single reading would tell much more; the best would be:")
-    names = "; ".join(explanation_words(name.split("+")) for name in first.separates)
-    said.append(
-        f"Run {conditions_text(first.conditions)}: {first.expected_bits:.2f} bit towards telling apart {names}."
-    )
-    return tuple(said)
