@@ -144,7 +144,7 @@ def test_wrong_arguments(tmp_path, arguments, message):
 def test_missing_file_and_folder(tmp_path):
     with pytest.raises(InputError, match=r"absent\.txt: no such file"):
         read(tmp_path / "absent.txt")
-    with pytest.raises(InputError, match="not a file"):
+    with pytest.raises(InputError, match="is a folder"):
         read(tmp_path)
 
 
