@@ -136,6 +136,8 @@ pressure                | p          | Pa      | hydrostatic pressure
 time                    | t          | s       | time since the start of the recording
 sequence                | q          | -       | place in the test programme, 0 at its start and 1 at its end
 ambient_temperature     | theta_a    | K       | temperature around the rig
+fringe_order            | N          | -       | interference order that the instrument counted
+first_fringe_order      | N_0        | -       | lowest interference order of the recording
 reading                 | y          | *       | the number the rig records, in the unit of its channel
 reading_scale           | y_0        | *       | typical size of the recorded number, for effects given as a share of it
 pinion_radius           | r_1        | m       | operating pitch radius of the pinion

@@ -41,8 +41,18 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
         **bodies.lubricant(system.lubricant).inputs(temperature),
         **bookkeeping_inputs(system, table),
         **programme(table, recorded),
+        **_orders(table, recorded),
         "oil_temperature": temperature,
     }
+
+
+def _orders(table: Table, recorded: Table) -> Inputs:
+    """Interference orders, where the recording changes them; rows without one read as the lowest does."""
+    if "fringe_order" not in recorded or np.ptp(recorded["fringe_order"]) == 0:
+        return {}
+    first = float(np.min(recorded["fringe_order"]))
+    orders = table["fringe_order"] if "fringe_order" in table else np.full(len(table), first)
+    return {"fringe_order": column(orders), "first_fringe_order": first}
 
 
 def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibration, ...]:
