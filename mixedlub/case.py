@@ -74,13 +74,15 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
 
 def read_conditions(case: Case, path: Path) -> Table:
     """Another table of conditions for the case."""
-    return read_table(path, (RUN, *BOOKKEEPING, *case.kind.columns, *_measured(case.system, False)))
+    return read_table(
+        path, (RUN, *BOOKKEEPING, *case.kind.columns, *case.kind.channels, *_measured(case.system, False))
+    )
 
 
 def _read(path: Path, found: Kind, quantity: str | None, system: config.System, needed: bool) -> Table | None:
     if not path.exists() and not needed:
         return None
-    columns = (RUN, *BOOKKEEPING, *found.columns, *_measured(system, quantity is not None))
+    columns = (RUN, *BOOKKEEPING, *found.columns, *found.channels, *_measured(system, quantity is not None))
     table = read_table(path, columns)
     if quantity is not None and np.ptp(table[quantity]) == 0 and len(table) > 2:
         raise InputError(

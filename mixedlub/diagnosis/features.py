@@ -12,6 +12,8 @@ from mixedlub.table import Table
 
 NODES = 12
 JITTER = 1e-6
+HELD = 0.01
+"""A condition that spans less than this share of its size was held: what it wanders is no variation to learn from."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +45,13 @@ class Coordinate:
         size, vectors = np.linalg.eigh(kernel + JITTER * np.eye(nodes.size))
         keep = size > 1e-3 * size.max()
         return _kernel(self.scale(values), nodes, length) @ (vectors[:, keep] / np.sqrt(size[keep]))[:, ::-1]
+
+
+def _held(name: str, levels: np.ndarray) -> bool:
+    if levels.dtype.kind in "US" or name == "sequence":
+        return False
+    size = levels + 273.15 if name.endswith("temperature_C") else levels
+    return float(np.ptp(size)) < HELD * float(np.max(np.abs(size)))
 
 
 def _kernel(a: np.ndarray, b: np.ndarray, length: float) -> np.ndarray:
@@ -102,7 +111,7 @@ def coordinates(case: Case, table: Table, forward: Forward) -> Coordinates:
     axes = []
     for name, values in raw_coordinates(case, table, forward).items():
         levels = np.unique(values)
-        if levels.size < 2:
+        if levels.size < 2 or _held(name, levels):
             continue
         if values.dtype.kind in "US":
             axes.append(Coordinate(name, levels))

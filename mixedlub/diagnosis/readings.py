@@ -8,6 +8,8 @@ from mixedlub.diagnosis.answer import checked
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import conditions_text, number, unit_of, words_of
 
+MUCH = 1.5
+
 
 def reading_conditions(d: Diagnosis, row: int) -> str:
     """The conditions of one reading in words."""
@@ -31,6 +33,21 @@ def checked_channel(d: Diagnosis) -> tuple[str, ...]:
     return (
         f"The predicted readings go with {name}, which was kept back from every fit, with a correlation of "
         f"{check.correlation:+.3f} over {check.n} readings.",
+    )
+
+
+def steadied_noise(d: Diagnosis) -> tuple[str, ...]:
+    """That stated standard deviations were taken together with their like, where it changed them much."""
+    stated = d.recorded.table.columns.get(f"{d.case.quantity}_sd")
+    if stated is None:
+        return ()
+    size = np.abs(d.readings) if d.case.kind.logarithmic else 1.0
+    most = float(np.exp(np.max(np.abs(np.log(d.found.problem.sd * size / stated)))))
+    if most < MUCH:
+        return ()
+    return (
+        "The stated standard deviations jump between like readings, as those of few tests do: each was taken "
+        f"together with its like, which moved them by up to a factor {number(most)}.",
     )
 
 

@@ -23,7 +23,7 @@ from mixedlub.diagnosis.labels import (
 )
 from mixedlub.diagnosis.maps import missing
 from mixedlub.diagnosis.problem import effects_of
-from mixedlub.diagnosis.readings import checked_channel, outliers, reading_conditions
+from mixedlub.diagnosis.readings import checked_channel, outliers, reading_conditions, steadied_noise
 from mixedlub.effect import Effect
 
 WIDTH = 88
@@ -78,7 +78,7 @@ def sections(d: Diagnosis, unnamed: Unnamed | None = None) -> list[Section]:
     alike = confusion(d.found)
     found = [
         Section(ANSWER, (headline(d), *_standing(d))),
-        Section(MISMATCH, _mismatch(d)),
+        Section(MISMATCH, (*_mismatch(d), *steadied_noise(d))),
         Section(WHERE, _where(d)),
         Section(LEFT_OUT, *_left_out(d)),
         *([_unnamed(d, unnamed)] if unnamed is not None else []),

@@ -20,7 +20,8 @@ FRINGE_NM = (167.0, 225.0)
 MODEL_ERROR = 0.08
 """Error of what the other readings say at this one, over an interference order."""
 
-OPTIONAL = (Column("fringe_order", at_least=0.0, required=False), Column("time_s", required=False))
+TIME = Column("time_s", required=False)
+FRINGE_ORDER = Column("fringe_order", at_least=0.0, required=False)
 
 
 def reading(film_thickness: np.ndarray) -> np.ndarray:
@@ -97,7 +98,8 @@ def reading_fault(recorded: Table, row: int, excess: float) -> str | None:
 KIND = Kind(
     name="film",
     quantities=("film_thickness_nm",),
-    columns=(*COLUMNS, *OPTIONAL),
+    columns=(*COLUMNS, TIME),
+    channels=(FRINGE_ORDER,),
     sections=("contact",),
     chain=chain,
     inputs=inputs,

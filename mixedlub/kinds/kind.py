@@ -28,7 +28,8 @@ class Kind:
     scales the priors of what is not known by it. ``reading_fault(recorded, row, excess)`` says in words what
     an instrument of this kind does wrong when reading ``row`` is off by ``excess`` (unit of the column).
     ``logarithmic`` kinds span decades and are compared by the logarithm of the reading. ``part_rigs`` are the
-    names in the column ``rig`` whose readings are compared with a part of the base model.
+    names in the column ``rig`` whose readings are compared with a part of the base model. ``channels`` are what
+    the instrument tells of itself beside the reading: read as columns, but no condition of the test.
     """
 
     name: str
@@ -41,6 +42,7 @@ class Kind:
     reading_fault: Callable[[Table, int, float], str | None] = lambda recorded, row, excess: None
     logarithmic: bool = False
     part_rigs: tuple[str, ...] = ()
+    channels: tuple[Column, ...] = ()
 
 
 SCALE = {
