@@ -47,7 +47,12 @@ class Coordinate:
         return _kernel(self.scale(values), nodes, length) @ (vectors[:, keep] / np.sqrt(size[keep]))[:, ::-1]
 
 
-def _held(name: str, levels: np.ndarray) -> bool:
+def is_held(name: str, levels: np.ndarray) -> bool:
+    """Whether a condition was held: it spans next to nothing of its size.
+
+    >>> is_held("oil_temperature_C", np.array([31.0, 32.3])), is_held("speed_rpm", np.array([500.0, 520.0]))
+    (True, False)
+    """
     if levels.dtype.kind in "US" or name == "sequence":
         return False
     size = levels + 273.15 if name.endswith("temperature_C") else levels
@@ -111,7 +116,7 @@ def coordinates(case: Case, table: Table, forward: Forward) -> Coordinates:
     axes = []
     for name, values in raw_coordinates(case, table, forward).items():
         levels = np.unique(values)
-        if levels.size < 2 or _held(name, levels):
+        if levels.size < 2 or is_held(name, levels):
             continue
         if values.dtype.kind in "US":
             axes.append(Coordinate(name, levels))
