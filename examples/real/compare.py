@@ -14,7 +14,9 @@ import numpy as np
 
 from mixedlub.case import read_case
 from mixedlub.diagnosis.answer import as_json, checked
+from mixedlub.diagnosis.confusion import confusion
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.words import unshown
 from profiles.errors import InputError
 
 KNOWN = tomllib.loads((Path(__file__).parent / "known.toml").read_text(encoding="utf-8"))
@@ -56,6 +58,9 @@ def said(d: Diagnosis) -> list[tuple[str, str]]:
             for p in effect["parameters"][:4]
         )
         rows.append((effect["id"], values))
+    hidden = unshown(d, confusion(d.found))
+    if answer["verdict"] != ["none"] and hidden:
+        rows.append(("Too weak to show", ", ".join(hidden)))
     rows += [("Reading", text) for text in faults(d)]
     check = checked(d)
     if check is None or check.correlation is None:

@@ -301,7 +301,7 @@ def _ties(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
                     f"Its signature at these conditions is nearest to that of {', '.join(near[:3])} "
                     f"(1 would be the same; {effect_words(name)})."
                 )
-    unseen = alike.unseen()
+    unseen = unshown(d, alike)
     rejected = [name for name in _rejected(d) if name not in unseen]
     if rejected:
         said.append(
@@ -309,11 +309,16 @@ def _ties(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
         )
     if unseen:
         said.append(
-            "Not testable here (below 3 sigma at usual strength once calibration adapts): "
-            + ", ".join(effect_words(name) for name in unseen)
-            + "."
+            "Not testable here (below 3 sigma at usual strength once calibration adapts), so neither named nor "
+            f"excluded: {', '.join(effect_words(name) for name in unseen)}."
         )
     return tuple(said)
+
+
+def unshown(d: Diagnosis, alike: Confusion) -> list[str]:
+    """Effects outside the tied explanations that these readings would not show at usual strength."""
+    told = {name for key in d.posterior.tied if not isinstance(key, str) for name in key}
+    return [name for name in alike.unseen() if name not in told]
 
 
 def _rejected(d: Diagnosis) -> list[str]:
