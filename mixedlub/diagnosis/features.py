@@ -56,7 +56,7 @@ def is_held(name: str, levels: np.ndarray) -> bool:
     if levels.dtype.kind in "US" or name == "sequence":
         return False
     size = levels + 273.15 if name.endswith("temperature_C") else levels
-    return float(np.ptp(size)) < HELD * float(np.max(np.abs(size)))
+    return float(np.ptp(size)) <= HELD * float(np.max(np.abs(size)))
 
 
 def _kernel(a: np.ndarray, b: np.ndarray, length: float) -> np.ndarray:
