@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -74,16 +74,13 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
 
 def read_conditions(case: Case, path: Path) -> Table:
     """Another table of conditions for the case."""
-    return read_table(
-        path, (RUN, *BOOKKEEPING, *case.kind.columns, *case.kind.channels, *_measured(case.system, False))
-    )
+    return read_table(path, _columns(case.kind, case.system, False))
 
 
 def _read(path: Path, found: Kind, quantity: str | None, system: config.System, needed: bool) -> Table | None:
     if not path.exists() and not needed:
         return None
-    columns = (RUN, *BOOKKEEPING, *found.columns, *found.channels, *_measured(system, quantity is not None))
-    table = read_table(path, columns)
+    table = read_table(path, _columns(found, system, quantity is not None))
     if quantity is not None and np.ptp(table[quantity]) == 0 and len(table) > 2:
         raise InputError(
             "all readings are the same number; a stuck channel cannot be diagnosed",
@@ -91,6 +88,13 @@ def _read(path: Path, found: Kind, quantity: str | None, system: config.System, 
             value=float(table[quantity][0]),
         )
     return table
+
+
+def _columns(found: Kind, system: config.System, measured: bool) -> tuple[Column, ...]:
+    """What a table of the case may hold; surfaces are those of the system where the kind computes with them."""
+    names = tuple(system.surfaces) if "surfaces" in found.sections else ()
+    own = (replace(c, names=names) if c.form == "name" and "surface" in c.name else c for c in found.columns)
+    return (RUN, *BOOKKEEPING, *own, *found.channels, *_measured(system, measured))
 
 
 def _measured(system: config.System, required: bool) -> tuple[Column, ...]:

@@ -14,6 +14,7 @@ import numpy as np
 from mixedlub import standard
 from mixedlub.effect import Effect, catalogue, find
 from mixedlub.quantities import GLOSSARY
+from mixedlub.report.plain import plain_equation
 
 RIGS = tuple(standard.CONDITIONS)
 ALIKE = 0.95
@@ -128,7 +129,7 @@ def _page(effect: Effect) -> str:
         _entry("stage", effect.stage),
         _entry("changes", acted),
         _entry("reads", ", ".join(effect.reads) or "nothing else"),
-        _entry("equation", effect.equation),
+        _entry("equation", plain_equation(effect.equation)),
         _entry("source", effect.source),
     ]
     if effect.valid:

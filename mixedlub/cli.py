@@ -6,6 +6,7 @@ import os
 import sys
 import warnings
 from collections.abc import Sequence
+from typing import Annotated
 
 # Before NumPy is loaded: matrices are small here, and threads of BLAS would wait on those of the batch engine.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -13,16 +14,29 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import typer
 
 from mixedlub.commands import check, diagnose, effects, import_files, profile, prove, simulate, study
-from mixedlub.commands.output import drop_empty_folders, forget_folder, note, save_traceback
-from profiles.errors import InputError
+from mixedlub.commands.output import drop_empty_folders, forget_folder, note, save_traceback, say
+from mixedlub.refusal import of_option
+from profiles.errors import InputError, nearest
 
 COMMANDS = (profile, study, simulate, diagnose, check, import_files, effects, prove)
 
 app = typer.Typer(add_completion=False, no_args_is_help=False, rich_markup_mode=None, pretty_exceptions_enable=False)
 
 
+def _say_version(wanted: bool) -> None:
+    if wanted:
+        from mixedlub.version import installed_version
+
+        say(f"mixedlub {installed_version()}")
+        raise typer.Exit
+
+
 @app.callback()
-def _about() -> None:
+def _about(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_say_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
     """Surface finish, oil film and gear loss.
 
     From roughness traces to power loss, and from recordings to the missing physics.
@@ -43,6 +57,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(words: list[str]) -> int:
     try:
+        if words and not words[0].startswith("-") and words[0] not in (names := [c.NAME for c in COMMANDS]):
+            raise InputError(f"no such command; {nearest(words[0], names)}", where="command", value=words[0])
         status = typer.main.get_command(app).main(words, prog_name="mixedlub", standalone_mode=False)
         sys.stdout.flush()
         return int(status or 0)
@@ -57,7 +73,7 @@ def _run(words: list[str]) -> int:
     except Exception as error:
         if hasattr(error, "format_message") and hasattr(error, "exit_code"):
             place = getattr(getattr(error, "ctx", None), "command_path", "mixedlub")
-            return _failed(f"{error.format_message()} (see {place} --help)", int(error.exit_code))
+            return _failed(f"{of_option(error.format_message())} (see {place} --help)", int(error.exit_code))
         return _failed(f"unexpected {type(error).__name__}: {error}; details in {save_traceback(error)}", 1)
 
 

@@ -2,18 +2,30 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
+from itertools import chain
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
+from mixedlub import refusal
 from profiles.errors import InputError, nearest
 
 T = TypeVar("T", bound=BaseModel)
-Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
-NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
-Number = Annotated[float, Field(allow_inf_nan=False)]
+
+
+def _no_switch(value: Any) -> Any:
+    if isinstance(value, bool):
+        raise ValueError("must be a number")
+    return value
+
+
+Float = Annotated[float, BeforeValidator(_no_switch)]
+Positive = Annotated[Float, Field(gt=0, allow_inf_nan=False)]
+NotNegative = Annotated[Float, Field(ge=0, allow_inf_nan=False)]
+Number = Annotated[Float, Field(allow_inf_nan=False)]
 Modulus = Annotated[float, Field(ge=0.1, le=2000)]
 Density = Annotated[float, Field(ge=300, le=3000)]
 Radius = Annotated[float, Field(gt=0)]
@@ -37,7 +49,7 @@ class LoadSharing(Section):
     @model_validator(mode="after")
     def _table_or_model(self) -> LoadSharing:
         if (self.table is None) == (self.model is None):
-            raise ValueError('needs either table = "FILE" or model = "ldp" or "rigid"')
+            raise ValueError('needs either table = "FILE", or model = "ldp" or "rigid"; not both')
         return self
 
 
@@ -160,10 +172,12 @@ class System(Section):
 def read_toml(path: Path) -> dict[str, Any]:
     """The file's content, or an error saying why it is not TOML."""
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except FileNotFoundError:
         raise InputError("no such file", where=str(path)) from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, OSError, RecursionError) as error:
+    except OSError as error:
+        raise InputError(f"cannot be read ({error.strerror})", where=str(path)) from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise InputError(f"is not readable as TOML ({error})", where=str(path)) from None
 
 
@@ -172,23 +186,39 @@ def parse(model: type[T], data: dict[str, Any], where: str) -> T:
     try:
         return model.model_validate(data)
     except ValidationError as error:
-        first = _most_telling(error)
-        place = ".".join(str(part) for part in first["loc"] if not str(part)[:1].isupper())
-        if first["type"] == "extra_forbidden":
-            known = _known_keys(model, first["loc"][:-1])
-            rule = f"key is not known; {nearest(str(first['loc'][-1]), known)}"
-            raise InputError(rule, where=f"{where}: {place}") from None
-        value = None if first["type"] == "missing" or isinstance(first["input"], dict) else first["input"]
-        rule = "is missing" if first["type"] == "missing" else first["msg"].removeprefix("Value error, ")
-        raise InputError(
-            rule[:1].lower() + rule[1:], where=f"{where}: {place}" if place else where, value=value
-        ) from None
+        raise _refused(model, error.errors(), where) from None
 
 
-def _most_telling(error: ValidationError) -> Any:
-    """Unknown keys first: a misspelt key explains the missing one beside it."""
-    found = error.errors()
-    return next((e for e in found if e["type"] == "extra_forbidden"), found[0])
+def _refused(model: type[BaseModel], errors: list[Any], where: str) -> InputError:
+    """What to say of the errors: another kind of file first, then unknown keys, which explain missing ones."""
+    other = (e for e in errors if e["loc"] == ("schema",) and e["type"] == "literal_error")
+    unknown = (e for e in errors if e["type"] == "extra_forbidden")
+    first = next(chain(other, unknown), errors[0])
+    *table, last = first["loc"] or ("",)
+    if first["type"] == "extra_forbidden":
+        hint = nearest(str(last), _known_keys(model, tuple(table)))
+        return InputError(f"key is not known; {hint}", where=f"{where}: {refusal.place(first['loc'])}")
+    if first["type"] == "missing" and isinstance(last, int):
+        needed = 1 + max(e["loc"][-1] for e in errors if e["loc"][:-1] == tuple(table))
+        said = f"needs {refusal.counted(needed)}, not {last}"
+        return InputError(said, where=f"{where}: {refusal.place(table)}", value=first["input"])
+    shown = None if first["type"] == "missing" or isinstance(first["input"], dict) else first["input"]
+    place = f"{where}: {refusal.place(first['loc'])}" if first["loc"] else where
+    return InputError(refusal.rule(first), where=place, value=shown)
+
+
+def in_file(error: InputError, file: str) -> InputError:
+    """An error about a key of a file, with the file and the table of the key; one that names its place stays.
+
+    >>> print(in_file(InputError("teeth interfere", where="teeth", value=[5, 60]), "system.toml"))
+    system.toml: gears.teeth: [5, 60]: teeth interfere
+    """
+    key = re.split(r"[.,\[]", error.where)[0]
+    tables: dict[str, type[Section]] = {"": System, "gears.": Gears, "gears.load_sharing.": LoadSharing}
+    for table, section in tables.items():
+        if key in section.model_fields and (table == "" or key == error.where):
+            return InputError(error.rule, where=f"{file}: {table}{error.where}", value=error.value)
+    return error
 
 
 def _known_keys(model: type[BaseModel], place: tuple[Any, ...]) -> list[str]:

@@ -133,6 +133,7 @@ class Effect:
     valid: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     after: tuple[str, ...] = ()
     kinds: tuple[str, ...] = ()
+    odds: float = 1.0
 
     @property
     def summary(self) -> str:
@@ -169,6 +170,7 @@ def effect(
     valid: Mapping[str, tuple[float, float]] | None = None,
     after: tuple[str, ...] = (),
     kinds: tuple[str, ...] = (),
+    odds: float = 1.0,
 ) -> Callable[[Callable[..., object]], Callable[..., object]]:
     """Register a law as an effect; its signature must say what the declaration says.
 
@@ -176,7 +178,8 @@ def effect(
     ``fingerprint`` names conditions (load, speed, slide_roll_ratio, oil_temperature, roughness, sequence) and
     says whether the effect's share of the reading, (with - without)/without, grows (``"+"``), falls (``"-"``) or
     stays (``"0"``) as the condition grows; falling includes growing more negative. ``after`` names effects on
-    the same quantity that come first; ``kinds`` restricts the kinds of recording (empty: all).
+    the same quantity that come first; ``kinds`` restricts the kinds of recording (empty: all). ``odds`` below one
+    say that it is missing less often than others are, before any reading is seen.
     """
     targets = (acts_on,) if isinstance(acts_on, str) else acts_on
 
@@ -194,6 +197,8 @@ def effect(
         for name in names:
             if name not in GLOSSARY:
                 raise TypeError(f"{where}: {name!r} is not in the glossary; {nearest(name, GLOSSARY)}")
+        if not 0.0 < odds <= 1.0:
+            raise TypeError(f"{where}: odds {odds!r} must lie above 0 and not above 1")
         if law.__name__ in _registry and _registry[law.__name__].law.__module__ != law.__module__:
             raise TypeError(f"{where}: already defined in {_registry[law.__name__].law.__module__}")
         _registry[law.__name__] = Effect(
@@ -210,6 +215,7 @@ def effect(
             valid=MappingProxyType(dict(valid or {})),
             after=after,
             kinds=kinds,
+            odds=odds,
         )
         return law
 

@@ -19,7 +19,7 @@ class CaseWarning(UserWarning):
 
 @dataclass(frozen=True)
 class Column:
-    """What a column holds: a number within bounds, a whole number, or a name."""
+    """What a column holds: a number within bounds, a whole number, or a name (one of ``names`` if there are any)."""
 
     name: str
     form: str = "number"
@@ -27,6 +27,7 @@ class Column:
     at_least: float = -np.inf
     at_most: float = np.inf
     required: bool = True
+    names: tuple[str, ...] = ()
 
     def parse(self, text: str, where: str) -> float | int | str:
         """The cell's value, or an error that names the place."""
@@ -34,6 +35,8 @@ class Column:
         if self.form == "name":
             if not text:
                 raise InputError(f"{self.name} must name something", where=where, value=text)
+            if self.names and text not in self.names:
+                raise InputError(f"no such name in system.toml; {nearest(text, self.names)}", where=where, value=text)
             return text
         try:
             value = float(text)
@@ -92,26 +95,32 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: str | None = "ru
         text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
         raise InputError("no such file", where=str(path)) from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"cannot be read as UTF-8 text ({error})", where=str(path)) from None
+    except UnicodeDecodeError:
+        raise InputError("is not text in UTF-8", where=str(path)) from None
+    except OSError as error:
+        raise InputError(f"cannot be read ({error.strerror})", where=str(path)) from None
     if "\0" in text:
         raise InputError("is not a text table", where=where)
     try:
-        lines = [row for row in csv.reader(text.splitlines()) if any(cell.strip() for cell in row)]
+        reader = csv.reader(text.splitlines())
+        lines = [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
     except csv.Error as error:
         raise InputError(f"is not a comma-separated table ({error})", where=where) from None
     if len(lines) < 2:
         raise InputError("needs a header line and at least one row", where=where)
-    header = [cell.strip() for cell in lines[0]]
-    doubled = {name for name in header if header.count(name) > 1}
+    header = [cell.strip() for cell in lines[0][1]]
+    separator = next((mark for mark in (";", "\t") if len(header) == 1 and mark in header[0]), None)
+    if separator is not None:
+        raise InputError("columns are separated by commas, numbers have a decimal point", where=where, value=separator)
+    doubled = {name for name in header if name and header.count(name) > 1}
     if doubled:
         raise InputError("column appears twice", where=where, value=sorted(doubled)[0])
     known = {c.name: c for c in columns}
+    unknown = [name for name in header if name and name not in known]
     for column in columns:
         if column.required and column.name not in header:
-            hint = nearest(column.name, [name for name in header if name not in known])
-            raise InputError(f"column {column.name!r} is missing; {hint}", where=f"{where}: header")
-    unknown = [name for name in header if name and name not in known]
+            hint = f"; {nearest(column.name, unknown)}" if unknown else ""
+            raise InputError(f"column {column.name!r} is missing{hint}", where=f"{where}: header")
     if unknown:
         warnings.warn(
             f"{where}: columns ignored because they are not known: {', '.join(unknown)}",
@@ -120,15 +129,19 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: str | None = "ru
         )
     cells = _parse(lines, header, known, where)
     if key is not None:
-        values, counts = np.unique(cells[key], return_counts=True)
-        if (counts > 1).any():
-            raise InputError(f"{key} must be unique", where=f"{where}: {key}", value=int(values[counts > 1][0]))
+        first = np.unique(cells[key], return_index=True)[1]
+        if first.size < cells[key].size:
+            again = np.setdiff1d(np.arange(cells[key].size), first)[0]
+            place = f"{where}: line {lines[again + 1][0]}, {key}"
+            raise InputError(f"{key} must be unique", where=place, value=int(cells[key][again]))
     return Table(cells, where)
 
 
-def _parse(lines: list[list[str]], header: list[str], known: Mapping[str, Column], where: str) -> dict[str, np.ndarray]:
+def _parse(
+    lines: list[tuple[int, list[str]]], header: list[str], known: Mapping[str, Column], where: str
+) -> dict[str, np.ndarray]:
     cells: dict[str, list[float | int | str]] = {name: [] for name in header if name in known}
-    for number, row in enumerate(lines[1:], start=2):
+    for number, row in lines[1:]:
         if len(row) != len(header):
             raise InputError(
                 f"has {len(row)} cells where the header has {len(header)}", where=f"{where}: line {number}"

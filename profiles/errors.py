@@ -16,6 +16,7 @@ class InputError(ValueError):
     """
 
     def __init__(self, rule: str, *, where: str = "", value: object = None) -> None:
+        self.rule, self.where, self.value = rule, where, value
         shown = "" if value is None else f"{value!r:.80}"
         super().__init__(": ".join(part for part in (where, shown, rule) if part))
 

@@ -52,7 +52,7 @@ def open_source(path: Path, unit: tuple[str, str] | None, spacing: float | None)
     if not path.exists():
         raise InputError("no such file", where=str(path))
     if not path.is_file():
-        raise InputError("not a file", where=str(path))
+        raise InputError("is a folder; name the files in it" if path.is_dir() else "not a file", where=str(path))
     size = path.stat().st_size
     if size > MAX_BYTES:
         raise InputError(f"larger than {MAX_BYTES} bytes, the largest file that is read", where=where, value=size)

@@ -31,7 +31,7 @@ _ALIASES = {
 }  # fmt: skip
 
 _MICRO = str.maketrans({"\u00b5": "u", "\u03bc": "u", "\u00c5": "a", "\u212b": "a"})
-_QUANTITY = re.compile(r"\s*([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?)\s*([^\d\s]\S*)\s*\Z")
+_QUANTITY = re.compile(r"\s*([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?)\s*([^\d\s.]\S*)\s*\Z")
 
 
 def known_unit(word: str) -> str | None:

@@ -28,6 +28,7 @@ def profile_warnings(
     """All warnings of an evaluated profile; ``raw`` is the trace as read, where it is at hand."""
     as_read = profile if raw is None else raw
     return [
+        *_inferred(as_read),
         *_stated(as_read),
         *_band(profile, found),
         *_lengths(profile, heights),
@@ -123,6 +124,11 @@ def _instrument(profile: Profile, found: Moments, raw: Profile) -> Iterator[str]
                 f"below {limit * 1e6:.3g} um the trace shows the tip of {radius * 1e6:.3g} um radius: a "
                 "short cut-off above that is needed"
             )
+
+
+def _inferred(raw: Profile) -> Iterator[str]:
+    if raw.origin.get("units_inferred"):
+        yield f"the file names no units; inferred from the numbers: {raw.origin['units']}"
 
 
 def _stated(raw: Profile) -> Iterator[str]:

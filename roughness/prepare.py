@@ -93,7 +93,7 @@ def roughness_profile(
         elif method == "spline":
             mean_line, kind = spline_mean_line(result.heights, result.spacing, cutoff), "spline high-pass"
         else:
-            raise InputError(f"must be known; {nearest(method, METHODS)}", where="filter method", value=method)
+            raise InputError(f"must be a known filter; {nearest(method, METHODS)}", where="method", value=method)
         rough = np.subtract(result.heights, mean_line, out=mean_line)
         # handed over for good, so the profile need not copy it
         rough.flags.writeable = False

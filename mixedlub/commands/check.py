@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 import typer
 
-from mixedlub.commands.output import case_folder, say, within_range
+from mixedlub.commands.output import case_folder, note, say, within_range
 
 if TYPE_CHECKING:
     from mixedlub.calibration import Calibration
@@ -29,7 +29,10 @@ def command(case: Annotated[Path, typer.Argument(metavar="CASE", help="Case fold
     from mixedlub.case import read_case
 
     with within_range(str(case)):
-        lines = list(understood(read_case(case_folder(case), need_recordings=False)))
+        found = read_case(case_folder(case), need_recordings=False)
+        lines = list(understood(found))
+    for text in found.notes:
+        note(text)
     for line in lines:
         say(line)
 

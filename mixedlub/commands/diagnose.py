@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.output import busy, case_folder, output_folder, say
+from mixedlub.commands.output import busy, case_folder, note, output_folder, say, within_range
 
 NAME = "diagnose"
 EXAMPLE = "mixedlub diagnose examples/case --out out/diagnose"
@@ -15,14 +15,18 @@ EXAMPLE = "mixedlub diagnose examples/case --out out/diagnose"
 
 def command(
     case: Annotated[Path, typer.Argument(metavar="CASE", help="Case folder with system.toml and recordings.csv.")],
-    out: Annotated[Path | None, typer.Option(help="Folder for the report; default out/diagnose/NAME.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Folder for the report; default out/diagnose/NAME.")
+    ] = None,
     predict: Annotated[
         Path | None, typer.Option(metavar="conditions.csv", help="Conditions to predict; default the case's own.")
     ] = None,
     exclude: Annotated[
         list[str] | None, typer.Option(metavar="ID...", help="Leave effects out of the catalogue.")
     ] = None,
-    level: Annotated[float, typer.Option(min=1e-9, max=0.5, help="Level of the mismatch test.")] = 0.01,
+    level: Annotated[
+        float, typer.Option(metavar="CHANCE", min=1e-9, max=0.5, help="Level of the mismatch test.")
+    ] = 0.01,
 ) -> None:
     """Name the missing physics of a recording.
 
@@ -31,7 +35,9 @@ def command(
     from mixedlub.diagnosis.write import diagnose
 
     folder = output_folder(out, NAME, case_folder(case).resolve().name)
-    with busy("reading") as progress:
-        diagnose(case, folder, predict=predict, exclude=tuple(exclude or ()), level=level, progress=progress)
+    with busy("reading") as progress, within_range(str(case)):
+        found = diagnose(case, folder, predict=predict, exclude=tuple(exclude or ()), level=level, progress=progress)
+    for text in found.case.notes:
+        note(text)
     say((folder / "report.txt").read_text(encoding="utf-8"))
     say(f"written to {folder}")

@@ -1,9 +1,7 @@
-"""Where commands write: aside first, then renamed into place, so that no result is ever half overwritten."""
+"""Where commands write, and what they tell the user."""
 
 from __future__ import annotations
 
-import os
-import shutil
 import sys
 import tempfile
 import traceback
@@ -56,26 +54,6 @@ def case_folder(case: Path) -> Path:
 
 
 @contextmanager
-def writing(folder: Path) -> Iterator[Path]:
-    """A folder beside the results to write into; its entries replace theirs when all are written."""
-    for stale in folder.glob(".writing-*"):
-        if not _alive(stale.name.rpartition("-")[2]):
-            shutil.rmtree(stale, ignore_errors=True)
-    aside = folder / f".writing-{os.getpid()}"
-    aside.mkdir()
-    try:
-        yield aside
-        entries = sorted(aside.iterdir())
-        for entry in entries:
-            target = folder / entry.name
-            if target.is_dir():
-                target.rename(aside / f"{entry.name}.before")
-            entry.replace(target)
-    finally:
-        shutil.rmtree(aside, ignore_errors=True)
-
-
-@contextmanager
 def busy(first: str) -> Iterator[Callable[[str], None]]:
     """A line on stderr that says what is being done, where a person watches; gives the function that changes it."""
     from rich.console import Console
@@ -88,21 +66,15 @@ def busy(first: str) -> Iterator[Callable[[str], None]]:
         yield status.update
 
 
-def _alive(process: str) -> bool:
-    try:
-        os.kill(int(process), 0)
-    except (ValueError, ProcessLookupError):
-        return False
-    except PermissionError:
-        return True
-    return True
-
-
 @contextmanager
 def within_range(where: str) -> Iterator[None]:
-    """Numbers of the input too large or too small for arithmetic are bad input."""
+    """Bad input gets its place: numbers outside arithmetic that of the input, keys of a case their file."""
+    from mixedlub.config import in_file
+
     try:
         yield
+    except InputError as error:
+        raise in_file(error, "system.toml") from None
     except ArithmeticError as error:
         raise InputError(f"has numbers too large or too small to compute with ({error})", where=where) from None
 

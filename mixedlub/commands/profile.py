@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from mixedlub.commands.output import note, output_folder, say, writing
+from mixedlub.commands.output import note, output_folder, say
+from mixedlub.writing import writing
+from profiles.errors import InputError
 
 if TYPE_CHECKING:
     from profiles import Profile
@@ -23,26 +26,44 @@ Record = Mapping[str, Any]
 def command(
     files: Annotated[list[Path], typer.Argument(metavar="FILE...", help="Traces in any known format.")],
     out: Annotated[
-        Path | None, typer.Option(help="Folder for profile.json and figures; default out/profile/NAME.")
+        Path | None, typer.Option(metavar="DIR", help="Folder for profile.json and figures; default out/profile/NAME.")
     ] = None,
     form: Annotated[
-        str, typer.Option(help="Form to remove: none, mean, line, polynomial-N, circle, involute-BASE_RADIUS_MM.")
+        str,
+        typer.Option(
+            metavar="FORM", help="Form to remove: none, mean, line, polynomial-N, circle, involute-BASE_RADIUS_MM."
+        ),
     ] = "line",
-    cutoff_mm: Annotated[float | None, typer.Option(min=1e-6, help="Long cut-off; default by ISO 4288.")] = None,
-    short_cutoff_um: Annotated[float | None, typer.Option(min=1e-6, help="Short cut-off; default by ISO 3274.")] = None,
-    method: Annotated[str, typer.Option(help="Filter of the long cut-off: gaussian, robust, spline.")] = "gaussian",
+    cutoff_mm: Annotated[
+        float | None, typer.Option(metavar="MM", min=1e-6, help="Long cut-off; default by ISO 4288.")
+    ] = None,
+    short_cutoff_um: Annotated[
+        float | None, typer.Option(metavar="UM", min=1e-6, help="Short cut-off; default by ISO 3274.")
+    ] = None,
+    method: Annotated[
+        str, typer.Option(metavar="NAME", help="Filter of the long cut-off: gaussian, robust, spline.")
+    ] = "gaussian",
     outliers: Annotated[
-        float | None, typer.Option(min=1.0, help="Mask spikes and pits further off than so many robust sigmas.")
+        float | None,
+        typer.Option(metavar="SIGMAS", min=1.0, help="Mask spikes and pits further off than so many robust sigmas."),
     ] = None,
     trim: Annotated[
-        float, typer.Option(min=0.0, help="Cut-offs to cut off each end afterwards; instruments cut 0.5.")
+        float,
+        typer.Option(metavar="CUTOFFS", min=0.0, help="Cut-offs to cut off each end afterwards; instruments cut 0.5."),
     ] = 0.0,
     convention: Annotated[
         str | None,
-        typer.Option(help="'ISO 4287:1997', 'ISO 21920-2:2021', NIST, Mitutoyo; default the file's, else the first."),
+        typer.Option(
+            metavar="NAME",
+            help="'ISO 4287:1997', 'ISO 21920-2:2021', NIST, Mitutoyo; default the file's, else the first.",
+        ),
     ] = None,
-    unit: Annotated[str | None, typer.Option(help="Unit of plain numbers, as um or 'mm, um' (place, height).")] = None,
-    spacing: Annotated[str | None, typer.Option(help="Step of one column of heights, as '0.5 um'.")] = None,
+    unit: Annotated[
+        str | None, typer.Option(metavar="UNIT", help="Unit of plain numbers, as um or 'mm, um' (place, height).")
+    ] = None,
+    spacing: Annotated[
+        str | None, typer.Option(metavar="LENGTH", help="Step of one column of heights, as '0.5 um'.")
+    ] = None,
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the figures, or not.")] = True,
 ) -> None:
     """Parameters, moments and asperities of traces.
@@ -52,20 +73,21 @@ def command(
     from profiles import read
     from roughness import trace_record
 
-    traces = [read(file, unit=unit, spacing=spacing) for file in files]
-    found = [
-        trace_record(
-            trace,
-            form=form,
-            cutoff="auto" if cutoff_mm is None else cutoff_mm * 1e-3,
-            short_cutoff="auto" if short_cutoff_um is None else short_cutoff_um * 1e-6,
-            method=method,
-            outliers=outliers,
-            trim_cutoffs=trim,
-            convention=convention,
-        )
-        for trace in traces
-    ]
+    with named_options():
+        traces = [read(file, unit=unit, spacing=spacing) for file in files]
+        found = [
+            trace_record(
+                trace,
+                form=form,
+                cutoff="auto" if cutoff_mm is None else cutoff_mm * 1e-3,
+                short_cutoff="auto" if short_cutoff_um is None else short_cutoff_um * 1e-6,
+                method=method,
+                outliers=outliers,
+                trim_cutoffs=trim,
+                convention=convention,
+            )
+            for trace in traces
+        ]
     records: list[dict[str, Any]] = [{**record, "file": str(file)} for file, (_, record) in zip(files, found)]
     folder = output_folder(out, NAME, files[0].stem)
     for record in records:
@@ -78,6 +100,20 @@ def command(
         if figures:
             _draw(aside / "figures", [file.stem for file in files], [profile for profile, _ in found], records)
     say(f"details in {folder / 'profile.json'}" + (f", figures in {folder / 'figures'}" if figures else ""))
+
+
+OPTIONS = ("unit", "spacing", "form", "method", "convention")
+
+
+@contextmanager
+def named_options() -> Iterator[None]:
+    """What is wrong with an option, under the name it has on the command line."""
+    try:
+        yield
+    except InputError as error:
+        place = f"--{error.where}" if error.where in OPTIONS else error.where
+        rule = error.rule.replace("as unit '", "as --unit '").replace("as spacing '", "as --spacing '")
+        raise InputError(rule, where=place, value=error.value) from None
 
 
 def told(record: Record) -> Iterator[str]:

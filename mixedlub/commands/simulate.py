@@ -7,7 +7,8 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.output import case_folder, note, output_folder, say, within_range, writing
+from mixedlub.commands.output import case_folder, note, output_folder, say, within_range
+from mixedlub.writing import writing
 from profiles.errors import InputError
 
 NAME = "simulate"
@@ -16,7 +17,9 @@ EXAMPLE = "mixedlub simulate examples/case --out out/simulate"
 
 def command(
     case: Annotated[Path, typer.Argument(metavar="CASE", help="Case folder with system.toml.")],
-    out: Annotated[Path | None, typer.Option(help="Folder for simulation.csv; default out/simulate/NAME.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Folder for simulation.csv; default out/simulate/NAME.")
+    ] = None,
     at: Annotated[Path | None, typer.Option(metavar="conditions.csv", help="Other conditions than the case's.")] = None,
 ) -> None:
     """The base model at the conditions of a case.

@@ -10,7 +10,8 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.output import note, output_folder, say, within_range, writing
+from mixedlub.commands.output import note, output_folder, say, within_range
+from mixedlub.writing import writing
 
 NAME = "study"
 EXAMPLE = "mixedlub study examples/study_21_pairings.toml --out out/study"
@@ -18,9 +19,13 @@ EXAMPLE = "mixedlub study examples/study_21_pairings.toml --out out/study"
 
 def command(
     file: Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study: gears, oil, surfaces, conditions.")],
-    out: Annotated[Path | None, typer.Option(help="Folder for the results; default out/study/NAME.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Folder for the results; default out/study/NAME.")
+    ] = None,
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Figures and the HTML page, or not.")] = True,
-    scheduler: Annotated[str | None, typer.Option(help="Address of a Dask scheduler, e.g. tcp://host:8786.")] = None,
+    scheduler: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="Address of a Dask scheduler, e.g. tcp://host:8786.")
+    ] = None,
 ) -> None:
     """Power loss of every pairing at every condition.
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub.diagnosis.advice import beyond
 from mixedlub.diagnosis.check import Check, check_channel
 from mixedlub.diagnosis.diagnose import Diagnosis, Predicted
 from mixedlub.diagnosis.predict import Refined
@@ -58,7 +59,7 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
                 "conditions": t.conditions,
                 "separates": list(t.separates),
                 "expected_bits": t.expected_bits,
-                "text": separating_text(d, t.separates),
+                "text": "; ".join((*beyond(t.conditions, d.recorded.table), separating_text(d, t.separates))),
             }
             for t in d.next_tests
         ],

@@ -22,6 +22,7 @@ from mixedlub.diagnosis.posterior import Key, Posterior, posterior
 from mixedlub.diagnosis.predict import Prediction, Refined, Rows, refine
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search import Progress, Search, search
+from mixedlub.diagnosis.validity import beyond_range
 from mixedlub.effect import find
 from mixedlub.forward import Forward
 from mixedlub.table import Table
@@ -29,6 +30,7 @@ from profiles.errors import InputError
 
 AVERAGED = 6
 SMALL = 2e-3
+CANDIDATES = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +99,8 @@ def diagnose_case(
     found = search(problem, space, values, exclude, progress)
     progress("testing against nothing missing")
     test = mismatch_test(found, level)
-    judged = posterior(found, test)
+    progress("leaving levels out")
+    judged, kept = _judged(found, test)
     refined = _refine_leaders(found, judged)
     progress("predicting")
     recorded = _predict(found, judged, refined, rows)
@@ -106,9 +109,9 @@ def diagnose_case(
     columns = [c.name for c in case.kind.columns if c.name in rows]
     varied = [name for name in columns if not is_held(name, rows[name])] or columns
     place = region(rows, varied, np.where(chance > 0.5, 0.0, recorded.mismatch_z))
-    progress("leaving levels out")
-    kept = held_out(found, judged.verdict, chance > 0.5)
     tests = _next_tests(found, judged, refined, columns)
+    if not isinstance(judged.verdict, str):
+        warnings += beyond_range(found.problem, judged.verdict, refined[judged.verdict].z)
     return Diagnosis(case, found, test, judged, refined, recorded, other, chance, place, kept, tests, tuple(warnings))
 
 
@@ -142,6 +145,23 @@ def _unstated(
             y, base = np.log(y), np.log(base)
         sd = noise_from_repeats(case, rows, y) or noise_from_smoothness(y, base, space, values)
     return np.full(y.size, sd)
+
+
+def _judged(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
+    """Probabilities, with each name that would be the verdict first held against levels left out."""
+    demerits: dict[Key, float] = {}
+    while True:
+        judged = posterior(found, test, demerits)
+        key = judged.verdict
+        residual = found.unknown.fit.residual if isinstance(key, str) else found.fits[key].residual
+        outliers = outlier_chance(residual) > 0.5
+        kept = held_out(found, key, outliers)
+        if key in demerits or key in ("unknown", ()) or len(demerits) == CANDIDATES:
+            return judged, kept
+        rms = float(np.sqrt(np.mean(residual[~outliers] ** 2)))
+        demerits[key] = kept.demerit(rms, residual.size)
+        if demerits[key] == 0.0:
+            return judged, kept
 
 
 def _refine_leaders(found: Search, judged: Posterior) -> dict[Key, Refined]:

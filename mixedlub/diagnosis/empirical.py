@@ -10,11 +10,11 @@ from math import comb
 import numpy as np
 
 from mixedlub.chain import Model
+from mixedlub.diagnosis.carriers import calibrated_inputs, log_slope
 from mixedlub.diagnosis.fit import linear_fit
 from mixedlub.diagnosis.labels import number, unit_of, words_of
 from mixedlub.diagnosis.search import Search
-from mixedlub.diagnosis.unknown import SIZES
-from mixedlub.effect import Effect, Normal, Parameter
+from mixedlub.diagnosis.unknown import FACTORS, SIZES
 from mixedlub.quantities import GLOSSARY
 
 EXPONENTS = tuple(s * Fraction(n, m) for n, m in ((1, 3), (1, 2), (2, 3), (1, 1), (2, 1)) for s in (1, -1))
@@ -27,7 +27,6 @@ SLOTS = (
     ("load", ("load_share", "line_load")),
     ("loss", ("power_loss", "tangential_friction", "friction")),
 )
-FACTOR_SIZES = (0.03, 0.1, 0.3, 1.0)
 ALIKE = 0.999
 BEAM = 12
 CELLS = 4_000_000
@@ -35,7 +34,6 @@ MOST_BLOCKS = 6
 MOST_READINGS = 1500
 GAIN = 3.0
 WORTH = 0.7
-STEP = 1e-4
 
 
 @dataclass(frozen=True)
@@ -106,62 +104,17 @@ def absorbing_stages(found: Search) -> tuple[Absorbed, ...]:
     weighed = []
     for stage, names in SLOTS:
         for name in names:
-            slope = _log_slope(found, name)
-            if slope is None or not np.any(slope):
+            slope = log_slope(problem, none.z, name)
+            if slope is None:
                 continue
             own = smooth * (slope / problem.sd)[:, None]
             each = [
                 linear_fit(none.anchor, np.hstack([base, size * own]), found.unknown.fit.weight).evidence
-                for size in FACTOR_SIZES
+                for size in FACTORS
             ]
             weighed.append(Absorbed(stage, name, float(np.logaddexp.reduce(each) - np.log(len(each)) - plain)))
             break
     return tuple(sorted(weighed, key=lambda a: -a.evidence))
-
-
-def _log_slope(found: Search, name: str) -> np.ndarray | None:
-    """Change of the reading, as compared, with the logarithm of a quantity of the chain, all along the path."""
-    problem, forward = found.problem, found.problem.forward
-    if name not in forward.inputs and name not in {step for step, _ in forward.chain}:
-        return None
-
-    def factor(quantity: np.ndarray, *, log_factor: float) -> np.ndarray:
-        return quantity * np.exp(log_factor)
-
-    free = Effect(
-        id="free_factor",
-        law=factor,
-        stage="property",
-        acts_on=(name,),
-        reads=(),
-        parameters=(Parameter("log_factor", "-", Normal(0.0, 1.0), "logarithm of the free factor", null=0.0),),
-        equation="",
-        source="",
-        fingerprint={},
-        separated_by="",
-    )
-    inputs = _calibrated_inputs(found)
-    model = Model(forward.chain, tuple(inputs), ("reading",), (free,))
-    here = np.asarray(model(inputs, {"free_factor": {"log_factor": 0.0}})["reading"])
-    moved = np.asarray(model(inputs, {"free_factor": {"log_factor": STEP}})["reading"])
-    slope = np.broadcast_to((moved - here) / STEP * forward.scale, (problem.y.size, 1))[:, 0]
-    return slope / _unit_size(found)
-
-
-def _unit_size(found: Search) -> np.ndarray:
-    """Change of a reading, in its unit, for a change of one in what is compared."""
-    if found.problem.case.kind.logarithmic:
-        return np.abs(found.problem.level(found.none.prediction))
-    return np.ones(found.problem.y.size)
-
-
-def _calibrated_inputs(found: Search) -> dict[str, object]:
-    inputs = dict(found.problem.forward.inputs)
-    values = found.problem.calibration(found.none.z)
-    changes: dict[str, object] = {}
-    for c in found.problem.forward.calibrations:
-        changes.update(c.apply(inputs, values[c.name]))
-    return {**inputs, **changes}
 
 
 def features(found: Search) -> dict[str, np.ndarray]:
@@ -171,7 +124,7 @@ def features(found: Search) -> dict[str, np.ndarray]:
     for column in case.kind.columns:
         if column.form != "name" and column.name in rows and not column.name.endswith("_C"):
             every[column.name] = np.abs(np.asarray(rows[column.name], dtype=float))
-    inputs = _calibrated_inputs(found)
+    inputs = calibrated_inputs(found.problem, found.none.z)
     made = set(inputs) | {name for name, _ in forward.chain}
     parts = [name for name in (*CHAIN[1:], "film_thickness", "composite_roughness") if name in made]
     state = Model(forward.chain, tuple(inputs), tuple(parts))(inputs) if parts else {}
@@ -302,7 +255,7 @@ def power_law(found: Search) -> Law | None:
     names = tuple(values)
     middles = np.array([float(f"{np.exp(np.mean(np.log(v))):.2g}") for v in values.values()])
     logs = np.log(np.array(list(values.values())).T / middles)
-    one = problem.sd * _unit_size(found)
+    one = problem.sd * problem.unit_size(found.none.prediction)
     share = np.column_stack([np.abs(problem.level(none.prediction)) / one, 1.0 / one])
     fixed = np.hstack([none.slopes, problem.shared])
     whole = _Search(names, logs, share, fixed, none.anchor, found.unknown.fit.weight)

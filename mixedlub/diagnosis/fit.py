@@ -13,7 +13,7 @@ from mixedlub.forward import Run
 OUTLIER_SHARE = 0.01
 OUTLIER_WIDTH = 10.0
 _LOG_IN = np.log1p(-OUTLIER_SHARE)
-_LOG_OUT = np.log(OUTLIER_SHARE / OUTLIER_WIDTH)
+_LOG_OUT = np.log(OUTLIER_SHARE / OUTLIER_WIDTH * np.sqrt(2.0 / np.pi))
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,16 +40,22 @@ class Fit:
 
 
 def log_likelihood(residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Log density of residuals under noise with rare wide errors, and each one's precision weight.
+    """Log density of residuals under normal noise with rare Cauchy errors, and each one's precision weight.
+
+    The wide errors have no scale that a reading could be far beyond, so one wild reading does not pull the fit.
 
     >>> bool(log_likelihood(np.array([8.0]))[1][0] < 0.02)
     True
     """
-    inside = _LOG_IN - 0.5 * residual**2
-    outside = _LOG_OUT - 0.5 * (residual / OUTLIER_WIDTH) ** 2
+    inside, outside = _log_parts(residual)
     total = np.logaddexp(inside, outside)
     chance = np.exp(outside - total)
-    return total, 1.0 - chance * (1.0 - OUTLIER_WIDTH**-2)
+    return total, 1.0 - chance * (1.0 - 2.0 / (OUTLIER_WIDTH**2 + residual**2))
+
+
+def _log_parts(residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Log density as good reading and as outlier, both with the same constant left out."""
+    return _LOG_IN - 0.5 * residual**2, _LOG_OUT - np.log1p((residual / OUTLIER_WIDTH) ** 2)
 
 
 def outlier_chance(residual: np.ndarray) -> np.ndarray:
@@ -58,8 +64,7 @@ def outlier_chance(residual: np.ndarray) -> np.ndarray:
     >>> outlier_chance(np.array([0.0, 6.0])).round(3).tolist()
     [0.001, 1.0]
     """
-    inside = _LOG_IN - 0.5 * residual**2
-    outside = _LOG_OUT - 0.5 * (residual / OUTLIER_WIDTH) ** 2
+    inside, outside = _log_parts(residual)
     return np.exp(outside - np.logaddexp(inside, outside))
 
 
@@ -155,6 +160,7 @@ def _climb(
         curvature = np.eye(columns.shape[1]) + columns.T @ scaled
         residual = (problem.y - run.prediction) / problem.sd - problem.shared @ shared
         slope = scaled.T @ residual - np.concatenate([z, shared])
+        _hold_at_bounds(curvature, slope, z)
         for _ in range(8):
             step = np.linalg.solve(curvature + damping * np.diag(np.diag(curvature)), slope)
             step *= min(1.0, 2.0 / max(np.max(np.abs(step[: z.size]), initial=0.0), 1e-12))
@@ -174,6 +180,15 @@ def _climb(
         if gain < tolerance:
             break
     return _State(z, shared, run, slopes, cost, weight)
+
+
+def _hold_at_bounds(curvature: np.ndarray, slope: np.ndarray, z: np.ndarray) -> None:
+    """Take coordinates that press against their bound out of the step, in place; the others then go their full way."""
+    held = np.flatnonzero((np.abs(z) >= REACH) & (slope[: z.size] * z > 0))
+    slope[held] = 0.0
+    curvature[held, :] = 0.0
+    curvature[:, held] = 0.0
+    curvature[held, held] = 1.0
 
 
 def _cost(

@@ -12,9 +12,13 @@ import numpy as np
 from mixedlub.diagnosis.fit import linear_fit, map_fit
 from mixedlub.diagnosis.problem import Explanation
 from mixedlub.diagnosis.search import Search
-from mixedlub.diagnosis.unknown import shape_columns, share_of
+from mixedlub.diagnosis.unknown import shape_columns
 
 MOST_FOLDS = 8
+TOLERATED = 0.3
+"""Share of the mismatch on levels left out that the right law, in another literature form, may leave."""
+DEMERIT = 20.0
+LEAST = 0.3
 
 
 @dataclass(frozen=True)
@@ -25,6 +29,21 @@ class HeldOut:
     after: float
     split: str
     folds: int
+
+    def demerit(self, rms: float, rows: int) -> float:
+        """What a named law loses in log odds if it leaves much of the mismatch unexplained on levels left out.
+
+        A law that is a little wrong still explains most of it there; what fits all readings but fails there is
+        another law in disguise. ``rms`` is that of the residual with all ``rows`` fitted; two standard errors of a
+        mean square are allowed for chance.
+
+        >>> HeldOut(3.0, 1.1, "", 5).demerit(1.0, 200), HeldOut(3.0, 2.6, "", 5).demerit(1.0, 200) > 5.0
+        (0.0, True)
+        """
+        noise = max(rms, 1.0) ** 2
+        missing = max(self.before**2 - noise, LEAST)
+        left = max(self.after**2 - noise - 2.0 * np.sqrt(2.0 / rows), 0.0)
+        return float(min(DEMERIT * max(left / missing - TOLERATED, 0.0), DEMERIT))
 
 
 def held_out(found: Search, verdict: Explanation | str, outliers: np.ndarray) -> HeldOut:
@@ -58,8 +77,7 @@ def held_out(found: Search, verdict: Explanation | str, outliers: np.ndarray) ->
 def _unknown_residual(found: Search, out: np.ndarray) -> np.ndarray:
     """Residual of left-out readings under the unnamed mismatch fitted to the others (linearised)."""
     problem, none = found.problem, found.none
-    share, typical = share_of(none.prediction, problem.sd)
-    own = shape_columns(found.unknown.best, found.space, found.values, share, typical)
+    own = shape_columns(found.unknown.best, found.space, found.values, found.unknown.carriers)
     every = np.hstack([none.slopes, problem.shared, own])
     fit = linear_fit(none.anchor[~out], every[~out])
     return none.anchor[out] - every[out] @ fit.coefficients

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mixedlub.diagnosis.carriers import READING
 from mixedlub.diagnosis.search import Search
-from mixedlub.diagnosis.unknown import Shape, shape_columns, share_of
+from mixedlub.diagnosis.unknown import Shape, shape_columns
 
 DRAWS = 2000
 CELLS = 4_000_000
@@ -48,11 +49,10 @@ def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch
     inner = np.linalg.inv(np.eye(fixed.shape[1]) + fixed.T @ (fixed * weight[:, None]))
     directions = [s.change for s in found.sampled]
     effects = np.vstack(directions) if directions else np.zeros((0, problem.y.size))
-    share, typical = share_of(none.prediction, problem.sd)
     blocks = []
     for length, interactions in SHAPES:
-        shape = Shape(None, length, 1.0, True, interactions and len(found.space.axes) > 1)
-        blocks.append(shape_columns(shape, found.space, found.values, share, typical))
+        shape = Shape(None, length, 1.0, READING, interactions and len(found.space.axes) > 1)
+        blocks.append(shape_columns(shape, found.space, found.values, found.unknown.carriers))
 
     def whiten(rows: np.ndarray) -> np.ndarray:
         """Rows times the inverse covariance of noise and calibration together."""

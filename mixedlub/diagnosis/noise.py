@@ -10,6 +10,8 @@ from mixedlub.table import Table
 
 FEW = 30
 """Tests from which an sd counts as known: its own scatter is then 13 %."""
+PARTNERS = 12
+"""Readings of its group that each one is compared with, at most."""
 
 
 def is_stated(case: Case, rows: Table) -> bool:
@@ -101,12 +103,52 @@ def noise_from_repeats(case: Case, rows: Table, y: np.ndarray) -> float:
     if not keys:
         return 0.0
     _, group = np.unique(np.stack(keys, axis=1), axis=0, return_inverse=True)
-    group = group.reshape(-1)
+    return pooled_sd(y, group.reshape(-1)) if y.size - group.max() - 1 >= 5 else 0.0
+
+
+def pooled_sd(y: np.ndarray, group: np.ndarray) -> float:
+    r"""Standard deviation within groups (numbered from 0), outliers left out.
+
+    Two readings of a group differ by N(0, 2 sd^2) whatever the group's size, so the median absolute difference is
+    sqrt(2) Phi^-1(3/4) sd = 0.9539 sd. Readings beyond four times what that gives, off the median of their group,
+    are left out (6e-5 of good ones), and the rest pooled.
+
+    >>> y = np.array([1.0, 3.0, 2.0, 11.0, 13.0, 12.0, 21.0, 23.0, 90.0])
+    >>> round(pooled_sd(y, np.repeat([0, 1, 2], 3)), 3)
+    1.095
+    """
     count = np.bincount(group)
-    mean = np.bincount(group, weights=y) / count
-    left = y - mean[group]
-    spare = int((count - 1).sum())
-    return float(np.sqrt((left**2).sum() / spare)) if spare >= 5 else 0.0
+    ranked = y[np.lexsort((y, group))]
+    first = np.cumsum(count) - count
+    middle = 0.5 * (ranked[first + (count - 1) // 2] + ranked[first + count // 2])
+    limit = 4.0 * _typical_difference(y, group, count) / 0.9539 * np.sqrt(1.0 - 1.0 / count)
+    keep = np.abs(y - middle[group]) <= limit[group]
+    if not keep.any() or not limit.any():
+        keep = np.ones(y.size, bool)
+    _, kept = np.unique(group[keep], return_inverse=True)
+    size = np.bincount(kept)
+    left = y[keep] - (np.bincount(kept, weights=y[keep]) / size)[kept]
+    return float(np.sqrt((left**2).sum() / max(int((size - 1).sum()), 1)))
+
+
+def _typical_difference(y: np.ndarray, group: np.ndarray, count: np.ndarray) -> float:
+    """Median absolute difference of two readings of a group, each group weighing as much as it has repeats."""
+    order = np.argsort(group, kind="stable")
+    size = count[group[order]]
+    start = (np.cumsum(count) - count)[group[order]]
+    place = np.arange(y.size) - start
+    shifts = np.minimum(size - 1, PARTNERS)
+    differences, weights = [], []
+    for k in range(int(shifts.max())):
+        has = k < shifts
+        shift = 1 + k * (size[has] - 1) // shifts[has]
+        partner = start[has] + (place[has] + shift) % size[has]
+        differences.append(np.abs(y[order][has] - y[order][partner]))
+        weights.append((size[has] - 1) / (size[has] * shifts[has]))
+    value, weight = np.concatenate(differences), np.concatenate(weights)
+    rank = np.argsort(value)
+    total = np.cumsum(weight[rank])
+    return float(value[rank][np.searchsorted(total, 0.5 * total[-1])])
 
 
 def noise_from_smoothness(y: np.ndarray, base: np.ndarray, space: Coordinates, values: list[np.ndarray]) -> float:

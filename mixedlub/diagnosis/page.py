@@ -25,6 +25,7 @@ from mixedlub.diagnosis.words import (
     equation_sentence,
 )
 from mixedlub.report.equations import equation
+from mixedlub.version import installed_version
 
 CAPTIONS = {
     "recorded_against_simulated": (
@@ -95,7 +96,7 @@ def render(d: Diagnosis, parts: Iterable[Section], drawings: Mapping[str, str]) 
         description=d.case.system.description or "",
         equations={sentence: Markup(svg) for sentence, svg in _equations(d).items()},
         pictures=pictures,
-        version=_version(),
+        version=installed_version(),
         readings=d.readings.size,
         quantity=words_of(d.case.quantity),
         level=f"{100 * d.test.level:g} %",
@@ -134,12 +135,3 @@ def _cards(d: Diagnosis) -> list[tuple[str, str]]:
         cards.append((f"{d.heldout.after:.2f}", "sigma, the same with the answer"))
     cards.append((number(float(len(d.outlier_runs))), f"outliers among {d.readings.size} readings"))
     return cards
-
-
-def _version() -> str:
-    from importlib.metadata import PackageNotFoundError, version
-
-    try:
-        return version("mixedlub")
-    except PackageNotFoundError:
-        return ""

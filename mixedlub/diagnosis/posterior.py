@@ -53,13 +53,16 @@ class Posterior:
         return {stage: float(np.clip(value, FLOOR, 1.0 - FLOOR)) for stage, value in chance.items()}
 
 
-def posterior(found: Search, test: Mismatch) -> Posterior:
+def posterior(found: Search, test: Mismatch, demerits: Mapping[Key, float] | None = None) -> Posterior:
     """Normalised weights; whether anything is missing at all is for the test to decide.
 
-    The evidence ranks the explanations. Where it and the test disagree on "none", its weight is moved just
-    far enough that the most probable explanation agrees with the test.
+    The evidence ranks the explanations, less the ``demerits`` of those that failed on levels left out. Where it
+    and the test disagree on "none", its weight is moved just far enough that the most probable explanation agrees
+    with the test.
     """
     log = dict(found.log_weights)
+    for key, demerit in (demerits or {}).items():
+        log[key] -= demerit
     others = [value for key, value in log.items() if key != ()]
     best = max(others, default=-np.inf)
     if test.detected and log[()] >= best:

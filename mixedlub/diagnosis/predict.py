@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mixedlub.diagnosis.carriers import carriers
 from mixedlub.diagnosis.fit import Fit, linear_fit
 from mixedlub.diagnosis.noise import is_stated, seen_noise
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search import ELASTIC, Search, elastic_columns, typical_size
-from mixedlub.diagnosis.unknown import shape_columns, share_of
+from mixedlub.diagnosis.unknown import shape_columns
 from mixedlub.forward import Forward
 from mixedlub.table import Table
 
@@ -99,9 +100,8 @@ class Rows:
         unknown = found.unknown
         run = self.problem.run((), unknown.z)
         calibrated, slopes = run.prediction, self.problem.jacobian((), unknown.z, run)
-        _, typical = share_of(found.none.prediction, found.problem.sd)
-        share = np.abs(self.problem.predict((), found.none.z)) / self.sd
-        own = shape_columns(unknown.best, found.space, self.values, share, typical)
+        rides = carriers(self.problem, found.none.z, unknown.typical)
+        own = shape_columns(unknown.best, found.space, self.values, rides)
         shared = np.zeros((len(self.table), found.problem.shared.shape[1]))
         every = np.hstack([slopes, shared, own])
         mean = calibrated + self.sd * (own @ unknown.fit.coefficients[-own.shape[1] :])

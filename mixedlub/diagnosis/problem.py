@@ -52,6 +52,10 @@ class Problem:
         """Readings in the unit of their column."""
         return np.exp(seen) if self.case.kind.logarithmic else seen
 
+    def unit_size(self, seen: np.ndarray) -> np.ndarray:
+        """Change of a reading, in its unit, for a change of one in what is compared."""
+        return np.abs(self.level(seen)) if self.case.kind.logarithmic else np.ones(seen.size)
+
     @property
     def calibration_size(self) -> int:
         """How many inputs calibration may move."""

@@ -17,11 +17,15 @@ PRIOR = {"none": 0.42, "single": 0.38, "pair": 0.08, "unknown": 0.12}
 SAMPLES = (12, 24, 40, 56)
 LEADERS = 8
 FAR = 60.0
+NEAR, APART, STARTS = 25.0, 1.2, 3
+"""A single effect is fitted from this many draws: not far behind the best one, and that far apart."""
+STRAINED = 25.0
+"""Squared length of calibration coordinates that is beyond what five or so of them would show by chance."""
 PAIRS = 30
 MANY = 3000
 ELASTIC = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
 """Relative error of an effect's literature form: its rms and the weight given to it."""
-BEND_LIMIT = 8.0
+BEND_LIMIT = 4.0
 """Most that bending may add to the log evidence: a form a little wrong is not another effect."""
 
 Progress = Callable[[str], None]
@@ -58,14 +62,15 @@ class Search:
     @property
     def log_weights(self) -> dict[str | Explanation, float]:
         """Log prior plus log evidence of every explanation; "unknown" is its own key."""
-        singles = max(len(self.sampled), 1)
-        pairs = max(singles * (singles - 1) // 2, 1)
-        share = {
-            0: np.log(PRIOR["none"]),
-            1: np.log(PRIOR["single"] / singles),
-            2: np.log(PRIOR["pair"] / pairs),
+        odds = {e.id: e.odds for s in self.sampled for e in effects_of((s.id,))}
+        each = list(odds.values())
+        pairs = sum(a * b for a, b in combinations(each, 2))
+        total = (1.0, sum(each), pairs)
+        prior = (PRIOR["none"], PRIOR["single"], PRIOR["pair"])
+        found: dict[str | Explanation, float] = {
+            m: s + float(np.log(prior[len(m)] * np.prod([odds[name] for name in m]) / total[len(m)]))
+            for m, s in self.scores.items()
         }
-        found: dict[str | Explanation, float] = {m: s + share[len(m)] for m, s in self.scores.items()}
         found["unknown"] = self.unknown.evidence + np.log(PRIOR["unknown"])
         return found
 
@@ -166,7 +171,10 @@ def spread(size: int, count: int) -> np.ndarray:
 
 
 def _fit_single(problem: Problem, none: Fit, sampled: Sampled) -> Fit:
-    """Fit from the most promising one or two draws, keep the better."""
+    """Fit from the most promising draws that lie apart, keep the best.
+
+    A base model strained far from its prior is a bad place to start from: the calibration's prior is tried too.
+    """
     columns = np.hstack([none.slopes, problem.shared])
     scores, starts = [], []
     for z, change in zip(sampled.z, sampled.change, strict=True):
@@ -176,13 +184,14 @@ def _fit_single(problem: Problem, none: Fit, sampled: Sampled) -> Fit:
     order = np.argsort(scores)[::-1]
     chosen = [order[0]]
     for i in order[1:]:
-        if scores[i] < scores[order[0]] - 25.0:
+        if scores[i] < scores[order[0]] - NEAR or len(chosen) == STARTS:
             break
-        if np.max(np.abs(sampled.z[i] - sampled.z[order[0]])) > 1.2:
+        if all(np.max(np.abs(sampled.z[i] - sampled.z[k])) > APART for k in chosen):
             chosen.append(i)
-            break
-    tries = [map_fit(problem, (sampled.id,), starts[i]) for i in chosen]
-    return max(tries, key=lambda f: f.evidence)
+    tries = [starts[i] for i in chosen]
+    if none.z @ none.z > STRAINED:
+        tries.append(np.concatenate([np.zeros(none.z.size), sampled.z[order[0]]]))
+    return max((map_fit(problem, (sampled.id,), start) for start in tries), key=lambda f: f.evidence)
 
 
 def _promising_pairs(

@@ -1,4 +1,7 @@
-"""The competing explanation that no effect of the catalogue is: a smooth function of the conditions."""
+"""The competing explanation that no effect of the catalogue is: a smooth function of the conditions.
+
+It is a share of the reading, an addition to it, or a factor on one quantity of the chain, such as the film.
+"""
 
 from __future__ import annotations
 
@@ -6,39 +9,41 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mixedlub.diagnosis.carriers import NOTHING, READING, Carriers, carriers, root_mean_square
 from mixedlub.diagnosis.features import Coordinates
 from mixedlub.diagnosis.fit import Fit, Linear, linear_fit
 from mixedlub.diagnosis.problem import Problem
 
 LENGTHS = (0.25, 0.7)
 SIZES = (0.7, 2.0, 6.0, 20.0, 60.0)
+"""How large a mismatch of the reading may be, in sigmas."""
+FACTORS = (0.03, 0.1, 0.3, 1.0)
+"""How large one of a quantity of the chain may be, in its logarithm."""
 FULL = 6
 
 
 @dataclass(frozen=True)
 class Shape:
-    """One form an unnamed mismatch may have: along which axes, how smooth, how large (sigmas), relative or not."""
+    """One form an unnamed mismatch may have: along which axes, how smooth, how large, and what it rides on."""
 
     axis: str | None
     length: float
     size: float
-    relative: bool
+    carrier: str
     interactions: bool
-
-    @property
-    def words(self) -> str:
-        """The shape in words."""
-        along = "all conditions" if self.axis is None else self.axis
-        form = "a share of the reading" if self.relative else "a constant number of sigmas"
-        return f"smooth in {along}, as {form}"
 
 
 @dataclass(frozen=True, eq=False)
 class Unknown:
-    """Evidence of the unnamed mismatch, averaged over its shapes, and its best shape's fit."""
+    """Evidence of the unnamed mismatch, averaged over its shapes, and its best shape's fit.
+
+    ``typical`` is the rms of reading over sd, by which shares of the reading are counted.
+    """
 
     evidence: float
     best: Shape
+    carriers: Carriers
+    typical: float
     fit: Linear
     values: np.ndarray
     variance: np.ndarray
@@ -46,32 +51,27 @@ class Unknown:
     z: np.ndarray
 
 
-def shapes(space: Coordinates) -> list[Shape]:
+def shapes(space: Coordinates, carriers: Carriers) -> list[Shape]:
     """All shapes that are tried, of size one."""
     found = []
     for length in LENGTHS:
-        for relative in (True, False):
-            found.append(Shape(None, length, 1.0, relative, False))
+        for carrier in carriers:
+            found.append(Shape(None, length, 1.0, carrier, False))
             if len(space.axes) > 1:
-                found.append(Shape(None, length, 1.0, relative, True))
-                found.extend(Shape(axis.name, length, 1.0, relative, False) for axis in space.axes)
+                found.append(Shape(None, length, 1.0, carrier, True))
+                found.extend(Shape(axis.name, length, 1.0, carrier, False) for axis in space.axes)
     return found
 
 
-def shape_columns(
-    shape: Shape, space: Coordinates, values: list[np.ndarray], share: np.ndarray, typical: float
-) -> np.ndarray:
-    """The shape's columns in sigmas; ``share`` is reading over sd, ``typical`` its rms over the recording."""
+def sizes(carrier: str) -> tuple[float, ...]:
+    """The sizes that a shape on this carrier is tried with."""
+    return SIZES if carrier in (READING, NOTHING) else FACTORS
+
+
+def shape_columns(shape: Shape, space: Coordinates, values: list[np.ndarray], carriers: Carriers) -> np.ndarray:
+    """The shape's columns in sigmas."""
     columns = space.columns(values, shape.length, shape.axis, shape.interactions)
-    if shape.relative:
-        columns = columns * (share / typical)[:, None]
-    return shape.size * columns
-
-
-def share_of(prediction: np.ndarray, sd: np.ndarray) -> tuple[np.ndarray, float]:
-    """Reading over sd, and its rms."""
-    share = np.abs(prediction) / sd
-    return share, float(np.sqrt(np.mean(share**2)))
+    return shape.size * columns * carriers[shape.carrier][:, None]
 
 
 def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np.ndarray]) -> Unknown:
@@ -82,22 +82,20 @@ def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np
     """
     target = none.anchor
     fixed = np.hstack([none.slopes, problem.shared])
-
-    share, typical = share_of(none.prediction, problem.sd)
+    typical = root_mean_square(np.abs(none.prediction) / problem.sd)
+    rides = carriers(problem, none.z, typical)
 
     def columns_of(shape: Shape) -> np.ndarray:
-        return shape_columns(shape, space, values, share, typical)
+        return shape_columns(shape, space, values, rides)
 
-    rich = Shape(None, LENGTHS[0], 6.0, True, len(space.axes) > 1)
+    rich = Shape(None, LENGTHS[0], 6.0, READING, len(space.axes) > 1)
     reference = linear_fit(target, np.hstack([fixed, columns_of(rich)]))
     tried: list[Shape] = []
     weighed: list[float] = []
-    for shape in shapes(space):
-        for size, value in zip(
-            SIZES, _evidence_by_size(target, fixed, columns_of(shape), reference.weight), strict=True
-        ):
-            tried.append(replace(shape, size=size))
-            weighed.append(value)
+    for shape in shapes(space, rides):
+        steps = sizes(shape.carrier)
+        tried.extend(replace(shape, size=size) for size in steps)
+        weighed.extend(_evidence_by_size(target, fixed, columns_of(shape), reference.weight, np.array(steps)))
     order = np.argsort(weighed)[::-1]
     full = {
         int(i): linear_fit(target, np.hstack([fixed, columns_of(tried[i])]), reference.weight) for i in order[:FULL]
@@ -111,8 +109,10 @@ def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np
     fit = full[best]
     covariance = np.linalg.inv(np.eye(every.shape[1]) + every.T @ (every * fit.weight[:, None]))
     return Unknown(
-        evidence=float(np.logaddexp.reduce(evidence) - np.log(evidence.size)),
+        evidence=_mean_over_shapes(tried, evidence),
         best=tried[best],
+        carriers=rides,
+        typical=typical,
         fit=fit,
         values=own @ fit.coefficients[fixed.shape[1] :],
         variance=np.einsum("ij,jk,ik->i", every, covariance, every),
@@ -121,8 +121,18 @@ def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np
     )
 
 
-def _evidence_by_size(target: np.ndarray, fixed: np.ndarray, own: np.ndarray, weight: np.ndarray) -> np.ndarray:
-    """Gaussian log evidence for each of SIZES, relative to size zero, at fixed weights."""
+def _mean_over_shapes(tried: list[Shape], evidence: np.ndarray) -> float:
+    """Log mean evidence: half the weight on shapes of the reading, half on those inside the chain, if there are any."""
+    outside = np.array([shape.carrier in (READING, NOTHING) for shape in tried])
+    groups = [evidence[group] for group in (outside, ~outside) if group.any()]
+    means = [np.logaddexp.reduce(group) - np.log(group.size) for group in groups]
+    return float(np.logaddexp.reduce(means) - np.log(len(means)))
+
+
+def _evidence_by_size(
+    target: np.ndarray, fixed: np.ndarray, own: np.ndarray, weight: np.ndarray, sizes: np.ndarray
+) -> np.ndarray:
+    """Gaussian log evidence for each size, relative to size zero, at fixed weights."""
     scaled = fixed * weight[:, None]
     inner = np.linalg.inv(np.eye(fixed.shape[1]) + fixed.T @ scaled)
     across = scaled.T @ own
@@ -131,6 +141,6 @@ def _evidence_by_size(target: np.ndarray, fixed: np.ndarray, own: np.ndarray, we
     power, turn = np.linalg.eigh(overlap)
     power = np.maximum(power, 0.0)
     along = (turn.T @ pull) ** 2
-    square = np.array(SIZES)[:, None] ** 2
+    square = sizes[:, None] ** 2
     grown = 1.0 + square * power
     return 0.5 * (square * along / grown - np.log(grown)).sum(axis=1)

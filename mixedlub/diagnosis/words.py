@@ -8,16 +8,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mixedlub.diagnosis.advice import next_test
 from mixedlub.diagnosis.answer import effect_records, interval, verdict_fit
+from mixedlub.diagnosis.carriers import NOTHING, READING
 from mixedlub.diagnosis.confusion import Confusion, confusion
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.empirical import Absorbed, Unnamed
 from mixedlub.diagnosis.labels import (
-    conditions_text,
     effect_words,
     explanation_words,
     number,
-    plain_equation,
     range_text,
     words_of,
 )
@@ -25,6 +25,7 @@ from mixedlub.diagnosis.maps import missing
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.readings import checked_channel, outliers, reading_conditions, steadied_noise
 from mixedlub.effect import Effect
+from mixedlub.report.plain import plain_equation
 
 WIDTH = 88
 REFITTED = "Parameters were refitted without each level; what the answer is was settled with all of them."
@@ -87,7 +88,7 @@ def sections(d: Diagnosis, unnamed: Unnamed | None = None) -> list[Section]:
         Section(CHECK, checked_channel(d)),
         Section(OUTLIERS, *outliers(d)),
         Section(CALIBRATION, *_calibration(d)),
-        Section(NEXT, _next_test(d)),
+        Section(NEXT, next_test(d)),
         Section("Warnings", d.warnings),
     ]
     return [s for s in found if s.sentences or s.table]
@@ -253,9 +254,7 @@ def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
     law = unnamed.law
     shape = d.found.unknown.best
     along = "all conditions together" if shape.axis is None else words_of(shape.axis)
-    said = [
-        f"It varies smoothly with {along}, as {'a share of the reading' if shape.relative else 'an addition to it'}."
-    ]
+    said = [f"It varies smoothly with {along}, as {_carried(shape.carrier)}."]
     if unnamed.stages:
         best, *others = unnamed.stages
         said.append(
@@ -273,6 +272,11 @@ def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
             f"the error falls from {law.heldout_before:.2f} to {law.heldout_after:.2f} sigma."
         )
     return Section(UNNAMED, tuple(said))
+
+
+def _carried(carrier: str) -> str:
+    outside = {READING: "a share of the reading", NOTHING: "an addition to it"}
+    return outside.get(carrier, f"a factor on {words_of(carrier)}")
 
 
 def _stage(found: Absorbed) -> str:
@@ -373,22 +377,3 @@ def _calibrated(d: Diagnosis) -> tuple[np.ndarray, np.ndarray]:
         return d.found.unknown.z, np.sqrt(np.diag(d.found.unknown.covariance))
     refined = verdict_fit(d)
     return refined.z, np.sqrt(np.diag(refined.covariance))
-
-
-def _next_test(d: Diagnosis) -> tuple[str, ...]:
-    if d.posterior.verdict == "unknown":
-        place = ", ".join(range_text(cut) for cut in d.region.where) or "all conditions"
-        return (f"To learn its form, refine and repeat the levels around {place}.",)
-    if not d.next_tests:
-        return ()
-    first = d.next_tests[0]
-    if first.expected_bits < 0.01:
-        return ("No single reading near these conditions would say more.",)
-    said = []
-    if first.expected_bits < 0.1:
-        said.append("No single reading would tell much more; the best would be:")
-    names = "; ".join(explanation_words(name.split("+")) for name in first.separates)
-    said.append(
-        f"Run {conditions_text(first.conditions)}: {first.expected_bits:.2f} bit towards telling apart {names}."
-    )
-    return tuple(said)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
-import shutil
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -14,6 +12,7 @@ from mixedlub.diagnosis.answer import as_json, predictions_csv
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.empirical import Unnamed, unnamed
 from mixedlub.diagnosis.search import Progress
+from mixedlub.writing import writing
 
 XML = '<?xml version="1.0" encoding="utf-8" standalone="no"?>\n'
 
@@ -28,8 +27,8 @@ def diagnose(
 ) -> Diagnosis:
     """Work out what the simulation of a case lacks and write the answer into ``out``.
 
-    Written are diagnosis.json, predictions.csv, report.txt, report.html and figures/. Each file is complete
-    or absent at any moment, and the same case gives the same bytes.
+    Written are diagnosis.json, predictions.csv, report.txt, report.html and figures/. They replace
+    those of an earlier answer when all are written, and the same case gives the same bytes.
     """
     found = diagnose_case(case_folder, predict, exclude, level, progress)
     progress("drawing")
@@ -81,19 +80,10 @@ def _unnamed_record(extra: Unnamed | None) -> dict[str, Any]:
 
 
 def write(contents: Mapping[str, str], out: Path) -> None:
-    """Write files aside, then rename each into place; drawings of an earlier answer are removed."""
-    aside = out / f".writing-{os.getpid()}"
-    try:
+    """All files of an answer; drawings of an earlier one give way to these."""
+    out.mkdir(parents=True, exist_ok=True)
+    with writing(out) as aside:
         for name, text in contents.items():
             path = aside / name
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text, encoding="utf-8", newline="\n")
-        for name in contents:
-            target = out / name
-            target.parent.mkdir(parents=True, exist_ok=True)
-            (aside / name).replace(target)
-    finally:
-        shutil.rmtree(aside, ignore_errors=True)
-    for stale in (out / "figures").glob("*.svg"):
-        if f"figures/{stale.name}" not in contents:
-            stale.unlink()

@@ -10,8 +10,8 @@ _SIZE = 1.25
     stage="loss",
     acts_on="power_loss",
     parameters=(
-        Parameter("idle", "-", LogNormal(1.0, 0.8), "factor on the torque without load", null=0.0),
-        Parameter("loaded", "-", LogNormal(1.0, 0.8), "factor on the torque that load adds", null=0.0),
+        Parameter("idle", "-", LogNormal(1.0, 1.0), "factor on the torque without load", null=0.0),
+        Parameter("loaded", "-", LogNormal(1.0, 1.0), "factor on the torque that load adds", null=0.0),
     ),
     equation=r"P \leftarrow P + \sum_{i=1,2} 2\,\omega_i\,(c_0 M_{0,i} + c_1 M_1),\quad M_0 = 10^{-7} f_0(\nu "
     r"n_i)^{2/3} d_m^3,\ M_1 = f_1\tfrac{F_t}{2} d_m,\ d_m = 1.25\,r_1",

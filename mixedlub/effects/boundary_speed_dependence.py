@@ -2,30 +2,35 @@
 
 from mixedlub.effect import Between, BetweenLog, Normal, Parameter, effect
 
+SLOWEST = 1e-3
+
 
 @effect(
     stage="boundary",
     acts_on="boundary_friction",
     parameters=(
         Parameter("slope", "-", Normal(0.0, 0.12), "power of speed; positive with friction modifier", null=0.0),
-        Parameter("knee", "m/s", BetweenLog(0.01, 1.0), "speed below which friction stays"),
+        Parameter("reference", "m/s", BetweenLog(0.01, 10.0), "speed at which the stated boundary friction holds"),
         Parameter("rolling", "-", Between(0.0, 1.0), "weight of the rolling speed against the sliding speed"),
     ),
-    equation=r"\mu_B \leftarrow \mu_B\,\bigl[1 + (v_s^{1-a} u^a/v_0)^2\bigr]^{\kappa/2}",
+    equation=r"\mu_B \leftarrow \mu_B\,\bigl[(v^2 + v_0^2)/(v_r^2 + v_0^2)\bigr]^{\kappa/2},\quad "
+    r"v = v_s^{1-a} u^a,\ v_0 = 1\ \mathrm{mm/s}",
     source="H. Spikes, Tribol. Lett. 60 (2015) 5: friction grows with the logarithm of speed under adsorbed "
     "films and falls without; written as a small power, which is that logarithm to first order",
     fingerprint={"load": "-", "oil_temperature": "+", "roughness": "+"},
     separated_by="film ratios below 0.5 at small sliding: friction follows the logarithm of sliding speed where the "
     "film cannot matter; it vanishes at thick films",
 )
-def boundary_speed_dependence(boundary_friction, sliding_speed, entrainment_speed, *, slope, knee, rolling):
+def boundary_speed_dependence(boundary_friction, sliding_speed, entrainment_speed, *, slope, reference, rolling):
     """The friction of touching asperities grows or falls with the logarithm of speed.
 
-    Papers plot it against the sliding speed or, at a fixed slide-roll ratio, against the rolling speed.
+    Papers plot it against the sliding speed or, at a fixed slide-roll ratio, against the rolling speed. Where between
+    the slowest and the fastest test the stated value belongs is unknown. Below about 1 mm/s it no longer changes,
+    which makes the form belong to m/s.
 
-    >>> grown = boundary_speed_dependence(0.1, 1.0, 2.0, slope=0.1, knee=0.1, rolling=0.0)
-    >>> round(float(grown), 3)   # a decade above the knee
+    >>> grown = boundary_speed_dependence(0.1, 1.0, 2.0, slope=0.1, reference=0.1, rolling=0.0)
+    >>> round(float(grown), 3)   # a decade above the reference
     0.126
     """
     speed = sliding_speed ** (1.0 - rolling) * entrainment_speed**rolling
-    return boundary_friction * (1.0 + (speed / knee) ** 2) ** (0.5 * slope)
+    return boundary_friction * ((speed**2 + SLOWEST**2) / (reference**2 + SLOWEST**2)) ** (0.5 * slope)

@@ -10,7 +10,7 @@ from mixedlub.effect import BetweenLog, LogNormal, Parameter, effect
     acts_on="shear_stress",
     parameters=(
         Parameter("coefficient", "-", BetweenLog(0.015, 0.12), "limiting stress over pressure, Lambda", null=np.inf),
-        Parameter("sharpness", "-", LogNormal(5.0, 0.5), "how abruptly the stress stops growing"),
+        Parameter("sharpness", "-", LogNormal(2.5, 0.7), "how abruptly the stress stops growing"),
     ),
     equation=r"\tau \leftarrow \tau\left[1 + \left(\frac{\tau}{\Lambda p_0}\right)^{n}\right]^{-1/n}",
     source="S. Bair, W. O. Winer, J. Lubr. Technol. 101 (1979) 258, tau_L = Lambda p; joined smoothly to the "

@@ -9,7 +9,7 @@ REFERENCE = 0.01
     stage="contact",
     acts_on=("m0", "m2", "m4"),
     parameters=(
-        Parameter("wavelength", "m", LogNormal(60e-6, 0.8), "length of the waves that carry the roughness", null=0.0),
+        Parameter("wavelength", "m", LogNormal(40e-6, 0.9), "length of the waves that carry the roughness", null=0.0),
         Parameter("viscous", "-", Between(0.0, 1.0), "power of viscosity over that of speed, 1 in the source"),
         Parameter("texture", "-", Between(0.0, 1.0), "attenuation of slopes and curvatures over that of heights"),
     ),

@@ -19,12 +19,13 @@ _REFERENCE = 1e5
     "20 N/(mm um), w_r = 100 N/mm; joined smoothly to full contact",
     fingerprint={"load": "-", "roughness": "-"},
     separated_by="the contact pattern, strain along the face, and a shim that reverses it; it fades with load",
+    odds=0.5,
 )
 def misalignment(line_load, transmitted_force, face_width, *, misalignment, relief):
     """Flanks out of parallel touch over part of the face, and more load per length meets the same film law.
 
-    Stiffness and w_r make the form belong to Pa and N/m. A power of load of 1 is that of elastic teeth, 0 a width that
-    load does not change.
+    A load share from a gear program often holds it already. Stiffness and w_r make the form belong to Pa and N/m.
+    A power of load of 1 is that of elastic teeth, 0 a width that load does not change.
 
     >>> load = misalignment(2e5, 3000.0, 0.014, misalignment=10e-6, relief=1.0)   # 3000 N on 14 mm: x = 0.47
     >>> round(float(load) / 2e5, 2)

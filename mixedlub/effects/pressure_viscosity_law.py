@@ -13,9 +13,11 @@ GLASS = 1e8
     stage="property",
     acts_on="contact_viscosity",
     parameters=(
-        Parameter("bend_down", "1/Pa", LogNormal(2e-9, 1.0), "rate at which the slope falls at low pressure", null=0.0),
         Parameter(
-            "bend_up", "1/Pa", LogNormal(1.2e-9, 1.0), "rate at which the slope rises towards the glass", null=0.0
+            "bend_down", "1/Pa", LogNormal(5e-10, 1.2), "rate at which the slope falls at low pressure", null=0.0
+        ),
+        Parameter(
+            "bend_up", "1/Pa", LogNormal(5e-10, 1.2), "rate at which the slope rises towards the glass", null=0.0
         ),
         Parameter("down_with_temperature", "-", Normal(0.0, 0.5), "log change of the fall over 100 K, in 1/T"),
         Parameter("up_with_temperature", "-", Normal(-0.8, 0.5), "log change of the rise over 100 K, in 1/T"),
@@ -26,6 +28,7 @@ GLASS = 1e8
     fingerprint={"speed": "-"},
     separated_by="a high-pressure viscometer at two temperatures: an exponential is straight in a log plot, Roelands "
     "only bends down, a liquid near its glass bends up again",
+    odds=0.5,
 )
 def pressure_viscosity_law(
     contact_viscosity,
@@ -40,6 +43,7 @@ def pressure_viscosity_law(
 ):
     """The logarithm of viscosity rises more slowly with pressure at first and faster again near the glass.
 
+    At contact pressures Roelands' law, the base of gears and discs, has most of the bend already.
     It levels off at the 1e8 Pa s of a glass, which makes the form belong to Pa s.
 
     >>> x = pressure_viscosity_law(np.exp(10.0), 1.0, 0.5e9, 313.15, bend_down=2e-9, bend_up=0.0,

@@ -12,7 +12,7 @@ _SMALL = 1e-4
     stage="contact",
     acts_on="area_ratio",
     parameters=(
-        Parameter("skewness", "-", Normal(-0.8, 0.5), "skewness of the heights; negative for plateaus", null=0.0),
+        Parameter("skewness", "-", Normal(-0.5, 0.8), "skewness of the heights; negative for plateaus", null=0.0),
         Parameter("narrowing", "-", Between(0.0, 0.6), "how far the summits' spread follows the plateau"),
     ),
     equation=r"P_B \leftarrow P_B + \pi D R_s\sigma_s\,(w F_1^{\ast}(t/w) - F_1),\quad w = e^{n S_{sk}},\ "

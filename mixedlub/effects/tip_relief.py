@@ -21,6 +21,7 @@ _STIFFNESS = 1.4e10
     fingerprint={"load": "+", "speed": "-", "roughness": "+"},
     separated_by="the load share itself, from strain gauges or transmission error; the effect fades with torque, "
     "that of a heat leak does not",
+    odds=0.5,
 )
 def tip_relief(
     load_share, path_fraction, contact_ratio, transmitted_force, contact_width, face_width, *, relief, length
@@ -29,7 +30,7 @@ def tip_relief(
 
     Two pairs share between them, so their shares still add to one and a single pair keeps all.
     A small relief takes half of x off the share at the tip, as two equal springs do; a large one all of it.
-    The tooth stiffness makes the form belong to Pa.
+    A load share from a gear program usually holds the relief already. The tooth stiffness makes the form belong to Pa.
 
     >>> known = dict(contact_ratio=1.5, transmitted_force=3000.0, contact_width=0.014, face_width=0.014)
     >>> share = np.array([0.4, 1.0, 0.6])   # start of contact, middle, and where the next pair starts

@@ -15,10 +15,13 @@ from mixedlub.effect import Normal, Parameter, effect
     source="rated output and zero stability of transducers: IEC 60770",
     fingerprint={"sequence": "+"},
     separated_by="a reading at rest before and after the test",
-    kinds=("film", "friction_history", "friction_map"),
+    kinds=("film", "friction_map"),
 )
 def zero_drift(reading, reading_scale, sequence, *, drift):
     """The reading at rest is no longer zero at the end; every reading shifts by the same amount.
+
+    Offered where readings change size or sign within the recording, as films and torques of drives do: on a
+    friction that stays of one size it is `sensor_drift`.
 
     >>> round(float(zero_drift(0.05, 0.05, 0.5, drift=0.1)), 4)
     0.0525

@@ -15,6 +15,7 @@ from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws import load, loss
 from mixedlub.laws.contact import reduced_modulus
+from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.table import Column, Table
 from profiles.errors import InputError
 
@@ -70,7 +71,7 @@ def contact_inputs(contact: config.Contact, table: Table) -> Inputs:
 def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table."""
     assert system.contact is not None
-    temperature = column(table["oil_temperature_C"]) + 273.15
+    temperature = column(table["oil_temperature_C"]) + ZERO_CELSIUS
     return {
         **contact_inputs(system.contact, table),
         **bodies.lubricant(system.lubricant).inputs(temperature),
@@ -83,7 +84,7 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
 
 def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibration, ...]:
     """An unnamed oil takes broad priors."""
-    return unknown_oil.calibrations(system, recorded["oil_temperature_C"] + 273.15)
+    return unknown_oil.calibrations(system, recorded["oil_temperature_C"] + ZERO_CELSIUS)
 
 
 def chain(system: config.System, table: Table) -> Chain:

@@ -13,6 +13,7 @@ from mixedlub.kinds import unknown_oil
 from mixedlub.kinds.disc import COLUMNS, contact_inputs
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, programme
 from mixedlub.laws import contact, film, load
+from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.table import Column, Table
 
 FRINGE_NM = (167.0, 225.0)
@@ -36,7 +37,7 @@ def reading(film_thickness: np.ndarray) -> np.ndarray:
 def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table."""
     assert system.contact is not None
-    temperature = column(table["oil_temperature_C"]) + 273.15
+    temperature = column(table["oil_temperature_C"]) + ZERO_CELSIUS
     return {
         **contact_inputs(system.contact, table),
         **bodies.lubricant(system.lubricant).inputs(temperature),
@@ -58,7 +59,7 @@ def _orders(table: Table, recorded: Table) -> Inputs:
 
 def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibration, ...]:
     """An unnamed oil takes broad priors."""
-    return unknown_oil.calibrations(system, recorded["oil_temperature_C"] + 273.15)
+    return unknown_oil.calibrations(system, recorded["oil_temperature_C"] + ZERO_CELSIUS)
 
 
 def chain(system: config.System, table: Table) -> Chain:

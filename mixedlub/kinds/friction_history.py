@@ -14,6 +14,7 @@ from mixedlub.chain import Chain
 from mixedlub.effect import LogNormal, Parameter
 from mixedlub.kinds import disc, unknown_oil
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, programme
+from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.table import CaseWarning, Column, Table
 
 COLUMNS = (
@@ -71,7 +72,7 @@ def _conditions(table: Table) -> Inputs:
     if "load_N" in table:
         found["load"] = column(table["load_N"])
     if "oil_temperature_C" in table:
-        found["oil_temperature"] = column(table["oil_temperature_C"]) + 273.15
+        found["oil_temperature"] = column(table["oil_temperature_C"]) + ZERO_CELSIUS
     return found
 
 
@@ -88,7 +89,7 @@ def _level(system: config.System, recorded: Table) -> float:
 def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibration, ...]:
     """The constant coefficient where nothing is said of it; an unnamed oil where the film is computed."""
     if resolved(system, recorded):
-        return unknown_oil.calibrations(system, recorded["oil_temperature_C"] + 273.15)
+        return unknown_oil.calibrations(system, recorded["oil_temperature_C"] + ZERO_CELSIUS)
     if _given(system):
         return ()
     level = _level(system, recorded)

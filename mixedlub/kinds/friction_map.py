@@ -14,6 +14,7 @@ from mixedlub.chain import Chain
 from mixedlub.effect import Between, LogNormal, Normal, Parameter
 from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out, programme
 from mixedlub.laws import drive
+from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.table import Column, Table
 from profiles.errors import InputError
 
@@ -71,7 +72,7 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
     if "additive_percent" in table and "additive_percent" in recorded and recorded["additive_percent"].any():
         found["additive_fraction"] = column(table["additive_percent"] / np.max(recorded["additive_percent"]))
     if "oil_temperature_C" in table:
-        found["oil_temperature"] = column(table["oil_temperature_C"]) + 273.15
+        found["oil_temperature"] = column(table["oil_temperature_C"]) + ZERO_CELSIUS
     motor = _motor_column(recorded)
     if motor in table:
         found["motor_torque"] = column(table[motor])

@@ -12,6 +12,7 @@ from mixedlub.chains import GEAR_LOSS
 from mixedlub.gear import Mesh, mesh
 from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out
 from mixedlub.kinds.surfaces import pair_of_surfaces
+from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.table import CaseWarning, Column, Table
 
 PATH_POINTS = 24
@@ -104,7 +105,7 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
     pair = bodies.gear_pair(system.gears)
     points = mesh(pair, bodies.sharing(system.gears.load_sharing, folder), points=PATH_POINTS)
     oil = bodies.lubricant(system.lubricant)
-    temperature = column(table["oil_temperature_C"]) + 273.15
+    temperature = column(table["oil_temperature_C"]) + ZERO_CELSIUS
     mesh_inputs = contact_inputs(points, column(table["torque_Nm"]), column(table["speed_rpm"]) * np.pi / 30.0)
     return {
         **without_gears(mesh_inputs, table),

@@ -12,6 +12,7 @@ import numpy as np
 from mixedlub import config
 from mixedlub.calibration import Calibration
 from mixedlub.chain import Chain
+from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.table import Column, Table
 
 Inputs = dict[str, Any]
@@ -71,7 +72,7 @@ def column(values: np.ndarray | float) -> np.ndarray:
 
 def bookkeeping_inputs(system: config.System, table: Table) -> Inputs:
     """What effects on the measurement read: place in the programme, ambient temperature."""
-    inputs: Inputs = {"ambient_temperature": system.recording.ambient_temperature_C + 273.15}
+    inputs: Inputs = {"ambient_temperature": system.recording.ambient_temperature_C + ZERO_CELSIUS}
     if "sequence" in table:
         inputs["sequence"] = column(table["sequence"])
     return inputs

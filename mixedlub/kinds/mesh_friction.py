@@ -12,6 +12,7 @@ from mixedlub.gear import at_roll_angle
 from mixedlub.kinds.gear_pair import CONDITIONS, motion_inputs
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column
 from mixedlub.kinds.surfaces import pair_of_surfaces
+from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.table import Column, Table
 
 
@@ -36,7 +37,7 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
         share[rows] = points.load_share(level)[rows]
     along = motion_inputs(points, table["torque_Nm"], table["speed_rpm"] * np.pi / 30.0)
     own = {name: column(value) if np.ndim(value) else value for name, value in along.items()}
-    temperature = column(table["oil_temperature_C"]) + 273.15
+    temperature = column(table["oil_temperature_C"]) + ZERO_CELSIUS
     return {
         **own,
         "load_share": share[:, None],

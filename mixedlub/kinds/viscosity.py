@@ -44,7 +44,7 @@ def under_pressure(viscosity: np.ndarray, pressure_viscosity: np.ndarray, hertz_
 
 def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table; what carries no pressure was measured at ambient."""
-    temperature = column(table["temperature_C"]) + 273.15
+    temperature = column(table["temperature_C"]) + oil.ZERO_CELSIUS
     found: Inputs = {
         **bodies.lubricant(system.lubricant).inputs(temperature),
         **bookkeeping_inputs(system, table),
@@ -66,16 +66,17 @@ def _level(system: config.System, recorded: Table) -> float:
         return 1.0
     near = _pressure(recorded) <= max(NEAR_AMBIENT_MPA * 1e6, float(_pressure(recorded).min()))
     rows = recorded.take(near)
-    guess = bodies.lubricant(system.lubricant).viscosity(rows["temperature_C"] + 273.15)
+    guess = bodies.lubricant(system.lubricant).viscosity(rows["temperature_C"] + oil.ZERO_CELSIUS)
     return unknown_oil.level_of(rows, "viscosity_mPa_s", guess * 1e3)
 
 
 def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibration, ...]:
     """An unnamed oil is fitted whole: level and slope against temperature, level and slope against pressure."""
+    kelvin = recorded["temperature_C"] + oil.ZERO_CELSIUS
     pressurised = float(np.ptp(_pressure(recorded))) > 0
     return tuple(
         c
-        for c in unknown_oil.calibrations(system, recorded["temperature_C"] + 273.15, level=_level(system, recorded))
+        for c in unknown_oil.calibrations(system, kelvin, level=_level(system, recorded))
         if pressurised or not c.name.startswith("pressure")
     )
 

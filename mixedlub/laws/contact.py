@@ -102,6 +102,18 @@ def summit_separation(film_thickness: np.ndarray, plane_offset: np.ndarray, summ
     return (film_thickness - plane_offset) / summit_sigma
 
 
+def area_per_overlap(summit_density: np.ndarray, summit_radius: np.ndarray, summit_sigma: np.ndarray) -> np.ndarray:
+    r"""Real over nominal contact area per mean overlap of the summits in their sigma (-), :math:`\pi D R_s \sigma_s`.
+
+    A sphere pressed in elastically by d touches over pi R d; the mean overlap is F_1(t) for normal heights.
+    Source: J. A. Greenwood, J. B. P. Williamson, Proc. R. Soc. A 295 (1966) 300.
+
+    >>> round(float(area_per_overlap(4.4106e10, 7.8332e-6, 0.48970e-6)), 4)
+    0.5315
+    """
+    return np.pi * summit_density * summit_radius * summit_sigma
+
+
 def real_area_ratio(
     separation: np.ndarray, summit_density: np.ndarray, summit_radius: np.ndarray, summit_sigma: np.ndarray
 ) -> np.ndarray:
@@ -114,7 +126,7 @@ def real_area_ratio(
     0.1675
     """
     area = area_integral(separation)
-    area *= np.pi * summit_density * summit_radius * summit_sigma
+    area *= area_per_overlap(summit_density, summit_radius, summit_sigma)
     return np.minimum(area, 1.0, out=area if np.ndim(area) else None)
 
 

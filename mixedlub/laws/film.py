@@ -5,6 +5,18 @@ from __future__ import annotations
 import numpy as np
 
 
+def _line_groups(
+    radius: np.ndarray,
+    entrainment_speed: np.ndarray,
+    line_load: np.ndarray,
+    viscosity: np.ndarray,
+    reduced_modulus: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Speed and load parameter of a line contact, U and W."""
+    size = reduced_modulus * radius
+    return viscosity * entrainment_speed / size, line_load / size
+
+
 def dowson_toyoda(
     radius: np.ndarray,
     entrainment_speed: np.ndarray,
@@ -26,8 +38,7 @@ def dowson_toyoda(
     >>> round(float(h) * 1e6, 4)
     0.2214
     """
-    speed = viscosity * entrainment_speed / (reduced_modulus * radius)
-    load = line_load / (reduced_modulus * radius)
+    speed, load = _line_groups(radius, entrainment_speed, line_load, viscosity, reduced_modulus)
     return 3.06 * (pressure_viscosity * reduced_modulus) ** 0.56 * radius * speed**0.69 * load**-0.10
 
 
@@ -48,8 +59,7 @@ def dowson_higginson(
     >>> round(float(h) * 1e6, 4)
     0.1671
     """
-    speed = viscosity * entrainment_speed / (reduced_modulus * radius)
-    load = line_load / (reduced_modulus * radius)
+    speed, load = _line_groups(radius, entrainment_speed, line_load, viscosity, reduced_modulus)
     return 2.65 * (pressure_viscosity * reduced_modulus) ** 0.54 * radius * speed**0.70 * load**-0.13
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from importlib.metadata import PackageNotFoundError, version
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -20,6 +19,7 @@ from mixedlub.study.results import COLUMNS, DEFINITIONS, Results
 from mixedlub.study.sections import Options
 from mixedlub.study.store import fingerprint
 from mixedlub.study.variants import MEANINGS
+from mixedlub.version import installed_version
 
 MOST_SURFACES = 12
 
@@ -69,7 +69,7 @@ def content(results: Results) -> dict[str, Any]:
         "laws": list(laws_used(study.plan.model())),
         "definitions": [(column, DEFINITIONS[name][1]) for name, (column, _) in COLUMNS.items()],
         "fingerprint": fingerprint(study.plan),
-        "versions": f"mixedlub {_version()}, NumPy {np.__version__}, Python {sys.version.split()[0]}",
+        "versions": f"mixedlub {installed_version()}, NumPy {np.__version__}, Python {sys.version.split()[0]}",
     }
 
 
@@ -165,13 +165,6 @@ _PLAIN = {
     "path_points": "quadrature points along the path of contact, about",
     "face_slices": "slices across the face",
 }
-
-
-def _version() -> str:
-    try:
-        return version("mixedlub")
-    except PackageNotFoundError:
-        return "from source"
 
 
 __all__ = ["Drawn", "content", "write_page"]

@@ -100,8 +100,9 @@ def read_study(path: Path, file: StudyFile | None = None) -> Study:
             study = _resolve(path.stem, file, path.parent)
         _check_finite(study.plan.inputs)
     except InputError as error:
-        if path.name in str(error):
-            raise
+        placed = config.in_file(error, path.name)
+        if path.name in str(placed):
+            raise placed from None
         raise InputError(str(error), where=path.name) from None
     return replace(study, notes=(*notes, *study.mesh.notes))
 
@@ -158,6 +159,16 @@ def located(name: str, section: config.SurfaceSection) -> config.SurfaceSection:
     return section.model_copy(update={"profile": str(known[wanted])})
 
 
+def _surface(name: str, section: config.SurfaceSection, folder: Path) -> Surface:
+    """One surface; what is wrong with its trace is said with its name."""
+    try:
+        return bodies.surface(name, located(name, section), folder.resolve())
+    except InputError as error:
+        if error.where.startswith("surfaces."):
+            raise
+        raise InputError(error.rule, where=f"surfaces.{name}: {error.where}", value=error.value) from None
+
+
 def _resolve(name: str, file: StudyFile, folder: Path) -> Study:
     chosen = pairings_of(file.pairings, file.surfaces)
     used = dict.fromkeys(s for both in chosen for s in both)
@@ -169,7 +180,7 @@ def _resolve(name: str, file: StudyFile, folder: Path) -> Study:
     options = file.options
     points = mesh(pair, share, points=options.path_points, slices=options.face_slices)
     oil = bodies.lubricant(file.lubricant)
-    surfaces = {s: bodies.surface(s, located(s, file.surfaces[s]), folder.resolve()) for s in used}
+    surfaces = {s: _surface(s, file.surfaces[s], folder) for s in used}
     inputs = {
         **_condition_inputs(file, pair, points, oil),
         **_pairing_inputs([(surfaces[a], surfaces[b]) for a, b in chosen]),

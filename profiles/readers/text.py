@@ -25,7 +25,7 @@ class TextReader:
     Line ends of any system (bare CR too), decimal point or comma, tab, blank, comma or semicolon between
     columns. Units come from the caller, else from the header (``x_mm``, ``[mm]``, ``z (um)``,
     ``unit: um``), else from the only pair of units that makes the trace a plausible surface; the profile's
-    ``steps`` say when they were inferred. Positions must increase by equal steps, up to their rounding.
+    ``steps`` and ``origin`` say when they were inferred. Positions must increase by equal steps, up to their rounding.
 
     Checked against the nine text traces of public repositories in the test data and constructed files.
     """
@@ -58,9 +58,15 @@ def read_table(
     if columns.shape[0] == 1:
         spacing = source.spacing or _header_spacing(settings, source.where)
         if spacing is None:
-            raise InputError("one column of heights needs its step: name spacing=", where=source.where)
+            raise InputError(
+                "one column of heights needs its step: in a line 'spacing: 0.5 um', or as spacing '0.5 um'",
+                where=source.where,
+            )
         if named is None:
-            raise InputError("the unit of the heights is not in the file: name unit=", where=source.where)
+            raise InputError(
+                "the unit of the heights is not in the file: put it in a line 'unit: um', or give it as unit 'um'",
+                where=source.where,
+            )
         return make_profile(source, columns[0] * metres(named[1], source.where), spacing, origin, steps=notes)
     position, heights = columns
     step = source.spacing or equal_spacing(position, content.quantum, source.where)
@@ -70,6 +76,7 @@ def read_table(
             *notes,
             f"units inferred from the numbers: position {named[0]}, height {named[1]}",
         )
+        origin["units_inferred"] = True
     if source.spacing is None:
         step *= metres(named[0], source.where)
     origin["units"] = f"position {named[0]}, height {named[1]}"
@@ -108,7 +115,9 @@ def _header_units(content: Table, settings: dict[str, str], where: str) -> tuple
             return str(known[0]), str(known[-1])
         other = next((c for c, unit in zip(cells, known) if not unit and _BRACKETED.search(c.strip(' "'))), None)
         if any(known) and other is not None:
-            raise InputError("names no unit of length: name unit=", where=f"{where}: heading", value=other)
+            raise InputError(
+                "names no unit of length: give both as unit 'mm, um'", where=f"{where}: heading", value=other
+            )
     height = next((settings[name] for name in _UNIT_NAMES if name in settings), None)
     position = next((settings[name] for name in _POSITION_UNIT_NAMES if name in settings), None)
     if height is None or position is None:
@@ -144,5 +153,6 @@ def inferred_units(position_step: float | None, step: float, heights: np.ndarray
         if 1e-3 <= rise * METRES[z] / (step * METRES[x]) <= 0.5
     ]
     if len(pairs) != 1:
-        raise InputError("the units are not in the file and cannot be inferred: name unit=", where=where)
+        rule = "no units in the file, and none can be inferred: heading 'x_mm, z_um', or give them as unit 'mm, um'"
+        raise InputError(rule, where=where)
     return pairs[0]

@@ -64,6 +64,12 @@ def test_a_file_in_place_of_a_case_folder_is_called_one(command, tmp_path, capsy
     assert "is a file; name the case folder" in said
 
 
+def test_a_misspelt_command_gets_the_nearest(capsys):
+    status, said = refused(capsys, "diagnos", str(CASE))
+    assert status == 2
+    assert "command: 'diagnos': no such command; nearest known: 'diagnose'" in said
+
+
 def test_refused_case_leaves_no_folder(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     case = shutil.copytree(CASE, tmp_path / "case")
@@ -139,6 +145,61 @@ def test_mangled_case_never_gives_a_traceback(capsys, seed, command):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", RuntimeWarning)
             refused(capsys, command, str(case), *(["--out", str(Path(folder) / "o")] if command == "simulate" else []))
+
+
+SPOILT = {
+    "semicolons": ("recordings.csv", ",", ";", "recordings.csv: ';': columns are separated by commas"),
+    "name of a column": ("recordings.csv", "speed_rpm", "speed", "'speed_rpm' is missing; nearest known: 'speed'"),
+    "no number": ("recordings.csv", "2,50,", "2,x,", "recordings.csv: line 3, torque_Nm: 'x': torque_Nm must be"),
+    "NaN": ("recordings.csv", "2,50,", "2,nan,", "line 3, torque_Nm: 'nan': torque_Nm must be a finite number"),
+    "negative torque": ("recordings.csv", "2,50,", "2,-50,", "line 3, torque_Nm: -50.0: torque_Nm must be above 0"),
+    "line behind blank ones": ("recordings.csv", "\n2,50,", "\n\n\n2,x,", "recordings.csv: line 5, torque_Nm"),
+    "run twice": ("recordings.csv", "\n2,50,", "\n1,50,", "recordings.csv: line 3, run: 1: run must be unique"),
+    "surface": ("recordings.csv", "d,ground,18.71", "d,grund,18.71", "line 3, gear_surface: 'grund': no such name in "
+                "system.toml; nearest known: 'ground'"),
+    "kind": ("system.toml", '"gear_pair"', '"gear_pear"', "system.toml: kind: 'gear_pear': must be 'gear_pair', "),
+    "key": ("system.toml", "face_width_mm", "facewidth_mm", "gears.facewidth_mm: key is not known; nearest known: 'f"),
+    "one of two": ("system.toml", "[17, 26]", "[17]", "system.toml: gears.teeth: [17]: needs 2 entries, not 1"),
+    "three of two": ("system.toml", "[17, 26]", "[17, 26, 3]", "gears.teeth: [17, 26, 3]: needs 2 entries, not 3"),
+    "entry": ("system.toml", "[17, 26]", '[17, "x"]', "gears.teeth, entry 2: 'x': must be a whole number"),
+    "bound": ("system.toml", "module_mm = 4", "module_mm = -4", "gears.normal_module_mm: -4.2333333: must be above 0"),
+    "table": ("system.toml", '{ model = "rigid" }', '"rigid"', "gears.load_sharing: 'rigid': must be a table of keys"),
+    "gears that do not mesh": ("system.toml", "[17, 26]", "[5, 60]", "system.toml: gears.tip_diameter_mm: "),
+}  # fmt: skip
+"""File of a sound case, a text in it, what takes its place, what the user reads."""
+
+
+@pytest.mark.parametrize("name", SPOILT)
+def test_what_is_wrong_with_a_case_is_said_in_its_own_words(name, tmp_path, capsys):
+    file, old, new, said = SPOILT[name]
+    case = shutil.copytree(CASE, tmp_path / "case")
+    text = (case / file).read_text(encoding="utf-8")
+    assert old in text
+    (case / file).write_text(text.replace(old, new, -1 if name == "semicolons" else 1), encoding="utf-8")
+    for command in ("simulate", "diagnose", "check"):
+        out = [] if command == "check" else ["--out", str(tmp_path / "o")]
+        status, message = refused(capsys, command, str(case), *out)
+        assert status == 2
+        assert said in message
+
+
+@pytest.mark.parametrize("command", ["simulate", "diagnose", "check"])
+def test_ignored_columns_are_told_on_stderr(command, tmp_path, capsys):
+    case = shutil.copytree(CASE, tmp_path / "case")
+    lines = (case / "recordings.csv").read_text(encoding="utf-8").splitlines()
+    (case / "recordings.csv").write_text("\n".join(f"{line},colour" for line in lines), encoding="utf-8")
+    status, said = refused(capsys, command, str(case), *([] if command == "check" else ["--out", str(tmp_path / "o")]))
+    assert status == 0
+    assert "note: recordings.csv: columns ignored because they are not known: colour" in said
+
+
+def test_windows_files_are_read(tmp_path, capsys):
+    """Line ends of two characters, and a byte order mark."""
+    case = shutil.copytree(CASE, tmp_path / "case")
+    for file in ("recordings.csv", "system.toml"):
+        text = (case / file).read_text(encoding="utf-8")
+        (case / file).write_bytes(b"\xef\xbb\xbf" + text.replace("\n", "\r\n").encode())
+    assert refused(capsys, "simulate", str(case), "--out", str(tmp_path / "o"))[0] == 0
 
 
 @QUIET

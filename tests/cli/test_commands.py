@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from mixedlub.cli import COMMANDS, main
+from mixedlub.version import installed_version
 
 ROOT = Path(__file__).parents[2]
 
@@ -52,6 +53,11 @@ def study(tmp_path, monkeypatch):
 def test_help_shows_an_example(command, capsys):
     assert main([command.NAME, "--help"]) == 0
     assert f"mixedlub {command.NAME}" in " ".join(capsys.readouterr().out.split("Example:")[1].split())
+
+
+def test_version_is_printed(capsys):
+    assert main(["--version"]) == 0
+    assert capsys.readouterr().out.strip() == f"mixedlub {installed_version()}"
 
 
 @pytest.mark.parametrize("command", [c for c in COMMANDS if c.NAME not in ("prove", "diagnose")], ids=lambda c: c.NAME)

@@ -5,7 +5,8 @@ import sys
 
 import pytest
 
-from mixedlub.commands.output import output_folder, writing
+from mixedlub.commands.output import output_folder
+from mixedlub.writing import writing
 from profiles.errors import InputError
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from mixedlub.case import Case, read_case
 from mixedlub.diagnosis.audit import audit
-from mixedlub.diagnosis.noise import noise, noise_from_repeats
+from mixedlub.diagnosis.noise import noise, noise_from_repeats, pooled_sd
 from mixedlub.forward import Forward
 
 
@@ -56,6 +56,22 @@ def test_a_second_channel_does_not_hide_repeats(make_case: Callable[..., Path], 
     expected = noise_from_repeats(plain, plain.recordings, seen(plain))
     assert expected > 0
     assert noise_from_repeats(case, case.recordings, seen(case)) == expected
+
+
+@pytest.mark.parametrize("sizes", [[2] * 12, [3] * 10, [6] * 3, [1, 2, 3, 6] * 4, [60, 60]])
+@pytest.mark.parametrize("outlier", [0.0, 20.0])
+def test_repeats_give_the_scatter_with_and_without_an_outlier(sizes: list[int], outlier: float) -> None:
+    group = np.repeat(np.arange(len(sizes)), sizes)
+    rng = np.random.default_rng(11)
+    y = rng.standard_normal((400, group.size))
+    y[:, -1] += outlier
+    found = np.mean([pooled_sd(one, group) for one in y])
+    assert found == pytest.approx(1.0, abs=0.06)
+
+
+def test_a_channel_that_seldom_moves_still_scatters() -> None:
+    y = np.array([5.0, 5.0, 5.0, 5.0, 5.0, 5.0, 5.2, 5.0])
+    assert pooled_sd(y, np.zeros(8, int)) == pytest.approx(np.std(y, ddof=1))
 
 
 @pytest.mark.parametrize("kind", ["disc", "viscosity"])

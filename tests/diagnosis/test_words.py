@@ -9,10 +9,11 @@ import pytest
 from mixedlub.diagnosis import page, words
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.empirical import unnamed as describe
-from mixedlub.diagnosis.labels import plain_equation
+from mixedlub.diagnosis.nexttest import NextTest
 from mixedlub.diagnosis.posterior import Key, Posterior
 from mixedlub.effect import catalogue
 from mixedlub.report.equations import equation
+from mixedlub.report.plain import plain_equation
 
 
 def told(d: Diagnosis) -> dict[str, str]:
@@ -139,6 +140,30 @@ def test_warnings_come_last(teeth: Diagnosis) -> None:
     assert any("28 readings" in s for s in last.sentences)
 
 
+def advised(d: Diagnosis, bits: float, **conditions: float | str) -> str:
+    """The words on the next test where it is this one."""
+    sound: dict[Key, float] = {("sensor_offset",): 0.9}
+    test = NextTest(conditions, ("sensor_offset", "none"), bits)
+    return told(replace(judged(d, sound, 1), next_tests=(test,)))[words.NEXT]
+
+
+def test_a_next_test_outside_the_recording_says_so(offset: Diagnosis) -> None:
+    high = float(offset.recorded.table["speed_rpm"].max())
+    said = advised(offset, 0.5, speed_rpm=high + 1000.0, oil_temperature_C=60.0)
+    assert f"Beyond the recorded range: speed {high + 1000:g} rpm (recorded up to {high:g} rpm)." in said
+    assert "oil temperature" not in said.split("Beyond")[1]
+
+
+def test_a_next_test_within_the_recording_does_not(offset: Diagnosis) -> None:
+    assert "eyond" not in advised(offset, 0.5, speed_rpm=float(offset.recorded.table["speed_rpm"].min()))
+
+
+def test_no_useful_test_is_said(offset: Diagnosis) -> None:
+    assert advised(offset, 0.001, speed_rpm=1000.0).startswith("No useful test: no single reading")
+    alone = replace(judged(offset, {("sensor_offset",): 0.9}, 1), next_tests=())
+    assert told(alone)[words.NEXT].startswith("No useful test: there is no second explanation")
+
+
 @pytest.mark.parametrize(
     ("latex", "plain"),
     [
@@ -147,6 +172,8 @@ def test_warnings_come_last(teeth: Diagnosis) -> None:
         (r"\mathrm{asinh}(x)^{-1/2}", "asinh(x)^(-1/2)"),
         (r"\dfrac{a}{\frac{b}{c}}", "a/(b/c)"),
         (r"\sqrt{x} \cdot y_{max}", "√(x) · y_max"),
+        (r"\pi D R_s\sigma_s", "π D R_s σ_s"),
+        (r"\beta\eta_0\Delta\theta", "β η_0 Δθ"),
         (r"\tfrac12\rho\,\bigl[1 + s\operatorname{sgn}\omega\bigr]", "½ρ [1 + s sgn ω]"),
     ],
 )

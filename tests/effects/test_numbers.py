@@ -16,6 +16,7 @@ from mixedlub.effects.inlet_shear_thinning import inlet_shear_thinning
 from mixedlub.effects.rolling_resistance import rolling_resistance
 from mixedlub.effects.skewed_heights import _skewed_area_integral
 from mixedlub.effects.tip_relief import tip_relief
+from mixedlub.effects.torque_offset import torque_offset
 from mixedlub.laws import drag, heating
 from roughness.integrals import area_integral
 
@@ -49,6 +50,13 @@ class TestLiterature:
     def test_windage_of_diab(self, diameter: float, width: float, teeth: int, rpm: float, watts: float) -> None:
         found = drag.windage_diab(diameter / 2, rpm * np.pi / 30, width, float(teeth))
         assert found == pytest.approx(watts, rel=0.05)
+
+    @pytest.mark.parametrize(("size", "newton_metres"), [(0.369, 5.0), (1.0, 100.0), (3.69, 5000.0)])
+    def test_torque_offset_is_that_of_a_meter_as_large_as_the_gears(self, size: float, newton_metres: float) -> None:
+        """Meters keep their zero to 0.05 % of their range; the range goes with the cube of the gears' size."""
+        typical = catalogue()["torque_offset"].parameters[0].prior.value(np.arcsinh(1.0))
+        found = torque_offset(0.0, 1.0, 0.014 * size, 0.036 * size, 0.055 * size, 226e9, offset=typical)
+        assert found == pytest.approx(5e-4 * newton_metres, rel=0.02)
 
     def test_windage_is_above_a_smooth_disc_in_air(self) -> None:
         """Two faces of a turbulent disc, 0.073 Re^-0.2 rho omega^3 R^5, bound it from below."""

@@ -20,13 +20,12 @@ from mixedlub.gear.compliance import (
 from mixedlub.gear.plate import tapered_plate
 from mixedlub.gear.tooth import Tooth, tooth
 from profiles.errors import InputError
+from tests.gear.pairs import HONG, NASA, STANDARD
 
-STANDARD = GearPair((17, 43), 1e-3, math.radians(20), 10e-3)
-HONG = GearPair((17, 26), 25.4e-3 / 6, math.radians(22.5), 14e-3)
 PAIRS = [
     STANDARD,
     HONG,
-    GearPair((28, 28), 3.175e-3, math.radians(20), 6.35e-3),
+    NASA,
     GearPair((40, 60), 2e-3, math.radians(20), 40e-3, profile_shift=(0.3, -0.1)),
 ]
 STEEL = 206e9, 0.3

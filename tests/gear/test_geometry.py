@@ -11,18 +11,7 @@ from hypothesis import strategies as st
 from mixedlub.gear import GearPair
 from mixedlub.gear.geometry import inverse_involute, involute
 from profiles.errors import InputError
-
-HONG = GearPair((17, 26), 25.4e-3 / 6, math.radians(22.5), 14e-3)
-NASA = GearPair((28, 28), 3.175e-3, math.radians(20), 6.35e-3)
-FZG_C = GearPair(
-    (16, 24),
-    4.5e-3,
-    math.radians(20),
-    14e-3,
-    profile_shift=(0.1817, 0.1715),
-    tip_radius=(41.23e-3, 59.18e-3),
-    centre_distance=91.5e-3,
-)
+from tests.gear.pairs import FZG_C, HONG, NASA
 
 
 def roll_degrees(pair, position):

@@ -108,3 +108,12 @@ def test_the_effects_of_these_kinds_are_offered_where_they_belong(make):
         offered = {e.id for e in Forward(case, case.recordings).effects()}
         assert set(names) <= offered
         assert offered <= set(catalogue())
+
+
+def test_no_two_drifts_of_the_instrument_are_one_law(forward):
+    base = forward.predict()
+    drifts = [e for e in forward.effects() if e.stage == "measurement" and "sequence" in e.reads]
+    assert drifts or "sequence" not in forward.inputs
+    for a, b in combinations(drifts, 2):
+        one, other = (forward.predict(None, {e.id: e.values(np.full(len(e.parameters), 0.1))}) - base for e in (a, b))
+        assert abs(one @ other) < 0.999 * np.linalg.norm(one) * np.linalg.norm(other), (a.id, b.id)

@@ -79,7 +79,7 @@ def test_units_are_inferred_only_when_there_is_one_answer_and_said(tmp_path):
     assert profile.spacing == pytest.approx(0.5e-6)
     assert profile.heights[1] == pytest.approx(heights[1] * 1e-6, rel=1e-3)
     assert any("units inferred" in step for step in profile.steps)
-    with pytest.raises(InputError, match="name unit="):
+    with pytest.raises(InputError, match="as unit '"):
         read(written(tmp_path, rows(POSITIONS / 1e3, HEIGHTS * 4e-3, form="{:.9f}")))
 
 
@@ -120,9 +120,9 @@ def test_bad_text_gets_a_message_that_names_place_and_rule(tmp_path, text, messa
 
 def test_one_column_needs_its_step_and_unit(tmp_path):
     file = written(tmp_path, "1\n2\n1\n3\n")
-    with pytest.raises(InputError, match="name spacing="):
+    with pytest.raises(InputError, match="as spacing '"):
         read(file, unit="um")
-    with pytest.raises(InputError, match="name unit="):
+    with pytest.raises(InputError, match="as unit '"):
         read(file, spacing=1e-6)
 
 

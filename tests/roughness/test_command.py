@@ -8,6 +8,7 @@ import pytest
 import profiles
 from mixedlub.cli import main
 from tests.profiles.test_manifest import FILES, SDF, X3P
+from tests.profiles.test_shipped import TABLE_1
 
 TRACES = Path(profiles.__file__).parent / "traces"
 
@@ -23,17 +24,6 @@ INSTRUMENT = {
     "Rsk": (-0.144, 1e-3),
     "Rku": (2.463, 1e-3),
     "Rdq": (0.157, 1e-3),
-}
-
-# Hong, Aneshansley and Talbot, "Mechanical Power Loss of Spur Gears Subject to Various Surface Finish
-# Pairings", table 1: Ra, Rq, Rz (um)
-TABLE_1 = {
-    "0036": (0.036, 0.046, 0.275),
-    "0122": (0.122, 0.151, 0.510),
-    "0219": (0.219, 0.274, 1.400),
-    "0258": (0.258, 0.321, 1.643),
-    "0302": (0.302, 0.374, 1.777),
-    "0450": (0.450, 0.579, 3.400),
 }
 
 
@@ -164,3 +154,39 @@ def test_study_keeps_a_profile_that_the_instrument_filtered(shared):
     kept = flank_profile("turned", SurfaceSection(profile="mitutoyo_2_mock.xlsx"), folder)
     assert dict(kept.cutoffs) == pytest.approx({"cutoff": 2.5e-3, "short_cutoff": 8e-6})
     assert len(kept.steps) == 1
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--spacing", "0.5"], "--spacing: '0.5': a length is a number and a unit, as in '0.5 um'"),
+        (["--unit", "furlong"], "--unit: 'furlong': not a unit of length"),
+        (["--form", "cubic"], "--form: 'cubic': must be a known form"),
+        (["--method", "median"], "--method: 'median': must be a known filter"),
+        (["--convention", "DIN"], "--convention: 'DIN': must be a known convention"),
+        (["--cutoff-mm", "0"], "'--cutoff-mm'"),
+        (["--trim", "-1"], "'--trim'"),
+    ],
+)
+def test_an_option_is_refused_by_its_name(options, said, tmp_path, capsys):
+    assert main(["profile", str(TRACES / "0258.txt"), "--no-figures", "--out", str(tmp_path), *options]) == 2
+    told = capsys.readouterr().err
+    assert said in told
+    assert "Input should" not in told
+
+
+def test_a_trace_without_units_tells_the_options_that_give_them(tmp_path, capsys):
+    (tmp_path / "heights.txt").write_text("1\n2\n1\n3\n")
+    assert main(["profile", str(tmp_path / "heights.txt"), "--out", str(tmp_path / "out")]) == 2
+    assert "--spacing '0.5 um'" in capsys.readouterr().err
+    assert main(["profile", str(tmp_path / "heights.txt"), "--spacing", "1 um", "--out", str(tmp_path / "out")]) == 2
+    assert "--unit 'um'" in capsys.readouterr().err
+
+
+def test_inferred_units_are_a_warning_that_is_printed(tmp_path, evaluated, capsys):
+    heights = [float(line) * 1e-3 for line in (TRACES / "0258.txt").read_text().splitlines()[7:]]
+    (tmp_path / "bare.txt").write_text("".join(f"{i * 0.25:.2f} {z:.4f}\n" for i, z in enumerate(heights)))
+    row = evaluated(tmp_path / "bare.txt")
+    assert any("the file names no units; inferred from the numbers: position" in text for text in row["warnings"])
+    assert "the file names no units" in capsys.readouterr().err
+    assert not any("names no units" in text for text in evaluated(TRACES / "0258.txt")["warnings"])

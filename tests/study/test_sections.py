@@ -28,6 +28,15 @@ WRONG = {
     "moments and trace": ({"surfaces__fine__profile": "a.csv"}, "both"),
     "interference": ({"gears__teeth": [6, 60]}, "interference"),
     "tips that do not meet": ({"gears__centre_distance_mm": 150.0}, "trial.toml"),
+    "form of a trace": (
+        {"surfaces__fine": {"profile": "shipped:0036", "form": "cubic"}},
+        "surfaces.fine: form: 'cubic'",
+    ),
+    "case instead": (
+        {"schema": "mixedlub-case/1", "kind": "disc"},
+        "schema: 'mixedlub-case/1': must be 'mixedlub-study",
+    ),
+    "switch for a number": ({"boundary_friction": True}, "boundary_friction: True: must be a number"),
     "unknown option": ({"options__film": "hamrock"}, "film"),
     "unknown effect": ({"effects__starvatoin": {}}, "starvatoin"),
     "unknown effect parameter": ({"effects__inlet_shear_heating": {"stength": 1.0}}, "'strength'"),

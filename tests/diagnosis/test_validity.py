@@ -1,0 +1,42 @@
+"""Whether an answer says where its laws were used beyond their range."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mixedlub import standard
+from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.validity import beyond_range, outside
+from mixedlub.effect import find
+
+CREEP = find(["contact_creep"])
+ROWS = {"slide_roll_ratio": np.array([[0.02], [0.4], [0.9], [1.2]])}
+
+
+def test_readings_beyond_the_range_are_counted_and_the_reach_is_said() -> None:
+    (said,) = outside(CREEP, ROWS, 4)
+    assert said.startswith(
+        "contact creep: its law is made for slide-roll ratio 0 to 0.5; in 2 of 4 readings that is up to 1.2"
+    )
+
+
+def test_a_quantity_that_all_readings_share_counts_for_all() -> None:
+    (said,) = outside(CREEP, {"slide_roll_ratio": np.array([[0.1, 0.7]])}, 9)
+    assert "in 9 of 9 readings" in said
+
+
+def test_within_the_range_or_without_the_quantity_nothing_is_said() -> None:
+    assert outside(CREEP, {"slide_roll_ratio": np.array([[0.1], [0.5]])}, 2) == []
+    assert outside(CREEP, {"load": np.array([[0.1], [0.5]])}, 2) == []
+
+
+def test_a_fit_is_judged_by_the_quantities_it_passes_through() -> None:
+    """A third of the readings of the standard disc slide at 0.6."""
+    forward = standard.forward("disc")
+    y = forward.predict()
+    problem = Problem.of(forward.case, forward.table, forward, y, np.zeros(y.size))
+    z = np.zeros(problem.size(("contact_creep",)))
+    (said,) = beyond_range(problem, ("contact_creep",), z)
+    assert f"in {y.size // 3} of {y.size} readings that is up to 0.6" in said
+    slow = problem.take(np.flatnonzero(forward.table["slide_roll_ratio"] < 0.5))
+    assert beyond_range(slow, ("contact_creep",), z) == []
