@@ -261,7 +261,11 @@ def pin_on_disc(data: Path) -> Iterator[Found]:
 
 
 def rheometer(data: Path) -> Iterator[Found]:
-    """Viscosity through a cycle of temperature, every 25th reading."""
+    """Viscosity through a cycle of temperature, every 25th reading.
+
+    The rheometer scatters by 0.04 %; the noise is what a straight line of the D341 chart leaves of a sample that
+    does not change, about 1 %.
+    """
     t = pd.read_csv(data / "oil_viscosity_temperature_cycle" / "viscosity_temperature.csv")
     length = t.groupby("segment")["segment_time_s"].max().cumsum().shift(fill_value=0.0)
     t["time"] = t["segment_time_s"] + t["segment"].map(length)
@@ -269,7 +273,7 @@ def rheometer(data: Path) -> Iterator[Found]:
     system = {
         "kind": "viscosity",
         "description": "rheometer at 200 1/s, 25 to 70 to 5 to 25 degC, fluid unnamed; the start-up reading left out",
-        "recording": {"quantity": "viscosity_mPa_s", "noise": {"relative": 0.004}},
+        "recording": {"quantity": "viscosity_mPa_s", "noise": {"relative": 0.01}},
     }
     yield (
         "oil_viscosity_temperature_cycle",

@@ -16,8 +16,6 @@ from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.table import CaseWarning, Column, Table
 
 PATH_POINTS = 24
-IDLE = 1e-6
-"""Share of tooth force and wheel left without gears: next to nothing, as the laws need a load and a size."""
 
 CONDITIONS = (
     Column("torque_Nm", above=0.0),
@@ -76,6 +74,7 @@ def gear_inputs(points: Mesh, speed: np.ndarray) -> Inputs:
         "pinion_teeth": float(pair.teeth[0]),
         "gear_teeth": float(pair.teeth[1]),
         "contact_ratio": pair.contact_ratio,
+        "gears_fitted": 1.0,
     }
 
 
@@ -93,9 +92,7 @@ def without_gears(found: Inputs, table: Table) -> Inputs:
     return {
         **found,
         "path_weight": np.where(out, 0.0, found["path_weight"]),
-        "transmitted_force": found["transmitted_force"] * np.where(out, IDLE, 1.0),
-        "face_width": np.where(out, 0.0, found["face_width"]),
-        "gear_radius": found["gear_radius"] * np.where(out, IDLE, 1.0),
+        "gears_fitted": np.where(out, 0.0, 1.0),
     }
 
 

@@ -139,10 +139,9 @@ def test_oleic_acid_in_oils_is_resolved(typed):
 @pytest.mark.parametrize("oil", ["oil_a_40C_100C", "oil_b_100C"])
 def test_films_that_step_with_the_order_are_the_instrument(filed, oil):
     d = filed(f"ehd_film_{oil}")
-    assert tied(d)[0] == ["fringe_step"]
-    step = as_json(d)["effects"][0]["parameters"][0]
+    assert "fringe_step" in tied(d)[0]
+    step = next(e for e in as_json(d)["effects"] if e["id"] == "fringe_step")["parameters"][0]
     assert -4e-8 < step["value"] < -1e-8
-    assert "the instrument is at fault" in said(d) or "A tie" in said(d)
 
 
 def test_no_physics_alone_is_named_where_films_step(filed):
