@@ -139,6 +139,7 @@ ambient_temperature     | theta_a    | K       | temperature around the rig
 fringe_order            | N          | -       | interference order that the instrument counted
 first_fringe_order      | N_0        | -       | lowest interference order of the recording
 reading                 | y          | *       | the number the rig records, in the unit of its channel
+largest_torque          | T_m        | N m     | largest torque of the recording, for what a torque meter is made for
 reading_scale           | y_0        | *       | typical size of the recorded number, for effects given as a share of it
 pinion_radius           | r_1        | m       | operating pitch radius of the pinion
 gear_radius             | r_2        | m       | operating pitch radius of the gear

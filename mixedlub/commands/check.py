@@ -97,7 +97,7 @@ def _tables(case: Case) -> Iterator[str]:
                 else "only recorded rows are predicted."
             )
             continue
-        yield f"{name}: {len(table)} rows."
+        yield f"{name}: {len(table)} {'row' if len(table) == 1 else 'rows'}."
         yield from (f"  {column}: {_levels(table, column)}" for column in table.columns if column != "run")
 
 

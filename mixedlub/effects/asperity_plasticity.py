@@ -3,6 +3,7 @@
 import numpy as np
 
 from mixedlub.effect import LogNormal, Parameter, effect
+from mixedlub.laws.contact import area_per_overlap
 from roughness.integrals import area_integral
 
 _FARTHEST = 10.0
@@ -50,5 +51,5 @@ def asperity_plasticity(
     """
     onset = (np.pi * 0.577 * hardness / reduced_modulus) ** 2 * summit_radius / summit_sigma
     yielded = area_integral(np.minimum(separation + onset, _FARTHEST))
-    added = np.pi * summit_density * summit_radius * summit_sigma * yielded
+    added = area_per_overlap(summit_density, summit_radius, summit_sigma) * yielded
     return np.minimum(area_ratio + strength * added, 1.0)

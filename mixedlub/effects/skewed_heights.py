@@ -3,6 +3,7 @@
 import numpy as np
 
 from mixedlub.effect import Between, Normal, Parameter, effect
+from mixedlub.laws.contact import area_per_overlap
 from roughness.integrals import area_integral
 
 _SMALL = 1e-4
@@ -12,7 +13,7 @@ _SMALL = 1e-4
     stage="contact",
     acts_on="area_ratio",
     parameters=(
-        Parameter("skewness", "-", Normal(-0.5, 0.8), "skewness of the heights; negative for plateaus", null=0.0),
+        Parameter("skewness", "-", Normal(-0.6, 0.8), "skewness of the heights; negative for plateaus", null=0.0),
         Parameter("narrowing", "-", Between(0.0, 0.6), "how far the summits' spread follows the plateau"),
     ),
     equation=r"P_B \leftarrow P_B + \pi D R_s\sigma_s\,(w F_1^{\ast}(t/w) - F_1),\quad w = e^{n S_{sk}},\ "
@@ -38,7 +39,7 @@ def skewed_heights(area_ratio, separation, summit_density, summit_radius, summit
     """
     width = np.exp(narrowing * skewness)
     change = width * _skewed_area_integral(separation / width, skewness) - area_integral(separation)
-    return np.clip(area_ratio + np.pi * summit_density * summit_radius * summit_sigma * change, 0.0, 1.0)
+    return np.clip(area_ratio + area_per_overlap(summit_density, summit_radius, summit_sigma) * change, 0.0, 1.0)
 
 
 def _skewed_area_integral(t: np.ndarray, skewness: float) -> np.ndarray:

@@ -111,6 +111,7 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
         **bookkeeping_inputs(system, table),
         "oil_temperature": temperature,
         "boundary_friction": system.boundary_friction,
+        "largest_torque": float(np.max(recorded["torque_Nm"])),
     }
 
 

@@ -1,0 +1,89 @@
+"""A mismatch without a name: what it rides on, and when it stands before a name that does not hold elsewhere."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mixedlub.diagnosis.carriers import NOTHING, QUANTITIES, READING, carriers, log_slope
+from mixedlub.diagnosis.fit import log_likelihood, map_fit
+from mixedlub.diagnosis.heldout import HeldOut
+from mixedlub.diagnosis.mismatch import mismatch_test
+from mixedlub.diagnosis.posterior import posterior
+from mixedlub.diagnosis.problem import Explanation, Problem
+from mixedlub.effect import Effect
+
+from .test_inference import found_in, problem
+
+
+def test_boundary_friction_carries_in_proportion_to_its_share_of_friction() -> None:
+    p = problem("disc")
+    z = np.zeros(p.calibration_size)
+    slope = log_slope(p, z, "boundary_friction")
+    here = p.predict((), z)
+    moved = p.forward.predict({**p.calibration(z), "boundary_friction": 0.1001})
+    assert slope == pytest.approx((moved - here) / np.log(1.001), rel=2e-3)
+
+
+def test_film_and_shear_carry_with_the_signs_of_lubrication() -> None:
+    p = problem("disc")
+    found = carriers(p, np.zeros(p.calibration_size))
+    assert set(found) == {READING, NOTHING, *QUANTITIES}
+    assert (found["film_thickness"] < 0).all()
+    assert (found["shear_stress"] > 0).all()
+
+
+def test_a_mismatch_of_the_film_is_taken_for_one() -> None:
+    """Readings of a film that is thinner the colder the oil, made by hand from the chain's own slope."""
+    p = problem("disc", seed=3)
+    slope = log_slope(p, np.zeros(p.calibration_size), "film_thickness")
+    assert slope is not None
+    temperature = p.rows["oil_temperature_C"]
+    bend = np.sin(3.0 * (temperature - temperature.min()) / np.ptp(temperature))
+    found = found_in(Problem(p.case, p.rows, p.forward, p.y + 0.6 * bend * slope, p.sd, p.shared))
+    assert found.unknown.best.carrier == "film_thickness"
+
+
+def test_a_wild_reading_does_not_pull_the_fit() -> None:
+    p = problem()
+    clean = map_fit(p, (), np.zeros(p.size(())))
+    y = p.y.copy()
+    y[7] += 400.0 * p.sd[7]
+    pulled = map_fit(Problem(p.case, p.rows, p.forward, y, p.sd, p.shared), (), np.zeros(p.size(())))
+    assert np.max(np.abs(pulled.z - clean.z)) < 0.3
+    value, weight = log_likelihood(np.array([300.0, 3000.0]))
+    assert value[0] - value[1] == pytest.approx(2.0 * np.log(10.0), abs=0.01)
+    assert (weight < 1e-4).all()
+
+
+def test_a_name_that_fails_on_levels_left_out_loses_its_place() -> None:
+    found = found_in(problem(extra=0.05))
+    test = mismatch_test(found, 0.01)
+    before = posterior(found, test)
+    assert before.verdict == ("churning",)
+    after = posterior(found, test, {("churning",): 60.0})
+    assert after.verdict != ("churning",)
+    assert after.weights[("churning",)] < 1e-6
+
+
+@pytest.mark.parametrize(("after", "rows", "loses"), [(1.0, 150, False), (1.3, 150, False), (2.2, 150, True)])
+def test_the_demerit_spares_what_chance_and_another_form_leave(after: float, rows: int, loses: bool) -> None:
+    assert (HeldOut(3.0, after, "", 5).demerit(1.0, rows) > 0.0) is loses
+
+
+def test_an_effect_that_is_seldom_missing_has_lower_odds(monkeypatch: pytest.MonkeyPatch) -> None:
+    from mixedlub.diagnosis import search
+
+    found = found_in(problem())
+    here = found.log_weights
+    known = search.effects_of
+
+    def rarer(names: Explanation) -> list[Effect]:
+        return [replace(e, odds=0.1) if e.id == "churning" else e for e in known(names)]
+
+    monkeypatch.setattr(search, "effects_of", rarer)
+    there = found.log_weights
+    fallen = {m: here[m] - there[m] for m in (("churning",), ("sensor_gain",))}
+    assert fallen["churning",] - fallen["sensor_gain",] == pytest.approx(np.log(10.0))
