@@ -112,13 +112,12 @@ def raw_coordinates(case: Case, table: Table, forward: Forward) -> dict[str, np.
 
 
 def coordinates(case: Case, table: Table, forward: Forward) -> Coordinates:
-    """The axes along which a recording varies."""
+    """The axes along which a recording varies; what was held counts only where nothing else varies."""
+    every = {name: np.unique(values) for name, values in raw_coordinates(case, table, forward).items()}
+    varied = {name: levels for name, levels in every.items() if levels.size > 1}
     axes = []
-    for name, values in raw_coordinates(case, table, forward).items():
-        levels = np.unique(values)
-        if levels.size < 2 or is_held(name, levels):
-            continue
-        if values.dtype.kind in "US":
+    for name, levels in ({k: v for k, v in varied.items() if not is_held(k, v)} or varied).items():
+        if levels.dtype.kind in "US":
             axes.append(Coordinate(name, levels))
             continue
         logarithmic = bool(levels[0] > 0 and levels[-1] / levels[0] > 3.0 and name != "sequence")

@@ -10,6 +10,8 @@ from mixedlub.table import Table
 
 FEW = 30
 """Tests from which an sd counts as known: its own scatter is then 13 %."""
+SEVERAL = 2000
+"""Most readings whose sds are compared with one another: beyond, the wild ones even out."""
 PARTNERS = 12
 """Readings of its group that each one is compared with, at most."""
 
@@ -35,7 +37,9 @@ def noise(case: Case, rows: Table, level: np.ndarray, unstated: np.ndarray) -> t
     quantity = case.quantity
     stated = case.system.recording.noise
     if f"{quantity}_sd" in rows:
-        sd = steadied(rows[f"{quantity}_sd"].astype(float), level, _neighbours(case, rows))
+        sd = rows[f"{quantity}_sd"].astype(float)
+        if sd.size <= SEVERAL:
+            sd = steadied(sd, level, _neighbours(case, rows))
     elif stated is not None and (stated.relative > 0 or stated.absolute > 0):
         sd = np.hypot(stated.relative * np.abs(level), stated.absolute)
     else:
