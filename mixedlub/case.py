@@ -94,7 +94,7 @@ def _columns(found: Kind, system: config.System, measured: bool) -> tuple[Column
     """What a table of the case may hold; surfaces are those of the system where the kind computes with them."""
     names = tuple(system.surfaces) if "surfaces" in found.sections else ()
     own = (replace(c, names=names) if c.form == "name" and "surface" in c.name else c for c in found.columns)
-    return (RUN, *BOOKKEEPING, *own, *_measured(system, measured))
+    return (RUN, *BOOKKEEPING, *own, *found.channels, *_measured(system, measured))
 
 
 def _measured(system: config.System, required: bool) -> tuple[Column, ...]:

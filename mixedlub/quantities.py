@@ -128,7 +128,7 @@ drive_speed             | omega      | rad/s   | signed speed of a drive (m/s wh
 reference_speed         | omega_0    | rad/s   | largest speed of the recording, in the unit of drive_speed
 load_fraction           | q_F        | -       | load on a drive over the largest load of the recording
 additive_fraction       | q_a        | -       | content of an additive over the largest content tested
-gears_fitted            | -          | -       | 1 for the complete drive, the share of friction left without gears
+gears_fitted            | -          | -       | 1 with gears; without: share of friction left, 0 for a gear pair
 motor_torque            | T_m        | N m     | torque that the controller computes from the motor current
 reference_torque        | T_m0       | N m     | largest motor torque of the recording
 drive_angle             | phi        | rad     | angle the drive has turned
@@ -136,6 +136,8 @@ pressure                | p          | Pa      | hydrostatic pressure
 time                    | t          | s       | time since the start of the recording
 sequence                | q          | -       | place in the test programme, 0 at its start and 1 at its end
 ambient_temperature     | theta_a    | K       | temperature around the rig
+fringe_order            | N          | -       | interference order that the instrument counted
+first_fringe_order      | N_0        | -       | lowest interference order of the recording
 reading                 | y          | *       | the number the rig records, in the unit of its channel
 largest_torque          | T_m        | N m     | largest torque of the recording, for what a torque meter is made for
 reading_scale           | y_0        | *       | typical size of the recorded number, for effects given as a share of it

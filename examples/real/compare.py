@@ -13,8 +13,10 @@ from pathlib import Path
 import numpy as np
 
 from mixedlub.case import read_case
-from mixedlub.diagnosis.answer import as_json
+from mixedlub.diagnosis.answer import as_json, checked
+from mixedlub.diagnosis.confusion import confusion
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.words import unshown
 from profiles.errors import InputError
 
 KNOWN = tomllib.loads((Path(__file__).parent / "known.toml").read_text(encoding="utf-8"))
@@ -56,9 +58,15 @@ def said(d: Diagnosis) -> list[tuple[str, str]]:
             for p in effect["parameters"][:4]
         )
         rows.append((effect["id"], values))
+    hidden = unshown(d, confusion(d.found))
+    if answer["verdict"] != ["none"] and hidden:
+        rows.append(("Too weak to show", ", ".join(hidden)))
     rows += [("Reading", text) for text in faults(d)]
-    check = correlation(d)
-    return rows if check is None else [*rows, ("Check", check)]
+    check = checked(d)
+    if check is None or check.correlation is None:
+        return rows
+    text = f"predicted reading against {check.column.replace('_', ' ')}, never fitted: r = {check.correlation:.3f}"
+    return [*rows, ("Check", text)]
 
 
 def faults(d: Diagnosis) -> list[str]:
@@ -70,15 +78,6 @@ def faults(d: Diagnosis) -> list[str]:
         fault = d.case.kind.reading_fault(table, row, float(y[row] - d.recorded.predicted[row]))
         found.append(f"run {run} set aside" + ("" if fault is None else f": {fault}"))
     return found[:5]
-
-
-def correlation(d: Diagnosis) -> str | None:
-    """How the channel that was kept back goes with what was predicted."""
-    name = d.case.system.recording.check
-    if name is None or name not in d.recorded.table:
-        return None
-    r = float(np.corrcoef(d.recorded.predicted, d.recorded.table[name])[0, 1])
-    return f"predicted reading against {name.replace('_', ' ')}, never fitted: r = {r:.3f}"
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -12,7 +12,9 @@ import typer
 from mixedlub.commands.output import case_folder, note, say, within_range
 
 if TYPE_CHECKING:
+    from mixedlub.calibration import Calibration
     from mixedlub.case import Case
+    from mixedlub.forward import Forward
     from mixedlub.table import Table
 
 NAME = "check"
@@ -45,9 +47,11 @@ def understood(case: Case) -> Iterator[str]:
     notes = list(case.notes)
     with noted(notes):
         bodies = list(_bodies(case))
+        forward = _forward(case)
+    notes += [] if forward is None else [note for note in forward.notes if note not in notes]
     yield from bodies
     yield from _tables(case)
-    yield from _uncertain(case)
+    yield from _uncertain(case, () if forward is None else forward.calibrations)
     yield "Assumed:" if notes else "Assumed: nothing beyond what the files say."
     yield from (f"  {text}" for text in notes)
 
@@ -106,13 +110,33 @@ def _levels(table: Table, column: str) -> str:
     return f"{values[0]:g} to {values[-1]:g}"
 
 
-def _uncertain(case: Case) -> Iterator[str]:
-    moving = {k: v for k, v in case.system.uncertainty.model_dump().items() if v > 0}
-    words = ", ".join(f"{k.replace('_', ' ')} ({v:g})" for k, v in moving.items())
-    yield f"May be calibrated, with its standard deviation: {words or 'nothing; all inputs count as known'}."
+def _uncertain(case: Case, movable: Sequence[Calibration]) -> Iterator[str]:
+    stated = {k: v for k, v in case.system.uncertainty.model_dump().items() if v > 0}
+    words = ", ".join(f"{k.replace('_', ' ')} ({v:g})" for k, v in stated.items())
+    others = [c for c in movable if c.name not in stated]
+    nothing = "nothing" if others else "nothing; all inputs count as known"
+    yield f"May be calibrated, with its standard deviation: {words or nothing}."
+    if others:
+        yield "Not known, so fitted with a broad prior:"
+        for c in others:
+            low, high = c.parameter.typical
+            unit = "" if c.parameter.unit == "-" else f" {c.parameter.unit}"
+            yield f"  {c.name.replace('_', ' ')}: 80 % within {low:.3g} to {high:.3g}{unit} ({c.parameter.meaning})"
     noise = case.system.recording.noise
-    yield (
-        "Noise of a reading: not given; it would be estimated from repeats, else from the fit."
-        if noise is None
-        else f"Noise of a reading: {noise.relative:g} of its value and {noise.absolute:g} in its unit."
-    )
+    own = f"{case.quantity}_sd"
+    if case.recordings is not None and own in case.recordings:
+        yield f"Noise of a reading: the column {own}."
+    elif noise is None:
+        yield "Noise of a reading: not given; it would be estimated from repeats, else from the fit."
+    else:
+        yield f"Noise of a reading: {noise.relative:g} of its value and {noise.absolute:g} in its unit."
+    if noise is not None and (noise.setup_relative > 0 or noise.setup_absolute > 0):
+        yield f"Shared within a set-up: {noise.setup_relative:g} of its value and {noise.setup_absolute:g} in its unit."
+
+
+def _forward(case: Case) -> Forward | None:
+    """The forward problem of what was recorded, or of what is wanted."""
+    from mixedlub.forward import Forward
+
+    table = case.recordings if case.recordings is not None else case.conditions
+    return None if table is None else Forward(case, table)

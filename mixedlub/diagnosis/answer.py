@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import csv
 import io
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 
 from mixedlub.diagnosis.advice import beyond
+from mixedlub.diagnosis.check import Check, check_channel
 from mixedlub.diagnosis.diagnose import Diagnosis, Predicted
 from mixedlub.diagnosis.predict import Refined
 from mixedlub.diagnosis.problem import effects_of
@@ -62,7 +64,21 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
             for t in d.next_tests
         ],
         "warnings": list(d.warnings),
+        **_check_record(d),
     }
+
+
+def checked(d: Diagnosis) -> Check | None:
+    """The second channel of the recording against the predicted readings, where there is one."""
+    name = d.case.system.recording.check
+    if name is None or name not in d.recorded.table:
+        return None
+    return check_channel(name, d.recorded.table[name], d.recorded.predicted)
+
+
+def _check_record(d: Diagnosis) -> dict[str, Any]:
+    check = checked(d)
+    return {} if check is None else {"check": asdict(check)}
 
 
 def verdict_fit(d: Diagnosis) -> Refined:

@@ -30,10 +30,12 @@ def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]
         raise InputError(
             "the base model has no finite answer for this run's conditions", where=f"{where}, run", value=bad
         )
-    if "rig" in rows and case.kind.name != "friction_map" and np.unique(rows["rig"]).size > 1:
-        names = ", ".join(np.unique(rows["rig"]).tolist())
+    whole = np.setdiff1d(rows["rig"], case.kind.part_rigs) if "rig" in rows else np.array([])
+    if whole.size > 1:
+        known = f"only as {' or '.join(case.kind.part_rigs)}" if case.kind.part_rigs else "for no case of this kind"
         notes.append(
-            f"readings of the rigs {names} are all compared with the whole base model: no part rig is modelled"
+            f"readings of the rigs {', '.join(whole.tolist())} are all compared with the whole base model: a part "
+            f"rig is modelled {known}"
         )
     if y.size < SCARCE:
         notes.append(f"only {y.size} readings: expect ties and wide intervals")

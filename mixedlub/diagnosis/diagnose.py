@@ -11,7 +11,7 @@ import numpy as np
 
 from mixedlub.case import Case, read_case, read_conditions
 from mixedlub.diagnosis.audit import audit
-from mixedlub.diagnosis.features import Coordinates, coordinates
+from mixedlub.diagnosis.features import Coordinates, coordinates, is_held
 from mixedlub.diagnosis.fit import outlier_chance
 from mixedlub.diagnosis.heldout import HeldOut, held_out
 from mixedlub.diagnosis.location import Region, region
@@ -107,7 +107,8 @@ def diagnose_case(
     other = None if wanted is None else _predict(found, judged, refined, wanted)
     chance = _outliers(found, judged, refined)
     columns = [c.name for c in case.kind.columns if c.name in rows]
-    place = region(rows, columns, np.where(chance > 0.5, 0.0, recorded.mismatch_z))
+    varied = [name for name in columns if not is_held(name, rows[name])] or columns
+    place = region(rows, varied, np.where(chance > 0.5, 0.0, recorded.mismatch_z))
     tests = _next_tests(found, judged, refined, columns)
     if not isinstance(judged.verdict, str):
         warnings += beyond_range(found.problem, judged.verdict, refined[judged.verdict].z)

@@ -12,6 +12,8 @@ from mixedlub.table import Table
 
 NODES = 12
 JITTER = 1e-6
+HELD = 0.01
+"""A condition that spans less than this share of its size was held: what it wanders is no variation to learn from."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +45,18 @@ class Coordinate:
         size, vectors = np.linalg.eigh(kernel + JITTER * np.eye(nodes.size))
         keep = size > 1e-3 * size.max()
         return _kernel(self.scale(values), nodes, length) @ (vectors[:, keep] / np.sqrt(size[keep]))[:, ::-1]
+
+
+def is_held(name: str, levels: np.ndarray) -> bool:
+    """Whether a condition was held: it spans next to nothing of its size.
+
+    >>> is_held("oil_temperature_C", np.array([31.0, 32.3])), is_held("speed_rpm", np.array([500.0, 520.0]))
+    (True, False)
+    """
+    if levels.dtype.kind in "US" or name == "sequence":
+        return False
+    size = levels + 273.15 if name.endswith("temperature_C") else levels
+    return float(np.ptp(size)) <= HELD * float(np.max(np.abs(size)))
 
 
 def _kernel(a: np.ndarray, b: np.ndarray, length: float) -> np.ndarray:
@@ -98,13 +112,12 @@ def raw_coordinates(case: Case, table: Table, forward: Forward) -> dict[str, np.
 
 
 def coordinates(case: Case, table: Table, forward: Forward) -> Coordinates:
-    """The axes along which a recording varies."""
+    """The axes along which a recording varies; what was held counts only where nothing else varies."""
+    every = {name: np.unique(values) for name, values in raw_coordinates(case, table, forward).items()}
+    varied = {name: levels for name, levels in every.items() if levels.size > 1}
     axes = []
-    for name, values in raw_coordinates(case, table, forward).items():
-        levels = np.unique(values)
-        if levels.size < 2:
-            continue
-        if values.dtype.kind in "US":
+    for name, levels in ({k: v for k, v in varied.items() if not is_held(k, v)} or varied).items():
+        if levels.dtype.kind in "US":
             axes.append(Coordinate(name, levels))
             continue
         logarithmic = bool(levels[0] > 0 and levels[-1] / levels[0] > 3.0 and name != "sequence")

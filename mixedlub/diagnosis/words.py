@@ -15,16 +15,15 @@ from mixedlub.diagnosis.confusion import Confusion, confusion
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.empirical import Absorbed, Unnamed
 from mixedlub.diagnosis.labels import (
-    conditions_text,
     effect_words,
     explanation_words,
     number,
     range_text,
-    unit_of,
     words_of,
 )
 from mixedlub.diagnosis.maps import missing
 from mixedlub.diagnosis.problem import effects_of
+from mixedlub.diagnosis.readings import checked_channel, outliers, reading_conditions, steadied_noise
 from mixedlub.effect import Effect
 from mixedlub.report.plain import plain_equation
 
@@ -37,6 +36,7 @@ LEFT_OUT = "What was left out?"
 UNNAMED = "If it is something unknown"
 ALIKE = "What else could it be?"
 GAIN = "How much better is it on conditions it did not fit?"
+CHECK = "Does a channel that was not fitted agree?"
 OUTLIERS = "Outlier readings"
 CALIBRATION = "What calibration was moved to"
 NEXT = "Next test"
@@ -79,13 +79,14 @@ def sections(d: Diagnosis, unnamed: Unnamed | None = None) -> list[Section]:
     alike = confusion(d.found)
     found = [
         Section(ANSWER, (headline(d), *_standing(d))),
-        Section(MISMATCH, _mismatch(d)),
+        Section(MISMATCH, (*_mismatch(d), *steadied_noise(d))),
         Section(WHERE, _where(d)),
         Section(LEFT_OUT, *_left_out(d)),
         *([_unnamed(d, unnamed)] if unnamed is not None else []),
         Section(ALIKE, _ties(d, alike)),
         Section(GAIN, _gain(d)),
-        Section(OUTLIERS, *_outliers(d)),
+        Section(CHECK, checked_channel(d)),
+        Section(OUTLIERS, *outliers(d)),
         Section(CALIBRATION, *_calibration(d)),
         Section(NEXT, next_test(d)),
         Section("Warnings", d.warnings),
@@ -130,16 +131,23 @@ def headline(d: Diagnosis) -> str:
     if judged.verdict == "unknown":
         return f"Something is missing that the catalogue does not have (probability {p})."
     assert not isinstance(judged.verdict, str)
-    physics = [effect_words(e.id) for e in effects_of(judged.verdict) if e.stage != "measurement"]
-    faults = [effect_words(e.id) for e in effects_of(judged.verdict) if e.stage == "measurement"]
-    if not physics:
+    effects = effects_of(judged.verdict)
+    free = [effect_words(e.id) for e in effects if is_free(e)]
+    physics = [effect_words(e.id) for e in effects if e.stage != "measurement" and not is_free(e)]
+    faults = [effect_words(e.id) for e in effects if e.stage == "measurement"]
+    if not physics and not free:
         return f"No physics is missing; the instrument is at fault: {' and '.join(faults)} (probability {p})."
+    parts = [f"Missing physics: {' and '.join(physics)}"] if physics else []
+    if free:
+        parts.append(f"{'a' if parts else 'A'} change of free form, its cause not named: {' and '.join(free)}")
     if faults:
-        return (
-            f"Missing physics: {' and '.join(physics)}; and a fault of the instrument: {' and '.join(faults)} "
-            f"(probability {p})."
-        )
-    return f"Missing physics: {' and '.join(physics)} (probability {p})."
+        parts.append(f"a fault of the instrument: {' and '.join(faults)}")
+    return f"{'; and '.join(parts)} (probability {p})."
+
+
+def is_free(e: Effect) -> bool:
+    """Whether an effect describes a history in a form that fits any, so that it names no cause."""
+    return e.source.startswith("empirical")
 
 
 def _listed(items: list[str], last: str) -> str:
@@ -205,22 +213,14 @@ def _where(d: Diagnosis) -> tuple[str, ...]:
     if (~inside).any():
         said.append(f"Elsewhere {_rms(z[~inside]):.1f} sigma.")
     most = int(np.argmax(np.abs(z)))
-    said.append(f"Largest at run {int(d.recorded.table['run'][most])} ({_conditions(d, most)}): {z[most]:+.1f} sigma.")
+    said.append(
+        f"Largest at run {int(d.recorded.table['run'][most])} ({reading_conditions(d, most)}): {z[most]:+.1f} sigma."
+    )
     return tuple(said)
 
 
 def _rms(values: np.ndarray) -> float:
     return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
-
-
-def _conditions(d: Diagnosis, row: int) -> str:
-    table = d.recorded.table
-    named: dict[str, float | str] = {}
-    for column in d.case.kind.columns:
-        if column.name in table:
-            value = table[column.name][row]
-            named[column.name] = str(value) if column.form == "name" else float(value)
-    return conditions_text(named)
 
 
 def _left_out(d: Diagnosis) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
@@ -235,11 +235,14 @@ def _left_out(d: Diagnosis) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...
             f"{e.summary}",
             equation_sentence(e),
             f"Source: {e.source}",
+            f"To make sure: {e.separated_by}.",
         ]
+        if is_free(e):
+            continue
         for p, fitted in zip(e.parameters, record["parameters"], strict=True):
             span = f"{number(fitted['low90'])} to {number(fitted['high90'])}"
             table.append((effect_words(e.id), p.name, number(fitted["value"]), span, p.unit, p.meaning))
-    return tuple(sentences), tuple(table)
+    return tuple(sentences), tuple(table) if len(table) > 1 else ()
 
 
 def equation_sentence(e: Effect) -> str:
@@ -302,14 +305,33 @@ def _ties(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
                     f"Its signature at these conditions is nearest to that of {', '.join(near[:3])} "
                     f"(1 would be the same; {effect_words(name)})."
                 )
-    unseen = alike.unseen()
+    unseen = unshown(d, alike)
+    rejected = [name for name in _rejected(d) if name not in unseen]
+    if rejected:
+        said.append(
+            f"Weighed and rejected (probability below 0.01 each): {', '.join(effect_words(name) for name in rejected)}."
+        )
     if unseen:
         said.append(
-            "Not testable here (below 3 sigma at usual strength once calibration adapts): "
-            + ", ".join(effect_words(name) for name in unseen)
-            + "."
+            "Not testable here (below 3 sigma at usual strength once calibration adapts), so neither named nor "
+            f"excluded: {', '.join(effect_words(name) for name in unseen)}."
         )
     return tuple(said)
+
+
+def unshown(d: Diagnosis, alike: Confusion) -> list[str]:
+    """Effects outside the tied explanations that these readings would not show at usual strength."""
+    told = {name for key in d.posterior.tied if not isinstance(key, str) for name in key}
+    return [name for name in alike.unseen() if name not in told]
+
+
+def _rejected(d: Diagnosis) -> list[str]:
+    """Improbable effects on the very quantities that the answer changes."""
+    if isinstance(d.posterior.verdict, str):
+        return []
+    changed = {quantity for e in effects_of(d.posterior.verdict) for quantity in e.acts_on} - {"reading"}
+    weighed = {name: p for name, p in d.posterior.inclusion(d.found).items() if name not in ("none", "unknown")}
+    return [e.id for e in effects_of(tuple(weighed)) if weighed[e.id] < 0.01 and changed & set(e.acts_on)]
 
 
 def _gain(d: Diagnosis) -> tuple[str, ...]:
@@ -324,34 +346,6 @@ def _gain(d: Diagnosis) -> tuple[str, ...]:
     if kept.after > 0.95 * kept.before:
         return (f"Not better: {change} Do not extrapolate it.", REFITTED)
     return (change.capitalize(), REFITTED)
-
-
-def _outliers(d: Diagnosis) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
-    rows = np.flatnonzero(d.outlier_chance > 0.5)
-    if not rows.size:
-        return (), ()
-    unit = unit_of(d.case.quantity) or "-"
-    table = [("run", f"recorded ({unit})", f"predicted ({unit})", "off by", "conditions")]
-    y = d.readings
-    for i in rows[:12]:
-        off = (y[i] - d.recorded.predicted[i]) / d.recorded.sd[i]
-        table.append(
-            (
-                str(int(d.recorded.table["run"][i])),
-                number(y[i]),
-                number(d.recorded.predicted[i]),
-                f"{off:+.1f} sigma",
-                _conditions(d, int(i)),
-            )
-        )
-    more = f" The first {len(table) - 1}:" if rows.size > 12 else ""
-    count = "One reading is" if rows.size == 1 else f"{rows.size} readings are"
-    said = [f"{count} more probably wrong than right, and counted for little.{more}"]
-    for i in rows.tolist():
-        fault = d.case.kind.reading_fault(d.recorded.table, i, float(y[i] - d.recorded.predicted[i]))
-        if fault is not None:
-            said.append(f"Run {int(d.recorded.table['run'][i])}: {fault}.")
-    return tuple(said), tuple(table)
 
 
 def _calibration(d: Diagnosis) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:

@@ -21,19 +21,29 @@ _SIZE = 1.25
     "where it was",
 )
 def bearing_drag(
-    power_loss, transmitted_force, pinion_radius, pinion_speed, gear_speed, viscosity, oil_density, *, idle, loaded
+    power_loss,
+    transmitted_force,
+    pinion_radius,
+    pinion_speed,
+    gear_speed,
+    viscosity,
+    oil_density,
+    gears_fitted,
+    *,
+    idle,
+    loaded,
 ):
     """Four rolling bearings turn in oil and carry the tooth force.
 
     Two bearings a shaft, each half the force, as large as a pinion's shaft allows. Palmgren's
     constant makes the form belong to SI.
 
-    >>> gear = dict(transmitted_force=3000.0, pinion_radius=0.036, pinion_speed=157.1, gear_speed=102.7)
+    >>> gear = dict(transmitted_force=3000.0, pinion_radius=0.036, pinion_speed=157.1, gear_speed=102.7, gears_fitted=1)
     >>> round(bearing_drag(0.0, **gear, viscosity=0.01275, oil_density=850.0, idle=1.0, loaded=1.0))   # 15.7 kW
     24
     """
     diameter = _SIZE * pinion_radius
-    by_load = loaded * palmgren_load_torque(0.5 * transmitted_force, diameter)
+    by_load = loaded * gears_fitted * palmgren_load_torque(0.5 * transmitted_force, diameter)
     drag = 0.0
     for speed in (pinion_speed, gear_speed):
         by_oil = idle * palmgren_idle_torque(viscosity, oil_density, speed, diameter)

@@ -30,6 +30,7 @@ def churning(
     gear_teeth,
     viscosity,
     oil_density,
+    gears_fitted,
     *,
     strength,
     viscous,
@@ -41,7 +42,7 @@ def churning(
     n^(1 + q + e) nu^q, so that oil that resists by viscosity does not also rise as the cube of speed in air does.
     The acceleration of gravity makes the form belong to m/s^2.
 
-    >>> wheel = dict(gear_radius=0.05, face_width=0.02, gear_module=4e-3, gear_teeth=25.0)
+    >>> wheel = dict(gear_radius=0.05, face_width=0.02, gear_module=4e-3, gear_teeth=25.0, gears_fitted=1.0)
     >>> speed = 1100 * 3.14159 / 30
     >>> shape = dict(strength=1.0, viscous=0.21, surplus=0.38)
     >>> round(float(churning(0.0, gear_speed=speed, viscosity=0.017, oil_density=850.0, **wheel, **shape)), 1)
@@ -58,4 +59,4 @@ def churning(
         viscosity_exponent=viscous,
         gravity_exponent=1.0 - viscous - 0.5 * surplus,
     )
-    return power_loss + strength * stirred
+    return power_loss + strength * gears_fitted * stirred

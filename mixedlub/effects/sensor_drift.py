@@ -12,7 +12,7 @@ from mixedlub.effect import Parameter, Wide, effect
     fingerprint={"sequence": "+"},
     separated_by="the first point repeated at the end, with the surfaces measured again: running-in saturates and "
     "leaves smoother flanks, drift does neither",
-    after=("fringe_order", "heat_leak", "torque_constant", "torque_offset", "zero_drift"),
+    after=("fringe_order", "fringe_step", "heat_leak", "torque_constant", "torque_offset", "zero_drift"),
 )
 def sensor_drift(reading, sequence, *, drift):
     """The channel's scale creeps in the course of the programme.

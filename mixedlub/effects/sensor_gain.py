@@ -12,7 +12,7 @@ from mixedlub.effect import Parameter, Wide, effect
     fingerprint={"load": "0", "speed": "0", "oil_temperature": "0", "roughness": "0", "slide_roll_ratio": "0"},
     separated_by="another instrument on the same quantity, or power circulation in both directions: the same share of "
     "every reading, whatever the surfaces",
-    after=("fringe_order", "heat_leak", "torque_constant", "torque_offset", "zero_drift"),
+    after=("fringe_order", "fringe_step", "heat_leak", "torque_constant", "torque_offset", "zero_drift"),
 )
 def sensor_gain(reading, *, gain):
     """The channel reads the same share too much everywhere.

@@ -15,22 +15,25 @@ from mixedlub.effect import LogNormal, Normal, Parameter, effect
             "passing_time", "-", LogNormal(0.04, 0.8), "share of the programme at which the fast state is highest"
         ),
         Parameter("lasting_time", "-", LogNormal(0.7, 0.8), "share of the programme for 63 % of the slow change"),
+        Parameter(
+            "gathering", "-", LogNormal(1.4, 0.4), "exponent of Avrami: 1 at full pace from the start, above: later"
+        ),
     ),
-    equation=r"\mu_B \leftarrow \mu_B\,[1 + a\,x e^{1 - x} + b(1 - e^{-q/q_2})],\quad x = q/q_1",
+    equation=r"\mu_B \leftarrow \mu_B\,[1 + a\,x e^{1 - x} + b(1 - e^{-(q/q_2)^m})],\quad x = q/q_1",
     source="P. J. Blau, Tribol. Int. 38 (2005) 1007: running-in curves with an early maximum, as a film that forms and "
-    "is overtaken by the wear of the track",
+    "is overtaken by the wear of the track; M. Avrami, J. Chem. Phys. 7 (1939) 1103 for a change that spreads",
     fingerprint={"sequence": "-"},
     separated_by="contact resistance and a wear scar measured at times: a film takes minutes, wear goes on",
     kinds=("friction_history",),
 )
-def two_time_scales(boundary_friction, sequence, *, passing, lasting, passing_time, lasting_time):
+def two_time_scales(boundary_friction, sequence, *, passing, lasting, passing_time, lasting_time, gathering):
     """A film forms and passes quickly while the track wears slowly; each moves friction by its own share.
 
-    >>> x = two_time_scales(0.1, np.array([0.02, 9.0]), passing=0.1, lasting=-0.3, passing_time=0.02, lasting_time=0.5)
-    >>> x.round(3).tolist()
+    >>> fast, slow = dict(passing=0.1, passing_time=0.02), dict(lasting=-0.3, lasting_time=0.5, gathering=1.0)
+    >>> two_time_scales(0.1, np.array([0.02, 9.0]), **fast, **slow).round(3).tolist()
     [0.109, 0.07]
     """
     since = np.maximum(sequence, 0.0)
     fast = since / passing_time
-    change = passing * fast * np.exp(1.0 - fast) - lasting * np.expm1(-since / lasting_time)
+    change = passing * fast * np.exp(1.0 - fast) - lasting * np.expm1(-((since / lasting_time) ** gathering))
     return boundary_friction * (1.0 + change)

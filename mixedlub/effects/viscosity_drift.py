@@ -19,12 +19,14 @@ KELVIN = 100.0
     equation=r"\eta_0 \leftarrow \eta_0\,e^{d\,q^m e^{k(40\,^\circ\mathrm{C} - \theta)/100\,\mathrm{K}}}",
     source="evaporation, oxidation or shear-down as a steady relative rate; e.g. ASTM D445 on used oils reports it so",
     fingerprint={"sequence": "-"},
-    separated_by="a repeat of the first point at the end, with a fresh sample and a cover against evaporation",
+    separated_by="the first point repeated at the end, and a fresh sample under a solvent trap: what the trap stops is "
+    "evaporation, what a fresh sample repeats is chemistry or the edge of the gap",
 )
 def viscosity_drift(viscosity, sequence, oil_temperature, *, drift, power, cold_gain):
-    """The sample thickens or thins with time; no law of temperature and pressure can show it.
+    """The sample changes with its history; these readings cannot say whether by evaporation, chemistry or wear.
 
-    What a lost light fraction or a new phase adds is felt most in the cold, hence ``cold_gain``.
+    No law of temperature and pressure can show it. What a lost light fraction or a new phase adds is felt most in
+    the cold, hence ``cold_gain``.
 
     >>> viscosity_drift(0.04, np.array([0.0, 1.0]), 313.15, drift=0.2, power=1.0, cold_gain=1.0).round(4).tolist()
     [0.04, 0.0489]

@@ -44,7 +44,7 @@ def wandering_surface_state(
     swing_11,
     swing_12,
 ):
-    """Friction follows a film that forms and is worn off again; the history is described, not explained.
+    """Friction follows a surface state that comes and goes: a free form that describes and names no cause.
 
     >>> null = {f"swing_{k}": 0.0 for k in range(2, 13)}
     >>> wandering_surface_state(0.1, np.array([0.0, 1.0]), swing_1=0.1, **null).round(4).tolist()

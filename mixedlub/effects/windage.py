@@ -29,6 +29,7 @@ def windage(
     face_width,
     pinion_teeth,
     gear_teeth,
+    gears_fitted,
     *,
     strength,
     exponent,
@@ -39,11 +40,11 @@ def windage(
     factor 1.6 in clean air; mist adds more.
 
     >>> speed = 10_000 * 3.14159 / 30
-    >>> alone = windage(0.0, 0.05, 1e-9, speed, 1e-9, 0.02, 25.0, 25.0, strength=1.0, exponent=2.75)
+    >>> alone = windage(0.0, 0.05, 1e-9, speed, 1e-9, 0.02, 25.0, 25.0, 1.0, strength=1.0, exponent=2.75)
     >>> round(float(alone), -1)   # a 100 mm wheel at 10 000 rpm
     110.0
     """
     air = windage_diab(pinion_radius, pinion_speed, face_width, pinion_teeth) + windage_diab(
         gear_radius, gear_speed, face_width, gear_teeth
     )
-    return power_loss + strength * air * (pinion_radius * pinion_speed / _PIVOT) ** (exponent - 2.75)
+    return power_loss + strength * gears_fitted * air * (pinion_radius * pinion_speed / _PIVOT) ** (exponent - 2.75)

@@ -21,7 +21,8 @@ FRINGE_NM = (167.0, 225.0)
 MODEL_ERROR = 0.08
 """Error of what the other readings say at this one, over an interference order."""
 
-OPTIONAL = (Column("fringe_order", at_least=0.0, required=False), Column("time_s", required=False))
+TIME = Column("time_s", required=False)
+FRINGE_ORDER = Column("fringe_order", at_least=0.0, required=False)
 
 
 def reading(film_thickness: np.ndarray) -> np.ndarray:
@@ -42,8 +43,18 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
         **bodies.lubricant(system.lubricant).inputs(temperature),
         **bookkeeping_inputs(system, table),
         **programme(table, recorded),
+        **_orders(table, recorded),
         "oil_temperature": temperature,
     }
+
+
+def _orders(table: Table, recorded: Table) -> Inputs:
+    """Interference orders, where the recording changes them; rows without one read as the lowest does."""
+    if "fringe_order" not in recorded or np.ptp(recorded["fringe_order"]) == 0:
+        return {}
+    first = float(np.min(recorded["fringe_order"]))
+    orders = table["fringe_order"] if "fringe_order" in table else np.full(len(table), first)
+    return {"fringe_order": column(orders), "first_fringe_order": first}
 
 
 def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibration, ...]:
@@ -88,7 +99,8 @@ def reading_fault(recorded: Table, row: int, excess: float) -> str | None:
 KIND = Kind(
     name="film",
     quantities=("film_thickness_nm",),
-    columns=(*COLUMNS, *OPTIONAL),
+    columns=(*COLUMNS, TIME),
+    channels=(FRINGE_ORDER,),
     sections=("contact",),
     chain=chain,
     inputs=inputs,

@@ -12,7 +12,7 @@ from mixedlub import config
 from mixedlub.calibration import Calibration
 from mixedlub.chain import Chain
 from mixedlub.effect import Between, LogNormal, Normal, Parameter
-from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, programme
+from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out, programme
 from mixedlub.laws import drive
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.table import Column, Table
@@ -29,8 +29,6 @@ COLUMNS = (
     Column("position_deg", required=False),
     Column("time_s", required=False),
 )
-BARE = "no_gears"
-"""Name in the column ``rig`` of readings taken with the gears out."""
 BARE_SHARE = 0.3
 """Friction of motor and sensor alone, over that of the whole drive, before the readings say it."""
 
@@ -66,7 +64,7 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
         "coulomb_torque": size,
         "viscous_torque": 0.5 * size,
         "payload_torque": 0.0,
-        "gears_fitted": np.where(_bare(table), BARE_SHARE, 1.0)[:, None],
+        "gears_fitted": np.where(gears_out(table), BARE_SHARE, 1.0)[:, None],
     }
     for name in LOADS:
         if name in table and name in recorded and np.any(recorded[name] != 0):
@@ -84,11 +82,6 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
     return found
 
 
-def _bare(table: Table) -> np.ndarray:
-    """Rows taken with the gears out."""
-    return table["rig"] == BARE if "rig" in table else np.zeros(len(table), dtype=bool)
-
-
 def _motor_column(recorded: Table) -> str:
     """The column that holds the motor's torque: its own, or the torque that loads the drive."""
     return "motor_torque_Nm" if "motor_torque_Nm" in recorded else "torque_Nm"
@@ -99,7 +92,7 @@ def _size(system: config.System, recorded: Table) -> float:
     quantity = system.recording.quantity
     if quantity not in recorded:
         return 1.0
-    whole = ~_bare(recorded)
+    whole = ~gears_out(recorded)
     values = np.abs(recorded[quantity][whole] if whole.any() else recorded[quantity])
     return float(np.median(values)) or 1.0
 
@@ -118,7 +111,7 @@ def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibrati
         unknown("viscous_torque", Between(0.0, 3.0 * size), 0.5 * size, "viscous friction at the largest speed"),
         unknown("payload_torque", Normal(0.0, size), 0.0, "constant part that keeps its sign"),
     )
-    if not _bare(recorded).any():
+    if not gears_out(recorded).any():
         return found
     share = Parameter("bare_share", "-", LogNormal(BARE_SHARE, 1.0), "share of the friction left without the gears")
     return (*found, Calibration(share, _bare_share, BARE_SHARE, ("gears_fitted",)))
@@ -145,4 +138,5 @@ KIND = Kind(
     chain=chain,
     inputs=inputs,
     extra_calibration=extra_calibration,
+    part_rigs=(NO_GEARS,),
 )

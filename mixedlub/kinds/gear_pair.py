@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -9,10 +10,10 @@ import numpy as np
 from mixedlub import bodies, config
 from mixedlub.chains import GEAR_LOSS
 from mixedlub.gear import Mesh, mesh
-from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column
+from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws.oil import ZERO_CELSIUS
-from mixedlub.table import Column, Table
+from mixedlub.table import CaseWarning, Column, Table
 
 PATH_POINTS = 24
 
@@ -73,6 +74,25 @@ def gear_inputs(points: Mesh, speed: np.ndarray) -> Inputs:
         "pinion_teeth": float(pair.teeth[0]),
         "gear_teeth": float(pair.teeth[1]),
         "contact_ratio": pair.contact_ratio,
+        "gears_fitted": 1.0,
+    }
+
+
+def without_gears(found: Inputs, table: Table) -> Inputs:
+    """Chain inputs with nothing to mesh, to stir oil or to drive air in the rows of the rig without gears."""
+    out = gears_out(table)[:, None]
+    if not out.any():
+        return found
+    warnings.warn(
+        f"{int(out.sum())} rows of the rig {NO_GEARS}: compared with shafts alone, that is no loss of the mesh, of "
+        "wheels in oil or in air, and bearings that carry no tooth force",
+        CaseWarning,
+        stacklevel=2,
+    )
+    return {
+        **found,
+        "path_weight": np.where(out, 0.0, found["path_weight"]),
+        "gears_fitted": np.where(out, 0.0, 1.0),
     }
 
 
@@ -83,8 +103,9 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
     points = mesh(pair, bodies.sharing(system.gears.load_sharing, folder), points=PATH_POINTS)
     oil = bodies.lubricant(system.lubricant)
     temperature = column(table["oil_temperature_C"]) + ZERO_CELSIUS
+    mesh_inputs = contact_inputs(points, column(table["torque_Nm"]), column(table["speed_rpm"]) * np.pi / 30.0)
     return {
-        **contact_inputs(points, column(table["torque_Nm"]), column(table["speed_rpm"]) * np.pi / 30.0),
+        **without_gears(mesh_inputs, table),
         **oil.inputs(temperature),
         **pair_of_surfaces(system, folder, table, "pinion_surface", "gear_surface"),
         **bookkeeping_inputs(system, table),
@@ -101,4 +122,5 @@ KIND = Kind(
     sections=("gears", "lubricant", "surfaces"),
     chain=lambda system, table: (*GEAR_LOSS, ("reading", reading)),
     inputs=inputs,
+    part_rigs=(NO_GEARS,),
 )

@@ -28,7 +28,9 @@ class Kind:
     speed, the duration) are taken, so that predictions elsewhere use the same ones; ``extra_calibration``
     scales the priors of what is not known by it. ``reading_fault(recorded, row, excess)`` says in words what
     an instrument of this kind does wrong when reading ``row`` is off by ``excess`` (unit of the column).
-    ``logarithmic`` kinds span decades and are compared by the logarithm of the reading.
+    ``logarithmic`` kinds span decades and are compared by the logarithm of the reading. ``part_rigs`` are the
+    names in the column ``rig`` whose readings are compared with a part of the base model. ``channels`` are what
+    the instrument tells of itself beside the reading: read as columns, but no condition of the test.
     """
 
     name: str
@@ -40,6 +42,8 @@ class Kind:
     extra_calibration: Callable[[config.System, Table], tuple[Calibration, ...]] = lambda system, recorded: ()
     reading_fault: Callable[[Table, int, float], str | None] = lambda recorded, row, excess: None
     logarithmic: bool = False
+    part_rigs: tuple[str, ...] = ()
+    channels: tuple[Column, ...] = ()
 
 
 SCALE = {
@@ -50,6 +54,15 @@ SCALE = {
     "viscosity_mPa_s": 1e3,
 }
 """From SI to the unit of the column."""
+
+
+NO_GEARS = "no_gears"
+"""Name in the column ``rig`` of readings taken with the gears out."""
+
+
+def gears_out(table: Table) -> np.ndarray:
+    """Rows taken with the gears out."""
+    return table["rig"] == NO_GEARS if "rig" in table else np.zeros(len(table), dtype=bool)
 
 
 def column(values: np.ndarray | float) -> np.ndarray:

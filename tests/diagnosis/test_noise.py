@@ -10,7 +10,7 @@ import pytest
 
 from mixedlub.case import Case, read_case
 from mixedlub.diagnosis.audit import audit
-from mixedlub.diagnosis.noise import noise_from_repeats, pooled_sd
+from mixedlub.diagnosis.noise import noise, noise_from_repeats, pooled_sd
 from mixedlub.forward import Forward
 
 
@@ -93,3 +93,41 @@ def test_a_stated_noise_of_zero_is_none(make_case: Callable[..., Path], tmp_path
     y = np.asarray(case.recordings[case.quantity], dtype=float)
     notes = audit(case, case.recordings, y, Forward(case, case.recordings))
     assert any("estimated from the fit" in note for note in notes)
+
+
+def with_stated(folder: Path, sd: np.ndarray) -> Case:
+    """The first readings of a case with an sd column."""
+    path = folder / "recordings.csv"
+    lines = path.read_text(encoding="utf-8").splitlines()
+    name = lines[0].split(",")[-1]
+    rows = [f"{lines[0]},{name}_sd", *(f"{line},{s:.9g}" for line, s in zip(lines[1:], sd, strict=False))]
+    path.write_text("\n".join(rows) + "\n", encoding="utf-8")
+    return read_case(folder)
+
+
+def taken(case: Case) -> np.ndarray:
+    assert case.recordings is not None
+    y = np.asarray(case.recordings[case.quantity], dtype=float)
+    return noise(case, case.recordings, y, y)[0]
+
+
+def test_a_smooth_column_of_sds_stays_as_stated(make_case: Callable[..., Path], tmp_path: Path) -> None:
+    stated = np.full(20, 0.8)
+    case = with_stated(make_case(tmp_path / "case", "gear_pair"), stated)
+    assert taken(case) == pytest.approx(stated, rel=1e-9)
+
+
+def test_sds_in_proportion_to_the_reading_stay_as_stated(make_case: Callable[..., Path], tmp_path: Path) -> None:
+    folder = make_case(tmp_path / "case", "gear_pair")
+    y = np.array([float(line.split(",")[-1]) for line in (folder / "recordings.csv").read_text().splitlines()[1:]])
+    case = with_stated(folder, 0.02 * y)
+    assert taken(case) == pytest.approx(0.02 * y, rel=1e-6)
+
+
+def test_sds_of_three_tests_come_nearer_to_the_true_one(make_case: Callable[..., Path], tmp_path: Path) -> None:
+    folder = make_case(tmp_path / "case", "gear_pair")
+    count = len((folder / "recordings.csv").read_text().splitlines()) - 1
+    sampled = np.random.default_rng(4).standard_normal((count, 3)).std(axis=1, ddof=1)
+    found = taken(with_stated(folder, sampled))
+    assert found.min() > 1.5 * sampled.min()
+    assert np.mean(np.log(found) ** 2) < 0.5 * np.mean(np.log(sampled) ** 2)

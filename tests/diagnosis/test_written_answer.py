@@ -213,7 +213,7 @@ def test_a_part_rig_that_no_chain_models_is_named(
     folder = make_case(tmp_path / "case", "gear_pair")
     path = folder / "recordings.csv"
     lines = path.read_text(encoding="utf-8").splitlines()
-    rigs = ["rig", *("no_gears" if i < 5 else "whole" for i in range(len(lines) - 1))]
+    rigs = ["rig", *("motor_only" if i < 5 else "whole" for i in range(len(lines) - 1))]
     path.write_text("\n".join(f"{a},{b}" for a, b in zip(lines, rigs, strict=True)) + "\n", encoding="utf-8")
     warned = diagnose_case(folder, exclude=excluded).warnings
-    assert any("no_gears, whole" in text for text in warned)
+    assert any("motor_only, whole" in text for text in warned)

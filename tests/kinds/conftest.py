@@ -1,7 +1,9 @@
 """Small cases of each kind, and plain least squares on them."""
 
+import importlib.util
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -24,6 +26,38 @@ OIL = {
     "thermal_conductivity_W_mK": 0.14,
     "specific_heat_J_kgK": 2000.0,
 }
+
+
+SCRIPT = Path(__file__).resolve().parents[2] / "examples" / "real" / "build.py"
+
+
+@pytest.fixture(scope="session")
+def builder() -> ModuleType:
+    """The script that writes the cases of real recordings."""
+    spec = importlib.util.spec_from_file_location("real_build", SCRIPT)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="session")
+def typed_in(builder: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Cases of the typed-in tables."""
+    out = tmp_path_factory.mktemp("real")
+    builder.build(out)
+    return out
+
+
+@pytest.fixture(scope="session")
+def from_files(builder: ModuleType, shared: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Cases of the larger files."""
+    out = tmp_path_factory.mktemp("files")
+    for make in builder.FROM_FILES:
+        for name, system, columns in make(shared / "data" / "recordings"):
+            builder.write_case(out / name, system, columns)
+    return out
 
 
 @pytest.fixture

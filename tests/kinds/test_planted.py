@@ -3,6 +3,9 @@
 import numpy as np
 import pytest
 
+from mixedlub.forward import Forward
+from mixedlub.table import Table
+
 from .conftest import BALL, OIL, least_squares, system
 
 SPEED = np.concatenate([-np.geomspace(2.0, 200.0, 14)[::-1], np.geomspace(2.0, 200.0, 14)])
@@ -126,6 +129,13 @@ def planted_fringe():
     return film(SMOOTH + np.where(SMOOTH > 240.0, 200.0, 0.0), ROLL)
 
 
+def planted_fringe_step():
+    """Steps that differ from order to order: the catalogue carries one step."""
+    order = np.digitize(SMOOTH, [60.0, 170.0, 330.0])
+    shift = np.array([0.0, 22.0, 50.0, 68.0])[order]
+    return film(SMOOTH + shift, ROLL, fringe_order=3.0 + order)
+
+
 def planted_zero_drift():
     order = np.random.default_rng(0).permutation(28)
     speed, place = ROLL[order], np.arange(28) / 27.0
@@ -173,6 +183,7 @@ CASES = {
     "contact_creep": (planted_creep, ("tribofilm_growth", "friction_run_in", "two_time_scales")),
     "boundary_film": (planted_boundary_film, ("inlet_shear_heating", "fringe_order")),
     "fringe_order": (planted_fringe, ("inlet_shear_heating", "boundary_film")),
+    "fringe_step": (planted_fringe_step, ("fringe_order", "inlet_shear_heating", "boundary_film")),
     "zero_drift": (planted_zero_drift, ("inlet_shear_heating", "boundary_film")),
     "pressure_viscosity_law": (planted_pressure_law, ("roelands_pressure_law",)),
     "viscosity_drift": (planted_sample_drift, ()),
@@ -207,14 +218,23 @@ def test_planted_effect_beats_its_rivals(make, name):
 def test_ripple_is_found_when_its_order_is_nearly_known(make):
     """Order is not convex: the search starts from draws, here from the planted one."""
     case = make(*planted_ripple())
-    from mixedlub.forward import Forward
-
     forward = Forward(case, case.recordings)
     values = {"coulomb_torque": 2.0, "viscous_torque": 0.0, "payload_torque": 0.0}
     ripple = {"periodic_mesh": {"cosine": 0.2 * np.sin(0.6), "sine": 0.2 * np.cos(0.6), "order": 9.0}}
     y = case.recordings["friction_torque_Nm"]
     assert np.sqrt(np.mean((y / forward.predict(values, ripple) - 1.0) ** 2)) < 0.015
     assert np.sqrt(np.mean((y / forward.predict(values) - 1.0) ** 2)) > 0.1
+
+
+def test_films_wanted_without_an_order_are_predicted_as_the_lowest_order_reads(make):
+    case = make(*planted_fringe_step())
+    forward = Forward(case, case.recordings)
+    bare = Table({k: v for k, v in case.recordings.columns.items() if k != "fringe_order"})
+    step = {"fringe_step": {"step": 2e-8}}
+    assert np.allclose(Forward(case, bare).predict(None, step), forward.predict())
+    top = forward.predict(None, step) - forward.predict()
+    assert top[0] == pytest.approx(0.0)
+    assert top[-1] == pytest.approx(60.0)
 
 
 def test_planted_size_of_stribeck_friction_is_found(make):

@@ -3,45 +3,12 @@
 The numbers are those that their sources or a direct look at the data give; fits are plain least squares.
 """
 
-import importlib.util
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from mixedlub.case import read_case
 
 from .conftest import least_squares
-
-SCRIPT = Path(__file__).resolve().parents[2] / "examples" / "real" / "build.py"
-
-
-@pytest.fixture(scope="module")
-def builder():
-    spec = importlib.util.spec_from_file_location("real_build", SCRIPT)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-@pytest.fixture(scope="module")
-def typed_in(builder, tmp_path_factory):
-    """Cases of the typed-in tables."""
-    out = tmp_path_factory.mktemp("real")
-    builder.build(out)
-    return out
-
-
-@pytest.fixture(scope="module")
-def from_files(builder, shared, tmp_path_factory):
-    """Cases of the larger files."""
-    out = tmp_path_factory.mktemp("files")
-    for make in builder.FROM_FILES:
-        for name, system, columns in make(shared / "data" / "recordings"):
-            builder.write_case(out / name, system, columns)
-    return out
 
 
 def fit(case, *ids, sd=None):

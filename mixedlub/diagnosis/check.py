@@ -1,0 +1,35 @@
+"""How a second channel, kept back from every fit, goes with what the answer predicts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+FEWEST = 5
+
+
+@dataclass(frozen=True)
+class Check:
+    """Correlation of the predicted readings with the channel ``column`` over ``n`` readings; none where it is still."""
+
+    column: str
+    correlation: float | None
+    n: int
+
+
+def check_channel(column: str, channel: np.ndarray, predicted: np.ndarray) -> Check:
+    """Pearson's correlation of predictions with a channel that was never fitted.
+
+    A channel that does not move, or has fewer than five readings, has no correlation: it may be out of use.
+
+    >>> check_channel("coverage", np.array([0.0, 1.0, 2.0, 3.0, 5.0]), np.array([1.0, 2.0, 3.0, 4.0, 6.0])).correlation
+    1.0
+    >>> check_channel("resistance", np.zeros(6), np.arange(6.0)).correlation is None
+    True
+    """
+    used = np.isfinite(channel) & np.isfinite(predicted)
+    a, b = np.asarray(channel, dtype=float)[used], np.asarray(predicted, dtype=float)[used]
+    if a.size < FEWEST or np.ptp(a) == 0.0 or np.ptp(b) == 0.0:
+        return Check(column, None, int(a.size))
+    return Check(column, round(float(np.corrcoef(a, b)[0, 1]), 12), int(a.size))

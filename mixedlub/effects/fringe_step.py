@@ -1,0 +1,23 @@
+"""Films that step where the instrument changes its interference order."""
+
+from mixedlub.effect import Parameter, Wide, effect
+
+
+@effect(
+    stage="measurement",
+    acts_on="reading",
+    parameters=(Parameter("step", "m", Wide(1e-8), "change of the reading from one order to the next", null=0.0),),
+    equation=r"y \leftarrow y + a\,(N - N_0)",
+    source="spacer-layer interferometry: G. J. Johnston, R. Wayte, H. A. Spikes, Tribol. Trans. 34 (1991) 187; a film "
+    "is read from the colour within an order, and an error of phase, index or spacer differs from order to order",
+    fingerprint={"fringe_order": "+"},
+    separated_by="the same film read in two orders, by another spacer or at a place where both are in sight",
+    kinds=("film",),
+)
+def fringe_step(reading, fringe_order, first_fringe_order, *, step):
+    """Every change of the interference order shifts what is read by the same amount, a small part of a fringe.
+
+    >>> round(fringe_step(120e-9, 4.0, 3.0, step=-20e-9) * 1e9, 1)
+    100.0
+    """
+    return reading + step * (fringe_order - first_fringe_order)

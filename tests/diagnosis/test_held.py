@@ -1,0 +1,40 @@
+"""A condition that only wanders is not one that was varied."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from mixedlub.case import read_case
+from mixedlub.diagnosis.features import coordinates
+from mixedlub.forward import Forward
+from mixedlub.table import Table
+
+
+def axes(folder: Path, **columns: np.ndarray) -> list[str]:
+    """Names of the axes of a viscosity case whose columns are replaced."""
+    case = read_case(folder)
+    assert case.recordings is not None
+    kept = {k: v for k, v in case.recordings.columns.items() if k not in ("time_s", "sequence")}
+    table = Table({**kept, **columns})
+    return [axis.name for axis in coordinates(case, table, Forward(case, table)).axes]
+
+
+def rows(folder: Path) -> int:
+    return len((folder / "recordings.csv").read_text(encoding="utf-8").splitlines()) - 1
+
+
+def test_a_temperature_that_wanders_by_a_degree_is_no_axis(make_case: Callable[..., Path], tmp_path: Path) -> None:
+    folder = make_case(tmp_path / "case", "viscosity")
+    count = rows(folder)
+    pressure = np.linspace(0.1, 500.0, count)
+    wander = 40.0 + np.linspace(-0.7, 0.7, count)
+    assert axes(folder, pressure_MPa=pressure, temperature_C=wander) == ["pressure_MPa"]
+    assert "temperature_C" in axes(folder, pressure_MPa=pressure, temperature_C=np.linspace(40.0, 60.0, count))
+
+
+def test_what_wanders_counts_where_nothing_else_varies(make_case: Callable[..., Path], tmp_path: Path) -> None:
+    folder = make_case(tmp_path / "case", "viscosity")
+    count = rows(folder)
+    wander = 40.0 + np.linspace(-0.7, 0.7, count)
+    assert axes(folder, pressure_MPa=np.full(count, 0.1), temperature_C=wander) == ["temperature_C"]
