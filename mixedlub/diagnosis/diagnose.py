@@ -30,7 +30,7 @@ from profiles.errors import InputError
 
 AVERAGED = 6
 SMALL = 2e-3
-CANDIDATES = 4
+CANDIDATES = 6
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,20 +148,33 @@ def _unstated(
 
 
 def _judged(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
-    """Probabilities, with each name that would be the verdict first held against levels left out."""
+    """Probabilities, with each name that would be the verdict first held against levels left out.
+
+    When CANDIDATES names have failed, those not tried are taken to fail like the best of them.
+    """
     demerits: dict[Key, float] = {}
     while True:
         judged = posterior(found, test, demerits)
         key = judged.verdict
-        residual = found.unknown.fit.residual if isinstance(key, str) else found.fits[key].residual
-        outliers = outlier_chance(residual) > 0.5
-        kept = held_out(found, key, outliers)
-        if key in demerits or key in ("unknown", ()) or len(demerits) == CANDIDATES:
+        kept, demerit = _held_against(found, key)
+        if demerit == 0.0 or key in demerits:
             return judged, kept
-        rms = float(np.sqrt(np.mean(residual[~outliers] ** 2)))
-        demerits[key] = kept.demerit(rms, residual.size)
-        if demerits[key] == 0.0:
-            return judged, kept
+        demerits[key] = demerit
+        if len(demerits) == CANDIDATES:
+            rest = min(demerits.values())
+            others = [k for k in judged.weights if k not in ("unknown", ())]
+            judged = posterior(found, test, {k: demerits.get(k, rest) for k in others})
+            return judged, _held_against(found, judged.verdict)[0]
+
+
+def _held_against(found: Search, key: Key) -> tuple[HeldOut, float]:
+    """How an explanation predicts levels left out, and what a name loses by it."""
+    residual = found.unknown.fit.residual if isinstance(key, str) else found.fits[key].residual
+    outliers = outlier_chance(residual) > 0.5
+    kept = held_out(found, key, outliers)
+    if key in ("unknown", ()):
+        return kept, 0.0
+    return kept, kept.demerit(float(np.sqrt(np.mean(residual[~outliers] ** 2))), residual.size)
 
 
 def _refine_leaders(found: Search, judged: Posterior) -> dict[Key, Refined]:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.diagnosis.fit import linear_fit, map_fit
+from mixedlub.diagnosis.fit import Fit, linear_fit, map_fit
 from mixedlub.diagnosis.problem import Explanation
 from mixedlub.diagnosis.search import Search
 from mixedlub.diagnosis.unknown import shape_columns
@@ -23,26 +23,30 @@ LEAST = 0.3
 
 @dataclass(frozen=True)
 class HeldOut:
-    """Rms of (recorded - predicted)/sd on levels left out, calibration only and with the verdict."""
+    """Rms of (recorded - predicted)/sd on levels left out, calibration only and with the verdict.
+
+    ``surprise`` is that of the verdict over noise and what the other levels leave open of its parameters together.
+    """
 
     before: float
     after: float
     split: str
     folds: int
+    surprise: float
 
     def demerit(self, rms: float, rows: int) -> float:
         """What a named law loses in log odds if it leaves much of the mismatch unexplained on levels left out.
 
         A law that is a little wrong still explains most of it there; what fits all readings but fails there is
         another law in disguise. ``rms`` is that of the residual with all ``rows`` fitted; two standard errors of a
-        mean square are allowed for chance.
+        mean square are allowed for chance, and what the other levels cannot tell of the parameters is no failure.
 
-        >>> HeldOut(3.0, 1.1, "", 5).demerit(1.0, 200), HeldOut(3.0, 2.6, "", 5).demerit(1.0, 200) > 5.0
+        >>> HeldOut(3.0, 1.1, "", 5, 1.1).demerit(1.0, 200), HeldOut(3.0, 2.6, "", 5, 2.6).demerit(1.0, 200) > 5.0
         (0.0, True)
         """
         noise = max(rms, 1.0) ** 2
         missing = max(self.before**2 - noise, LEAST)
-        left = max(self.after**2 - noise - 2.0 * np.sqrt(2.0 / rows), 0.0)
+        left = max(self.surprise**2 - noise - 2.0 * np.sqrt(2.0 / rows), 0.0)
         return float(min(DEMERIT * max(left / missing - TOLERATED, 0.0), DEMERIT))
 
 
@@ -52,7 +56,7 @@ def held_out(found: Search, verdict: Explanation | str, outliers: np.ndarray) ->
         rows = np.isin(found.problem.rows["run"], found.screen.problem.rows["run"])
         found, outliers = found.screen, outliers[rows]
     name, fold = _folds(found)
-    before, after = np.zeros(found.problem.y.size), np.zeros(found.problem.y.size)
+    before, after, open_variance = np.zeros((3, found.problem.y.size))
     for k in range(int(fold.max()) + 1):
         out = fold == k
         train, test = found.problem.take(~out), found.problem.take(out)
@@ -64,14 +68,23 @@ def held_out(found: Search, verdict: Explanation | str, outliers: np.ndarray) ->
             after[out] = before[out]
         else:
             fit = map_fit(train, tuple(verdict), found.fits[tuple(verdict)].z, warm=True)
-            after[out] = (test.y - test.predict(fit.explanation, fit.z)) / test.sd
+            run = test.run(fit.explanation, fit.z)
+            after[out] = (test.y - run.prediction) / test.sd
+            open_variance[out] = _open_variance(fit, test.jacobian(fit.explanation, fit.z, run))
     kept = ~outliers
     return HeldOut(
         float(np.sqrt(np.mean(before[kept] ** 2))),
         float(np.sqrt(np.mean(after[kept] ** 2))),
         f"leave one level of {name} out" if name else "leave every fifth reading out",
         int(fold.max()) + 1,
+        float(np.sqrt(np.mean(after[kept] ** 2 / (1.0 + open_variance[kept])))),
     )
+
+
+def _open_variance(fit: Fit, slopes: np.ndarray) -> np.ndarray:
+    """Variance, in sigmas, of predictions with these slopes by what a fit leaves open of its coordinates."""
+    inner = np.linalg.inv(np.eye(fit.z.size) + fit.slopes.T @ (fit.slopes * fit.weight[:, None]))
+    return np.einsum("ij,jk,ik->i", slopes, inner, slopes)
 
 
 def _unknown_residual(found: Search, out: np.ndarray) -> np.ndarray:

@@ -9,7 +9,7 @@ import numpy as np
 from mixedlub.diagnosis.carriers import carriers
 from mixedlub.diagnosis.fit import Fit, linear_fit
 from mixedlub.diagnosis.noise import is_stated, seen_noise
-from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.problem import REACH, Problem
 from mixedlub.diagnosis.search import ELASTIC, Search, elastic_columns, typical_size
 from mixedlub.diagnosis.unknown import shape_columns
 from mixedlub.forward import Forward
@@ -56,7 +56,8 @@ def refine(found: Search, fit: Fit) -> Refined:
             break
     assert best is not None
     covariance = np.linalg.inv(np.eye(used.shape[1]) + used.T @ (used * best.weight[:, None]))
-    return Refined(fit, best.coefficients[: fit.z.size], bend, best.coefficients, covariance, best.residual, typical)
+    z = np.clip(best.coefficients[: fit.z.size], -REACH, REACH)
+    return Refined(fit, z, bend, best.coefficients, covariance, best.residual, typical)
 
 
 class Rows:

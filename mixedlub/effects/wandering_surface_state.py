@@ -26,6 +26,7 @@ TERMS = 12
     fingerprint={"sequence": "0"},
     separated_by="images of the track at the highs and lows; a second run shows whether the swings repeat",
     kinds=("friction_history",),
+    odds=0.3,
 )
 def wandering_surface_state(
     boundary_friction,
