@@ -100,7 +100,10 @@ Prior = Normal | Wide | LogNormal | Between | BetweenLog
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number an effect depends on; ``null`` is the value that switches it off, if there is one."""
+    """A number an effect depends on; ``null`` is the value that switches it off, if there is one.
+
+    ``scan`` is how many values a search must try, where readings are matched in many separate ranges of it.
+    """
 
     name: str
     unit: str
@@ -108,6 +111,7 @@ class Parameter:
     meaning: str
     null: float | None = None
     symbol: str = ""
+    scan: int = 0
 
     @property
     def typical(self) -> tuple[float, float]:

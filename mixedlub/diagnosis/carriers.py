@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -19,13 +20,26 @@ LEAST = 1e-9
 Carriers = Mapping[str, np.ndarray]
 
 
-def carriers(problem: Problem, z: np.ndarray, typical: float | None = None) -> dict[str, np.ndarray]:
-    """Sigmas by which each reading moves: for a share of itself, for one sigma, for a factor e on a quantity.
+@dataclass(frozen=True)
+class Typical:
+    """Sizes over a recording by which a mismatch is counted: rms of reading over sd, and median sd."""
 
-    ``z`` is the calibration. The share is over its ``typical`` size, its rms over the recording.
+    share: float
+    sd: float
+
+    @classmethod
+    def of(cls, problem: Problem, z: np.ndarray) -> Typical:
+        """Those of a recording at the calibration z."""
+        return cls(root_mean_square(problem.predict((), z) / problem.sd), float(np.median(problem.sd)))
+
+
+def carriers(problem: Problem, z: np.ndarray, typical: Typical) -> dict[str, np.ndarray]:
+    """Sigmas by which each reading moves: for a share of itself, for one typical sd, for a factor e on a quantity.
+
+    ``z`` is the calibration.
     """
     share = np.abs(problem.predict((), z)) / problem.sd
-    found = {READING: share / (root_mean_square(share) if typical is None else typical), NOTHING: np.ones(share.size)}
+    found = {READING: share / typical.share, NOTHING: typical.sd / problem.sd}
     for name in QUANTITIES:
         slope = log_slope(problem, z, name)
         if slope is not None:

@@ -47,7 +47,7 @@ def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch
     fixed = np.hstack([none.slopes, problem.shared])
     weight = judged_weight(found)
     inner = np.linalg.inv(np.eye(fixed.shape[1]) + fixed.T @ (fixed * weight[:, None]))
-    directions = [s.change for s in found.sampled]
+    directions = [s.change[: s.blind] for s in found.sampled]
     effects = np.vstack(directions) if directions else np.zeros((0, problem.y.size))
     blocks = []
     for length, interactions in SHAPES:

@@ -11,16 +11,12 @@ import numpy as np
 from mixedlub.diagnosis.features import Coordinates
 from mixedlub.diagnosis.fit import Fit, linear_fit, map_fit
 from mixedlub.diagnosis.problem import Explanation, Problem, effects_of
+from mixedlub.diagnosis.starts import Sampled, fit_single, sample
 from mixedlub.diagnosis.unknown import Unknown, unknown_fit
 
 PRIOR = {"none": 0.42, "single": 0.38, "pair": 0.08, "unknown": 0.12}
-SAMPLES = (12, 24, 40, 56)
 LEADERS = 8
 FAR = 60.0
-NEAR, APART, STARTS = 25.0, 1.2, 3
-"""A single effect is fitted from this many draws: not far behind the best one, and that far apart."""
-STRAINED = 25.0
-"""Squared length of calibration coordinates that is beyond what five or so of them would show by chance."""
 PAIRS = 30
 MANY = 3000
 ELASTIC = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
@@ -29,15 +25,6 @@ BEND_LIMIT = 4.0
 """Most that bending may add to the log evidence: a form a little wrong is not another effect."""
 
 Progress = Callable[[str], None]
-
-
-@dataclass(frozen=True, eq=False)
-class Sampled:
-    """Prior draws of an effect: coordinates, and the change of the readings in sigmas that each makes."""
-
-    id: str
-    z: np.ndarray
-    change: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,8 +101,8 @@ def _search(
     none = map_fit(problem, (), np.zeros(problem.size(())))
     effects = problem.forward.effects(exclude)
     progress(f"trying {len(effects)} effects")
-    sampled = tuple(s for s in (_sample(problem, e.id, none) for e in effects) if len(s.z))
-    singles: dict[Explanation, Fit] = {(s.id,): _fit_single(problem, none, s) for s in sampled}
+    sampled = tuple(s for s in (sample(problem, e.id, none) for e in effects) if len(s.z))
+    singles: dict[Explanation, Fit] = {(s.id,): fit_single(problem, none, s) for s in sampled}
     if singles:
         best = max(singles.values(), key=lambda f: f.evidence)
         if best.evidence > none.evidence + 3.0:
@@ -139,59 +126,6 @@ def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit) -> dict
     new = {m: map_fit(problem, m, f.z, warm=True) for m, f in singles.items() if f.evidence > best.evidence - FAR}
     shift = new[best.explanation].evidence - best.evidence
     return {m: new[m] if m in new else replace(f, evidence=f.evidence + shift) for m, f in singles.items()}
-
-
-def _sample(problem: Problem, name: str, none: Fit) -> Sampled:
-    """Spread draws over the effect's prior, denser where its strength is middling."""
-    size = len(effects_of((name,))[0].parameters)
-    z = spread(size, SAMPLES[min(size, len(SAMPLES)) - 1])
-    change = np.empty((len(z), problem.y.size))
-    run = None
-    for i, own in enumerate(z):
-        run = problem.run((name,), np.concatenate([none.z, own]), run)
-        change[i] = (run.prediction - none.prediction) / problem.sd
-    usable = np.isfinite(change).all(axis=1)
-    return Sampled(name, z[usable], change[usable])
-
-
-def spread(size: int, count: int) -> np.ndarray:
-    """Low-discrepancy standard-normal points, the same every time; shape (count, size).
-
-    >>> spread(2, 4).shape
-    (4, 2)
-    """
-    from scipy.special import ndtri
-
-    golden = 1.0
-    for _ in range(30):
-        golden = (1.0 + golden) ** (1.0 / (size + 1))
-    steps = np.array([golden ** -(i + 1) for i in range(size)])
-    uniform = (0.5 + np.arange(1, count + 1)[:, None] * steps) % 1.0
-    return ndtri(0.02 + 0.96 * uniform)
-
-
-def _fit_single(problem: Problem, none: Fit, sampled: Sampled) -> Fit:
-    """Fit from the most promising draws that lie apart, keep the best.
-
-    A base model strained far from its prior is a bad place to start from: the calibration's prior is tried too.
-    """
-    columns = np.hstack([none.slopes, problem.shared])
-    scores, starts = [], []
-    for z, change in zip(sampled.z, sampled.change, strict=True):
-        linear = linear_fit(none.anchor - change, columns, rounds=4)
-        scores.append(linear.evidence - 0.5 * z @ z)
-        starts.append(np.concatenate([linear.coefficients[: none.z.size], z]))
-    order = np.argsort(scores)[::-1]
-    chosen = [order[0]]
-    for i in order[1:]:
-        if scores[i] < scores[order[0]] - NEAR or len(chosen) == STARTS:
-            break
-        if all(np.max(np.abs(sampled.z[i] - sampled.z[k])) > APART for k in chosen):
-            chosen.append(i)
-    tries = [starts[i] for i in chosen]
-    if none.z @ none.z > STRAINED:
-        tries.append(np.concatenate([np.zeros(none.z.size), sampled.z[order[0]]]))
-    return max((map_fit(problem, (sampled.id,), start) for start in tries), key=lambda f: f.evidence)
 
 
 def _promising_pairs(

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mixedlub.diagnosis.carriers import NOTHING, READING, Carriers, carriers, root_mean_square
+from mixedlub.diagnosis.carriers import NOTHING, READING, Carriers, Typical, carriers
 from mixedlub.diagnosis.features import Coordinates
 from mixedlub.diagnosis.fit import Fit, Linear, linear_fit
 from mixedlub.diagnosis.problem import Problem
@@ -37,13 +37,13 @@ class Shape:
 class Unknown:
     """Evidence of the unnamed mismatch, averaged over its shapes, and its best shape's fit.
 
-    ``typical`` is the rms of reading over sd, by which shares of the reading are counted.
+    ``carriers`` are those of the recording, counted by its ``typical`` sizes.
     """
 
     evidence: float
     best: Shape
     carriers: Carriers
-    typical: float
+    typical: Typical
     fit: Linear
     values: np.ndarray
     variance: np.ndarray
@@ -82,7 +82,7 @@ def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np
     """
     target = none.anchor
     fixed = np.hstack([none.slopes, problem.shared])
-    typical = root_mean_square(np.abs(none.prediction) / problem.sd)
+    typical = Typical.of(problem, none.z)
     rides = carriers(problem, none.z, typical)
 
     def columns_of(shape: Shape) -> np.ndarray:

@@ -11,7 +11,7 @@ from mixedlub.effect import BetweenLog, Normal, Parameter, effect
     parameters=(
         Parameter("cosine", "-", Normal(0.0, 0.3), "amplitude in phase with position zero, over T_c", null=0.0),
         Parameter("sine", "-", Normal(0.0, 0.3), "amplitude a quarter period later, over T_c", null=0.0),
-        Parameter("order", "-", BetweenLog(0.8, 60.0), "pulsations a turn"),
+        Parameter("order", "-", BetweenLog(0.8, 60.0), "pulsations a turn", scan=400),
     ),
     equation=r"T_f \leftarrow T_f + T_c\,(a\cos N\varphi + b\sin N\varphi)",
     source="mesh-stiffness and eccentricity ripple, e.g. H. N. Ozguven, D. R. Houser, J. Sound Vib. 121 (1988) 383",

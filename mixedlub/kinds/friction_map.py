@@ -11,7 +11,7 @@ import numpy as np
 from mixedlub import config
 from mixedlub.calibration import Calibration
 from mixedlub.chain import Chain
-from mixedlub.effect import Between, LogNormal, Normal, Parameter
+from mixedlub.effect import BetweenLog, LogNormal, Normal, Parameter
 from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out, programme
 from mixedlub.laws import drive
 from mixedlub.laws.oil import ZERO_CELSIUS
@@ -101,14 +101,14 @@ def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibrati
     """Dry, viscous and payload torque, all unknown: broad priors of the size of the readings."""
     size = _size(system, recorded)
 
-    def unknown(name: str, prior: LogNormal | Between | Normal, nominal: float, meaning: str) -> Calibration:
+    def unknown(name: str, prior: LogNormal | BetweenLog | Normal, nominal: float, meaning: str) -> Calibration:
         unit = "N m" if system.recording.quantity == "friction_torque_Nm" else "-"
         parameter = Parameter(name, unit, prior, meaning)
         return Calibration(parameter, lambda inputs, value: {name: value}, nominal, (name,))
 
     found = (
         unknown("coulomb_torque", LogNormal(size, 1.0), size, "dry friction, the same in both directions"),
-        unknown("viscous_torque", Between(0.0, 3.0 * size), 0.5 * size, "viscous friction at the largest speed"),
+        unknown("viscous_torque", BetweenLog(3e-3 * size, 3.0 * size), 0.5 * size, "viscous friction at the largest speed"),
         unknown("payload_torque", Normal(0.0, size), 0.0, "constant part that keeps its sign"),
     )
     if not gears_out(recorded).any():

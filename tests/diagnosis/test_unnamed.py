@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mixedlub.diagnosis.carriers import NOTHING, QUANTITIES, READING, carriers, log_slope
+from mixedlub.diagnosis.carriers import NOTHING, QUANTITIES, READING, Typical, carriers, log_slope
 from mixedlub.diagnosis.fit import log_likelihood, map_fit
 from mixedlub.diagnosis.heldout import HeldOut
 from mixedlub.diagnosis.mismatch import mismatch_test
@@ -29,7 +29,8 @@ def test_boundary_friction_carries_in_proportion_to_its_share_of_friction() -> N
 
 def test_film_and_shear_carry_with_the_signs_of_lubrication() -> None:
     p = problem("disc")
-    found = carriers(p, np.zeros(p.calibration_size))
+    z = np.zeros(p.calibration_size)
+    found = carriers(p, z, Typical.of(p, z))
     assert set(found) == {READING, NOTHING, *QUANTITIES}
     assert (found["film_thickness"] < 0).all()
     assert (found["shear_stress"] > 0).all()
