@@ -139,6 +139,8 @@ def _page(effect: Effect) -> str:
         parts.append(_entry("valid", "; ".join(ranges)))
     if effect.kinds:
         parts.append(_entry("recordings", ", ".join(effect.kinds)))
+    if effect.odds < 1.0:
+        parts.append(_entry("prior odds", f"{effect.odds:g} of those of an effect that is missing as often as most"))
     parts += ["", "parameters"]
     for p in effect.parameters:
         off = "" if p.null is None else f"; off at {p.null:g}"

@@ -139,7 +139,7 @@ def test_oleic_acid_in_oils_is_resolved(typed):
 @pytest.mark.parametrize("oil", ["oil_a_40C_100C", "oil_b_100C"])
 def test_films_that_step_with_the_order_are_the_instrument(filed, oil):
     d = filed(f"ehd_film_{oil}")
-    assert "fringe_step" in tied(d)[0]
+    assert tied(d)[0] == ["fringe_step"]
     step = next(e for e in as_json(d)["effects"] if e["id"] == "fringe_step")["parameters"][0]
     assert -4e-8 < step["value"] < -1e-8
 
