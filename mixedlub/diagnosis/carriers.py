@@ -22,7 +22,7 @@ Carriers = Mapping[str, np.ndarray]
 
 @dataclass(frozen=True)
 class Typical:
-    """Sizes over a recording by which a mismatch is counted: rms of reading over sd, and median sd."""
+    """Sizes over a recording by which a mismatch is counted: medians of reading over sd and of sd."""
 
     share: float
     sd: float
@@ -30,7 +30,8 @@ class Typical:
     @classmethod
     def of(cls, problem: Problem, z: np.ndarray) -> Typical:
         """Those of a recording at the calibration z."""
-        return cls(root_mean_square(problem.predict((), z) / problem.sd), float(np.median(problem.sd)))
+        share = np.abs(problem.predict((), z)) / problem.sd
+        return cls(float(np.median(share)), float(np.median(problem.sd)))
 
 
 def carriers(problem: Problem, z: np.ndarray, typical: Typical) -> dict[str, np.ndarray]:
@@ -45,15 +46,6 @@ def carriers(problem: Problem, z: np.ndarray, typical: Typical) -> dict[str, np.
         if slope is not None:
             found[name] = slope / problem.sd
     return found
-
-
-def root_mean_square(values: np.ndarray) -> float:
-    """Root mean square.
-
-    >>> root_mean_square(np.array([3.0, -3.0]))
-    3.0
-    """
-    return float(np.sqrt(np.mean(values**2)))
 
 
 def log_slope(problem: Problem, z: np.ndarray, name: str) -> np.ndarray | None:

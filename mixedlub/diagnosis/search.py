@@ -99,6 +99,11 @@ def _search(
 ) -> Search:
     progress("calibrating the base model")
     none = map_fit(problem, (), np.zeros(problem.size(())))
+    wrong = none.weight < 0.5
+    if wrong.any():
+        # A reading that is wrong does not tell its own noise.
+        problem = problem.with_sd(np.where(wrong, none.prediction, problem.y))
+        none = map_fit(problem, (), none.z)
     effects = problem.forward.effects(exclude)
     progress(f"trying {len(effects)} effects")
     sampled = tuple(s for s in (sample(problem, e.id, none) for e in effects) if len(s.z))

@@ -108,7 +108,9 @@ def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibrati
 
     found = (
         unknown("coulomb_torque", LogNormal(size, 1.0), size, "dry friction, the same in both directions"),
-        unknown("viscous_torque", BetweenLog(3e-3 * size, 3.0 * size), 0.5 * size, "viscous friction at the largest speed"),
+        unknown(
+            "viscous_torque", BetweenLog(3e-3 * size, 3.0 * size), 0.5 * size, "viscous friction at the largest speed"
+        ),
         unknown("payload_torque", Normal(0.0, size), 0.0, "constant part that keeps its sign"),
     )
     if not gears_out(recorded).any():
