@@ -5,6 +5,7 @@ import numpy as np
 from mixedlub.effect import Between, LogNormal, Parameter, effect
 
 _STIFFNESS = 1.4e10
+_TYPICAL = 2e5
 
 
 @effect(
@@ -13,9 +14,10 @@ _STIFFNESS = 1.4e10
     parameters=(
         Parameter("relief", "m", LogNormal(15e-6, 0.6), "tip relief that the known load sharing lacks", null=0.0),
         Parameter("length", "-", Between(0.1, 0.35), "length of the relief over the path of contact"),
+        Parameter("fade", "-", Between(0.0, 1.0), "power with which load takes it back, 1 for equal springs"),
     ),
-    equation=r"\frac{s'}{1-s'} = \frac{s}{1-s}\,e^{-2x(g - g')},\quad x = \frac{C_a c' b_w}{F_t},\quad g = "
-    r"e^{-(\xi/\ell)^2} + e^{-((1-\xi)/\ell)^2}",
+    equation=r"\frac{s'}{1-s'} = \frac{s}{1-s}\,e^{-2x(g - g')},\quad "
+    r"x = \frac{C_a c'}{w_r}\left(\frac{w_r b_w}{F_t}\right)^{f},\quad g = e^{-(\xi/\ell)^2} + e^{-((1-\xi)/\ell)^2}",
     source="load divides by compliance and gap (T. F. Conry, A. Seireg, J. Eng. Ind. 95 (1973) 1115) with c' "
     "= 14 N/(mm um) (ISO 6336-1); the primed g is that of the other tooth pair in contact",
     fingerprint={"load": "+", "speed": "-", "roughness": "+"},
@@ -24,22 +26,24 @@ _STIFFNESS = 1.4e10
     odds=0.5,
 )
 def tip_relief(
-    load_share, path_fraction, contact_ratio, transmitted_force, contact_width, face_width, *, relief, length
+    load_share, path_fraction, contact_ratio, transmitted_force, contact_width, face_width, *, relief, length, fade
 ):
     """Relieved tips hand their load to the tooth pair in the middle, where sliding is small.
 
     Two pairs share between them, so their shares still add to one and a single pair keeps all.
     A small relief takes half of x off the share at the tip, as two equal springs do; a large one all of it.
-    A load share from a gear program usually holds the relief already. The tooth stiffness makes the form belong to Pa.
+    A load share from a gear program usually holds the relief already. Equal springs take it back as 1/F (f = 1);
+    where relief and bending of the teeth reach along the path the share changes less with load. The tooth
+    stiffness and the line load w_r = 200 N/mm make the form belong to Pa and N/m.
 
     >>> known = dict(contact_ratio=1.5, transmitted_force=3000.0, contact_width=0.014, face_width=0.014)
     >>> share = np.array([0.4, 1.0, 0.6])   # start of contact, middle, and where the next pair starts
-    >>> relieved = tip_relief(share, np.array([0.0, 0.5, 2 / 3]), **known, relief=15e-6, length=0.2)
+    >>> relieved = tip_relief(share, np.array([0.0, 0.5, 2 / 3]), **known, relief=15e-6, length=0.2, fade=1.0)
     >>> relieved.round(2).tolist(), round(float(relieved[0] + relieved[2]), 9)
     ([0.1, 1.0, 0.9], 1.0)
     """
     share = load_share * (face_width / contact_width)
-    size = relief * _STIFFNESS * face_width / transmitted_force
+    size = relief * _STIFFNESS / (_TYPICAL * (transmitted_force / (face_width * _TYPICAL)) ** fade)
     step = 1.0 / contact_ratio
     partner = np.where(path_fraction < 0.5, path_fraction + step, path_fraction - step)
     odds = np.expm1(-2.0 * size * (_gap(path_fraction, length) - _gap(partner, length)))
