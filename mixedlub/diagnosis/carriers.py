@@ -30,28 +30,40 @@ class Typical:
     @classmethod
     def of(cls, problem: Problem, z: np.ndarray) -> Typical:
         """Those of a recording at the calibration z."""
-        share = np.abs(problem.predict((), z)) / problem.sd
-        return cls(float(np.median(share)), float(np.median(problem.sd)))
+        share = _share(problem, z)
+        return cls(float(np.median(share[share > 0.0])) if share.any() else 1.0, float(np.median(problem.sd)))
 
 
 def carriers(problem: Problem, z: np.ndarray, typical: Typical) -> dict[str, np.ndarray]:
     """Sigmas by which each reading moves: for a share of itself, for one typical sd, for a factor e on a quantity.
 
-    ``z`` is the calibration.
+    ``z`` is the calibration. Quantities on which no reading hangs are left out.
     """
-    share = np.abs(problem.predict((), z)) / problem.sd
-    found = {READING: share / typical.share, NOTHING: typical.sd / problem.sd}
-    for name in QUANTITIES:
-        slope = log_slope(problem, z, name)
-        if slope is not None:
-            found[name] = slope / problem.sd
-    return found
+    every = {name: carrier(problem, z, typical, name) for name in (READING, NOTHING, *QUANTITIES)}
+    return {name: each for name, each in every.items() if np.max(np.abs(each)) > LEAST}
+
+
+def carrier(problem: Problem, z: np.ndarray, typical: Typical, name: str) -> np.ndarray:
+    """One of the carriers; zero where the reading does not hang on it or has no finite answer."""
+    if name == NOTHING:
+        return typical.sd / problem.sd
+    if name == READING:
+        return np.nan_to_num(_share(problem, z) / typical.share)
+    slope = log_slope(problem, z, name)
+    return np.zeros(problem.y.size) if slope is None else np.nan_to_num(slope / problem.sd, posinf=0.0, neginf=0.0)
+
+
+def _share(problem: Problem, z: np.ndarray) -> np.ndarray:
+    """Change of what is compared when a reading grows by the factor e, in sigmas, to first order."""
+    if problem.case.kind.logarithmic:
+        return 1.0 / problem.sd
+    return np.abs(problem.predict((), z)) / problem.sd
 
 
 def log_slope(problem: Problem, z: np.ndarray, name: str) -> np.ndarray | None:
     """Change of the readings, as compared, with the logarithm of a quantity of the chain, all along the path.
 
-    None where the chain lacks the quantity or the readings do not hang on it.
+    None where the chain lacks the quantity.
     """
     forward = problem.forward
     if name not in forward.inputs and name not in {step for step, _ in forward.chain}:
@@ -61,9 +73,7 @@ def log_slope(problem: Problem, z: np.ndarray, name: str) -> np.ndarray | None:
     here = np.asarray(model(inputs, {"free_factor": {"log_factor": 0.0}})["reading"])
     moved = np.asarray(model(inputs, {"free_factor": {"log_factor": STEP}})["reading"])
     slope = np.broadcast_to((moved - here) / STEP * forward.scale, (problem.y.size, 1))[:, 0]
-    slope = slope / problem.unit_size(problem.predict((), z))
-    usable = np.isfinite(slope).all() and bool(np.max(np.abs(slope / problem.sd)) > LEAST)
-    return slope if usable else None
+    return np.asarray(slope / problem.unit_size(problem.predict((), z)))
 
 
 def calibrated_inputs(problem: Problem, z: np.ndarray) -> dict[str, Any]:

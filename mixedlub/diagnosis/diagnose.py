@@ -30,6 +30,7 @@ from profiles.errors import InputError
 
 AVERAGED = 6
 SMALL = 2e-3
+MANY_WRONG = 0.1
 CANDIDATES = 6
 
 
@@ -110,9 +111,30 @@ def diagnose_case(
     varied = [name for name in columns if not is_held(name, rows[name])] or columns
     place = region(rows, varied, np.where(chance > 0.5, 0.0, recorded.mismatch_z))
     tests = _next_tests(found, judged, refined, columns)
+    warnings += _doubts(judged, kept, chance, y, recorded)
     if not isinstance(judged.verdict, str):
         warnings += beyond_range(found.problem, judged.verdict, refined[judged.verdict].z)
     return Diagnosis(case, found, test, judged, refined, recorded, other, chance, place, kept, tests, tuple(warnings))
+
+
+def _doubts(judged: Posterior, kept: HeldOut, chance: np.ndarray, y: np.ndarray, recorded: Predicted) -> list[str]:
+    """What speaks against the answer as a whole: very many wrong readings, a form that holds nowhere else."""
+    doubts = []
+    wrong = chance > 0.5
+    if wrong.mean() > MANY_WRONG:
+        doubts.append(
+            f"{wrong.sum()} of {wrong.size} readings count as wrong: the stated noise may be too small, or the answer "
+            "covers only a part of the recording"
+        )
+        turned = np.abs(y[wrong] + recorded.predicted[wrong]) < 0.3 * np.abs(y[wrong])
+        if turned.mean() > 0.5:
+            doubts.append(f"{turned.sum()} of them have the size that is expected with the opposite sign")
+    if judged.verdict == "unknown" and kept.after > kept.before:
+        doubts.append(
+            "the unnamed mismatch predicts levels left out no better than calibration alone: outside the recorded "
+            "conditions rely on neither"
+        )
+    return doubts
 
 
 def _completed(wanted: Table | None, rows: Table) -> tuple[Table | None, list[str]]:
@@ -148,23 +170,23 @@ def _unstated(
 
 
 def _judged(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
-    """Probabilities, with each name that would be the verdict first held against levels left out.
+    """Probabilities, with the verdict and what ties with it first held against levels left out.
 
-    When CANDIDATES names have failed, those not tried are taken to fail like the best of them.
+    When CANDIDATES names were tried, the others are taken to fail like the best of those that did.
     """
-    demerits: dict[Key, float] = {}
+    tried: dict[Key, tuple[HeldOut, float]] = {}
     while True:
-        judged = posterior(found, test, demerits)
-        key = judged.verdict
-        kept, demerit = _held_against(found, key)
-        if demerit == 0.0 or key in demerits:
-            return judged, kept
-        demerits[key] = demerit
-        if len(demerits) == CANDIDATES:
+        demerits = {key: demerit for key, (_, demerit) in tried.items()}
+        if len(tried) >= CANDIDATES and all(demerits.values()):
             rest = min(demerits.values())
-            others = [k for k in judged.weights if k not in ("unknown", ())]
-            judged = posterior(found, test, {k: demerits.get(k, rest) for k in others})
-            return judged, _held_against(found, judged.verdict)[0]
+            names = [key for key in found.log_weights if key not in ("unknown", ())]
+            demerits = {key: demerits.get(key, rest) for key in names}
+        judged = posterior(found, test, demerits)
+        fresh = [key for key in judged.tied if key not in tried and key not in ("unknown", ())]
+        if not fresh or len(tried) >= CANDIDATES:
+            kept = tried[judged.verdict][0] if judged.verdict in tried else _held_against(found, judged.verdict)[0]
+            return judged, kept
+        tried[fresh[0]] = _held_against(found, fresh[0])
 
 
 def _held_against(found: Search, key: Key) -> tuple[HeldOut, float]:
@@ -174,7 +196,8 @@ def _held_against(found: Search, key: Key) -> tuple[HeldOut, float]:
     kept = held_out(found, key, outliers)
     if key in ("unknown", ()):
         return kept, 0.0
-    return kept, kept.demerit(float(np.sqrt(np.mean(residual[~outliers] ** 2))), residual.size)
+    good = residual[~outliers]
+    return kept, kept.demerit(float(np.sqrt(np.mean(good**2))) if good.size else 1.0)
 
 
 def _refine_leaders(found: Search, judged: Posterior) -> dict[Key, Refined]:
@@ -193,13 +216,16 @@ def _predict(found: Search, judged: Posterior, refined: dict[Key, Refined], tabl
     each: dict[Key, Prediction] = {k: rows.of_fit(r) for k, r in refined.items() if judged.weights[k] >= SMALL}
     if judged.weights["unknown"] >= SMALL:
         each["unknown"] = rows.of_unknown()
-    each = {k: p for k, p in each.items() if np.isfinite(p.mean + p.variance).all() or k == judged.verdict}
-    share = np.array([judged.weights[k] for k in each])
-    share = share / share.sum()
     means = np.array([p.mean for p in each.values()])
-    mean = each[()].mean if judged.verdict == () else share @ means
-    between = share @ (means - mean) ** 2
-    within = share @ np.array([p.variance for p in each.values()])
+    variances = np.array([p.variance for p in each.values()])
+    # An explanation with no finite answer at a row does not speak there; the verdict always does.
+    speaks = np.isfinite(means + variances) | np.array([k == judged.verdict for k in each])[:, None]
+    share = np.array([judged.weights[k] for k in each])[:, None] * speaks
+    share = share / share.sum(axis=0)
+    means, variances = np.where(speaks, means, 0.0), np.where(speaks, variances, 0.0)
+    mean = each[()].mean if judged.verdict == () else (share * means).sum(axis=0)
+    between = (share * (means - mean) ** 2).sum(axis=0)
+    within = (share * variances).sum(axis=0)
     sd, shared_variance = rows.noise_at(mean)
     half = 1.6449 * np.sqrt(sd**2 + shared_variance + within + between)
     at_verdict = each[judged.verdict].base
@@ -242,11 +268,13 @@ def _next_tests(
     table = candidates(found.problem.rows, columns)
     rows = Rows(found, table)
     predictions = [rows.of_fit(refined[k]) for k in keys]
-    weights = np.array([max(judged.weights[k], 0.05) for k in keys])
+    weights = np.array([judged.weights[k] for k in keys])
     finite = np.isfinite(np.array([p.mean + p.variance for p in predictions])).all(axis=0)
+    # Improbable rivals count for the choice, not for what it is said to tell.
+    worth = np.where(finite, expected_bits(np.maximum(weights, 0.05), predictions, rows.sd), 0.0)
     bits = np.where(finite, expected_bits(weights, predictions, rows.sd), 0.0)
     chosen: list[NextTest] = []
-    for i in np.argsort(bits)[::-1]:
+    for i in np.argsort(worth)[::-1]:
         conditions: dict[str, float | str] = {
             name: (str(table[name][i]) if table[name].dtype.kind in "US" else float(table[name][i])) for name in columns
         }

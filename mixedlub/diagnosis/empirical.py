@@ -105,7 +105,7 @@ def absorbing_stages(found: Search) -> tuple[Absorbed, ...]:
     for stage, names in SLOTS:
         for name in names:
             slope = log_slope(problem, none.z, name)
-            if slope is None:
+            if slope is None or not np.isfinite(slope).all() or not slope.any():
                 continue
             own = smooth * (slope / problem.sd)[:, None]
             each = [

@@ -11,7 +11,10 @@ from mixedlub.forward import Forward
 from mixedlub.table import Table
 
 NODES = 12
+PASSING = ("sequence", "time_s", "position_deg")
+"""Conditions that only pass on: where they start from is no size."""
 JITTER = 1e-6
+LEAST = 1e-300
 HELD = 0.01
 """A condition that spans less than this share of its size was held: what it wanders is no variation to learn from."""
 
@@ -33,7 +36,7 @@ class Coordinate:
 
     def scale(self, values: np.ndarray) -> np.ndarray:
         """Values on the 0..1 axis."""
-        x = np.log(values) if self.logarithmic else values
+        x = np.log(np.maximum(values, LEAST)) if self.logarithmic else values
         return (x - self.low) / self.span
 
     def functions(self, values: np.ndarray, length: float) -> np.ndarray:
@@ -53,7 +56,7 @@ def is_held(name: str, levels: np.ndarray) -> bool:
     >>> is_held("oil_temperature_C", np.array([31.0, 32.3])), is_held("speed_rpm", np.array([500.0, 520.0]))
     (True, False)
     """
-    if levels.dtype.kind in "US" or name == "sequence":
+    if levels.dtype.kind in "US" or name in PASSING:
         return False
     size = levels + 273.15 if name.endswith("temperature_C") else levels
     return float(np.ptp(size)) <= HELD * float(np.max(np.abs(size)))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,23 +20,32 @@ _LOG_OUT = np.log(OUTLIER_SHARE / OUTLIER_WIDTH * np.sqrt(2.0 / np.pi))
 class Fit:
     """An explanation at its most probable coordinates ``z``.
 
-    ``residual`` is (y - prediction)/sd, ``slopes`` its negative derivative with respect to z, ``weight`` the
-    precision of each reading after the chance that it is an outlier, ``evidence`` the Laplace estimate of
-    the log marginal likelihood (up to a constant common to all explanations of a problem).
+    ``residual`` is (y - prediction)/sd less ``common``, the errors shared within set-ups; ``slopes`` its negative
+    derivative with respect to z, ``weight`` the precision of each reading after the chance that it is an outlier,
+    ``evidence`` the Laplace estimate of the log marginal likelihood (up to a constant common to all explanations
+    of a problem).
     """
 
     explanation: Explanation
     z: np.ndarray
     prediction: np.ndarray
     residual: np.ndarray
+    common: np.ndarray
     slopes: np.ndarray
     weight: np.ndarray
     evidence: float
 
+    def in_sigmas(self, scale: np.ndarray, evidence: float) -> Fit:
+        """The same fit counted in other sigmas, ``scale`` times as many a reading."""
+        residual = self.residual * scale
+        weight = log_likelihood(residual)[1]
+        slopes, common = self.slopes * scale[:, None], self.common * scale
+        return replace(self, residual=residual, common=common, slopes=slopes, weight=weight, evidence=evidence)
+
     @property
     def anchor(self) -> np.ndarray:
         """Residual of the linearised model at the middle of the prior."""
-        return self.residual + self.slopes @ self.z
+        return self.residual + self.common + self.slopes @ self.z
 
 
 def log_likelihood(residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -113,8 +122,9 @@ def map_fit(problem: Problem, explanation: Explanation, start: np.ndarray, *, wa
     curvature = np.eye(columns.shape[1]) + columns.T @ (columns * state.weight[:, None])
     evidence = -state.cost - 0.5 * float(np.linalg.slogdet(curvature)[1])
     prediction = state.run.prediction
-    residual = (problem.y - prediction) / problem.sd
-    return Fit(explanation, state.z, prediction, residual, state.slopes, state.weight, evidence)
+    common = problem.shared @ state.shared
+    residual = (problem.y - prediction) / problem.sd - common
+    return Fit(explanation, state.z, prediction, residual, common, state.slopes, state.weight, evidence)
 
 
 def gaussian(residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

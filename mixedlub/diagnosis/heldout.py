@@ -1,6 +1,7 @@
 """Does the verdict predict conditions it was not fitted to: whole levels left out, its parameters refitted.
 
-Which effect it names, which readings are outliers and the form of an unnamed mismatch stay as all readings chose them.
+Which effect it names, which readings are outliers, how much readings scatter and the form of an unnamed mismatch stay
+as all readings chose them; laws are held against the levels as published, without the bending that predictions have.
 """
 
 from __future__ import annotations
@@ -32,21 +33,22 @@ class HeldOut:
     after: float
     split: str
     folds: int
+    readings: int
     surprise: float
 
-    def demerit(self, rms: float, rows: int) -> float:
+    def demerit(self, rms: float) -> float:
         """What a named law loses in log odds if it leaves much of the mismatch unexplained on levels left out.
 
         A law that is a little wrong still explains most of it there; what fits all readings but fails there is
-        another law in disguise. ``rms`` is that of the residual with all ``rows`` fitted; two standard errors of a
-        mean square are allowed for chance, and what the other levels cannot tell of the parameters is no failure.
+        another law in disguise. ``rms`` is that of the residual with all readings fitted; two standard errors of its
+        square are allowed for chance, and what the other levels cannot tell of the parameters is no failure.
 
-        >>> HeldOut(3.0, 1.1, "", 5, 1.1).demerit(1.0, 200), HeldOut(3.0, 2.6, "", 5, 2.6).demerit(1.0, 200) > 5.0
+        >>> HeldOut(3.0, 1.1, "", 5, 200, 1.1).demerit(1.0), HeldOut(3.0, 2.6, "", 5, 200, 2.6).demerit(1.0) > 5.0
         (0.0, True)
         """
         noise = max(rms, 1.0) ** 2
         missing = max(self.before**2 - noise, LEAST)
-        left = max(self.surprise**2 - noise - 2.0 * np.sqrt(2.0 / rows), 0.0)
+        left = max(self.surprise**2 - noise * (1.0 + 2.0 * np.sqrt(2.0 / self.readings)), 0.0)
         return float(min(DEMERIT * max(left / missing - TOLERATED, 0.0), DEMERIT))
 
 
@@ -61,39 +63,45 @@ def held_out(found: Search, verdict: Explanation | str, outliers: np.ndarray) ->
         out = fold == k
         train, test = found.problem.take(~out), found.problem.take(out)
         none = map_fit(train, (), found.none.z)
-        before[out] = (test.y - test.predict((), none.z)) / test.sd
+        # A set-up's own error is part of what a left-out reading scatters by.
+        wide = test.sd * np.sqrt(1.0 + np.sum(test.shared**2, axis=1))
+        before[out] = (test.y - test.predict((), none.z)) / wide
         if verdict == "unknown":
-            after[out] = _unknown_residual(found, out)
+            after[out] = _unknown_residual(found, out) * test.sd / wide
         elif verdict == ():
             after[out] = before[out]
         else:
             fit = map_fit(train, tuple(verdict), found.fits[tuple(verdict)].z, warm=True)
             run = test.run(fit.explanation, fit.z)
-            after[out] = (test.y - run.prediction) / test.sd
-            open_variance[out] = _open_variance(fit, test.jacobian(fit.explanation, fit.z, run))
-    kept = ~outliers
+            after[out] = (test.y - run.prediction) / wide
+            slopes = test.jacobian(fit.explanation, fit.z, run) * (test.sd / wide)[:, None]
+            open_variance[out] = _open_variance(fit, train.shared, slopes)
+    kept = ~outliers if not outliers.all() else np.ones(outliers.size, bool)
     return HeldOut(
         float(np.sqrt(np.mean(before[kept] ** 2))),
         float(np.sqrt(np.mean(after[kept] ** 2))),
         f"leave one level of {name} out" if name else "leave every fifth reading out",
         int(fold.max()) + 1,
+        int(kept.sum()),
         float(np.sqrt(np.mean(after[kept] ** 2 / (1.0 + open_variance[kept])))),
     )
 
 
-def _open_variance(fit: Fit, slopes: np.ndarray) -> np.ndarray:
+def _open_variance(fit: Fit, shared: np.ndarray, slopes: np.ndarray) -> np.ndarray:
     """Variance, in sigmas, of predictions with these slopes by what a fit leaves open of its coordinates."""
-    inner = np.linalg.inv(np.eye(fit.z.size) + fit.slopes.T @ (fit.slopes * fit.weight[:, None]))
-    return np.einsum("ij,jk,ik->i", slopes, inner, slopes)
+    columns = np.hstack([fit.slopes, shared])
+    inner = np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ (columns * fit.weight[:, None]))
+    own = inner[: fit.z.size, : fit.z.size]
+    return np.einsum("ij,jk,ik->i", slopes, own, slopes)
 
 
 def _unknown_residual(found: Search, out: np.ndarray) -> np.ndarray:
     """Residual of left-out readings under the unnamed mismatch fitted to the others (linearised)."""
     problem, none = found.problem, found.none
     own = shape_columns(found.unknown.best, found.space, found.values, found.unknown.carriers)
-    every = np.hstack([none.slopes, problem.shared, own])
-    fit = linear_fit(none.anchor[~out], every[~out])
-    return none.anchor[out] - every[out] @ fit.coefficients
+    fit = linear_fit(none.anchor[~out], np.hstack([none.slopes, problem.shared, own])[~out])
+    blind = np.hstack([none.slopes, np.zeros_like(problem.shared), own])
+    return none.anchor[out] - blind[out] @ fit.coefficients
 
 
 def _folds(found: Search) -> tuple[str, np.ndarray]:

@@ -10,6 +10,7 @@ from mixedlub.table import Table
 
 FEW = 30
 """Tests from which an sd counts as known: its own scatter is then 13 %."""
+FAR_ABOVE = 5.0
 SEVERAL = 2000
 """Most readings whose sds are compared with one another: beyond, the wild ones even out."""
 PARTNERS = 12
@@ -61,33 +62,43 @@ def noise(case: Case, rows: Table, level: np.ndarray, unstated: np.ndarray) -> t
 def steadied(sd: np.ndarray, level: np.ndarray, near: np.ndarray) -> np.ndarray:
     r"""Standard deviations that jump between like readings were estimated from few tests: each takes in the others'.
 
-    .. math:: s_i^2 \leftarrow (1-w) s_i^2 + w \frac{\sum_j K_{ij} s_j^2}{\sum_j K_{ij}},\quad w = \frac{v}{v + v_0},
-              \quad v = \tfrac12 \overline{(\ln s_i - \ln s_j)^2}
+    .. math:: \ln s_i \leftarrow (1-w) \ln s_i + w \frac{\sum_j K_{ij} \ln s_j}{\sum_j K_{ij}},\quad
+              w = \frac{v}{v + v_0}
 
-    ``near`` (n, n) weighs how alike the conditions of two readings are, one for the same. Of n tests the logarithm
-    of an sd scatters by a variance 1/(2(n - 1)); v_0 is that of FEW tests. What goes smoothly stays as stated.
+    ``near`` (n, n) weighs how alike the conditions of two readings are, one for the same; v is half the squared
+    jump of ln s between like readings, from its median. Of n tests the logarithm of an sd scatters by a variance
+    1/(2(n - 1)); v_0 is that of FEW tests. What goes smoothly stays as stated, and so does an sd more than FAR_ABOVE
+    its like: few tests do not give that, it marks a reading to be ignored.
     Moderation of variances by their like: G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3 (2004) 3.
 
     >>> near = np.ones((4, 4))
     >>> steadied(np.array([1.0, 1.0, 1.0, 1.0]), np.ones(4), near).tolist()
     [1.0, 1.0, 1.0, 1.0]
     >>> steadied(np.array([0.3, 3.0, 1.0, 1.0]), np.ones(4), near).round(1).tolist()
-    [1.6, 1.7, 1.7, 1.7]
+    [1.0, 1.0, 1.0, 1.0]
+    >>> steadied(np.array([1.0, 1.0, 1.0, 900.0]), np.ones(4), near).tolist()
+    [1.0, 1.0, 1.0, 900.0]
     """
     others = near - np.diag(np.diag(near))
     if others.sum() < 1.0:
         return sd
+    flat = others.ravel()
 
-    def jumps(values: np.ndarray) -> float:
-        apart = np.subtract.outer(np.log(values), np.log(values))
-        return float(0.5 * (others * apart**2).sum() / others.sum())
+    def jumps(logs: np.ndarray) -> float:
+        apart = np.abs(np.subtract.outer(logs, logs)).ravel()
+        rank = np.argsort(apart)
+        total = np.cumsum(flat[rank])
+        middle = apart[rank][np.searchsorted(total, 0.5 * total[-1])]
+        return 0.5 * float(middle / 0.6745) ** 2
 
-    size = np.maximum(np.abs(level), 1e-12 * float(np.max(np.abs(level))) + 1e-300)
-    share = size if jumps(sd / size) < jumps(sd) else np.ones(sd.size)
-    v = jumps(sd / share)
+    size = np.log(np.maximum(np.abs(level), 1e-12 * float(np.max(np.abs(level))) + 1e-300))
+    log = np.log(sd)
+    share = size if jumps(log - size) < jumps(log) else np.zeros(sd.size)
+    v = jumps(log - share)
     weight = v / (v + 0.5 / (FEW - 1))
-    pooled = near @ (sd / share) ** 2 / near.sum(axis=1) * share**2
-    return np.sqrt((1.0 - weight) * sd**2 + weight * pooled)
+    pooled = near @ (log - share) / near.sum(axis=1) + share
+    moved = (1.0 - weight) * log + weight * pooled
+    return np.where(log > pooled + np.log(FAR_ABOVE), sd, np.exp(moved))
 
 
 def _neighbours(case: Case, rows: Table) -> np.ndarray:
@@ -156,17 +167,29 @@ def _typical_difference(y: np.ndarray, group: np.ndarray, count: np.ndarray) -> 
 
 
 def noise_from_smoothness(y: np.ndarray, base: np.ndarray, space: Coordinates, values: list[np.ndarray]) -> float:
-    """Standard deviation of what a rich smooth function of the conditions leaves over, outliers set aside.
+    """Standard deviation of what a smooth function of the conditions leaves over, outliers set aside.
 
-    The function may scale and shift the base model; the count of what it used up is taken off.
+    The function may scale and shift the base model. It is the richest that uses up no more than half of what
+    the different conditions can tell; the count of what it used up is taken off.
     """
-    columns = np.hstack([np.ones((y.size, 1)), base[:, None], space.columns(values, 0.25, None, True)])
-    size = np.linalg.norm(columns, axis=0)
-    columns = columns[:, size > 0] / size[size > 0]
+    flat = np.column_stack([np.ones(y.size), base])
+    rich = ((0.25, True), (0.25, False), (0.7, False))
+    for columns in (*(np.hstack([flat, space.columns(values, length, None, pairs)]) for length, pairs in rich), flat):
+        size = np.linalg.norm(columns, axis=0)
+        columns = columns[:, size > 0] / size[size > 0]
+        different = len(np.unique(columns.round(12), axis=0))
+        sd, spent = _left_over(y, columns)
+        if spent <= 0.5 * different:
+            break
+    return sd
+
+
+def _left_over(y: np.ndarray, columns: np.ndarray) -> tuple[float, float]:
+    """Standard deviation that a ridge fit leaves over, and how many coefficients it used up."""
     keep = np.ones(y.size, bool)
-    sd = float(np.std(y))
+    sd, spent = float(np.std(y)), 0.0
+    ridge = 1e-4 * np.eye(columns.shape[1])
     for _ in range(4):
-        ridge = 1e-4 * np.eye(columns.shape[1])
         used = columns[keep]
         curvature = used.T @ used
         found = np.linalg.solve(curvature + ridge, used.T @ y[keep])
@@ -175,4 +198,6 @@ def noise_from_smoothness(y: np.ndarray, base: np.ndarray, space: Coordinates, v
         spare = max(float(keep.sum()) - spent, 0.2 * float(keep.sum()), 1.0)
         sd = float(np.sqrt(np.sum(left[keep] ** 2) / spare))
         keep = np.abs(left) < 4.0 * sd
-    return sd
+        if not keep.any():
+            break
+    return sd, spent

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.diagnosis.carriers import carriers
+from mixedlub.diagnosis.carriers import carrier
 from mixedlub.diagnosis.fit import Fit, linear_fit
 from mixedlub.diagnosis.noise import is_stated, seen_noise
 from mixedlub.diagnosis.problem import REACH, Problem
@@ -101,7 +101,8 @@ class Rows:
         unknown = found.unknown
         run = self.problem.run((), unknown.z)
         calibrated, slopes = run.prediction, self.problem.jacobian((), unknown.z, run)
-        rides = carriers(self.problem, found.none.z, unknown.typical)
+        name = unknown.best.carrier
+        rides = {name: carrier(self.problem, found.none.z, unknown.typical, name)}
         own = shape_columns(unknown.best, found.space, self.values, rides)
         shared = np.zeros((len(self.table), found.problem.shared.shape[1]))
         every = np.hstack([slopes, shared, own])

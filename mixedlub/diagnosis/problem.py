@@ -18,6 +18,7 @@ Explanation = tuple[str, ...]
 STEP = 1e-4
 REACH = 4.5
 LEAST = 1e-30
+TRIFLE = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,8 +105,13 @@ class Problem:
         return slopes
 
     def with_sd(self, prediction: np.ndarray) -> Problem:
-        """The same problem with the noise taken at the size of a prediction instead of the readings."""
-        sd, shared = seen_noise(self.case, self.rows, self.level(prediction), self.sd)
+        """The same problem with the noise taken at the size of a prediction instead of the readings.
+
+        A prediction far below its reading, as of a part rig that the model has nothing for, is no size to go by.
+        """
+        size, reading = self.level(prediction), self.level(self.y)
+        size = np.where(np.abs(size) < TRIFLE * np.abs(reading), reading, size)
+        sd, shared = seen_noise(self.case, self.rows, size, self.sd)
         return Problem(self.case, self.rows, self.forward, self.y, sd, shared)
 
     def take(self, rows: np.ndarray) -> Problem:

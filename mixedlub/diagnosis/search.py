@@ -99,11 +99,9 @@ def _search(
 ) -> Search:
     progress("calibrating the base model")
     none = map_fit(problem, (), np.zeros(problem.size(())))
-    wrong = none.weight < 0.5
-    if wrong.any():
-        # A reading that is wrong does not tell its own noise.
-        problem = problem.with_sd(np.where(wrong, none.prediction, problem.y))
-        none = map_fit(problem, (), none.z)
+    # Readings do not tell their own noise: those that happen to be low would count for more.
+    problem = problem.with_sd(none.prediction)
+    none = map_fit(problem, (), none.z)
     effects = problem.forward.effects(exclude)
     progress(f"trying {len(effects)} effects")
     sampled = tuple(s for s in (sample(problem, e.id, none) for e in effects) if len(s.z))
@@ -114,7 +112,7 @@ def _search(
             old = problem.sd
             problem = problem.with_sd(best.prediction)
             none = map_fit(problem, (), none.z)
-            singles = _again(problem, singles, best)
+            singles = _again(problem, singles, best, old / problem.sd)
             sampled = tuple(replace(s, change=s.change * (old / problem.sd)) for s in sampled)
     fits: dict[Explanation, Fit] = {(): none, **singles}
     progress("trying pairs of effects")
@@ -126,11 +124,14 @@ def _search(
     return Search(problem, space, values, none, fits, scores, unknown, sampled)
 
 
-def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit) -> dict[Explanation, Fit]:
-    """The fits under a new noise level; those hopelessly behind the best only keep their distance to it."""
+def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: np.ndarray) -> dict[Explanation, Fit]:
+    """The fits under a new noise level; those hopelessly behind the best only keep their distance to it.
+
+    ``scale`` is the old noise over the new.
+    """
     new = {m: map_fit(problem, m, f.z, warm=True) for m, f in singles.items() if f.evidence > best.evidence - FAR}
     shift = new[best.explanation].evidence - best.evidence
-    return {m: new[m] if m in new else replace(f, evidence=f.evidence + shift) for m, f in singles.items()}
+    return {m: new[m] if m in new else f.in_sigmas(scale, f.evidence + shift) for m, f in singles.items()}
 
 
 def _promising_pairs(

@@ -71,7 +71,7 @@ def scan(problem: Problem, name: str, none: Fit, place: int, count: int) -> np.n
             continue
         change = (here.prediction - none.prediction) / problem.sd
         linear = linear_fit(none.anchor - change, np.hstack([fixed, slopes]), rounds=4)
-        own[others] = np.clip(linear.coefficients[-len(others) :], -SCANNED_TO, SCANNED_TO)
+        own[others] = np.clip(linear.coefficients[fixed.shape[1] :], -SCANNED_TO, SCANNED_TO)
         tried.append((linear.evidence - 0.5 * z * z, own))
     best = sorted(tried, key=lambda t: -t[0])[:STARTS]
     return np.array([own for _, own in best]).reshape(-1, size)

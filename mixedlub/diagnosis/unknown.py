@@ -12,7 +12,7 @@ import numpy as np
 from mixedlub.diagnosis.carriers import NOTHING, READING, Carriers, Typical, carriers
 from mixedlub.diagnosis.features import Coordinates
 from mixedlub.diagnosis.fit import Fit, Linear, linear_fit
-from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.problem import REACH, Problem
 
 LENGTHS = (0.25, 0.7)
 SIZES = (0.7, 2.0, 6.0, 20.0, 60.0)
@@ -117,7 +117,7 @@ def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np
         values=own @ fit.coefficients[fixed.shape[1] :],
         variance=np.einsum("ij,jk,ik->i", every, covariance, every),
         covariance=covariance,
-        z=fit.coefficients[: none.z.size],
+        z=np.clip(fit.coefficients[: none.z.size], -REACH, REACH),
     )
 
 
