@@ -11,6 +11,8 @@ from mixedlub.table import Table
 FEW = 30
 """Tests from which an sd counts as known: its own scatter is then 13 %."""
 FAR_ABOVE = 5.0
+LOW, HIGHEST = 0.52, 1.23
+"""Mean of ln s below that of the true sd over the variance of ln s, and that variance, both of two tests."""
 SEVERAL = 2000
 """Most readings whose sds are compared with one another: beyond, the wild ones even out."""
 PARTNERS = 12
@@ -62,20 +64,21 @@ def noise(case: Case, rows: Table, level: np.ndarray, unstated: np.ndarray) -> t
 def steadied(sd: np.ndarray, level: np.ndarray, near: np.ndarray) -> np.ndarray:
     r"""Standard deviations that jump between like readings were estimated from few tests: each takes in the others'.
 
-    .. math:: \ln s_i \leftarrow (1-w) \ln s_i + w \frac{\sum_j K_{ij} \ln s_j}{\sum_j K_{ij}},\quad
-              w = \frac{v}{v + v_0}
+    .. math:: \ln s_i \leftarrow (1-w) \ln s_i + w \left(\frac{\sum_j K_{ij} \ln s_j}{\sum_j K_{ij}} + 0.52 v\right)
+              ,\quad w = \frac{v}{v + v_0}
 
     ``near`` (n, n) weighs how alike the conditions of two readings are, one for the same; v is half the squared
     jump of ln s between like readings, from its median. Of n tests the logarithm of an sd scatters by a variance
-    1/(2(n - 1)); v_0 is that of FEW tests. What goes smoothly stays as stated, and so does an sd more than FAR_ABOVE
-    its like: few tests do not give that, it marks a reading to be ignored.
+    1/(2(n - 1)), and lies 0.5 to 0.8 of that below the true one's; v_0 is that of FEW tests. What goes smoothly
+    stays as stated, and so does an sd more than FAR_ABOVE its like: few tests do not give that, it marks a reading
+    to be ignored.
     Moderation of variances by their like: G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3 (2004) 3.
 
     >>> near = np.ones((4, 4))
     >>> steadied(np.array([1.0, 1.0, 1.0, 1.0]), np.ones(4), near).tolist()
     [1.0, 1.0, 1.0, 1.0]
     >>> steadied(np.array([0.3, 3.0, 1.0, 1.0]), np.ones(4), near).round(1).tolist()
-    [1.0, 1.0, 1.0, 1.0]
+    [1.8, 1.9, 1.8, 1.8]
     >>> steadied(np.array([1.0, 1.0, 1.0, 900.0]), np.ones(4), near).tolist()
     [1.0, 1.0, 1.0, 900.0]
     """
@@ -96,7 +99,7 @@ def steadied(sd: np.ndarray, level: np.ndarray, near: np.ndarray) -> np.ndarray:
     share = size if jumps(log - size) < jumps(log) else np.zeros(sd.size)
     v = jumps(log - share)
     weight = v / (v + 0.5 / (FEW - 1))
-    pooled = near @ (log - share) / near.sum(axis=1) + share
+    pooled = near @ (log - share) / near.sum(axis=1) + share + LOW * min(v, HIGHEST)
     moved = (1.0 - weight) * log + weight * pooled
     return np.where(log > pooled + np.log(FAR_ABOVE), sd, np.exp(moved))
 

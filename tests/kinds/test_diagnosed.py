@@ -136,12 +136,17 @@ def test_oleic_acid_in_oils_is_resolved(typed):
     assert "jump between like readings" in said(d)
 
 
-@pytest.mark.parametrize("oil", ["oil_a_40C_100C", "oil_b_100C"])
-def test_films_that_step_with_the_order_are_the_instrument(filed, oil):
-    d = filed(f"ehd_film_{oil}")
+def test_films_that_step_with_the_order_are_the_instrument(filed):
+    d = filed("ehd_film_oil_b_100C")
     assert tied(d)[0] == ["fringe_step"]
     step = next(e for e in as_json(d)["effects"] if e["id"] == "fringe_step")["parameters"][0]
     assert -4e-8 < step["value"] < -1e-8
+
+
+def test_a_weaker_step_ties_with_nothing(filed):
+    """Films that scatter by 5 to 10 % leave room for no mismatch at all."""
+    assert ["fringe_step"] in tied(filed("ehd_film_oil_a_40C_100C"))
+    assert ["none"] in tied(filed("ehd_film_oil_a_40C_100C"))
 
 
 def test_no_physics_alone_is_named_where_films_step(filed):
