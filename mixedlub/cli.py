@@ -51,6 +51,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; 0 done, 2 bad input (one message, no traceback), 1 anything else."""
     forget_folder()
     with warnings.catch_warnings():
+        # What numbers overflow while far-off parameters are tried is not for the user.
+        warnings.simplefilter("ignore", RuntimeWarning)
         warnings.showwarning = lambda message, *rest, **named: note(str(message))
         return _run(spread_lists(list(sys.argv[1:] if arguments is None else arguments)))
 

@@ -20,8 +20,13 @@ from mixedlub.effects.torque_offset import torque_offset
 from mixedlub.laws import drag, heating
 from roughness.integrals import area_integral
 
-PROTOTYPE = {"roughness_lay": {"lay": 1.0, "onset": 0.15, "decay": 1.0}, "micro_ehl": {"viscous": 1.0, "texture": 1.0}}
-"""Parameters of the prototype where they are not the middle of the priors: h + 0.15 sigma, all moments alike."""
+PROTOTYPE = {
+    "roughness_lay": {"lay": 1.0, "onset": 0.15, "decay": 1.0},
+    "micro_ehl": {"viscous": 1.0, "texture": 1.0},
+    "bearing_drag": {"load_power": 1.0, "rolling_power": 0.0},
+}
+"""Parameters of the prototype where they are not the middle of the priors: h + 0.15 sigma, all moments
+alike, Palmgren's powers."""
 
 
 class TestLiterature:

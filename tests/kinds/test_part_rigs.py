@@ -40,7 +40,7 @@ def test_losses_of_the_shafts_stay(forward, name):
 
 
 def test_bearings_carry_no_tooth_force(forward):
-    loaded = {"bearing_drag": {"idle": 0.0, "loaded": 1.0}}
+    loaded = {"bearing_drag": {"idle": 0.0, "loaded": 1.0, "load_power": 1.3, "rolling_power": 0.3}}
     added = forward.predict(None, loaded) - forward.predict()
     assert np.all(added[GEARED] > 0.0)
     assert np.all(added[BARE] == 0.0)
