@@ -64,8 +64,8 @@ def _goal(row: Row) -> str:
         return ""
     low, high = row.goal
     if not np.isfinite(high):
-        return f"≥ {low:g}"
-    return f"{low:g} to {high:g}" if np.isfinite(low) else f"≤ {high:g}"
+        return f"≥ {low:.3g}"
+    return f"{low:g} to {high:g}" if np.isfinite(low) else f"≤ {high:.3g}"
 
 
 def _cases(score: Score) -> int:

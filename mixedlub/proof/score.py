@@ -114,8 +114,8 @@ def _finite(value: object) -> object:
 def _goal(goal: tuple[float, float]) -> str:
     low, high = goal
     if not np.isfinite(high):
-        return f">= {low:g}"
-    return f"{low:g} to {high:g}" if np.isfinite(low) and low > 0 else f"<= {high:g}"
+        return f">= {low:.3g}"
+    return f"{low:g} to {high:g}" if np.isfinite(low) and low > 0 else f"<= {high:.3g}"
 
 
 def _claims(pairs: Sequence[Pair]) -> list[tuple[float, bool]]:
