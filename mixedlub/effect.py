@@ -142,7 +142,7 @@ class Effect:
     @property
     def summary(self) -> str:
         """The first line of the law's docstring."""
-        return inspect.getdoc(self.law).split("\n")[0]  # type: ignore[union-attr]
+        return (inspect.getdoc(self.law) or "").split("\n")[0]
 
     @property
     def nulls(self) -> dict[str, float]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -74,9 +75,9 @@ def honed(
             where="honed",
             value=(plateau_rms, valley_rms, plateau_share),
         )
-    shape = {"points": points, "spacing": spacing}
-    fine = ground(plateau_rms, rolloff=rolloff, seed=seed, **shape).profile  # type: ignore[arg-type]
-    coarse = ground(valley_rms, rolloff=2 * rolloff, seed=seed + 1, **shape).profile.heights  # type: ignore[arg-type]
+    cut = partial(ground, points=points, spacing=spacing)
+    fine = cut(plateau_rms, rolloff=rolloff, seed=seed).profile
+    coarse = cut(valley_rms, rolloff=2 * rolloff, seed=seed + 1).profile.heights
     gap = np.quantile(fine.heights - coarse, plateau_share)
     return measured(_with(fine, "honed", np.minimum(fine.heights, coarse + gap)))
 

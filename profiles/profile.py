@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -83,6 +84,6 @@ class Profile:
         """Distance from the first point to the last (m)."""
         return float((self.heights.size - 1) * self.spacing)
 
-    def after(self, step: str, heights: np.ndarray, **changes: object) -> Profile:
+    def after(self, step: str, heights: np.ndarray, **changes: Any) -> Profile:
         """The profile with new heights and one more step in its history."""
-        return replace(self, heights=heights, steps=(*self.steps, step), **changes)  # type: ignore[arg-type]
+        return replace(self, heights=heights, steps=(*self.steps, step), **changes)

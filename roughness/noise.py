@@ -42,7 +42,8 @@ def noise_moments(sigma: float, spacing: float, short_cutoff: float | None = Non
     weights = np.ones(1) if short_cutoff is None else gaussian_kernel(short_cutoff, spacing)
     first, second = np.convolve(weights, (1.0, -1.0)), np.convolve(weights, (1.0, -2.0, 1.0))
     gains = (weights @ weights, first @ first / spacing**2, second @ second / spacing**4)
-    return tuple(float(sigma**2 * gain) for gain in gains)  # type: ignore[return-value]
+    m0, m2, m4 = (float(sigma**2 * gain) for gain in gains)
+    return m0, m2, m4
 
 
 def without_noise(moments: Moments, sigma: float) -> Moments:

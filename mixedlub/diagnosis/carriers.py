@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from mixedlub.chain import Model
-from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.problem import STEP, Problem
 from mixedlub.effect import Effect, Normal, Parameter
+from mixedlub.forward import Run
 
 READING, NOTHING = "reading", "nothing"
 QUANTITIES = ("film_thickness", "shear_stress", "area_ratio", "boundary_friction", "line_load")
-STEP = 1e-4
 LEAST = 1e-9
 
 Carriers = Mapping[str, np.ndarray]
@@ -28,61 +27,50 @@ class Typical:
     sd: float
 
     @classmethod
-    def of(cls, problem: Problem, z: np.ndarray) -> Typical:
-        """Those of a recording at the calibration z."""
-        share = _share(problem, z)
+    def of(cls, problem: Problem, base: Run) -> Typical:
+        """Those of a recording under a run of the base model."""
+        share = _share(problem, base)
         return cls(float(np.median(share[share > 0.0])) if share.any() else 1.0, float(np.median(problem.sd)))
 
 
-def carriers(problem: Problem, z: np.ndarray, typical: Typical) -> dict[str, np.ndarray]:
+def carriers(problem: Problem, base: Run, typical: Typical) -> dict[str, np.ndarray]:
     """Sigmas by which each reading moves: for a share of itself, for one typical sd, for a factor e on a quantity.
 
-    ``z`` is the calibration. Quantities on which no reading hangs are left out.
+    ``base`` is a run of the base model. Quantities on which no reading hangs are left out.
     """
-    every = {name: carrier(problem, z, typical, name) for name in (READING, NOTHING, *QUANTITIES)}
+    every = {name: carrier(problem, base, typical, name) for name in (READING, NOTHING, *QUANTITIES)}
     return {name: each for name, each in every.items() if np.max(np.abs(each)) > LEAST}
 
 
-def carrier(problem: Problem, z: np.ndarray, typical: Typical, name: str) -> np.ndarray:
+def carrier(problem: Problem, base: Run, typical: Typical, name: str) -> np.ndarray:
     """One of the carriers; zero where the reading does not hang on it or has no finite answer."""
     if name == NOTHING:
         return typical.sd / problem.sd
     if name == READING:
-        return np.nan_to_num(_share(problem, z) / typical.share)
-    slope = log_slope(problem, z, name)
+        return np.nan_to_num(_share(problem, base) / typical.share)
+    slope = log_slope(problem, base, name)
     return np.zeros(problem.y.size) if slope is None else np.nan_to_num(slope / problem.sd, posinf=0.0, neginf=0.0)
 
 
-def _share(problem: Problem, z: np.ndarray) -> np.ndarray:
+def _share(problem: Problem, base: Run) -> np.ndarray:
     """Change of what is compared when a reading grows by the factor e, in sigmas, to first order."""
     if problem.case.kind.logarithmic:
         return 1.0 / problem.sd
-    return np.abs(problem.predict((), z)) / problem.sd
+    return np.abs(base.prediction) / problem.sd
 
 
-def log_slope(problem: Problem, z: np.ndarray, name: str) -> np.ndarray | None:
+def log_slope(problem: Problem, base: Run, name: str) -> np.ndarray | None:
     """Change of the readings, as compared, with the logarithm of a quantity of the chain, all along the path.
 
-    None where the chain lacks the quantity.
+    ``base`` is a run of the base model. None where the chain lacks the quantity.
     """
-    forward = problem.forward
+    forward, inputs = problem.forward, base.record.inputs
     if name not in forward.inputs and name not in {step for step, _ in forward.chain}:
         return None
-    inputs = calibrated_inputs(problem, z)
     model = Model(forward.chain, tuple(inputs), ("reading",), (_free_factor(name),))
-    here = np.asarray(model(inputs, {"free_factor": {"log_factor": 0.0}})["reading"])
     moved = np.asarray(model(inputs, {"free_factor": {"log_factor": STEP}})["reading"])
-    slope = np.broadcast_to((moved - here) / STEP * forward.scale, (problem.y.size, 1))[:, 0]
-    return np.asarray(slope / problem.unit_size(problem.predict((), z)))
-
-
-def calibrated_inputs(problem: Problem, z: np.ndarray) -> dict[str, Any]:
-    """Inputs of the chain with the calibration at coordinates z applied."""
-    inputs = dict(problem.forward.inputs)
-    values = problem.calibration(z)
-    for c in problem.forward.calibrations:
-        inputs.update(c.apply(inputs, values[c.name]))
-    return inputs
+    slope = (moved - np.asarray(base.record.wanted["reading"])) / STEP * forward.scale
+    return np.asarray(np.broadcast_to(slope, (problem.y.size, 1))[:, 0] / problem.unit_size(base.prediction))
 
 
 def _free_factor(name: str) -> Effect:

@@ -13,7 +13,7 @@ from mixedlub.case import Case, read_case, read_conditions
 from mixedlub.diagnosis.audit import audit
 from mixedlub.diagnosis.features import Coordinates, coordinates, is_held
 from mixedlub.diagnosis.fit import outlier_chance
-from mixedlub.diagnosis.heldout import HeldOut, held_out
+from mixedlub.diagnosis.heldout import HeldOut, LevelsOut
 from mixedlub.diagnosis.location import Region, region
 from mixedlub.diagnosis.mismatch import Mismatch, mismatch_test
 from mixedlub.diagnosis.nexttest import NextTest, candidates, expected_bits
@@ -174,6 +174,7 @@ def _judged(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
 
     When CANDIDATES names were tried, the others are taken to fail like the best of those that did.
     """
+    levels = LevelsOut.of(found)
     tried: dict[Key, tuple[HeldOut, float]] = {}
     while True:
         demerits = {key: demerit for key, (_, demerit) in tried.items()}
@@ -184,16 +185,16 @@ def _judged(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
         judged = posterior(found, test, demerits)
         fresh = [key for key in judged.tied if key not in tried and key not in ("unknown", ())]
         if not fresh or len(tried) >= CANDIDATES:
-            kept = tried[judged.verdict][0] if judged.verdict in tried else _held_against(found, judged.verdict)[0]
-            return judged, kept
-        tried[fresh[0]] = _held_against(found, fresh[0])
+            key = judged.verdict
+            return judged, (tried.get(key) or _held_against(levels, found, key))[0]
+        tried[fresh[0]] = _held_against(levels, found, fresh[0])
 
 
-def _held_against(found: Search, key: Key) -> tuple[HeldOut, float]:
+def _held_against(levels: LevelsOut, found: Search, key: Key) -> tuple[HeldOut, float]:
     """How an explanation predicts levels left out, and what a name loses by it."""
     residual = found.unknown.fit.residual if isinstance(key, str) else found.fits[key].residual
     outliers = outlier_chance(residual) > 0.5
-    kept = held_out(found, key, outliers)
+    kept = levels.held(key, outliers)
     if key in ("unknown", ()):
         return kept, 0.0
     good = residual[~outliers]

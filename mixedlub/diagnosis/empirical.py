@@ -10,7 +10,7 @@ from math import comb
 import numpy as np
 
 from mixedlub.chain import Model
-from mixedlub.diagnosis.carriers import calibrated_inputs, log_slope
+from mixedlub.diagnosis.carriers import log_slope
 from mixedlub.diagnosis.fit import linear_fit
 from mixedlub.diagnosis.labels import number, unit_of, words_of
 from mixedlub.diagnosis.search import Search
@@ -101,10 +101,11 @@ def absorbing_stages(found: Search) -> tuple[Absorbed, ...]:
     base = np.hstack([none.slopes, problem.shared])
     plain = linear_fit(none.anchor, base, found.unknown.fit.weight).evidence
     smooth = found.space.columns(found.values, 0.7)
+    calibrated = problem.run((), none.z)
     weighed = []
     for stage, names in SLOTS:
         for name in names:
-            slope = log_slope(problem, none.z, name)
+            slope = log_slope(problem, calibrated, name)
             if slope is None or not np.isfinite(slope).all() or not slope.any():
                 continue
             own = smooth * (slope / problem.sd)[:, None]
@@ -124,7 +125,7 @@ def features(found: Search) -> dict[str, np.ndarray]:
     for column in case.kind.columns:
         if column.form != "name" and column.name in rows and not column.name.endswith("_C"):
             every[column.name] = np.abs(np.asarray(rows[column.name], dtype=float))
-    inputs = calibrated_inputs(found.problem, found.none.z)
+    inputs = found.problem.run((), found.none.z).record.inputs
     made = set(inputs) | {name for name, _ in forward.chain}
     parts = [name for name in (*CHAIN[1:], "film_thickness", "composite_roughness") if name in made]
     state = Model(forward.chain, tuple(inputs), tuple(parts))(inputs) if parts else {}

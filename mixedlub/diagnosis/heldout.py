@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.diagnosis.fit import Fit, linear_fit, map_fit
-from mixedlub.diagnosis.problem import Explanation
+from mixedlub.diagnosis.problem import Explanation, Problem
 from mixedlub.diagnosis.search import Search
 from mixedlub.diagnosis.unknown import shape_columns
 
@@ -52,39 +52,67 @@ class HeldOut:
         return float(min(DEMERIT * max(left / missing - TOLERATED, 0.0), DEMERIT))
 
 
-def held_out(found: Search, verdict: Explanation | str, outliers: np.ndarray) -> HeldOut:
-    """Leave out each level of the condition with the most levels (up to 8), refit the parameters, and predict it."""
-    if found.screen is not None:
-        rows = np.isin(found.problem.rows["run"], found.screen.problem.rows["run"])
-        found, outliers = found.screen, outliers[rows]
-    name, fold = _folds(found)
-    before, after, open_variance = np.zeros((3, found.problem.y.size))
-    for k in range(int(fold.max()) + 1):
-        out = fold == k
-        train, test = found.problem.take(~out), found.problem.take(out)
-        none = map_fit(train, (), found.none.z)
-        # A set-up's own error is part of what a left-out reading scatters by.
-        wide = test.sd * np.sqrt(1.0 + np.sum(test.shared**2, axis=1))
-        before[out] = (test.y - test.predict((), none.z)) / wide
-        if verdict == "unknown":
-            after[out] = _unknown_residual(found, out) * test.sd / wide
-        elif verdict == ():
-            after[out] = before[out]
-        else:
-            fit = map_fit(train, tuple(verdict), found.fits[tuple(verdict)].z, warm=True)
-            run = test.run(fit.explanation, fit.z)
-            after[out] = (test.y - run.prediction) / wide
-            slopes = test.jacobian(fit.explanation, fit.z, run) * (test.sd / wide)[:, None]
-            open_variance[out] = _open_variance(fit, train.shared, slopes)
-    kept = ~outliers if not outliers.all() else np.ones(outliers.size, bool)
-    return HeldOut(
-        float(np.sqrt(np.mean(before[kept] ** 2))),
-        float(np.sqrt(np.mean(after[kept] ** 2))),
-        f"leave one level of {name} out" if name else "leave every fifth reading out",
-        int(fold.max()) + 1,
-        int(kept.sum()),
-        float(np.sqrt(np.mean(after[kept] ** 2 / (1.0 + open_variance[kept])))),
-    )
+@dataclass(frozen=True, eq=False)
+class _Fold:
+    """One level left out: its rows, the problem of the others and its own, and what its readings scatter by."""
+
+    out: np.ndarray
+    train: Problem
+    test: Problem
+    wide: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class LevelsOut:
+    """The levels of one condition left out in turn, and how calibration alone predicts them."""
+
+    found: Search
+    used: np.ndarray
+    name: str
+    folds: tuple[_Fold, ...]
+    before: np.ndarray
+
+    @classmethod
+    def of(cls, whole: Search) -> LevelsOut:
+        """Leave out each level of the condition with the most levels (up to 8)."""
+        found = whole.screened
+        name, label = _folds(found)
+        folds, before = [], np.zeros(found.problem.y.size)
+        for k in range(int(label.max()) + 1):
+            out = label == k
+            train, test = found.problem.take(~out), found.problem.take(out)
+            # A set-up's own error is part of what a left-out reading scatters by.
+            wide = test.sd * np.sqrt(1.0 + np.sum(test.shared**2, axis=1))
+            none = map_fit(train, (), found.none.z)
+            before[out] = (test.y - test.predict((), none.z)) / wide
+            folds.append(_Fold(out, train, test, wide))
+        used = np.isin(whole.problem.rows["run"], found.problem.rows["run"])
+        return cls(found, used, name, tuple(folds), before)
+
+    def held(self, verdict: Explanation | str, outliers: np.ndarray) -> HeldOut:
+        """Refit the parameters of a verdict without each level, and predict it."""
+        outliers = outliers[self.used]
+        after, open_variance = np.zeros((2, self.before.size))
+        for f in self.folds:
+            if verdict == "unknown":
+                after[f.out] = _unknown_residual(self.found, f.out) * f.test.sd / f.wide
+            elif verdict == ():
+                after[f.out] = self.before[f.out]
+            else:
+                fit = map_fit(f.train, tuple(verdict), self.found.fits[tuple(verdict)].z, warm=True)
+                run = f.test.run(fit.explanation, fit.z)
+                after[f.out] = (f.test.y - run.prediction) / f.wide
+                slopes = f.test.jacobian(fit.explanation, fit.z, run) * (f.test.sd / f.wide)[:, None]
+                open_variance[f.out] = _open_variance(fit, f.train.shared, slopes)
+        kept = ~outliers if not outliers.all() else np.ones(outliers.size, bool)
+        return HeldOut(
+            float(np.sqrt(np.mean(self.before[kept] ** 2))),
+            float(np.sqrt(np.mean(after[kept] ** 2))),
+            f"leave one level of {self.name} out" if self.name else "leave every fifth reading out",
+            len(self.folds),
+            int(kept.sum()),
+            float(np.sqrt(np.mean(after[kept] ** 2 / (1.0 + open_variance[kept])))),
+        )
 
 
 def _open_variance(fit: Fit, shared: np.ndarray, slopes: np.ndarray) -> np.ndarray:

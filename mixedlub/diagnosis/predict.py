@@ -102,7 +102,7 @@ class Rows:
         run = self.problem.run((), unknown.z)
         calibrated, slopes = run.prediction, self.problem.jacobian((), unknown.z, run)
         name = unknown.best.carrier
-        rides = {name: carrier(self.problem, found.none.z, unknown.typical, name)}
+        rides = {name: carrier(self.problem, self.problem.run((), found.none.z), unknown.typical, name)}
         own = shape_columns(unknown.best, found.space, self.values, rides)
         shared = np.zeros((len(self.table), found.problem.shared.shape[1]))
         every = np.hstack([slopes, shared, own])

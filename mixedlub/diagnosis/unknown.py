@@ -82,8 +82,9 @@ def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np
     """
     target = none.anchor
     fixed = np.hstack([none.slopes, problem.shared])
-    typical = Typical.of(problem, none.z)
-    rides = carriers(problem, none.z, typical)
+    base = problem.run((), none.z)
+    typical = Typical.of(problem, base)
+    rides = carriers(problem, base, typical)
 
     def columns_of(shape: Shape) -> np.ndarray:
         return shape_columns(shape, space, values, rides)

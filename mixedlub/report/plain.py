@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from string import ascii_letters
 
 SIGNS = {
     r"\qquad": "~ ",
@@ -75,7 +76,7 @@ def _argument(text: str, start: int) -> tuple[str, int]:
     while text[start : start + 1] == " ":
         start += 1
     if text[start] == "\\":
-        end = start + 1 + len(re.match(r"[a-zA-Z]*", text[start + 1 :])[0])  # type: ignore[index]
+        end = len(text) - len(text[start + 1 :].lstrip(ascii_letters))
         return text[start:end], end
     if text[start] != "{":
         return text[start], start + 1

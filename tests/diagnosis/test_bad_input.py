@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -35,10 +36,10 @@ def spoil_cell(folder: Path, line: int, column: str, value: str) -> None:
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def refused(folder: Path, **options: object) -> str:
+def refused(folder: Path, **options: Any) -> str:
     """The message with which a case is refused."""
     with pytest.raises(InputError) as caught:
-        diagnose_case(folder, **options)  # type: ignore[arg-type]
+        diagnose_case(folder, **options)
     return str(caught.value)
 
 

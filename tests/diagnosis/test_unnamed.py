@@ -21,7 +21,7 @@ from .test_inference import found_in, problem
 def test_boundary_friction_carries_in_proportion_to_its_share_of_friction() -> None:
     p = problem("disc")
     z = np.zeros(p.calibration_size)
-    slope = log_slope(p, z, "boundary_friction")
+    slope = log_slope(p, p.run((), z), "boundary_friction")
     here = p.predict((), z)
     moved = p.forward.predict({**p.calibration(z), "boundary_friction": 0.1001})
     assert slope == pytest.approx((moved - here) / np.log(1.001), rel=2e-3)
@@ -30,7 +30,8 @@ def test_boundary_friction_carries_in_proportion_to_its_share_of_friction() -> N
 def test_film_and_shear_carry_with_the_signs_of_lubrication() -> None:
     p = problem("disc")
     z = np.zeros(p.calibration_size)
-    found = carriers(p, z, Typical.of(p, z))
+    base = p.run((), z)
+    found = carriers(p, base, Typical.of(p, base))
     assert set(found) == {READING, NOTHING, *QUANTITIES}
     assert (found["film_thickness"] < 0).all()
     assert (found["shear_stress"] > 0).all()
@@ -39,7 +40,7 @@ def test_film_and_shear_carry_with_the_signs_of_lubrication() -> None:
 def test_a_mismatch_of_the_film_is_taken_for_one() -> None:
     """Readings of a film that is thinner the colder the oil, made by hand from the chain's own slope."""
     p = problem("disc", seed=3)
-    slope = log_slope(p, np.zeros(p.calibration_size), "film_thickness")
+    slope = log_slope(p, p.run((), np.zeros(p.calibration_size)), "film_thickness")
     assert slope is not None
     temperature = p.rows["oil_temperature_C"]
     bend = np.sin(3.0 * (temperature - temperature.min()) / np.ptp(temperature))
