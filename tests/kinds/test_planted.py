@@ -30,6 +30,13 @@ def planted_stribeck():
     return drive(coulomb() + 0.7 * np.exp(-((SPEED / 30.0) ** 2)) * np.sign(SPEED), speed_rpm=SPEED)
 
 
+def planted_modifier():
+    """Coverage that saturates exponentially: the catalogue carries Langmuir's isotherm."""
+    speed, content = np.tile(SPEED, 5), np.repeat([0.0, 0.5, 1.0, 3.0, 10.0], SPEED.size)
+    dry = 2.0 * (1.0 - 0.4 * (1.0 - np.exp(-content / 1.2)))
+    return drive(dry * np.sign(speed) + 0.8 * speed / 200.0 + 0.3, speed_rpm=speed, additive_percent=content)
+
+
 def planted_direction():
     friction = np.where(SPEED > 0, 2.6 + 1.6 * SPEED / 200.0, -1.7 + 0.9 * SPEED / 200.0)
     return drive(friction, speed_rpm=SPEED)
@@ -172,6 +179,7 @@ def planted_sample_drift():
 
 CASES = {
     "stribeck": (planted_stribeck, ("grease_shear_thinning", "direction_dependence", "torque_constant")),
+    "friction_modifier_film": (planted_modifier, ("stribeck", "direction_dependence", "grease_shear_thinning")),
     "direction_dependence": (planted_direction, ("stribeck", "grease_shear_thinning", "torque_constant")),
     "torque_constant": (planted_torque_constant, ("stribeck", "load_dependent_friction", "direction_dependence")),
     "load_dependent_friction": (planted_load, ("stribeck", "direction_dependence")),
