@@ -22,7 +22,11 @@ MANY = 3000
 ELASTIC = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
 """Relative error of an effect's literature form: its rms and the weight given to it."""
 BEND_LIMIT = 4.0
-"""Most that bending may add to the log evidence: a form a little wrong is not another effect."""
+BEND_SHARE = 0.01
+"""Most that bending may add to the log evidence: a number, or a share of the squares an explanation removes.
+
+A form a little wrong is not another effect, and the better it is seen the better is seen that it is wrong.
+"""
 
 Progress = Callable[[str], None]
 
@@ -183,7 +187,8 @@ def elastic_evidence(problem: Problem, none: Fit, fit: Fit, space: Coordinates, 
             continue
         bent = linear_fit(fit.anchor, np.hstack([base, size * bend]), fit.weight).evidence
         gains.append(np.log(weight) + bent - plain)
-    return fit.evidence + min(float(np.logaddexp.reduce(gains)), BEND_LIMIT / len(fit.explanation))
+    most = max(BEND_LIMIT, BEND_SHARE * float(net @ net)) / len(fit.explanation)
+    return fit.evidence + min(float(np.logaddexp.reduce(gains)), most)
 
 
 def typical_size(net: np.ndarray) -> float:

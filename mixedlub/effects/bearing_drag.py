@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.effect import Between, LogNormal, Parameter, effect
-from mixedlub.laws.drag import palmgren_idle_torque, palmgren_load_torque
+from mixedlub.laws.drag import bearing_asperity_share, palmgren_idle_torque, palmgren_load_torque
 
 _SIZE = 1.25
 _TYPICAL = 3000.0
@@ -14,17 +14,19 @@ _LEAST = 0.1
     stage="loss",
     acts_on="power_loss",
     parameters=(
-        Parameter("idle", "-", LogNormal(1.0, 1.0), "factor on the torque without load", null=0.0),
-        Parameter("loaded", "-", LogNormal(1.0, 1.0), "factor on the torque that load adds", null=0.0),
+        Parameter("strength", "-", LogNormal(0.6, 1.0), "factor on the torque: size and make", null=0.0),
+        Parameter("loaded", "-", LogNormal(1.0, 0.8), "factor on the part that load adds, beside that"),
         Parameter("load_power", "-", Between(1.0, 1.6), "power of load in it: 1 for rollers, about 1.5 for balls"),
         Parameter("rolling_power", "-", Between(0.0, 0.54), "power of load in the torque of rolling in oil"),
+        Parameter("rubbing", "-", Between(0.0, 2.0), "rise of the part that load adds where the bearing's film is gone"),
     ),
-    equation=r"P \leftarrow P + \sum_{i=1,2} 2\,\omega_i\,(c_0 M_{0,i} x^b + c_1 M_1 x^{a-1}),\quad x = F_t/F_r,\ "
+    equation=r"P \leftarrow P + c\sum_{i=1,2} 2\,\omega_i\,[M_{0,i} x^b + "
+    r"c_1 (1 + m\phi_{bl,i}) M_1 x^{a-1}],\quad x = F_t/F_r,\ "
     r"M_0 = 10^{-7} f_0(\nu n_i)^{2/3} d_m^3,\ M_1 = f_1\tfrac{F_t}{2} d_m,\ d_m = 1.25\,r_1",
     source="A. Palmgren, Grundlagen der Waelzlagertechnik, 1964; ISO/TR 14179-2; T. A. Harris, Rolling Bearing "
     "Analysis, for f_1 that grows with load in ball bearings; SKF General Catalogue 6000, 2003, for rolling torque "
-    "with load^0.54",
-    fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "roughness": "-"},
+    "with load^0.54; SKF, Rolling Bearings, 2013, for phi_bl and 0.12 over 0.05 (m = 1.4)",
+    fingerprint={"load": "-", "speed": "+", "oil_temperature": "+", "roughness": "-"},
     separated_by="the bearings alone on their rig, or their own oil supply; a change of flank finish leaves it "
     "where it was",
 )
@@ -38,10 +40,11 @@ def bearing_drag(
     oil_density,
     gears_fitted,
     *,
-    idle,
+    strength,
     loaded,
     load_power,
     rolling_power,
+    rubbing,
 ):
     """Four rolling bearings turn in oil and carry the tooth force.
 
@@ -49,8 +52,8 @@ def bearing_drag(
     constant and the force F_r = 3 kN that powers of load turn about make the form belong to SI.
 
     >>> gear = dict(transmitted_force=3000.0, pinion_radius=0.036, pinion_speed=157.1, gear_speed=102.7, gears_fitted=1)
-    >>> size = dict(idle=1.0, loaded=1.0, load_power=1.0, rolling_power=0.0)
-    >>> round(bearing_drag(0.0, **gear, viscosity=0.01275, oil_density=850.0, **size))   # 15.7 kW
+    >>> palmgren = dict(strength=1.0, loaded=1.0, load_power=1.0, rolling_power=0.0, rubbing=0.0)
+    >>> round(bearing_drag(0.0, **gear, viscosity=0.01275, oil_density=850.0, **palmgren))   # 15.7 kW
     24
     """
     diameter = _SIZE * pinion_radius
@@ -59,6 +62,7 @@ def bearing_drag(
     by_load = loaded * gears_fitted * growth * palmgren_load_torque(0.5 * transmitted_force, diameter)
     drag = 0.0
     for speed in (pinion_speed, gear_speed):
-        by_oil = idle * size**rolling_power * palmgren_idle_torque(viscosity, oil_density, speed, diameter)
-        drag = drag + 2.0 * speed * (by_oil + by_load)
-    return power_loss + drag
+        oil = (viscosity, oil_density, speed, diameter)
+        by_oil = size**rolling_power * palmgren_idle_torque(*oil)
+        drag = drag + 2.0 * speed * (by_oil + by_load * (1.0 + rubbing * bearing_asperity_share(*oil)))
+    return power_loss + strength * drag

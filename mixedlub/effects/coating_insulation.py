@@ -7,7 +7,7 @@ from mixedlub.laws import heating
 @effect(
     stage="shear",
     acts_on="shear_stress",
-    parameters=(Parameter("strength", "-", LogNormal(1.0, 0.7), "factor on the rise across the coating", null=0.0),),
+    parameters=(Parameter("strength", "-", LogNormal(1.0, 1.0), "factor on the rise across the coating", null=0.0),),
     equation=r"\tau = \tau_0 \operatorname{asinh}\left(\sinh\frac{\tau}{\tau_0}\,e^{-\beta_p\Delta "
     r"T}\right),\quad \Delta T = c\,\frac{\tau v_s}{4}\,\frac{t_c}{k_c}",
     source="M. Bjoerling, W. Habchi, S. Bair, R. Larsson, P. Marklund, Tribol. Lett. 53 (2014) 477 (the "

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import LogNormal, Parameter, effect
+from mixedlub.effect import Between, LogNormal, Parameter, effect
 
 
 @effect(
@@ -10,9 +10,10 @@ from mixedlub.effect import LogNormal, Parameter, effect
     acts_on="friction",
     parameters=(
         Parameter("saturation_slip", "-", LogNormal(0.015, 1.0), "slip at which the whole contact slides", null=0.0),
-        Parameter("power", "-", LogNormal(2.4, 0.25), "3 for a point contact of like bodies, 2 for a line contact"),
+        Parameter("power", "-", LogNormal(2.4, 0.6), "3 for a point contact of like bodies, 2 for a line contact"),
+        Parameter("of_asperities", "-", Between(0.0, 1.0), "share of the asperities' friction that starts so too"),
     ),
-    equation=r"\mu \leftarrow \mu\,[1 - (1 - S/S_c)^m]\quad (S < S_c)",
+    equation=r"\mu \leftarrow \mu - [\mu - (1 - a)\,\mu_B P_B]\,(1 - S/S_c)^m\quad (S < S_c)",
     source="P. J. Vermeulen, K. L. Johnson, J. Appl. Mech. 31 (1964) 338, m = 3; "
     "F. W. Carter, Proc. R. Soc. A 112 (1926) 151, m = 2",
     fingerprint={"slide_roll_ratio": "+"},
@@ -21,11 +22,17 @@ from mixedlub.effect import LogNormal, Parameter, effect
     valid={"slide_roll_ratio": (0.0, 0.5)},
     kinds=("disc", "friction_history"),
 )
-def contact_creep(friction, slide_roll_ratio, *, saturation_slip, power):
+def contact_creep(
+    friction, boundary_friction, area_ratio, slide_roll_ratio, *, saturation_slip, power, of_asperities
+):
     """Part of a nominal slip is taken up by elastic shear of the bodies, so friction starts in proportion to slip.
 
-    >>> contact_creep(0.06, np.array([0.0, 0.01, 0.05]), saturation_slip=0.02, power=3.0).round(4).tolist()
+    Bodies that slide on each other dry creep with all their friction; between oil and bodies the film may do so
+    alone, asperities that have slid once being at their full friction.
+
+    >>> S, dry = np.array([0.0, 0.01, 0.05]), dict(boundary_friction=0.06, area_ratio=1.0)
+    >>> contact_creep(0.06, **dry, slide_roll_ratio=S, saturation_slip=0.02, power=3.0, of_asperities=1.0).tolist()
     [0.0, 0.0525, 0.06]
     """
     sticking = np.maximum(saturation_slip - slide_roll_ratio, 0.0) / max(saturation_slip, 1e-12)
-    return friction * (1.0 - sticking**power)
+    return friction - (friction - (1.0 - of_asperities) * boundary_friction * area_ratio) * sticking**power

@@ -10,7 +10,7 @@ from mixedlub.laws import heating
     stage="shear",
     acts_on="shear_stress",
     parameters=(
-        Parameter("strength", "-", LogNormal(1.0, 0.6), "factor on the rise of temperature", null=0.0),
+        Parameter("strength", "-", LogNormal(1.0, 0.8), "factor on the rise of temperature", null=0.0),
         Parameter("flash", "-", Between(0.0, 1.0), "weight of the surfaces over that of the film; both at 1/2"),
         Parameter("pressure", "-", Between(0.0, 1.0), "from the softening at ambient pressure, 0, to Roelands', 1"),
     ),

@@ -13,10 +13,9 @@ REFERENCE = 0.01
         Parameter("critical_stress", "Pa", BetweenLog(3e3, 1e6), "stress at which thinning begins"),
         Parameter("plateau", "-", Between(0.0, 0.9), "share of the film that full thinning leaves"),
         Parameter("stress_rule", "-", Between(0.0, 1.0), "1: a critical stress starts thinning, 0: a critical rate"),
-        Parameter("onset", "-", Between(1.0, 3.0), "how sharply thinning begins, Yasuda's exponent; 1 in the source"),
     ),
-    equation=r"h \leftarrow h\,\bigl\{c + (1 - c)\bigl[1 + (0.79\,((1+S)N)^{1/(1+0.2S)})^a\bigr]"
-    r"^{-3.6(1-n)^{1.7}/a}\bigr\},\quad N = \eta_0^m\eta_r^{1-m} u/(h G_{cr})",
+    equation=r"h \leftarrow h\,\bigl\{c + (1 - c)\bigl[1 + 0.79\,((1+S)N)^{1/(1+0.2S)}\bigr]"
+    r"^{-3.6(1-n)^{1.7}}\bigr\},\quad N = \eta_0^m\eta_r^{1-m} u/(h G_{cr})",
     source="S. Bair, Proc. IMechE J 219 (2005) 69; constants as quoted in the literature",
     fingerprint={"load": "-", "speed": "+", "roughness": "-", "slide_roll_ratio": "-"},
     separated_by="film thickness of the same base oil without polymer, or a viscometer at high shear rate: thinning "
@@ -34,7 +33,6 @@ def inlet_shear_thinning(
     critical_stress,
     plateau,
     stress_rule,
-    onset,
 ):
     """Polymers align in the inlet, the oil thins, and the film is below that of a Newtonian oil.
 
@@ -43,12 +41,12 @@ def inlet_shear_thinning(
     the exponent of viscosity in the film law. Whether stress or shear rate starts thinning depends on how the
     polymer relaxes; the reference viscosity 0.01 Pa s between the two makes the form belong to Pa s.
 
-    >>> oil = dict(index=0.75, critical_stress=5e3, plateau=0.0, stress_rule=1.0, onset=1.0)
+    >>> oil = dict(index=0.75, critical_stress=5e3, plateau=0.0, stress_rule=1.0)
     >>> h = inlet_shear_thinning(0.2e-6, 15e-3, 2.0, 0.0, **oil)
     >>> round(0.2e-6 / float(h), 1)   # N = 30
     3.0
     """
     thick = REFERENCE * (viscosity / REFERENCE) ** stress_rule
     group = (1.0 + slide_roll_ratio) * thick * entrainment_speed / (film_thickness * critical_stress)
-    thinning = 1.0 + (0.79 * group ** (1.0 / (1.0 + 0.2 * slide_roll_ratio))) ** onset
-    return film_thickness * (plateau + (1.0 - plateau) * thinning ** (-3.6 * (1.0 - index) ** 1.7 / onset))
+    thinning = 1.0 + 0.79 * group ** (1.0 / (1.0 + 0.2 * slide_roll_ratio))
+    return film_thickness * (plateau + (1.0 - plateau) * thinning ** (-3.6 * (1.0 - index) ** 1.7))

@@ -10,7 +10,7 @@ _REFERENCE = 1e5
     stage="load",
     acts_on="line_load",
     parameters=(
-        Parameter("misalignment", "m", LogNormal(10e-6, 0.7), "gap across the face without load", null=0.0),
+        Parameter("misalignment", "m", LogNormal(10e-6, 1.0), "gap across the face without load", null=0.0),
         Parameter("relief", "-", Between(0.0, 1.0), "power of load with which teeth yield to it"),
     ),
     equation=r"w \leftarrow w\,(1 + x^2)^{1/4},\quad x = \frac{f\,c_\gamma}{2 w_r}\left(\frac{w_r "

@@ -13,19 +13,20 @@ GLASS = 1e8
     stage="property",
     acts_on="contact_viscosity",
     parameters=(
+        Parameter("slope", "-", LogNormal(1.0, 0.25), "slope in the contact over that of the inlet"),
         Parameter(
-            "bend_down", "1/Pa", LogNormal(5e-10, 1.2), "rate at which the slope falls at low pressure", null=0.0
+            "bend_down", "1/Pa", LogNormal(1.5e-10, 1.8), "rate at which the slope falls at low pressure", null=0.0
         ),
         Parameter(
-            "bend_up", "1/Pa", LogNormal(5e-10, 1.2), "rate at which the slope rises towards the glass", null=0.0
+            "bend_up", "1/Pa", LogNormal(4e-10, 1.0), "rate at which the slope rises towards the glass", null=0.0
         ),
         Parameter("down_with_temperature", "-", Normal(0.0, 0.5), "log change of the fall over 100 K, in 1/T"),
-        Parameter("up_with_temperature", "-", Normal(-0.8, 0.5), "log change of the rise over 100 K, in 1/T"),
+        Parameter("up_with_temperature", "-", Normal(-0.8, 1.0), "log change of the rise over 100 K, in 1/T"),
     ),
     equation=r"\ln\frac{\eta}{\eta_0} \leftarrow \ln\frac{\eta}{\eta_0}\;"
-    r"\frac{e^{Bp} - e^{-Cp}}{(B + C)\,p}",
+    r"s\,\frac{e^{Bp} - e^{-Cp}}{(B + C)\,p}",
     source="J. B. Irving, A. J. Barlow, J. Phys. E 4 (1971) 232, double exponential of pressure",
-    fingerprint={"speed": "-"},
+    fingerprint={"speed": "+"},
     separated_by="a high-pressure viscometer at two temperatures: an exponential is straight in a log plot, Roelands "
     "only bends down, a liquid near its glass bends up again",
     odds=0.5,
@@ -36,6 +37,7 @@ def pressure_viscosity_law(
     hertz_pressure,
     oil_temperature,
     *,
+    slope,
     bend_down,
     bend_up,
     down_with_temperature,
@@ -43,10 +45,11 @@ def pressure_viscosity_law(
 ):
     """The logarithm of viscosity rises more slowly with pressure at first and faster again near the glass.
 
-    At contact pressures Roelands' law, the base of gears and discs, has most of the bend already.
+    At contact pressures Roelands' law, the base of gears and discs, has most of the bend already; the
+    coefficient that makes the film belongs to low pressure, and the slope in the contact need not be its.
     It levels off at the 1e8 Pa s of a glass, which makes the form belong to Pa s.
 
-    >>> x = pressure_viscosity_law(np.exp(10.0), 1.0, 0.5e9, 313.15, bend_down=2e-9, bend_up=0.0,
+    >>> x = pressure_viscosity_law(np.exp(10.0), 1.0, 0.5e9, 313.15, slope=1.0, bend_down=2e-9, bend_up=0.0,
     ...     down_with_temperature=0.0, up_with_temperature=0.0)
     >>> round(float(np.log(x)), 1)   # 10 (1 - exp(-1))/1 = 6.32
     6.3
@@ -60,7 +63,7 @@ def pressure_viscosity_law(
         np.minimum(0.5 * (up - down), 50.0)
     )
     solid = np.log(GLASS / viscosity)
-    return contact_viscosity * np.exp(_below(np.minimum(log * shape, 9.0 * solid), solid) - _below(log, solid))
+    return contact_viscosity * np.exp(_below(np.minimum(log * slope * shape, 9.0 * solid), solid) - _below(log, solid))
 
 
 def _below(log, solid):

@@ -10,8 +10,8 @@ _PIVOT = 20e-6
     stage="loss",
     acts_on="power_loss",
     parameters=(
-        Parameter("strength", "-", LogNormal(1.0, 0.7), "factor on the torque: size and number of lips", null=0.0),
-        Parameter("viscous", "-", Between(0.0, 0.8), "power of viscosity"),
+        Parameter("strength", "-", LogNormal(0.5, 1.0), "factor on the torque: size and number of lips", null=0.0),
+        Parameter("viscous", "-", Between(0.0, 0.6), "power of viscosity"),
     ),
     equation=r"P \leftarrow P + "
     r"c\,T_s\,(\omega_1+\omega_2)\left(\frac{\nu}{20\,\text{mm}^2/\text{s}}\right)^{k},\quad T_s = "
@@ -25,7 +25,7 @@ _PIVOT = 20e-6
 def seal_drag(power_loss, pinion_radius, pinion_speed, gear_speed, viscosity, oil_density, *, strength, viscous):
     """A lip seal rubs on each shaft.
 
-    Shafts as thick as the pinion's pitch radius. The lip force and 20 mm^2/s make the form belong to N/m and m^2/s.
+    Shafts as thick as the pinion's pitch radius, which most are thinner than. The lip force and 20 mm^2/s make the form belong to N/m and m^2/s.
 
     >>> round(float(seal_drag(0.0, 0.036, 157.1, 102.7, 0.017, 850.0, strength=1.0, viscous=0.0)), 1)
     24.7

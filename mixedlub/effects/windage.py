@@ -10,7 +10,7 @@ _PIVOT = 15.0
     stage="loss",
     acts_on="power_loss",
     parameters=(
-        Parameter("strength", "-", LogNormal(1.0, 0.9), "factor: walls, and oil in the air", null=0.0),
+        Parameter("strength", "-", LogNormal(1.5, 1.2), "factor: walls, and oil in the air", null=0.0),
         Parameter("exponent", "-", Between(2.5, 3.0), "power of speed"),
     ),
     equation=r"P \leftarrow P + c\sum_i \tfrac12 C_t\rho\omega_i^3 r_i^5\left(\frac{v}{15\,\text{m/s}}\right)^{k-2.75},"

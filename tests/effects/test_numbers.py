@@ -23,10 +23,10 @@ from roughness.integrals import area_integral
 PROTOTYPE = {
     "roughness_lay": {"lay": 1.0, "onset": 0.15, "decay": 1.0},
     "micro_ehl": {"viscous": 1.0, "texture": 1.0},
-    "bearing_drag": {"load_power": 1.0, "rolling_power": 0.0},
+    "bearing_drag": {"strength": 1.0, "load_power": 1.0, "rolling_power": 0.0, "rubbing": 0.0},
 }
 """Parameters of the prototype where they are not the middle of the priors: h + 0.15 sigma, all moments
-alike, Palmgren's powers."""
+alike, Palmgren's bearings."""
 
 
 class TestLiterature:
@@ -206,7 +206,7 @@ class TestIntegrals:
         assert rise == pytest.approx(found * slip * film / (12.0 * conductivity), rel=1e-3)
 
     def test_thinning_grows_with_stress_and_stops_for_a_newtonian_oil(self) -> None:
-        oil = {"critical_stress": 5e3, "plateau": 0.0, "stress_rule": 1.0, "onset": 1.0}
+        oil = {"critical_stress": 5e3, "plateau": 0.0, "stress_rule": 1.0}
         films = [inlet_shear_thinning(2e-7, 0.015, 2.0, 0.0, index=n, **oil) for n in (1.0, 0.9, 0.7)]
         assert films[0] == 2e-7
         assert films[0] > films[1] > films[2] > 0.2 * films[0]
@@ -225,8 +225,8 @@ class TestIntegrals:
 class TestLookalikes:
     """What the standard rigs can and cannot tell apart."""
 
-    def test_rolling_churning_and_bearings_look_alike_on_a_gear(self) -> None:
-        assert {"churning", "bearing_drag"} <= set(lookalikes("rolling_resistance", "gear_pair"))
+    def test_rolling_and_churning_look_alike_on_a_gear(self) -> None:
+        assert "churning" in lookalikes("rolling_resistance", "gear_pair")
 
     def test_windage_does_not_look_like_churning(self) -> None:
         assert "churning" not in lookalikes("windage", "gear_pair")

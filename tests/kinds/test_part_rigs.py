@@ -35,13 +35,14 @@ def test_rows_with_gears_are_those_of_a_recording_without_part_rigs(forward):
 @pytest.mark.parametrize("name", ["seal_drag", "bearing_drag", "torque_offset"])
 def test_losses_of_the_shafts_stay(forward, name):
     effect = next(e for e in forward.effects() if e.id == name)
-    added = forward.predict(None, {name: effect.values(np.ones(len(effect.parameters)))}) - forward.predict()
-    assert np.all(np.abs(added[BARE]) > 0.1 * np.abs(added[GEARED]))
+    added = forward.predict(None, {name: effect.values(np.full(len(effect.parameters), 0.3))}) - forward.predict()
+    assert np.all(np.abs(added[BARE]) > 0.05 * np.abs(added[GEARED]))
 
 
 def test_bearings_carry_no_tooth_force(forward):
-    loaded = {"bearing_drag": {"idle": 0.0, "loaded": 1.0, "load_power": 1.3, "rolling_power": 0.3}}
-    added = forward.predict(None, loaded) - forward.predict()
+    size = {"strength": 1.0, "load_power": 1.3, "rolling_power": 0.3, "rubbing": 1.4}
+    loaded, half = ({"bearing_drag": {**size, "loaded": part}} for part in (1.0, 0.5))
+    added = forward.predict(None, loaded) - forward.predict(None, half)
     assert np.all(added[GEARED] > 0.0)
     assert np.all(added[BARE] == 0.0)
 
