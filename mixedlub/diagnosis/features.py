@@ -78,13 +78,13 @@ class Coordinates:
         return [every[axis.name] for axis in self.axes]
 
     def columns(
-        self, values: list[np.ndarray], length: float, only: str | None = None, interactions: bool = False
+        self, values: list[np.ndarray], length: float, only: tuple[str, ...] = (), interactions: bool = False
     ) -> np.ndarray:
-        """Function columns over all axes or one, with products of pairs if wanted; total variance about one."""
+        """Function columns over some axes or all, with products of pairs if wanted; total variance about one."""
         blocks = [
             axis.functions(v, length)
             for axis, v in zip(self.axes, values, strict=True)
-            if only is None or axis.name == only
+            if not only or axis.name in only
         ]
         found = list(blocks)
         if interactions:

@@ -51,7 +51,7 @@ def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch
     effects = np.vstack(directions) if directions else np.zeros((0, problem.y.size))
     blocks = []
     for length, interactions in SHAPES:
-        shape = Shape(None, length, 1.0, READING, interactions and len(found.space.axes) > 1)
+        shape = Shape((), length, 1.0, READING, interactions and len(found.space.axes) > 1)
         blocks.append(shape_columns(shape, found.space, found.values, found.unknown.carriers))
 
     def whiten(rows: np.ndarray) -> np.ndarray:

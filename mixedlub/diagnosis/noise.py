@@ -177,7 +177,10 @@ def noise_from_smoothness(y: np.ndarray, base: np.ndarray, space: Coordinates, v
     """
     flat = np.column_stack([np.ones(y.size), base])
     rich = ((0.25, True), (0.25, False), (0.7, False))
-    for columns in (*(np.hstack([flat, space.columns(values, length, None, pairs)]) for length, pairs in rich), flat):
+    for columns in (
+        *(np.hstack([flat, space.columns(values, length, interactions=pairs)]) for length, pairs in rich),
+        flat,
+    ):
         size = np.linalg.norm(columns, axis=0)
         columns = columns[:, size > 0] / size[size > 0]
         different = len(np.unique(columns.round(12), axis=0))

@@ -14,7 +14,7 @@ from mixedlub.diagnosis.problem import Explanation, Problem, effects_of
 from mixedlub.diagnosis.starts import Sampled, fit_single, sample
 from mixedlub.diagnosis.unknown import Unknown, unknown_fit
 
-PRIOR = {"none": 0.42, "single": 0.38, "pair": 0.08, "unknown": 0.12}
+PRIOR = {"none": 0.44, "single": 0.4, "pair": 0.08, "unknown": 0.08}
 LEADERS = 8
 FAR = 60.0
 PAIRS = 30

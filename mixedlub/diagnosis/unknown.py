@@ -6,6 +6,7 @@ It is a share of the reading, an addition to it, or a factor on one quantity of 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 
@@ -24,9 +25,12 @@ FULL = 6
 
 @dataclass(frozen=True)
 class Shape:
-    """One form an unnamed mismatch may have: along which axes, how smooth, how large, and what it rides on."""
+    """One form an unnamed mismatch may have: along which axes, how smooth, how large, and what it rides on.
 
-    axis: str | None
+    No axes stand for all of them; most laws depend on one or two.
+    """
+
+    axes: tuple[str, ...]
     length: float
     size: float
     carrier: str
@@ -56,10 +60,13 @@ def shapes(space: Coordinates, carriers: Carriers) -> list[Shape]:
     found = []
     for length in LENGTHS:
         for carrier in carriers:
-            found.append(Shape(None, length, 1.0, carrier, False))
-            if len(space.axes) > 1:
-                found.append(Shape(None, length, 1.0, carrier, True))
-                found.extend(Shape(axis.name, length, 1.0, carrier, False) for axis in space.axes)
+            names = [axis.name for axis in space.axes]
+            found.append(Shape((), length, 1.0, carrier, False))
+            if len(names) > 1:
+                found.append(Shape((), length, 1.0, carrier, True))
+                found.extend(Shape((name,), length, 1.0, carrier, False) for name in names)
+            if len(names) > 2:
+                found.extend(Shape(two, length, 1.0, carrier, True) for two in combinations(names, 2))
     return found
 
 
@@ -70,7 +77,7 @@ def sizes(carrier: str) -> tuple[float, ...]:
 
 def shape_columns(shape: Shape, space: Coordinates, values: list[np.ndarray], carriers: Carriers) -> np.ndarray:
     """The shape's columns in sigmas."""
-    columns = space.columns(values, shape.length, shape.axis, shape.interactions)
+    columns = space.columns(values, shape.length, shape.axes, shape.interactions)
     return shape.size * columns * carriers[shape.carrier][:, None]
 
 
@@ -89,7 +96,7 @@ def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np
     def columns_of(shape: Shape) -> np.ndarray:
         return shape_columns(shape, space, values, rides)
 
-    rich = Shape(None, LENGTHS[0], 6.0, READING, len(space.axes) > 1)
+    rich = Shape((), LENGTHS[0], 6.0, READING, len(space.axes) > 1)
     reference = linear_fit(target, np.hstack([fixed, columns_of(rich)]))
     tried: list[Shape] = []
     weighed: list[float] = []

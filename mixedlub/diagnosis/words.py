@@ -253,7 +253,7 @@ def equation_sentence(e: Effect) -> str:
 def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
     law = unnamed.law
     shape = d.found.unknown.best
-    along = "all conditions together" if shape.axis is None else words_of(shape.axis)
+    along = " and ".join(words_of(name) for name in shape.axes) or "all conditions together"
     said = [f"It varies smoothly with {along}, as {_carried(shape.carrier)}."]
     if unnamed.stages:
         best, *others = unnamed.stages

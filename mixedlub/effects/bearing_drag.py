@@ -18,7 +18,9 @@ _LEAST = 0.1
         Parameter("loaded", "-", LogNormal(1.0, 0.8), "factor on the part that load adds, beside that"),
         Parameter("load_power", "-", Between(1.0, 1.6), "power of load in it: 1 for rollers, about 1.5 for balls"),
         Parameter("rolling_power", "-", Between(0.0, 0.54), "power of load in the torque of rolling in oil"),
-        Parameter("rubbing", "-", Between(0.0, 2.0), "rise of the part that load adds where the bearing's film is gone"),
+        Parameter(
+            "rubbing", "-", Between(0.0, 2.0), "rise of the part that load adds where the bearing's film is gone"
+        ),
     ),
     equation=r"P \leftarrow P + c\sum_{i=1,2} 2\,\omega_i\,[M_{0,i} x^b + "
     r"c_1 (1 + m\phi_{bl,i}) M_1 x^{a-1}],\quad x = F_t/F_r,\ "

@@ -22,9 +22,7 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
     valid={"slide_roll_ratio": (0.0, 0.5)},
     kinds=("disc", "friction_history"),
 )
-def contact_creep(
-    friction, boundary_friction, area_ratio, slide_roll_ratio, *, saturation_slip, power, of_asperities
-):
+def contact_creep(friction, boundary_friction, area_ratio, slide_roll_ratio, *, saturation_slip, power, of_asperities):
     """Part of a nominal slip is taken up by elastic shear of the bodies, so friction starts in proportion to slip.
 
     Bodies that slide on each other dry creep with all their friction; between oil and bodies the film may do so

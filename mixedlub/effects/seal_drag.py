@@ -25,7 +25,8 @@ _PIVOT = 20e-6
 def seal_drag(power_loss, pinion_radius, pinion_speed, gear_speed, viscosity, oil_density, *, strength, viscous):
     """A lip seal rubs on each shaft.
 
-    Shafts as thick as the pinion's pitch radius, which most are thinner than. The lip force and 20 mm^2/s make the form belong to N/m and m^2/s.
+    Shafts as thick as the pinion's pitch radius, and most are thinner. The lip force and 20 mm^2/s make the form
+    belong to N/m and m^2/s.
 
     >>> round(float(seal_drag(0.0, 0.036, 157.1, 102.7, 0.017, 850.0, strength=1.0, viscous=0.0)), 1)
     24.7

@@ -103,8 +103,10 @@ def test_bending_cannot_rescue_a_wrong_effect_without_bound() -> None:
     found = found_in(problem(extra=0.3))
     for explanation, score in found.scores.items():
         if explanation:
-            bonus = score - found.fits[explanation].evidence
-            assert bonus <= searching.BEND_LIMIT / len(explanation) + 1e-9
+            fit = found.fits[explanation]
+            removed = np.sum(((fit.prediction - found.none.prediction) / found.problem.sd) ** 2)
+            most = max(searching.BEND_LIMIT, searching.BEND_SHARE * removed) / len(explanation)
+            assert score - fit.evidence <= most + 1e-9
 
 
 def test_unstated_noise_is_what_repeats_or_smoothness_show() -> None:

@@ -48,6 +48,15 @@ def test_a_mismatch_of_the_film_is_taken_for_one() -> None:
     assert found.unknown.best.carrier == "film_thickness"
 
 
+def test_a_mismatch_of_two_conditions_is_taken_for_one_of_two() -> None:
+    """Readings above the base only where torque is low and oil is cold, at any speed and on any surface."""
+    p = problem(seed=4)
+    torque, temperature = p.rows["torque_Nm"], p.rows["oil_temperature_C"]
+    light, cold = (np.exp(-3.0 * (x - x.min()) / np.ptp(x)) for x in (torque, temperature))
+    found = found_in(Problem(p.case, p.rows, p.forward, p.y * (1.0 + 0.12 * light * cold), p.sd, p.shared))
+    assert set(found.unknown.best.axes) == {"torque_Nm", "oil_temperature_C"}
+
+
 def test_a_wild_reading_does_not_pull_the_fit() -> None:
     p = problem()
     clean = map_fit(p, (), np.zeros(p.size(())))
