@@ -29,6 +29,10 @@ class Column:
     required: bool = True
     names: tuple[str, ...] = ()
 
+    def allows(self, value: float) -> bool:
+        """Whether a number lies within the bounds."""
+        return value > self.above and self.at_least <= value <= self.at_most
+
     def parse(self, text: str, where: str) -> float | int | str:
         """The cell's value, or an error that names the place."""
         text = text.strip()

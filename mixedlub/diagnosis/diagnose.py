@@ -18,14 +18,14 @@ from mixedlub.diagnosis.location import Region, region
 from mixedlub.diagnosis.mismatch import Mismatch, mismatch_test
 from mixedlub.diagnosis.nexttest import NextTest, candidates, expected_bits
 from mixedlub.diagnosis.noise import is_stated, noise_from_repeats, noise_from_smoothness
-from mixedlub.diagnosis.posterior import Key, Posterior, posterior
+from mixedlub.diagnosis.posterior import Key, Posterior, names_effects, posterior
 from mixedlub.diagnosis.predict import Prediction, Refined, Rows, refine
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search import Progress, Search, search
 from mixedlub.diagnosis.validity import beyond_range
 from mixedlub.effect import find
 from mixedlub.forward import Forward
-from mixedlub.table import Table
+from mixedlub.table import Column, Table
 from profiles.errors import InputError
 
 AVERAGED = 6
@@ -107,8 +107,8 @@ def diagnose_case(
     recorded = _predict(found, judged, refined, rows)
     other = None if wanted is None else _predict(found, judged, refined, wanted)
     chance = _outliers(found, judged, refined)
-    columns = [c.name for c in case.kind.columns if c.name in rows]
-    varied = [name for name in columns if not is_held(name, rows[name])] or columns
+    columns = [c for c in case.kind.columns if c.name in rows]
+    varied = [c.name for c in columns if not is_held(c.name, rows[c.name])] or [c.name for c in columns]
     place = region(rows, varied, np.where(chance > 0.5, 0.0, recorded.mismatch_z))
     tests = _next_tests(found, judged, refined, columns)
     warnings += _doubts(judged, kept, chance, y, recorded)
@@ -180,10 +180,10 @@ def _judged(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
         demerits = {key: demerit for key, (_, demerit) in tried.items()}
         if len(tried) >= CANDIDATES and all(demerits.values()):
             rest = min(demerits.values())
-            names = [key for key in found.log_weights if key not in ("unknown", ())]
+            names = [key for key in found.log_weights if names_effects(key)]
             demerits = {key: demerits.get(key, rest) for key in names}
         judged = posterior(found, test, demerits)
-        fresh = [key for key in judged.tied if key not in tried and key not in ("unknown", ())]
+        fresh = [key for key in judged.tied if key not in tried and names_effects(key)]
         if not fresh or len(tried) >= CANDIDATES:
             key = judged.verdict
             return judged, (tried.get(key) or _held_against(levels, found, key))[0]
@@ -195,7 +195,7 @@ def _held_against(levels: LevelsOut, found: Search, key: Key) -> tuple[HeldOut, 
     residual = found.unknown.fit.residual if isinstance(key, str) else found.fits[key].residual
     outliers = outlier_chance(residual) > 0.5
     kept = levels.held(key, outliers)
-    if key in ("unknown", ()):
+    if not names_effects(key):
         return kept, 0.0
     good = residual[~outliers]
     return kept, kept.demerit(float(np.sqrt(np.mean(good**2))) if good.size else 1.0)
@@ -256,7 +256,7 @@ def _outliers(found: Search, judged: Posterior, refined: dict[Key, Refined]) -> 
 
 
 def _next_tests(
-    found: Search, judged: Posterior, refined: dict[Key, Refined], columns: list[str]
+    found: Search, judged: Posterior, refined: dict[Key, Refined], columns: list[Column]
 ) -> tuple[NextTest, ...]:
     keys = [k for k in refined if judged.weights[k] > 0.01]
     if len(keys) < 2:
@@ -276,8 +276,9 @@ def _next_tests(
     bits = np.where(finite, expected_bits(weights, predictions, rows.sd), 0.0)
     chosen: list[NextTest] = []
     for i in np.argsort(worth)[::-1]:
+        values = {c.name: table[c.name][i] for c in columns}
         conditions: dict[str, float | str] = {
-            name: (str(table[name][i]) if table[name].dtype.kind in "US" else float(table[name][i])) for name in columns
+            name: str(x) if isinstance(x, str) else float(f"{x:.6g}") for name, x in values.items()
         }
         if all(_apart(conditions, t.conditions) for t in chosen):
             names = tuple("+".join(judged.names(k)) for k in keys)

@@ -8,7 +8,7 @@ from itertools import product
 import numpy as np
 
 from mixedlub.diagnosis.predict import Prediction
-from mixedlub.table import Table
+from mixedlub.table import Column, Table
 
 MOST = 600
 NODES = 21
@@ -23,22 +23,27 @@ class NextTest:
     expected_bits: float
 
 
-def candidates(table: Table, names: list[str]) -> Table:
-    """A grid over the recorded levels and a little beyond them, thinned to a few hundred conditions."""
+def candidates(table: Table, conditions: list[Column]) -> Table:
+    """A grid over the recorded levels and a little beyond them, thinned to a few hundred conditions.
+
+    >>> share = Column("slide_roll_ratio", at_least=0.0, at_most=2.0)
+    >>> candidates(Table({"slide_roll_ratio": np.array([0.5, 1.9])}, ""), [share])["slide_roll_ratio"].tolist()
+    [0.3, 0.5, 1.9]
+    """
     axes: list[np.ndarray] = []
-    for name in names:
-        levels = np.unique(table[name])
+    for condition in conditions:
+        levels = np.unique(table[condition.name])
         if levels.dtype.kind not in "US" and levels.size > 1:
             low, high = float(levels[0]), float(levels[-1])
             wide = 0.25 * (high - low)
             beyond = [low - wide if low < 0 else max(low - wide, 0.6 * low), high + wide]
             inner = levels if levels.size <= 4 else np.quantile(levels, [0.0, 0.33, 0.67, 1.0])
-            levels = np.unique(np.concatenate([inner, beyond]))
+            levels = np.unique(np.concatenate([inner, [x for x in beyond if condition.allows(x)]]))
         axes.append(levels if levels.size <= 8 else levels[np.linspace(0, levels.size - 1, 8).astype(int)])
     grid = list(product(*axes))
     step = max(1, len(grid) // MOST)
     grid = grid[::step]
-    columns = {name: np.array([row[i] for row in grid]) for i, name in enumerate(names)}
+    columns = {condition.name: np.array([row[i] for row in grid]) for i, condition in enumerate(conditions)}
     columns["run"] = np.arange(1, len(grid) + 1)
     if "sequence" in table:
         columns["sequence"] = np.ones(len(grid))

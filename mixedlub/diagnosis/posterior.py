@@ -19,6 +19,11 @@ MARGIN = 1.25
 Key = str | Explanation
 
 
+def names_effects(key: Key) -> bool:
+    """Whether an explanation names effects: neither "nothing missing" nor the unnamed."""
+    return not isinstance(key, str) and bool(key)
+
+
 @dataclass(frozen=True)
 class Posterior:
     """Probability of every explanation, the verdict first; ``unknown`` is keyed by its name, none by ()."""
