@@ -23,10 +23,11 @@ class Surface:
     heat_capacity: float = 470.0
 
 
-def paired(first: Sequence[Surface], second: Sequence[Surface]) -> dict[str, np.ndarray]:
+def paired(first: Sequence[Surface], second: Sequence[Surface], coated: bool = False) -> dict[str, np.ndarray]:
     """Chain inputs of surfaces taken in pairs: moments add, thermal properties average; one entry a pair.
 
     Independent surfaces add their spectra (Nayak 1971), so moments are summed before anything else is formed.
+    Where no pair has a coating there are no inputs of one, unless others than these pairs are ``coated``.
     """
 
     def each(attribute: str, side: Sequence[Surface]) -> np.ndarray:
@@ -40,7 +41,7 @@ def paired(first: Sequence[Surface], second: Sequence[Surface]) -> dict[str, np.
     ):
         both[name] = 0.5 * (each(attribute, first) + each(attribute, second))
     thickness = each("coating_thickness", first) + each("coating_thickness", second)
-    if thickness.any():
+    if coated or thickness.any():
         both["coating_thickness"] = thickness
         resistance = sum(
             each("coating_thickness", side) / each("coating_conductivity", side) for side in (first, second)

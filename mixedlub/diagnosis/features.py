@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 
@@ -13,6 +14,8 @@ from mixedlub.table import Table
 NODES = 12
 PASSING = ("sequence", "time_s", "position_deg")
 """Conditions that only pass on: where they start from is no size."""
+SMOOTHEST = 4
+"""How many functions of a number go into products with those of another condition."""
 JITTER = 1e-6
 LEAST = 1e-300
 HELD = 0.01
@@ -82,16 +85,15 @@ class Coordinates:
     ) -> np.ndarray:
         """Function columns over some axes or all, with products of pairs if wanted; total variance about one."""
         blocks = [
-            axis.functions(v, length)
+            (axis.functions(v, length), None if axis.named else SMOOTHEST)
             for axis, v in zip(self.axes, values, strict=True)
             if not only or axis.name in only
         ]
-        found = list(blocks)
+        found = [block for block, _ in blocks]
         if interactions:
-            for i, first in enumerate(blocks):
-                for second in blocks[i + 1 :]:
-                    a, b = first[:, :4], second[:, :4]
-                    found.append((a[:, :, None] * b[:, None, :]).reshape(a.shape[0], -1))
+            for (first, few), (second, some) in combinations(blocks, 2):
+                a, b = first[:, :few], second[:, :some]
+                found.append((a[:, :, None] * b[:, None, :]).reshape(a.shape[0], -1))
         return np.hstack(found) / np.sqrt(len(found))
 
 

@@ -14,7 +14,7 @@ from mixedlub.diagnosis.problem import Explanation, Problem, effects_of
 from mixedlub.diagnosis.starts import Sampled, fit_single, sample
 from mixedlub.diagnosis.unknown import Unknown, unknown_fit
 
-PRIOR = {"none": 0.44, "single": 0.4, "pair": 0.08, "unknown": 0.08}
+PRIOR = {"none": 0.42, "single": 0.38, "pair": 0.08, "unknown": 0.12}
 LEADERS = 8
 FAR = 60.0
 PAIRS = 30
@@ -23,9 +23,11 @@ ELASTIC = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
 """Relative error of an effect's literature form: its rms and the weight given to it."""
 BEND_LIMIT = 4.0
 BEND_SHARE = 0.01
-"""Most that bending may add to the log evidence: a number, or a share of the squares an explanation removes.
+BEND_MOST = 30.0
+"""What bending may add to the log evidence, shared by the effects of an explanation.
 
-A form a little wrong is not another effect, and the better it is seen the better is seen that it is wrong.
+A form wrong by 14 % costs a hundredth of the squares of what it adds. No less than BEND_LIMIT is allowed and no more
+than BEND_MOST: a form a little wrong is not another effect, and another effect not a form a little wrong.
 """
 
 Progress = Callable[[str], None]
@@ -187,8 +189,8 @@ def elastic_evidence(problem: Problem, none: Fit, fit: Fit, space: Coordinates, 
             continue
         bent = linear_fit(fit.anchor, np.hstack([base, size * bend]), fit.weight).evidence
         gains.append(np.log(weight) + bent - plain)
-    most = max(BEND_LIMIT, BEND_SHARE * float(net @ net)) / len(fit.explanation)
-    return fit.evidence + min(float(np.logaddexp.reduce(gains)), most)
+    most = float(np.clip(BEND_SHARE * net @ (net * fit.weight), BEND_LIMIT, BEND_MOST))
+    return fit.evidence + min(float(np.logaddexp.reduce(gains)), most / len(fit.explanation))
 
 
 def typical_size(net: np.ndarray) -> float:

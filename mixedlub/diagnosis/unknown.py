@@ -21,6 +21,8 @@ SIZES = (0.7, 2.0, 6.0, 20.0, 60.0)
 FACTORS = (0.03, 0.1, 0.3, 1.0)
 """How large one of a quantity of the chain may be, in its logarithm."""
 FULL = 6
+SAME = {"surfaces", "composite_roughness_um"}
+"""The roughness is a function of the surfaces: together they say no more than these."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +68,8 @@ def shapes(space: Coordinates, carriers: Carriers) -> list[Shape]:
                 found.append(Shape((), length, 1.0, carrier, True))
                 found.extend(Shape((name,), length, 1.0, carrier, False) for name in names)
             if len(names) > 2:
-                found.extend(Shape(two, length, 1.0, carrier, True) for two in combinations(names, 2))
+                pairs = (two for two in combinations(names, 2) if set(two) != SAME)
+                found.extend(Shape(two, length, 1.0, carrier, True) for two in pairs)
     return found
 
 
@@ -130,11 +133,19 @@ def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np
 
 
 def _mean_over_shapes(tried: list[Shape], evidence: np.ndarray) -> float:
-    """Log mean evidence: half the weight on shapes of the reading, half on those inside the chain, if there are any."""
-    outside = np.array([shape.carrier in (READING, NOTHING) for shape in tried])
-    groups = [evidence[group] for group in (outside, ~outside) if group.any()]
-    means = [np.logaddexp.reduce(group) - np.log(group.size) for group in groups]
-    return float(np.logaddexp.reduce(means) - np.log(len(means)))
+    """Log mean evidence: half the weight on shapes of the reading, half on those inside the chain, if there are any.
+
+    In each half those of all conditions, of one and of two weigh the same, however many there are.
+    """
+    groups: dict[bool, dict[int, list[float]]] = {}
+    for shape, value in zip(tried, evidence, strict=True):
+        halves = groups.setdefault(shape.carrier in (READING, NOTHING), {})
+        halves.setdefault(len(shape.axes), []).append(value)
+    return _log_mean([_log_mean([_log_mean(alike) for alike in half.values()]) for half in groups.values()])
+
+
+def _log_mean(logs: list[float]) -> float:
+    return float(np.logaddexp.reduce(logs) - np.log(len(logs)))
 
 
 def _evidence_by_size(

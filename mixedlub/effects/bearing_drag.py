@@ -14,10 +14,16 @@ _LEAST = 0.1
     stage="loss",
     acts_on="power_loss",
     parameters=(
-        Parameter("strength", "-", LogNormal(0.6, 1.0), "factor on the torque: size and make", null=0.0),
-        Parameter("loaded", "-", LogNormal(1.0, 0.8), "factor on the part that load adds, beside that"),
-        Parameter("load_power", "-", Between(1.0, 1.6), "power of load in it: 1 for rollers, about 1.5 for balls"),
-        Parameter("rolling_power", "-", Between(0.0, 0.54), "power of load in the torque of rolling in oil"),
+        Parameter("strength", "-", LogNormal(0.6, 1.0), "factor on the torque: size and make", null=0.0, symbol="c"),
+        Parameter(
+            "loaded", "-", LogNormal(1.0, 0.8), "factor on the part that load adds, relative to the other", symbol="c_1"
+        ),
+        Parameter(
+            "load_power", "-", Between(1.0, 1.6), "power of load in it: 1 for rollers, about 1.5 for balls", symbol="a"
+        ),
+        Parameter(
+            "rolling_power", "-", Between(0.0, 0.54), "power of load in the torque of rolling in oil", symbol="b"
+        ),
         Parameter(
             "rubbing", "-", Between(0.0, 2.0), "rise of the part that load adds where the bearing's film is gone"
         ),
@@ -26,9 +32,9 @@ _LEAST = 0.1
     r"c_1 (1 + m\phi_{bl,i}) M_1 x^{a-1}],\quad x = F_t/F_r,\ "
     r"M_0 = 10^{-7} f_0(\nu n_i)^{2/3} d_m^3,\ M_1 = f_1\tfrac{F_t}{2} d_m,\ d_m = 1.25\,r_1",
     source="A. Palmgren, Grundlagen der Waelzlagertechnik, 1964; ISO/TR 14179-2; T. A. Harris, Rolling Bearing "
-    "Analysis, for f_1 that grows with load in ball bearings; SKF General Catalogue 6000, 2003, for rolling torque "
-    "with load^0.54; SKF, Rolling Bearings, 2013, for phi_bl and 0.12 over 0.05 (m = 1.4)",
-    fingerprint={"load": "-", "speed": "+", "oil_temperature": "+", "roughness": "-"},
+    "Analysis, for f_1 that grows with load in ball bearings; SKF General Catalogue, 2005, for rolling torque with "
+    "load^0.54; SKF, Rolling Bearings, 2018, for phi_bl and 0.12 over 0.05 in mineral oil (m = 1.4)",
+    fingerprint={"load": "-", "speed": "+", "roughness": "-"},
     separated_by="the bearings alone on their rig, or their own oil supply; a change of flank finish leaves it "
     "where it was",
 )

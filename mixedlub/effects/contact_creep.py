@@ -11,11 +11,14 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
     parameters=(
         Parameter("saturation_slip", "-", LogNormal(0.015, 1.0), "slip at which the whole contact slides", null=0.0),
         Parameter("power", "-", LogNormal(2.4, 0.6), "3 for a point contact of like bodies, 2 for a line contact"),
-        Parameter("of_asperities", "-", Between(0.0, 1.0), "share of the asperities' friction that starts so too"),
+        Parameter(
+            "of_asperities", "-", Between(0.0, 1.0), "share of the asperities' friction that starts so too", symbol="a"
+        ),
     ),
     equation=r"\mu \leftarrow \mu - [\mu - (1 - a)\,\mu_B P_B]\,(1 - S/S_c)^m\quad (S < S_c)",
     source="P. J. Vermeulen, K. L. Johnson, J. Appl. Mech. 31 (1964) 338, m = 3; "
-    "F. W. Carter, Proc. R. Soc. A 112 (1926) 151, m = 2",
+    "F. W. Carter, Proc. R. Soc. A 112 (1926) 151, m = 2; K. L. Johnson, J. L. Tevaarwerk, Proc. R. Soc. A 356 (1977) "
+    "215, film and bodies yielding under the film's traction alone (a = 0)",
     fingerprint={"slide_roll_ratio": "+"},
     separated_by="a sweep of slip below one per cent at constant speed: the rise is proportional to slip and does "
     "not depend on viscosity or speed as a fluid film does",
@@ -25,12 +28,14 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
 def contact_creep(friction, boundary_friction, area_ratio, slide_roll_ratio, *, saturation_slip, power, of_asperities):
     """Part of a nominal slip is taken up by elastic shear of the bodies, so friction starts in proportion to slip.
 
-    Bodies that slide on each other dry creep with all their friction; between oil and bodies the film may do so
-    alone, asperities that have slid once being at their full friction.
+    That is for all friction of bodies in contact. With oil between them the film's traction may do so alone, when
+    asperities, which meet and part many times in a passage, slide from their first touch.
 
-    >>> S, dry = np.array([0.0, 0.01, 0.05]), dict(boundary_friction=0.06, area_ratio=1.0)
-    >>> contact_creep(0.06, **dry, slide_roll_ratio=S, saturation_slip=0.02, power=3.0, of_asperities=1.0).tolist()
+    >>> S, creep = np.array([0.0, 0.01, 0.05]), dict(saturation_slip=0.02, power=3.0)
+    >>> contact_creep(0.06, 0.1, 0.2, S, **creep, of_asperities=1.0).round(4).tolist()
     [0.0, 0.0525, 0.06]
+    >>> contact_creep(0.06, 0.1, 0.2, S, **creep, of_asperities=0.0).round(4).tolist()   # 0.1 x 0.2 stays
+    [0.02, 0.055, 0.06]
     """
     sticking = np.maximum(saturation_slip - slide_roll_ratio, 0.0) / max(saturation_slip, 1e-12)
     return friction - (friction - (1.0 - of_asperities) * boundary_friction * area_ratio) * sticking**power

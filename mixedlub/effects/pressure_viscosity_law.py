@@ -7,24 +7,36 @@ from mixedlub.effect import LogNormal, Normal, Parameter, effect
 WARM = 313.15
 KELVIN = 100.0
 GLASS = 1e8
+LOW = 0.15e9
+"""Pressure up to which an inlet makes the film (Pa): what is measured there says little of the contact."""
 
 
 @effect(
     stage="property",
     acts_on="contact_viscosity",
     parameters=(
-        Parameter("slope", "-", LogNormal(1.0, 0.25), "slope in the contact over that of the inlet"),
+        Parameter("slope", "-", LogNormal(1.0, 0.25), "slope above 0.15 GPa over that below", null=1.0, symbol="s"),
         Parameter(
-            "bend_down", "1/Pa", LogNormal(1.5e-10, 1.8), "rate at which the slope falls at low pressure", null=0.0
+            "bend_down",
+            "1/Pa",
+            LogNormal(5e-10, 1.2),
+            "rate at which the slope falls at low pressure",
+            null=0.0,
+            symbol="C",
         ),
         Parameter(
-            "bend_up", "1/Pa", LogNormal(4e-10, 1.0), "rate at which the slope rises towards the glass", null=0.0
+            "bend_up",
+            "1/Pa",
+            LogNormal(5e-10, 1.2),
+            "rate at which the slope rises towards the glass",
+            null=0.0,
+            symbol="B",
         ),
         Parameter("down_with_temperature", "-", Normal(0.0, 0.5), "log change of the fall over 100 K, in 1/T"),
         Parameter("up_with_temperature", "-", Normal(-0.8, 1.0), "log change of the rise over 100 K, in 1/T"),
     ),
     equation=r"\ln\frac{\eta}{\eta_0} \leftarrow \ln\frac{\eta}{\eta_0}\;"
-    r"s\,\frac{e^{Bp} - e^{-Cp}}{(B + C)\,p}",
+    r"\left[1 + (s - 1)(1 - e^{-p/p_s})\right]\frac{e^{Bp} - e^{-Cp}}{(B + C)\,p},\quad p_s = 0.15\,\text{GPa}",
     source="J. B. Irving, A. J. Barlow, J. Phys. E 4 (1971) 232, double exponential of pressure",
     fingerprint={"speed": "+"},
     separated_by="a high-pressure viscometer at two temperatures: an exponential is straight in a log plot, Roelands "
@@ -46,8 +58,9 @@ def pressure_viscosity_law(
     """The logarithm of viscosity rises more slowly with pressure at first and faster again near the glass.
 
     At contact pressures Roelands' law, the base of gears and discs, has most of the bend already; the
-    coefficient that makes the film belongs to low pressure, and the slope in the contact need not be its.
-    It levels off at the 1e8 Pa s of a glass, which makes the form belong to Pa s.
+    coefficient that makes the film belongs to low pressure, and the slope in the contact need not be its. Both
+    bends change exponentially with 1/T.
+    It levels off at a glass. The glass's 1e8 Pa s and the 0.15 GPa make the form belong to Pa s and Pa.
 
     >>> x = pressure_viscosity_law(np.exp(10.0), 1.0, 0.5e9, 313.15, slope=1.0, bend_down=2e-9, bend_up=0.0,
     ...     down_with_temperature=0.0, up_with_temperature=0.0)
@@ -57,13 +70,16 @@ def pressure_viscosity_law(
     warmer = (oil_temperature - WARM) / KELVIN * (WARM / oil_temperature)
     down = bend_down * np.exp(down_with_temperature * warmer) * hertz_pressure
     up = bend_up * np.exp(up_with_temperature * warmer) * hertz_pressure
+    steeper = 1.0 - (slope - 1.0) * np.expm1(-hertz_pressure / LOW)
     log = np.log(contact_viscosity / viscosity)
     half = np.minimum(0.5 * (down + up), 50.0)
     shape = np.where(half > 1e-8, np.sinh(half) / np.maximum(half, 1e-8), 1.0) * np.exp(
         np.minimum(0.5 * (up - down), 50.0)
     )
     solid = np.log(GLASS / viscosity)
-    return contact_viscosity * np.exp(_below(np.minimum(log * slope * shape, 9.0 * solid), solid) - _below(log, solid))
+    return contact_viscosity * np.exp(
+        _below(np.minimum(log * steeper * shape, 9.0 * solid), solid) - _below(log, solid)
+    )
 
 
 def _below(log, solid):

@@ -13,7 +13,7 @@ _TYPICAL = 2e5
     acts_on="load_share",
     parameters=(
         Parameter("relief", "m", LogNormal(15e-6, 0.6), "tip relief that the known load sharing lacks", null=0.0),
-        Parameter("length", "-", Between(0.03, 0.35), "length of the relief over the path of contact"),
+        Parameter("length", "-", Between(0.05, 0.35), "length of the relief over the path of contact"),
         Parameter("fade", "-", Between(0.0, 1.0), "power with which load takes it back, 1 for equal springs"),
     ),
     equation=r"\frac{s'}{1-s'} = \frac{s}{1-s}\,e^{-2x(g - g')},\quad "

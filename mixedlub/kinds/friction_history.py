@@ -57,7 +57,7 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
         **bookkeeping_inputs(system, table),
         **programme(table, recorded),
         "boundary_friction": _level(system, recorded),
-        "area_ratio": 1.0,
+        "area_ratio": 0.0,
     }
 
 

@@ -24,5 +24,7 @@ def pair_of_surfaces(system: config.System, folder: Path, table: Table, first: s
                 )
             if name not in known:
                 known[name] = bodies.surface(name, system.surfaces[name], folder)
-    both = paired([known[n] for n in table[first].tolist()], [known[n] for n in table[second].tolist()])
+    # Rows may be a part of a recording, whose other rows are on coated surfaces.
+    coated = any(section.coating is not None for section in system.surfaces.values())
+    both = paired([known[n] for n in table[first].tolist()], [known[n] for n in table[second].tolist()], coated)
     return {name: values[:, None] for name, values in both.items()}

@@ -103,13 +103,13 @@ def bearing_asperity_share(
     .. math:: \phi_{bl} = \exp\left[-2.6\times10^{-8}\,(n\nu)^{1.4} d_m\right]
 
     with n in rpm, nu in mm^2/s, d_m in mm. Its constant makes the form belong to SI.
-    Source: SKF, Rolling Bearings, PUB BU/P1 10000 EN, 2013, model of the frictional moment.
+    Source: SKF, Rolling Bearings, 2018, model of the frictional moment.
 
     >>> round(float(bearing_asperity_share(20e-6 * 850, 850.0, 1000 * np.pi / 30, 0.045)), 2)   # exp(-1.23)
     0.29
     """
     motion = viscosity / oil_density * 1e6 * wheel_speed * 30.0 / np.pi
-    return np.exp(-2.6e-8 * motion**1.4 * bearing_diameter * 1e3)
+    return np.exp(-2.6e-8 * np.abs(motion) ** 1.4 * bearing_diameter * 1e3)
 
 
 def seal_torque(seal_diameter: np.ndarray) -> np.ndarray:

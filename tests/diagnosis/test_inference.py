@@ -99,14 +99,24 @@ def test_very_many_readings_give_the_answer_of_all(monkeypatch: pytest.MonkeyPat
     assert thinned.fits[best].evidence == pytest.approx(all_rows.fits[best].evidence, abs=0.5)
 
 
+def test_rows_without_a_coating_know_the_effect_of_one() -> None:
+    """A level left out may hold all readings on coated flanks, or none."""
+    p = problem("disc")
+    bare = (p.rows["surface_1"] != "coated") & (p.rows["surface_2"] != "coated")
+    explanation = ("coating_insulation",)
+    z = np.zeros(p.size(explanation))
+    assert np.array_equal(p.take(bare).predict(explanation, z), p.predict(explanation, z)[bare])
+    assert (p.take(~bare).predict(explanation, z) < p.predict((), z[:-1])[~bare]).all()
+
+
 def test_bending_cannot_rescue_a_wrong_effect_without_bound() -> None:
     found = found_in(problem(extra=0.3))
     for explanation, score in found.scores.items():
         if explanation:
-            fit = found.fits[explanation]
-            removed = np.sum(((fit.prediction - found.none.prediction) / found.problem.sd) ** 2)
-            most = max(searching.BEND_LIMIT, searching.BEND_SHARE * removed) / len(explanation)
-            assert score - fit.evidence <= most + 1e-9
+            assert score - found.fits[explanation].evidence <= searching.BEND_MOST
+    best = max(found.scores, key=lambda m: found.scores[m])
+    assert found.unknown.evidence > found.scores[("sensor_offset",)] + searching.BEND_MOST
+    assert found.scores[best] > found.scores[("sensor_offset",)] + searching.BEND_MOST
 
 
 def test_unstated_noise_is_what_repeats_or_smoothness_show() -> None:

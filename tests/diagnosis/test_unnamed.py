@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from mixedlub import config, standard
+from mixedlub.case import Case
 from mixedlub.diagnosis.carriers import NOTHING, QUANTITIES, READING, Typical, carriers, log_slope
+from mixedlub.diagnosis.features import Coordinate, Coordinates, coordinates
 from mixedlub.diagnosis.fit import log_likelihood, map_fit
 from mixedlub.diagnosis.heldout import HeldOut
 from mixedlub.diagnosis.mismatch import mismatch_test
 from mixedlub.diagnosis.posterior import posterior
 from mixedlub.diagnosis.problem import Explanation, Problem
+from mixedlub.diagnosis.search import search
 from mixedlub.effect import Effect
+from mixedlub.forward import Forward
+from mixedlub.kinds import kind
+from mixedlub.table import Table
 
 from .test_inference import found_in, problem
 
@@ -55,6 +63,32 @@ def test_a_mismatch_of_two_conditions_is_taken_for_one_of_two() -> None:
     light, cold = (np.exp(-3.0 * (x - x.min()) / np.ptp(x)) for x in (torque, temperature))
     found = found_in(Problem(p.case, p.rows, p.forward, p.y * (1.0 + 0.12 * light * cold), p.sd, p.shared))
     assert set(found.unknown.best.axes) == {"torque_Nm", "oil_temperature_C"}
+
+
+def test_an_oil_of_another_coefficient_has_no_other_law() -> None:
+    """Readings of one exponential of pressure, a third steeper than stated, make no law of pressure of their own."""
+    stated = {"viscosity": 0.05, "pressure_viscosity": 0.06}
+    noise = {"quantity": "viscosity_mPa_s", "noise": {"relative": 0.01, "absolute": 0.0}}
+    text = {"schema": "mixedlub-case/1", "kind": "viscosity", "lubricant": standard.OIL, "uncertainty": stated}
+    system = config.parse(config.System, {**text, "recording": noise}, "steeper oil")
+    case = Case("steeper oil", Path("."), system, kind("viscosity"), None, None, ())
+    warm, high = (x.ravel() for x in np.meshgrid([40.0, 60.0, 80.0, 100.0], [0.1, 50.0, 100.0, 200.0, 300.0, 400.0]))
+    rows = Table({"temperature_C": warm, "pressure_MPa": high, "run": np.arange(1, warm.size + 1)})
+    model = Forward(case, rows)
+    y = model.predict({"pressure_viscosity": 1.35}) * np.exp(0.01 * np.random.default_rng(0).standard_normal(warm.size))
+    p = Problem(case, rows, model, np.log(y), np.full(y.size, 0.01), np.zeros((y.size, 0)))
+    space = coordinates(case, rows, model)
+    weights = search(p, space, space.values(case, rows, model)).log_weights
+    assert all("pressure_viscosity_law" not in m or w < weights["unknown"] - 3.0 for m, w in weights.items())
+
+
+def test_products_with_names_treat_all_names_alike() -> None:
+    names = np.repeat(np.array(list("abcdefg")), 6)
+    speed = np.tile(np.linspace(0.0, 1.0, 6), 7)
+    space = Coordinates((Coordinate("surfaces", np.unique(names)), Coordinate("speed_rpm", np.unique(speed))))
+    columns = space.columns([names, speed], 0.7, ("surfaces", "speed_rpm"), interactions=True)
+    variance = (columns**2).sum(axis=1).reshape(7, 6)
+    assert np.allclose(variance, variance[0])
 
 
 def test_a_wild_reading_does_not_pull_the_fit() -> None:
