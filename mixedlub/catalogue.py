@@ -14,7 +14,7 @@ import numpy as np
 from mixedlub import standard
 from mixedlub.effect import Effect, catalogue, find
 from mixedlub.quantities import GLOSSARY
-from mixedlub.report.plain import plain_equation
+from mixedlub.report.plain import plain_equation, plain_symbol, with_symbol
 
 RIGS = tuple(standard.CONDITIONS)
 ALIKE = 0.95
@@ -24,6 +24,7 @@ NEGLIGIBLE = 0.02
 """Change of the share, over its largest size, below which a condition is said not to matter."""
 
 _WIDTH = 100
+_INDENT = 16
 
 
 def shown(effect: Effect) -> dict[str, float]:
@@ -121,14 +122,13 @@ def _table() -> str:
 
 
 def _page(effect: Effect) -> str:
-    units = ((name, _unit(GLOSSARY[name].unit).strip()) for name in effect.acts_on)
-    acted = ", ".join(f"{name} ({unit})" if unit else name for name, unit in units)
+    acted = (", ".join(filter(None, (_letter(name), _unit(GLOSSARY[name].unit).strip()))) for name in effect.acts_on)
     parts = [
         f"{effect.id}: {effect.summary}",
         "",
         _entry("stage", effect.stage),
-        _entry("changes", acted),
-        _entry("reads", ", ".join(effect.reads) or "nothing else"),
+        _entry("changes", ", ".join(map(with_symbol, effect.acts_on, acted))),
+        _entry("reads", ", ".join(with_symbol(name, _letter(name)) for name in effect.reads) or "nothing else"),
         _entry("equation", plain_equation(effect.equation)),
         _entry("source", effect.source),
     ]
@@ -142,9 +142,11 @@ def _page(effect: Effect) -> str:
     if effect.odds < 1.0:
         parts.append(_entry("prior odds", f"{effect.odds:g} of those of an effect that is missing as often as most"))
     parts += ["", "parameters"]
-    for p in effect.parameters:
+    labels = [f"  {with_symbol(p.name, plain_equation(p.symbol))}" for p in effect.parameters]
+    indent = max(_INDENT, 2 + max(map(len, labels)))
+    for p, label in zip(effect.parameters, labels, strict=True):
         off = "" if p.null is None else f"; off at {p.null:g}"
-        parts.append(_entry(f"  {p.name}", f"{p.meaning}; {p.prior}{_unit(p.unit)}{off}"))
+        parts.append(_entry(label, f"{p.meaning}; {p.prior}{_unit(p.unit)}{off}", indent))
     parts += ["", *_on_rigs(effect), "", _entry("separated by", effect.separated_by)]
     return "\n".join(parts)
 
@@ -172,5 +174,10 @@ def _unit(unit: str) -> str:
     return {"-": "", "*": " unit of the channel"}.get(unit, f" {unit}")
 
 
-def _entry(name: str, text: str) -> str:
-    return fill(text, _WIDTH, initial_indent=f"{name:16}", subsequent_indent=" " * 16, break_long_words=False)
+def _letter(quantity: str) -> str:
+    symbol = GLOSSARY[quantity].symbol
+    return "" if symbol == "-" else plain_symbol(symbol)
+
+
+def _entry(name: str, text: str, indent: int = _INDENT) -> str:
+    return fill(text, _WIDTH, initial_indent=f"{name:{indent}}", subsequent_indent=" " * indent, break_long_words=False)

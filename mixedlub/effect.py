@@ -102,6 +102,7 @@ Prior = Normal | Wide | LogNormal | Between | BetweenLog
 class Parameter:
     """A number an effect depends on; ``null`` is the value that switches it off, if there is one.
 
+    ``symbol`` is the letter it has in the effect's equation, as LaTeX.
     ``scan`` is how many values a search must try, where readings are matched in many separate ranges of it.
     """
 

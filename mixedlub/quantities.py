@@ -128,7 +128,7 @@ drive_speed             | omega      | rad/s   | signed speed of a drive (m/s wh
 reference_speed         | omega_0    | rad/s   | largest speed of the recording, in the unit of drive_speed
 load_fraction           | q_F        | -       | load on a drive over the largest load of the recording
 additive_fraction       | q_a        | -       | content of an additive over the largest content tested
-gears_fitted            | -          | -       | 1 with gears; without: share of friction left, 0 for a gear pair
+gears_fitted            | chi        | -       | 1 with gears; without: share of friction left, 0 for a gear pair
 motor_torque            | T_m        | N m     | torque that the controller computes from the motor current
 reference_torque        | T_m0       | N m     | largest motor torque of the recording
 drive_angle             | phi        | rad     | angle the drive has turned
@@ -147,7 +147,7 @@ gear_speed              | omega_2    | rad/s   | angular speed of the gear
 gear_module             | m_n        | m       | normal module
 pinion_teeth            | z_1        | -       | teeth of the pinion
 gear_teeth              | z_2        | -       | teeth of the gear
-contact_ratio           | eps_alpha  | -       | length of the path of contact over the base pitch
+contact_ratio           | epsilon_alpha | -       | length of the path of contact over the base pitch
 # one wheel, shaft or seal of a gearbox
 wheel_radius            | r          | m       | operating pitch radius of one wheel
 wheel_speed             | omega      | rad/s   | angular speed of one wheel and its shaft

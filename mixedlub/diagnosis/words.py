@@ -25,7 +25,7 @@ from mixedlub.diagnosis.maps import missing
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.readings import checked_channel, outliers, reading_conditions, steadied_noise
 from mixedlub.effect import Effect
-from mixedlub.report.plain import plain_equation
+from mixedlub.report.plain import plain_equation, with_symbol
 
 WIDTH = 88
 REFITTED = "Parameters were refitted without each level; what the answer is was settled with all of them."
@@ -241,7 +241,8 @@ def _left_out(d: Diagnosis) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...
             continue
         for p, fitted in zip(e.parameters, record["parameters"], strict=True):
             span = f"{number(fitted['low90'])} to {number(fitted['high90'])}"
-            table.append((effect_words(e.id), p.name, number(fitted["value"]), span, p.unit, p.meaning))
+            name = with_symbol(p.name, plain_equation(p.symbol))
+            table.append((effect_words(e.id), name, number(fitted["value"]), span, p.unit, p.meaning))
     return tuple(sentences), tuple(table) if len(table) > 1 else ()
 
 

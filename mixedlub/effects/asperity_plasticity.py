@@ -13,11 +13,12 @@ _FARTHEST = 10.0
     stage="contact",
     acts_on="area_ratio",
     parameters=(
-        Parameter("strength", "-", LogNormal(1.0, 0.5), "factor on the area that yielding adds", null=0.0),
-        Parameter("hardness", "Pa", LogNormal(6e9, 0.6), "indentation hardness of the softer flank"),
+        Parameter("strength", "-", LogNormal(1.0, 0.5), "factor on the area that yielding adds", null=0.0, symbol="c"),
+        Parameter("hardness", "Pa", LogNormal(6e9, 0.6), "indentation hardness of the softer flank", symbol="H"),
     ),
-    equation=r"P_B \leftarrow P_B + c\,\pi D R_s\sigma_s F_1(t + w_c),\quad "
-    r"w_c = \left(\frac{\pi K H}{2E^*}\right)^2\frac{R_s}{\sigma_s},\ K = 0.577",
+    equation=r"P_B \leftarrow \min\left[1,\ P_B + c\,\pi D R_s\sigma_s F_1(t + w_c)\right],\quad "
+    r"w_c = \left(\frac{\pi K H}{E'}\right)^2\frac{R_s}{\sigma_s},\ K = 0.577,\quad "
+    r"F_1(t) = \int_t^\infty (z - t)\,\frac{e^{-z^2/2}}{\sqrt{2\pi}}\,dz",
     source="W. R. Chang, I. Etsion, D. B. Bogy, J. Tribol. 109 (1987) 257: A = pi R w (2 - w_c/w) above onset",
     fingerprint={"load": "-", "speed": "-", "oil_temperature": "+", "roughness": "+", "slide_roll_ratio": "-"},
     separated_by="profile and hardness before and after: yielding is not undone when the load goes; loss alone cannot "

@@ -25,12 +25,21 @@ _LEAST = 0.1
             "rolling_power", "-", Between(0.0, 0.54), "power of load in the torque of rolling in oil", symbol="b"
         ),
         Parameter(
-            "rubbing", "-", Between(0.0, 2.0), "rise of the part that load adds where the bearing's film is gone"
+            "rubbing",
+            "-",
+            Between(0.0, 2.0),
+            "rise of the part that load adds where the bearing's film is gone",
+            symbol="m",
         ),
     ),
-    equation=r"P \leftarrow P + c\sum_{i=1,2} 2\,\omega_i\,[M_{0,i} x^b + "
-    r"c_1 (1 + m\phi_{bl,i}) M_1 x^{a-1}],\quad x = F_t/F_r,\ "
-    r"M_0 = 10^{-7} f_0(\nu n_i)^{2/3} d_m^3,\ M_1 = f_1\tfrac{F_t}{2} d_m,\ d_m = 1.25\,r_1",
+    equation=r"P_L \leftarrow P_L + c\,\sum_{i=1,2} 2\,\omega_i\,"
+    r"[x^b M_{0,i} + \chi c_1 x^{a-1} (1 + m\,\phi_{bl,i}) M_1],\quad "
+    r"x = \max(\chi F_t/F_r,\ 0.1),\ F_r = 3\,\text{kN},\ "
+    r"M_1 = f_1\,\tfrac12 F_t d_m,\ f_1 = 0.0005,\ d_m = 1.25\,r_1,\quad "
+    r"M_{0,i} = 2\times10^{-7}\,(N_i^4 + 2000^4)^{1/6} d_m^3,\ "
+    r"\phi_{bl,i} = \exp(-2.6\times10^{-8}\,N_i^{1.4} d_m),\ "
+    r"N_i = \nu\,\frac{30\,\omega_i}{\pi},\ \nu = \frac{\eta_0}{\rho}\ "
+    r"(\text{torques in N mm, lengths in mm, }\nu\text{ in mm}^2/\text{s})",
     source="A. Palmgren, Grundlagen der Waelzlagertechnik, 1964; ISO/TR 14179-2; T. A. Harris, Rolling Bearing "
     "Analysis, for f_1 that grows with load in ball bearings; SKF General Catalogue, 2005, for rolling torque with "
     "load^0.54; SKF, Rolling Bearings, 2018, for phi_bl and 0.12 over 0.05 in mineral oil (m = 1.4)",

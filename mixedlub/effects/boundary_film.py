@@ -8,7 +8,7 @@ from mixedlub.effect import LogNormal, Parameter, effect
 @effect(
     stage="boundary",
     acts_on="film_thickness",
-    parameters=(Parameter("thickness", "m", LogNormal(4e-9, 0.8), "thickness of the layer", null=0.0),),
+    parameters=(Parameter("thickness", "m", LogNormal(4e-9, 0.8), "thickness of the layer", null=0.0, symbol="h_b"),),
     equation=r"h \leftarrow \sqrt{h^2 + h_b^2}",
     source="layers below the reach of entrainment: G. Guangteng, H. A. Spikes, Tribol. Trans. 39 (1996) 448; joined by "
     "the root of squares so that it fades at speed",

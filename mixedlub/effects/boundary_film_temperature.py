@@ -9,11 +9,15 @@ from mixedlub.effect import Between, LogNormal, Normal, Parameter, effect
     stage="boundary",
     acts_on="boundary_friction",
     parameters=(
-        Parameter("drop", "-", Normal(0.35, 0.35), "fall of the logarithm of boundary friction when hot", null=0.0),
-        Parameter("activation", "K", Between(318.0, 413.0), "temperature at which half the film is there"),
-        Parameter("width", "K", LogNormal(8.0, 0.5), "temperature over which the film forms"),
+        Parameter(
+            "drop", "-", Normal(0.35, 0.35), "fall of the logarithm of boundary friction when hot", null=0.0, symbol="d"
+        ),
+        Parameter(
+            "activation", "K", Between(318.0, 413.0), "temperature at which half the film is there", symbol=r"\theta_f"
+        ),
+        Parameter("width", "K", LogNormal(8.0, 0.5), "temperature over which the film forms", symbol="w"),
     ),
-    equation=r"\mu_B \leftarrow \mu_B \exp\left[-\frac{d}{1 + e^{-(\theta - \theta_a)/w}}\right]",
+    equation=r"\mu_B \leftarrow \mu_B \exp\left[-\frac{d}{1 + e^{-(\theta_{oil} - \theta_f)/w}}\right]",
     source="H. Spikes, Tribol. Lett. 60 (2015) 5 (friction modifiers); the sigmoid is the usual description "
     "of activation, its coefficients are not from a table",
     fingerprint={"speed": "+", "oil_temperature": "-", "roughness": "-", "slide_roll_ratio": "+"},

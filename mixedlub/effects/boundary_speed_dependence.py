@@ -9,12 +9,27 @@ SLOWEST = 1e-3
     stage="boundary",
     acts_on="boundary_friction",
     parameters=(
-        Parameter("slope", "-", Normal(0.0, 0.12), "power of speed; positive with friction modifier", null=0.0),
-        Parameter("reference", "m/s", BetweenLog(0.01, 10.0), "speed at which the stated boundary friction holds"),
-        Parameter("rolling", "-", Between(0.0, 1.0), "weight of the rolling speed against the sliding speed"),
+        Parameter(
+            "slope",
+            "-",
+            Normal(0.0, 0.12),
+            "power of speed; positive with friction modifier",
+            null=0.0,
+            symbol=r"\kappa",
+        ),
+        Parameter(
+            "reference",
+            "m/s",
+            BetweenLog(0.01, 10.0),
+            "speed at which the stated boundary friction holds",
+            symbol="v_r",
+        ),
+        Parameter(
+            "rolling", "-", Between(0.0, 1.0), "weight of the rolling speed against the sliding speed", symbol="a"
+        ),
     ),
-    equation=r"\mu_B \leftarrow \mu_B\,\bigl[(v^2 + v_0^2)/(v_r^2 + v_0^2)\bigr]^{\kappa/2},\quad "
-    r"v = v_s^{1-a} u^a,\ v_0 = 1\ \mathrm{mm/s}",
+    equation=r"\mu_B \leftarrow \mu_B\,\left[(v^2 + v_0^2)/(v_r^2 + v_0^2)\right]^{\kappa/2},\quad "
+    r"v = v_s^{1-a} u^a,\ v_0 = 1\ \text{mm/s}",
     source="H. Spikes, Tribol. Lett. 60 (2015) 5: friction grows with the logarithm of speed under adsorbed "
     "films and falls without; written as a small power, which is that logarithm to first order",
     fingerprint={"load": "-", "oil_temperature": "+", "roughness": "+"},

@@ -8,12 +8,18 @@ from mixedlub.laws.drag import churning_changenet_velex
     stage="loss",
     acts_on="power_loss",
     parameters=(
-        Parameter("strength", "-", LogNormal(1.0, 0.9), "factor: depth, case, number of wheels that dip", null=0.0),
-        Parameter("viscous", "-", Between(0.0, 1.0), "power of viscosity"),
-        Parameter("surplus", "-", Between(0.0, 1.1), "power of speed less that of viscosity less 1"),
+        Parameter(
+            "strength", "-", LogNormal(1.0, 0.9), "factor: depth, case, number of wheels that dip", null=0.0, symbol="c"
+        ),
+        Parameter("viscous", "-", Between(0.0, 1.0), "power of viscosity", symbol="q"),
+        Parameter("surplus", "-", Between(0.0, 1.1), "power of speed less that of viscosity less 1", symbol="p"),
     ),
-    equation=r"P \leftarrow P + c\,\tfrac12\rho\omega_2^3 r_2^3 S_m C_m,\quad C_m \propto Re^{-q}Fr^{-f},\ f = "
-    r"\tfrac12(2 - 2q - e)",
+    equation=r"P_L \leftarrow P_L + \chi c\,\tfrac12\rho\omega_2^3 r_2^3 S_m C_m,\quad "
+    r"C_m = 0.7623\,\mathrm{Fr}^{-0.6}\,\mathrm{Re}^{-0.21}(\mathrm{Fr}/70)^{0.6-f}(\mathrm{Re}/16000)^{0.21-q},\ "
+    r"f = 1 - q - \tfrac12 p,\quad "
+    r"\mathrm{Fr} = \omega_2^2 r_2/(9.81\,\text{m/s}^2),\ \mathrm{Re} = \rho\,\omega_2 r_2^2/\eta_0,\quad "
+    r"S_m = \left(\frac{2\pi}{3} - \frac{\sqrt{3}}{2}\right)r_2^2 + \frac{2\pi}{3}\,r_2 b_w + "
+    r"\frac{1.5\,z_2 m_n b_w}{\cos 20^\circ}",
     source="C. Changenet, P. Velex, J. Mech. Des. 129 (2007) 128 (q = 0.21, f = 0.6); other powers reach from "
     "there to the viscous drag of R. J. Boness, Proc. Int. Symp. Gearing 1989 (n^2 nu) and ISO/TR "
     "14179-1 (n^3 nu)",
@@ -39,7 +45,7 @@ def churning(
     """The wheel that dips into the oil stirs it.
 
     The wheel is taken to dip half its radius; methods differ by a factor 6 at high speed. Power goes as
-    n^(1 + q + e) nu^q, so that oil that resists by viscosity does not also rise as the cube of speed in air does.
+    n^(1 + q + p) nu^q, so that oil that resists by viscosity does not also rise as the cube of speed in air does.
     The acceleration of gravity makes the form belong to m/s^2.
 
     >>> wheel = dict(gear_radius=0.05, face_width=0.02, gear_module=4e-3, gear_teeth=25.0, gears_fitted=1.0)

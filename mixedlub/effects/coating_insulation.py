@@ -7,9 +7,13 @@ from mixedlub.laws import heating
 @effect(
     stage="shear",
     acts_on="shear_stress",
-    parameters=(Parameter("strength", "-", LogNormal(1.0, 1.0), "factor on the rise across the coating", null=0.0),),
-    equation=r"\tau = \tau_0 \operatorname{asinh}\left(\sinh\frac{\tau}{\tau_0}\,e^{-\beta_p\Delta "
-    r"T}\right),\quad \Delta T = c\,\frac{\tau v_s}{4}\,\frac{t_c}{k_c}",
+    parameters=(
+        Parameter("strength", "-", LogNormal(1.0, 1.0), "factor on the rise across the coating", null=0.0, symbol="c"),
+    ),
+    equation=r"\tau \leftarrow \tau' = "
+    r"\tau_0 \operatorname{asinh}\left(\sinh\frac{\tau}{\tau_0}\,e^{-\beta_p\Delta T}\right),\quad "
+    r"\Delta T = c\,\frac{\tau' v_s}{4}\,\frac{t_c}{k_c},\quad "
+    r"\beta_p = \beta\left[1 + \frac{\ln(\eta_p/\eta_0)}{\ln\eta_0 + 9.67}\right]",
     source="M. Bjoerling, W. Habchi, S. Bair, R. Larsson, P. Marklund, Tribol. Lett. 53 (2014) 477 (the "
     "mechanism); steady conduction through a layer that carries half the heat to each side",
     fingerprint={"speed": "-", "slide_roll_ratio": "-"},

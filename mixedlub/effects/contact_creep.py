@@ -9,8 +9,17 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
     stage="shear",
     acts_on="friction",
     parameters=(
-        Parameter("saturation_slip", "-", LogNormal(0.015, 1.0), "slip at which the whole contact slides", null=0.0),
-        Parameter("power", "-", LogNormal(2.4, 0.6), "3 for a point contact of like bodies, 2 for a line contact"),
+        Parameter(
+            "saturation_slip",
+            "-",
+            LogNormal(0.015, 1.0),
+            "slip at which the whole contact slides",
+            null=0.0,
+            symbol="S_c",
+        ),
+        Parameter(
+            "power", "-", LogNormal(2.4, 0.6), "3 for a point contact of like bodies, 2 for a line contact", symbol="m"
+        ),
         Parameter(
             "of_asperities", "-", Between(0.0, 1.0), "share of the asperities' friction that starts so too", symbol="a"
         ),

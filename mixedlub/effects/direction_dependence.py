@@ -10,7 +10,12 @@ from mixedlub.effect import Normal, Parameter, effect
     acts_on="running_friction",
     parameters=(
         Parameter(
-            "asymmetry", "-", Normal(0.0, 0.2), "half the difference of the directions over their mean", null=0.0
+            "asymmetry",
+            "-",
+            Normal(0.0, 0.2),
+            "half the difference of the directions over their mean",
+            null=0.0,
+            symbol="a",
         ),
     ),
     equation=r"T_r \leftarrow T_r\,(1 + a\operatorname{sgn}\omega)",

@@ -18,11 +18,12 @@ LEAST = 0.1
             Normal(0.0, 0.05),
             "added force at resonance times twice the damping, as a share",
             null=0.0,
+            symbol="a",
         ),
-        Parameter("resonance", "1/s", LogNormal(1500.0, 1.0), "natural frequency of the gear pair"),
-        Parameter("damping", "-", LogNormal(0.1, 0.5), "share of critical damping"),
+        Parameter("resonance", "1/s", LogNormal(1500.0, 1.0), "natural frequency of the gear pair", symbol="f_n"),
+        Parameter("damping", "-", LogNormal(0.1, 0.5), "share of critical damping", symbol=r"\zeta"),
     ),
-    equation=r"F \leftarrow F\left[1 + \frac{a\,r}{\sqrt{(1-r^2)^2 + (2\zeta r)^2}}\right],\quad "
+    equation=r"F_t \leftarrow F_t\max\left[1 + \frac{a\,r}{\sqrt{(1-r^2)^2 + (2\zeta r)^2}},\ 0.1\right],\quad "
     r"r = \frac{z_1\omega_1}{2\pi f_n}",
     source="one degree of freedom driven by the transmission error; as the dynamic factor of ISO 6336-1, method B",
     fingerprint={"load": "-", "speed": "+"},

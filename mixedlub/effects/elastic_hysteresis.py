@@ -9,7 +9,14 @@ from mixedlub.effect import LogNormal, Parameter, effect
     stage="loss",
     acts_on="rolling_force",
     parameters=(
-        Parameter("loss_fraction", "-", LogNormal(0.008, 1.0), "strain energy lost in a cycle, as a share", null=0.0),
+        Parameter(
+            "loss_fraction",
+            "-",
+            LogNormal(0.008, 1.0),
+            "strain energy lost in a cycle, as a share",
+            null=0.0,
+            symbol=r"\alpha_h",
+        ),
     ),
     equation=r"f_r \leftarrow f_r + \alpha_h \frac{2\,w\,b_H}{3\pi R}",
     source="K. L. Johnson, Contact Mechanics, 1985, section 9.2",

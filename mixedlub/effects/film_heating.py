@@ -10,14 +10,20 @@ from mixedlub.laws import heating
     stage="shear",
     acts_on="shear_stress",
     parameters=(
-        Parameter("strength", "-", LogNormal(1.0, 0.8), "factor on the rise of temperature", null=0.0),
-        Parameter("flash", "-", Between(0.0, 1.0), "weight of the surfaces over that of the film; both at 1/2"),
-        Parameter("pressure", "-", Between(0.0, 1.0), "from the softening at ambient pressure, 0, to Roelands', 1"),
+        Parameter("strength", "-", LogNormal(1.0, 0.8), "factor on the rise of temperature", null=0.0, symbol="c"),
+        Parameter(
+            "flash", "-", Between(0.0, 1.0), "weight of the surfaces over that of the film; both at 1/2", symbol="d"
+        ),
+        Parameter(
+            "pressure", "-", Between(0.0, 1.0), "from the softening at ambient pressure, 0, to Roelands', 1", symbol="k"
+        ),
     ),
-    equation=r"\tau = \tau_0 \operatorname{asinh}\frac{\eta_p v_s e^{-\beta_p\Delta T}}{h\tau_0},\quad "
-    r"\Delta T = 2c\left[(1-d)\,\frac{\tau v_s h}{12 k_f} + "
-    r"d\,\frac{1.084\,\bar q\sqrt{b_H}}{\sqrt{k\rho c}\,(\sqrt{u_1}+\sqrt{u_2})}\right],\quad "
-    r"\beta_p = \beta\left(1 + \frac{p_0}{p_r}\right)^{kZ}",
+    equation=r"\tau \leftarrow \tau' = "
+    r"\tau_0 \operatorname{asinh}\left(\sinh\frac{\tau}{\tau_0}\,e^{-\beta_p\Delta T}\right),\quad "
+    r"\Delta T = 2c\left[(1-d)\,\frac{\tau' v_s h}{12 k_f} + "
+    r"d\,\frac{1.084\,q_m\sqrt{b_H}}{\sqrt{k_s\rho_s c_s}\,(\sqrt{u_1}+\sqrt{u_2})}\right],\quad "
+    r"q_m = \frac{\pi}{4} v_s\,[(1 - P_B)\,\tau' + P_B\,\mu_B p_0],\ u_{1,2} = |u \pm \tfrac12 v_s|,\quad "
+    r"\beta_p = \beta\left[1 + \frac{\ln(\eta_p/\eta_0)}{\ln\eta_0 + 9.67}\right]^k",
     source="J. F. Archard, Wear 2 (1959) 438 (film); H. Blok, Proc. Gen. Disc. Lubrication, IMechE 2 (1937) "
     "222 (flash)",
     fingerprint={"load": "-", "speed": "-", "oil_temperature": "+", "roughness": "+", "slide_roll_ratio": "-"},

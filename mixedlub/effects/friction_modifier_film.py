@@ -7,10 +7,18 @@ from mixedlub.effect import LogNormal, Parameter, effect
     stage="boundary",
     acts_on="coulomb_torque",
     parameters=(
-        Parameter("drop", "-", LogNormal(0.3, 0.6), "share of dry friction that a full layer takes away", null=0.0),
-        Parameter("half_share", "-", LogNormal(0.1, 1.2), "content for half a layer, over the largest one tested"),
+        Parameter(
+            "drop", "-", LogNormal(0.3, 0.6), "share of dry friction that a full layer takes away", null=0.0, symbol="d"
+        ),
+        Parameter(
+            "half_share",
+            "-",
+            LogNormal(0.1, 1.2),
+            "content for half a layer, over the largest one tested",
+            symbol="q_h",
+        ),
     ),
-    equation=r"T_c \leftarrow T_c\,\bigl(1 - d\,\tfrac{c}{c + c_h}\bigr)",
+    equation=r"T_c \leftarrow T_c\,\left(1 - d\,\frac{q_a}{q_a + q_h}\right)",
     source="adsorption after I. Langmuir, J. Am. Chem. Soc. 40 (1918) 1361; friction with the covered share as in "
     "S. Jahanmir, M. Beltzer, J. Tribol. 108 (1986) 109",
     fingerprint={"additive_fraction": "-"},

@@ -10,9 +10,16 @@ from mixedlub.effect import LogNormal, Parameter, effect
     acts_on="boundary_friction",
     parameters=(
         Parameter(
-            "excess", "-", LogNormal(0.3, 0.8), "friction of the fresh surfaces over that run in, less one", null=0.0
+            "excess",
+            "-",
+            LogNormal(0.3, 0.8),
+            "friction of the fresh surfaces over that run in, less one",
+            null=0.0,
+            symbol="a",
         ),
-        Parameter("time_constant", "-", LogNormal(0.1, 1.2), "share of the programme to lose 63 % of the excess"),
+        Parameter(
+            "time_constant", "-", LogNormal(0.1, 1.2), "share of the programme to lose 63 % of the excess", symbol="q_r"
+        ),
     ),
     equation=r"\mu_B \leftarrow \mu_B\,(1 + a\,e^{-q/q_r})",
     source="P. J. Blau, Tribol. Int. 38 (2005) 1007, the simplest of the running-in curves",

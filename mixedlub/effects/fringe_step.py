@@ -6,7 +6,9 @@ from mixedlub.effect import Parameter, Wide, effect
 @effect(
     stage="measurement",
     acts_on="reading",
-    parameters=(Parameter("step", "m", Wide(1e-8), "change of the reading from one order to the next", null=0.0),),
+    parameters=(
+        Parameter("step", "m", Wide(1e-8), "change of the reading from one order to the next", null=0.0, symbol="a"),
+    ),
     equation=r"y \leftarrow y + a\,(N - N_0)",
     source="spacer-layer interferometry: G. J. Johnston, R. Wayte, H. A. Spikes, Tribol. Trans. 34 (1991) 187; a film "
     "is read from the colour within an order, and an error of phase, index or spacer differs from order to order",

@@ -8,8 +8,10 @@ from mixedlub.effect import LogNormal, Parameter, effect
 @effect(
     stage="shear",
     acts_on="viscous_torque",
-    parameters=(Parameter("deficit", "-", LogNormal(0.35, 0.5), "one less the flow index of the grease", null=0.0),),
-    equation=r"T_v \leftarrow T_v\,|\omega/\omega_0|^{-d}",
+    parameters=(
+        Parameter("deficit", "-", LogNormal(0.35, 0.5), "one less the flow index of the grease", null=0.0, symbol="d"),
+    ),
+    equation=r"T_v \leftarrow T_v\,\max(|\omega/\omega_0|,\ 10^{-6})^{-d}",
     source="W. H. Herschel, R. Bulkley, Kolloid-Z. 39 (1926) 291, power-law part",
     fingerprint={"speed": "-"},
     separated_by="speeds over two decades: the drag bends in a log-log plot, and has no minimum as Stribeck friction",

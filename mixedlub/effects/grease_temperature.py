@@ -11,9 +11,16 @@ REFERENCE = 313.15
     stage="property",
     acts_on="viscous_torque",
     parameters=(
-        Parameter("fall_per_kelvin", "1/K", LogNormal(0.03, 0.5), "relative fall of viscous drag a kelvin", null=0.0),
+        Parameter(
+            "fall_per_kelvin",
+            "1/K",
+            LogNormal(0.03, 0.5),
+            "relative fall of viscous drag a kelvin",
+            null=0.0,
+            symbol="b",
+        ),
     ),
-    equation=r"T_v \leftarrow T_v\,e^{-b\,(\theta - 40\,^\circ\mathrm{C})}",
+    equation=r"T_v \leftarrow T_v\,e^{-b\,(\theta_{oil} - 40\,^\circ\text{C})}",
     source="A. C. Bittencourt, S. Gunnarsson, J. Dyn. Syst. Meas. Control 134 (2012) 051013; exponential as in "
     "O. Reynolds, Phil. Trans. R. Soc. 177 (1886) 157",
     fingerprint={"oil_temperature": "-"},

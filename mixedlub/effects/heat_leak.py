@@ -7,8 +7,17 @@ from mixedlub.effect import LogNormal, Parameter, effect
     stage="measurement",
     acts_on="reading",
     parameters=(
-        Parameter("share", "-", LogNormal(0.05, 0.8), "share of the power that leaves by the shafts", null=0.0),
-        Parameter("wall", "1/K", LogNormal(0.003, 0.9), "share of the typical power that leaves per kelvin", null=0.0),
+        Parameter(
+            "share", "-", LogNormal(0.05, 0.8), "share of the power that leaves by the shafts", null=0.0, symbol="c"
+        ),
+        Parameter(
+            "wall",
+            "1/K",
+            LogNormal(0.003, 0.9),
+            "share of the typical power that leaves per kelvin",
+            null=0.0,
+            symbol="g",
+        ),
     ),
     equation=r"y \leftarrow (1 - c)\,y - G\,(\theta_{oil} - \theta_a),\quad G = g\,y_0",
     source="heat balance of a calorimetric rig; 5 to 8 % leave by the shafts at high speed (Measurement and Modelling "

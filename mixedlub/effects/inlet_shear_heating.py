@@ -9,8 +9,10 @@ from mixedlub.effect import LogNormal, Parameter, effect
     stage="film",
     acts_on="film_thickness",
     parameters=(
-        Parameter("strength", "-", LogNormal(1.0, 0.6), "factor on both terms of the thermal loading", null=0.0),
-        Parameter("sliding", "-", LogNormal(1.0, 0.8), "weight of sliding, between the published factors"),
+        Parameter(
+            "strength", "-", LogNormal(1.0, 0.6), "factor on both terms of the thermal loading", null=0.0, symbol="c"
+        ),
+        Parameter("sliding", "-", LogNormal(1.0, 0.8), "weight of sliding, between the published factors", symbol="d"),
     ),
     equation=r"h \leftarrow h\,\frac{e^{-13.2\,c\,(p_0/E')\,L^{0.42}}}{1 + 0.213\,c\,(1 + "
     r"2.23\,d\,S^{0.83})\,L^{0.64}},\quad L = \beta\eta_0 u^2/k_f",

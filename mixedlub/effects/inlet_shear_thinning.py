@@ -9,13 +9,19 @@ REFERENCE = 0.01
     stage="film",
     acts_on="film_thickness",
     parameters=(
-        Parameter("index", "-", Between(0.6, 0.97), "power-law index n of the oil", null=1.0),
-        Parameter("critical_stress", "Pa", BetweenLog(3e3, 1e6), "stress at which thinning begins"),
-        Parameter("plateau", "-", Between(0.0, 0.9), "share of the film that full thinning leaves"),
-        Parameter("stress_rule", "-", Between(0.0, 1.0), "1: a critical stress starts thinning, 0: a critical rate"),
+        Parameter("index", "-", Between(0.6, 0.97), "power-law index n of the oil", null=1.0, symbol="n"),
+        Parameter("critical_stress", "Pa", BetweenLog(3e3, 1e6), "stress at which thinning begins", symbol="G_{cr}"),
+        Parameter("plateau", "-", Between(0.0, 0.9), "share of the film that full thinning leaves", symbol="c"),
+        Parameter(
+            "stress_rule",
+            "-",
+            Between(0.0, 1.0),
+            "1: a critical stress starts thinning, 0: a critical rate",
+            symbol="m",
+        ),
     ),
-    equation=r"h \leftarrow h\,\bigl\{c + (1 - c)\bigl[1 + 0.79\,((1+S)N)^{1/(1+0.2S)}\bigr]"
-    r"^{-3.6(1-n)^{1.7}}\bigr\},\quad N = \eta_0^m\eta_r^{1-m} u/(h G_{cr})",
+    equation=r"h \leftarrow h\,\left\{c + (1 - c)\left[1 + 0.79\,((1+S)N)^{1/(1+0.2S)}\right]"
+    r"^{-3.6(1-n)^{1.7}}\right\},\quad N = \eta_0^m\,\eta_r^{1-m} u/(h G_{cr}),\ \eta_r = 0.01\,\text{Pa s}",
     source="S. Bair, Proc. IMechE J 219 (2005) 69; constants as quoted in the literature",
     fingerprint={"load": "-", "speed": "+", "roughness": "-", "slide_roll_ratio": "-"},
     separated_by="film thickness of the same base oil without polymer, or a viscometer at high shear rate: thinning "

@@ -9,8 +9,15 @@ from mixedlub.effect import BetweenLog, LogNormal, Parameter, effect
     stage="shear",
     acts_on="shear_stress",
     parameters=(
-        Parameter("coefficient", "-", BetweenLog(0.015, 0.12), "limiting stress over pressure, Lambda", null=np.inf),
-        Parameter("sharpness", "-", LogNormal(2.5, 0.7), "how abruptly the stress stops growing"),
+        Parameter(
+            "coefficient",
+            "-",
+            BetweenLog(0.015, 0.12),
+            "limiting stress over pressure, Lambda",
+            null=np.inf,
+            symbol=r"\Lambda",
+        ),
+        Parameter("sharpness", "-", LogNormal(2.5, 0.7), "how abruptly the stress stops growing", symbol="n"),
     ),
     equation=r"\tau \leftarrow \tau\left[1 + \left(\frac{\tau}{\Lambda p_0}\right)^{n}\right]^{-1/n}",
     source="S. Bair, W. O. Winer, J. Lubr. Technol. 101 (1979) 258, tau_L = Lambda p; joined smoothly to the "

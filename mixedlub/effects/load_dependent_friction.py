@@ -9,7 +9,9 @@ from mixedlub.effect import LogNormal, Parameter, effect
     stage="loss",
     acts_on="running_friction",
     parameters=(
-        Parameter("growth", "-", LogNormal(0.5, 1.0), "dry friction added at the largest load, over T_c", null=0.0),
+        Parameter(
+            "growth", "-", LogNormal(0.5, 1.0), "dry friction added at the largest load, over T_c", null=0.0, symbol="c"
+        ),
     ),
     equation=r"T_r \leftarrow T_r + c\,T_c\,q_F \operatorname{sgn}\omega",
     source="Coulomb's law for the loaded flanks; A. C. Bittencourt, S. Gunnarsson, J. Dyn. Syst. Meas. Control 134 "

@@ -9,13 +9,25 @@ REFERENCE = 0.01
     stage="contact",
     acts_on=("m0", "m2", "m4"),
     parameters=(
-        Parameter("wavelength", "m", LogNormal(40e-6, 0.9), "length of the waves that carry the roughness", null=0.0),
-        Parameter("viscous", "-", Between(0.0, 1.0), "power of viscosity over that of speed, 1 in the source"),
-        Parameter("texture", "-", Between(0.0, 1.0), "attenuation of slopes and curvatures over that of heights"),
+        Parameter(
+            "wavelength",
+            "m",
+            LogNormal(40e-6, 0.9),
+            "length of the waves that carry the roughness",
+            null=0.0,
+            symbol=r"\lambda_w",
+        ),
+        Parameter(
+            "viscous", "-", Between(0.0, 1.0), "power of viscosity over that of speed, 1 in the source", symbol="a"
+        ),
+        Parameter(
+            "texture", "-", Between(0.0, 1.0), "attenuation of slopes and curvatures over that of heights", symbol="r"
+        ),
     ),
-    equation=r"m_0 \leftarrow m_0 A^2,\ m_{2,4} \leftarrow m_{2,4} A^{2r},\quad A = \frac{1}{1 + 0.15\nabla + "
-    r"0.015\nabla^2},\quad \nabla = \frac{\lambda_w}{b_H}\frac{M^{3/4}}{L^{1/2}},\ M = "
-    r"\frac{W}{\sqrt{2U}},\ L = G(2U)^{1/4},\ U = \frac{\eta_0^a\eta_r^{1-a}u}{E'R}",
+    equation=r"m_0 \leftarrow m_0 A^2,\ m_{2,4} \leftarrow m_{2,4} A^{2r},\quad "
+    r"A = \frac{1}{1 + 0.15\,\nabla + 0.015\,\nabla^2},\quad \nabla = \frac{\lambda_w}{b_H}\,\frac{M^{3/4}}{L^{1/2}},\ "
+    r"M = \frac{W}{\sqrt{2U}},\ L = G(2U)^{1/4},\quad W = 2\pi(p_0/E')^2,\ G = \alpha E',\ "
+    r"U = \frac{\eta_0^a\,\eta_r^{1-a}u}{E'R},\ \eta_r = 0.01\,\text{Pa s}",
     source="C. H. Venner, A. A. Lubrecht, J. Tribol. 116 (1994) 751; A. A. Lubrecht, C. H. Venner, Proc. "
     "IMechE J 213 (1999) 397",
     fingerprint={"speed": "+", "oil_temperature": "-", "roughness": "-", "slide_roll_ratio": "+"},

@@ -10,11 +10,12 @@ _REFERENCE = 1e5
     stage="load",
     acts_on="line_load",
     parameters=(
-        Parameter("misalignment", "m", LogNormal(10e-6, 1.0), "gap across the face without load", null=0.0),
-        Parameter("relief", "-", Between(0.0, 1.0), "power of load with which teeth yield to it"),
+        Parameter("misalignment", "m", LogNormal(10e-6, 1.0), "gap across the face without load", null=0.0, symbol="f"),
+        Parameter("relief", "-", Between(0.0, 1.0), "power of load with which teeth yield to it", symbol="q"),
     ),
-    equation=r"w \leftarrow w\,(1 + x^2)^{1/4},\quad x = \frac{f\,c_\gamma}{2 w_r}\left(\frac{w_r "
-    r"b_w}{F_t}\right)^{q}",
+    equation=r"w \leftarrow w\,(1 + x^2)^{1/4},\quad "
+    r"x = \frac{f\,c_\gamma}{2 w_r}\left(\frac{w_r b_w}{F_t}\right)^{q},\quad "
+    r"c_\gamma = 20\,\text{GPa},\ w_r = 100\,\text{N/mm}",
     source="ISO 6336-1, face load factor: b_cal/b = [2 F/(b f c_gamma)]^(1/2) in partial contact, c_gamma = "
     "20 N/(mm um), w_r = 100 N/mm; joined smoothly to full contact",
     fingerprint={"load": "-", "roughness": "-"},

@@ -9,11 +9,13 @@ from mixedlub.effect import BetweenLog, Normal, Parameter, effect
     stage="load",
     acts_on="friction_torque",
     parameters=(
-        Parameter("cosine", "-", Normal(0.0, 0.3), "amplitude in phase with position zero, over T_c", null=0.0),
-        Parameter("sine", "-", Normal(0.0, 0.3), "amplitude a quarter period later, over T_c", null=0.0),
-        Parameter("order", "-", BetweenLog(0.8, 60.0), "pulsations a turn", scan=400),
+        Parameter(
+            "cosine", "-", Normal(0.0, 0.3), "amplitude in phase with position zero, over T_c", null=0.0, symbol="a"
+        ),
+        Parameter("sine", "-", Normal(0.0, 0.3), "amplitude a quarter period later, over T_c", null=0.0, symbol="b"),
+        Parameter("order", "-", BetweenLog(0.8, 60.0), "pulsations a turn", scan=400, symbol="N"),
     ),
-    equation=r"T_f \leftarrow T_f + T_c\,(a\cos N\varphi + b\sin N\varphi)",
+    equation=r"T_f \leftarrow T_f + T_c\,(a\cos N\phi + b\sin N\phi)",
     source="mesh-stiffness and eccentricity ripple, e.g. H. N. Ozguven, D. R. Houser, J. Sound Vib. 121 (1988) 383",
     fingerprint={"drive_angle": "0"},
     separated_by="readings against position at one speed: the ripple keeps its place on the wheel at any speed",

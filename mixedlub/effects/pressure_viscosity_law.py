@@ -32,11 +32,20 @@ LOW = 0.15e9
             null=0.0,
             symbol="B",
         ),
-        Parameter("down_with_temperature", "-", Normal(0.0, 0.5), "log change of the fall over 100 K, in 1/T"),
-        Parameter("up_with_temperature", "-", Normal(-0.8, 1.0), "log change of the rise over 100 K, in 1/T"),
+        Parameter(
+            "down_with_temperature", "-", Normal(0.0, 0.5), "log change of the fall over 100 K, in 1/T", symbol="c"
+        ),
+        Parameter(
+            "up_with_temperature", "-", Normal(-0.8, 1.0), "log change of the rise over 100 K, in 1/T", symbol="b"
+        ),
     ),
-    equation=r"\ln\frac{\eta}{\eta_0} \leftarrow \ln\frac{\eta}{\eta_0}\;"
-    r"\left[1 + (s - 1)(1 - e^{-p/p_s})\right]\frac{e^{Bp} - e^{-Cp}}{(B + C)\,p},\quad p_s = 0.15\,\text{GPa}",
+    equation=r"\ln\eta_p \leftarrow \ln\eta_p + G(f\ell) - G(\ell),\quad \ell = \ln\frac{\eta_p}{\eta_0},\ "
+    r"f = \left[1 + (s - 1)(1 - e^{-p_0/p_s})\right]\frac{e^{B'p_0} - e^{-C'p_0}}{(B' + C')\,p_0},\ "
+    r"p_s = 0.15\,\text{GPa},\quad "
+    r"B' = B e^{b z},\ C' = C e^{c z},\ "
+    r"z = \frac{\theta_{oil} - \theta_r}{100\,\text{K}}\,\frac{\theta_r}{\theta_{oil}},\ "
+    r"\theta_r = 313.15\,\text{K},\quad "
+    r"G(x) = \frac{x}{[1 + (x/g)^8]^{1/8}},\ g = \ln\frac{10^8\,\text{Pa s}}{\eta_0}",
     source="J. B. Irving, A. J. Barlow, J. Phys. E 4 (1971) 232, double exponential of pressure",
     fingerprint={"speed": "+"},
     separated_by="a high-pressure viscometer at two temperatures: an exponential is straight in a log plot, Roelands "

@@ -10,10 +10,13 @@ from mixedlub.laws.oil import roelands_viscosity
     stage="property",
     acts_on="contact_viscosity",
     parameters=(
-        Parameter("share", "-", LogNormal(1.0, 0.1), "share of the way from the exponential to Roelands", null=0.0),
+        Parameter(
+            "share", "-", LogNormal(1.0, 0.1), "share of the way from the exponential to Roelands", null=0.0, symbol="s"
+        ),
     ),
-    equation=r"\ln\eta \leftarrow (1 - s)\ln\eta + s\ln\eta_R,\quad "
-    r"\eta_R = \eta_0\exp\{(\ln\eta_0 + 9.67)[(1 + p/p_r)^Z - 1]\}",
+    equation=r"\ln\eta_p \leftarrow (1 - s)\ln\eta_p + s\ln\eta_R,\quad "
+    r"\eta_R = \eta_0\exp\{(\ln\eta_0 + 9.67)[(1 + p_0/p_r)^Z - 1]\},\quad "
+    r"Z = \frac{\alpha p_r}{\ln\eta_0 + 9.67},\ p_r = 0.196\,\text{GPa}",
     source="C. J. A. Roelands, thesis, Delft 1966, as written by L. Houpert, J. Tribol. 107 (1985) 241",
     fingerprint={"hertz_pressure": "-"},
     separated_by="a high-pressure viscometer beyond 0.4 GPa: Roelands bends down for good, many liquids bend up again",

@@ -7,9 +7,11 @@ from mixedlub.effect import Between, LogNormal, Normal, Parameter, effect
     stage="film",
     acts_on="film_thickness",
     parameters=(
-        Parameter("lay", "-", Normal(0.0, 0.4), "positive for ridges across the motion, negative along", null=0.0),
-        Parameter("onset", "-", LogNormal(0.4, 0.8), "film ratio at which ridges begin to matter"),
-        Parameter("decay", "-", Between(1.0, 2.2), "power with which it fades in thicker films"),
+        Parameter(
+            "lay", "-", Normal(0.0, 0.4), "positive for ridges across the motion, negative along", null=0.0, symbol="a"
+        ),
+        Parameter("onset", "-", LogNormal(0.4, 0.8), "film ratio at which ridges begin to matter", symbol=r"\lambda_r"),
+        Parameter("decay", "-", Between(1.0, 2.2), "power with which it fades in thicker films", symbol="k"),
     ),
     equation=r"h \leftarrow h\,\left[1 + \left(\frac{\lambda_r}{h/\sigma}\right)^{k}\right]^{a}",
     source="N. Patir, H. S. Cheng, J. Lubr. Technol. 100 (1978) 12: first order of the flow factor, phi_x = 1 "

@@ -9,9 +9,11 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
     stage="contact",
     acts_on=("m0", "m2", "m4"),
     parameters=(
-        Parameter("strength", "-", LogNormal(0.45, 0.6), "fall of the logarithm of m0 in the end", null=0.0),
-        Parameter("rate", "-", LogNormal(3.0, 1.0), "how many times over it settles within the programme"),
-        Parameter("texture", "-", Between(0.3, 2.5), "fall of slopes and curvatures over that of heights"),
+        Parameter(
+            "strength", "-", LogNormal(0.45, 0.6), "fall of the logarithm of m0 in the end", null=0.0, symbol="s"
+        ),
+        Parameter("rate", "-", LogNormal(3.0, 1.0), "how many times over it settles within the programme", symbol="k"),
+        Parameter("texture", "-", Between(0.3, 2.5), "fall of slopes and curvatures over that of heights", symbol="r"),
     ),
     equation=r"m_0 \leftarrow m_0 e^{-s g},\quad m_{2,4} \leftarrow m_{2,4} e^{-s r g},\quad g = 1 - e^{-k q}",
     source="I. V. Kragelsky, M. N. Dobychin, V. S. Kombalov, Friction and Wear: Calculation Methods, 1982: exponential "

@@ -10,12 +10,14 @@ _PIVOT = 20e-6
     stage="loss",
     acts_on="power_loss",
     parameters=(
-        Parameter("strength", "-", LogNormal(0.5, 1.0), "factor on the torque: size and number of lips", null=0.0),
-        Parameter("viscous", "-", Between(0.0, 0.6), "power of viscosity"),
+        Parameter(
+            "strength", "-", LogNormal(0.5, 1.0), "factor on the torque: size and number of lips", null=0.0, symbol="c"
+        ),
+        Parameter("viscous", "-", Between(0.0, 0.6), "power of viscosity", symbol="k"),
     ),
-    equation=r"P \leftarrow P + "
-    r"c\,T_s\,(\omega_1+\omega_2)\left(\frac{\nu}{20\,\text{mm}^2/\text{s}}\right)^{k},\quad T_s = "
-    r"7.34\times10^{-5}\,r_1^2\ (\text{N m, mm})",
+    equation=r"P_L \leftarrow P_L + "
+    r"c\,T_s\,(\omega_1+\omega_2)\left(\frac{\nu}{20\,\text{mm}^2/\text{s}}\right)^{k},\quad "
+    r"\nu = \frac{\eta_0}{\rho},\ T_s = 7.343\times10^{-5}\,r_1^2\ (\text{N m, mm})",
     source="ISO/TR 14179-2, P = 7.69e-6 d^2 n (k = 0); H. Linke, Stirnradverzahnung, 1996, lets it halve from "
     "40 to 90 C",
     fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "roughness": "-"},

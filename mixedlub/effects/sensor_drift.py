@@ -6,7 +6,9 @@ from mixedlub.effect import Parameter, Wide, effect
 @effect(
     stage="measurement",
     acts_on="reading",
-    parameters=(Parameter("drift", "-", Wide(0.05), "relative error at the end of the programme", null=0.0),),
+    parameters=(
+        Parameter("drift", "-", Wide(0.05), "relative error at the end of the programme", null=0.0, symbol="d"),
+    ),
     equation=r"y \leftarrow y\,(1 + d\,q)",
     source="measurement: scale error that grows in the course of the programme",
     fingerprint={"sequence": "+"},

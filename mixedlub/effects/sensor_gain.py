@@ -6,7 +6,7 @@ from mixedlub.effect import Parameter, Wide, effect
 @effect(
     stage="measurement",
     acts_on="reading",
-    parameters=(Parameter("gain", "-", Wide(0.05), "relative error of every reading", null=0.0),),
+    parameters=(Parameter("gain", "-", Wide(0.05), "relative error of every reading", null=0.0, symbol="g"),),
     equation=r"y \leftarrow y\,(1 + g)",
     source="measurement: scale error of a channel",
     fingerprint={"load": "0", "speed": "0", "oil_temperature": "0", "roughness": "0", "slide_roll_ratio": "0"},

@@ -6,7 +6,9 @@ from mixedlub.effect import Parameter, Wide, effect
 @effect(
     stage="measurement",
     acts_on="reading",
-    parameters=(Parameter("offset", "-", Wide(0.05), "added to every reading, over its typical size", null=0.0),),
+    parameters=(
+        Parameter("offset", "-", Wide(0.05), "added to every reading, over its typical size", null=0.0, symbol="a"),
+    ),
     equation=r"y \leftarrow y + a\,y_0",
     source="measurement: zero error of a channel",
     fingerprint={"load": "-", "roughness": "-", "slide_roll_ratio": "-"},

@@ -13,12 +13,21 @@ _SMALL = 1e-4
     stage="contact",
     acts_on="area_ratio",
     parameters=(
-        Parameter("skewness", "-", Normal(-0.6, 0.8), "skewness of the heights; negative for plateaus", null=0.0),
-        Parameter("narrowing", "-", Between(0.0, 0.6), "how far the summits' spread follows the plateau"),
+        Parameter(
+            "skewness",
+            "-",
+            Normal(-0.6, 0.8),
+            "skewness of the heights; negative for plateaus",
+            null=0.0,
+            symbol="S_{sk}",
+        ),
+        Parameter("narrowing", "-", Between(0.0, 0.6), "how far the summits' spread follows the plateau", symbol="n"),
     ),
-    equation=r"P_B \leftarrow P_B + \pi D R_s\sigma_s\,(w F_1^{\ast}(t/w) - F_1),\quad w = e^{n S_{sk}},\ "
-    r"F_1^{\ast} = \frac ck\bigl[y\,\Phi(d) - \Phi(d-k)\bigr],\ y = 1 - \frac{kt}{c},\ d = \frac{\ln y}{k} + \frac k2,"
-    r"\ c = \frac{k}{\sqrt{e^{k^2}-1}},\ S_{sk} = -(e^{k^2}+2)\sqrt{e^{k^2}-1}",
+    equation=r"P_B \leftarrow P_B + \pi D R_s\sigma_s\,[w F(t/w) - F_1(t)]\ (0 \leq P_B \leq 1),\quad "
+    r"w = e^{n S_{sk}},\quad "
+    r"F(t) = \frac{y\,\Phi(d) - \Phi(d-k)}{x}\ (y > 0;\ \text{otherwise}\ \max(-t, 0)),\ y = 1 - x t,\ "
+    r"d = \frac{\ln y}{k} + \frac{k}{2},\ k = \operatorname{sgn}(x)\sqrt{\ln(1 + x^2)},\ x^3 + 3x = -S_{sk},\quad "
+    r"F_1(t) = \int_t^\infty (z - t)\,\Phi'(z)\,dz",
     source="J. A. Greenwood, J. B. P. Williamson, Proc. R. Soc. A 295 (1966) 300, with lognormal heights "
     "(N. L. Johnson, Biometrika 36 (1949) 149, system S_L) in place of normal ones",
     fingerprint={"load": "+", "oil_temperature": "-", "roughness": "-", "slide_roll_ratio": "+"},

@@ -7,11 +7,18 @@ from mixedlub.effect import BetweenLog, LogNormal, Parameter, effect
     stage="film",
     acts_on="film_thickness",
     parameters=(
-        Parameter("strength", "-", LogNormal(0.5, 0.6), "power with which the film falls far above onset", null=0.0),
-        Parameter("onset", "N/m", BetweenLog(0.01, 1.0), "viscosity times speed at which oil runs short"),
-        Parameter("steepness", "-", LogNormal(2.5, 0.4), "how sharply starvation sets in"),
+        Parameter(
+            "strength",
+            "-",
+            LogNormal(0.5, 0.6),
+            "power with which the film falls far above onset",
+            null=0.0,
+            symbol="s",
+        ),
+        Parameter("onset", "N/m", BetweenLog(0.01, 1.0), "viscosity times speed at which oil runs short", symbol="c"),
+        Parameter("steepness", "-", LogNormal(2.5, 0.4), "how sharply starvation sets in", symbol=r"\gamma"),
     ),
-    equation=r"h \leftarrow h\,\bigl[1 + (\eta_0 u / c)^{\gamma}\bigr]^{-s/\gamma}",
+    equation=r"h \leftarrow h\,\left[1 + (\eta_0 u / c)^{\gamma}\right]^{-s/\gamma}",
     source="F. Chevalier, A. A. Lubrecht, P. M. E. Cann, F. Colin, G. Dalmaz, J. Tribol. 120 (1998) 126, with the "
     "supply taken as fixed; the onset follows P. M. E. Cann, B. Damiens, A. A. Lubrecht, Tribol. Int. 37 (2004) 859",
     fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "slide_roll_ratio": "-"},

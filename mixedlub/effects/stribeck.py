@@ -9,8 +9,14 @@ from mixedlub.effect import LogNormal, Parameter, effect
     stage="boundary",
     acts_on="running_friction",
     parameters=(
-        Parameter("excess", "-", LogNormal(0.3, 0.8), "static over Coulomb friction, less one", null=0.0),
-        Parameter("speed_share", "-", LogNormal(0.1, 1.0), "Stribeck speed over the largest speed of the recording"),
+        Parameter("excess", "-", LogNormal(0.3, 0.8), "static over Coulomb friction, less one", null=0.0, symbol="s"),
+        Parameter(
+            "speed_share",
+            "-",
+            LogNormal(0.1, 1.0),
+            "Stribeck speed over the largest speed of the recording",
+            symbol="q",
+        ),
     ),
     equation=r"T_r \leftarrow T_r + s\,T_c\,e^{-|\omega|/(q\,\omega_0)}\operatorname{sgn}\omega",
     source="B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, Automatica 30 (1994) 1083; exponent one as in "

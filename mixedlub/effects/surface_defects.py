@@ -6,7 +6,9 @@ from mixedlub.effect import LogNormal, Parameter, effect
 @effect(
     stage="contact",
     acts_on="area_ratio",
-    parameters=(Parameter("share", "-", LogNormal(0.01, 0.8), "share of the contact that always touches", null=0.0),),
+    parameters=(
+        Parameter("share", "-", LogNormal(0.01, 0.8), "share of the contact that always touches", null=0.0, symbol="c"),
+    ),
     equation=r"P_B \leftarrow P_B + c\,(1 - P_B)",
     source="geometry: defects that stand proud of the film touch whatever the film; size as of scratches and "
     "burrs of 1 %",

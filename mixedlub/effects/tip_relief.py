@@ -12,14 +12,21 @@ _TYPICAL = 2e5
     stage="load",
     acts_on="load_share",
     parameters=(
-        Parameter("relief", "m", LogNormal(15e-6, 0.6), "tip relief that the known load sharing lacks", null=0.0),
-        Parameter("length", "-", Between(0.05, 0.35), "length of the relief over the path of contact"),
-        Parameter("fade", "-", Between(0.0, 1.0), "power with which load takes it back, 1 for equal springs"),
+        Parameter(
+            "relief", "m", LogNormal(15e-6, 0.6), "tip relief that the known load sharing lacks", null=0.0, symbol="C_a"
+        ),
+        Parameter("length", "-", Between(0.05, 0.35), "length of the relief over the path of contact", symbol=r"\ell"),
+        Parameter(
+            "fade", "-", Between(0.0, 1.0), "power with which load takes it back, 1 for equal springs", symbol="f"
+        ),
     ),
-    equation=r"\frac{s'}{1-s'} = \frac{s}{1-s}\,e^{-2x(g - g')},\quad "
-    r"x = \frac{C_a c'}{w_r}\left(\frac{w_r b_w}{F_t}\right)^{f},\quad g = e^{-(\xi/\ell)^2} + e^{-((1-\xi)/\ell)^2}",
+    equation=r"s \leftarrow \frac{s\,e^{-z}}{1 - s_b\,(1 - e^{-z})},\quad "
+    r"s_b = \min(s\,b_w/b,\ 1),\ z = 2x\,[g(\xi) - g(\xi')],\quad "
+    r"x = \frac{C_a c'}{w_r}\left(\frac{w_r b_w}{F_t}\right)^{f},\ c' = 14\,\text{GPa},\ w_r = 200\,\text{N/mm},\quad "
+    r"g(\xi) = e^{-(\xi/\ell)^2} + e^{-((1-\xi)/\ell)^2},\ "
+    r"\xi' = \xi \pm 1/\epsilon_\alpha\ (+\ \text{where}\ \xi < \tfrac12)",
     source="load divides by compliance and gap (T. F. Conry, A. Seireg, J. Eng. Ind. 95 (1973) 1115) with c' "
-    "= 14 N/(mm um) (ISO 6336-1); the primed g is that of the other tooth pair in contact",
+    "= 14 N/(mm um) (ISO 6336-1); xi' is the place of the other tooth pair in contact",
     fingerprint={"load": "+", "speed": "-", "roughness": "+"},
     separated_by="the load share itself, from strain gauges or transmission error; the effect fades with torque, "
     "that of a heat leak does not",

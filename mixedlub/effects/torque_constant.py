@@ -9,10 +9,12 @@ from mixedlub.effect import LogNormal, Normal, Parameter, effect
     stage="measurement",
     acts_on="reading",
     parameters=(
-        Parameter("error", "-", Normal(0.0, 0.08), "share by which the assumed constant is too high", null=0.0),
-        Parameter("fall", "-", LogNormal(0.08, 0.8), "further share lost at the largest torque", null=0.0),
+        Parameter(
+            "error", "-", Normal(0.0, 0.08), "share by which the assumed constant is too high", null=0.0, symbol="a"
+        ),
+        Parameter("fall", "-", LogNormal(0.08, 0.8), "further share lost at the largest torque", null=0.0, symbol="f"),
     ),
-    equation=r"y \leftarrow y + T_m\,(e + f\,|T_m|/T_{m0})",
+    equation=r"y \leftarrow y + T_m\,(a + f\,|T_m|/T_{m0})",
     source="saturation of the iron, e.g. J. R. Hendershot, T. J. E. Miller, Design of Brushless Permanent-Magnet "
     "Machines, 2010, chapter 7",
     fingerprint={"motor_torque": "+"},

@@ -7,7 +7,14 @@ from mixedlub.effect import Parameter, Wide, effect
     stage="measurement",
     acts_on="reading",
     parameters=(
-        Parameter("offset", "-", Wide(5e-4), "torque read at no torque, over the largest torque recorded", null=0.0),
+        Parameter(
+            "offset",
+            "-",
+            Wide(5e-4),
+            "torque read at no torque, over the largest torque recorded",
+            null=0.0,
+            symbol="a",
+        ),
     ),
     equation=r"y \leftarrow y + a\,T_m\,\omega_1",
     source="power from torque times speed: an error of torque becomes one of power; a meter's zero is good to a share "

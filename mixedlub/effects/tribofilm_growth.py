@@ -11,11 +11,22 @@ SOFTNESS = 0.2
     stage="boundary",
     acts_on="boundary_friction",
     parameters=(
-        Parameter("change", "-", Normal(0.3, 0.5), "relative change of friction under a complete film", null=0.0),
-        Parameter("time_constant", "-", LogNormal(0.3, 0.9), "share of the programme to cover 63 % of what is bare"),
-        Parameter("induction", "-", LogNormal(0.02, 1.2), "share of the programme before the film starts"),
+        Parameter(
+            "change", "-", Normal(0.3, 0.5), "relative change of friction under a complete film", null=0.0, symbol="c"
+        ),
+        Parameter(
+            "time_constant",
+            "-",
+            LogNormal(0.3, 0.9),
+            "share of the programme to cover 63 % of what is bare",
+            symbol="q_c",
+        ),
+        Parameter(
+            "induction", "-", LogNormal(0.02, 1.2), "share of the programme before the film starts", symbol="q_i"
+        ),
     ),
-    equation=r"\mu_B \leftarrow \mu_B\,(1 + c\,\theta),\quad \theta = 1 - e^{-\langle q - q_i\rangle/q_c}",
+    equation=r"\mu_B \leftarrow \mu_B\,(1 + c\,\theta),\quad \theta = 1 - e^{-g/q_c},\quad "
+    r"g = w\ln\frac{1 + e^{(q - q_i)/w}}{1 + e^{-q_i/w}},\ w = 0.2\,q_i",
     source="coverage of the first order after an induction time: H. Fujita, H. A. Spikes, Proc. IMechE J 218 (2004) "
     "265, films of zinc dithiophosphate and their friction",
     fingerprint={"sequence": "+"},

@@ -9,14 +9,33 @@ from mixedlub.effect import LogNormal, Normal, Parameter, effect
     stage="boundary",
     acts_on="boundary_friction",
     parameters=(
-        Parameter("passing", "-", Normal(0.0, 0.15), "relative change at the height of the passing state", null=0.0),
-        Parameter("lasting", "-", Normal(0.0, 0.5), "relative change that the slow state ends at", null=0.0),
         Parameter(
-            "passing_time", "-", LogNormal(0.04, 0.8), "share of the programme at which the fast state is highest"
+            "passing",
+            "-",
+            Normal(0.0, 0.15),
+            "relative change at the height of the passing state",
+            null=0.0,
+            symbol="a",
         ),
-        Parameter("lasting_time", "-", LogNormal(0.7, 0.8), "share of the programme for 63 % of the slow change"),
         Parameter(
-            "gathering", "-", LogNormal(1.4, 0.4), "exponent of Avrami: 1 at full pace from the start, above: later"
+            "lasting", "-", Normal(0.0, 0.5), "relative change that the slow state ends at", null=0.0, symbol="b"
+        ),
+        Parameter(
+            "passing_time",
+            "-",
+            LogNormal(0.04, 0.8),
+            "share of the programme at which the fast state is highest",
+            symbol="q_1",
+        ),
+        Parameter(
+            "lasting_time", "-", LogNormal(0.7, 0.8), "share of the programme for 63 % of the slow change", symbol="q_2"
+        ),
+        Parameter(
+            "gathering",
+            "-",
+            LogNormal(1.4, 0.4),
+            "exponent of Avrami: 1 at full pace from the start, above: later",
+            symbol="m",
         ),
     ),
     equation=r"\mu_B \leftarrow \mu_B\,[1 + a\,x e^{1 - x} + b(1 - e^{-(q/q_2)^m})],\quad x = q/q_1",

@@ -12,11 +12,18 @@ KELVIN = 100.0
     stage="property",
     acts_on="viscosity",
     parameters=(
-        Parameter("drift", "-", Normal(0.0, 0.2), "log change of viscosity over the programme at 40 degC", null=0.0),
-        Parameter("power", "-", LogNormal(1.0, 0.4), "1: steady, above: it gathers pace"),
-        Parameter("cold_gain", "-", Normal(0.5, 1.5), "log growth of the drift over 100 K of cooling"),
+        Parameter(
+            "drift",
+            "-",
+            Normal(0.0, 0.2),
+            "log change of viscosity over the programme at 40 degC",
+            null=0.0,
+            symbol="d",
+        ),
+        Parameter("power", "-", LogNormal(1.0, 0.4), "1: steady, above: it gathers pace", symbol="m"),
+        Parameter("cold_gain", "-", Normal(0.5, 1.5), "log growth of the drift over 100 K of cooling", symbol="k"),
     ),
-    equation=r"\eta_0 \leftarrow \eta_0\,e^{d\,q^m e^{k(40\,^\circ\mathrm{C} - \theta)/100\,\mathrm{K}}}",
+    equation=r"\eta_0 \leftarrow \eta_0\,e^{d\,q^m e^{k(40\,^\circ\text{C} - \theta_{oil})/100\,\text{K}}}",
     source="evaporation, oxidation or shear-down as a steady relative rate; e.g. ASTM D445 on used oils reports it so",
     fingerprint={"sequence": "-"},
     separated_by="the first point repeated at the end, and a fresh sample under a solvent trap: what the trap stops is "

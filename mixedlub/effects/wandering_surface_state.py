@@ -17,10 +17,11 @@ TERMS = 12
             Normal(0.0, 0.3 / k),
             f"share of friction that swings {k / 2:g} times in the programme",
             null=0.0,
+            symbol=f"a_{{{k}}}",
         )
         for k in range(1, TERMS + 1)
     ),
-    equation=r"\mu_B \leftarrow \mu_B\,\exp\sum_k a_k\cos(k\pi q)",
+    equation=r"\mu_B \leftarrow \mu_B\,\exp\sum_{k=1}^{12} a_k\cos(k\pi q)",
     source="empirical: a cosine series, the most general history without a law; films that form and wear off in turn "
     "are described by H. Fujita, H. A. Spikes, Proc. IMechE J 218 (2004) 265",
     fingerprint={"sequence": "0"},

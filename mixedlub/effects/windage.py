@@ -10,11 +10,14 @@ _PIVOT = 15.0
     stage="loss",
     acts_on="power_loss",
     parameters=(
-        Parameter("strength", "-", LogNormal(1.5, 1.2), "factor: walls, and oil in the air", null=0.0),
-        Parameter("exponent", "-", Between(2.5, 3.0), "power of speed"),
+        Parameter("strength", "-", LogNormal(1.5, 1.2), "factor: walls, and oil in the air", null=0.0, symbol="c"),
+        Parameter("exponent", "-", Between(2.5, 3.0), "power of speed", symbol="k"),
     ),
-    equation=r"P \leftarrow P + c\sum_i \tfrac12 C_t\rho\omega_i^3 r_i^5\left(\frac{v}{15\,\text{m/s}}\right)^{k-2.75},"
-    r"\quad C_t = 81.4\,Re^{-0.25}\left(\frac{b}{r_i}\right)^{0.8} z_i^{-0.4}",
+    equation=r"P_L \leftarrow P_L + \chi c\left(\frac{r_1\omega_1}{15\,\text{m/s}}\right)^{k-2.75}\,"
+    r"\sum_{i=1,2} \tfrac12 C_i\rho_a\omega_i^3 r_i^5,\quad "
+    r"C_i = 81.4\,\mathrm{Re}_i^{-0.25}\,\left(\frac{b_w}{r_i}\right)^{0.8} z_i^{-0.4},\ "
+    r"\mathrm{Re}_i = \rho_a\omega_i r_i^2/\eta_a,\quad "
+    r"\rho_a = 1.2\,\text{kg/m}^3,\ \eta_a = 1.8\times10^{-5}\,\text{Pa s}",
     source="Y. Diab, F. Ville, P. Velex, C. Changenet, J. Mech. Des. 126 (2004) 903; power 2.9 after P. H. Dawson, "
     "Proc. IMechE A 198 (1984) 51, 2.8 after N. E. Anderson, S. H. Loewenthal, NASA TP-1622, 1980",
     fingerprint={"load": "-", "speed": "+", "oil_temperature": "0", "roughness": "-"},

@@ -8,7 +8,12 @@ from mixedlub.effect import Normal, Parameter, effect
     acts_on="reading",
     parameters=(
         Parameter(
-            "drift", "-", Normal(0.0, 0.1), "change of the zero over the programme, over the typical reading", null=0.0
+            "drift",
+            "-",
+            Normal(0.0, 0.1),
+            "change of the zero over the programme, over the typical reading",
+            null=0.0,
+            symbol="d",
         ),
     ),
     equation=r"y \leftarrow y + d\,y_0\,q",

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 SIZE = 17.0
 
 _SMALL_FRACTION = re.compile(r"\\tfrac(?:(\d)(\d))?")
+_TEXT = re.compile(r"\\text\{([^{}]*)\}")
 _GROWING = re.compile(r"\\(?:left|right)(?![A-Za-z])")
 
 
@@ -49,10 +50,13 @@ def _simplified(tex: str) -> str:
     '\\frac{4}{3} E'
     >>> _simplified(r"h \leftarrow \left(h\right)")
     'h \\leftarrow (h)'
+    >>> _simplified(r"1\,\text{Pa s}")
+    '1\\,\\mathrm{Pa\\ s}'
     """
     tex = re.sub(r"\\sqrt\s*(\d)", r"\\sqrt{\1}", tex)
     tex = _SMALL_FRACTION.sub(lambda m: rf"\frac{{{m[1]}}}{{{m[2]}}}" if m[1] else r"\frac", " ".join(tex.split()))
-    return _GROWING.sub("", tex.replace(r"\text{", r"\mathrm{")).replace(r"\!", "")
+    tex = _TEXT.sub(lambda m: r"\mathrm{" + m[1].replace(" ", r"\ ") + "}", tex)
+    return _GROWING.sub("", tex).replace(r"\!", "")
 
 
 def _drawing(path: Path) -> str:

@@ -54,7 +54,9 @@ def plain_equation(latex: str) -> str:
         under, end = _argument(text, rest)
         ratio = "½" if (over, under) == ("1", "2") else f"{_bracketed(over)}/{_bracketed(under)}"
         before = re.sub(r"(\\quad|\\,|\\;|\\ )\s*$", "", text[: found.start()].rstrip()).rstrip()
-        if ratio != "½" and before and before[-1] not in "=,([{+-<>" and not before.endswith(r"\leftarrow"):
+        after = re.sub(r"^(\\,|\\;|\s)+", "", text[end:])
+        alone = not before or before[-1] in "=,([{+-<>" or before.endswith(r"\leftarrow")
+        if ratio != "½" and not (alone and re.match(r"$|[-+=,)\]}]|\\(quad|pm|text|leq?|geq?| )", after)):
             ratio = f"({ratio})"
         text = f"{text[: found.start()]}{ratio}{text[end:]}"
     text = re.sub(r"\\bar\s*\{?\s*(\w)\}?", "\\1\u0304", text)
@@ -67,8 +69,27 @@ def plain_equation(latex: str) -> str:
     text = re.sub(r"(_\s*\{(?=[^\W\d_]+\})|[_^]\s*\{(?=(?:\w|\*|-?[\d.]+)\}))([^}]*)\}", lambda m: m[1][0] + m[2], text)
     text = text.replace("{", "(").replace("}", ")")
     text = re.sub(r"(?<=[(\[]) +| +(?=[)\],^_])", "", re.sub(r" +", " ", text))
-    text = re.sub(r"\b(a?sinh|cosh|tanh|sin|cos|ln|log|exp|sgn) (?=[(\[])", r"\1", text)
+    text = re.sub(r"\b(a?sinh|cosh|tanh|sin|cos|ln|log|exp|sgn|min|max) (?=[(\[])", r"\1", text)
+    text = re.sub(r" ?/ ?", "/", text)
     return text.replace(" ~", "  ").replace("~", " ").replace("° C", "°C").strip()
+
+
+def plain_symbol(symbol: str) -> str:
+    """A symbol of the glossary as equations in a line of text have it.
+
+    >>> plain_symbol("omega_1"), plain_symbol("E'"), plain_symbol("epsilon_alpha")
+    ('ω_1', "E'", 'ε_α')
+    """
+    return re.sub(r"[A-Za-z]+", lambda m: GREEK.get(m[0], m[0]), symbol)
+
+
+def with_symbol(name: str, symbol: str) -> str:
+    """A name followed by the letter that stands for it.
+
+    >>> with_symbol("coefficient", "Λ"), with_symbol("path", "")
+    ('coefficient (Λ)', 'path')
+    """
+    return f"{name} ({symbol})" if symbol else name
 
 
 def _argument(text: str, start: int) -> tuple[str, int]:

@@ -175,6 +175,8 @@ def test_no_useful_test_is_said(offset: Diagnosis) -> None:
         (r"\pi D R_s\sigma_s", "π D R_s σ_s"),
         (r"\beta\eta_0\Delta\theta", "β η_0 Δθ"),
         (r"\tfrac12\rho\,\bigl[1 + s\operatorname{sgn}\omega\bigr]", "½ρ [1 + s sgn ω]"),
+        (r"x = \frac{a}{b}\,c,\ y = \frac{a}{b}", "x = (a/b) c, y = a/b"),
+        (r"\max\left(a,\ 20\,\text{mm}^2/\text{s}\right)", "max(a, 20 mm^2/s)"),
     ],
 )
 def test_equations_are_readable_without_latex(latex: str, plain: str) -> None:
