@@ -21,7 +21,9 @@ def command(
         Path | None, typer.Option(metavar="DIR", help="Folder for the score table; default out/prove/battery.")
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help=f"{QUICK} cases and no baselines instead of all.")] = False,
-    seed: Annotated[int, typer.Option(metavar="N", min=0, help="Which battery: every seed deals other cases.")] = 440917,
+    seed: Annotated[
+        int, typer.Option(metavar="N", min=0, help="Which battery: every seed deals other cases.")
+    ] = 440917,
     cases: Annotated[int, typer.Option(metavar="N", min=5, help="How many cases to deal.")] = FULL,
     jobs: Annotated[int, typer.Option(metavar="N", min=1, help="Cases at a time.")] = 2,
 ) -> None:
