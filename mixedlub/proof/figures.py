@@ -81,9 +81,10 @@ def reliability(scores: Sequence[Score]) -> Figure:
         given = [row[1] for row in one.reliability]
         so = [row[2] for row in one.reliability]
         axes.plot(given, so, label=one.tool, **_line(place))
-    for _, given_mean, so_mean, count in scores[0].reliability:
-        axes.annotate(str(count), (given_mean, so_mean), (5, -11), textcoords="offset points", fontsize=7.5)
-    axes.set(xlabel="probability given (-)", ylabel="share that was so (-)", xlim=(-0.03, 1.03), ylim=(-0.03, 1.03))
+    for place, (_, given_mean, so_mean, count) in enumerate(scores[0].reliability):
+        below = {"xytext": (6, -10), "ha": "left"} if place % 2 else {"xytext": (-6, 6), "ha": "right"}
+        axes.annotate(str(count), (given_mean, so_mean), textcoords="offset points", fontsize=7.5, **below)
+    axes.set(xlabel="probability given (-)", ylabel="share that was so (-)", xlim=(-0.12, 1.1), ylim=(-0.06, 1.06))
     axes.set_title("Reliability of the probabilities", fontsize=11)
     axes.legend(frameon=False, fontsize=8.5)
     return figure
@@ -98,7 +99,9 @@ def identification(scores: Sequence[Score]) -> Figure:
         right = [row[2] for row in one.identification]
         axes.plot(seen, right, label=one.tool, **_line(place))
     for _, seen_mean, right_mean, count in scores[0].identification:
-        axes.annotate(f"n={count}", (seen_mean, right_mean), (4, -12), textcoords="offset points", fontsize=7.5)
+        below = {"xytext": (0, -13), "textcoords": "offset points", "fontsize": 7.5, "ha": "center"}
+        axes.annotate(f"n={count}", (seen_mean, right_mean), **below)
+    axes.margins(x=0.08)
     axes.set(
         xlabel="visibility: root of the chi-square that recalibration leaves (-)",
         ylabel="named rightly (-)",
@@ -124,8 +127,8 @@ def confusion(score: Score) -> Figure:
     for i, j in zip(*np.nonzero(counts)):
         color = "white" if share[i, j] > 0.6 else INK
         axes.text(j, i, f"{counts[i, j]:.0f}", ha="center", va="center", fontsize=7, color=color)
-    axes.set_xticks(range(len(said)), said, rotation=90, fontsize=7)
-    axes.set_yticks(range(len(truths)), truths, fontsize=7)
+    axes.set_xticks(range(len(said)), [name.replace("_", " ") for name in said], rotation=90, fontsize=7)
+    axes.set_yticks(range(len(truths)), [name.replace("_", " ") for name in truths], fontsize=7)
     axes.set(xlabel="verdict", ylabel="hidden")
     axes.set_title(f"Hidden against named, cases ({score.tool})", fontsize=10)
     return figure
