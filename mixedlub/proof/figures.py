@@ -82,8 +82,8 @@ def reliability(scores: Sequence[Score]) -> Figure:
         so = [row[2] for row in one.reliability]
         axes.plot(given, so, label=one.tool, **_line(place))
     for place, (_, given_mean, so_mean, count) in enumerate(scores[0].reliability):
-        below = {"xytext": (6, -10), "ha": "left"} if place % 2 else {"xytext": (-6, 6), "ha": "right"}
-        axes.annotate(str(count), (given_mean, so_mean), textcoords="offset points", fontsize=7.5, **below)
+        beside: dict[str, Any] = {"xytext": (6, -10), "ha": "left"} if place % 2 else {"xytext": (-6, 6), "ha": "right"}
+        axes.annotate(str(count), (given_mean, so_mean), textcoords="offset points", fontsize=7.5, **beside)
     axes.set(xlabel="probability given (-)", ylabel="share that was so (-)", xlim=(-0.12, 1.1), ylim=(-0.06, 1.06))
     axes.set_title("Reliability of the probabilities", fontsize=11)
     axes.legend(frameon=False, fontsize=8.5)
@@ -99,8 +99,10 @@ def identification(scores: Sequence[Score]) -> Figure:
         right = [row[2] for row in one.identification]
         axes.plot(seen, right, label=one.tool, **_line(place))
     for _, seen_mean, right_mean, count in scores[0].identification:
-        below = {"xytext": (0, -13), "textcoords": "offset points", "fontsize": 7.5, "ha": "center"}
-        axes.annotate(f"n={count}", (seen_mean, right_mean), **below)
+        place_below = (0, -13)
+        axes.annotate(
+            f"n={count}", (seen_mean, right_mean), place_below, textcoords="offset points", fontsize=7.5, ha="center"
+        )
     axes.margins(x=0.08)
     axes.set(
         xlabel="visibility: root of the chi-square that recalibration leaves (-)",
