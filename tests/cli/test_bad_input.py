@@ -149,7 +149,7 @@ def test_mangled_case_never_gives_a_traceback(capsys, seed, command):
 
 SPOILT = {
     "semicolons": ("recordings.csv", ",", ";", "recordings.csv: ';': columns are separated by commas"),
-    "name of a column": ("recordings.csv", "speed_rpm", "speed", "'speed_rpm' is missing; nearest known: 'speed'"),
+    "name of a column": ("recordings.csv", "speed_rpm", "speed", "'speed_rpm' is missing; the file has 'speed'"),
     "no number": ("recordings.csv", "2,50,", "2,x,", "recordings.csv: line 3, torque_Nm: 'x': torque_Nm must be"),
     "NaN": ("recordings.csv", "2,50,", "2,nan,", "line 3, torque_Nm: 'nan': torque_Nm must be a finite number"),
     "negative torque": ("recordings.csv", "2,50,", "2,-50,", "line 3, torque_Nm: -50.0: torque_Nm must be above 0"),
