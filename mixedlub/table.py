@@ -159,7 +159,9 @@ def _instead(column: Column, unknown: list[str]) -> str:
     if other:
         return f"; the file has {other!r}: {_CONVERTED}"
     close = difflib.get_close_matches(column.name, unknown, n=1, cutoff=0.5)
-    return f"; the file has {close[0]!r}" if close else f"; the file has {', '.join(map(repr, unknown))}, not known here"
+    return (
+        f"; the file has {close[0]!r}" if close else f"; the file has {', '.join(map(repr, unknown))}, not known here"
+    )
 
 
 def _other_unit(column: Column, unknown: list[str]) -> str | None:

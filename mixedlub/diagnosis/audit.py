@@ -91,8 +91,8 @@ def _stuck(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str
     runs = [str(run) for run in rows["run"][same][:STUCK_ROWS]]
     more = "" if len(runs) == counts[most] else ", ..."
     return [
-        f"{counts[most]} of {y.size} readings are exactly {values[most]:g} though {', '.join(varied)} vary: check for a "
-        f"channel that was stuck or filled in (runs {', '.join(runs)}{more})"
+        f"{counts[most]} of {y.size} readings are exactly {values[most]:g} though {', '.join(varied)} vary: check for "
+        f"a channel that was stuck or filled in (runs {', '.join(runs)}{more})"
     ]
 
 
