@@ -195,7 +195,7 @@ def _kind(k: Kind) -> Iterator[str]:
     about = (importlib.import_module(f"mixedlub.kinds.{k.name}").__doc__ or "").splitlines()[0]
     yield f"{k.name}: {about[:1].lower()}{about[1:].rstrip('.')}"
     yield f"  needs {_tables(k.sections) or 'no section but [recording]'}" + (
-        f"; uses {_tables(USED[k.name])}" if k.name in USED else ""
+        f"; uses where given {_tables(USED[k.name])}" if k.name in USED else ""
     )
     if k.part_rigs:
         yield f"  readings of the rig {' or '.join(k.part_rigs)} are compared with a part of the base model"
@@ -270,7 +270,9 @@ def _title(section: str, told: bool) -> Iterator[str]:
     used = [n for n in KINDS if first in USED.get(n, ())]
     if told and section in (first, _NAMED.get(first)):
         yield from (
-            f"  {word} {', '.join(names)}" for word, names in (("needed by", needed), ("used by", used)) if names
+            f"  {word} {', '.join(names)}"
+            for word, names in (("needed by", needed), ("used where given by", used))
+            if names
         )
 
 
