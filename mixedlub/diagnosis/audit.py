@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.case import Case
+from mixedlub.diagnosis.features import PASSING
 from mixedlub.diagnosis.noise import is_stated, noise_from_repeats
 from mixedlub.forward import Forward
 from mixedlub.table import Table
@@ -19,8 +20,6 @@ STUCK_ROWS, STUCK_SHARE = 5, 0.2
 """A value that stands in so many rows, and in such a share of them, is looked at."""
 STUCK_STEPS, STUCK_SPAN = 3.0, 0.05
 """Where the base model changes by more steps of the reading than that, and by such a share of its size, it is stuck."""
-FREE = ("time_s", "position_deg")
-"""Columns that pass on while the conditions are held."""
 
 
 def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]:
@@ -84,7 +83,7 @@ def _stuck(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str
     span = float(np.ptp(base[same]))
     if span <= max(STUCK_STEPS * float(np.min(np.diff(values))), STUCK_SPAN * float(np.median(np.abs(base)))):
         return []
-    names = [c.name for c in case.kind.columns if c.name in rows and c.name not in FREE]
+    names = [c.name for c in case.kind.columns if c.name in rows and c.name not in PASSING]
     varied = [name for name in names if np.unique(rows[name][same]).size > 1]
     if not varied:
         return []
