@@ -66,8 +66,9 @@ def named_file(folder: Path, name: str, key: str) -> Path:
     """A file named in a case or study, relative to its folder."""
     path = folder / name
     if not path.is_file():
-        near = sorted(p.name for p in folder.glob("*") if p.is_file())
-        raise InputError(f"no such file in {folder}; {nearest(name, near)}", where=key, value=name)
+        near = sorted(p.name for p in path.parent.glob("*") if p.is_file())
+        hint = f"; {nearest(path.name, near)}" if near else "; the file that names it may say where it comes from"
+        raise InputError(f"no such file in {folder}{hint}", where=key, value=name)
     return path
 
 

@@ -53,16 +53,17 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
     """Read and check a case folder."""
     if not folder.is_dir():
         raise InputError("no such case folder", where=str(folder))
-    system = config.parse(config.System, config.read_toml(folder / "system.toml"), "system.toml")
+    file = folder / "system.toml"
+    system = config.parse(config.System, config.read_toml(file), str(file))
     found = kind(system.kind)
     for section in found.sections:
         if not getattr(system, section):
-            raise InputError(f"a case of kind {system.kind!r} needs the section [{section}]", where="system.toml")
+            raise InputError(f"a case of kind {system.kind!r} needs the section [{section}]", where=str(file))
     quantity = system.recording.quantity
     if quantity not in found.quantities:
         raise InputError(
             f"a case of kind {system.kind!r} records {' or '.join(found.quantities)}",
-            where="system.toml: recording.quantity",
+            where=f"{file}: recording.quantity",
             value=quantity,
         )
     notes: list[str] = []
@@ -84,7 +85,7 @@ def _read(path: Path, found: Kind, quantity: str | None, system: config.System, 
     if quantity is not None and np.ptp(table[quantity]) == 0 and len(table) > 2:
         raise InputError(
             "all readings are the same number; a stuck channel cannot be diagnosed",
-            where=f"{path.name}: {quantity}",
+            where=f"{path}: {quantity}",
             value=float(table[quantity][0]),
         )
     return table

@@ -13,12 +13,12 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import typer
 
-from mixedlub.commands import check, diagnose, effects, import_files, profile, prove, simulate, study
+from mixedlub.commands import check, diagnose, effects, import_files, kinds, profile, prove, simulate, study
 from mixedlub.commands.output import drop_empty_folders, forget_folder, note, save_traceback, say
 from mixedlub.refusal import of_option
 from profiles.errors import InputError, nearest
 
-COMMANDS = (profile, study, simulate, diagnose, check, import_files, effects, prove)
+COMMANDS = (profile, study, simulate, diagnose, check, import_files, kinds, effects, prove)
 
 app = typer.Typer(add_completion=False, no_args_is_help=False, rich_markup_mode=None, pretty_exceptions_enable=False)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import difflib
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -94,15 +95,15 @@ class Table:
 
 def read_table(path: Path, columns: tuple[Column, ...], *, key: str | None = "run") -> Table:
     """Read a CSV with the given columns, ``key`` unique; others are ignored with a warning."""
-    where = path.name
+    where = str(path)
     try:
         text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
-        raise InputError("no such file", where=str(path)) from None
+        raise InputError("no such file", where=where) from None
     except UnicodeDecodeError:
-        raise InputError("is not text in UTF-8", where=str(path)) from None
+        raise InputError("is not text in UTF-8", where=where) from None
     except OSError as error:
-        raise InputError(f"cannot be read ({error.strerror})", where=str(path)) from None
+        raise InputError(f"cannot be read ({error.strerror})", where=where) from None
     if "\0" in text:
         raise InputError("is not a text table", where=where)
     try:
@@ -123,11 +124,13 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: str | None = "ru
     unknown = [name for name in header if name and name not in known]
     for column in columns:
         if column.required and column.name not in header:
-            hint = f"; {nearest(column.name, unknown)}" if unknown else ""
-            raise InputError(f"column {column.name!r} is missing{hint}", where=f"{where}: header")
+            raise InputError(f"column {column.name!r} is missing{_instead(column, unknown)}", where=f"{where}: header")
     if unknown:
+        absent = [column for column in columns if column.name not in header]
+        converted = [other for column in absent if (other := _other_unit(column, unknown))]
+        told = f"; {_CONVERTED} ({', '.join(converted)})" if converted else ""
         warnings.warn(
-            f"{where}: columns ignored because they are not known: {', '.join(unknown)}",
+            f"{path.name}: columns ignored because they are not known: {', '.join(unknown)}{told}",
             CaseWarning,
             stacklevel=2,
         )
@@ -138,7 +141,38 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: str | None = "ru
             again = np.setdiff1d(np.arange(cells[key].size), first)[0]
             place = f"{where}: line {lines[again + 1][0]}, {key}"
             raise InputError(f"{key} must be unique", where=place, value=int(cells[key][again]))
-    return Table(cells, where)
+    return Table(cells, path.name)
+
+
+_CONVERTED = "units are not converted here; `mixedlub import` does"
+
+
+def _instead(column: Column, unknown: list[str]) -> str:
+    """What the file has where a column is missing: the same in another unit, a name like it, or other names.
+
+    >>> _instead(Column("speed_rpm"), ["sped_rpm", "colour"]), _instead(Column("speed_rpm"), ["speed_rad_s"])
+    ("; the file has 'sped_rpm'", "; the file has 'speed_rad_s': units are not converted here; `mixedlub import` does")
+    """
+    if not unknown:
+        return ""
+    other = _other_unit(column, unknown)
+    if other:
+        return f"; the file has {other!r}: {_CONVERTED}"
+    close = difflib.get_close_matches(column.name, unknown, n=1, cutoff=0.5)
+    return (
+        f"; the file has {close[0]!r}" if close else f"; the file has {', '.join(map(repr, unknown))}, not known here"
+    )
+
+
+def _other_unit(column: Column, unknown: list[str]) -> str | None:
+    """The header that is the column in another unit, one that the import converts."""
+    from mixedlub.importers.columns import UNITS, split, target_of, tidy
+
+    for name in unknown:
+        unit, target = split(name)[1], target_of(name)
+        if target is not None and target.name == column.name and unit and tidy(unit) in UNITS[target.unit]:
+            return name
+    return None
 
 
 def _parse(

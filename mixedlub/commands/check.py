@@ -10,6 +10,7 @@ import numpy as np
 import typer
 
 from mixedlub.commands.output import case_folder, note, say, within_range
+from profiles.errors import InputError
 
 if TYPE_CHECKING:
     from mixedlub.calibration import Calibration
@@ -52,6 +53,7 @@ def understood(case: Case) -> Iterator[str]:
     yield from bodies
     yield from _tables(case)
     yield from _uncertain(case, () if forward is None else forward.calibrations)
+    yield from _audit(case, forward)
     yield "Assumed:" if notes else "Assumed: nothing beyond what the files say."
     yield from (f"  {text}" for text in notes)
 
@@ -132,6 +134,23 @@ def _uncertain(case: Case, movable: Sequence[Calibration]) -> Iterator[str]:
         yield f"Noise of a reading: {noise.relative:g} of its value and {noise.absolute:g} in its unit."
     if noise is not None and (noise.setup_relative > 0 or noise.setup_absolute > 0):
         yield f"Shared within a set-up: {noise.setup_relative:g} of its value and {noise.setup_absolute:g} in its unit."
+
+
+def _audit(case: Case, forward: Forward | None) -> Iterator[str]:
+    """What is doubtful about the readings, or why they cannot be diagnosed."""
+    from mixedlub.diagnosis.audit import doubts
+
+    if case.recordings is None or forward is None:
+        return
+    readings = np.asarray(case.recordings[case.quantity], dtype=float)
+    try:
+        found = doubts(case, case.recordings, readings, forward)
+    except InputError as error:
+        yield f"Cannot be diagnosed: {error}."
+        return
+    if found:
+        yield "Doubtful:"
+        yield from (f"  {text}." for text in found)
 
 
 def _forward(case: Case) -> Forward | None:

@@ -74,7 +74,8 @@ def within_range(where: str) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        raise in_file(error, "system.toml") from None
+        file = Path(where) / "system.toml" if Path(where).is_dir() else Path(where)
+        raise in_file(error, str(file)) from None
     except ArithmeticError as error:
         raise InputError(f"has numbers too large or too small to compute with ({error})", where=where) from None
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.case import Case
+from mixedlub.diagnosis.features import PASSING
 from mixedlub.diagnosis.noise import is_stated, noise_from_repeats
 from mixedlub.forward import Forward
 from mixedlub.table import Table
@@ -12,13 +13,24 @@ from profiles.errors import InputError
 
 FEWEST = 5
 SCARCE = 30
-UNIT_SLIPS = {1e3: "thousand", 1e-3: "thousandth", 1e6: "million", 1e-6: "millionth"}
+UNIT_SLIPS = {1e3: "a thousand times", 1e-3: "a thousandth of", 1e6: "a million times", 1e-6: "a millionth of"}
+SLIP_WITHIN = 2.0
+"""How far a slip of the unit may be off its power of ten: the base model itself is that good."""
+STUCK_ROWS, STUCK_SHARE = 5, 0.2
+"""A value that stands in so many rows, and in such a share of them, is looked at."""
+STUCK_STEPS, STUCK_SPAN = 3.0, 0.05
+"""Where the base model changes by more steps of the reading than that, and by such a share of its size, it is stuck."""
 
 
 def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]:
     """What the user should know of the recording; an error where it cannot be what it is labelled."""
+    return [*doubts(case, rows, y, forward), *_noise_source(case, rows, y)]
+
+
+def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]:
+    """What speaks against the recording; an error where it cannot be diagnosed."""
     notes = []
-    where = f"recordings.csv: {case.quantity}"
+    where = f"{case.folder / 'recordings.csv'}: {case.quantity}"
     if y.size < FEWEST:
         raise InputError(f"needs at least {FEWEST} readings to say anything", where=where, value=y.size)
     if case.kind.logarithmic and np.any(y <= 0):
@@ -42,19 +54,15 @@ def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]
     positive = (np.abs(base) > 0) & (np.abs(y) > 0)
     if positive.sum() >= FEWEST:
         ratio = float(np.median(np.abs(y[positive] / base[positive])))
-        for slip, word in UNIT_SLIPS.items():
-            if 0.7 * slip < ratio < 1.4 * slip:
-                notes.append(
-                    f"readings are about a {word} of what the base model gives: check the unit of {case.quantity}"
-                )
+        for slip, words in UNIT_SLIPS.items():
+            if slip / SLIP_WITHIN < ratio < slip * SLIP_WITHIN:
+                notes.append(f"readings are about {words} what the base model gives: check the unit of {case.quantity}")
         if np.median(base[positive]) > 0 and np.median(y[positive]) < 0:
             notes.append("most readings are negative where the base model is positive: check the sign")
+    notes += _stuck(case, rows, y, base)
     stated = case.system.recording.noise
-    repeats = noise_from_repeats(case, rows, np.log(y) if case.kind.logarithmic else y)
-    if not is_stated(case, rows):
-        source = "repeats" if repeats > 0 else "the fit"
-        notes.append(f"no noise given: the standard deviation of a reading is estimated from {source}")
-    elif repeats > 0 and stated is not None:
+    repeats = _repeats(case, rows, y)
+    if is_stated(case, rows) and repeats > 0 and stated is not None:
         size = np.abs(y) if case.kind.logarithmic else np.ones(y.size)
         typical = float(np.median(np.hypot(stated.relative * np.abs(y), stated.absolute) / size))
         if repeats > 4.0 * typical > 0:
@@ -63,3 +71,37 @@ def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]
                 f"noise is {typical:.3g}"
             )
     return notes
+
+
+def _stuck(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str]:
+    """A value that repeats exactly in many rows although their conditions differ, while other readings vary."""
+    values, counts = np.unique(y, return_counts=True)
+    most = int(np.argmax(counts))
+    if values.size < 2 or counts[most] < max(STUCK_ROWS, STUCK_SHARE * y.size):
+        return []
+    same = y == values[most]
+    span = float(np.ptp(base[same]))
+    if span <= max(STUCK_STEPS * float(np.min(np.diff(values))), STUCK_SPAN * float(np.median(np.abs(base)))):
+        return []
+    names = [c.name for c in case.kind.columns if c.name in rows and c.name not in PASSING]
+    varied = [name for name in names if np.unique(rows[name][same]).size > 1]
+    if not varied:
+        return []
+    runs = [str(run) for run in rows["run"][same][:STUCK_ROWS]]
+    more = "" if len(runs) == counts[most] else ", ..."
+    return [
+        f"{counts[most]} of {y.size} readings are exactly {values[most]:g} though {', '.join(varied)} vary: check for "
+        f"a channel that was stuck or filled in (runs {', '.join(runs)}{more})"
+    ]
+
+
+def _repeats(case: Case, rows: Table, y: np.ndarray) -> float:
+    return noise_from_repeats(case, rows, np.log(y) if case.kind.logarithmic else y)
+
+
+def _noise_source(case: Case, rows: Table, y: np.ndarray) -> list[str]:
+    """Where the scatter of a reading comes from when the recording does not state it."""
+    if is_stated(case, rows):
+        return []
+    source = "repeats" if _repeats(case, rows, y) > 0 else "the fit"
+    return [f"no noise given: the standard deviation of a reading is estimated from {source}"]

@@ -93,17 +93,17 @@ def read_study(path: Path, file: StudyFile | None = None) -> Study:
     if path.is_dir():
         raise InputError("is a folder; a study is one TOML file", where=str(path))
     if file is None:
-        file = config.parse(StudyFile, config.read_toml(path), path.name)
+        file = config.parse(StudyFile, config.read_toml(path), str(path))
     notes: list[str] = []
     try:
         with noted(notes), np.errstate(all="ignore"):
             study = _resolve(path.stem, file, path.parent)
         _check_finite(study.plan.inputs)
     except InputError as error:
-        placed = config.in_file(error, path.name)
-        if path.name in str(placed):
+        placed = config.in_file(error, str(path))
+        if str(path) in str(placed):
             raise placed from None
-        raise InputError(str(error), where=path.name) from None
+        raise InputError(str(error), where=str(path)) from None
     return replace(study, notes=(*notes, *study.mesh.notes))
 
 

@@ -1,6 +1,7 @@
 """Whatever the input, a user reads one message, never a traceback."""
 
 import random
+import re
 import shutil
 import tempfile
 import warnings
@@ -12,6 +13,8 @@ from hypothesis import strategies as st
 
 from mixedlub.cli import main
 from tests.cli.test_commands import STUDY
+
+CONVERTED = "units are not converted here; `mixedlub import` does"
 
 QUIET = settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
@@ -149,7 +152,7 @@ def test_mangled_case_never_gives_a_traceback(capsys, seed, command):
 
 SPOILT = {
     "semicolons": ("recordings.csv", ",", ";", "recordings.csv: ';': columns are separated by commas"),
-    "name of a column": ("recordings.csv", "speed_rpm", "speed", "'speed_rpm' is missing; nearest known: 'speed'"),
+    "name of a column": ("recordings.csv", "speed_rpm", "speed", "'speed_rpm' is missing; the file has 'speed'"),
     "no number": ("recordings.csv", "2,50,", "2,x,", "recordings.csv: line 3, torque_Nm: 'x': torque_Nm must be"),
     "NaN": ("recordings.csv", "2,50,", "2,nan,", "line 3, torque_Nm: 'nan': torque_Nm must be a finite number"),
     "negative torque": ("recordings.csv", "2,50,", "2,-50,", "line 3, torque_Nm: -50.0: torque_Nm must be above 0"),
@@ -209,3 +212,99 @@ def test_bytes_as_a_recording_never_give_a_traceback(capsys, data):
         case = shutil.copytree(CASE, Path(folder) / "case")
         (case / "recordings.csv").write_bytes(data)
         assert refused(capsys, "simulate", str(case), "--out", str(Path(folder) / "o"))[0] == 2
+
+
+MISSING = {
+    "misspelt": ("oil_temprature_C", "column 'oil_temperature_C' is missing; the file has 'oil_temprature_C'"),
+    "kelvin": ("oil_temperature_K", "'oil_temperature_C' is missing; the file has 'oil_temperature_K': " + CONVERTED),
+    "far": ("oil", "'oil_temperature_C' is missing; the file has 'oil', not known here"),
+}
+"""What stands in place of oil_temperature_C, what the user reads."""
+
+
+@pytest.mark.parametrize("name", MISSING)
+def test_what_the_file_has_in_place_of_a_column_is_said(name, tmp_path, capsys):
+    header, said = MISSING[name]
+    case = shutil.copytree(CASE, tmp_path / "case")
+    text = (case / "recordings.csv").read_text(encoding="utf-8")
+    (case / "recordings.csv").write_text(text.replace("oil_temperature_C", header), encoding="utf-8")
+    message = refused(capsys, "check", str(case))[1]
+    assert said in message
+    assert "known:" not in message
+
+
+@pytest.mark.parametrize(
+    ("column", "other"), [("speed_rpm", "speed_rad_s"), ("power_loss_W", "power_loss_kW"), ("torque_Nm", "torque_mNm")]
+)
+def test_a_column_in_another_unit_is_said_to_be_one(column, other, tmp_path, capsys):
+    case = shutil.copytree(CASE, tmp_path / "case")
+    text = (case / "recordings.csv").read_text(encoding="utf-8")
+    (case / "recordings.csv").write_text(text.replace(column, other), encoding="utf-8")
+    assert (
+        f"column {column!r} is missing; the file has {other!r}: {CONVERTED}" in refused(capsys, "check", str(case))[1]
+    )
+
+
+def test_an_optional_column_in_another_unit_is_said_to_be_one(tmp_path, capsys):
+    case = tmp_path / "case"
+    case.mkdir()
+    (case / "system.toml").write_text(
+        'schema = "mixedlub-case/1"\nkind = "viscosity"\n[recording]\nquantity = "viscosity_mPa_s"\n', encoding="utf-8"
+    )
+    (case / "recordings.csv").write_text(
+        "run,temperature_C,pressure_GPa,viscosity_mPa_s\n1,40,0.1,90\n2,60,0.2,95\n", encoding="utf-8"
+    )
+    status, said = refused(capsys, "check", str(case))
+    assert status == 0
+    assert f"not known: pressure_GPa; {CONVERTED} (pressure_GPa)" in said
+
+
+BROKEN = {
+    "no table": ("recordings.csv", lambda text: "", "recordings.csv: needs a header line"),
+    "cell": ("recordings.csv", lambda text: text.replace("2,50,", "2,x,", 1), "recordings.csv: line 3, torque_Nm"),
+    "column": ("recordings.csv", lambda text: text.replace("speed_rpm", "sped"), "recordings.csv: header"),
+    "stuck": (
+        "recordings.csv",
+        lambda text: re.sub(r",[\d.]+$", ",5", text, flags=re.M),
+        "recordings.csv: power_loss_W",
+    ),
+    "not TOML": ("system.toml", lambda text: "[[", "system.toml: is not readable as TOML"),
+    "key": ("system.toml", lambda text: text.replace("teeth", "teet"), "system.toml: gears.teet"),
+    "geometry": ("system.toml", lambda text: text.replace("[17, 26]", "[5, 60]"), "system.toml: gears.tip_diameter_mm"),
+    "section": (
+        "system.toml",
+        lambda text: re.sub(r"\[lubricant\].*?\n\n", "", text, flags=re.S),
+        "system.toml: a case",
+    ),
+    "oil": ("system.toml", lambda text: text.replace("[100.0, 11.2]", "[1.0, 11.2]"), "system.toml: lubricant.kin"),
+}
+"""File of the case, how it is broken, place that is told behind the folder."""
+
+
+@pytest.mark.parametrize("name", BROKEN)
+def test_every_error_in_a_case_names_the_whole_path_of_its_file(name, tmp_path, capsys):
+    file, change, place = BROKEN[name]
+    case = shutil.copytree(CASE, tmp_path / "case")
+    (case / file).write_text(change((case / file).read_text(encoding="utf-8")), encoding="utf-8")
+    status, said = refused(capsys, "diagnose", str(case), "--out", str(tmp_path / "o"))
+    assert status == 2
+    assert said.startswith(f"mixedlub: {case}/{place}"), said
+
+
+@pytest.mark.parametrize(("old", "new"), [("teeth =", "teet ="), ("teeth = [17, 26]", "teeth = [5, 60]")])
+def test_every_error_in_a_study_names_the_whole_path_of_its_file(old, new, tmp_path, capsys):
+    path = tmp_path / "trial.toml"
+    path.write_text(STUDY.replace(old, new))
+    said = refused(capsys, "study", str(path), "--no-figures", "--out", str(tmp_path / "o"))[1]
+    assert said.startswith(f"mixedlub: {path}: gears.te") or said.startswith(f"mixedlub: {path}: gears.tip")
+
+
+def test_traces_that_are_not_shipped_are_said_to_come_from_elsewhere(tmp_path, capsys):
+    example = Path(__file__).parents[2] / "examples" / "study_bearing_steel.toml"
+    path = shutil.copy(example, tmp_path / "study.toml")
+    status, said = refused(capsys, "study", str(path), "--out", str(tmp_path / "o"))
+    assert status == 2
+    assert "no such file in" in said
+    assert "the file that names it may say where it comes from" in said
+    head = [line for line in example.read_text(encoding="utf-8").splitlines() if line.startswith("#")]
+    assert any("github.com/moritzploss/tribology" in line for line in head)

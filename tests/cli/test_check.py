@@ -1,8 +1,10 @@
 """`mixedlub check` says what may be calibrated, stated or not."""
 
+import shutil
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from mixedlub.cli import main
 from mixedlub.importers import write_case
@@ -45,3 +47,58 @@ def test_a_friction_map_names_its_unknown_torques_and_its_own_noise(tmp_path, ca
     said = understood(tmp_path, capsys, system, columns)
     assert "coulomb torque: 80 % within" in said
     assert "Noise of a reading: the column friction_torque_Nm_sd." in said
+
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "case"
+
+
+def spoilt(folder: Path, change) -> Path:
+    """The example with its readings (a list of numbers) changed."""
+    case = shutil.copytree(EXAMPLE, folder / "case")
+    head, *lines = (case / "recordings.csv").read_text(encoding="utf-8").splitlines()
+    cells = [line.split(",") for line in lines]
+    readings = change([float(row[-1]) for row in cells])
+    rows = [",".join([*row[:-1], repr(y)]) for row, y in zip(cells, readings, strict=False)]
+    (case / "recordings.csv").write_text("\n".join([head, *rows]) + "\n", encoding="utf-8")
+    return case
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (
+            lambda y: [v / 1000 for v in y],
+            "readings are about a thousandth of what the base model gives: check the unit",
+        ),
+        (
+            lambda y: [v * 1000 for v in y],
+            "readings are about a thousand times what the base model gives: check the unit",
+        ),
+        (lambda y: [-v for v in y], "most readings are negative where the base model is positive: check the sign"),
+        (lambda y: [33.3] * 20 + y[20:], "20 of 72 readings are exactly 33.3 though speed_rpm,"),
+        (lambda y: y[:4], "Cannot be diagnosed: {case}/recordings.csv: power_loss_W: 4: needs at least 5 readings"),
+    ],
+    ids=["thousandth", "thousandfold", "negative", "stuck", "few"],
+)
+def test_what_is_doubtful_about_the_readings_is_told(change, said, tmp_path, capsys):
+    case = spoilt(tmp_path, change)
+    assert main(["check", str(case)]) == 0
+    assert said.format(case=case) in capsys.readouterr().out
+
+
+def test_nothing_is_doubtful_about_the_example(capsys):
+    assert main(["check", str(EXAMPLE)]) == 0
+    said = capsys.readouterr().out
+    assert "Doubtful" not in said
+    assert "Cannot be diagnosed" not in said
+
+
+@pytest.mark.parametrize("number", range(8))
+def test_nothing_is_doubtful_about_the_practice_cases(number, shared, capsys):
+    case = shared / "cases" / f"case_{number:03}"
+    if not case.is_dir():
+        pytest.skip("practice cases not present beside the project")
+    assert main(["check", str(case)]) == 0
+    said = capsys.readouterr().out
+    assert "Doubtful" not in said
+    assert "Cannot be diagnosed" not in said

@@ -1,0 +1,24 @@
+"""`mixedlub kinds`: the format of a case in words."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from mixedlub.commands.output import say
+
+NAME = "kinds"
+EXAMPLE = "mixedlub kinds disc"
+
+
+def command(
+    kind: Annotated[str | None, typer.Argument(metavar="KIND", help="One kind; all of them when left out.")] = None,
+) -> None:
+    """The format of a case: what each kind records.
+
+    Columns of recordings.csv and keys of system.toml, with unit, default, allowed values and meaning.
+    """
+    from mixedlub.case_format import kinds_text
+
+    say(kinds_text(kind))

@@ -1,0 +1,92 @@
+"""A look at the recording: which repeated values are odd, and which are not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mixedlub.case import Case, read_case
+from mixedlub.diagnosis.audit import doubts
+from mixedlub.forward import Forward
+
+Change = Callable[[np.ndarray], np.ndarray]
+
+
+@pytest.fixture
+def case(make_case: Callable[..., Path], tmp_path: Path) -> Case:
+    """A disc rig: 72 readings at differing conditions."""
+    return read_case(make_case(tmp_path / "case", "disc"))
+
+
+def told(case: Case, change: Change) -> list[str]:
+    """What is said of the readings after a change."""
+    assert case.recordings is not None
+    y = change(np.array(case.recordings[case.quantity], dtype=float))
+    return doubts(case, case.recordings, y, Forward(case, case.recordings))
+
+
+def first(count: int, value: float = 0.0333) -> Change:
+    """The first readings replaced by one value."""
+    return lambda y: np.where(np.arange(y.size) < count, value, y)
+
+
+def test_a_sound_recording_raises_no_doubt(case: Case) -> None:
+    assert told(case, lambda y: y) == []
+
+
+def test_a_value_in_a_fifth_of_the_rows_is_named_with_its_runs(case: Case) -> None:
+    (note,) = told(case, first(15))
+    assert note.startswith("15 of 72 readings are exactly 0.0333 though ")
+    assert note.endswith("(runs 1, 2, 3, 4, 5, ...)")
+
+
+def test_a_value_in_fewer_rows_is_not(case: Case) -> None:
+    assert told(case, first(14)) == []
+
+
+def test_readings_that_repeat_because_the_channel_is_coarse_are_not_stuck(case: Case) -> None:
+    """Two decimals: a value in more than a fifth of the rows, each the nearest step to what was there."""
+    rounded: list[int] = []
+
+    def coarse(y: np.ndarray) -> np.ndarray:
+        y = np.round(y, 2)
+        rounded.append(int(np.unique(y, return_counts=True)[1].max()))
+        return y
+
+    assert told(case, coarse) == []
+    assert rounded[0] >= 15
+
+
+def test_equal_readings_at_equal_conditions_are_not_stuck(case: Case) -> None:
+    assert case.recordings is not None
+    again = case.recordings.take(np.array([*([0] * 20), *range(20, 72)]))
+    y = np.array(again[case.quantity], dtype=float)
+    assert doubts(case, again, y, Forward(case, again)) == []
+    (note,) = told(case, first(20, y[0]))
+    assert "stuck" in note
+
+
+def test_equal_readings_where_the_model_gives_equal_ones_are_not_stuck(case: Case) -> None:
+    """A rig whose coefficient hardly changes with load: readings agree to the last digit, as the model's do."""
+
+    class Level(Forward):
+        def predict(self, *values: object) -> np.ndarray:
+            return super().predict()[:1] * np.where(np.arange(72) < 15, 1.0 + 0.04 * np.linspace(0, 1, 72), 1.5)
+
+    assert case.recordings is not None
+    y = first(15)(np.array(case.recordings[case.quantity], dtype=float))
+    assert doubts(case, case.recordings, y, Level(case, case.recordings)) == []
+
+
+@pytest.mark.parametrize("factor", [0.6e-3, 1.0e-3, 1.7e-3])
+def test_a_slip_of_the_unit_shows_though_the_model_is_off(case: Case, factor: float) -> None:
+    (note,) = told(case, lambda y: factor * y)
+    assert "a thousandth of what the base model gives" in note
+
+
+@pytest.mark.parametrize("factor", [0.2, 0.05, 20.0])
+def test_a_model_that_is_off_by_more_is_no_slip_of_the_unit(case: Case, factor: float) -> None:
+    assert told(case, lambda y: factor * y) == []
