@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -10,6 +11,10 @@ import numpy as np
 
 Answers = Mapping[str, Any]
 """Answers by dotted key: keys of system.toml, or ``import.`` and what the importer itself asks."""
+
+
+PART = re.compile(r'"[^"]*"|[^.]+')
+"""A part of a dotted key; a name with a point in it stands in quotes."""
 
 
 @dataclass(frozen=True)
@@ -70,10 +75,12 @@ def nested(answers: Answers) -> dict[str, Any]:
 
     >>> nested({"contact.radius_mm": [9.5, 20.0], "import.temperature": "pot", "kind": "film"})
     {'contact': {'radius_mm': [9.5, 20.0]}, 'kind': 'film'}
+    >>> nested({'surfaces."Ra 0.4".m2': 0.003})
+    {'surfaces': {'Ra 0.4': {'m2': 0.003}}}
     """
     tree: dict[str, Any] = {}
     for key, value in answers.items():
-        *above, last = key.split(".")
+        *above, last = (part.strip('"') for part in PART.findall(key))
         if above[:1] == ["import"]:
             continue
         place = tree
@@ -84,13 +91,14 @@ def nested(answers: Answers) -> dict[str, Any]:
 
 
 def flat(tree: Mapping[str, Any], above: str = "") -> dict[str, Any]:
-    """Tables as dotted keys.
+    """Tables as dotted keys; those of the first level may be dotted already.
 
     >>> flat({"contact": {"radius_mm": [9.5, 20.0]}, "kind": "film"})
     {'contact.radius_mm': [9.5, 20.0], 'kind': 'film'}
     """
     found: dict[str, Any] = {}
     for key, value in tree.items():
-        name = f"{above}.{key}" if above else key
+        part = f'"{key}"' if above and "." in key else key
+        name = f"{above}.{part}" if above else part
         found.update(flat(value, name) if isinstance(value, Mapping) else {name: value})
     return found

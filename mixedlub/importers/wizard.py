@@ -61,17 +61,18 @@ def _read_one(path: Path, answers: Mapping[str, Any]) -> Draft:
     return found
 
 
-def import_files(files: Sequence[Path], out: Path, **answers: Any) -> Path:
+def import_files(files: Sequence[Path], out: Path, *, overwrite: bool = False, **answers: Any) -> Path:
     """A case folder from instrument files; ``answers`` are tables or dotted keys as in system.toml.
 
-    What is needed and not answered is an error that lists it; nothing is guessed.
+    What is needed and not answered is an error that lists it; nothing is guessed. A case that is there and
+    differs is an error too, unless ``overwrite`` is said.
     """
     given = flat(answers)
     draft = read(files, given)
     missing = open_questions(draft, given)
     if missing:
         raise InputError(_listed(missing), where="import")
-    return _write(draft, given, out)
+    return _write(draft, given, out, overwrite)
 
 
 def run(
@@ -81,6 +82,7 @@ def run(
     answers_file: Path | None = None,
     ask: Callable[[str], str] | None = None,
     say: Callable[[str], None] = print,
+    overwrite: bool = False,
 ) -> Path:
     """The import command: settings ``KEY=VALUE`` and a TOML file first, then ``ask`` for what is missing.
 
@@ -89,6 +91,8 @@ def run(
     answers = flat(config.read_toml(answers_file)) if answers_file is not None else {}
     answers.update(parse_setting(s) for s in settings)
     asked: set[str] = set()
+    if ask is not None and not overwrite and (out / "system.toml").exists():
+        say(f"{out} is a case already; it is left as it is where it differs (--overwrite replaces it)")
     while True:
         draft = read(files, answers)
         waiting = [q for q in draft.questions if q.key not in answers and q.key not in asked]
@@ -102,9 +106,9 @@ def run(
     missing = open_questions(draft, answers)
     if missing:
         raise InputError(_listed(missing), where="import")
+    folder = _write(draft, answers, out, overwrite)
     for note in draft.notes:
         say(note)
-    folder = _write(draft, answers, out)
     say(f"{folder}: a case of kind {draft.kind} that records {draft.quantity}")
     for q in draft.questions:
         if not q.needed and q.key not in answers and not q.key.startswith("import."):
@@ -150,7 +154,7 @@ def _listed(missing: Sequence[Question]) -> str:
     )
 
 
-def _write(draft: Draft, answers: Mapping[str, Any], out: Path) -> Path:
+def _write(draft: Draft, answers: Mapping[str, Any], out: Path, overwrite: bool) -> Path:
     system: dict[str, Any] = {"kind": draft.kind, **nested(answers)}
     for section, facts in draft.system.items():
         system[section] = {**facts, **system.get(section, {})}
@@ -159,4 +163,5 @@ def _write(draft: Draft, answers: Mapping[str, Any], out: Path) -> Path:
     every = answers.get("import.every", 1)
     if not isinstance(every, int) or every < 1:
         raise InputError("must be a whole number of at least 1", where="import.every", value=every)
-    return write_case(out, system, {name: values[::every] for name, values in draft.columns.items()})
+    columns = {name: values[::every] for name, values in draft.columns.items()}
+    return write_case(out, system, columns, overwrite=overwrite)
