@@ -8,6 +8,8 @@ from typing import Annotated
 
 import typer
 
+from profiles.errors import InputError
+
 NAME = "import"
 EXAMPLE = "mixedlub import examples/case/recordings.csv --out out/import --answers examples/case/system.toml"
 
@@ -36,6 +38,11 @@ def command(
     where nobody is there to answer; units are never guessed. A case that is there and differs, as one
     edited since, is left as it is unless --overwrite is said.
     """
+    from mixedlub.importers.draft import Unanswered
     from mixedlub.importers.wizard import run
 
-    run(files, out, settings, answers, ask=input if sys.stdin.isatty() else None, overwrite=overwrite)
+    try:
+        run(files, out, settings, answers, ask=input if sys.stdin.isatty() else None, overwrite=overwrite)
+    except Unanswered as missing:
+        print(*missing.lines, sep="\n", file=sys.stderr)
+        raise InputError(missing.summary, where="import") from None

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+import shlex
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+
+from profiles.errors import InputError
 
 Answers = Mapping[str, Any]
 """Answers by dotted key: keys of system.toml, or ``import.`` and what the importer itself asks."""
@@ -19,12 +22,45 @@ PART = re.compile(r'"[^"]*"|[^.]+')
 
 @dataclass(frozen=True)
 class Question:
-    """Something no file says: the key that answers it, the words, an example that is valid TOML."""
+    """Something no file says: the key that answers it, the words, an example that is valid TOML.
+
+    ``among`` are the answers there are, ``of`` the words that introduce them.
+    """
 
     key: str
     text: str
     example: str
     needed: bool = True
+    among: tuple[str, ...] = ()
+    of: str = "one of"
+
+    @property
+    def choices(self) -> str:
+        """The answers there are, in words."""
+        return f"{self.of} {', '.join(self.among)}" if self.among else ""
+
+
+class Unanswered(InputError):
+    """Answers that are missing: what to ask of whoever can be asked, one question a line."""
+
+    def __init__(self, questions: Sequence[Question]) -> None:
+        self.lines = tuple(listed(questions))
+        count = "1 answer is" if len(questions) == 1 else f"{len(questions)} answers are"
+        self.summary = f"{count} missing; give each by --set KEY=VALUE, or all in a TOML file by --answers"
+        super().__init__(self.summary + ":\n" + "\n".join(self.lines), where="import")
+
+
+def listed(questions: Sequence[Question]) -> Iterator[str]:
+    """A line a question, with the setting that answers it; choices are not said twice.
+
+    >>> print(*listed([Question("kind", "Kind of recording", '"film"', among=("film", "disc"))]), sep="\\n")
+      --set 'kind="film"'  (Kind of recording: one of film, disc)
+    """
+    said: set[str] = set()
+    for q in questions:
+        words = q.text if not q.choices or q.choices in said else f"{q.text}: {q.choices}"
+        said.add(q.choices)
+        yield f"  --set {shlex.quote(f'{q.key}={q.example}')}  ({words})"
 
 
 @dataclass(frozen=True)
@@ -50,6 +86,8 @@ OIL = (
     Question("lubricant.kinematic_viscosity_mm2_s", "Kinematic viscosity there in mm2/s", "[30.0, 6.2]", needed=False),
     Question("lubricant.pressure_viscosity_per_GPa", "Pressure-viscosity there in 1/GPa", "[18.0, 14.0]", needed=False),
 )
+FORM = Question("contact.geometry", "Form of the contact", '"line"', among=("line", "point"))
+WIDTH = Question("contact.width_mm", "Width of the line contact in mm (a point contact has none)", "6.0")
 EVERY = Question("import.every", "Keep one reading of how many", "10", needed=False)
 NOISE = (
     Question("recording.noise.relative", "Noise of a reading, one sd as a share of it", "0.02", needed=False),
@@ -57,12 +95,22 @@ NOISE = (
 )
 
 
+WITH_CONTACT = ("film", "disc")
+
+
 def questions_of(kind: str) -> tuple[Question, ...]:
     """What every case of a kind leaves to ask."""
-    contact = CONTACT if kind in ("film", "disc") else ()
+    contact = CONTACT if kind in WITH_CONTACT else ()
     oil = OIL if kind in ("film", "disc", "gear_pair", "mesh_friction") else ()
     many = (EVERY,) if kind in ("friction_history", "viscosity") else ()
     return (*contact, *oil, *many, *NOISE)
+
+
+def contact_form(kind: str, answers: Answers) -> tuple[Question, ...]:
+    """Whether the contact is a line or a point, and how wide, where a kind has one and nothing says it."""
+    if kind not in WITH_CONTACT or "contact.width_mm" in answers or answers.get("contact.geometry") == "point":
+        return ()
+    return (WIDTH,) if "contact.geometry" in answers else (FORM, WIDTH)
 
 
 def open_questions(draft: Draft, answers: Answers) -> tuple[Question, ...]:

@@ -12,7 +12,7 @@ import numpy as np
 
 from mixedlub import config
 from mixedlub.importers import pcs, plain, trios
-from mixedlub.importers.draft import Draft, Question, flat, nested, open_questions
+from mixedlub.importers.draft import Draft, Question, Unanswered, flat, nested, open_questions
 from mixedlub.importers.write import write_case
 from profiles.errors import InputError
 
@@ -71,7 +71,7 @@ def import_files(files: Sequence[Path], out: Path, *, overwrite: bool = False, *
     draft = read(files, given)
     missing = open_questions(draft, given)
     if missing:
-        raise InputError(_listed(missing), where="import")
+        raise Unanswered(missing)
     return _write(draft, given, out, overwrite)
 
 
@@ -105,7 +105,7 @@ def run(
             answers[question.key] = found
     missing = open_questions(draft, answers)
     if missing:
-        raise InputError(_listed(missing), where="import")
+        raise Unanswered(missing)
     folder = _write(draft, answers, out, overwrite)
     for note in draft.notes:
         say(note)
@@ -139,19 +139,13 @@ def _ask(question: Question, ask: Callable[[str], str], say: Callable[[str], Non
     """One answer, asked again while it is needed and empty; None where an optional one is left open."""
     hint = f"for example {question.example}" + ("" if question.needed else "; empty if not known")
     while True:
-        reply = ask(f"{question.text} ({hint}): ").strip()
+        words = f"{question.text}: {question.choices}" if question.choices else question.text
+        reply = ask(f"{words} ({hint}): ").strip()
         if reply:
             return _value(reply)
         if not question.needed:
             return None
         say("this is needed")
-
-
-def _listed(missing: Sequence[Question]) -> str:
-    lines = [f"  {q.text}\n    --set '{q.key}={q.example}'" for q in missing]
-    return "these answers are missing (give each by --set KEY=VALUE or in a TOML file by --answers):\n" + "\n".join(
-        lines
-    )
 
 
 def _write(draft: Draft, answers: Mapping[str, Any], out: Path, overwrite: bool) -> Path:

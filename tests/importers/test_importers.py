@@ -129,6 +129,11 @@ def test_a_rheometer_column_without_a_unit_is_refused(file, tmp_path):
         import_files([file(TRIOS.replace("dyne/cm²\tPa.s", "dyne/cm²\t"))], tmp_path / "case")
 
 
+def test_a_bad_cell_of_a_rheometer_is_named_with_its_line(file, tmp_path):
+    with pytest.raises(InputError, match=r"data\.txt: line 7, Viscosity: '--': Viscosity must be a number"):
+        import_files([file(TRIOS.replace("0.0365", "--"))], tmp_path / "case")
+
+
 def test_every_nth_reading_can_be_kept(file, tmp_path):
     folder = import_files([file(TRIOS)], tmp_path / "case", **{"import.every": 3})
     assert read_case(folder).recordings["viscosity_mPa_s"].tolist() == pytest.approx([36.4, 24.5])
