@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub.importers.keys import WORDS
+from mixedlub.kinds import kind as kind_of
 from profiles.errors import InputError
 
 Answers = Mapping[str, Any]
@@ -75,19 +77,18 @@ class Draft:
     notes: tuple[str, ...] = ()
 
 
-CONTACT = (
-    Question("contact.radius_mm", "Radii of the two bodies in mm (inf for a flat one)", "[9.525, inf]"),
-    Question("contact.youngs_modulus_GPa", "Young's moduli of the two bodies in GPa", "[207.0, 75.0]"),
-    Question("contact.poisson_ratio", "Poisson's ratios of the two bodies", "[0.3, 0.22]"),
+def _question(section: str, key: str, needed: bool) -> Question:
+    example, meaning = WORDS[section][key]
+    return Question(f"{section}.{key}", meaning[:1].upper() + meaning[1:], example, needed)
+
+
+CONTACT = tuple(_question("contact", key, True) for key in ("radius_mm", "youngs_modulus_GPa", "poisson_ratio"))
+FORM = _question("contact", "geometry", True)
+WIDTH = _question("contact", "width_mm", True)
+OIL = tuple(
+    _question("lubricant", key, False)
+    for key in ("name", "temperature_C", "kinematic_viscosity_mm2_s", "pressure_viscosity_per_GPa")
 )
-OIL = (
-    Question("lubricant.name", "Name of the oil", '"sample oil"', needed=False),
-    Question("lubricant.temperature_C", "Two temperatures of known viscosity in degC", "[40.0, 100.0]", needed=False),
-    Question("lubricant.kinematic_viscosity_mm2_s", "Kinematic viscosity there in mm2/s", "[30.0, 6.2]", needed=False),
-    Question("lubricant.pressure_viscosity_per_GPa", "Pressure-viscosity there in 1/GPa", "[18.0, 14.0]", needed=False),
-)
-FORM = Question("contact.geometry", "Form of the contact", '"line"', among=("line", "point"))
-WIDTH = Question("contact.width_mm", "Width of the line contact in mm (a point contact has none)", "6.0")
 EVERY = Question("import.every", "Keep one reading of how many", "10", needed=False)
 NOISE = (
     Question("recording.noise.relative", "Noise of a reading, one sd as a share of it", "0.02", needed=False),
@@ -95,12 +96,9 @@ NOISE = (
 )
 
 
-WITH_CONTACT = ("film", "disc")
-
-
 def questions_of(kind: str) -> tuple[Question, ...]:
     """What every case of a kind leaves to ask."""
-    contact = CONTACT if kind in WITH_CONTACT else ()
+    contact = CONTACT if "contact" in kind_of(kind).sections else ()
     oil = OIL if kind in ("film", "disc", "gear_pair", "mesh_friction") else ()
     many = (EVERY,) if kind in ("friction_history", "viscosity") else ()
     return (*contact, *oil, *many, *NOISE)
@@ -108,7 +106,8 @@ def questions_of(kind: str) -> tuple[Question, ...]:
 
 def contact_form(kind: str, answers: Answers) -> tuple[Question, ...]:
     """Whether the contact is a line or a point, and how wide, where a kind has one and nothing says it."""
-    if kind not in WITH_CONTACT or "contact.width_mm" in answers or answers.get("contact.geometry") == "point":
+    told = "contact.width_mm" in answers or answers.get("contact.geometry") == "point"
+    if told or "contact" not in kind_of(kind).sections:
         return ()
     return (WIDTH,) if "contact.geometry" in answers else (FORM, WIDTH)
 
@@ -148,5 +147,5 @@ def flat(tree: Mapping[str, Any], above: str = "") -> dict[str, Any]:
     for key, value in tree.items():
         part = f'"{key}"' if above and "." in key else key
         name = f"{above}.{part}" if above else part
-        found.update(flat(value, name) if isinstance(value, Mapping) else {name: value})
+        found.update(flat(value, name) if isinstance(value, Mapping) and value else {name: value})
     return found

@@ -13,6 +13,7 @@ import numpy as np
 from mixedlub import config
 from mixedlub.importers import pcs, plain, trios
 from mixedlub.importers.draft import Draft, Question, Unanswered, flat, nested, open_questions
+from mixedlub.importers.needs import gaps, told
 from mixedlub.importers.write import write_case
 from profiles.errors import InputError
 
@@ -110,9 +111,9 @@ def run(
     for note in draft.notes:
         say(note)
     say(f"{folder}: a case of kind {draft.kind} that records {draft.quantity}")
-    for q in draft.questions:
-        if not q.needed and q.key not in answers and not q.key.startswith("import."):
-            say(f"not given: {q.key} ({q.text}); add it to system.toml when known")
+    system = config.parse(config.System, config.read_toml(folder / "system.toml"), "system.toml")
+    for line in told(gaps(system, draft.columns), str(folder / "system.toml")):
+        say(line)
     return folder
 
 
@@ -153,9 +154,10 @@ def _write(draft: Draft, answers: Mapping[str, Any], out: Path, overwrite: bool)
     for section, facts in draft.system.items():
         system[section] = {**facts, **system.get(section, {})}
     system["recording"] = {"quantity": draft.quantity, **system.get("recording", {})}
-    config.parse(config.System, {"schema": SCHEMA, **system}, "answers")
+    checked = config.parse(config.System, {"schema": SCHEMA, **system}, "answers")
     every = answers.get("import.every", 1)
     if not isinstance(every, int) or every < 1:
         raise InputError("must be a whole number of at least 1", where="import.every", value=every)
     columns = {name: values[::every] for name, values in draft.columns.items()}
-    return write_case(out, system, columns, overwrite=overwrite)
+    comments = {gap.table: tuple(gap.comments()) for gap in gaps(checked, columns)}
+    return write_case(out, system, columns, overwrite=overwrite, comments=comments)

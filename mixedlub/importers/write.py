@@ -109,10 +109,10 @@ def _table(data: Mapping[str, Any], place: str, comments: Comments, written: set
     written.add(place)
     text = "\n".join(lines) + "\n" if lines else ""
     for key, v in data.items():
-        if isinstance(v, Mapping) and v:
+        if isinstance(v, Mapping):
             name = f"{place}.{toml_key(key)}" if place else toml_key(key)
             inner = _table(v, name, comments, written)
-            plain = any(not isinstance(x, Mapping) for x in v.values()) or comments.get(name)
+            plain = not v or any(not isinstance(x, Mapping) for x in v.values()) or comments.get(name)
             text += (f"\n[{name}]\n" if plain else "") + inner
     return text
 

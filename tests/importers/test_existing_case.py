@@ -7,6 +7,7 @@ from mixedlub import config
 from mixedlub.case import read_case
 from mixedlub.cli import main
 from mixedlub.importers import import_files, write_case
+from mixedlub.importers.wizard import run
 from profiles.errors import InputError
 
 TABLE = "temperature_C,viscosity_mPa_s\n40,30\n100,5\n"
@@ -61,6 +62,13 @@ def test_the_same_import_again_is_no_problem_and_writes_nothing(table, tmp_path)
     before = contents(tmp_path / "rig")
     assert imported() == 0
     assert contents(tmp_path / "rig") == before
+
+
+def test_whoever_is_asked_is_told_first_that_the_case_is_there(table, tmp_path):
+    imported()
+    said = []
+    run([table], tmp_path / "rig", ["kind=viscosity"], ask=lambda text: "", say=said.append)
+    assert "is a case already" in said[0]
 
 
 def test_overwrite_replaces_what_differs(table, tmp_path):
