@@ -8,6 +8,8 @@ from typing import Annotated
 
 import typer
 
+from profiles.errors import InputError
+
 NAME = "import"
 EXAMPLE = "mixedlub import examples/case/recordings.csv --out out/import --answers examples/case/system.toml"
 
@@ -21,12 +23,26 @@ def command(
     answers: Annotated[
         Path | None, typer.Option(metavar="FILE.toml", help="Answers, written as in system.toml.")
     ] = None,
+    overwrite: Annotated[
+        bool,
+        typer.Option(
+            "--overwrite",
+            help="Replace system.toml and recordings.csv of a case that is there. To keep what its system.toml says: "
+            "mixedlub import table.csv --out rig --answers rig/system.toml --overwrite",
+        ),
+    ] = False,
 ) -> None:
     """Turn instrument files into a case folder.
 
     One that simulate, check and diagnose understand. What the files do not say is asked, or listed
-    where nobody is there to answer; units are never guessed.
+    where nobody is there to answer; units are never guessed. A case that is there and differs, as one
+    edited since, is left as it is unless --overwrite is said.
     """
+    from mixedlub.importers.draft import Unanswered
     from mixedlub.importers.wizard import run
 
-    run(files, out, settings, answers, ask=input if sys.stdin.isatty() else None)
+    try:
+        run(files, out, settings, answers, ask=input if sys.stdin.isatty() else None, overwrite=overwrite)
+    except Unanswered as missing:
+        print(*missing.lines, sep="\n", file=sys.stderr)
+        raise InputError(missing.summary, where="import") from None

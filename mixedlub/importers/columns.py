@@ -70,6 +70,7 @@ TARGETS = (
     Target("fringe_order", "ratio", ("order", "fringe order")),
 )
 BY_NAME = {t.name: t for t in TARGETS}
+TEXT_COLUMNS = ("rig", "setup", "surface_1", "surface_2", "pinion_surface", "gear_surface")
 
 
 def split(header: str) -> tuple[str, str | None]:

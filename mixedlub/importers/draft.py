@@ -2,24 +2,67 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+import shlex
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from mixedlub.importers.keys import WORDS
+from mixedlub.kinds import kind as kind_of
+from profiles.errors import InputError
+
 Answers = Mapping[str, Any]
 """Answers by dotted key: keys of system.toml, or ``import.`` and what the importer itself asks."""
 
 
+PART = re.compile(r'"[^"]*"|[^.]+')
+"""A part of a dotted key; a name with a point in it stands in quotes."""
+
+
 @dataclass(frozen=True)
 class Question:
-    """Something no file says: the key that answers it, the words, an example that is valid TOML."""
+    """Something no file says: the key that answers it, the words, an example that is valid TOML.
+
+    ``among`` are the answers there are, ``of`` the words that introduce them.
+    """
 
     key: str
     text: str
     example: str
     needed: bool = True
+    among: tuple[str, ...] = ()
+    of: str = "one of"
+
+    @property
+    def choices(self) -> str:
+        """The answers there are, in words."""
+        return f"{self.of} {', '.join(self.among)}" if self.among else ""
+
+
+class Unanswered(InputError):
+    """Answers that are missing: what to ask of whoever can be asked, one question a line."""
+
+    def __init__(self, questions: Sequence[Question]) -> None:
+        self.lines = tuple(listed(questions))
+        count = "1 answer is" if len(questions) == 1 else f"{len(questions)} answers are"
+        self.summary = f"{count} missing; give each by --set KEY=VALUE, or all in a TOML file by --answers"
+        super().__init__(self.summary + ":\n" + "\n".join(self.lines), where="import")
+
+
+def listed(questions: Sequence[Question]) -> Iterator[str]:
+    """A line a question, with the setting that answers it; choices are not said twice.
+
+    >>> print(*listed([Question("kind", "Kind of recording", '"film"', among=("film", "disc"))]), sep="\\n")
+      --set 'kind="film"'  (Kind of recording: one of film, disc)
+    """
+    said: set[str] = set()
+    for q in questions:
+        words = q.text if not q.choices or q.choices in said else f"{q.text}: {q.choices}"
+        said.add(q.choices)
+        yield f"  --set {shlex.quote(f'{q.key}={q.example}')}  ({words})"
 
 
 @dataclass(frozen=True)
@@ -34,16 +77,17 @@ class Draft:
     notes: tuple[str, ...] = ()
 
 
-CONTACT = (
-    Question("contact.radius_mm", "Radii of the two bodies in mm (inf for a flat one)", "[9.525, inf]"),
-    Question("contact.youngs_modulus_GPa", "Young's moduli of the two bodies in GPa", "[207.0, 75.0]"),
-    Question("contact.poisson_ratio", "Poisson's ratios of the two bodies", "[0.3, 0.22]"),
-)
-OIL = (
-    Question("lubricant.name", "Name of the oil", '"sample oil"', needed=False),
-    Question("lubricant.temperature_C", "Two temperatures of known viscosity in degC", "[40.0, 100.0]", needed=False),
-    Question("lubricant.kinematic_viscosity_mm2_s", "Kinematic viscosity there in mm2/s", "[30.0, 6.2]", needed=False),
-    Question("lubricant.pressure_viscosity_per_GPa", "Pressure-viscosity there in 1/GPa", "[18.0, 14.0]", needed=False),
+def _question(section: str, key: str, needed: bool) -> Question:
+    example, meaning = WORDS[section][key]
+    return Question(f"{section}.{key}", meaning[:1].upper() + meaning[1:], example, needed)
+
+
+CONTACT = tuple(_question("contact", key, True) for key in ("radius_mm", "youngs_modulus_GPa", "poisson_ratio"))
+FORM = _question("contact", "geometry", True)
+WIDTH = _question("contact", "width_mm", True)
+OIL = tuple(
+    _question("lubricant", key, False)
+    for key in ("name", "temperature_C", "kinematic_viscosity_mm2_s", "pressure_viscosity_per_GPa")
 )
 EVERY = Question("import.every", "Keep one reading of how many", "10", needed=False)
 NOISE = (
@@ -54,10 +98,18 @@ NOISE = (
 
 def questions_of(kind: str) -> tuple[Question, ...]:
     """What every case of a kind leaves to ask."""
-    contact = CONTACT if kind in ("film", "disc") else ()
+    contact = CONTACT if "contact" in kind_of(kind).sections else ()
     oil = OIL if kind in ("film", "disc", "gear_pair", "mesh_friction") else ()
     many = (EVERY,) if kind in ("friction_history", "viscosity") else ()
     return (*contact, *oil, *many, *NOISE)
+
+
+def contact_form(kind: str, answers: Answers) -> tuple[Question, ...]:
+    """Whether the contact is a line or a point, and how wide, where a kind has one and nothing says it."""
+    told = "contact.width_mm" in answers or answers.get("contact.geometry") == "point"
+    if told or "contact" not in kind_of(kind).sections:
+        return ()
+    return (WIDTH,) if "contact.geometry" in answers else (FORM, WIDTH)
 
 
 def open_questions(draft: Draft, answers: Answers) -> tuple[Question, ...]:
@@ -70,10 +122,12 @@ def nested(answers: Answers) -> dict[str, Any]:
 
     >>> nested({"contact.radius_mm": [9.5, 20.0], "import.temperature": "pot", "kind": "film"})
     {'contact': {'radius_mm': [9.5, 20.0]}, 'kind': 'film'}
+    >>> nested({'surfaces."Ra 0.4".m2': 0.003})
+    {'surfaces': {'Ra 0.4': {'m2': 0.003}}}
     """
     tree: dict[str, Any] = {}
     for key, value in answers.items():
-        *above, last = key.split(".")
+        *above, last = (part.strip('"') for part in PART.findall(key))
         if above[:1] == ["import"]:
             continue
         place = tree
@@ -84,13 +138,14 @@ def nested(answers: Answers) -> dict[str, Any]:
 
 
 def flat(tree: Mapping[str, Any], above: str = "") -> dict[str, Any]:
-    """Tables as dotted keys.
+    """Tables as dotted keys; those of the first level may be dotted already.
 
     >>> flat({"contact": {"radius_mm": [9.5, 20.0]}, "kind": "film"})
     {'contact.radius_mm': [9.5, 20.0], 'kind': 'film'}
     """
     found: dict[str, Any] = {}
     for key, value in tree.items():
-        name = f"{above}.{key}" if above else key
-        found.update(flat(value, name) if isinstance(value, Mapping) else {name: value})
+        part = f'"{key}"' if above and "." in key else key
+        name = f"{above}.{part}" if above else part
+        found.update(flat(value, name) if isinstance(value, Mapping) and value else {name: value})
     return found

@@ -3,16 +3,31 @@
 from __future__ import annotations
 
 import csv
+from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
 from mixedlub.config import KINDS
-from mixedlub.importers.columns import BY_NAME, UNITS, Target, convert, split, target_of
-from mixedlub.importers.draft import Answers, Draft, Question, questions_of
+from mixedlub.importers.columns import BY_NAME, TEXT_COLUMNS, UNITS, convert, split, target_of
+from mixedlub.importers.draft import Answers, Draft, Question, contact_form, questions_of
+from mixedlub.importers.likely import likely_headers, likely_kind
+from mixedlub.importers.write import toml_value
+from mixedlub.kinds import Kind
 from mixedlub.kinds import kind as kind_of
+from mixedlub.table import Column
 from profiles.errors import InputError, nearest
 
-TEXT_COLUMNS = ("rig", "setup", "surface_1", "surface_2", "pinion_surface", "gear_surface")
+Cells = Mapping[str, list[str]]
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """The cells of a file by header, and the line each row stands in."""
+
+    name: str
+    cells: Cells
+    lines: tuple[int, ...]
 
 
 def matches(text: str) -> bool:
@@ -21,58 +36,63 @@ def matches(text: str) -> bool:
 
 
 def draft(text: str, name: str, answers: Answers) -> Draft:
-    """A case from a table: kind and quantity are asked, columns by their headers, units where a header has none."""
-    cells = _cells(text, name)
-    kind = answers.get("kind")
-    if kind is None:
-        words = ", ".join(KINDS)
-        return Draft(None, None, {}, {}, (Question("kind", f"Kind of recording, one of {words}", '"film"'),))
-    if kind not in KINDS:
+    """A case from a table: kind and quantity are asked, columns by their headers, units where a header has none.
+
+    Where the kind or the quantity is open, what a likely one leaves to ask is asked with it.
+    """
+    sheet = _sheet(text, name)
+    kind, quantity = answers.get("kind"), answers.get("recording.quantity")
+    if kind is not None and kind not in KINDS:
         raise InputError(f"no such kind; {nearest(str(kind), KINDS)}", where="kind", value=kind)
-    rules = kind_of(kind)
-    quantity = answers.get("recording.quantity")
-    if quantity is None and len(rules.quantities) == 1:
-        quantity = rules.quantities[0]
-    if quantity is None:
-        text = f"Recorded quantity, one of {', '.join(rules.quantities)}"
-        return Draft(kind, None, {}, {}, (Question("recording.quantity", text, f'"{rules.quantities[0]}"'),))
-    columns: dict[str, np.ndarray] = {}
+    likely = kind_of(kind or likely_kind(sheet.cells))
     questions: list[Question] = []
-    wanted = [*(c.name for c in rules.columns), quantity, f"{quantity}_sd", "rig", "sequence", "setup"]
-    needed = {c.name for c in rules.columns if c.required} | {quantity}
-    for column in wanted:
-        header = _header(column, cells, answers, kind)
-        if header is None:
-            if column in needed:
-                text = f"Header of the column that holds {column}; the file has {', '.join(cells)}"
-                questions.append(Question(f"import.columns.{column}", text, f'"{next(iter(cells))}"'))
-            continue
-        found = _values(column, header, cells[header], answers, name)
-        if isinstance(found, Question):
-            questions.append(found)
-        else:
-            columns[column] = found
-    return Draft(kind, quantity, columns, {}, (*questions, *questions_of(kind)), _notes(name, cells, columns))
-
-
-def _notes(name: str, cells: dict[str, list[str]], columns: dict[str, np.ndarray]) -> tuple[str, ...]:
-    return (f"{name}: {len(columns)} of {len(cells)} columns taken: {', '.join(columns)}",)
-
-
-def _cells(text: str, name: str) -> dict[str, list[str]]:
-    lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
-    if len(lines) < 2:
-        raise InputError("needs a header line and at least one row", where=name)
-    separator = max("\t;,", key=lines[0].count)
-    rows = list(csv.reader(lines, delimiter=separator))
-    header = [cell.strip() for cell in rows[0]]
-    wrong = next((i for i, row in enumerate(rows[1:], start=2) if len(row) != len(header)), None)
-    if wrong is not None:
-        raise InputError(f"has not as many cells as the header ({len(header)})", where=f"{name}: line {wrong}")
-    decimal_comma = separator != ","
-    return {
-        h: [_point(row[i]) if decimal_comma else row[i].strip() for row in rows[1:]] for i, h in enumerate(header) if h
+    if kind is None:
+        questions.append(Question("kind", "Kind of recording", toml_value(likely.name), among=KINDS))
+    if quantity is None:
+        quantity = _likely_quantity(likely, sheet.cells)
+        if len(likely.quantities) > 1:
+            example = toml_value(quantity)
+            questions.append(Question("recording.quantity", "Recorded quantity", example, among=likely.quantities))
+    headers, unknown = _headers(likely, str(quantity), sheet.cells, answers)
+    units, unread = _units(headers, answers)
+    rest = (*unknown, *unread, *contact_form(likely.name, answers), *questions_of(likely.name))
+    if questions:
+        return Draft(kind, None, {}, {}, (*questions, *rest))
+    columns = {
+        column: _values(column, header, sheet, units.get(column))
+        for column, header in headers.items()
+        if column in units or not _has_unit(column, header)
     }
+    note = f"{name}: {len(columns)} of {len(sheet.cells)} columns taken: {', '.join(columns)}"
+    return Draft(kind, quantity, columns, {}, rest, (note,))
+
+
+def _likely_quantity(kind: Kind, cells: Cells) -> str:
+    return next((q for q in kind.quantities if _header(q, cells, {}) is not None), kind.quantities[0])
+
+
+def _sheet(text: str, name: str) -> Sheet:
+    numbered = [
+        (number, line)
+        for number, line in enumerate(text.splitlines(), start=1)
+        if line.strip() and not line.lstrip().startswith("#")
+    ]
+    if len(numbered) < 2:
+        raise InputError("needs a header line and at least one row", where=name)
+    separator = max("\t;,", key=numbered[0][1].count)
+    reader = csv.reader((line for _, line in numbered), delimiter=separator)
+    rows = [(numbered[reader.line_num - 1][0], row) for row in reader]
+    header = [cell.strip() for cell in rows[0][1]]
+    for number, row in rows[1:]:
+        if len(row) != len(header):
+            raise InputError(f"has not as many cells as the header ({len(header)})", where=f"{name}: line {number}")
+    decimal_comma = separator != ","
+    cells = {
+        h: [_point(row[i]) if decimal_comma else row[i].strip() for _, row in rows[1:]]
+        for i, h in enumerate(header)
+        if h
+    }
+    return Sheet(name, cells, tuple(number for number, _ in rows[1:]))
 
 
 def _point(cell: str) -> str:
@@ -81,7 +101,30 @@ def _point(cell: str) -> str:
     return cell.replace(",", ".") if cell.count(",") == 1 and "." not in cell else cell
 
 
-def _header(column: str, cells: dict[str, list[str]], answers: Answers, kind: str) -> str | None:
+def _headers(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> tuple[dict[str, str], list[Question]]:
+    """Headers by the column they hold, and what to ask where a needed column has none."""
+    wanted = [*(c.name for c in kind.columns), quantity, f"{quantity}_sd", "rig", "sequence", "setup"]
+    found = {c: h for c in wanted if (h := _header(c, cells, answers)) is not None}
+    missing = [c for c in wanted if c not in found and (c == quantity or c in _required(kind))]
+    free = {h: values for h, values in cells.items() if h not in found.values()}
+    nearest_header = likely_headers(missing, free or cells)
+    questions = []
+    for column in missing:
+        header = nearest_header.get(column)
+        example = toml_value(header or "HEADER")
+        text = f"Header of the column that holds {column}"
+        questions.append(Question(f"import.columns.{column}", text, example, among=tuple(cells), of="the file has"))
+        bare = header is not None and _has_unit(column, header) and split(header)[1] is None
+        if header is not None and bare and f"import.units.{column}" not in answers:
+            questions.append(_unit_question(column, header))
+    return found, questions
+
+
+def _required(kind: Kind) -> set[str]:
+    return {c.name for c in kind.columns if c.required}
+
+
+def _header(column: str, cells: Cells, answers: Answers) -> str | None:
     told = answers.get(f"import.columns.{column}")
     if told is not None:
         if told not in cells:
@@ -98,31 +141,35 @@ def _header(column: str, cells: dict[str, list[str]], answers: Answers, kind: st
     return None
 
 
-def _values(column: str, header: str, cells: list[str], answers: Answers, name: str) -> np.ndarray | Question:
+def _has_unit(column: str, header: str) -> bool:
+    """Whether the column is read in a unit: one by its own name is in its own."""
+    return column in BY_NAME and header != column
+
+
+def _units(headers: Mapping[str, str], answers: Answers) -> tuple[dict[str, str], list[Question]]:
+    """Units by column, as told or as the header says, and what to ask where neither does."""
+    told = {c: answers.get(f"import.units.{c}") or split(h)[1] for c, h in headers.items() if _has_unit(c, h)}
+    return (
+        {c: str(unit) for c, unit in told.items() if unit is not None},
+        [_unit_question(c, headers[c]) for c, unit in told.items() if unit is None],
+    )
+
+
+def _unit_question(column: str, header: str) -> Question:
+    known = tuple(UNITS[BY_NAME[column].unit])
+    text = f"Unit of the column {header!r}, taken as {column}"
+    return Question(f"import.units.{column}", text, toml_value(known[0]), among=known)
+
+
+def _values(column: str, header: str, sheet: Sheet, unit: str | None) -> np.ndarray:
+    cells = sheet.cells[header]
     if column in TEXT_COLUMNS:
         return np.array(cells)
-    try:
-        values = np.array([float(cell) for cell in cells])
-    except ValueError:
-        bad = next(c for c in cells if not _is_number(c))
-        raise InputError("is not a number", where=f"{name}: {header}", value=bad) from None
-    target: Target | None = BY_NAME.get(column)
-    if target is None or header == column:
-        return values
-    unit = answers.get(f"import.units.{column}") or split(header)[1]
-    if unit is None and target.unit != "ratio":
-        known = ", ".join(UNITS[target.unit])
-        text = f"Unit of the column {header!r}, taken as {column}: one of {known}"
-        return Question(f"import.units.{column}", text, f'"{next(iter(UNITS[target.unit]))}"')
-    if unit is None:
-        text = f"Is the column {header!r}, taken as {column}, a ratio (-) or per cent (%)"
-        return Question(f"import.units.{column}", text, '"-"')
-    return convert(values, str(unit), target, f"{name}: {header}")
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return True
+    number = Column(header)
+    values = np.array(
+        [
+            number.parse(cell, f"{sheet.name}: line {line}, {header}")
+            for line, cell in zip(sheet.lines, cells, strict=True)
+        ]
+    )
+    return values if unit is None else convert(values, unit, BY_NAME[column], f"{sheet.name}: {header}")

@@ -6,6 +6,7 @@ import numpy as np
 
 from mixedlub.importers.columns import BY_NAME, convert, target_of
 from mixedlub.importers.draft import Answers, Draft, questions_of
+from mixedlub.table import Column
 from profiles.errors import InputError
 
 WANTED = ("temperature_C", "viscosity_mPa_s", "time_s")
@@ -20,13 +21,14 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     """Viscosity against temperature and time; the steps follow each other."""
     parts: dict[str, list[np.ndarray]] = {w: [] for w in WANTED}
     elapsed, taken, left = 0.0, 0, 0
-    for lines in _steps(text):
-        found = _read(lines, name)
+    for step in _steps(text):
+        found = _read(step, name)
         if "viscosity_mPa_s" not in found or "temperature_C" not in found:
             left += 1
             continue
         if "time_s" not in found:
-            raise InputError("a step without a time cannot be put after the one before", where=f"{name}: {lines[0]}")
+            title = next(iter(step.values()))
+            raise InputError("a step without a time cannot be put after the one before", where=f"{name}: {title}")
         duration = float(found["time_s"][-1])
         found["time_s"] = found["time_s"] + elapsed
         elapsed += duration
@@ -40,30 +42,35 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     return Draft("viscosity", "viscosity_mPa_s", columns, {}, questions_of("viscosity"), notes)
 
 
-def _steps(text: str) -> list[list[str]]:
-    found: list[list[str]] = []
-    for line in text.splitlines():
+def _steps(text: str) -> list[dict[int, str]]:
+    """The lines of each step by their number in the file."""
+    found: list[dict[int, str]] = []
+    for number, line in enumerate(text.splitlines(), start=1):
         if line.strip().lower() == "[step]":
-            found.append([])
+            found.append({})
         elif found and line.strip():
-            found[-1].append(line)
+            found[-1][number] = line
     return [lines for lines in found if len(lines) > 3]
 
 
-def _read(lines: list[str], name: str) -> dict[str, np.ndarray]:
+def _read(step: dict[int, str], name: str) -> dict[str, np.ndarray]:
     """Columns of one step in the units of a case: title, headers, units, rows."""
+    lines = list(step.values())
     headers, units = (line.split("\t") for line in lines[1:3])
-    rows = [line.split("\t") for line in lines[3:]]
+    rows = {number: line.split("\t") for number, line in list(step.items())[3:]}
     found: dict[str, np.ndarray] = {}
     for i, header in enumerate(headers):
         target = target_of(header)
         if target is None or target.name not in WANTED:
             continue
         where = f"{name}: {lines[0]}, {header}"
-        try:
-            values = np.array([float(row[i]) for row in rows])
-        except (ValueError, IndexError):
-            raise InputError("not all cells are numbers", where=where) from None
+        number = Column(header)
+        values = np.array(
+            [
+                number.parse(row[i] if i < len(row) else "", f"{name}: line {line}, {header}")
+                for line, row in rows.items()
+            ]
+        )
         if i >= len(units) or not units[i].strip():
             raise InputError("no unit is given", where=where)
         found[target.name] = convert(values, units[i], BY_NAME[target.name], where)

@@ -12,7 +12,8 @@ import numpy as np
 
 from mixedlub import config
 from mixedlub.importers import pcs, plain, trios
-from mixedlub.importers.draft import Draft, Question, flat, nested, open_questions
+from mixedlub.importers.draft import Draft, Question, Unanswered, flat, nested, open_questions
+from mixedlub.importers.needs import gaps, told
 from mixedlub.importers.write import write_case
 from profiles.errors import InputError
 
@@ -61,17 +62,18 @@ def _read_one(path: Path, answers: Mapping[str, Any]) -> Draft:
     return found
 
 
-def import_files(files: Sequence[Path], out: Path, **answers: Any) -> Path:
+def import_files(files: Sequence[Path], out: Path, *, overwrite: bool = False, **answers: Any) -> Path:
     """A case folder from instrument files; ``answers`` are tables or dotted keys as in system.toml.
 
-    What is needed and not answered is an error that lists it; nothing is guessed.
+    What is needed and not answered is an error that lists it; nothing is guessed. A case that is there and
+    differs is an error too, unless ``overwrite`` is said.
     """
     given = flat(answers)
     draft = read(files, given)
     missing = open_questions(draft, given)
     if missing:
-        raise InputError(_listed(missing), where="import")
-    return _write(draft, given, out)
+        raise Unanswered(missing)
+    return _write(draft, given, out, overwrite)
 
 
 def run(
@@ -81,6 +83,7 @@ def run(
     answers_file: Path | None = None,
     ask: Callable[[str], str] | None = None,
     say: Callable[[str], None] = print,
+    overwrite: bool = False,
 ) -> Path:
     """The import command: settings ``KEY=VALUE`` and a TOML file first, then ``ask`` for what is missing.
 
@@ -89,6 +92,8 @@ def run(
     answers = flat(config.read_toml(answers_file)) if answers_file is not None else {}
     answers.update(parse_setting(s) for s in settings)
     asked: set[str] = set()
+    if ask is not None and not overwrite and (out / "system.toml").exists():
+        say(f"{out} is a case already; it is left as it is where it differs (--overwrite replaces it)")
     while True:
         draft = read(files, answers)
         waiting = [q for q in draft.questions if q.key not in answers and q.key not in asked]
@@ -101,14 +106,14 @@ def run(
             answers[question.key] = found
     missing = open_questions(draft, answers)
     if missing:
-        raise InputError(_listed(missing), where="import")
+        raise Unanswered(missing)
+    folder = _write(draft, answers, out, overwrite)
     for note in draft.notes:
         say(note)
-    folder = _write(draft, answers, out)
     say(f"{folder}: a case of kind {draft.kind} that records {draft.quantity}")
-    for q in draft.questions:
-        if not q.needed and q.key not in answers and not q.key.startswith("import."):
-            say(f"not given: {q.key} ({q.text}); add it to system.toml when known")
+    system = config.parse(config.System, config.read_toml(folder / "system.toml"), "system.toml")
+    for line in told(gaps(system, draft.columns), str(folder / "system.toml")):
+        say(line)
     return folder
 
 
@@ -135,7 +140,8 @@ def _ask(question: Question, ask: Callable[[str], str], say: Callable[[str], Non
     """One answer, asked again while it is needed and empty; None where an optional one is left open."""
     hint = f"for example {question.example}" + ("" if question.needed else "; empty if not known")
     while True:
-        reply = ask(f"{question.text} ({hint}): ").strip()
+        words = f"{question.text}: {question.choices}" if question.choices else question.text
+        reply = ask(f"{words} ({hint}): ").strip()
         if reply:
             return _value(reply)
         if not question.needed:
@@ -143,20 +149,15 @@ def _ask(question: Question, ask: Callable[[str], str], say: Callable[[str], Non
         say("this is needed")
 
 
-def _listed(missing: Sequence[Question]) -> str:
-    lines = [f"  {q.text}\n    --set '{q.key}={q.example}'" for q in missing]
-    return "these answers are missing (give each by --set KEY=VALUE or in a TOML file by --answers):\n" + "\n".join(
-        lines
-    )
-
-
-def _write(draft: Draft, answers: Mapping[str, Any], out: Path) -> Path:
+def _write(draft: Draft, answers: Mapping[str, Any], out: Path, overwrite: bool) -> Path:
     system: dict[str, Any] = {"kind": draft.kind, **nested(answers)}
     for section, facts in draft.system.items():
         system[section] = {**facts, **system.get(section, {})}
     system["recording"] = {"quantity": draft.quantity, **system.get("recording", {})}
-    config.parse(config.System, {"schema": SCHEMA, **system}, "answers")
+    checked = config.parse(config.System, {"schema": SCHEMA, **system}, "answers")
     every = answers.get("import.every", 1)
     if not isinstance(every, int) or every < 1:
         raise InputError("must be a whole number of at least 1", where="import.every", value=every)
-    return write_case(out, system, {name: values[::every] for name, values in draft.columns.items()})
+    columns = {name: values[::every] for name, values in draft.columns.items()}
+    comments = {gap.table: tuple(gap.comments()) for gap in gaps(checked, columns)}
+    return write_case(out, system, columns, overwrite=overwrite, comments=comments)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mixedlub.case import read_case
-from mixedlub.importers import import_files, write_case
+from mixedlub.importers import import_files
 from mixedlub.importers.columns import convert, split, target_of
 from mixedlub.importers.wizard import run
 from profiles.errors import InputError
@@ -129,6 +129,11 @@ def test_a_rheometer_column_without_a_unit_is_refused(file, tmp_path):
         import_files([file(TRIOS.replace("dyne/cm²\tPa.s", "dyne/cm²\t"))], tmp_path / "case")
 
 
+def test_a_bad_cell_of_a_rheometer_is_named_with_its_line(file, tmp_path):
+    with pytest.raises(InputError, match=r"data\.txt: line 7, Viscosity: '--': Viscosity must be a number"):
+        import_files([file(TRIOS.replace("0.0365", "--"))], tmp_path / "case")
+
+
 def test_every_nth_reading_can_be_kept(file, tmp_path):
     folder = import_files([file(TRIOS)], tmp_path / "case", **{"import.every": 3})
     assert read_case(folder).recordings["viscosity_mPa_s"].tolist() == pytest.approx([36.4, 24.5])
@@ -209,15 +214,6 @@ def test_a_folder_that_is_no_case_is_not_overwritten(file, tmp_path):
     with pytest.raises(InputError, match="no case folder"):
         import_files([file(EHD)], tmp_path / "home", contact=BALL)
     assert (tmp_path / "home" / "letter.txt").read_text(encoding="utf-8") == "mine"
-
-
-def test_an_existing_case_is_replaced_whole(tmp_path):
-    system = {"kind": "viscosity", "recording": {"quantity": "viscosity_mPa_s"}}
-    columns = {"temperature_C": np.array([20.0, 40.0]), "viscosity_mPa_s": np.array([9.0, 5.0])}
-    folder = write_case(tmp_path / "case", system, columns)
-    (folder / "conditions.csv").write_text("run,temperature_C\n1,30\n", encoding="utf-8")
-    write_case(tmp_path / "case", system, columns)
-    assert sorted(p.name for p in folder.iterdir()) == ["recordings.csv", "system.toml"]
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,89 @@
+"""What a table is likely to hold, offered as an answer and never taken: its kind, and headers near a column."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Mapping
+
+from mixedlub.config import KINDS
+from mixedlub.importers.columns import BY_NAME, TEXT_COLUMNS, UNITS, split, target_of, tidy
+from mixedlub.kinds import kind as kind_of
+from mixedlub.table import Column
+from profiles.errors import InputError
+
+Cells = Mapping[str, list[str]]
+ENOUGH = 0.4
+"""Likeness from which a header is offered; a unit that fits, or names in the cells, make up for other words."""
+UNIT_FITS = 0.45
+TEXT_FITS = 0.4
+SAME_WORD = 0.75
+
+
+def likely_headers(columns: Iterable[str], cells: Cells) -> dict[str, str]:
+    """The header nearest to each column, each header once; columns that none is near are left out."""
+    pairs = sorted(
+        ((likeness(column, header, cells[header]), column, header) for column in columns for header in cells),
+        key=lambda found: -found[0],
+    )
+    taken: dict[str, str] = {}
+    for score, column, header in pairs:
+        if score >= ENOUGH and column not in taken and header not in taken.values():
+            taken[column] = header
+    return taken
+
+
+def likely_kind(cells: Cells) -> str:
+    """The kind whose recorded quantity and needed columns the headers come nearest to."""
+    return max(KINDS, key=lambda name: _share(name, cells))
+
+
+def _share(name: str, cells: Cells) -> tuple[float, int]:
+    """Share of the needed columns that are there, the reading counting as much as all others; then how many."""
+    found = kind_of(name)
+    needed = [c.name for c in found.columns if c.required]
+    near = likely_headers([*needed, *found.quantities], cells)
+    readings = max((likeness(q, near[q], cells[near[q]]) for q in found.quantities if q in near), default=0.0)
+    sure = [likeness(c, near[c], cells[near[c]]) for c in needed if c in near]
+    conditions = sum(sure) / len(needed) if needed else 0.0
+    return (readings + conditions, len(sure))
+
+
+def likeness(column: str, header: str, cells: Iterable[str] = ()) -> float:
+    """How near a header comes to a column, by its words and its unit; 0 where unit or cells speak against it.
+
+    >>> likeness("speed_rpm", "Pinion speed [1/min]") > likeness("speed_rpm", "Pinion torque [Nm]")
+    True
+    """
+    exact = target_of(header)
+    if header == column or (exact is not None and exact.name == column):
+        return 2.0
+    words, unit = split(header)
+    numbers = all(_is_number(cell) for cell in cells)
+    if column in TEXT_COLUMNS:
+        return 0.0 if unit is not None or numbers else TEXT_FITS + _overlap(words, column.replace("_", " "))
+    if not numbers:
+        return 0.0
+    target = BY_NAME.get(column)
+    if target is None:
+        return _overlap(words, column.replace("_", " "))
+    fits = unit is not None and tidy(unit) in UNITS[target.unit]
+    if unit is not None and not fits:
+        return 0.0
+    own = split(column)[0]
+    return max(_overlap(words, spoken) for spoken in (own, *target.spoken)) + (UNIT_FITS if fits else 0.0)
+
+
+def _overlap(words: str, spoken: str) -> float:
+    """Share of the spoken words found in a header, less a little for every word besides."""
+    have, want = words.split(), spoken.split()
+    near = [max((difflib.SequenceMatcher(None, w, h).ratio() for h in have), default=0.0) for w in want]
+    share = sum(n for n in near if n >= SAME_WORD) / len(want)
+    return share - 0.02 * max(len(have) - len(want), 0) * (share > 0)
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        Column("cell").parse(cell, "")
+    except InputError:
+        return False
+    return True

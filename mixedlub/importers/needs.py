@@ -1,0 +1,142 @@
+"""What a kind of case needs and the system lacks: as a list, and as comments to fill in."""
+
+from __future__ import annotations
+
+import inspect
+import tomllib
+from collections.abc import Iterator, Mapping, Set
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from pydantic import BaseModel, ValidationError
+
+from mixedlub import config
+from mixedlub.calibration import calibrations
+from mixedlub.importers.keys import HEAD, MODELS, WORDS, Words
+from mixedlub.importers.write import toml_key, toml_value
+from mixedlub.kinds import kind as kind_of
+from mixedlub.table import Table
+
+INSTEAD = "instead of"
+
+
+@dataclass(frozen=True)
+class Gap:
+    """Keys that a table of system.toml lacks, and whether the case is refused without the table."""
+
+    table: str
+    absent: bool
+    required: bool
+    needed: tuple[str, ...]
+    assumed: Mapping[str, str]
+    words: Words
+
+    def comments(self) -> Iterator[str]:
+        """Lines to put into the file: each is taken by deleting its mark of comment."""
+        if self.absent:
+            yield f"# [{self.table}]" + ("  # needed" if self.required else "")
+        for key in (*self.needed, *self.assumed):
+            example, meaning = self.words[key]
+            left_out = self.assumed.get(key)
+            said = f"needed: {meaning}" if key in self.needed else meaning
+            yield f"# {key} = {example}  # {said}" + (f"; {left_out} where left out" if left_out else "")
+
+    @property
+    def blocking(self) -> str:
+        """What is needed, in one line."""
+        if not self.needed:
+            return f"[{self.table}] with what is known; the rest is taken as typical"
+        other = [key for key in self.assumed if self.words[key][1].startswith(INSTEAD)]
+        return f"[{self.table}] with {', '.join(self.needed)}" + (f"; or with {', '.join(other)}" if other else "")
+
+    @property
+    def open(self) -> str:
+        """What is not given and need not be, in one line with the values taken."""
+        place = f"{self.table}." if self.table else ""
+        return ", ".join(place + key + (f" ({value})" if value else "") for key, value in self.assumed.items())
+
+
+def gaps(system: config.System, columns: Mapping[str, np.ndarray]) -> tuple[Gap, ...]:
+    """What a case of the system's kind computes with and the system does not say; the rows name the surfaces."""
+    rules = kind_of(system.kind)
+    reads = _reads(system, columns)
+    head = {k: w for k, w in HEAD.items() if k not in system.model_fields_set}
+    if "boundary_friction" not in reads:
+        head.pop("boundary_friction", None)
+    found = [Gap("", False, False, (), {k: _default(config.System, k) for k in head}, HEAD)]
+    wanted = [s for s in ("gears", "contact", "lubricant") if s in rules.sections]
+    if "viscosity" in reads and "lubricant" not in wanted:
+        wanted.append("lubricant")
+    for section in wanted:
+        found.append(_gap(section, section, getattr(system, section), section in rules.sections))
+    for name in _surfaces(system, columns) if "surfaces" in rules.sections else ():
+        found.append(_gap("surfaces", f"surfaces.{toml_key(name)}", None, True))
+    stated = system.uncertainty.model_fields_set
+    movable = {c.name for c in _movable(system) if set(c.needs) <= reads} - stated
+    uncertain = {k: "known exactly" for k in WORDS["uncertainty"] if k in movable}
+    found.append(Gap("uncertainty", not stated, False, (), uncertain, WORDS["uncertainty"]))
+    own_noise = {"noise"} if f"{system.recording.quantity}_sd" in columns else set()
+    found.append(_gap("recording", "recording", system.recording, False, own_noise))
+    return tuple(gap for gap in found if gap.needed or gap.assumed)
+
+
+def _reads(system: config.System, columns: Mapping[str, np.ndarray]) -> set[str]:
+    """What the laws of the kind's chain read."""
+    chain = kind_of(system.kind).chain(system, Table(columns))
+    return {name for _, law in chain for name in inspect.signature(law).parameters}
+
+
+def _movable(system: config.System) -> tuple[Any, ...]:
+    """Everything that calibration can move."""
+    everything = config.Uncertainty(**dict.fromkeys(config.Uncertainty.model_fields, 1.0))
+    return calibrations(system.model_copy(update={"uncertainty": everything}))
+
+
+def _surfaces(system: config.System, columns: Mapping[str, np.ndarray]) -> list[str]:
+    """Surfaces that the rows name and the system does not describe."""
+    named = [c.name for c in kind_of(system.kind).columns if c.form == "name" and "surface" in c.name]
+    names = {str(value) for name in named if name in columns for value in columns[name]}
+    return sorted(names - set(system.surfaces))
+
+
+def _gap(section: str, table: str, given: BaseModel | None, required: bool, known: Set[str] = frozenset()) -> Gap:
+    """Keys of a section that are not given; those are needed without which the examples of the others are refused."""
+    model, words = MODELS[section], WORDS[section]
+    said = known if given is None else known | given.model_fields_set
+    examples = {k: _parsed(e) for k, (e, meaning) in words.items() if not meaning.startswith(INSTEAD)}
+    needed = tuple(
+        k for k in examples if given is None and not _valid(model, {o: v for o, v in examples.items() if o != k})
+    )
+    assumed = {k: _default(model, k) for k in words if k not in said and k not in needed}
+    return Gap(table, given is None, required and given is None, needed, assumed, words)
+
+
+def _parsed(example: str) -> Any:
+    return tomllib.loads(f"value = {example}")["value"]
+
+
+def _valid(model: type[BaseModel], data: Mapping[str, Any]) -> bool:
+    try:
+        model.model_validate(data)
+    except ValidationError:
+        return False
+    return True
+
+
+def _default(model: type[BaseModel], key: str) -> str:
+    """The value taken where a key is left out, as TOML; empty where the meaning says it."""
+    value = model.model_fields[key].default
+    return "" if value is None or value == "" or isinstance(value, BaseModel) else toml_value(value)
+
+
+def told(found: tuple[Gap, ...], file: str) -> Iterator[str]:
+    """The gaps in plain words, line by line: first those without which nothing computes."""
+    blocking = [gap for gap in found if gap.required]
+    if blocking:
+        yield f"needed before the case can be used ({file} has each as a comment with an example):"
+        yield from (f"  {gap.blocking}" for gap in blocking)
+    assumed = [gap.open for gap in found if gap.assumed and not gap.table.startswith("surfaces.")]
+    if assumed:
+        yield "not given, with what is taken where a value is usual:"
+        yield from (f"  {text}" for text in assumed)

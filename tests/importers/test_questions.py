@@ -1,0 +1,146 @@
+"""What a table leaves open is asked all at once, one question a line, with the likely answer."""
+
+import shlex
+
+import pytest
+
+from mixedlub.cli import main
+from mixedlub.importers import import_files
+from mixedlub.importers.columns import TARGETS
+from mixedlub.importers.likely import likely_headers, likely_kind
+from profiles.errors import InputError
+
+RIG8 = """# rig 8, campaign 3
+Power loss [kW];Pinion torque [Nm];Pinion speed [1/min];Oil sump temp [°C];Pinion flank;Wheel flank
+
+0,0175;50;500;40;ground;polished
+0,0275;50;1000;40;ground;ground
+0,05;100;1000;60;polished;ground
+"""
+
+
+@pytest.fixture
+def rig8(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "rig8.csv"
+    path.write_text(RIG8, encoding="utf-8")
+    return path
+
+
+def asked(capsys):
+    """The settings suggested on standard error, one a line, and the last line."""
+    *lines, last = capsys.readouterr().err.splitlines()
+    settings = [shlex.split(line.split("  (")[0])[1] for line in lines]
+    return dict(s.split("=", 1) for s in settings), last
+
+
+def test_everything_is_asked_at_once_with_the_likely_answers(rig8, capsys):
+    assert main(["import", "rig8.csv", "--out", "rig"]) == 2
+    suggested, last = asked(capsys)
+    assert suggested == {
+        "kind": '"gear_pair"',
+        "import.columns.speed_rpm": '"Pinion speed [1/min]"',
+        "import.columns.oil_temperature_C": '"Oil sump temp [°C]"',
+        "import.columns.pinion_surface": '"Pinion flank"',
+        "import.columns.gear_surface": '"Wheel flank"',
+    }
+    assert last.startswith("mixedlub: import: 5 answers are missing")
+
+
+def test_the_suggested_settings_are_all_that_is_needed(rig8, capsys):
+    main(["import", "rig8.csv", "--out", "rig"])
+    suggested, _ = asked(capsys)
+    words = [word for key, value in suggested.items() for word in ("--set", f"{key}={value}")]
+    assert main(["import", "rig8.csv", "--out", "rig", *words]) == 0
+    text = (rig8.parent / "rig/recordings.csv").read_text(encoding="utf-8")
+    assert text.splitlines()[1] == "1,50,500,40,ground,polished,17.5"
+
+
+def test_one_answer_missing_is_not_a_plural(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "t.csv").write_text("temperature_C,viscosity_mPa_s\n40,30\n100,5\n", encoding="utf-8")
+    assert main(["import", "t.csv", "--out", "rig"]) == 2
+    suggested, last = asked(capsys)
+    assert suggested == {"kind": '"viscosity"'}
+    assert "1 answer is missing" in last
+
+
+def test_the_unit_of_a_likely_column_is_asked_with_the_column(rig8, capsys):
+    rig8.write_text(RIG8.replace("Pinion speed [1/min]", "Pinion speed"), encoding="utf-8")
+    main(["import", "rig8.csv", "--out", "rig"])
+    suggested, _ = asked(capsys)
+    assert suggested["import.columns.speed_rpm"] == '"Pinion speed"'
+    assert suggested["import.units.speed_rpm"] == '"rpm"'
+
+
+def test_headers_with_quotes_are_suggested_as_they_must_be_typed(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "t.csv").write_text("temp's 'T' (degC)\tviscosity_mPa_s\n40\t30\n100\t5\n", encoding="utf-8")
+    main(["import", "t.csv", "--out", "rig", "--set", "kind=viscosity"])
+    suggested, _ = asked(capsys)
+    assert suggested == {"import.columns.temperature_C": "\"temp's 'T' (degC)\""}
+
+
+def test_a_header_in_another_unit_is_never_suggested():
+    cells = {"Load speed [m/s]": ["1"], "Belastung [kN]": ["2"]}
+    assert likely_headers(["load_N"], cells) == {"load_N": "Belastung [kN]"}
+
+
+def test_where_no_header_is_near_none_is_suggested(tmp_path):
+    path = tmp_path / "t.csv"
+    path.write_text("Ort,viscosity_mPa_s\nx,30\ny,5\n", encoding="utf-8")
+    with pytest.raises(InputError, match=r'temperature_C="HEADER"'):
+        import_files([path], tmp_path / "case", kind="viscosity")
+
+
+@pytest.mark.parametrize(
+    ("headers", "kind"),
+    [
+        ("Load [N],Rolling speed [m/s],SRR [%],Oil temp [degC],Film [nm]", "film"),
+        ("Load [N],Rolling speed [m/s],SRR [%],Oil temp [degC],Body 1,Body 2,Traction coeff [-]", "disc"),
+        ("Time [s],COF", "friction_history"),
+        ("Motor speed [rpm],Friction torque [Nm]", "friction_map"),
+        ("Temperature [degC],Viscosity [mPa.s]", "viscosity"),
+        (
+            "Torque [Nm],Speed [rpm],Roll angle [deg],Oil temp [degC],Flank 1,Flank 2,Friction coefficient",
+            "mesh_friction",
+        ),
+    ],
+)
+def test_the_likely_kind(headers, kind):
+    cells = {h: ["ground"] if h.startswith(("Body", "Flank")) else ["1.0"] for h in headers.split(",")}
+    assert likely_kind(cells) == kind
+
+
+def test_every_column_is_nearest_to_the_words_instruments_use_for_it():
+    cells = {f"{t.spoken[0]} ": ["1.0"] for t in TARGETS}
+    assert likely_headers([t.name for t in TARGETS], cells) == {t.name: f"{t.spoken[0]} " for t in TARGETS}
+
+
+def test_a_disc_is_asked_whether_line_or_point(tmp_path):
+    path = tmp_path / "t.csv"
+    headers = "load_N,entrainment_speed_m_s,slide_roll_ratio,oil_temperature_C,surface_1,surface_2"
+    path.write_text(f"{headers},friction_coefficient\n20,1,0.1,40,a,b,0.05\n40,1,0.1,40,a,b,0.04\n", encoding="utf-8")
+    contact = {"radius_mm": [20.0, 25.4], "youngs_modulus_GPa": [206.0, 206.0], "poisson_ratio": [0.3, 0.3]}
+    with pytest.raises(InputError, match=r"contact\.geometry=.*\n.*contact\.width_mm="):
+        import_files([path], tmp_path / "case", kind="disc", contact=contact)
+    with pytest.raises(InputError, match=r"1 answer is missing[^\n]*\n.*contact\.width_mm="):
+        import_files([path], tmp_path / "case", kind="disc", contact={**contact, "geometry": "line"})
+    import_files([path], tmp_path / "point", kind="disc", contact={**contact, "geometry": "point"})
+    import_files([path], tmp_path / "line", kind="disc", contact={**contact, "width_mm": 6.0})
+
+
+@pytest.mark.parametrize(("cell", "rule"), [("abc", "must be a number"), ("", "must be a number"), ("nan", "finite")])
+def test_a_bad_cell_is_named_with_its_line(rig8, cell, rule):
+    rig8.write_text(RIG8.replace("0,0275;", f"{cell};"), encoding="utf-8")
+    columns = {"speed_rpm": "Pinion speed [1/min]", "oil_temperature_C": "Oil sump temp [°C]"}
+    told = {f"import.columns.{k}": v for k, v in columns.items()}
+    with pytest.raises(InputError, match=rule) as caught:
+        import_files([rig8], rig8.parent / "rig", kind="gear_pair", **told)
+    assert str(caught.value).startswith(f"rig8.csv: line 5, Power loss [kW]: {cell!r}: ")
+
+
+def test_a_row_with_other_cells_is_named_with_its_line(rig8):
+    rig8.write_text(RIG8.replace("0,05;100;", "0,05;"), encoding="utf-8")
+    with pytest.raises(InputError, match=r"rig8\.csv: line 6: has not as many cells"):
+        import_files([rig8], rig8.parent / "rig", kind="gear_pair")
