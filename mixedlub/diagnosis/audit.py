@@ -15,6 +15,12 @@ SCARCE = 30
 UNIT_SLIPS = {1e3: "thousand", 1e-3: "thousandth", 1e6: "million", 1e-6: "millionth"}
 
 
+class Doubt(str):
+    """A warning that questions the answer as a whole, and so stands above it."""
+
+    __slots__ = ()
+
+
 def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]:
     """What the user should know of the recording; an error where it cannot be what it is labelled."""
     notes = []
@@ -45,10 +51,12 @@ def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]
         for slip, word in UNIT_SLIPS.items():
             if 0.7 * slip < ratio < 1.4 * slip:
                 notes.append(
-                    f"readings are about a {word} of what the base model gives: check the unit of {case.quantity}"
+                    Doubt(
+                        f"readings are about a {word} of what the base model gives: check the unit of {case.quantity}"
+                    )
                 )
         if np.median(base[positive]) > 0 and np.median(y[positive]) < 0:
-            notes.append("most readings are negative where the base model is positive: check the sign")
+            notes.append(Doubt("most readings are negative where the base model is positive: check the sign"))
     stated = case.system.recording.noise
     repeats = noise_from_repeats(case, rows, np.log(y) if case.kind.logarithmic else y)
     if not is_stated(case, rows):
@@ -59,7 +67,9 @@ def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]
         typical = float(np.median(np.hypot(stated.relative * np.abs(y), stated.absolute) / size))
         if repeats > 4.0 * typical > 0:
             notes.append(
-                f"readings at equal conditions contradict each other: they scatter by {repeats:.3g} where the stated "
-                f"noise is {typical:.3g}"
+                Doubt(
+                    f"readings at equal conditions contradict each other: they scatter by {repeats:.3g} where the "
+                    f"stated noise is {typical:.3g}"
+                )
             )
     return notes

@@ -167,10 +167,26 @@ def test_map_of_conditions_puts_speed_across_torque_up(offset: Diagnosis) -> Non
 
 
 def test_stages_that_absorb_the_unnamed_are_drawn_in_order(unnamed: Diagnosis) -> None:
-    figure = charts.empirical_form(unnamed, describe(unnamed.found))
+    figure = charts.absorbing_stages(describe(unnamed.found))
     assert figure is not None
     widths = [bar.get_width() for bar in figure.axes[0].patches]
     assert widths == sorted(widths, reverse=True)
+
+
+def test_tick_labels_of_the_stages_lie_within_the_figure(unnamed: Diagnosis) -> None:
+    with look():
+        figure = charts.absorbing_stages(describe(unnamed.found))
+        assert figure is not None
+        figure.canvas.draw()
+        edge = figure.get_window_extent()
+        for tick in figure.axes[0].get_xticklabels():
+            if figure.axes[0].viewLim.intervalx[0] <= tick.get_position()[0] <= figure.axes[0].viewLim.intervalx[1]:
+                assert tick.get_window_extent().x1 <= edge.x1
+
+
+def test_form_is_drawn_only_where_a_law_holds(unnamed: Diagnosis, teeth: Diagnosis) -> None:
+    assert charts.empirical_form(unnamed, replace(describe(unnamed.found), law=None)) is None
+    assert charts.empirical_form(teeth, describe(teeth.found)) is not None
 
 
 def test_equal_figures_are_equal_text(offset: Diagnosis) -> None:
