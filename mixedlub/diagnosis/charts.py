@@ -98,16 +98,21 @@ def heldout(d: Diagnosis) -> Figure:
 
 def absorbing_stages(extra: Unnamed) -> Figure | None:
     """Of an unnamed mismatch: how well each stage could take it up."""
+    from matplotlib.ticker import MaxNLocator
+
     if not extra.stages:
         return None
     figure = blank(5.2, 0.95 + 0.27 * len(extra.stages))
     axes = figure.add_subplot()
     names = [words_of(a.quantity) for a in extra.stages]
-    axes.barh(names, [a.evidence for a in extra.stages], height=0.55, color=UNNAMED)
+    values = [a.evidence for a in extra.stages]
+    axes.barh(names, values, height=0.55, color=UNNAMED)
     axes.axvline(0.0, color=INK, lw=0.7)
     axes.invert_yaxis()
-    axes.margins(x=0.08)
-    axes.locator_params(axis="x", nbins=6)
+    # The ticks are settled before the layout, which makes room only for those that it has seen.
+    ticks = MaxNLocator(5).tick_values(min(*values, 0.0), max(*values, 0.0))
+    axes.set_xticks(ticks)
+    axes.set_xlim(ticks[0], ticks[-1])
     axes.grid(axis="y", visible=False)
     axes.tick_params(axis="y", length=0)
     axes.set_xlabel("log evidence of a smooth free factor over nothing missing (nats)")

@@ -43,8 +43,8 @@ def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Table]:
             )
             value, low, high = (number(x) for x in scaled)
             name = with_symbol(p.name, plain_equation(p.symbol))
-            mark = f"; {AS_BEFORE}" if s >= UNTOLD else ""
-            table.append((effect_words(e.id), name, value, f"{low} to {high}", unit, f"{_meaning(d, e, p)}{mark}"))
+            mark = f"[{AS_BEFORE}] " if s >= UNTOLD else ""
+            table.append((effect_words(e.id), name, value, f"{low} to {high}", unit, f"{mark}{_meaning(d, e, p)}"))
     return tuple(said), tuple(table) if len(table) > 1 else ()
 
 

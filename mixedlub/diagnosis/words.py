@@ -38,8 +38,8 @@ UNNAMED = "If it is something unknown"
 ALIKE = "What else could it be?"
 GAIN = "How much better is it on conditions it did not fit?"
 NATS = (
-    "A nat is a factor 2.7 in the odds: below about 3 nats these readings do not tell the stages apart, and the two "
-    "answers may name different ones."
+    "A nat is a factor 2.7 in the odds: below about 3 nats these readings do not tell the quantities apart, and the "
+    "two answers may name different ones."
 )
 CHECK = "Does a channel that was not fitted agree?"
 OUTLIERS = "Outlier readings"
@@ -181,9 +181,9 @@ def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
     said = [f"Of all smooth forms tried, the most probable varies with {along}, as {_carried(shape.carrier)}."]
     if unnamed.stages:
         best, *others = unnamed.stages
-        worse = [f"on {words_of(o.quantity)} {best.evidence - o.evidence:.1f} nats worse" for o in others[:3]]
+        worse = [f"{words_of(o.quantity)} {best.evidence - o.evidence:.1f} nats worse" for o in others[:3]]
         said.append(
-            "Another question is which stage could take it up if a factor there were free to vary with every "
+            "Another question is which quantity could take it up if a factor there were free to vary with every "
             f"condition: best {words_of(best.quantity)}{_stage(best)}{'; ' if worse else ''}{'; '.join(worse)}."
         )
         if worse:
