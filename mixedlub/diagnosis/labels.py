@@ -121,7 +121,12 @@ def effect_words(name: str) -> str:
     >>> effect_words("inlet_shear_heating")
     'inlet shear heating'
     """
-    special = {"none": "nothing missing", "unknown": "something outside the catalogue", "micro_ehl": "micro-EHL"}
+    special = {
+        "none": "nothing missing",
+        "unknown": "something outside the catalogue",
+        "micro_ehl": "micro-EHL",
+        "stribeck": "Stribeck",
+    }
     return special.get(name, name.replace("_", " "))
 
 
@@ -135,13 +140,12 @@ def explanation_words(names: Sequence[str]) -> str:
 
 
 def with_names(words: str, first: bool = True) -> str:
-    """Words with the names of people as they are written, the first letter large where a sentence begins.
+    """Words with a name in them as it is written, the first letter large where a sentence begins.
 
-    >>> with_names("micro-EHL"), with_names("stribeck"), with_names("eyring stress", first=False)
-    ('Micro-EHL', 'Stribeck', 'Eyring stress')
+    >>> with_names("micro-EHL"), with_names("the eyring stress", first=False)
+    ('Micro-EHL', 'the Eyring stress')
     """
-    for name in ("eyring", "stribeck"):
-        words = words.replace(name, name.capitalize())
+    words = words.replace("eyring", "Eyring")
     return f"{words[:1].upper()}{words[1:]}" if first else words
 
 

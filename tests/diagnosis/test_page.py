@@ -80,6 +80,11 @@ def test_every_figure_has_a_caption(page: str) -> None:
     assert page.count("<figcaption>") == page.count("<figure>")
 
 
+def test_every_table_scrolls_where_it_does_not_fit(page: str) -> None:
+    assert page.count("<table>") == page.count('<div class="scroll"><table>') > 0
+    assert ".scroll { overflow-x: auto; }" in page
+
+
 def test_page_and_text_say_the_same(offset: Diagnosis, read: Reader) -> None:
     shown = re.sub(r"\s+", " ", " ".join(read.text))
     for section in words.sections(offset):

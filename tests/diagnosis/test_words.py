@@ -8,15 +8,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mixedlub.diagnosis import page, words
+from mixedlub.diagnosis import fitted, page, words
+from mixedlub.diagnosis.answer import effect_records
 from mixedlub.diagnosis.audit import SCARCE, Doubt, audit
 from mixedlub.diagnosis.diagnose import Diagnosis, _doubts
 from mixedlub.diagnosis.empirical import unnamed as describe
-from mixedlub.diagnosis.fitted import _untold
 from mixedlub.diagnosis.labels import effect_words, number, with_names
 from mixedlub.diagnosis.nexttest import NextTest
 from mixedlub.diagnosis.posterior import Key, Posterior
-from mixedlub.effect import catalogue
+from mixedlub.effect import Normal, Parameter, catalogue
 from mixedlub.report.equations import equation
 from mixedlub.report.plain import plain_equation
 
@@ -177,12 +177,12 @@ def test_parameters_that_readings_do_not_tell_are_marked(offset: Diagnosis, spre
 
 def test_of_several_vague_parameters_only_their_combined_effect_is_known() -> None:
     heating, offset = catalogue()["boundary_film_temperature"], catalogue()["sensor_offset"]
-    assert _untold(heating, []) == []
-    assert _untold(heating, ["drop", "width"]) == [
+    assert fitted._untold(heating, []) == []
+    assert fitted._untold(heating, ["drop", "width"]) == [
         "Boundary film temperature: the 90 % intervals of drop and width are as wide as before the readings. Only the "
         "combined effect of the parameters is known."
     ]
-    assert "combined" not in _untold(offset, ["offset"])[0]
+    assert "combined" not in fitted._untold(offset, ["offset"])[0]
 
 
 def test_sensor_offset_has_the_size_that_it_is_a_share_of(offset: Diagnosis) -> None:
@@ -197,6 +197,16 @@ def test_where_says_which_base_model_is_meant(offset: Diagnosis) -> None:
 
 def test_name_keeps_its_letters_at_the_start_of_a_sentence() -> None:
     assert with_names(effect_words("micro_ehl")) == "Micro-EHL"
+    assert effect_words("stribeck") == "Stribeck"
+
+
+def test_temperature_of_an_answer_is_in_celsius(offset: Diagnosis, monkeypatch: pytest.MonkeyPatch) -> None:
+    one = judged(offset, {("sensor_offset",): 0.97}, 1)
+    kelvin = Parameter("offset", "K", Normal(350.0, 10.0), "temperature")
+    monkeypatch.setattr(fitted, "effects_of", lambda key: [replace(catalogue()["sensor_offset"], parameters=(kelvin,))])
+    value = effect_records(one)[0]["parameters"][0]["value"]
+    row = fitted.parameters(one)[1][1]
+    assert (row[2], row[4]) == (number(value - 273.15), "°C")
 
 
 @pytest.mark.parametrize("p", [1e-304, 3e-7, 0.004, 0.3])
