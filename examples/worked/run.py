@@ -100,7 +100,7 @@ def story(first: Diagnosis, second: Diagnosis, truth: dict) -> dict[str, str]:
         "second_alike": explained.get(words.ALIKE, ""),
         "heldout_before": f"{second.heldout.before:.2f}",
         "heldout_after": f"{second.heldout.after:.2f}",
-        "outliers": ", ".join(str(run) for run in second.outlier_runs) or "none",
+        "outliers": ", ".join(f"run {run}" for run in second.outlier_runs) or "none",
         "spoilt": ", ".join(str(run) for run in truth["spoilt_runs"]),
         "concealed": ", ".join(effect_words(name) for name in truth["concealed"]),
         "knobs": ", ".join(f"{k.replace('_', ' ')} {v:g}" for v_ in truth["concealed"].values() for k, v in v_.items()),

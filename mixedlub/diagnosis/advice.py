@@ -24,7 +24,10 @@ def next_test(d: Diagnosis) -> tuple[str, ...]:
         return ("No useful test: no single reading at these conditions or a little beyond would say more.",)
     names = "; ".join(explanation_words(name.split("+")) for name in first.separates)
     weak = ("No single reading would tell much more; the best would be:",) if first.expected_bits < WEAK else ()
-    run = f"Run {conditions_text(first.conditions)}: {first.expected_bits:.2f} bit towards telling apart {names}."
+    run = (
+        f"Run {conditions_text(first.conditions)}: {first.expected_bits:.2f} bit towards telling apart {names} (1 bit "
+        "would settle which of two equally probable ones is right)."
+    )
     return (*weak, run, *(f"{text[:1].upper()}{text[1:]}." for text in beyond(first.conditions, d.recorded.table)))
 
 

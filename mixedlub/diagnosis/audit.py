@@ -22,6 +22,12 @@ STUCK_STEPS, STUCK_SPAN = 3.0, 0.05
 """Where the base model changes by more steps of the reading than that, and by such a share of its size, it is stuck."""
 
 
+class Doubt(str):
+    """A warning that questions the answer as a whole, and so stands above it."""
+
+    __slots__ = ()
+
+
 def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]:
     """What the user should know of the recording; an error where it cannot be what it is labelled."""
     return [*doubts(case, rows, y, forward), *_noise_source(case, rows, y)]
@@ -29,7 +35,7 @@ def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]
 
 def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]:
     """What speaks against the recording; an error where it cannot be diagnosed."""
-    notes = []
+    notes: list[str] = []
     where = f"{case.folder / 'recordings.csv'}: {case.quantity}"
     if y.size < FEWEST:
         raise InputError(f"needs at least {FEWEST} readings to say anything", where=where, value=y.size)
@@ -56,9 +62,10 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
         ratio = float(np.median(np.abs(y[positive] / base[positive])))
         for slip, words in UNIT_SLIPS.items():
             if slip / SLIP_WITHIN < ratio < slip * SLIP_WITHIN:
-                notes.append(f"readings are about {words} what the base model gives: check the unit of {case.quantity}")
+                said = f"readings are about {words} what the base model gives: check the unit of {case.quantity}"
+                notes.append(Doubt(said))
         if np.median(base[positive]) > 0 and np.median(y[positive]) < 0:
-            notes.append("most readings are negative where the base model is positive: check the sign")
+            notes.append(Doubt("most readings are negative where the base model is positive: check the sign"))
     notes += _stuck(case, rows, y, base)
     stated = case.system.recording.noise
     repeats = _repeats(case, rows, y)
@@ -67,8 +74,10 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
         typical = float(np.median(np.hypot(stated.relative * np.abs(y), stated.absolute) / size))
         if repeats > 4.0 * typical > 0:
             notes.append(
-                f"readings at equal conditions contradict each other: they scatter by {repeats:.3g} where the stated "
-                f"noise is {typical:.3g}"
+                Doubt(
+                    f"readings at equal conditions contradict each other: they scatter by {repeats:.3g} where the "
+                    f"stated noise is {typical:.3g}"
+                )
             )
     return notes
 
@@ -89,10 +98,8 @@ def _stuck(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str
         return []
     runs = [str(run) for run in rows["run"][same][:STUCK_ROWS]]
     more = "" if len(runs) == counts[most] else ", ..."
-    return [
-        f"{counts[most]} of {y.size} readings are exactly {values[most]:g} though {', '.join(varied)} vary: check for "
-        f"a channel that was stuck or filled in (runs {', '.join(runs)}{more})"
-    ]
+    said = f"{counts[most]} of {y.size} readings are exactly {values[most]:g} though {', '.join(varied)} vary"
+    return [Doubt(f"{said}: check for a channel that was stuck or filled in (runs {', '.join(runs)}{more})")]
 
 
 def _repeats(case: Case, rows: Table, y: np.ndarray) -> float:

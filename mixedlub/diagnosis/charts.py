@@ -96,43 +96,58 @@ def heldout(d: Diagnosis) -> Figure:
     return figure
 
 
-def empirical_form(d: Diagnosis, extra: Unnamed) -> Figure | None:
-    """Of an unnamed mismatch: which stage absorbs it best, and the power law against what was recorded."""
+def absorbing_stages(extra: Unnamed) -> Figure | None:
+    """Of an unnamed mismatch: how well each stage could take it up."""
+    from matplotlib.ticker import MaxNLocator
+
     if not extra.stages:
         return None
-    law = extra.law
-    figure = blank(7.4 if law else 4.2, 2.9)
-    grid = figure.subplots(1, 2 if law else 1, squeeze=False)[0]
+    figure = blank(5.2, 0.95 + 0.27 * len(extra.stages))
+    axes = figure.add_subplot()
     names = [words_of(a.quantity) for a in extra.stages]
-    grid[0].barh(names, [a.evidence for a in extra.stages], height=0.55, color=UNNAMED)
-    grid[0].axvline(0.0, color=INK, lw=0.7)
-    grid[0].invert_yaxis()
-    grid[0].grid(axis="y", visible=False)
-    grid[0].tick_params(axis="y", length=0)
-    grid[0].set_xlabel("log evidence of a smooth free factor\nover nothing missing (nats)")
-    if law is not None:
-        unit = unit_of(d.case.quantity) or "-"
-        good = d.outlier_chance <= 0.5
-        x = law.shape * abs(law.coefficient)
-        line = np.linspace(0.0, float(x[good].max()), 50)
-        spread = 2.0 * law.sd / abs(law.coefficient)
-        sign = np.sign(law.coefficient)
-        grid[1].fill_between(line, sign * line * (1 - spread), sign * line * (1 + spread), color=GRID, lw=0)
-        grid[1].plot(line, sign * line, color=UNNAMED, lw=1.2)
-        grid[1].errorbar(
-            x[good],
-            law.observed[good],
-            yerr=d.recorded.sd[good],
-            fmt="o",
-            ms=2.6,
-            color=INK,
-            elinewidth=0.5,
-            mew=0,
-            alpha=0.7,
-        )
-        grid[1].set_xlabel(f"size of the empirical form ({unit})")
-        grid[1].set_ylabel(f"recorded − base model ({unit})")
-        grid[1].set_title("empirical, not physics", fontweight="normal")
+    values = [a.evidence for a in extra.stages]
+    axes.barh(names, values, height=0.55, color=UNNAMED)
+    axes.axvline(0.0, color=INK, lw=0.7)
+    axes.invert_yaxis()
+    # The ticks are settled before the layout, which makes room only for those that it has seen.
+    ticks = MaxNLocator(5).tick_values(min(*values, 0.0), max(*values, 0.0))
+    axes.set_xticks(ticks)
+    axes.set_xlim(ticks[0], ticks[-1])
+    axes.grid(axis="y", visible=False)
+    axes.tick_params(axis="y", length=0)
+    axes.set_xlabel("log evidence of a smooth free factor over nothing missing (nats)")
+    return figure
+
+
+def empirical_form(d: Diagnosis, extra: Unnamed) -> Figure | None:
+    """The power law of an unnamed mismatch against what was recorded; none where no law holds."""
+    law = extra.law
+    if law is None:
+        return None
+    figure = blank(4.2, 2.9)
+    axes = figure.add_subplot()
+    unit = unit_of(d.case.quantity) or "-"
+    good = d.outlier_chance <= 0.5
+    x = law.shape * abs(law.coefficient)
+    line = np.linspace(0.0, float(x[good].max()), 50)
+    spread = 2.0 * law.sd / abs(law.coefficient)
+    sign = np.sign(law.coefficient)
+    axes.fill_between(line, sign * line * (1 - spread), sign * line * (1 + spread), color=GRID, lw=0)
+    axes.plot(line, sign * line, color=UNNAMED, lw=1.2)
+    axes.errorbar(
+        x[good],
+        law.observed[good],
+        yerr=d.recorded.sd[good],
+        fmt="o",
+        ms=2.6,
+        color=INK,
+        elinewidth=0.5,
+        mew=0,
+        alpha=0.7,
+    )
+    axes.set_xlabel(f"size of the empirical form ({unit})")
+    axes.set_ylabel(f"recorded − base model ({unit})")
+    axes.set_title("empirical, not physics", fontweight="normal")
     return figure
 
 

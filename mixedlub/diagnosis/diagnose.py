@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from mixedlub.case import Case, read_case, read_conditions
-from mixedlub.diagnosis.audit import audit
+from mixedlub.diagnosis.audit import Doubt, audit
 from mixedlub.diagnosis.features import Coordinates, coordinates, is_held
 from mixedlub.diagnosis.fit import outlier_chance
 from mixedlub.diagnosis.heldout import HeldOut, LevelsOut
@@ -134,7 +134,7 @@ def _doubts(judged: Posterior, kept: HeldOut, chance: np.ndarray, y: np.ndarray,
             "the unnamed mismatch predicts levels left out no better than calibration alone: outside the recorded "
             "conditions rely on neither"
         )
-    return doubts
+    return [Doubt(text) for text in doubts]
 
 
 def _completed(wanted: Table | None, rows: Table) -> tuple[Table | None, list[str]]:

@@ -44,6 +44,7 @@ def all_figures(d: Diagnosis, extra: Unnamed | None = None) -> dict[str, Figure]
             "residual_map": maps.residual_map(d),
             "roll_angle_map": maps.roll_angle_map(d),
             "profiles": profiles(d),
+            "absorbing_stages": None if extra is None else charts.absorbing_stages(extra),
             "empirical_form": None if extra is None else charts.empirical_form(d, extra),
             "evidence": charts.evidence(d),
             "confusability": maps.confusability(alike, named),

@@ -22,6 +22,19 @@ UNITS = {
     "s": "s",
 }
 """Ending of a column's name and the unit it stands for, longer endings first."""
+STAGE_WORDS = {
+    "film": "the oil film",
+    "shear": "shear of the film",
+    "contact": "asperity contact",
+    "boundary": "boundary friction",
+    "load": "load and its sharing",
+    "loss": "losses beside the sliding contact",
+    "property": "properties of the oil",
+    "measurement": "the instrument",
+}
+ICE = 273.15
+COLDEST = 200.0
+"""A parameter in kelvin that is usually above this is a temperature, not a difference of two."""
 
 
 def unit_of(column: str) -> str:
@@ -108,7 +121,12 @@ def effect_words(name: str) -> str:
     >>> effect_words("inlet_shear_heating")
     'inlet shear heating'
     """
-    special = {"none": "nothing missing", "unknown": "something outside the catalogue", "micro_ehl": "micro-EHL"}
+    special = {
+        "none": "nothing missing",
+        "unknown": "something outside the catalogue",
+        "micro_ehl": "micro-EHL",
+        "stribeck": "Stribeck",
+    }
     return special.get(name, name.replace("_", " "))
 
 
@@ -119,3 +137,26 @@ def explanation_words(names: Sequence[str]) -> str:
     'churning and sensor offset'
     """
     return " and ".join(effect_words(name) for name in names)
+
+
+def with_names(words: str, first: bool = True) -> str:
+    """Words with a name in them as it is written, the first letter large where a sentence begins.
+
+    >>> with_names("micro-EHL"), with_names("the eyring stress", first=False)
+    ('Micro-EHL', 'the Eyring stress')
+    """
+    words = words.replace("eyring", "Eyring")
+    return f"{words[:1].upper()}{words[1:]}" if first else words
+
+
+def in_reach(values: Sequence[float], unit: str, usual: float) -> tuple[tuple[float, ...], str]:
+    """SI numbers as a reader has them: small lengths in µm, temperatures in °C; ``usual`` is the size they have.
+
+    >>> in_reach((5.61e-5, 3.4e-5), "m", 4e-5), in_reach((371.15,), "K", 365.0), in_reach((8.0,), "K", 8.0)
+    (((56.1, 34.0), 'µm'), ((98.0,), '°C'), ((8.0,), 'K'))
+    """
+    if unit == "m" and max(map(abs, values)) < 1e-3:
+        return tuple(round(1e6 * x, 12) for x in values), "µm"
+    if unit == "K" and usual > COLDEST:
+        return tuple(round(x - ICE, 12) for x in values), "°C"
+    return tuple(values), unit

@@ -10,6 +10,7 @@ from importlib.resources import files
 
 from mixedlub.diagnosis.charts import colour_of
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.headline import p_words
 from mixedlub.diagnosis.labels import number, words_of
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.style import inline
@@ -37,7 +38,8 @@ CAPTIONS = {
         WHERE,
         "Residuals over the test conditions; the tiles of a block are the readings taken there (surfaces and the "
         "other conditions, in the same order everywhere). Red: the rig reads more than simulated; grey "
-        "with a cross: outlier.",
+        "with a cross: outlier. Before: calibrated as if nothing were missing, which spreads the shortfall over all "
+        "conditions; the text above keeps the answer's calibration instead, so that signs may differ.",
     ),
     "roll_angle_map": (
         WHERE,
@@ -49,6 +51,11 @@ CAPTIONS = {
         LEFT_OUT,
         "The missing part of the reading: what was recorded less the base model at the answer's calibration, with "
         "one standard deviation, and what the answer says. Readings of one level stand side by side.",
+    ),
+    "absorbing_stages": (
+        UNNAMED,
+        "How well each stage of the chain could take up what is missing, were a factor there free to vary with every "
+        "condition: the longer the bar, the better. One nat is a factor 2.7 in the odds.",
     ),
     "empirical_form": (
         UNNAMED,
@@ -127,7 +134,7 @@ def _cards(d: Diagnosis) -> list[tuple[str, str]]:
     """The few numbers a reader looks for first."""
     p = d.test.p_value
     cards = [
-        (f"{p:.1g}" if p < 0.001 else f"{p:.2f}", "chance of such a mismatch when nothing is missing (p)"),
+        (p_words(p), "chance of such a mismatch when nothing is missing (p)"),
         (f"{100 * d.posterior.weights[d.posterior.verdict]:.0f} %", "probability of the first explanation"),
         (f"{d.heldout.before:.2f}", "sigma, error on left-out levels with calibration alone"),
     ]

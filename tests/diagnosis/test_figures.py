@@ -13,8 +13,9 @@ from matplotlib.figure import Figure
 from mixedlub.diagnosis import charts, figures, maps
 from mixedlub.diagnosis.confusion import confusion
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.empirical import Absorbed, Unnamed
 from mixedlub.diagnosis.empirical import unnamed as describe
-from mixedlub.diagnosis.style import inline, look
+from mixedlub.diagnosis.style import inline, look, settled
 from mixedlub.report.style import as_svg
 from mixedlub.table import Table
 
@@ -167,10 +168,28 @@ def test_map_of_conditions_puts_speed_across_torque_up(offset: Diagnosis) -> Non
 
 
 def test_stages_that_absorb_the_unnamed_are_drawn_in_order(unnamed: Diagnosis) -> None:
-    figure = charts.empirical_form(unnamed, describe(unnamed.found))
+    figure = charts.absorbing_stages(describe(unnamed.found))
     assert figure is not None
     widths = [bar.get_width() for bar in figure.axes[0].patches]
     assert widths == sorted(widths, reverse=True)
+
+
+def test_tick_labels_of_the_stages_lie_within_the_figure() -> None:
+    names = ("boundary_friction", "area_ratio", "film_thickness", "shear_stress", "power_loss", "load_share")
+    for top in np.arange(1.0, 2.0, 0.05):
+        stages = tuple(Absorbed("film", name, float(top)) for name in names)
+        with look():
+            figure = charts.absorbing_stages(Unnamed(stages, None))
+        assert figure is not None
+        as_svg(settled(figure))
+        drawn = figure.axes[0].get_tightbbox()
+        assert drawn is not None
+        assert drawn.x1 <= figure.get_window_extent().x1, top
+
+
+def test_form_is_drawn_only_where_a_law_holds(unnamed: Diagnosis, teeth: Diagnosis) -> None:
+    assert charts.empirical_form(unnamed, replace(describe(unnamed.found), law=None)) is None
+    assert charts.empirical_form(teeth, describe(teeth.found)) is not None
 
 
 def test_equal_figures_are_equal_text(offset: Diagnosis) -> None:

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from mixedlub.diagnosis import words
+from mixedlub.diagnosis.audit import Doubt
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.page import render
 
@@ -79,10 +80,15 @@ def test_every_figure_has_a_caption(page: str) -> None:
     assert page.count("<figcaption>") == page.count("<figure>")
 
 
+def test_every_table_scrolls_where_it_does_not_fit(page: str) -> None:
+    assert page.count("<table>") == page.count('<div class="scroll"><table>') > 0
+    assert ".scroll { overflow-x: auto; }" in page
+
+
 def test_page_and_text_say_the_same(offset: Diagnosis, read: Reader) -> None:
     shown = re.sub(r"\s+", " ", " ".join(read.text))
     for section in words.sections(offset):
-        for sentence in section.sentences:
+        for sentence in (*section.alarms, *section.sentences, *section.items):
             if not sentence.startswith("Equation:"):
                 assert sentence in shown
 
@@ -90,7 +96,28 @@ def test_page_and_text_say_the_same(offset: Diagnosis, read: Reader) -> None:
 def test_page_of_an_unnamed_mismatch_is_written(unnamed_files: dict[str, str]) -> None:
     page = unnamed_files["report.html"]
     assert "If it is something unknown" in page
-    assert 'id="empirical_form-figure_1"' in page
+    assert 'id="absorbing_stages-figure_1"' in page
+
+
+def test_bars_of_evidence_are_not_called_a_fitted_form(unnamed_files: dict[str, str]) -> None:
+    page = unnamed_files["report.html"]
+    assert "against the empirical form" not in page
+    assert "the longer the bar" in page
+
+
+def test_doubts_stand_above_the_headline_of_the_page(offset: Diagnosis) -> None:
+    doubtful = replace(offset, warnings=(Doubt("check the unit"),))
+    page = render(doubtful, words.sections(doubtful), {})
+    assert page.index('<p class="alarm">Caution: check the unit.</p>') < page.index('<p class="verdict">')
+
+
+def test_list_and_heading_of_a_tie_stand_in_the_page(offset: Diagnosis) -> None:
+    weights = {**offset.posterior.weights, ("sensor_offset",): 0.5, ("inlet_shear_heating",): 0.4}
+    pair = (("sensor_offset",), ("inlet_shear_heating",))
+    tied = replace(offset, posterior=replace(offset.posterior, weights=weights, verdict=pair[0], tied=pair))
+    page = render(tied, words.sections(tied), {})
+    assert page.count("<li>") == 2
+    assert f"<h2>{words.BEST_TIED}</h2>" in page
 
 
 def test_case_text_is_escaped(offset: Diagnosis) -> None:

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
-from mixedlub.diagnosis import page, words
-from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis import fitted, page, words
+from mixedlub.diagnosis.answer import effect_records
+from mixedlub.diagnosis.audit import SCARCE, Doubt, audit
+from mixedlub.diagnosis.diagnose import Diagnosis, _doubts
 from mixedlub.diagnosis.empirical import unnamed as describe
+from mixedlub.diagnosis.labels import effect_words, number, with_names
 from mixedlub.diagnosis.nexttest import NextTest
 from mixedlub.diagnosis.posterior import Key, Posterior
-from mixedlub.effect import catalogue
+from mixedlub.effect import Normal, Parameter, catalogue
 from mixedlub.report.equations import equation
 from mixedlub.report.plain import plain_equation
 
@@ -19,7 +24,15 @@ from mixedlub.report.plain import plain_equation
 def told(d: Diagnosis) -> dict[str, str]:
     """Sentences of each section joined."""
     extra = describe(d.found) if "unknown" in d.posterior.tied else None
-    return {s.title: " ".join([*s.sentences, *(" ".join(row) for row in s.table)]) for s in words.sections(d, extra)}
+    return {
+        s.title: " ".join([*s.alarms, *s.sentences, *s.items, *(" ".join(row) for row in s.table)])
+        for s in words.sections(d, extra)
+    }
+
+
+def section(d: Diagnosis, title: str) -> words.Section:
+    """One section."""
+    return next(s for s in words.sections(d) if s.title == title)
 
 
 def judged(d: Diagnosis, weights: dict[Key, float], tied: int) -> Diagnosis:
@@ -58,11 +71,11 @@ def test_physics_and_instrument_are_kept_apart(offset: Diagnosis) -> None:
 
 
 def test_left_out_gives_equation_source_strength_and_interval(offset: Diagnosis) -> None:
-    section = next(s for s in words.sections(offset) if s.title == words.LEFT_OUT)
-    said = " ".join(section.sentences)
+    left_out = section(offset, words.LEFT_OUT)
+    said = " ".join(left_out.sentences)
     assert "Equation: " in said
     assert "Source: " in said
-    for _, _, value, span, *_ in section.table[1:]:
+    for _, _, value, span, *_ in left_out.table[1:]:
         low, high = (float(x) for x in span.split(" to "))
         assert low < float(value) < high
 
@@ -75,6 +88,144 @@ def test_tie_is_said_with_the_test_that_separates(offset: Diagnosis) -> None:
         in said[words.ANSWER]
     )
     assert "To separate them: sensor offset: " in said[words.ALIKE]
+
+
+def test_tests_that_separate_a_tie_are_a_list(offset: Diagnosis) -> None:
+    pair: dict[Key, float] = {("sensor_offset",): 0.5, ("inlet_shear_heating",): 0.4}
+    alike = section(judged(offset, pair, 2), words.ALIKE)
+    assert [item.split(":")[0] for item in alike.items] == ["sensor offset", "inlet shear heating"]
+    assert alike.sentences[-1] == "To separate them:"
+    assert "\n  - sensor offset: " in words.as_text("Diagnosis", [alike])
+
+
+def test_in_a_tie_what_was_left_out_is_only_the_best_candidate(offset: Diagnosis) -> None:
+    pair: dict[Key, float] = {("sensor_offset",): 0.5, ("inlet_shear_heating",): 0.4}
+    tied = words.as_text("Diagnosis", words.sections(judged(offset, pair, 2)))
+    alone = words.as_text("Diagnosis", words.sections(judged(offset, {("sensor_offset",): 0.97}, 1)))
+    assert "BEST OF THE TIED CANDIDATES" in tied
+    assert "TIED" not in alone
+
+
+def test_two_probabilities_of_one_effect_are_told_apart(offset: Diagnosis) -> None:
+    several: dict[Key, float] = {("sensor_offset",): 0.92, ("inlet_shear_heating", "sensor_offset"): 0.079}
+    said = told(judged(offset, several, 1))[words.LEFT_OUT]
+    assert "Sensor offset, probability 0.92 alone, above 0.99 alone or with a second effect, in " in said
+    alone = told(judged(offset, {("sensor_offset",): 0.92}, 1))[words.LEFT_OUT]
+    assert "Sensor offset, probability 0.92, in " in alone
+
+
+def test_each_effect_of_a_pair_has_its_company_named(offset: Diagnosis) -> None:
+    several: dict[Key, float] = {("sensor_offset",): 0.3, ("churning",): 0.05}
+    key: Key = next(k for k in offset.refined if len(k) == 2 and "sensor_offset" in k)
+    other = next(n for n in key if n != "sensor_offset")
+    said = told(judged(offset, {key: 0.6, **several}, 1))[words.LEFT_OUT]
+    assert f"Sensor offset, probability 0.60 together with {effect_words(other)}, 0.90 in any company" in said
+
+
+def test_doubts_about_the_data_stand_above_the_headline(offset: Diagnosis) -> None:
+    slip, other = Doubt("readings are about a thousandth: check the unit"), "no noise given"
+    found = words.sections(replace(offset, warnings=(slip, other)))
+    text = words.as_text("Diagnosis", found)
+    assert text.index(f"Caution: {slip}.") < text.index(found[0].sentences[0][:40])
+    assert text.index(other) > text.index("WARNINGS")
+    assert text.count(slip) == 1
+
+
+@pytest.mark.parametrize(
+    ("change", "wanted"),
+    [(lambda y: y / 1000.0, "check the unit of power_loss_W"), (lambda y: -y, "check the sign")],
+)
+def test_wrong_unit_and_sign_are_doubts(
+    offset: Diagnosis, change: Callable[[np.ndarray], np.ndarray], wanted: str
+) -> None:
+    rows = offset.found.problem.rows
+    notes = audit(offset.case, rows, change(offset.recorded.base), offset.found.problem.forward)
+    assert [wanted in note for note in notes if isinstance(note, Doubt)] == [True]
+
+
+def test_very_many_wrong_readings_are_a_doubt(offset: Diagnosis) -> None:
+    chance = np.where(np.arange(offset.readings.size) % 3, 0.0, 1.0)
+    notes = _doubts(offset.posterior, offset.heldout, chance, offset.readings, offset.recorded)
+    assert isinstance(notes[0], Doubt)
+    assert "readings count as wrong" in notes[0]
+
+
+def test_headline_of_few_readings_is_cautious(teeth: Diagnosis, offset: Diagnosis) -> None:
+    assert teeth.readings.size < SCARCE <= offset.readings.size
+    assert words.headline(teeth).startswith("Only 28 readings: take this as a hint, not as a finding. ")
+    assert "hint" not in words.headline(offset)
+
+
+def vague(d: Diagnosis, spread: float) -> Diagnosis:
+    """The same answer, its effects' parameters known to so many standard deviations of their priors."""
+    key = d.posterior.verdict
+    assert not isinstance(key, str)
+    fit = d.refined[key]
+    covariance = fit.covariance.copy()
+    place = np.arange(d.found.problem.calibration_size, covariance.shape[0])
+    covariance[place, place] = spread**2
+    return replace(d, refined={**d.refined, key: replace(fit, covariance=covariance)})
+
+
+@pytest.mark.parametrize(("spread", "marked"), [(0.95, True), (0.3, False)])
+def test_parameters_that_readings_do_not_tell_are_marked(offset: Diagnosis, spread: float, marked: bool) -> None:
+    left_out = section(vague(judged(offset, {("sensor_offset",): 0.97}, 1), spread), words.LEFT_OUT)
+    assert len(left_out.table) == 2
+    assert all(row[-1].startswith("[as wide as before the readings] ") == marked for row in left_out.table[1:])
+    assert any("as wide as before the readings" in s for s in left_out.sentences) == marked
+
+
+def test_of_several_vague_parameters_only_their_combined_effect_is_known() -> None:
+    heating, offset = catalogue()["boundary_film_temperature"], catalogue()["sensor_offset"]
+    assert fitted._untold(heating, []) == []
+    assert fitted._untold(heating, ["drop", "width"]) == [
+        "Boundary film temperature: the 90 % intervals of drop and width are as wide as before the readings. Only the "
+        "combined effect of the parameters is known."
+    ]
+    assert "combined" not in fitted._untold(offset, ["offset"])[0]
+
+
+def test_sensor_offset_has_the_size_that_it_is_a_share_of(offset: Diagnosis) -> None:
+    rows = section(judged(offset, {("sensor_offset",): 0.97}, 1), words.LEFT_OUT).table
+    size = float(np.median(np.abs(offset.found.problem.forward.predict())))
+    assert rows[1][-1].startswith(f"added to every reading, over its typical size ({number(size)} W)")
+
+
+def test_where_says_which_base_model_is_meant(offset: Diagnosis) -> None:
+    assert words.SPREAD in section(offset, words.WHERE).sentences
+
+
+def test_name_keeps_its_letters_at_the_start_of_a_sentence() -> None:
+    assert with_names(effect_words("micro_ehl")) == "Micro-EHL"
+    assert effect_words("stribeck") == "Stribeck"
+
+
+def test_temperature_of_an_answer_is_in_celsius(offset: Diagnosis, monkeypatch: pytest.MonkeyPatch) -> None:
+    one = judged(offset, {("sensor_offset",): 0.97}, 1)
+    kelvin = Parameter("offset", "K", Normal(350.0, 10.0), "temperature")
+    monkeypatch.setattr(fitted, "effects_of", lambda key: [replace(catalogue()["sensor_offset"], parameters=(kelvin,))])
+    value = effect_records(one)[0]["parameters"][0]["value"]
+    row = fitted.parameters(one)[1][1]
+    assert (row[2], row[4]) == (number(value - 273.15), "°C")
+
+
+@pytest.mark.parametrize("p", [1e-304, 3e-7, 0.004, 0.3])
+def test_page_and_text_have_the_same_p_value(offset: Diagnosis, p: float) -> None:
+    d = replace(offset, test=replace(offset.test, p_value=p))
+    card = page._cards(d)[0][0]
+    assert f"(p {'' if 'below' in card else '= '}{card}; " in told(d)[words.MISMATCH]
+
+
+def test_calibration_says_what_is_a_factor_and_what_a_value(complete: Diagnosis) -> None:
+    meanings = [row[-1] for row in section(complete, words.CALIBRATION).table[1:]]
+    assert meanings[0].startswith("value: ")
+    assert all(text.startswith("factor on ") for text in meanings[1:])
+    assert "1 sd is the uncertainty that the case states" in told(complete)[words.CALIBRATION]
+
+
+def test_bits_and_nats_are_explained(offset: Diagnosis, unnamed: Diagnosis) -> None:
+    assert "1 bit would settle" in advised(offset, 0.5, speed_rpm=1000.0)
+    assert "A nat is a factor 2.7 in the odds" in told(unnamed)[words.UNNAMED]
 
 
 def test_long_ties_are_cut_short(offset: Diagnosis) -> None:
@@ -94,15 +245,15 @@ def test_unknown_is_said_with_place_and_stage(unnamed: Diagnosis) -> None:
     said = told(unnamed)
     assert "the catalogue does not have" in said[words.ANSWER]
     assert "speed 1500 rpm" in said[words.WHERE]
-    assert "absorbs it best" in said[words.UNNAMED]
+    assert "which quantity could take it up" in said[words.UNNAMED]
     assert words.LEFT_OUT not in said
 
 
 def test_empirical_form_is_marked_as_such(teeth: Diagnosis) -> None:
     extra = describe(teeth.found)
     assert extra.law is not None
-    section = next(s for s in words.sections(teeth, extra) if s.title == words.UNNAMED)
-    assert any("empirical (a description, not physics)" in s for s in section.sentences)
+    form = next(s for s in words.sections(teeth, extra) if s.title == words.UNNAMED)
+    assert any("empirical (a description, not physics)" in s for s in form.sentences)
 
 
 def test_extrapolation_is_warned_of_where_held_out_levels_are_no_better(unnamed: Diagnosis) -> None:
@@ -121,7 +272,7 @@ def test_calibration_lists_every_movable_input(complete: Diagnosis) -> None:
         "boundary friction",
         "viscosity",
         "pressure viscosity",
-        "eyring stress",
+        "Eyring stress",
         "roughness",
     ]
 
