@@ -66,6 +66,11 @@ def churning_changenet_velex(
     return 0.5 * oil_density * wheel_speed**3 * wheel_radius**3 * (sides + rim + teeth) * drag
 
 
+def _oil_motion(viscosity: np.ndarray, oil_density: np.ndarray, wheel_speed: np.ndarray) -> np.ndarray:
+    """Kinematic viscosity times speed as bearing catalogues count it, mm^2/s rpm."""
+    return viscosity / oil_density * 1e6 * wheel_speed * 30.0 / np.pi
+
+
 def palmgren_idle_torque(
     viscosity: np.ndarray, oil_density: np.ndarray, wheel_speed: np.ndarray, bearing_diameter: np.ndarray
 ) -> np.ndarray:
@@ -80,7 +85,7 @@ def palmgren_idle_torque(
     >>> round(float(torque) * 1e3, 1)   # 2e-7 x 22 500^(2/3) x 45^3 N mm
     14.5
     """
-    motion = viscosity / oil_density * 1e6 * wheel_speed * 30.0 / np.pi
+    motion = _oil_motion(viscosity, oil_density, wheel_speed)
     return 2e-7 * (motion**4 + 2000.0**4) ** (1.0 / 6.0) * (bearing_diameter * 1e3) ** 3 * 1e-3
 
 
@@ -108,7 +113,7 @@ def bearing_asperity_share(
     >>> round(float(bearing_asperity_share(20e-6 * 850, 850.0, 1000 * np.pi / 30, 0.045)), 2)   # exp(-1.23)
     0.29
     """
-    motion = viscosity / oil_density * 1e6 * wheel_speed * 30.0 / np.pi
+    motion = _oil_motion(viscosity, oil_density, wheel_speed)
     return np.exp(-2.6e-8 * np.abs(motion) ** 1.4 * bearing_diameter * 1e3)
 
 
