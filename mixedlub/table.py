@@ -49,14 +49,10 @@ class Column:
             raise InputError(f"{self.name} must be a number", where=where, value=text) from None
         if not np.isfinite(value):
             raise InputError(f"{self.name} must be a finite number", where=where, value=text)
-        if value <= self.above:
-            raise InputError(f"{self.name} must be above {self.above:g}", where=where, value=value)
-        if value < self.at_least or value > self.at_most:
-            raise InputError(
-                f"{self.name} must lie between {self.at_least:g} and {self.at_most:g}",
-                where=where,
-                value=value,
-            )
+        if not self.allows(value):
+            low = value <= self.above
+            rule = f"be above {self.above:g}" if low else f"lie between {self.at_least:g} and {self.at_most:g}"
+            raise InputError(f"{self.name} must {rule}", where=where, value=value)
         if self.form == "whole":
             if value != int(value):
                 raise InputError(f"{self.name} must be a whole number", where=where, value=text)

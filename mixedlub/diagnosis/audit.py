@@ -68,8 +68,8 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
             notes.append(Doubt("most readings are negative where the base model is positive: check the sign"))
     notes += _stuck(case, rows, y, base)
     stated = case.system.recording.noise
-    repeats = _repeats(case, rows, y)
-    if is_stated(case, rows) and repeats > 0 and stated is not None:
+    if is_stated(case, rows) and stated is not None:
+        repeats = _repeats(case, rows, y)
         size = np.abs(y) if case.kind.logarithmic else np.ones(y.size)
         typical = float(np.median(np.hypot(stated.relative * np.abs(y), stated.absolute) / size))
         if repeats > 4.0 * typical > 0:
