@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from mixedlub.config import KINDS, System
+from mixedlub.headers import unit_of
 from mixedlub.kinds import Kind, kind
 from mixedlub.table import BOOKKEEPING, RUN, Column
 from profiles.errors import InputError, nearest
@@ -132,23 +133,6 @@ recording.noise.setup_relative       | sd of the error shared within a set-up, o
 recording.noise.setup_absolute       | sd of the error shared within a set-up, in the unit of the reading
 """
 
-_UNITS = {
-    "kg_m3": "kg/m^3",
-    "per_um2": "1/um^2",
-    "per_GPa": "1/GPa",
-    "per_K": "1/K",
-    "mm2_s": "mm^2/s",
-    "mPa_s": "mPa s",
-    "W_mK": "W/(m K)",
-    "J_kgK": "J/(kg K)",
-    "m_s": "m/s",
-    "um2": "um^2",
-    "Nm": "N m",
-    "percent": "%",
-    **{unit: unit for unit in ("MPa", "GPa", "nm", "um", "mm", "deg", "rpm", "C", "N", "W", "s")},
-}
-"""Unit of a name by its ending; longer endings before those they end in."""
-
 USED = {
     "film": ("lubricant",),
     "friction_history": ("contact", "lubricant", "surfaces"),
@@ -219,7 +203,7 @@ def _column(of_kind: str, c: Column) -> tuple[str, ...]:
     numeric = c.form != "name"
     meaning = MEANINGS.get(f"{of_kind}.{c.name}") or MEANINGS[c.name]
     needed = "required" if c.required else "optional"
-    return c.name, unit_of(c.name) if numeric else "", needed, _bounds(c), meaning
+    return c.name, (unit_of(c.name) or "-") if numeric else "", needed, _bounds(c), meaning
 
 
 def _bounds(c: Column) -> str:
@@ -230,15 +214,6 @@ def _bounds(c: Column) -> str:
     if np.isfinite(c.at_least):
         return f"{c.at_least:g} to {c.at_most:g}" if np.isfinite(c.at_most) else f"{c.at_least:g} or more"
     return "number"
-
-
-def unit_of(name: str) -> str:
-    """Unit of a number by the ending of its name.
-
-    >>> unit_of("entrainment_speed_m_s"), unit_of("kinematic_viscosity_mm2_s"), unit_of("m4_per_um2"), unit_of("teeth")
-    ('m/s', 'mm^2/s', '1/um^2', '-')
-    """
-    return next((unit for ending, unit in _UNITS.items() if name.endswith(f"_{ending}")), "-")
 
 
 def sections() -> dict[str, list[tuple[str, dict[str, Any], bool]]]:
@@ -280,7 +255,7 @@ def _key(section: str, key: str, schema: Mapping[str, Any], required: bool) -> t
     plain = next((s for s in schema.get("anyOf", ()) if s.get("type") != "null"), schema)
     values, numeric = _allowed(plain)
     default = "required" if required else _toml(schema.get("default"))
-    unit = ("as read" if key.endswith("absolute") else unit_of(key)) if numeric else ""
+    unit = ("as read" if key.endswith("absolute") else unit_of(key) or "-") if numeric else ""
     return key, unit, default, values, MEANINGS[f"{section}.{key}".lstrip(".")]
 
 

@@ -9,10 +9,11 @@ import numpy as np
 from mixedlub.diagnosis import maps
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.empirical import Unnamed
-from mixedlub.diagnosis.labels import axis_label, conditions_text, explanation_words, unit_of, words_of
+from mixedlub.diagnosis.labels import axis_label, conditions_text, explanation_words, words_of
 from mixedlub.diagnosis.posterior import TIE, Key
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.style import AFTER, BEFORE, FAULT, GRID, INK, MUTED, SERIES, UNNAMED, blank
+from mixedlub.headers import unit_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -12,9 +12,10 @@ import numpy as np
 from mixedlub.chain import Model
 from mixedlub.diagnosis.carriers import log_slope
 from mixedlub.diagnosis.fit import linear_fit
-from mixedlub.diagnosis.labels import number, unit_of, words_of
+from mixedlub.diagnosis.labels import number, words_of
 from mixedlub.diagnosis.search import Search
 from mixedlub.diagnosis.unknown import FACTORS, SIZES
+from mixedlub.headers import unit_of
 from mixedlub.quantities import GLOSSARY
 
 EXPONENTS = tuple(s * Fraction(n, m) for n, m in ((1, 3), (1, 2), (2, 3), (1, 1), (2, 1)) for s in (1, -1))

@@ -10,7 +10,7 @@ from mixedlub.diagnosis import charts, maps
 from mixedlub.diagnosis.confusion import confusion
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.empirical import Unnamed
-from mixedlub.diagnosis.labels import axis_label, unit_of, words_of
+from mixedlub.diagnosis.labels import axis_label, words_of
 from mixedlub.diagnosis.style import (
     AFTER,
     BEFORE,
@@ -25,6 +25,7 @@ from mixedlub.diagnosis.style import (
     look,
     wide,
 )
+from mixedlub.headers import unit_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

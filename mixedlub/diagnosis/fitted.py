@@ -9,9 +9,10 @@ import numpy as np
 from mixedlub.diagnosis.answer import effect_records, interval, verdict_fit
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.headline import is_free
-from mixedlub.diagnosis.labels import effect_words, in_reach, number, unit_of, with_names
+from mixedlub.diagnosis.labels import effect_words, in_reach, number, with_names
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.effect import Effect, Parameter
+from mixedlub.headers import unit_of
 from mixedlub.report.plain import plain_equation, with_symbol
 
 STRAINED = 2.0

@@ -5,23 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-UNITS = {
-    "per_GPa": "1/GPa",
-    "percent": "%",
-    "mPa_s": "mPa s",
-    "m_s": "m/s",
-    "MPa": "MPa",
-    "rpm": "rpm",
-    "deg": "°",
-    "Nm": "N m",
-    "nm": "nm",
-    "um": "µm",
-    "N": "N",
-    "W": "W",
-    "C": "°C",
-    "s": "s",
-}
-"""Ending of a column's name and the unit it stands for, longer endings first."""
+from mixedlub.headers import unit_of, without_unit
+
 STAGE_WORDS = {
     "film": "the oil film",
     "shear": "shear of the film",
@@ -37,23 +22,13 @@ COLDEST = 200.0
 """A parameter in kelvin that is usually above this is a temperature, not a difference of two."""
 
 
-def unit_of(column: str) -> str:
-    """The unit at the end of a column's name; empty where it has none.
-
-    >>> unit_of("oil_temperature_C"), unit_of("entrainment_speed_m_s"), unit_of("slide_roll_ratio")
-    ('°C', 'm/s', '')
-    """
-    return next((unit for ending, unit in UNITS.items() if column.endswith(f"_{ending}")), "")
-
-
 def words_of(column: str) -> str:
     """A column's name in words, without its unit.
 
     >>> words_of("oil_temperature_C"), words_of("slide_roll_ratio")
     ('oil temperature', 'slide-roll ratio')
     """
-    ending = next((e for e in UNITS if column.endswith(f"_{e}")), "")
-    words = column.removesuffix(f"_{ending}").replace("_", " ")
+    words = without_unit(column).replace("_", " ")
     return words.replace("slide roll", "slide-roll").replace("pressure viscosity", "pressure-viscosity")
 
 

@@ -6,7 +6,8 @@ import numpy as np
 
 from mixedlub.diagnosis.answer import checked
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.labels import conditions_text, number, unit_of, words_of
+from mixedlub.diagnosis.labels import conditions_text, number, words_of
+from mixedlub.headers import unit_of
 
 MUCH = 1.5
 

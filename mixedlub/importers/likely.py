@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Iterable, Mapping
 
 from mixedlub.config import KINDS
-from mixedlub.importers.columns import BY_NAME, TEXT_COLUMNS, UNITS, split, target_of, tidy
+from mixedlub.headers import BY_NAME, TEXT_COLUMNS, UNITS, split, target_of, tidy
 from mixedlub.kinds import kind as kind_of
 from mixedlub.table import Column
 from profiles.errors import InputError

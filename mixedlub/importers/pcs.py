@@ -8,7 +8,7 @@ from datetime import datetime
 
 import numpy as np
 
-from mixedlub.importers.columns import BY_NAME, convert, split, target_of
+from mixedlub.headers import BY_NAME, convert, split, target_of
 from mixedlub.importers.draft import Answers, Draft, Question, questions_of
 from profiles.errors import InputError
 

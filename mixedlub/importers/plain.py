@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.config import KINDS
-from mixedlub.importers.columns import BY_NAME, TEXT_COLUMNS, UNITS, convert, split, target_of
+from mixedlub.headers import BY_NAME, TEXT_COLUMNS, UNITS, convert, split, target_of
 from mixedlub.importers.draft import Answers, Draft, Question, contact_form, questions_of
 from mixedlub.importers.likely import likely_headers, likely_kind
 from mixedlub.importers.write import toml_value

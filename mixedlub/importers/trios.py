@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.importers.columns import BY_NAME, convert, target_of
+from mixedlub.headers import BY_NAME, convert, target_of
 from mixedlub.importers.draft import Answers, Draft, questions_of
 from mixedlub.table import Column
 from profiles.errors import InputError

@@ -85,7 +85,7 @@ def test_no_meaning_is_told_of_what_is_not_there():
         ("disc", r"load_N +N +required +above 0 "),
         ("disc", r"slide_roll_ratio +- +required +-200 to 200 "),
         ("film", r"film_thickness_nm +nm +reading "),
-        ("gear_pair", r"pressure_angle_deg +deg +20 +above 0 below 45 "),
+        ("gear_pair", r"pressure_angle_deg +° +20 +above 0 below 45 "),
         ("gear_pair", r"thermal_conductivity_W_mK +W/\(m K\) +required +above 0 +of the coating"),
         ("gear_pair", r'model +- +"ldp", "rigid" '),
         ("viscosity", r"pressure_MPa +MPa +optional +0 to 5000 "),

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from mixedlub.case import read_case
+from mixedlub.headers import convert, split, target_of
 from mixedlub.importers import import_files
-from mixedlub.importers.columns import convert, split, target_of
 from mixedlub.importers.wizard import run
 from profiles.errors import InputError
 

@@ -5,8 +5,8 @@ import shlex
 import pytest
 
 from mixedlub.cli import main
+from mixedlub.headers import TARGETS
 from mixedlub.importers import import_files
-from mixedlub.importers.columns import TARGETS
 from mixedlub.importers.likely import likely_headers, likely_kind
 from profiles.errors import InputError
 

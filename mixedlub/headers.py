@@ -1,4 +1,4 @@
-"""Headers of instrument files to columns of a case, with units that are read, never guessed."""
+"""Names with units: what the ending of a name stands for, and which column of a case a header means."""
 
 from __future__ import annotations
 
@@ -26,17 +26,55 @@ UNITS: dict[str, dict[str, tuple[float, float]]] = {
 """What each unit of a case's columns may be given in: factor and what is added."""
 
 
-SUFFIXES = {
+ENDINGS = {
+    "per_GPa": "1/GPa",
+    "per_um2": "1/µm²",
+    "per_K": "1/K",
+    "kg_m3": "kg/m³",
+    "mm2_s": "mm²/s",
+    "mPa_s": "mPa s",
+    "Pa_s": "Pa s",
     "mm_s": "mm/s",
-    "m_s": "m/s",
-    "mPa_s": "mPa.s",
-    "Pa_s": "Pa.s",
     "rad_s": "rad/s",
+    "m_s": "m/s",
+    "W_mK": "W/(m K)",
+    "J_kgK": "J/(kg K)",
+    "um2": "µm²",
+    "mNm": "mN m",
+    "Nm": "N m",
     "percent": "%",
-    **{unit: unit for unit in ("degC", "C", "K", "mNm", "Nm", "N", "rpm", "nm", "um", "MPa", "GPa", "bar", "atm")},
-    **{unit: unit for unit in ("s", "min", "h", "W", "kW", "deg")},
+    "degC": "°C",
+    "C": "°C",
+    "deg": "°",
+    "um": "µm",
+    **{
+        unit: unit
+        for unit in ("MPa", "GPa", "bar", "atm", "nm", "mm", "rpm", "kN", "kW", "min", "K", "N", "W", "s", "h")
+    },
 }
-"""Units as suffixes of a header; longer ones first where one ends in another."""
+"""Ending of a name and the unit it stands for, longer endings before those they end in."""
+
+
+def unit_of(name: str) -> str:
+    """The unit at the end of a name; empty where it has none.
+
+    >>> unit_of("oil_temperature_C"), unit_of("kinematic_viscosity_mm2_s"), unit_of("m4_per_um2"), unit_of("teeth")
+    ('°C', 'mm²/s', '1/µm²', '')
+    """
+    return ENDINGS.get(_ending(name), "")
+
+
+def without_unit(name: str) -> str:
+    """A name less the unit at its end.
+
+    >>> without_unit("oil_temperature_C"), without_unit("teeth")
+    ('oil_temperature', 'teeth')
+    """
+    return name.removesuffix(f"_{_ending(name)}")
+
+
+def _ending(name: str) -> str:
+    return next((ending for ending in ENDINGS if name.endswith(f"_{ending}")), "")
 
 
 @dataclass(frozen=True)
@@ -77,19 +115,12 @@ def split(header: str) -> tuple[str, str | None]:
     """Words and unit of a header such as ``Rolling Speed (mm/s)``; the unit is None where there is none.
 
     >>> split("Rolling Speed (mm/s)"), split("temperature_degC"), split("Load")
-    (('rolling speed', 'mm/s'), ('temperature', 'degC'), ('load', None))
+    (('rolling speed', 'mm/s'), ('temperature', '°C'), ('load', None))
     """
     found = re.fullmatch(r"\s*(.*?)\s*[(\[]\s*([^()\[\]]*?)\s*[)\]]\s*", header)
-    words, unit = (found.group(1), found.group(2)) if found else _suffixed(header)
+    plain = header.strip()
+    words, unit = (found.group(1), found.group(2)) if found else (without_unit(plain), unit_of(plain) or None)
     return re.sub(r"[\s_]+", " ", words).strip().lower(), unit
-
-
-def _suffixed(header: str) -> tuple[str, str | None]:
-    """Words and unit of a header that carries its unit as a suffix, as ``rolling_speed_mm_s`` does."""
-    for suffix, unit in SUFFIXES.items():
-        if header.strip().endswith(f"_{suffix}"):
-            return header.strip()[: -len(suffix) - 1], unit
-    return header, None
 
 
 def target_of(header: str) -> Target | None:
