@@ -13,7 +13,16 @@ from profiles.errors import InputError
 
 FEWEST = 5
 SCARCE = 30
-UNIT_SLIPS = {1e3: "a thousand times", 1e-3: "a thousandth of", 1e6: "a million times", 1e-6: "a millionth of"}
+UNIT_SLIPS = {
+    1e2: "a hundred times",
+    1e-2: "a hundredth of",
+    1e3: "a thousand times",
+    1e-3: "a thousandth of",
+    1e6: "a million times",
+    1e-6: "a millionth of",
+}
+MOST_SLIDING = 10.0
+"""Slide-roll ratios above it are more likely percent: 2 is pure sliding, more needs surfaces that run against it."""
 SLIP_WITHIN = 2.0
 """How far a slip of the unit may be off its power of ten: the base model itself is that good."""
 STUCK_ROWS, STUCK_SHARE = 5, 0.2
@@ -66,6 +75,10 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
                 notes.append(Doubt(said))
         if np.median(base[positive]) > 0 and np.median(y[positive]) < 0:
             notes.append(Doubt("most readings are negative where the base model is positive: check the sign"))
+    sliding = np.abs(rows["slide_roll_ratio"]).max() if "slide_roll_ratio" in rows else 0.0
+    if sliding > MOST_SLIDING:
+        said = f"slide_roll_ratio reaches {sliding:g} where 2 is pure sliding: check that it is not in percent"
+        notes.append(Doubt(said))
     notes += _stuck(case, rows, y, base)
     stated = case.system.recording.noise
     if is_stated(case, rows) and stated is not None:

@@ -11,6 +11,7 @@ import pytest
 from mixedlub.case import Case, read_case
 from mixedlub.diagnosis.audit import doubts
 from mixedlub.forward import Forward
+from mixedlub.table import Table
 
 Change = Callable[[np.ndarray], np.ndarray]
 
@@ -79,6 +80,19 @@ def test_equal_readings_where_the_model_gives_equal_ones_are_not_stuck(case: Cas
     assert case.recordings is not None
     y = first(15)(np.array(case.recordings[case.quantity], dtype=float))
     assert doubts(case, case.recordings, y, Level(case, case.recordings)) == []
+
+
+def test_readings_in_percent_are_asked_about(case: Case) -> None:
+    (note,) = told(case, lambda y: 100.0 * y)
+    assert "a hundred times what the base model gives" in note
+
+
+def test_slide_roll_ratios_in_percent_are_asked_about(case: Case) -> None:
+    rows = case.recordings
+    assert rows is not None
+    rows = Table({**rows.columns, "slide_roll_ratio": 100.0 * rows["slide_roll_ratio"]})
+    notes = doubts(case, rows, np.array(rows[case.quantity], dtype=float), Forward(case, rows))
+    assert [note for note in notes if "slide_roll_ratio reaches" in note and "percent" in note]
 
 
 @pytest.mark.parametrize("factor", [0.6e-3, 1.0e-3, 1.7e-3])
