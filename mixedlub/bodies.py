@@ -17,8 +17,12 @@ from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.lubricant import Lubricant
 from mixedlub.surface import Surface
 from mixedlub.table import CaseWarning, Column, read_table
+from profiles import SHIPPED, shipped
 from profiles.errors import InputError, nearest
 from profiles.profile import Profile
+
+SHIPPED_MARK = "shipped:"
+"""Before the name of a trace that comes with the package."""
 
 
 def gear_pair(section: config.Gears) -> GearPair:
@@ -116,16 +120,27 @@ def lubricant(section: config.Lubricant | None) -> Lubricant:
     )
 
 
+def _trace(named: str, folder: Path, key: str) -> Profile:
+    """A shipped trace, or one from a file relative to the folder."""
+    from profiles.read import read
+
+    if not named.startswith(SHIPPED_MARK):
+        return read(named_file(folder, named, key))
+    wanted = named.removeprefix(SHIPPED_MARK)
+    if wanted not in SHIPPED:
+        raise InputError(f"no such shipped trace; {nearest(wanted, SHIPPED)}", where=key, value=named)
+    return shipped(wanted)
+
+
 def flank_profile(name: str, section: config.SurfaceSection, folder: Path) -> Profile:
     """The roughness profile of a surface that names a trace, prepared as `mixedlub profile` does.
 
     Cut-offs are those of its section; without any, a profile that its file says is filtered stays as it is.
     A short cut-off of fewer than two points is left out, as the trace does not show such waves.
     """
-    from profiles.read import read
     from roughness import evaluation_profile
 
-    trace = read(named_file(folder, section.profile or "", f"surfaces.{name}.profile"))
+    trace = _trace(section.profile or "", folder, f"surfaces.{name}.profile")
     form = section.form or "line"
     if "cutoff" in trace.cutoffs and section.cutoff_mm is None and section.short_cutoff_um is None:
         return evaluation_profile(trace, form=form)

@@ -103,7 +103,7 @@ surfaces.NAME                        | one table a surface; NAME stands in the t
 surfaces.NAME.m0_um2                 | variance of heights; the three moments, or a profile
 surfaces.NAME.m2                     | variance of slopes of the profile
 surfaces.NAME.m4_per_um2             | variance of curvatures of the profile
-surfaces.NAME.profile                | file of a trace, path from the case folder
+surfaces.NAME.profile                | file of a trace, path from the case folder; or shipped:NAME
 surfaces.NAME.cutoff_mm              | long cut-off; left out: 0.8, or the trace's own
 surfaces.NAME.short_cutoff_um        | short cut-off; left out: 2.5, or the trace's own
 surfaces.NAME.form                   | none, mean, line (if left out), circle, polynomial-N, involute-MM

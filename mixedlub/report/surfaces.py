@@ -12,7 +12,7 @@ from mixedlub.bodies import flank_profile
 from mixedlub.case import noted
 from mixedlub.report.figures import Drawn
 from mixedlub.report.style import styled
-from mixedlub.study.study import Study, located
+from mixedlub.study.study import Study
 from profiles import Profile
 from roughness.mccool import nayak_parameter, summit_density, summit_radius
 
@@ -42,7 +42,7 @@ def surface_rows(study: Study) -> list[tuple[str, ...]]:
 
 def traced(study: Study) -> dict[str, Profile]:
     """The filtered profiles of the surfaces that come from traces, at most a figure full."""
-    sections = {name: located(name, study.file.surfaces[name]) for name in study.surfaces}
+    sections = {name: study.file.surfaces[name] for name in study.surfaces}
     named = [name for name, section in sections.items() if section.profile is not None][:SHOWN]
     with noted([]):
         profiles = {name: flank_profile(name, sections[name], study.folder.resolve()) for name in named}

@@ -6,7 +6,6 @@ import itertools
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +25,6 @@ from mixedlub.surface import Surface, paired
 from profiles.errors import InputError, nearest
 
 AXES = ("pairing", "oil_temperature", "torque", "speed")
-SHIPPED = "shipped:"
 WANTED = (
     "power_loss",
     "area_ratio",
@@ -145,24 +143,10 @@ def pairings_of(section: Pairings | None, known: Mapping[str, object]) -> tuple[
     return tuple(itertools.product(section.pinion or (), section.gear or ()))
 
 
-def located(name: str, section: config.SurfaceSection) -> config.SurfaceSection:
-    """The section with a shipped trace replaced by its file."""
-    if section.profile is None or not section.profile.startswith(SHIPPED):
-        return section
-    traces = files("profiles").joinpath("traces")
-    wanted = section.profile.removeprefix(SHIPPED)
-    known = {Path(f.name).stem: f for f in traces.iterdir() if f.name.endswith(".txt")} if traces.is_dir() else {}
-    if wanted not in known:
-        raise InputError(
-            f"no such shipped trace; {nearest(wanted, known)}", where=f"surfaces.{name}.profile", value=section.profile
-        )
-    return section.model_copy(update={"profile": str(known[wanted])})
-
-
 def _surface(name: str, section: config.SurfaceSection, folder: Path) -> Surface:
     """One surface; what is wrong with its trace is said with its name."""
     try:
-        return bodies.surface(name, located(name, section), folder.resolve())
+        return bodies.surface(name, section, folder.resolve())
     except InputError as error:
         if error.where.startswith("surfaces."):
             raise
