@@ -22,5 +22,5 @@ def test_a_shipped_trace_needs_no_file(tmp_path: Path) -> None:
 
 
 def test_an_unknown_shipped_trace_is_told_the_nearest(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="surfaces.ground.profile.*no such shipped trace.*0302"):
+    with pytest.raises(InputError, match=r"surfaces\.ground\.profile.*no such shipped trace.*0302"):
         bodies.surface("ground", flank("shipped:0303"), tmp_path)
