@@ -11,20 +11,22 @@ import numpy as np
 
 from mixedlub.case import Case, read_case, read_conditions
 from mixedlub.diagnosis.audit import Doubt, audit
-from mixedlub.diagnosis.features import Coordinates, coordinates, is_held
+from mixedlub.diagnosis.features import coordinates, is_held
 from mixedlub.diagnosis.fit import outlier_chance
 from mixedlub.diagnosis.heldout import HeldOut, LevelsOut
 from mixedlub.diagnosis.location import Region, region
 from mixedlub.diagnosis.mismatch import Mismatch, mismatch_test
 from mixedlub.diagnosis.nexttest import NextTest, candidates, expected_bits
-from mixedlub.diagnosis.noise import is_stated, noise_from_repeats, noise_from_smoothness
+from mixedlub.diagnosis.noise import estimated, is_stated
 from mixedlub.diagnosis.posterior import Key, Posterior, names_effects, posterior
 from mixedlub.diagnosis.predict import Prediction, Refined, Rows, refine
 from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.scatter import quiet, shown, stated_or_more
 from mixedlub.diagnosis.search import Progress, Search, search
 from mixedlub.diagnosis.validity import beyond_range
 from mixedlub.effect import find
 from mixedlub.forward import Forward
+from mixedlub.headers import unit_of
 from mixedlub.table import Column, Table
 from profiles.errors import InputError
 
@@ -32,6 +34,7 @@ AVERAGED = 6
 SMALL = 2e-3
 MANY_WRONG = 0.1
 CANDIDATES = 6
+QUIET = "readings scatter by less than half of the stated noise: with noise nearer to theirs more could be told"
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,12 +95,10 @@ def diagnose_case(
     forward = Forward(case, rows)
     y = np.asarray(rows[case.quantity], dtype=float)
     warnings = [*case.notes, *assumed, *_hidden(case, wanted, rows), *forward.notes, *audit(case, rows, y, forward)]
-    space = coordinates(case, rows, forward)
-    if not space.axes:
-        raise InputError("all readings were taken at the same conditions; vary at least one", where="recordings.csv")
-    values = space.values(case, rows, forward)
-    problem = Problem.of(case, rows, forward, y, _unstated(case, rows, y, forward, space, values))
-    found = search(problem, space, values, exclude, progress)
+    stated = is_stated(case, rows)
+    found, times = _search(case, rows, forward, y, exclude, progress)
+    case, rows = found.problem.case, found.problem.rows
+    warnings += _scatter_notes(found, stated, times)
     progress("testing against nothing missing")
     test = mismatch_test(found, level)
     progress("leaving levels out")
@@ -115,6 +116,19 @@ def diagnose_case(
     if not isinstance(judged.verdict, str):
         warnings += beyond_range(found.problem, judged.verdict, refined[judged.verdict].z)
     return Diagnosis(case, found, test, judged, refined, recorded, other, chance, place, kept, tests, tuple(warnings))
+
+
+def _scatter_notes(found: Search, stated: bool, times: float) -> list[str]:
+    """What the readings say of their noise, where that is not what the recording says."""
+    if times > 1.0:
+        said = f"readings scatter about {times:.2g} times as much as stated, whatever is taken to explain them"
+        return [Doubt(f"{said}: the noise was taken as that much larger")]
+    noise = found.problem.case.system.recording.noise
+    if not stated and noise is not None:
+        unit = unit_of(found.problem.case.quantity)
+        size = f"{100.0 * noise.relative:.2g} % of it" if noise.relative else f"{noise.absolute:.2g} {unit}".rstrip()
+        return [f"the noise of a reading was estimated as {size}"]
+    return [QUIET] if quiet(found) else []
 
 
 def _doubts(judged: Posterior, kept: HeldOut, chance: np.ndarray, y: np.ndarray, recorded: Predicted) -> list[str]:
@@ -156,17 +170,21 @@ def _hidden(case: Case, wanted: Table | None, rows: Table) -> list[str]:
     return [f"{wanted.source}: not predicted, as readings at other conditions have the run: {runs}"] if runs else []
 
 
-def _unstated(
-    case: Case, rows: Table, y: np.ndarray, forward: Forward, space: Coordinates, values: list[np.ndarray]
-) -> np.ndarray:
-    """Noise to use where the recording states none: from repeats, else from what a smooth fit leaves over."""
-    sd = 0.0
-    if not is_stated(case, rows):
-        base = forward.predict()
-        if case.kind.logarithmic:
-            y, base = np.log(y), np.log(base)
-        sd = noise_from_repeats(case, rows, y) or noise_from_smoothness(y, base, space, values)
-    return np.full(y.size, sd)
+def _search(
+    case: Case, rows: Table, forward: Forward, y: np.ndarray, exclude: Sequence[str], progress: Progress
+) -> tuple[Search, float]:
+    """Every explanation weighed, and how many times the stated noise that took."""
+    space = coordinates(case, rows, forward)
+    if not space.axes:
+        raise InputError("all readings were taken at the same conditions; vary at least one", where="recordings.csv")
+    values = space.values(case, rows, forward)
+
+    def trial(case: Case, rows: Table) -> Search:
+        return search(Problem.of(case, rows, forward, y), space, values, exclude, progress)
+
+    if is_stated(case, rows):
+        return stated_or_more(case, rows, trial)
+    return shown(estimated(case, rows, y, forward.predict(), space, values), rows, trial), 1.0
 
 
 def _judged(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from mixedlub import config
 from mixedlub.case import Case
 from mixedlub.diagnosis.features import Coordinates
 from mixedlub.table import Table
@@ -15,6 +18,7 @@ LOW, HIGHEST = 0.52, 1.23
 """Mean of ln s below that of the true sd over the variance of ln s, and that variance, both of two tests."""
 SEVERAL = 2000
 """Most readings whose sds are compared with one another: beyond, the wild ones even out."""
+WIDE = 3.0
 PARTNERS = 12
 """Readings of its group that each one is compared with, at most."""
 
@@ -25,17 +29,26 @@ def is_stated(case: Case, rows: Table) -> bool:
     return f"{case.quantity}_sd" in rows or (stated is not None and (stated.relative > 0 or stated.absolute > 0))
 
 
-def seen_noise(case: Case, rows: Table, level: np.ndarray, unstated: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """`noise` of readings as they are compared: relative where that is by the logarithm, ``unstated`` likewise."""
+def with_noise(case: Case, relative: float, absolute: float) -> Case:
+    """The case with other noise of a single reading than it states."""
+    noise = (case.system.recording.noise or config.Noise()).model_copy(
+        update={"relative": relative, "absolute": absolute}
+    )
+    recording = case.system.recording.model_copy(update={"noise": noise})
+    return replace(case, system=case.system.model_copy(update={"recording": recording}))
+
+
+def seen_noise(case: Case, rows: Table, level: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """`noise` of readings as they are compared: relative where that is by the logarithm."""
     size = np.abs(level) if case.kind.logarithmic else np.ones(level.size)
-    sd, shared = noise(case, rows, level, unstated * size)
+    sd, shared = noise(case, rows, level)
     return sd / size, shared
 
 
-def noise(case: Case, rows: Table, level: np.ndarray, unstated: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def noise(case: Case, rows: Table, level: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Standard deviation of each reading and, in sigmas, the columns of errors shared within a set-up.
 
-    ``level`` is the size of the readings, ``unstated`` the standard deviation where the recording gives none.
+    ``level`` is the size of the readings.
     """
     quantity = case.quantity
     stated = case.system.recording.noise
@@ -43,10 +56,9 @@ def noise(case: Case, rows: Table, level: np.ndarray, unstated: np.ndarray) -> t
         sd = rows[f"{quantity}_sd"].astype(float)
         if sd.size <= SEVERAL:
             sd = steadied(sd, level, _neighbours(case, rows))
-    elif stated is not None and (stated.relative > 0 or stated.absolute > 0):
-        sd = np.hypot(stated.relative * np.abs(level), stated.absolute)
     else:
-        sd = unstated
+        relative, absolute = (stated.relative, stated.absolute) if stated is not None else (0.0, 0.0)
+        sd = np.hypot(relative * np.abs(level), absolute)
     sd = np.maximum(sd, 1e-6 * float(np.median(np.abs(level))) + 1e-300)
     shared = np.zeros((level.size, 0))
     if stated is not None and "setup" in rows and (stated.setup_relative > 0 or stated.setup_absolute > 0):
@@ -112,6 +124,19 @@ def _neighbours(case: Case, rows: Table) -> np.ndarray:
             rank = np.unique(rows[name], return_inverse=True)[1].astype(float)
             distance += np.subtract.outer(rank, rank) ** 2
     return np.exp(-0.5 * distance)
+
+
+def estimated(
+    case: Case, rows: Table, y: np.ndarray, base: np.ndarray, space: Coordinates, values: list[np.ndarray]
+) -> Case:
+    """The case with the noise its readings show: from repeats, else from what a smooth fit leaves over.
+
+    Positive readings that span WIDE or more scatter in proportion to their size, others alike.
+    """
+    share = bool(np.all(y > 0) and np.all(base > 0) and (case.kind.logarithmic or np.ptp(np.log(y)) > np.log(WIDE)))
+    seen, model = (np.log(y), np.log(base)) if share else (y, base)
+    sd = noise_from_repeats(case, rows, seen) or noise_from_smoothness(seen, model, space, values)
+    return with_noise(case, sd, 0.0) if share else with_noise(case, 0.0, sd)
 
 
 def noise_from_repeats(case: Case, rows: Table, y: np.ndarray) -> float:

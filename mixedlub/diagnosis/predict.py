@@ -8,7 +8,7 @@ import numpy as np
 
 from mixedlub.diagnosis.carriers import carrier
 from mixedlub.diagnosis.fit import Fit, linear_fit
-from mixedlub.diagnosis.noise import is_stated, seen_noise
+from mixedlub.diagnosis.noise import seen_noise
 from mixedlub.diagnosis.problem import REACH, Problem
 from mixedlub.diagnosis.search import ELASTIC, Search, elastic_columns, typical_size
 from mixedlub.diagnosis.unknown import shape_columns
@@ -113,11 +113,12 @@ class Rows:
 
 def _noise_at(problem: Problem, table: Table, seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Noise of a new reading where a prediction is ``seen``, and the variance of its set-up's error."""
-    typical = np.full(len(table), float(np.median(problem.sd)))
     own = f"{problem.case.quantity}_sd"
     level = problem.level(seen)
-    if is_stated(problem.case, problem.rows) and (own in table or own not in problem.rows):
-        typical, _ = seen_noise(problem.case, table, level, typical)
+    if own in problem.rows and own not in table:
+        typical = np.full(len(table), float(np.median(problem.sd)))
+    else:
+        typical, _ = seen_noise(problem.case, table, level)
     stated = problem.case.system.recording.noise
     if stated is None:
         return typical, np.zeros(len(table))

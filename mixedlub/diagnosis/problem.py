@@ -40,9 +40,9 @@ class Problem:
     shared: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
 
     @classmethod
-    def of(cls, case: Case, rows: Table, forward: Forward, y: np.ndarray, unstated: np.ndarray) -> Problem:
-        """The problem of a recording; ``unstated`` is the sd where the recording gives none."""
-        sd, shared = seen_noise(case, rows, y, unstated)
+    def of(cls, case: Case, rows: Table, forward: Forward, y: np.ndarray) -> Problem:
+        """The problem of a recording whose noise is known."""
+        sd, shared = seen_noise(case, rows, y)
         return cls(case, rows, forward, np.log(y) if case.kind.logarithmic else y, sd, shared)
 
     def seen(self, level: np.ndarray) -> np.ndarray:
@@ -111,7 +111,7 @@ class Problem:
         """
         size, reading = self.level(prediction), self.level(self.y)
         size = np.where(np.abs(size) < TRIFLE * np.abs(reading), reading, size)
-        sd, shared = seen_noise(self.case, self.rows, size, self.sd)
+        sd, shared = seen_noise(self.case, self.rows, size)
         return Problem(self.case, self.rows, self.forward, self.y, sd, shared)
 
     def take(self, rows: np.ndarray) -> Problem:

@@ -108,7 +108,7 @@ def with_stated(folder: Path, sd: np.ndarray) -> Case:
 def taken(case: Case) -> np.ndarray:
     assert case.recordings is not None
     y = np.asarray(case.recordings[case.quantity], dtype=float)
-    return noise(case, case.recordings, y, y)[0]
+    return noise(case, case.recordings, y)[0]
 
 
 def test_a_smooth_column_of_sds_stays_as_stated(make_case: Callable[..., Path], tmp_path: Path) -> None:

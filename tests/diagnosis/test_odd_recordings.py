@@ -38,13 +38,13 @@ def test_few_readings_without_stated_noise_are_no_mismatch(make_case, tmp_path: 
 
 def test_a_large_sd_only_marks_its_reading(make_case, tmp_path: Path) -> None:
     def marked(lines: list[str]) -> list[str]:
-        sds = ["900" if i in (5, 30) else "0.6" for i in range(len(lines) - 1)]
+        sds = ["900" if i in (5, 30) else "2" for i in range(len(lines) - 1)]
         return [f"{lines[0]},power_loss_W_sd", *(f"{line},{sd}" for line, sd in zip(lines[1:], sds, strict=True))]
 
     folder = make_case(tmp_path, "gear_pair", lambda conditions, base: base + 9.0)
     found = edited(folder, rows=marked)
     assert found.posterior.verdict == ("sensor_offset",)
-    assert found.found.problem.sd[0] == pytest.approx(0.6, rel=0.01)
+    assert found.found.problem.sd[0] == pytest.approx(2.0, rel=0.01)
 
 
 def test_sds_of_few_tests_come_near_the_true_one() -> None:

@@ -34,7 +34,7 @@ def test_a_fit_is_judged_by_the_quantities_it_passes_through() -> None:
     """A third of the readings of the standard disc slide at 0.6."""
     forward = standard.forward("disc")
     y = forward.predict()
-    problem = Problem.of(forward.case, forward.table, forward, y, np.zeros(y.size))
+    problem = Problem.of(forward.case, forward.table, forward, y)
     z = np.zeros(problem.size(("contact_creep",)))
     (said,) = beyond_range(problem, ("contact_creep",), z)
     assert f"in {y.size // 3} of {y.size} readings that is up to 0.6" in said

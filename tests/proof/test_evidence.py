@@ -26,7 +26,7 @@ def problem_of(folder: Path) -> Problem:
     rows = case.recordings
     assert rows is not None
     y = np.asarray(rows[case.quantity], dtype=float)
-    return Problem.of(case, rows, Forward(case, rows), y, np.zeros(y.size))
+    return Problem.of(case, rows, Forward(case, rows), y)
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,117 @@
+"""The search under the noise that is stated, under more where the readings ask for it, under theirs where none is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from mixedlub.case import Case
+from mixedlub.diagnosis.fit import log_likelihood
+from mixedlub.diagnosis.noise import with_noise
+from mixedlub.diagnosis.search import MANY, Search
+from mixedlub.table import Table
+
+FACTORS = np.array([1.1, 1.25, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 4.0, 6.0, 10.0])
+"""How many times the stated noise may be meant."""
+MOST = 30.0
+CLEAR = 8.0
+"""Log Bayes factor from which stated noise is not believed: a prior of 5 % for all other noise, then 20 to 1."""
+QUIETER, STEPS = 0.7, 5
+"""Noise shown by repeats or by smoothness is an upper bound: steps by which it is lowered, and how many at most."""
+
+ENOUGH = 10
+"""Readings, beyond the coordinates of the base model, from which their scatter is known well enough to judge."""
+
+Trial = Callable[[Case, Table], Search]
+
+
+def stated_or_more(case: Case, rows: Table, trial: Trial) -> tuple[Search, float]:
+    """The search under the stated noise, or under ``times`` as much where the readings say so clearly.
+
+    Every explanation is weighed again with its residuals against more noise. That is believed where the best of
+    them beats the best one under the stated noise, the unnamed mismatch among them: what goes smoothly with the
+    conditions is a mismatch, what goes with none is noise. Fits under too little noise follow it, and hide a part.
+    """
+    found, times = trial(case, rows), 1.0
+    gain, factor = more(found)
+    while gain > (CLEAR if times == 1.0 else 0.0) and times * factor <= MOST:
+        times *= factor
+        found = trial(*scaled(case, rows, times))
+        gain, factor = more(found)
+    return found, times
+
+
+def more(found: Search) -> tuple[float, float]:
+    """Gain in log probability of the best explanation by more noise over the best without, and the factor."""
+    weights = found.log_weights
+    best, times = -np.inf, 1.0
+    for key, weight in weights.items():
+        if isinstance(key, str):
+            residual, unbent = found.unknown.fit.residual, weight
+        else:
+            residual, unbent = found.fits[key].residual, weight - found.scores[key] + found.fits[key].evidence
+        gain, factor = louder(residual)
+        if unbent + gain > best:
+            best, times = unbent + gain, factor
+    return best - max(weights.values()), times
+
+
+def shown(case: Case, rows: Table, trial: Trial) -> Search:
+    """The search under the estimated noise, lowered to where the readings are most probable."""
+    found = [trial(case, rows)]
+    if len(rows) > MANY:
+        return found[0]
+    for step in range(1, STEPS + 1):
+        found.append(trial(*scaled(case, rows, QUIETER**step)))
+        if _log_probability(found[-1]) <= _log_probability(found[-2]):
+            break
+    else:
+        return found[-1]
+    if len(found) < 3:
+        return found[0]
+    below, best, above = (_log_probability(one) for one in found[:-4:-1])
+    steps = len(found) - 2 + 0.5 * (below - above) / (2.0 * best - below - above)
+    return trial(*scaled(case, rows, QUIETER**steps))
+
+
+def _log_probability(found: Search) -> float:
+    """Log probability density of the readings under all explanations together, up to a constant."""
+    return float(np.logaddexp.reduce(list(found.log_weights.values())) - np.log(found.problem.sd).sum())
+
+
+def louder(residual: np.ndarray) -> tuple[float, float]:
+    """Largest gain of the log likelihood of residuals (in sigmas) by more noise, and how many times the noise.
+
+    >>> gain, times = louder(2.0 * np.random.default_rng(1).standard_normal(100))
+    >>> bool(gain > 20.0), times
+    (True, 1.6)
+    >>> bool(louder(np.random.default_rng(1).standard_normal(100))[0] < 1.0)
+    True
+    """
+    plain = float(log_likelihood(residual)[0].sum())
+    gains = [
+        float(log_likelihood(residual / times)[0].sum()) - residual.size * np.log(times) - plain for times in FACTORS
+    ]
+    return max(gains), float(FACTORS[int(np.argmax(gains))])
+
+
+def quiet(found: Search) -> bool:
+    """Whether readings scatter by less than half of their noise about the calibrated base model alone.
+
+    That model has few coordinates to follow noise with: so little is left only if the noise is overstated.
+    """
+    spare = found.none.residual.size - found.none.z.size
+    return spare >= ENOUGH and float(found.none.residual @ found.none.residual) < 0.25 * spare
+
+
+def scaled(case: Case, rows: Table, factor: float) -> tuple[Case, Table]:
+    """The case and its readings with ``factor`` times the noise of a single reading."""
+    name = f"{case.quantity}_sd"
+    if name in rows:
+        rows = Table({**rows.columns, name: factor * rows[name]}, rows.source)
+        return replace(case, recordings=rows), rows
+    noise = case.system.recording.noise
+    assert noise is not None
+    return with_noise(case, factor * noise.relative, factor * noise.absolute), rows

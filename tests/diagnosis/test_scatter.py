@@ -1,0 +1,87 @@
+"""Noise that is not as stated, or not stated: what is said of it, and that it is not taken for physics."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+
+Make = Callable[..., Path]
+TRUE = "noise = { relative = 0.02, absolute = 0.0002 }"
+
+
+def heated(conditions: dict[str, np.ndarray], base: np.ndarray) -> np.ndarray:
+    """A channel that reads a third too much: a mismatch beyond any doubt."""
+    return 1.35 * base
+
+
+def restated(folder: Path, line: str) -> Path:
+    """The case with another statement of its noise."""
+    system = folder / "system.toml"
+    text = system.read_text(encoding="utf-8")
+    assert TRUE in text
+    system.write_text(text.replace(TRUE, line), encoding="utf-8")
+    return folder
+
+
+def told(d: Diagnosis) -> list[str]:
+    return [note for note in d.warnings if "scatter" in note]
+
+
+@pytest.fixture
+def half(make_case: Make, tmp_path: Path) -> Callable[..., Path]:
+    """A disc rig that states half the noise it has."""
+
+    def make(*change: object) -> Path:
+        return restated(make_case(tmp_path / "case", "disc", *change), "noise = { relative = 0.01, absolute = 0.0001 }")
+
+    return make
+
+
+def test_noise_as_stated_is_believed(complete: Diagnosis) -> None:
+    assert told(complete) == []
+    assert complete.case.system.recording.noise is not None
+    assert complete.case.system.recording.noise.relative == 0.02
+
+
+def test_scatter_beyond_what_is_stated_is_no_mismatch(half: Callable[..., Path], excluded: tuple[str, ...]) -> None:
+    d = diagnose_case(half(), exclude=excluded)
+    (note,) = told(d)
+    times = float(note.split("about ")[1].split(" times")[0])
+    assert times == pytest.approx(2.0, rel=0.25)
+    assert d.posterior.verdict == ()
+    assert not d.test.detected
+
+
+def test_an_effect_stays_visible_through_it(half: Callable[..., Path], excluded: tuple[str, ...]) -> None:
+    d = diagnose_case(half(heated), exclude=excluded)
+    assert len(told(d)) == 1
+    assert d.posterior.verdict == ("sensor_gain",)
+
+
+def test_sds_of_the_readings_are_raised_likewise(make_case: Make, tmp_path: Path, excluded: tuple[str, ...]) -> None:
+    folder = make_case(tmp_path / "case", "disc")
+    path = folder / "recordings.csv"
+    with path.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.reader(file))
+    rows = [[*rows[0], "friction_coefficient_sd"], *([*row, str(0.01 * float(row[-1]))] for row in rows[1:])]
+    with path.open("w", encoding="utf-8", newline="") as file:
+        csv.writer(file).writerows(rows)
+    d = diagnose_case(folder, exclude=excluded)
+    assert len(told(d)) == 1
+    assert d.posterior.verdict == ()
+
+
+def test_noise_that_nobody_states_is_found_under_an_effect(
+    make_case: Make, tmp_path: Path, excluded: tuple[str, ...]
+) -> None:
+    folder = restated(make_case(tmp_path / "case", "disc", heated), "")
+    d = diagnose_case(folder, exclude=excluded)
+    assert np.median(d.found.problem.sd / d.readings) == pytest.approx(0.02, rel=0.25)
+    assert d.posterior.verdict == ("sensor_gain",)
+    assert "the noise of a reading was estimated as" in " ".join(d.warnings)
