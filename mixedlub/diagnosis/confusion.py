@@ -48,9 +48,7 @@ def confusion(found: Search) -> Confusion:
         return weighted - (weighted @ columns) @ inner @ scaled.T
 
     ids, signatures, visibility, absorbed = [], [], [], []
-    for sampled in found.sampled:
-        if not len(sampled.z):
-            continue
+    for sampled in (*found.sampled, *found.untestable):
         size = np.sqrt(np.maximum(np.einsum("ij,ij->i", sampled.change, left_over(sampled.change)), 0.0))
         raw = np.sqrt(np.einsum("ij,ij->i", sampled.change * none.weight, sampled.change))
         ids.append(sampled.id)

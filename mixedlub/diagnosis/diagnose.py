@@ -284,7 +284,8 @@ def _next_tests(
         refined = {**refined, runner: refine(found, found.fits[runner])}
         keys = [*keys, runner]
     keys = keys[:5]
-    table = candidates(found.problem.rows, columns)
+    case = found.problem.case
+    table = candidates(found.problem.rows, columns, case.kind.limits(case.system))
     rows = Rows(found, table)
     predictions = [rows.of_fit(refined[k]) for k in keys]
     weights = np.array([judged.weights[k] for k in keys])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import product
 
@@ -23,8 +24,12 @@ class NextTest:
     expected_bits: float
 
 
-def candidates(table: Table, conditions: list[Column]) -> Table:
+def candidates(
+    table: Table, conditions: list[Column], limits: Mapping[str, tuple[float, float]] | None = None
+) -> Table:
     """A grid over the recorded levels and a little beyond them, thinned to a few hundred conditions.
+
+    It keeps within the bounds of the columns, and within the ``limits`` of the rig.
 
     >>> share = Column("slide_roll_ratio", at_least=0.0, at_most=2.0)
     >>> candidates(Table({"slide_roll_ratio": np.array([0.5, 1.9])}, ""), [share])["slide_roll_ratio"].tolist()
@@ -36,9 +41,12 @@ def candidates(table: Table, conditions: list[Column]) -> Table:
         if levels.dtype.kind not in "US" and levels.size > 1:
             low, high = float(levels[0]), float(levels[-1])
             wide = 0.25 * (high - low)
+            lowest, highest = (limits or {}).get(condition.name, (-np.inf, np.inf))
             beyond = [low - wide if low < 0 else max(low - wide, 0.6 * low), high + wide]
             inner = levels if levels.size <= 4 else np.quantile(levels, [0.0, 0.33, 0.67, 1.0])
-            levels = np.unique(np.concatenate([inner, [x for x in beyond if condition.allows(x)]]))
+            levels = np.unique(
+                np.concatenate([inner, [x for x in beyond if condition.allows(x) and lowest <= x <= highest]])
+            )
         axes.append(levels if levels.size <= 8 else levels[np.linspace(0, levels.size - 1, 8).astype(int)])
     grid = list(product(*axes))
     step = max(1, len(grid) // MOST)

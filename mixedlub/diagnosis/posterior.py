@@ -9,7 +9,7 @@ import numpy as np
 
 from mixedlub.diagnosis.mismatch import Mismatch
 from mixedlub.diagnosis.problem import Explanation, effects_of
-from mixedlub.diagnosis.search import Search
+from mixedlub.diagnosis.search import PRIOR, Search, prior_of_none
 from mixedlub.effect import STAGES
 
 TIE = 0.1
@@ -40,7 +40,7 @@ class Posterior:
 
     def inclusion(self, found: Search) -> dict[str, float]:
         """Probability that each effect is part of the explanation; none and unknown as explanations."""
-        chance = {s.id: 0.0 for s in found.sampled}
+        chance = {s.id: 0.0 for s in found.sampled} | untold(found)
         for key, weight in self.weights.items():
             if not isinstance(key, str):
                 for name in key:
@@ -56,6 +56,14 @@ class Posterior:
                 for stage in {e.stage for e in effects_of(key)}:
                     chance[stage] += weight
         return {stage: float(np.clip(value, FLOOR, 1.0 - FLOOR)) for stage, value in chance.items()}
+
+
+def untold(found: Search) -> dict[str, float]:
+    """Chance of the effects that move no reading: as probable as they were before."""
+    odds = {e.id: e.odds for s in (*found.sampled, *found.untestable) for e in effects_of((s.id,))}
+    all_else = PRIOR["single"] + PRIOR["pair"] + PRIOR["unknown"]
+    single = PRIOR["single"] / (prior_of_none(len(odds)) + all_else)
+    return {s.id: single * odds[s.id] / sum(odds.values()) for s in found.untestable}
 
 
 def posterior(found: Search, test: Mismatch, demerits: Mapping[Key, float] | None = None) -> Posterior:

@@ -15,6 +15,10 @@ from mixedlub.diagnosis.starts import Sampled, fit_single, sample
 from mixedlub.diagnosis.unknown import Unknown, unknown_fit
 
 PRIOR = {"none": 0.42, "single": 0.38, "pair": 0.08, "unknown": 0.12}
+LEAST_NONE = 14.0
+"""How many times as probable nothing is than one effect: one that readings neither ask for nor exclude is no tie."""
+WHOLE = 25
+"""Effects from which pairs have all of their prior: beside a first effect each other one is as rare among few."""
 LEADERS = 8
 FAR = 60.0
 PAIRS = 30
@@ -35,7 +39,7 @@ Progress = Callable[[str], None]
 
 @dataclass(frozen=True, eq=False)
 class Search:
-    """Everything the search found."""
+    """Everything the search found; ``untestable`` effects move no reading and so are no explanation."""
 
     problem: Problem
     space: Coordinates
@@ -45,6 +49,7 @@ class Search:
     scores: dict[Explanation, float]
     unknown: Unknown
     sampled: tuple[Sampled, ...]
+    untestable: tuple[Sampled, ...] = ()
     screen: Search | None = None
 
     @property
@@ -59,7 +64,7 @@ class Search:
         each = list(odds.values())
         pairs = sum(a * b for a, b in combinations(each, 2))
         total = (1.0, sum(each), pairs)
-        prior = (PRIOR["none"], PRIOR["single"], PRIOR["pair"])
+        prior = (prior_of_none(len(each)), PRIOR["single"], PRIOR["pair"] * min(1.0, len(each) / WHOLE))
         found: dict[str | Explanation, float] = {
             m: s + float(np.log(prior[len(m)] * np.prod([odds[name] for name in m]) / total[len(m)]))
             for m, s in self.scores.items()
@@ -91,13 +96,22 @@ def search(
     fits = {m: map_fit(problem, m, screen.fits[m].z, warm=True) for m in leaders}
     scores = {m: elastic_evidence(problem, fits[()], f, space, values) for m, f in fits.items()}
     unknown = unknown_fit(problem, fits[()], space, values)
-    return Search(problem, space, values, fits[()], fits, scores, unknown, screen.sampled, screen)
+    return Search(problem, space, values, fits[()], fits, scores, unknown, screen.sampled, screen.untestable, screen)
 
 
 def _spread_rows(values: list[np.ndarray], count: int) -> np.ndarray:
     """A share of the rows that covers the conditions evenly."""
     order = np.lexsort(values[::-1]) if values else np.arange(count)
     return np.sort(order[np.linspace(0, count - 1, MANY // 2).astype(int)])
+
+
+def prior_of_none(effects: int) -> float:
+    """Prior of nothing missing beside those of all else: higher where few effects share that of a single one.
+
+    >>> prior_of_none(30), round(prior_of_none(6), 2)
+    (0.42, 0.89)
+    """
+    return max(PRIOR["none"], LEAST_NONE * PRIOR["single"] / max(effects, 1))
 
 
 def _search(
@@ -110,7 +124,9 @@ def _search(
     none = map_fit(problem, (), none.z)
     effects = problem.forward.effects(exclude)
     progress(f"trying {len(effects)} effects")
-    sampled = tuple(s for s in (sample(problem, e.id, none) for e in effects) if len(s.z))
+    drawn = [s for s in (sample(problem, e.id, none) for e in effects) if len(s.z)]
+    sampled = tuple(s for s in drawn if s.testable)
+    untestable = tuple(s for s in drawn if not s.testable)
     singles: dict[Explanation, Fit] = {(s.id,): fit_single(problem, none, s) for s in sampled}
     if singles:
         best = max(singles.values(), key=lambda f: f.evidence)
@@ -127,7 +143,7 @@ def _search(
     scores = {m: elastic_evidence(problem, none, f, space, values) for m, f in fits.items()}
     progress("weighing an unnamed mismatch")
     unknown = unknown_fit(problem, none, space, values)
-    return Search(problem, space, values, none, fits, scores, unknown, sampled)
+    return Search(problem, space, values, none, fits, scores, unknown, sampled, untestable)
 
 
 def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: np.ndarray) -> dict[Explanation, Fit]:

@@ -30,6 +30,11 @@ class Sampled:
     change: np.ndarray
     blind: int
 
+    @property
+    def testable(self) -> bool:
+        """Whether any draw moves the readings, by a sigma in all: an effect that does not explains none."""
+        return bool(np.einsum("ij,ij->i", self.change, self.change).max() > 1.0)
+
 
 def sample(problem: Problem, name: str, none: Fit) -> Sampled:
     """Spread draws over the effect's prior, denser where its strength is middling, and the best of a scan."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -31,6 +31,7 @@ class Kind:
     ``logarithmic`` kinds span decades and are compared by the logarithm of the reading. ``part_rigs`` are the
     names in the column ``rig`` whose readings are compared with a part of the base model. ``channels`` are what
     the instrument tells of itself beside the reading: read as columns, but no condition of the test.
+    ``limits(system)`` are the lowest and highest values that a column can have on this rig, by its name.
     """
 
     name: str
@@ -44,6 +45,7 @@ class Kind:
     logarithmic: bool = False
     part_rigs: tuple[str, ...] = ()
     channels: tuple[Column, ...] = ()
+    limits: Callable[[config.System], Mapping[str, tuple[float, float]]] = lambda system: {}
 
 
 SCALE = {

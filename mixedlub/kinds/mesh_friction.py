@@ -49,6 +49,14 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
     }
 
 
+def limits(system: config.System) -> dict[str, tuple[float, float]]:
+    """The teeth touch on the path of contact only."""
+    assert system.gears is not None
+    pair = bodies.gear_pair(system.gears)
+    first, last = np.degrees(np.array([pair.path_start, pair.path_end]) / pair.base_radius[0])
+    return {"roll_angle_deg": (float(first), float(last))}
+
+
 KIND = Kind(
     name="mesh_friction",
     quantities=("friction_coefficient",),
@@ -56,4 +64,5 @@ KIND = Kind(
     sections=("gears", "lubricant", "surfaces"),
     chain=lambda system, table: (*GEAR_CONTACT, ("reading", reading)),
     inputs=inputs,
+    limits=limits,
 )

@@ -21,6 +21,8 @@ PRESSURE_SPREAD = 0.35
 SLOPE_SPREAD = 0.5
 PRESSURE_SLOPE_SPREAD = 0.4
 HUNDRED_KELVIN = 100.0
+LEVEL = "viscosity_level"
+"""What the level was moved to, for the slope that is turned about it."""
 
 
 def missing(system: config.System) -> tuple[str, ...]:
@@ -33,17 +35,20 @@ def missing(system: config.System) -> tuple[str, ...]:
     return tuple(name for name, gap in gaps if gap)
 
 
-def steeper(oil: Lubricant, factor: float, pivot: float) -> Lubricant:
-    """The oil with its slope in ASTM D341 multiplied, its kinematic viscosity at the pivot (K) unchanged.
+def moved(oil: Lubricant, pivot: float, level: float = 1.0, slope: float = 1.0) -> Lubricant:
+    """The oil with its kinematic viscosity at the pivot (K) and its slope in ASTM D341 multiplied.
+
+    Both act on the ordinate of D341, so that together they give every oil that keeps to it.
 
     >>> oil = Lubricant("oil", (313.15, 373.15), (34e-6, 7.2e-6), (15e-9, 13e-9), 850.0, 6.5e-4, 5e6, 0.14, 2000.0)
-    >>> flat = steeper(oil, 0.5, 313.15)
+    >>> flat = moved(oil, 313.15, slope=0.5)
     >>> [round(nu * 1e6, 1) for nu in flat.kinematic_viscosity]
     [34.0, 14.3]
     """
-    at_pivot = to_d341(oil.viscosity(np.array(pivot)) / oil.density(np.array(pivot)))
+    at_pivot = oil.viscosity(np.array(pivot)) / oil.density(np.array(pivot))
+    before, after = to_d341(at_pivot), to_d341(level * at_pivot)
     known = (to_d341(np.array(nu)) for nu in oil.kinematic_viscosity)
-    first, second = (float(from_d341(at_pivot + factor * (z - at_pivot))) for z in known)
+    first, second = (float(from_d341(after + slope * (z - before))) for z in known)
     return replace(oil, kinematic_viscosity=(first, second))
 
 
@@ -62,19 +67,19 @@ def calibrations(system: config.System, temperature: np.ndarray, *, level: float
             stacklevel=2,
         )
     found = []
-    pivot = float(np.exp(np.mean(np.log(temperature))))
+    pivot = pivot_of(temperature)
     spans = np.ptp(temperature) > 2.0
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", CaseWarning)
         oil = bodies.lubricant(system.lubricant)
     if "viscosity" in gaps:
         parameter = Parameter("viscosity", "-", LogNormal(level, VISCOSITY_SPREAD), "factor on the assumed viscosity")
-        found.append(Calibration(parameter, _scaled("viscosity", level), level, ("viscosity",)))
+        found.append(Calibration(parameter, _shifted(oil, pivot, level), level, ("viscosity", "oil_temperature")))
         if spans:
             slope = Parameter(
                 "viscosity_slope", "-", LogNormal(1.0, SLOPE_SPREAD), "factor on the assumed ASTM D341 slope"
             )
-            found.append(Calibration(slope, _turned(oil, pivot), 1.0, ("viscosity", "oil_temperature")))
+            found.append(Calibration(slope, _turned(oil, pivot, level), 1.0, ("viscosity", "oil_temperature")))
     if "pressure_viscosity" in gaps:
         parameter = Parameter(
             "pressure_viscosity", "-", LogNormal(1.0, PRESSURE_SPREAD), "factor on the assumed pressure-viscosity"
@@ -93,6 +98,11 @@ def calibrations(system: config.System, temperature: np.ndarray, *, level: float
     return tuple(found)
 
 
+def pivot_of(temperature: np.ndarray) -> float:
+    """The temperature (K) about which an unnamed oil's slope is turned."""
+    return float(np.exp(np.mean(np.log(temperature))))
+
+
 def level_of(recorded: Table, quantity: str, guess: np.ndarray) -> float:
     """Factor that brings a guess of the readings to their middle, for priors scaled by the data."""
     if quantity not in recorded:
@@ -108,15 +118,29 @@ def _scaled(name: str, nominal: float) -> Any:
     return apply
 
 
-def _turned(oil: Lubricant, pivot: float) -> Any:
+def _shifted(oil: Lubricant, pivot: float, nominal: float) -> Any:
     def apply(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
-        new, at = steeper(oil, value, pivot), inputs["oil_temperature"]
-        changed = {"viscosity": inputs["viscosity"] * (new.viscosity(at) / oil.viscosity(at))}
-        if "temperature_viscosity" in inputs:
-            changed["temperature_viscosity"] = new.inputs(at)["temperature_viscosity"]
-        return changed
+        change = _exchanged(inputs, moved(oil, pivot, nominal), moved(oil, pivot, value))
+        return {**change, LEVEL: value}
 
     return apply
+
+
+def _turned(oil: Lubricant, pivot: float, nominal: float) -> Any:
+    def apply(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
+        level = inputs.get(LEVEL, nominal)
+        return _exchanged(inputs, moved(oil, pivot, level), moved(oil, pivot, level, value))
+
+    return apply
+
+
+def _exchanged(inputs: Mapping[str, Any], old: Lubricant, new: Lubricant) -> dict[str, Any]:
+    """Viscosity, and its fall with temperature where the chain has it, of another oil."""
+    at = inputs["oil_temperature"]
+    changed = {"viscosity": inputs["viscosity"] * (new.viscosity(at) / old.viscosity(at))}
+    if "temperature_viscosity" in inputs:
+        changed["temperature_viscosity"] = new.inputs(at)["temperature_viscosity"]
+    return changed
 
 
 def _tilted(usual: float, pivot: float) -> Any:

@@ -12,6 +12,7 @@ from mixedlub.chain import Chain
 from mixedlub.kinds import unknown_oil
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, programme
 from mixedlub.laws import oil
+from mixedlub.lubricant import Lubricant
 from mixedlub.table import Column, Table
 
 AMBIENT_MPA = 0.101325
@@ -45,15 +46,19 @@ def under_pressure(viscosity: np.ndarray, pressure_viscosity: np.ndarray, hertz_
 def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table; what carries no pressure was measured at ambient."""
     temperature = column(table["temperature_C"]) + oil.ZERO_CELSIUS
-    found: Inputs = {
-        **bodies.lubricant(system.lubricant).inputs(temperature),
+    return {
+        **_oil(system, recorded).inputs(temperature),
         **bookkeeping_inputs(system, table),
         **programme(table, recorded),
         "oil_temperature": temperature,
         "hertz_pressure": column(_pressure(table)),
     }
-    found["viscosity"] = found["viscosity"] * _level(system, recorded)
-    return found
+
+
+def _oil(system: config.System, recorded: Table) -> Lubricant:
+    """The oil, at the level that the readings suggest where it is not given."""
+    kelvin = recorded["temperature_C"] + oil.ZERO_CELSIUS
+    return unknown_oil.moved(bodies.lubricant(system.lubricant), unknown_oil.pivot_of(kelvin), _level(system, recorded))
 
 
 def _pressure(table: Table) -> np.ndarray:

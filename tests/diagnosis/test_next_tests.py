@@ -1,0 +1,32 @@
+"""Tests that are proposed can be run on the rig."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from mixedlub.diagnosis.diagnose import diagnose_case
+from mixedlub.diagnosis.nexttest import candidates
+from mixedlub.table import Column, Table
+
+
+def test_candidates_stay_within_the_limits_of_the_rig() -> None:
+    table = Table({"roll_angle_deg": np.array([8.5, 20.0, 38.0])}, "")
+    angles = candidates(table, [Column("roll_angle_deg")], {"roll_angle_deg": (8.3, 38.7)})["roll_angle_deg"]
+    assert angles.tolist() == [8.5, 20.0, 38.0]
+
+
+def test_roll_angles_near_the_ends_of_the_path_of_contact(
+    make_case: Callable[..., Path], tmp_path: Path, excluded: tuple[str, ...]
+) -> None:
+    """The tooth tip is 0.3 degrees from the last recorded angle: a test beyond it cannot be computed, nor run."""
+    folder = make_case(tmp_path / "case", "mesh_friction", lambda conditions, base: 1.06 * base)
+    path = folder / "recordings.csv"
+    path.write_text(path.read_text(encoding="utf-8").replace(",16.0,", ",8.6,"), encoding="utf-8")
+    d = diagnose_case(folder, exclude=excluded)
+    first, last = d.case.kind.limits(d.case.system)["roll_angle_deg"]
+    assert first < 8.6
+    assert d.next_tests
+    assert all(first <= float(t.conditions["roll_angle_deg"]) <= last for t in d.next_tests)
