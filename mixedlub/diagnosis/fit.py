@@ -12,6 +12,7 @@ from mixedlub.forward import Run
 
 OUTLIER_SHARE = 0.01
 OUTLIER_WIDTH = 10.0
+PARTS = (1.0, 0.5, 0.25, 0.1, 0.0)
 _LOG_IN = np.log1p(-OUTLIER_SHARE)
 _LOG_OUT = np.log(OUTLIER_SHARE / OUTLIER_WIDTH * np.sqrt(2.0 / np.pi))
 
@@ -125,6 +126,37 @@ def map_fit(problem: Problem, explanation: Explanation, start: np.ndarray, *, wa
     common = problem.shared @ state.shared
     residual = (problem.y - prediction) / problem.sd - common
     return Fit(explanation, state.z, prediction, residual, common, state.slopes, state.weight, evidence)
+
+
+def settled(
+    problem: Problem,
+    explanation: Explanation,
+    start: np.ndarray,
+    wanted: np.ndarray,
+    common: np.ndarray,
+    columns_at: Callable[[np.ndarray], np.ndarray],
+    weight: np.ndarray,
+) -> tuple[np.ndarray, Linear]:
+    """Coordinates as far from ``start`` towards the ``wanted`` ones as the laws themselves gain by.
+
+    The wanted ones are those of the linearised laws, which must not be taken at their word where a law curves much.
+    ``columns_at`` gives, for a prediction, the columns that are fitted beside it; with them comes their fit.
+    """
+    best: tuple[np.ndarray, Linear] | None = None
+    least = np.inf
+    for part in PARTS:
+        z = np.clip(start + part * (wanted - start), -REACH, REACH)
+        prediction = problem.predict(explanation, z)
+        left = (problem.y - prediction) / problem.sd - common
+        if not np.isfinite(left).all():
+            continue
+        linear = linear_fit(left, columns_at(prediction), weight)
+        squares = float(z @ z + linear.coefficients @ linear.coefficients)
+        cost = 0.5 * squares - float(log_likelihood(linear.residual)[0].sum())
+        if cost < least:
+            best, least = (z, linear), cost
+    assert best is not None
+    return best
 
 
 def gaussian(residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

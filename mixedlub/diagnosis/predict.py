@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.diagnosis.carriers import carrier
-from mixedlub.diagnosis.fit import Fit, linear_fit
+from mixedlub.diagnosis.fit import Fit, linear_fit, settled
 from mixedlub.diagnosis.noise import seen_noise
-from mixedlub.diagnosis.problem import REACH, Problem
+from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search import ELASTIC, Search, elastic_columns, typical_size
 from mixedlub.diagnosis.unknown import shape_columns
 from mixedlub.forward import Forward
@@ -56,8 +56,17 @@ def refine(found: Search, fit: Fit) -> Refined:
             break
     assert best is not None
     covariance = np.linalg.inv(np.eye(used.shape[1]) + used.T @ (used * best.weight[:, None]))
-    z = np.clip(best.coefficients[: fit.z.size], -REACH, REACH)
-    return Refined(fit, z, bend, best.coefficients, covariance, best.residual, typical)
+
+    def bends(prediction: np.ndarray) -> np.ndarray:
+        if not bend:
+            return np.zeros((prediction.size, 0))
+        net = (prediction - found.none.prediction) / problem.sd
+        return np.asarray(bend * elastic_columns(net, typical, found.space, found.values))
+
+    count = fit.z.size
+    z, own = settled(problem, fit.explanation, fit.z, best.coefficients[:count], fit.common, bends, fit.weight)
+    coefficients = np.concatenate([z, best.coefficients[count : fixed.shape[1]], own.coefficients])
+    return Refined(fit, z, bend, coefficients, covariance, own.residual, typical)
 
 
 class Rows:

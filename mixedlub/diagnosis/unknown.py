@@ -12,8 +12,8 @@ import numpy as np
 
 from mixedlub.diagnosis.carriers import NOTHING, READING, Carriers, Typical, carriers
 from mixedlub.diagnosis.features import Coordinates
-from mixedlub.diagnosis.fit import Fit, Linear, linear_fit
-from mixedlub.diagnosis.problem import REACH, Problem
+from mixedlub.diagnosis.fit import Fit, Linear, linear_fit, settled
+from mixedlub.diagnosis.problem import Problem
 
 LENGTHS = (0.25, 0.7)
 SIZES = (0.7, 2.0, 6.0, 20.0, 60.0)
@@ -51,8 +51,6 @@ class Unknown:
     carriers: Carriers
     typical: Typical
     fit: Linear
-    values: np.ndarray
-    variance: np.ndarray
     covariance: np.ndarray
     z: np.ndarray
 
@@ -119,16 +117,19 @@ def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np
     every = np.hstack([fixed, own])
     fit = full[best]
     covariance = np.linalg.inv(np.eye(every.shape[1]) + every.T @ (every * fit.weight[:, None]))
+    count = none.z.size
+    errors = fit.coefficients[count : fixed.shape[1]]
+    common = problem.shared @ errors
+    z, beside = settled(problem, (), none.z, fit.coefficients[:count], common, lambda prediction: own, fit.weight)
+    coefficients = np.concatenate([z, errors, beside.coefficients])
     return Unknown(
         evidence=_mean_over_shapes(tried, evidence),
         best=tried[best],
         carriers=rides,
         typical=typical,
-        fit=fit,
-        values=own @ fit.coefficients[fixed.shape[1] :],
-        variance=np.einsum("ij,jk,ik->i", every, covariance, every),
+        fit=replace(fit, coefficients=coefficients, residual=beside.residual, weight=beside.weight),
         covariance=covariance,
-        z=np.clip(fit.coefficients[: none.z.size], -REACH, REACH),
+        z=z,
     )
 
 
