@@ -73,8 +73,8 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
             if slip / SLIP_WITHIN < ratio < slip * SLIP_WITHIN:
                 said = f"readings are about {words} what the base model gives: check the unit of {case.quantity}"
                 notes.append(Doubt(said))
-        if np.median(base[positive]) > 0 and np.median(y[positive]) < 0:
-            notes.append(Doubt("most readings are negative where the base model is positive: check the sign"))
+        if np.mean(base[positive] * y[positive] < 0) > 0.5:
+            notes.append(Doubt("most readings have the other sign than the base model: check the sign"))
     sliding = np.abs(rows["slide_roll_ratio"]).max() if "slide_roll_ratio" in rows else 0.0
     if sliding > MOST_SLIDING:
         said = f"slide_roll_ratio reaches {sliding:g} where 2 is pure sliding: check that it is not in percent"

@@ -25,10 +25,11 @@ COLUMNS = (
     *(Column(name, required=False) for name in LOADS),
     Column("oil_temperature_C", at_least=-100.0, at_most=400.0, required=False),
     Column("additive_percent", at_least=0.0, at_most=100.0, required=False),
-    Column("motor_torque_Nm", required=False),
     Column("position_deg", required=False),
     Column("time_s", required=False),
 )
+MOTOR_TORQUE = Column("motor_torque_Nm", required=False)
+"""No condition of the test: friction is what it has above the torque at the shaft."""
 BARE_SHARE = 0.3
 """Friction of motor and sensor alone, over that of the whole drive, before the readings say it."""
 
@@ -73,18 +74,23 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
         found["additive_fraction"] = column(table["additive_percent"] / np.max(recorded["additive_percent"]))
     if "oil_temperature_C" in table:
         found["oil_temperature"] = column(table["oil_temperature_C"]) + ZERO_CELSIUS
-    motor = _motor_column(recorded)
-    if motor in table:
-        found["motor_torque"] = column(table[motor])
-    found["reference_torque"] = float(np.max(np.abs(recorded[motor]))) if motor in recorded else size
+    found.update(_motor_torque(table, recorded, size))
     if "position_deg" in table:
         found["drive_angle"] = np.radians(column(table["position_deg"]))
     return found
 
 
-def _motor_column(recorded: Table) -> str:
-    """The column that holds the motor's torque: its own, or the torque that loads the drive."""
-    return "motor_torque_Nm" if "motor_torque_Nm" in recorded else "torque_Nm"
+def _motor_torque(table: Table, recorded: Table, size: float) -> Inputs:
+    """Torque of the motor where a load asks for one, and the largest recorded one for comparison."""
+    motor = _motor_column(recorded)
+    found: Inputs = {"reference_torque": size if motor is None else float(np.max(np.abs(recorded[motor])))}
+    own = _motor_column(table)
+    return found if own is None else {**found, "motor_torque": column(table[own])}
+
+
+def _motor_column(table: Table) -> str | None:
+    """The column that holds the motor's torque: its own channel, or the torque that loads the drive."""
+    return next((name for name in (MOTOR_TORQUE.name, "torque_Nm") if name in table), None)
 
 
 def _size(system: config.System, recorded: Table) -> float:
@@ -127,7 +133,7 @@ def _bare_share(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
 def chain(system: config.System, table: Table) -> Chain:
     """Coulomb and viscous friction, and a payload; without a load the motor feels nothing else."""
     laws: Chain = (("running_friction", drive.coulomb_viscous), ("friction_torque", drive.motor_friction))
-    if _motor_column(table) not in table:
+    if _motor_column(table) is None:
         laws = (*laws, ("motor_torque", drive.unloaded_motor))
     return (*laws, ("reading", reading))
 
@@ -141,4 +147,5 @@ KIND = Kind(
     inputs=inputs,
     extra_calibration=extra_calibration,
     part_rigs=(NO_GEARS,),
+    channels=(MOTOR_TORQUE,),
 )

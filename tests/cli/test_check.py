@@ -74,7 +74,7 @@ def spoilt(folder: Path, change) -> Path:
             lambda y: [v * 1000 for v in y],
             "readings are about a thousand times what the base model gives: check the unit",
         ),
-        (lambda y: [-v for v in y], "most readings are negative where the base model is positive: check the sign"),
+        (lambda y: [-v for v in y], "most readings have the other sign than the base model: check the sign"),
         (lambda y: [33.3] * 20 + y[20:], "20 of 72 readings are exactly 33.3 though speed_rpm,"),
         (lambda y: y[:4], "Cannot be diagnosed: {case}/recordings.csv: power_loss_W: 4: needs at least 5 readings"),
     ],

@@ -267,3 +267,14 @@ def test_planted_growth_of_friction_is_found(make):
     y = case.recordings[case.quantity]
     _, values, _ = least_squares(case, ("tribofilm_growth",), 0.01 * np.abs(y))
     assert values["tribofilm_growth"]["change"] == pytest.approx(1.0, rel=0.25)
+
+
+def test_a_motor_torque_that_contains_the_friction_is_no_condition(make) -> None:
+    """Friction is motor torque less shaft torque: as a condition of a smooth form it would explain itself."""
+    torque = np.tile(np.linspace(0.5, 8.0, 12), 4)
+    speed = np.repeat([30.0, 60.0, 90.0, 120.0], 12)
+    sections, columns = drive(0.5 + 0.2 * speed / 120.0 + torque - torque / (1.0 + 0.02 * torque), speed_rpm=speed)
+    columns |= {"torque_Nm": torque, "motor_torque_Nm": torque + columns["friction_torque_Nm"]}
+    d = diagnose_case(make(sections, columns).folder)
+    assert "motor_torque_Nm" not in [axis.name for axis in d.found.space.axes]
+    assert "torque_constant" in d.posterior.verdict
