@@ -30,6 +30,12 @@ def planted_stribeck():
     return drive(coulomb() + 0.7 * np.exp(-((SPEED / 30.0) ** 2)) * np.sign(SPEED), speed_rpm=SPEED)
 
 
+def planted_presliding():
+    """Hyperbolic tangent: the catalogue carries Dahl's exponential."""
+    speed = np.concatenate([-np.geomspace(0.02, 200.0, 24)[::-1], np.geomspace(0.02, 200.0, 24)])
+    return drive((coulomb(speed) - 0.3) * np.tanh(np.abs(speed) / 0.6) + 0.3, speed_rpm=speed)
+
+
 def planted_modifier():
     """Coverage that saturates exponentially: the catalogue carries Langmuir's isotherm."""
     speed, content = np.tile(SPEED, 5), np.repeat([0.0, 0.5, 1.0, 3.0, 10.0], SPEED.size)
@@ -179,6 +185,7 @@ def planted_sample_drift():
 
 CASES = {
     "stribeck": (planted_stribeck, ("grease_shear_thinning", "direction_dependence", "torque_constant")),
+    "presliding": (planted_presliding, ("stribeck", "grease_shear_thinning", "direction_dependence")),
     "friction_modifier_film": (planted_modifier, ("stribeck", "direction_dependence", "grease_shear_thinning")),
     "direction_dependence": (planted_direction, ("stribeck", "grease_shear_thinning", "torque_constant")),
     "torque_constant": (planted_torque_constant, ("stribeck", "load_dependent_friction", "direction_dependence")),
