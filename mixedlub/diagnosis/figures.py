@@ -11,6 +11,7 @@ from mixedlub.diagnosis.confusion import confusion
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.empirical import Unnamed
 from mixedlub.diagnosis.labels import axis_label, words_of
+from mixedlub.diagnosis.levels import set_points
 from mixedlub.diagnosis.style import (
     AFTER,
     BEFORE,
@@ -223,6 +224,7 @@ def _condition_label(name: str, values: np.ndarray) -> str:
 
 
 def _profile(axes: Axes, values: np.ndarray, before: np.ndarray, after: np.ndarray) -> None:
+    values = set_points(values)
     levels, label = np.unique(values, return_inverse=True)
     named = levels.dtype.kind in "US"
     if levels.size > 12 and not named:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.diagnosis.fit import Fit, linear_fit, map_fit
+from mixedlub.diagnosis.levels import set_points
 from mixedlub.diagnosis.problem import Explanation, Problem
 from mixedlub.diagnosis.search import Search
 from mixedlub.diagnosis.unknown import shape_columns
@@ -137,6 +138,7 @@ def _folds(found: Search) -> tuple[str, np.ndarray]:
     for axis, values in zip(found.space.axes, found.values, strict=True):
         if axis.name in ("sequence", "composite_roughness_um"):
             continue
+        values = set_points(values)
         levels, label = np.unique(values, return_inverse=True)
         if levels.size > MOST_FOLDS and not axis.named:
             edges = np.unique(np.quantile(values, np.linspace(0, 1, MOST_FOLDS + 1)[1:-1]))

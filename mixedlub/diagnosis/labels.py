@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from mixedlub.diagnosis.levels import one_point
 from mixedlub.headers import unit_of, without_unit
 
 STAGE_WORDS = {
@@ -85,8 +86,9 @@ def range_text(cut: Mapping[str, Any]) -> str:
     name = cut["column"]
     if "values" in cut:
         return f"{words_of(name)} {' or '.join(cut['values'])}"
-    if cut["low"] == cut["high"]:
-        return f"{words_of(name)} {amount(cut['low'], name)}"
+    point = one_point(cut["low"], cut["high"])
+    if point is not None:
+        return f"{words_of(name)} {amount(point, name)}"
     return f"{words_of(name)} {_four(cut['low'])} to {amount(cut['high'], name)}"
 
 

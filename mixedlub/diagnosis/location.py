@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub.diagnosis.levels import one_point, set_points
 from mixedlub.table import Table
 
 
@@ -55,15 +56,17 @@ def _cuts(name: str, values: np.ndarray) -> list[tuple[dict[str, Any], np.ndarra
         return []
     if values.dtype.kind in "US":
         return [({"column": name, "values": [str(level)]}, values == level) for level in levels]
+    points = set_points(values)
+    levels = np.unique(points)
     if levels.size > 12:
-        levels = np.unique(np.quantile(values, np.linspace(0.0, 1.0, 12)))
+        levels = np.unique(np.quantile(points, np.linspace(0.0, 1.0, 12)))
     found = []
     for i, low in enumerate(levels):
         for j in range(i, levels.size):
             if i == 0 and j == levels.size - 1:
                 continue
-            cut = {"column": name, "low": float(low), "high": float(levels[j])}
-            found.append((cut, (values >= low) & (values <= levels[j])))
+            mask = (points >= low) & (points <= levels[j])
+            found.append(({"column": name, "low": float(values[mask].min()), "high": float(values[mask].max())}, mask))
     return found
 
 
@@ -81,8 +84,8 @@ def _words(where: tuple[dict[str, Any], ...], absolute: np.ndarray, inside: np.n
     for cut in where:
         if "values" in cut:
             parts.append(f"{cut['column']} is {', '.join(cut['values'])}")
-        elif cut["low"] == cut["high"]:
-            parts.append(f"{cut['column']} is {cut['low']:g}")
+        elif (point := one_point(cut["low"], cut["high"])) is not None:
+            parts.append(f"{cut['column']} is {point:g}")
         else:
             parts.append(f"{cut['column']} is {cut['low']:g} to {cut['high']:g}")
     outside = float(np.sqrt(np.mean(absolute[~inside] ** 2))) if (~inside).any() else 0.0

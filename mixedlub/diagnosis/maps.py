@@ -11,6 +11,7 @@ import numpy as np
 from mixedlub.diagnosis.confusion import Confusion
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import amount, axis_label, effect_words, number, words_of
+from mixedlub.diagnosis.levels import set_points
 from mixedlub.diagnosis.style import DIVERGING, INK, MUTED, OUTLIER, PAPER, blank
 
 if TYPE_CHECKING:
@@ -114,6 +115,7 @@ def _limit(z: np.ndarray) -> float:
 
 def _levels(values: np.ndarray, most: int, name: str) -> tuple[np.ndarray, list[str]]:
     """Level of each value, and the levels' names; bins where there are too many."""
+    values = set_points(values)
     levels, label = np.unique(values, return_inverse=True)
     if not name:
         return np.zeros(values.size, int), [""]
@@ -181,6 +183,7 @@ def _block(count: int, side: float = 0.92) -> list[tuple[float, float, float, fl
 
 def _ticks(values: np.ndarray) -> tuple[np.ndarray, list[str]]:
     """Level of each value and the ticks' texts; bins where there are too many levels."""
+    values = set_points(values)
     levels, label = np.unique(values, return_inverse=True)
     if levels.size <= MOST_LEVELS:
         return label, [number(float(v)) for v in levels]

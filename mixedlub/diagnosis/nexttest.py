@@ -8,6 +8,7 @@ from itertools import product
 
 import numpy as np
 
+from mixedlub.diagnosis.levels import set_points
 from mixedlub.diagnosis.predict import Prediction
 from mixedlub.table import Column, Table
 
@@ -37,7 +38,7 @@ def candidates(
     """
     axes: list[np.ndarray] = []
     for condition in conditions:
-        levels = np.unique(table[condition.name])
+        levels = np.unique(set_points(table[condition.name]))
         if levels.dtype.kind not in "US" and levels.size > 1:
             low, high = float(levels[0]), float(levels[-1])
             wide = 0.25 * (high - low)

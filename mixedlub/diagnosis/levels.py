@@ -1,0 +1,58 @@
+"""The set-points of a condition, about which what was measured of it jitters."""
+
+from __future__ import annotations
+
+import numpy as np
+
+NEAR_SIZE, NEAR_SPAN = 0.015, 0.005
+"""Neighbours no farther apart than this share of their size, or of the whole span, may belong to one set-point."""
+WIDEST = 2.0
+"""A set-point is no wider than so many of those distances: beyond, the condition was swept."""
+
+
+def set_points(values: np.ndarray) -> np.ndarray:
+    """Each value replaced by the roundest number at its set-point, where the condition was set and not swept.
+
+    >>> set_points(np.array([2.996, 8.994, 3.001, 9.003])).tolist()
+    [3.0, 9.0, 3.0, 9.0]
+    >>> set_points(np.array([1.0, 1.01, 1.02, 1.03, 1.04, 1.05])).tolist()   # swept
+    [1.0, 1.01, 1.02, 1.03, 1.04, 1.05]
+    """
+    if values.dtype.kind in "US" or values.size < 2:
+        return values
+    order = np.argsort(values, kind="stable")
+    ranked = values[order].astype(float)
+    near = np.maximum(NEAR_SIZE * np.abs(ranked[1:]), NEAR_SPAN * (ranked[-1] - ranked[0]))
+    label = np.concatenate([[0], np.cumsum(np.diff(ranked) > near)])
+    count = np.bincount(label)
+    first = np.cumsum(count) - count
+    width = ranked[first + count - 1] - ranked[first]
+    allowed = WIDEST * np.maximum(NEAR_SIZE * np.abs(ranked[first]), NEAR_SPAN * (ranked[-1] - ranked[0]))
+    if not width.any() or np.any(width > allowed) or 2 * count.size > values.size:
+        return values
+    found = np.empty(values.size)
+    last = first + count - 1
+    found[order] = np.array([roundest(low, high) for low, high in zip(ranked[first], ranked[last])])[label]
+    return found
+
+
+def roundest(low: float, high: float) -> float:
+    """The number of fewest digits within a range, nearest to its middle.
+
+    >>> roundest(2.996, 3.001), roundest(59.2, 60.4), roundest(0.1234, 0.1234)
+    (3.0, 60.0, 0.1234)
+    """
+    middle = 0.5 * (low + high)
+    tried = (float(f"{middle:.{digits}g}") for digits in range(1, 16))
+    return next((x for x in tried if low <= x <= high), float(middle))
+
+
+def one_point(low: float, high: float) -> float | None:
+    """The set-point that a range is, if it is no wider than one.
+
+    >>> one_point(2.996, 3.001), one_point(3.0, 9.0)
+    (3.0, None)
+    """
+    if high - low > WIDEST * NEAR_SIZE * max(abs(low), abs(high)):
+        return None
+    return low if low == high else roundest(low, high)

@@ -1,0 +1,30 @@
+"""Set-points that jitter are levels, sweeps are not."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mixedlub.diagnosis.levels import set_points
+from mixedlub.diagnosis.location import region
+from mixedlub.table import Table
+
+RNG = np.random.default_rng(5)
+
+
+def test_a_region_at_a_jittering_load_is_that_load() -> None:
+    load = np.repeat([3.0, 9.0], 8) + 0.004 * RNG.standard_normal(16)
+    found = region(Table({"load_N": load}), ["load_N"], np.where(load < 6.0, 8.0, 0.5))
+    assert found.text.startswith("Where load_N is 3:")
+    (cut,) = found.where
+    assert cut["low"] == load[:8].min()
+    assert cut["high"] == load[:8].max()
+
+
+def test_temperatures_that_wander_by_a_kelvin_are_one_level() -> None:
+    set_to = np.repeat([40.0, 60.0, 90.0], 10)
+    assert np.unique(set_points(set_to + RNG.uniform(-0.4, 0.4, 30))).tolist() == [40.0, 60.0, 90.0]
+
+
+def test_a_sweep_stays_a_sweep() -> None:
+    time = np.linspace(0.0, 7200.0, 400)
+    assert set_points(time) is time
