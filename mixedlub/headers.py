@@ -11,15 +11,15 @@ from profiles.errors import InputError, nearest
 
 UNITS: dict[str, dict[str, tuple[float, float]]] = {
     "m_s": {"m/s": (1.0, 0.0), "mm/s": (1e-3, 0.0), "um/s": (1e-6, 0.0)},
-    "N": {"n": (1.0, 0.0), "mn": (1e-3, 0.0), "kn": (1e3, 0.0)},
-    "C": {"degc": (1.0, 0.0), "c": (1.0, 0.0), "k": (1.0, -273.15)},
+    "N": {"N": (1.0, 0.0), "mN": (1e-3, 0.0), "kN": (1e3, 0.0)},
+    "C": {"degC": (1.0, 0.0), "C": (1.0, 0.0), "K": (1.0, -273.15)},
     "rpm": {"rpm": (1.0, 0.0), "1/min": (1.0, 0.0), "rad/s": (30.0 / np.pi, 0.0), "1/s": (60.0, 0.0)},
-    "Nm": {"nm": (1.0, 0.0), "n.m": (1.0, 0.0), "mnm": (1e-3, 0.0), "mn.m": (1e-3, 0.0), "knm": (1e3, 0.0)},
+    "Nm": {"N.m": (1.0, 0.0), "mN.m": (1e-3, 0.0), "N.mm": (1e-3, 0.0), "N.cm": (1e-2, 0.0), "kN.m": (1e3, 0.0)},
     "nm": {"nm": (1.0, 0.0), "um": (1e3, 0.0)},
-    "mPa_s": {"mpa.s": (1.0, 0.0), "mpas": (1.0, 0.0), "cp": (1.0, 0.0), "pa.s": (1e3, 0.0), "pas": (1e3, 0.0)},
-    "MPa": {"mpa": (1.0, 0.0), "gpa": (1e3, 0.0), "pa": (1e-6, 0.0), "bar": (0.1, 0.0), "atm": (0.101325, 0.0)},
+    "mPa_s": {"mPa.s": (1.0, 0.0), "cP": (1.0, 0.0), "Pa.s": (1e3, 0.0)},
+    "MPa": {"MPa": (1.0, 0.0), "GPa": (1e3, 0.0), "Pa": (1e-6, 0.0), "bar": (0.1, 0.0), "atm": (0.101325, 0.0)},
     "s": {"s": (1.0, 0.0), "min": (60.0, 0.0), "h": (3600.0, 0.0)},
-    "W": {"w": (1.0, 0.0), "kw": (1e3, 0.0)},
+    "W": {"W": (1.0, 0.0), "kW": (1e3, 0.0)},
     "deg": {"deg": (1.0, 0.0), "rad": (180.0 / np.pi, 0.0)},
     "ratio": {"-": (1.0, 0.0), "1": (1.0, 0.0), "%": (0.01, 0.0)},
 }
@@ -96,15 +96,17 @@ TARGETS = (
     ),
     Target("temperature_C", "C", ("temperature", "temp")),
     Target("pressure_MPa", "MPa", ("pressure",)),
-    Target("time_s", "s", ("time", "step time", "elapsed time", "test time")),
+    Target("time_s", "s", ("test time", "elapsed time", "timestamp", "time", "step time")),
     Target("speed_rpm", "rpm", ("speed", "motor speed", "rotational speed")),
     Target("torque_Nm", "Nm", ("torque", "load torque", "pinion torque")),
+    Target("motor_torque_Nm", "Nm", ("motor torque",)),
     Target("friction_torque_Nm", "Nm", ("friction torque",)),
     Target("friction_coefficient", "ratio", ("traction coeff", "friction coefficient", "cof", "friction coeff")),
     Target("film_thickness_nm", "nm", ("average film", "film thickness", "film", "central film thickness")),
     Target("viscosity_mPa_s", "mPa_s", ("viscosity", "dynamic viscosity")),
     Target("power_loss_W", "W", ("power loss", "loss")),
     Target("roll_angle_deg", "deg", ("roll angle",)),
+    Target("position_deg", "deg", ("position", "angle", "shaft angle")),
     Target("fringe_order", "ratio", ("order", "fringe order")),
 )
 BY_NAME = {t.name: t for t in TARGETS}
@@ -120,14 +122,23 @@ def split(header: str) -> tuple[str, str | None]:
     found = re.fullmatch(r"\s*(.*?)\s*[(\[]\s*([^()\[\]]*?)\s*[)\]]\s*", header)
     plain = header.strip()
     words, unit = (found.group(1), found.group(2)) if found else (without_unit(plain), unit_of(plain) or None)
-    return re.sub(r"[\s_]+", " ", words).strip().lower(), unit
+    return re.sub(r"[\s_]+", " ", words).strip().lower(), unit or None
+
+
+def words_of(header: str) -> str:
+    """The words of a header without its unit and the name of a channel before a dot.
+
+    >>> words_of("DAQ.COF ()"), words_of("Test Time (s)")
+    ('cof', 'test time')
+    """
+    return re.sub(r"^[a-z]+\.(?=\S)", "", split(header)[0])
 
 
 def target_of(header: str) -> Target | None:
     """The column that a header means, by the words instruments use; an exact column name is itself."""
     if header.strip() in BY_NAME:
         return BY_NAME[header.strip()]
-    words, _ = split(header)
+    words = words_of(header)
     return next((t for t in TARGETS if words in t.spoken), None)
 
 
@@ -141,14 +152,27 @@ def tidy(unit: str) -> str:
     return re.sub(r"\s+", ".", plain).lower()
 
 
+READ = {
+    name: {form: change for unit, change in units.items() for form in (tidy(unit), tidy(unit).replace(".", ""))}
+    for name, units in UNITS.items()
+}
+"""The units as they are compared, with and without the dot of a product."""
+
+
+def is_unit(text: str) -> bool:
+    """Whether a text is one of the units that are read."""
+    return any(tidy(text) in units for units in READ.values())
+
+
 def convert(values: np.ndarray, unit: str, target: Target, where: str) -> np.ndarray:
     """Values in the unit of the target's column.
 
     >>> convert(np.array([1.5]), "mm/s", BY_NAME["entrainment_speed_m_s"], "file").tolist()
     [0.0015]
     """
-    known = UNITS[target.unit]
+    known = READ[target.unit]
     if tidy(unit) not in known:
-        raise InputError(f"unit of {target.name} is not known; {nearest(tidy(unit), known)}", where=where, value=unit)
+        hint = nearest(unit, UNITS[target.unit])
+        raise InputError(f"unit of {target.name} is not known; {hint}", where=where, value=unit)
     factor, added = known[tidy(unit)]
     return values * factor + added

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 
 from mixedlub.config import KINDS
-from mixedlub.headers import BY_NAME, TEXT_COLUMNS, UNITS, split, target_of, tidy
+from mixedlub.headers import BY_NAME, READ, TEXT_COLUMNS, split, target_of, tidy
+from mixedlub.importers.sheet import Cells, is_number
 from mixedlub.kinds import kind as kind_of
-from mixedlub.table import Column
-from profiles.errors import InputError
 
-Cells = Mapping[str, list[str]]
 ENOUGH = 0.4
 """Likeness from which a header is offered; a unit that fits, or names in the cells, make up for other words."""
 UNIT_FITS = 0.45
@@ -58,7 +56,7 @@ def likeness(column: str, header: str, cells: Iterable[str] = ()) -> float:
     if header == column or (exact is not None and exact.name == column):
         return 2.0
     words, unit = split(header)
-    numbers = all(_is_number(cell) for cell in cells)
+    numbers = all(is_number(cell) for cell in cells)
     if column in TEXT_COLUMNS:
         return 0.0 if unit is not None or numbers else TEXT_FITS + _overlap(words, column.replace("_", " "))
     if not numbers:
@@ -66,7 +64,7 @@ def likeness(column: str, header: str, cells: Iterable[str] = ()) -> float:
     target = BY_NAME.get(column)
     if target is None:
         return _overlap(words, column.replace("_", " "))
-    fits = unit is not None and tidy(unit) in UNITS[target.unit]
+    fits = unit is not None and tidy(unit) in READ[target.unit]
     if unit is not None and not fits:
         return 0.0
     own = split(column)[0]
@@ -79,11 +77,3 @@ def _overlap(words: str, spoken: str) -> float:
     near = [max((difflib.SequenceMatcher(None, w, h).ratio() for h in have), default=0.0) for w in want]
     share = sum(n for n in near if n >= SAME_WORD) / len(want)
     return share - 0.02 * max(len(have) - len(want), 0) * (share > 0)
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        Column("cell").parse(cell, "")
-    except InputError:
-        return False
-    return True

@@ -2,32 +2,20 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
 from mixedlub.config import KINDS
-from mixedlub.headers import BY_NAME, TEXT_COLUMNS, UNITS, convert, split, target_of
+from mixedlub.headers import BY_NAME, TEXT_COLUMNS, UNITS, convert, split, target_of, words_of
 from mixedlub.importers.draft import Answers, Draft, Question, contact_form, questions_of
 from mixedlub.importers.likely import likely_headers, likely_kind
+from mixedlub.importers.sheet import Cells, Sheet, is_number, read_sheet
 from mixedlub.importers.write import toml_value
 from mixedlub.kinds import Kind
 from mixedlub.kinds import kind as kind_of
 from mixedlub.table import Column
 from profiles.errors import InputError, nearest
-
-Cells = Mapping[str, list[str]]
-
-
-@dataclass(frozen=True)
-class Sheet:
-    """The cells of a file by header, and the line each row stands in."""
-
-    name: str
-    cells: Cells
-    lines: tuple[int, ...]
 
 
 def matches(text: str) -> bool:
@@ -40,7 +28,7 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
 
     Where the kind or the quantity is open, what a likely one leaves to ask is asked with it.
     """
-    sheet = _sheet(text, name)
+    sheet = read_sheet(text, name)
     kind, quantity = answers.get("kind"), answers.get("recording.quantity")
     if kind is not None and kind not in KINDS:
         raise InputError(f"no such kind; {nearest(str(kind), KINDS)}", where="kind", value=kind)
@@ -63,42 +51,14 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
         for column, header in headers.items()
         if column in units or not _has_unit(column, header)
     }
-    note = f"{name}: {len(columns)} of {len(sheet.cells)} columns taken: {', '.join(columns)}"
-    return Draft(kind, quantity, columns, {}, rest, (note,))
+    notes = [f"{name}: {len(columns)} of {len(sheet.cells)} columns taken: {', '.join(columns)}"]
+    if sheet.left_out:
+        notes.append(f"{name}: {sheet.left_out} left out: no part of the table")
+    return Draft(kind, quantity, columns, {}, rest, tuple(notes))
 
 
 def _likely_quantity(kind: Kind, cells: Cells) -> str:
     return next((q for q in kind.quantities if _header(q, cells, {}) is not None), kind.quantities[0])
-
-
-def _sheet(text: str, name: str) -> Sheet:
-    numbered = [
-        (number, line)
-        for number, line in enumerate(text.splitlines(), start=1)
-        if line.strip() and not line.lstrip().startswith("#")
-    ]
-    if len(numbered) < 2:
-        raise InputError("needs a header line and at least one row", where=name)
-    separator = max("\t;,", key=numbered[0][1].count)
-    reader = csv.reader((line for _, line in numbered), delimiter=separator)
-    rows = [(numbered[reader.line_num - 1][0], row) for row in reader]
-    header = [cell.strip() for cell in rows[0][1]]
-    for number, row in rows[1:]:
-        if len(row) != len(header):
-            raise InputError(f"has not as many cells as the header ({len(header)})", where=f"{name}: line {number}")
-    decimal_comma = separator != ","
-    cells = {
-        h: [_point(row[i]) if decimal_comma else row[i].strip() for _, row in rows[1:]]
-        for i, h in enumerate(header)
-        if h
-    }
-    return Sheet(name, cells, tuple(number for number, _ in rows[1:]))
-
-
-def _point(cell: str) -> str:
-    """A number with a decimal comma as one with a point; one with both is left to fail."""
-    cell = cell.strip()
-    return cell.replace(",", ".") if cell.count(",") == 1 and "." not in cell else cell
 
 
 def _headers(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> tuple[dict[str, str], list[Question]]:
@@ -134,11 +94,14 @@ def _header(column: str, cells: Cells, answers: Answers) -> str | None:
         return str(told)
     if column in cells:
         return column
-    for header in cells:
-        target = target_of(header)
-        if target is not None and target.name == column:
-            return header
-    return None
+    found = [h for h in cells if (target := target_of(h)) is not None and target.name == column]
+    if column in TEXT_COLUMNS:
+        return found[0] if found else None
+    spoken = BY_NAME[column].spoken if column in BY_NAME else ()
+    order = {words: place for place, words in enumerate(spoken)}
+    # A clock, or a column of remarks, may bear the words of a number.
+    numeric = [h for h in found if is_number(cells[h][0])]
+    return min(numeric or found, key=lambda h: order.get(words_of(h), -1), default=None)
 
 
 def _has_unit(column: str, header: str) -> bool:

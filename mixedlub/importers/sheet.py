@@ -1,0 +1,127 @@
+"""The table in a text file: its separator, its header, a line of units, and what stands before and after it."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from mixedlub.headers import is_unit, split
+from profiles.errors import InputError
+
+Cells = Mapping[str, list[str]]
+Line = tuple[int, list[str]]
+"""Number of a line in the file, and its cells."""
+SEPARATORS = "\t;,"
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """The cells of a file by header, the line each row stands in, and which lines are no part of the table."""
+
+    name: str
+    cells: Cells
+    lines: tuple[int, ...]
+    left_out: str = ""
+
+
+def read_sheet(text: str, name: str) -> Sheet:
+    """The longest table of a text: rows of equal length under a header without numbers.
+
+    What an instrument writes before and after it is left out; a row of another length amid rows is an error.
+    """
+    numbered = [
+        (number, line)
+        for number, line in enumerate(text.splitlines(), start=1)
+        if line.strip() and not line.lstrip().startswith("#")
+    ]
+    if len(numbered) < 2:
+        raise InputError("needs a header line and at least one row", where=name)
+    separator = max(SEPARATORS, key=lambda mark: _regularity([line.count(mark) for _, line in numbered]))
+    reader = csv.reader((line for _, line in numbered), delimiter=separator)
+    rows = [(numbered[reader.line_num - 1][0], [cell.strip() for cell in row]) for row in reader]
+    if separator != ",":
+        rows = [(number, [_point(cell) for cell in row]) for number, row in rows]
+    first, last = _extent(rows, name)
+    above = first - 1
+    header = rows[above][1]
+    if above and len(rows[above - 1][1]) == len(header) and _are_units(header):
+        above -= 1
+        units = [unit.strip("()[]") for unit in header]
+        header = [f"{word} ({unit})" if unit else word for word, unit in zip(rows[above][1], units, strict=True)]
+    table = rows[first:last]
+    cells = {h: [row[i] for _, row in table] for i, h in enumerate(_told_apart(header)) if h}
+    parts = [part for part in (_range(rows[:above]), _range(rows[last:])) if part]
+    return Sheet(name, cells, tuple(number for number, _ in table), " and ".join(parts))
+
+
+def _regularity(counts: list[int]) -> tuple[int, int]:
+    """How many lines have the most common number of separators, then that number."""
+    found = [n for n in counts if n]
+    if not found:
+        return (0, 0)
+    usual = max(set(found), key=lambda n: (found.count(n), n))
+    return (found.count(usual), usual)
+
+
+def _extent(rows: Sequence[Line], name: str) -> tuple[int, int]:
+    """First row of data and the end of it: the longest run of rows as long as the header before them."""
+    best = (0, 0)
+    for i in range(1, len(rows)):
+        header, row = rows[i - 1][1], rows[i][1]
+        words = sum(bool(cell) for cell in header)
+        if len(header) != len(row) or words < 2 or _numbers(header) or not _numbers(row):
+            continue
+        end = i
+        while end < len(rows) and len(rows[end][1]) == len(header):
+            end += 1
+        if end - i > best[1] - best[0]:
+            best = (i, end)
+    first, last = best if best[1] else (1, len(rows))
+    width = len(rows[first - 1][1])
+    for number, row in rows[first:last] if not best[1] else rows[last:]:
+        if len(row) != width and (not best[1] or any(_numbers(later) > 1 for _, later in rows[last:])):
+            raise InputError(f"has not as many cells as the header ({width})", where=f"{name}: line {number}")
+    return first, last
+
+
+def _numbers(cells: Sequence[str]) -> int:
+    return sum(is_number(cell) for cell in cells)
+
+
+def is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
+def _are_units(cells: Sequence[str]) -> bool:
+    """Whether a line names units and nothing else, at least one that is known."""
+    named = [cell.strip("()[]") for cell in cells if cell]
+    return bool(named) and all(is_unit(unit) for unit in named)
+
+
+def _told_apart(header: Sequence[str]) -> list[str]:
+    """Headers that stand twice get their place among those alike."""
+    seen: dict[str, int] = {}
+    found = []
+    for h in header:
+        seen[h] = seen.get(h, 0) + 1
+        words, unit = split(h)
+        again = f"{words} #{seen[h]}" + (f" ({unit})" if unit else "")
+        found.append(h if seen[h] == 1 else again)
+    return found
+
+
+def _point(cell: str) -> str:
+    """A number with a decimal comma as one with a point; one with both is left to fail."""
+    return cell.replace(",", ".") if cell.count(",") == 1 and "." not in cell else cell
+
+
+def _range(rows: Sequence[Line]) -> str:
+    if not rows:
+        return ""
+    low, high = rows[0][0], rows[-1][0]
+    return f"line {low}" if low == high else f"lines {low} to {high}"
