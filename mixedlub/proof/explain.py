@@ -94,7 +94,8 @@ def guesses(effects: Sequence[Knobbed]) -> list[np.ndarray]:
             sizes = [middle * factor for factor in (0.1, 0.2, 0.35, 0.6, 1.0, 1.8, 3.0)]
             signed = [*sizes, *(-size for size in sizes)] if knob.low < 0 else sizes
             strengths = [float(np.clip(value, knob.low, knob.high)) for value in signed]
-            choices.append(strengths if knob.name == "strength" else [low, high])
+            shapes = [low, high] if high > low else [low]
+            choices.append(strengths if knob.name == "strength" else shapes)
     return [np.array(values) for values in itertools.product(*choices)]
 
 

@@ -74,7 +74,7 @@ def _surveyed(kind: str, seed: int) -> tuple[dict[str, float], dict[str, float]]
     strange: dict[str, float] = {}
     for _ in range(SURVEY):
         bench = ROOMS[kind].draw(rng)
-        named |= {form.id: form.rarity for form in bench.forms}
+        named |= {form.id: form.rarity for form in bench.forms if form.rarity > 0}
         strange |= {form.id: form.rarity for form in bench.outside}
     return dict(sorted(named.items())), dict(sorted(strange.items()))
 
@@ -128,7 +128,7 @@ def _bench_for(rng: np.random.Generator, order: Order) -> tuple[Bench, tuple[For
         pool = bench.outside if order.label == "unknown" else bench.forms
         chosen = []
         for name in order.effects:
-            options = [form for form in pool if form.id == name]
+            options = [form for form in pool if form.id == name and form.rarity > 0]
             if options:
                 chosen.append(options[int(rng.integers(len(options)))])
         if len(chosen) == len(order.effects):

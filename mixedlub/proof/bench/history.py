@@ -61,15 +61,13 @@ class Track:
 BARE: Chain = (("boundary", None), ("loss", lambda t: replace(t, recorded=t.level)), ("sensor", None))
 
 
-def _swings(rng_seed: np.ndarray, waves: float) -> np.ndarray:
+def _swings(place: np.ndarray, waves: float) -> np.ndarray:
     """A film that grows and is torn off: rises with a root, falls at once, smoothed over a tenth of a swing."""
     fine = np.linspace(-0.2, 1.2, 2801)
     phase = (fine * waves) % 1.0
     shape = np.sqrt(phase) - 2 / 3
     width = max(int(0.25 / waves / (fine[1] - fine[0])), 1)
-    return np.asarray(
-        np.interp(rng_seed, fine, np.convolve(shape, np.hanning(width) / np.hanning(width).sum(), "same"))
-    )
+    return np.asarray(np.interp(place, fine, np.convolve(shape, np.hanning(width) / np.hanning(width).sum(), "same")))
 
 
 def histories(time: np.ndarray) -> dict[str, tuple[Form, ...]]:
@@ -118,6 +116,11 @@ def histories(time: np.ndarray) -> dict[str, tuple[Form, ...]]:
     def torn(state: Any, strength: float, waves: float) -> Any:
         return scaled(state, 1 + 0.25 * strength * _swings(time, waves))
 
+    def cosines(state: Any, strength: float, **more: float) -> Any:
+        """Any slow history: a cosine series of twelve terms."""
+        terms = [0.1 * strength, *(0.1 * value for value in more.values())]
+        return scaled(state, np.exp(sum(a * np.cos((k + 1) * np.pi * time) for k, a in enumerate(terms))))
+
     def worn_in(state: Any, strength: float, pace: float) -> Any:
         return scaled(state, 1 + 0.3 * strength * (1 - np.log1p(time / pace) / np.log1p(1 / pace)))
 
@@ -152,6 +155,9 @@ def histories(time: np.ndarray) -> dict[str, tuple[Form, ...]]:
         Form("wandering_surface_state", "boundary", sines,
              (either, waves, Knob("phase", 0.0, 1.0, (0.0, 1.0))), "two swings", 2),
         Form("wandering_surface_state", "boundary", torn, (either, waves), "growth and tearing", 2),
+        Form("wandering_surface_state", "boundary", cosines,
+             (strength(-20.0, 20.0), *(Knob(f"term_{k}", -20.0, 20.0, (0.0, 0.0)) for k in range(2, 13))),
+             "cosine series", 2, rarity=0.0),
     )  # fmt: skip
     return {"friction_run_in": run_in, "tribofilm_growth": growth, "two_time_scales": two, "wandering": free}
 

@@ -26,7 +26,8 @@ class Form:
     """One published form of an effect; the first knob is the strength, absent at zero.
 
     ``rank`` is how general a form is: a form that holds simpler effects as special cases is no rival to them.
-    ``rigid`` forms come in one size, as a miscounted fringe does. ``rarity`` weighs the effect when drawn.
+    ``rigid`` forms come in one size, as a miscounted fringe does. ``rarity`` weighs the effect when drawn; a form
+    of rarity 0 is only a rival.
     """
 
     id: str
@@ -142,16 +143,16 @@ def channel(sequence: np.ndarray, zero: bool, gain: bool, drifting_zero: bool) -
     def zero_drift(state: Any, strength: float) -> Any:
         return replace(state, recorded=state.recorded + 0.1 * strength * _usual(state.recorded) * sequence)
 
-    either = strength(-8.0, 8.0)
+    either, share = strength(-8.0, 8.0), strength(-4.0, 4.0)
     found = []
     if zero:
         found.append(Form("sensor_offset", "sensor", sensor_offset, (either,), "instrument zero"))
     if gain:
-        found.append(Form("sensor_gain", "sensor", sensor_gain, (either,), "instrument span", rarity=0.5))
+        found.append(Form("sensor_gain", "sensor", sensor_gain, (share,), "instrument span", rarity=0.5))
     if len(np.unique(sequence)) > 1:
         slow = Knob("pace", 0.7, 5.0, (1.0, 3.0))
-        found.append(Form("sensor_drift", "sensor", steady, (either,), "linear drift"))
-        found.append(Form("sensor_drift", "sensor", settling, (either, slow), "warming amplifier"))
+        found.append(Form("sensor_drift", "sensor", steady, (share,), "linear drift"))
+        found.append(Form("sensor_drift", "sensor", settling, (share, slow), "warming amplifier"))
         if drifting_zero:
-            found.append(Form("zero_drift", "sensor", zero_drift, (either,), "linear drift of the zero"))
+            found.append(Form("zero_drift", "sensor", zero_drift, (share,), "linear drift of the zero"))
     return tuple(found)

@@ -77,6 +77,11 @@ def mcewen_paluch(s: Sample, strength: float, power: float, glass: float) -> Sam
     return _part(s, bent + 0.2 * s.slope * runaway * s.pressure / np.maximum(runaway - s.pressure, 1e7), strength)
 
 
+def bode(s: Sample, strength: float, stiffening: float) -> Sample:
+    """The modulus equation: a p/(1 + c p), c in 1/GPa."""
+    return _part(s, s.slope * s.pressure / (1 + 1e-9 * stiffening * s.pressure), strength)
+
+
 def _tait(s: Sample) -> np.ndarray:
     """Volume over that at rest: 1 - ln(1 + p (1 + K')/K0)/(1 + K'), K0 softening with temperature."""
     bulk = 9e9 * np.exp(-6.5e-3 * (s.celsius + KELVIN))
@@ -126,6 +131,8 @@ def _pressure_forms() -> tuple[Form, ...]:
              (near_one, Knob("modulus", 0.17, 0.22, (0.19, 0.2))), "Roelands 1966"),
         Form("pressure_viscosity_law", "rise", mcewen_paluch,
              (near_one, Knob("power", 2.0, 15.0, (3.0, 7.0)), Knob("glass", 0.5, 2.5, (0.8, 1.6))), "Bair's hybrid"),
+        Form("pressure_viscosity_law", "rise", bode,
+             (near_one, Knob("stiffening", 0.1, 2.5, (0.4, 1.5))), "Bode 1989"),
         Form("pressure_viscosity_law", "rise", doolittle,
              (near_one, Knob("occupied", 0.5, 0.75, (0.6, 0.7))), "Doolittle 1951 with Tait's volume"),
     )  # fmt: skip
