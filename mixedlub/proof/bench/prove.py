@@ -11,7 +11,7 @@ from pathlib import Path
 from mixedlub.proof.answers import Answer, Truth, read_answer, read_truth
 from mixedlub.proof.bench.battery import ROOMS, generate
 from mixedlub.proof.measures import crossed, outliers_false, outliers_found, right, tied
-from mixedlub.proof.prove import TOOL, Diagnose, Progress, _quiet, answer_all, unsealed
+from mixedlub.proof.prove import TOOL, Diagnose, Progress, quiet, answer_all, unsealed
 from mixedlub.proof.score import Score, score
 
 Pair = tuple[Truth, Answer]
@@ -20,7 +20,7 @@ BROKEN = "broken.txt"
 
 
 def prove_rigs(
-    out: Path, diagnose: Diagnose, cases: int = 200, seed: int = 440917, jobs: int = 2, progress: Progress = _quiet
+    out: Path, diagnose: Diagnose, cases: int = 200, seed: int = 440917, jobs: int = 2, progress: Progress = quiet
 ) -> dict[str, Score]:
     """The score over all kinds under ``all``, then one a kind; a run broken off goes on where it stopped.
 
