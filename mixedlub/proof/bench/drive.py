@@ -212,7 +212,7 @@ def _current_forms(motor: np.ndarray | None) -> tuple[Form, ...]:
         """The constant falls with the square of the current."""
         return lost(d, strength, bend, lambda ratio: ratio**2)
 
-    knobs = (strength(-4.0, 8.0), Knob("bend", 0.0, 1.0, (0.3, 1.0)))
+    knobs = (strength(0.0, 8.0), Knob("bend", 0.0, 1.0, (0.3, 1.0)))
     return (
         Form("torque_constant", "sensor", saturating, knobs, "saturation as a fraction"),
         Form("torque_constant", "sensor", bent, knobs, "saturation as a square"),

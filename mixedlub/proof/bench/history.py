@@ -105,9 +105,9 @@ def histories(time: np.ndarray) -> dict[str, tuple[Form, ...]]:
     def chained(state: Any, strength: float, quick: float, lasting: float) -> Any:
         """Reactions in a row: bare to film to worn track, A to B to C of chemical kinetics."""
         slow = 0.35
-        between_them = quick / (slow - quick) * (np.exp(-time / slow) - np.exp(-time / quick))
-        last = 1 - (slow * np.exp(-time / slow) - quick * np.exp(-time / quick)) / (slow - quick)
-        return scaled(state, 1 + strength * (0.5 * slow / quick * between_them * 0.3 - 0.35 * lasting * last))
+        film = slow / (slow - quick) * (np.exp(-time / slow) - np.exp(-time / quick))
+        worn = 1 - (slow * np.exp(-time / slow) - quick * np.exp(-time / quick)) / (slow - quick)
+        return scaled(state, 1 + strength * (0.15 * film - 0.35 * lasting * worn))
 
     def sines(state: Any, strength: float, waves: float, phase: float) -> Any:
         swing = np.sin(2 * np.pi * (waves * time + phase)) + 0.6 * np.sin(2 * np.pi * (1.63 * waves * time + 0.3))

@@ -11,7 +11,7 @@ from pathlib import Path
 from mixedlub.proof.answers import Answer, Truth, read_answer, read_truth
 from mixedlub.proof.bench.battery import ROOMS, generate
 from mixedlub.proof.measures import crossed, outliers_false, outliers_found, right, tied
-from mixedlub.proof.prove import TOOL, Diagnose, Progress, quiet, answer_all, unsealed
+from mixedlub.proof.prove import TOOL, Diagnose, Progress, answer_all, quiet, unsealed
 from mixedlub.proof.score import Score, score
 
 Pair = tuple[Truth, Answer]

@@ -89,7 +89,7 @@ def _tait(s: Sample) -> np.ndarray:
 
 
 def doolittle(s: Sample, strength: float, occupied: float) -> Sample:
-    """Free volume: B R0 [V/V_inf terms] of Doolittle with Tait's volume, scaled to the slope at rest."""
+    """Doolittle: ln eta goes with occupied over free volume, the volume from Tait, scaled to the slope at rest."""
     free = 1 + 8e-4 * (s.celsius - 20.0)
     bulk = 9e9 * np.exp(-6.5e-3 * (s.celsius + KELVIN))
 
