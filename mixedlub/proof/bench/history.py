@@ -62,7 +62,7 @@ BARE: Chain = (("boundary", None), ("loss", lambda t: replace(t, recorded=t.leve
 
 
 def _swings(place: np.ndarray, waves: float) -> np.ndarray:
-    """A film that grows and is torn off: rises with a root, falls at once, smoothed over a tenth of a swing."""
+    """A film that grows and is torn off: rises with a root, falls at once, smoothed over a quarter of a swing."""
     fine = np.linspace(-0.2, 1.2, 2801)
     phase = (fine * waves) % 1.0
     shape = np.sqrt(phase) - 2 / 3

@@ -114,7 +114,7 @@ def heated_at_rolling_sum(c: Contact, strength: float) -> Contact:
 
 
 def heated_by_hsu_lee(c: Contact, strength: float) -> Contact:
-    """1/(1 + 0.0766 G^0.687 W^0.447 L^0.527 e^(0.875 S)), W the load a width over E' R, L of twice the speed."""
+    """1/(1 + 0.0766 G^0.687 W^0.447 L^0.527 e^(0.875 S)), W the load a width over E' R, L of the mean speed."""
     modulus = c.rig.solid.reduced
     load = c.line_load / (modulus * c.rig.radius)
     loading = (c.pressure_viscosity * modulus) ** 0.687 * load**0.447 * (strength * _heat(c, c.entrainment)) ** 0.527
@@ -137,7 +137,7 @@ def starved_by_layer(c: Contact, strength: float, sharpness: float) -> Contact:
 
 
 def thinned_by_carreau(c: Contact, strength: float, index: float) -> Contact:
-    """Carreau in the inlet: (1 + (rate/1e6 s)^2)^((n - 1)/2) to the power 0.67, rate = u/h."""
+    """Carreau in the inlet: (1 + (rate/2e6 1/s)^2)^((n - 1)/2) to the power 0.67, rate = u/h."""
     rate = strength * c.entrainment / (c.film * 2e6)
     return replace(c, film=c.film * (1 + rate**2) ** (0.335 * (index - 1)))
 
