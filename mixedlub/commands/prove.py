@@ -14,6 +14,7 @@ EXAMPLE = "mixedlub prove --out out/prove"
 
 
 FULL, QUICK = 240, 24
+RIGS, RIGS_QUICK = 200, 25
 
 
 def command(
@@ -21,10 +22,19 @@ def command(
         Path | None, typer.Option(metavar="DIR", help="Folder for the score table; default out/prove/battery.")
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help=f"{QUICK} cases and no baselines instead of all.")] = False,
+    rigs: Annotated[
+        bool,
+        typer.Option(
+            "--rigs", help="Films, histories, maps, viscosities and tooth contacts instead of gear pairs and discs."
+        ),
+    ] = False,
     seed: Annotated[
         int, typer.Option(metavar="N", min=0, help="Which battery: every seed deals other cases.")
     ] = 440917,
-    cases: Annotated[int, typer.Option(metavar="N", min=5, help="How many cases to deal.")] = FULL,
+    cases: Annotated[
+        int | None,
+        typer.Option(metavar="N", min=5, help=f"How many cases to deal; default {FULL}, with --rigs {RIGS}."),
+    ] = None,
     jobs: Annotated[int, typer.Option(metavar="N", min=1, help="Cases at a time.")] = 2,
 ) -> None:
     """Put the diagnosis to a blind test.
@@ -36,9 +46,10 @@ def command(
     from rich.progress import Progress
 
     from mixedlub.diagnosis.write import diagnose
+    from mixedlub.proof.bench.prove import prove_rigs
     from mixedlub.proof.prove import prove
 
-    folder = output_folder(out, NAME, "quick" if quick else "battery")
+    folder = output_folder(out, NAME, ("rigs_" if rigs else "") + ("quick" if quick else "battery"))
     with Progress(console=Console(stderr=True)) as bar:
         tasks = {}
 
@@ -47,6 +58,9 @@ def command(
                 tasks[stage] = bar.add_task(stage, total=total)
             bar.update(tasks[stage], completed=done)
 
-        prove(folder, diagnose, QUICK if quick else cases, seed, jobs, not quick, show)
+        if rigs:
+            prove_rigs(folder, diagnose, RIGS_QUICK if quick else cases or RIGS, seed, jobs, show)
+        else:
+            prove(folder, diagnose, QUICK if quick else cases or FULL, seed, jobs, not quick, show)
     say((folder / "score.txt").read_text(encoding="utf-8"))
     say(f"written to {folder}")

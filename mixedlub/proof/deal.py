@@ -113,11 +113,11 @@ def _noised(rng: np.random.Generator, order: Order, case: Case, goal: float) -> 
 
     level, factors, reached = float(np.exp(rng.uniform(np.log(0.4), np.log(4.0)))), [1.0] * len(effects), goal
     if effects:
-        level = _solve(lambda x: min(each(x, factors)), goal, *NOISE, falling=True)
+        level = solve(lambda x: min(each(x, factors)), goal, *NOISE, falling=True)
         for i, effect in enumerate(effects):
             widest = max(1.0, min(4.0, effect.knobs[0].high / abs(knobs[i]["strength"])))
             wanted = goal if len(effects) == 1 else np.clip(each(level, factors)[i], goal, 1.6 * goal)
-            factors = _refactored(each, level, factors, i, float(wanted), widest)
+            factors = refactored(each, level, factors, i, float(wanted), widest)
         reached = max(min(each(level, factors)), 1e-3)
     return Hand(
         case=case,
@@ -132,7 +132,7 @@ def _noised(rng: np.random.Generator, order: Order, case: Case, goal: float) -> 
     )
 
 
-def _refactored(
+def refactored(
     each: Callable[[float, Sequence[float]], list[float]],
     level: float,
     factors: list[float],
@@ -145,10 +145,10 @@ def _refactored(
     def at(factor: float) -> list[float]:
         return [factor if i == place else f for i, f in enumerate(factors)]
 
-    return at(_solve(lambda x: each(level, at(x))[place], goal, 0.05, widest, falling=False))
+    return at(solve(lambda x: each(level, at(x))[place], goal, 0.05, widest, falling=False))
 
 
-def _solve(measure: Callable[[float], float], goal: float, low: float, high: float, falling: bool) -> float:
+def solve(measure: Callable[[float], float], goal: float, low: float, high: float, falling: bool) -> float:
     """Log bisection of a monotone measure to the goal; the nearer end where it is out of reach."""
     if not falling and abs(np.log(max(measure(1.0), 1e-9) / goal)) < 0.03:
         return 1.0

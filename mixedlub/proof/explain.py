@@ -5,11 +5,12 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
 from mixedlub.proof.build import PRIORS
-from mixedlub.proof.concealed import Concealed
+from mixedlub.proof.concealed import Concealed, Knob
 from mixedlub.proof.rig import Calibration, Rig, readings
 
 STEP = 1e-4
@@ -76,7 +77,14 @@ def descend(
     return x, cost
 
 
-def _guesses(effects: Sequence[Concealed]) -> list[np.ndarray]:
+class Knobbed(Protocol):
+    """What has knobs to be fitted."""
+
+    @property
+    def knobs(self) -> tuple[Knob, ...]: ...
+
+
+def guesses(effects: Sequence[Knobbed]) -> list[np.ndarray]:
     """Knob values to begin from: strengths over a factor of 30, of both signs, shapes at usual ends."""
     choices: list[list[float]] = []
     for effect in effects:
@@ -86,11 +94,12 @@ def _guesses(effects: Sequence[Concealed]) -> list[np.ndarray]:
             sizes = [middle * factor for factor in (0.1, 0.2, 0.35, 0.6, 1.0, 1.8, 3.0)]
             signed = [*sizes, *(-size for size in sizes)] if knob.low < 0 else sizes
             strengths = [float(np.clip(value, knob.low, knob.high)) for value in signed]
-            choices.append(strengths if knob.name == "strength" else [low, high])
+            shapes = [low, high] if high > low else [low]
+            choices.append(strengths if knob.name == "strength" else shapes)
     return [np.array(values) for values in itertools.product(*choices)]
 
 
-def _promising(
+def promising(
     guesses: Sequence[np.ndarray],
     residual: Callable[[np.ndarray], np.ndarray],
     origin: np.ndarray,
@@ -134,10 +143,10 @@ def explain(
 
     origin = np.zeros(count) if begin is None else begin
     best: tuple[np.ndarray, float] | None = None
-    guesses = [guess / unit for guess in (_guesses(effects) if starts is None else starts)]
+    begins = [guess / unit for guess in (guesses(effects) if starts is None else starts)]
     moves = sensitivity(target.rig, target.nominal, target.priors, origin) / target.sd[:, None]
     slopes = np.concatenate([moves, np.eye(count)])
-    for guess in _promising(guesses, residual, origin, slopes):
+    for guess in promising(begins, residual, origin, slopes):
         found = descend(residual, np.concatenate([origin, guess]), low, high)
         if best is None or found[1] < best[1]:
             best = found

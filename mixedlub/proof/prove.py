@@ -21,7 +21,7 @@ TOOL = "mixedlub diagnose"
 CEILING = "oracle"
 
 
-def _quiet(stage: str, done: int, total: int) -> None:
+def quiet(stage: str, done: int, total: int) -> None:
     """Progress to nobody."""
 
 
@@ -78,7 +78,7 @@ def prove(
     seed: int = 440917,
     jobs: int = 2,
     baselines: bool = True,
-    progress: Progress = _quiet,
+    progress: Progress = quiet,
 ) -> list[Score]:
     """Deal, diagnose, score and draw into ``out``; a run broken off goes on where it stopped.
 

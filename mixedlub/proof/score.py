@@ -252,8 +252,11 @@ def _interval(values: np.ndarray, weights: np.ndarray, how: str) -> tuple[float,
     return float(low), float(high)
 
 
-def score(pairs: Sequence[Pair], tool: str = "mixedlub diagnose") -> Score:
-    """Every figure of a battery answered by a tool; goals as the project set them."""
+def score(pairs: Sequence[Pair], tool: str = "mixedlub diagnose", ids: Sequence[str] = tuple(NAMED)) -> Score:
+    """Every figure of a battery answered by a tool; goals as the project set them.
+
+    ``ids`` are the effects that the log score asks about: those the battery can hide.
+    """
     if not pairs:
         raise InputError("there is no answered case to score", where=tool)
     rows = []
@@ -265,14 +268,14 @@ def score(pairs: Sequence[Pair], tool: str = "mixedlub diagnose") -> Score:
         values, weights = values[known], weights[known]
         value, span = _reduce(values, weights, figure.how), _interval(values, weights, figure.how)
         rows.append(Row(figure.key, figure.text, value, int(weights.sum()), *span, figure.goal))
-    rows += _probability_rows(pairs)
+    rows += _probability_rows(pairs, ids)
     return Score(tool, tuple(rows), _reliability(pairs), _identification(pairs), _confusion(pairs))
 
 
-def _probability_rows(pairs: Sequence[Pair]) -> list[Row]:
+def _probability_rows(pairs: Sequence[Pair], ids: Sequence[str]) -> list[Row]:
     """Log score over all ids, claims above 0.9, and the calibration error of the probabilities."""
-    ids = [*NAMED, *sorted(SETTLED)]
-    logs = np.array([log_score(truth, answer, ids) for truth, answer in pairs])
+    asked = [*ids, *sorted(SETTLED)]
+    logs = np.array([log_score(truth, answer, asked) for truth, answer in pairs])
     bold = np.array([float(so) for p, so in _claims(pairs) if p > 0.9])
     some = [(p, so) for p, so in _claims(pairs) if p > 0.02]
     bins = np.digitize([p for p, _ in some], np.linspace(0, 1, 11)[1:-1])

@@ -14,6 +14,11 @@ _ROOMS = (film, shear, contact, boundary, load, loss, oil, measurement)
 NAMED: dict[str, Concealed] = {effect.id: effect for room in _ROOMS for effect in room.EFFECTS}
 OUTSIDE: dict[str, Concealed] = {effect.id: effect for effect in outside.EFFECTS}
 MIMICS = outside.MIMICS
-MEASUREMENT = frozenset(effect.id for effect in measurement.EFFECTS) | {"fringe_order", "torque_constant"}
+MEASUREMENT = frozenset(effect.id for effect in measurement.EFFECTS) | {
+    "fringe_order",
+    "fringe_step",
+    "torque_constant",
+    "zero_drift",
+}
 
 __all__ = ["MEASUREMENT", "MIMICS", "NAMED", "OUTSIDE", "Concealed", "Knob"]

@@ -1,0 +1,358 @@
+"""Friction in the course of time: at conditions that are held, in traction curves, in repeated Stribeck curves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from mixedlub.proof.bench.point import BALL_FRICTION, FILM_FORMS, ball_rig
+from mixedlub.proof.bench.stage import (
+    Act,
+    Bench,
+    Chain,
+    Form,
+    between,
+    borrowed,
+    channel,
+    pick,
+    play,
+    progress,
+    repeated,
+    rounded,
+)
+from mixedlub.proof.build import PRIORS
+from mixedlub.proof.concealed import NAMED, OUTSIDE
+from mixedlub.proof.concealed.kinds import Knob, strength
+from mixedlub.proof.design import UNCERTAINTY, draw_oil, draw_surfaces
+from mixedlub.proof.explain import calibrated
+from mixedlub.proof.rig import Calibration, start
+
+PAIRS = (
+    ("friction_run_in", "contact_creep"),
+    ("tribofilm_growth", "contact_creep"),
+    ("tribofilm_growth", "film_heating"),
+    ("running_in", "limiting_shear_stress"),
+    ("tribofilm_growth", "inlet_shear_heating"),
+)
+BROAD = 0.6
+ALSO_IN_CONTACT = (
+    "film_heating",
+    "limiting_shear_stress",
+    "skewed_heights",
+    "micro_ehl",
+    "running_in",
+    "boundary_film_temperature",
+    "boundary_speed_dependence",
+    "viscosity_drift",
+)
+
+
+@dataclass(frozen=True)
+class Track:
+    """Friction of a track whose conditions are held: its level, and the share of it that is reached."""
+
+    level: np.ndarray
+    recorded: np.ndarray
+
+
+BARE: Chain = (("boundary", None), ("loss", lambda t: replace(t, recorded=t.level)), ("sensor", None))
+
+
+def _swings(place: np.ndarray, waves: float) -> np.ndarray:
+    """A film that grows and is torn off: rises with a root, falls at once, smoothed over a quarter of a swing."""
+    fine = np.linspace(-0.2, 1.2, 2801)
+    phase = (fine * waves) % 1.0
+    shape = np.sqrt(phase) - 2 / 3
+    width = max(int(0.25 / waves / (fine[1] - fine[0])), 1)
+    return np.asarray(np.interp(place, fine, np.convolve(shape, np.hanning(width) / np.hanning(width).sum(), "same")))
+
+
+def histories(time: np.ndarray) -> dict[str, tuple[Form, ...]]:
+    """Forms a surface state may take over the programme (0 to 1), by id; they scale friction that touches."""
+
+    def scaled(state: Any, factor: np.ndarray) -> Any:
+        if isinstance(state, Track):
+            return replace(state, level=state.level * factor)
+        return replace(state, boundary_friction=state.boundary_friction * factor[:, None])
+
+    def hyperbolic(state: Any, strength: float, pace: float) -> Any:
+        return scaled(state, 1 + 0.3 * strength / (1 + time / pace))
+
+    def power_law(state: Any, strength: float, pace: float, exponent: float) -> Any:
+        return scaled(state, 1 + 0.3 * strength * (1 + time / pace) ** -exponent)
+
+    def stretched(state: Any, strength: float, pace: float, exponent: float) -> Any:
+        return scaled(state, 1 + 0.3 * strength * np.exp(-((time / pace) ** exponent)))
+
+    def logistic(state: Any, strength: float, middle: float, width: float) -> Any:
+        at_start = 1 / (1 + np.exp(middle / (width * middle)))
+        return scaled(state, 1 + 0.4 * strength * (1 / (1 + np.exp(-(time - middle) / (width * middle))) - at_start))
+
+    def avrami(state: Any, strength: float, pace: float, exponent: float) -> Any:
+        return scaled(state, 1 + 0.4 * strength * -np.expm1(-((time / pace) ** exponent)))
+
+    def parabolic(state: Any, strength: float, pace: float) -> Any:
+        return scaled(state, 1 + 0.4 * strength * np.sqrt(time / (time + pace)))
+
+    def difference(state: Any, strength: float, quick: float, lasting: float) -> Any:
+        """A film that forms and passes, on a track that wears evenly."""
+        passing = np.exp(-time / (4 * quick)) - np.exp(-time / quick)
+        return scaled(state, 1 + strength * (0.5 * passing - 0.3 * lasting * time))
+
+    def chained(state: Any, strength: float, quick: float, lasting: float) -> Any:
+        """Reactions in a row: bare to film to worn track, A to B to C of chemical kinetics."""
+        slow = 0.35
+        film = slow / (slow - quick) * (np.exp(-time / slow) - np.exp(-time / quick))
+        worn = 1 - (slow * np.exp(-time / slow) - quick * np.exp(-time / quick)) / (slow - quick)
+        return scaled(state, 1 + strength * (0.15 * film - 0.35 * lasting * worn))
+
+    def sines(state: Any, strength: float, waves: float, phase: float) -> Any:
+        swing = np.sin(2 * np.pi * (waves * time + phase)) + 0.6 * np.sin(2 * np.pi * (1.63 * waves * time + 0.3))
+        return scaled(state, 1 + 0.1 * strength * swing)
+
+    def torn(state: Any, strength: float, waves: float) -> Any:
+        return scaled(state, 1 + 0.25 * strength * _swings(time, waves))
+
+    def cosines(state: Any, strength: float, **more: float) -> Any:
+        """Any slow history: a cosine series of twelve terms."""
+        terms = [0.1 * strength, *(0.1 * value for value in more.values())]
+        return scaled(state, np.exp(sum(a * np.cos((k + 1) * np.pi * time) for k, a in enumerate(terms))))
+
+    def worn_in(state: Any, strength: float, pace: float) -> Any:
+        return scaled(state, 1 + 0.3 * strength * (1 - np.log1p(time / pace) / np.log1p(1 / pace)))
+
+    fall, either = strength(0.0, 6.0), strength(-2.2, 5.0)
+    pace = Knob("pace", 0.01, 1.0, (0.03, 0.25))
+    waves = Knob("waves", 0.8, 3.2, (1.2, 2.4))
+    lasting = Knob("lasting", -2.0, 2.0, (0.5, 1.2))
+    quick = Knob("quick", 0.01, 0.12, (0.02, 0.06))
+    steep = Knob("exponent", 1.2, 4.0, (1.6, 3.0))
+    run_in = (
+        Form("friction_run_in", "boundary", hyperbolic, (fall, pace), "second-order wear-in"),
+        Form(
+            "friction_run_in", "boundary", power_law, (fall, pace, Knob("exponent", 0.3, 2.0, (0.5, 1.5))), "power law"
+        ),
+        Form(
+            "friction_run_in", "boundary", stretched, (fall, pace, Knob("exponent", 0.5, 1.2, (0.6, 0.9))), "stretched"
+        ),
+        Form("friction_run_in", "boundary", worn_in, (fall, pace), "logarithmic wear-in"),
+    )
+    growth = (
+        Form("tribofilm_growth", "boundary", logistic,
+             (either, Knob("middle", 0.05, 0.8, (0.15, 0.5)), Knob("width", 0.1, 0.5, (0.15, 0.35))), "autocatalytic"),
+        Form("tribofilm_growth", "boundary", avrami,
+             (either, Knob("pace", 0.05, 1.0, (0.15, 0.5)), steep), "Avrami 1939"),
+        Form("tribofilm_growth", "boundary", parabolic, (either, Knob("pace", 0.05, 2.0, (0.1, 0.6))), "diffusion"),
+    )  # fmt: skip
+    two = (
+        Form("two_time_scales", "boundary", difference, (either, quick, lasting), "two exponentials", 1),
+        Form("two_time_scales", "boundary", chained, (either, quick, lasting), "consecutive reactions", 1),
+    )
+    free = (
+        Form("wandering_surface_state", "boundary", sines,
+             (either, waves, Knob("phase", 0.0, 1.0, (0.0, 1.0))), "two swings", 2),
+        Form("wandering_surface_state", "boundary", torn, (either, waves), "growth and tearing", 2),
+        Form("wandering_surface_state", "boundary", cosines,
+             (strength(-20.0, 20.0), *(Knob(f"term_{k}", -20.0, 20.0, (0.0, 0.0)) for k in range(2, 13))),
+             "cosine series", 2, rarity=0.0),
+    )  # fmt: skip
+    return {"friction_run_in": run_in, "tribofilm_growth": growth, "two_time_scales": two, "wandering": free}
+
+
+def creeps(slip: np.ndarray) -> tuple[Form, ...]:
+    """Elastic give of the bodies at small slip: share of friction that is reached."""
+
+    def reached(state: Any, share: np.ndarray) -> Any:
+        if isinstance(state, Track):
+            return replace(state, recorded=state.recorded * share)
+        return replace(state, friction=state.friction * share[:, None])
+
+    def tangent(state: Any, strength: float) -> Any:
+        return reached(state, np.tanh(slip / (0.008 * strength))) if strength > 0 else state
+
+    def polach(state: Any, strength: float) -> Any:
+        if strength <= 0:
+            return state
+        grip = slip / (0.006 * strength)
+        return reached(state, 2 / np.pi * (grip / (1 + grip**2) + np.arctan(grip)))
+
+    def gradual(state: Any, strength: float) -> Any:
+        return reached(state, -np.expm1(-slip / (0.008 * strength))) if strength > 0 else state
+
+    size = (strength(0.0, 12.0, (0.4, 2.0)),)
+    return tuple(
+        Form("contact_creep", "loss", law, size, source)
+        for law, source in ((tangent, "hyperbolic tangent"), (polach, "Polach 2005"), (gradual, "exponential"))
+    )
+
+
+def _breaks(time: np.ndarray) -> tuple[Form, ...]:
+    """What no slow state of a surface does."""
+
+    def multiplied(state: Any, factor: np.ndarray) -> Any:
+        return replace(state, recorded=state.recorded * factor)
+
+    def dosed(state: Any, strength: float, when: float) -> Any:
+        """Friction steps from one reading to the next."""
+        return multiplied(state, 1 + 0.1 * strength * (time > when))
+
+    def humming(state: Any, strength: float, waves: float) -> Any:
+        """Something turns slowly in the rig: 14 to 25 swings in the programme."""
+        return multiplied(state, 1 + 0.06 * strength * np.sin(2 * np.pi * waves * time))
+
+    def scuffing(state: Any, strength: float, reach: float) -> Any:
+        """Friction runs away at the end."""
+        return multiplied(state, 1 + 0.3 * strength * np.exp((time - 1) / reach))
+
+    def alternating(state: Any, strength: float) -> Any:
+        """Every second reading belongs to the other direction of a reciprocating stroke."""
+        return multiplied(state, 1 + 0.05 * strength * (-1.0) ** np.arange(len(time)))
+
+    either = strength(-5.0, 8.0)
+    return (
+        Form("dosed", "loss", dosed, (either, Knob("when", 0.2, 0.8, (0.3, 0.75))), "constructed"),
+        Form("humming", "loss", humming, (either, Knob("waves", 12.0, 28.0, (14.0, 25.0))), "constructed"),
+        Form(
+            "scuffing", "loss", scuffing, (strength(0.0, 8.0), Knob("reach", 0.02, 0.12, (0.04, 0.09))), "constructed"
+        ),
+        Form("alternating", "loss", alternating, (either,), "constructed"),
+    )
+
+
+def _all(found: dict[str, tuple[Form, ...]]) -> tuple[Form, ...]:
+    return tuple(form for forms in found.values() for form in forms)
+
+
+def _numbered(columns: dict[str, np.ndarray], seconds: float) -> dict[str, np.ndarray]:
+    """Run numbers and times; what is known of the place in the programme comes from the time alone."""
+    columns = repeated(columns, 1)
+    count = len(columns["run"])
+    columns["time_s"] = np.round(np.linspace(seconds / count, seconds, count), 1)
+    return columns
+
+
+def _held(
+    rng: np.random.Generator, settings: dict[str, Any], columns: dict[str, np.ndarray], time: np.ndarray
+) -> Bench:
+    """A track without oil or surfaces told: a constant coefficient of a broad prior is the base model."""
+    middle = between(rng, 0.04, 0.13)
+    slip = columns.get("slide_roll_ratio", np.ones(len(time)))
+
+    def level(z: np.ndarray) -> float:
+        return float(middle * np.exp(BROAD * z[0]))
+
+    def model(z: np.ndarray, acts: Sequence[Act]) -> np.ndarray:
+        flat = np.full(len(time), level(z))
+        return np.asarray(play(BARE, Track(flat, flat), acts).recorded)
+
+    curves = len(np.unique(slip)) > 4
+    forms = _all(histories(time)) + (creeps(slip) if curves else ()) + channel(time, curves, False, False)
+    return Bench(
+        kind="friction_history",
+        settings=settings,
+        columns=columns,
+        names=("boundary_friction",),
+        model=model,
+        theta=lambda z: {"boundary_friction": level(z)},
+        forms=forms,
+        outside=_breaks(time),
+    )
+
+
+def _settings(**sections: Any) -> dict[str, Any]:
+    recording = {"quantity": "friction_coefficient"}
+    return {"schema": "mixedlub-case/1", "kind": "friction_history", **sections, "recording": recording}
+
+
+def draw_steady(rng: np.random.Generator) -> Bench:
+    """Friction at conditions that do not change, as a log or as means of rubbing steps."""
+    count = int(pick(rng, (24, 40, 60, 100, 200)))
+    columns = _numbered({"placeholder": np.zeros(count)}, between(rng, 600, 2e5))
+    del columns["placeholder"]
+    if rng.random() < 0.5:
+        held = {"load_N": (20.0, 75.0), "entrainment_speed_m_s": (0.05, 0.5), "oil_temperature_C": (40.0, 130.0)}
+        columns |= {name: np.full(count, between(rng, *span, 2)) for name, span in held.items()}
+        columns["slide_roll_ratio"] = np.full(count, pick(rng, (0.5, 1.0, 2.0)))
+    return _held(rng, _settings(), columns, progress(count))
+
+
+def draw_traction(rng: np.random.Generator) -> Bench:
+    """Traction curves on one track again and again, slips from below one per mille on."""
+    slips = np.array([rounded(s, 3) for s in np.geomspace(0.0006, between(rng, 0.1, 0.3), int(rng.integers(10, 19)))])
+    cycles = int(rng.integers(4, 11))
+    columns = _numbered({"slide_roll_ratio": np.tile(slips, cycles)}, between(rng, 3000, 3e5))
+    columns["entrainment_speed_m_s"] = np.full(slips.size * cycles, between(rng, 0.01, 0.05, 2))
+    return _held(rng, _settings(), columns, progress(slips.size * cycles))
+
+
+def draw_stribeck(rng: np.random.Generator) -> Bench:
+    """Stribeck curves of a ball on a disc between rubbing steps, with oil and surfaces told."""
+    speeds = np.array([rounded(u, 3) for u in np.geomspace(between(rng, 0.01, 0.03), 3.0, int(rng.integers(8, 14)))])
+    baths = pick(rng, ([60.0], [100.0], [60.0, 100.0], [40.0, 70.0, 100.0]))
+    slips = pick(rng, ([0.5], [0.5], [0.1, 0.5], [0.05, 0.3, 1.0]))
+    again = max(int(rng.uniform(60, 180) / (len(speeds) * len(baths) * len(slips))), 2)
+    block = np.array([(t, s, u) for t in baths for s in slips for u in speeds[::-1]])
+    grid = np.tile(block, (again, 1))
+    surfaces = draw_surfaces(rng, False)
+    names = list(surfaces)
+    first, second = str(rng.choice(names[:2])), str(rng.choice(names))
+    columns = _numbered(
+        {
+            "load_N": np.full(len(grid), between(rng, 20, 60, 2)),
+            "entrainment_speed_m_s": grid[:, 2],
+            "slide_roll_ratio": grid[:, 1],
+            "oil_temperature_C": grid[:, 0],
+            "surface_1": np.full(len(grid), first, dtype=object),
+            "surface_2": np.full(len(grid), second, dtype=object),
+        },
+        between(rng, 5000, 1e5),
+    )
+    settings = _settings(
+        boundary_friction=0.1,
+        contact={
+            "geometry": "point",
+            "radius_mm": [9.525, float("inf")],
+            "youngs_modulus_GPa": [207.0, 207.0],
+            "poisson_ratio": [0.3, 0.3],
+        },
+        lubricant=draw_oil(rng),
+        surfaces={name: surfaces[name] for name in dict.fromkeys((first, second))},
+        uncertainty=UNCERTAINTY,
+    )
+    units = np.array([1e-12, 1.0, 1e12])
+    moments = sum(np.array(list(surfaces[name].values())[:3]) * units for name in (first, second))
+    time = progress(len(grid))
+    rig = ball_rig(settings, {**columns, "sequence": time}, moments)
+    nominal = Calibration(boundary_friction=0.1)
+
+    def fixed(z: np.ndarray) -> Calibration:
+        return calibrated(nominal, UNCERTAINTY, z)
+
+    def model(z: np.ndarray, acts: Sequence[Act]) -> np.ndarray:
+        return np.asarray(play(BALL_FRICTION, start(rig, fixed(z)), acts).recorded)
+
+    found = histories(time)
+    usable = [borrowed(NAMED[name], 0.6) for name in ALSO_IN_CONTACT if len(baths) > 1 or "temperature" not in name]
+    forms = (*found["friction_run_in"], *found["tribofilm_growth"], *FILM_FORMS, *usable)
+    broken = [borrowed(OUTSIDE[name]) for name in ("speed_band", "speed_ripple")]
+    return Bench(
+        kind="friction_history",
+        settings=settings,
+        columns=columns,
+        names=PRIORS,
+        model=model,
+        theta=lambda z: {
+            "boundary_friction": fixed(z).boundary_friction,
+            **{f"{name}_scale": getattr(fixed(z), name) for name in PRIORS[1:]},
+        },
+        forms=forms + channel(time, True, True, False),
+        outside=(*broken, *_breaks(time)[:1]),
+    )
+
+
+def draw(rng: np.random.Generator) -> Bench:
+    """One of the three programmes."""
+    return pick(rng, (draw_steady, draw_steady, draw_traction, draw_stribeck))(rng)

@@ -1,0 +1,132 @@
+"""The proof on the other kinds of case: deal, have them diagnosed, score over all and by kind, list what is wrong."""
+
+from __future__ import annotations
+
+import json
+import traceback
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from mixedlub.proof.answers import Answer, Truth, read_answer, read_truth
+from mixedlub.proof.bench.battery import ROOMS, generate
+from mixedlub.proof.measures import crossed, outliers_false, outliers_found, right, tied
+from mixedlub.proof.prove import TOOL, Diagnose, Progress, answer_all, quiet, unsealed
+from mixedlub.proof.score import Score, score
+
+Pair = tuple[Truth, Answer]
+SHOWN = 3
+BROKEN = "broken.txt"
+
+
+def prove_rigs(
+    out: Path, diagnose: Diagnose, cases: int = 200, seed: int = 440917, jobs: int = 2, progress: Progress = quiet
+) -> dict[str, Score]:
+    """The score over all kinds under ``all``, then one a kind; a run broken off goes on where it stopped.
+
+    Writes ``score.json`` and ``score_KIND.json``, ``score.txt`` with all figures, the counts by kind and the
+    wrong answers.
+    """
+    sealed = generate(out / "sealed", seed, cases, jobs, lambda done, total: progress("deal", done, total))
+    opened = out / "cases"
+    opened.mkdir(parents=True, exist_ok=True)
+    given = [unsealed(case, opened) for case in sealed]
+    answer_all(Steady(diagnose), given, out / "answers", jobs, "diagnose", progress)
+    return judge(out, sealed)
+
+
+@dataclass(frozen=True)
+class Steady:
+    """A diagnosis that breaks down on a case leaves what it said instead of an answer, and the proof goes on."""
+
+    diagnose: Diagnose
+
+    def __call__(self, case: Path, out: Path) -> None:
+        try:
+            self.diagnose(case, out)
+        except Exception:
+            (out / BROKEN).write_text(traceback.format_exc())
+
+
+def judge(out: Path, sealed: Sequence[Path]) -> dict[str, Score]:
+    """Scores of the answers that are there."""
+    pairs: dict[str, list[Pair]] = {kind: [] for kind in ROOMS}
+    asked: set[str] = set()
+    broken = []
+    for case in sealed:
+        told = json.loads((case / "truth.json").read_text())
+        asked |= {name for name in told["alternatives"] if name != "none" and "+" not in name}
+        asked |= set(told["effects"]) if told["class"] != "unknown" else set()
+        answered = out / "answers" / case.name
+        if (answered / BROKEN).exists():
+            last = (answered / BROKEN).read_text().strip().splitlines()[-1]
+            broken.append(f"{case.name} {told['rig']:16s} {told['class']:11s}  {'+'.join(told['effects'])} -> {last}")
+            continue
+        pairs[told["rig"]].append((read_truth(case), read_answer(answered)))
+    ids = sorted(asked)
+    whole = [pair for kind in pairs.values() for pair in kind]
+    scores = {"all": score(whole, TOOL, ids)}
+    scores |= {kind: score(some, f"{TOOL}, {kind}", ids) for kind, some in pairs.items() if some}
+    scores["all"].save(out / "score.json")
+    for kind in pairs:
+        if kind in scores:
+            scores[kind].save(out / f"score_{kind}.json")
+    text = [scores["all"].text(), by_kind(pairs), wrong(pairs)]
+    text += ["broke down without an answer, counted nowhere above", *broken, ""] if broken else []
+    (out / "score.txt").write_text("\n".join(text))
+    return scores
+
+
+def _count(hits: Sequence[bool]) -> str:
+    return f"{sum(hits)}/{len(hits)}" if hits else "-"
+
+
+def by_kind(pairs: dict[str, list[Pair]]) -> str:
+    """Counts by kind, one line a question."""
+
+    def of(some: Sequence[Pair], *groups: str, clear: bool = False) -> list[Pair]:
+        return [(t, a) for t, a in some if t.group in groups and (t.identifiable or not clear)]
+
+    one = ("single", "measurement")
+    questions = {
+        "right, one effect, identifiable": lambda s: [right(t, a) for t, a in of(s, *one, clear=True)],
+        "  physics": lambda s: [right(t, a) for t, a in of(s, "single", clear=True)],
+        "  instrument faults": lambda s: [right(t, a) for t, a in of(s, "measurement", clear=True)],
+        "right or tied, one effect, all": lambda s: [tied(t, a) for t, a in of(s, *one)],
+        "both of a pair": lambda s: [t.label <= a.verdict for t, a in of(s, "pair")],
+        "a pair, exactly or tied": lambda s: [tied(t, a) for t, a in of(s, "pair")],
+        "none where nothing is missing": lambda s: [right(t, a) for t, a in of(s, "none")],
+        "false alarms": lambda s: [a.detected for t, a in of(s, "none")],
+        "unknown where so and identifiable": lambda s: [
+            "unknown" in a.verdict for t, a in of(s, "unknown", clear=True)
+        ],
+        "fault called physics or reverse": lambda s: [crossed(t, a) for t, a in of(s, *one, clear=True)],
+        "every wild reading found": lambda s: [outliers_found(t, a) == 1 for t, a in s if t.outliers],
+        "cases with good readings flagged": lambda s: [outliers_false(t, a) > 0 for t, a in s],
+    }
+    lines = [f"{'by kind':36s}" + "".join(f"{kind:>17s}" for kind in pairs)]
+    for text, ask in questions.items():
+        lines.append(f"{text:36s}" + "".join(f"{_count(ask(some)):>17s}" for some in pairs.values()))
+    return "\n".join(lines) + "\n"
+
+
+def _named(label: frozenset[str]) -> str:
+    return "+".join(sorted(label))
+
+
+def wrong(pairs: dict[str, list[Pair]]) -> str:
+    """Every case whose verdict is not the truth: truth, verdict, what is tied, the largest probabilities."""
+    lines = ["verdicts that are not the truth (* identifiable; vis: sds the effect stands out by)"]
+    for kind, some in pairs.items():
+        for truth, answer in sorted(some, key=lambda pair: pair[0].case):
+            if right(truth, answer) or (truth.group == "unknown" and "unknown" in answer.verdict):
+                continue
+            mark = "*" if truth.identifiable else " "
+            more = ", ".join(_named(one) for one in answer.tied[1:])
+            ranked = sorted(answer.probabilities.items(), key=lambda item: -item[1])[:SHOWN]
+            shares = ", ".join(f"{name} {p:.2f}" for name, p in ranked)
+            lines.append(
+                f"{truth.case} {kind:16s} {truth.group:11s}{mark} vis {truth.visibility:5.1f}  {_named(truth.label)}"
+                f" -> {_named(answer.verdict)}" + (f"  tied: {more}" if more else "") + f"  [{shares}]"
+            )
+    return "\n".join(lines) + "\n"
