@@ -14,6 +14,8 @@ DRAWS = 2000
 CELLS = 4_000_000
 SHAPES = ((0.7, False), (0.25, True))
 SIZES = (1.0, 4.0)
+UNSURE = 10.0
+"""How far the search's Bayes factor may be off."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +41,9 @@ def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch
 
     Alternatives are the catalogue's prior draws with free amplitude and smooth functions of the conditions.
     Data without mismatch are drawn from the linearised base model: calibration from its prior, noise from its
-    law. Beyond the largest draw the bound P(B > b) <= 1/b of any Bayes factor gives the p-value.
+    law. Beyond the largest draw the bound P(B > b) <= 1/b of any Bayes factor gives the p-value; the bound of the
+    search's own, which has fitted what no prior draw comes near, such as a ripple of any order, is taken with a
+    margin for its approximations.
     """
     full = found
     found = full.screened
@@ -90,5 +94,6 @@ def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch
     p = (1.0 + float((drawn >= observed).sum())) / (count + 1.0)
     if observed > drawn.max():
         p = min(p, float(np.exp(-min(observed, 700.0))))
+    p = min(p, UNSURE * float(np.exp(-min(full.log_bayes_factor, 700.0))))
     chi2 = float((full.none.residual**2).sum() + full.none.z @ full.none.z)
     return Mismatch(bool(p <= level), p, level, chi2, int(full.problem.y.size), observed)

@@ -131,22 +131,50 @@ def estimated(
 ) -> Case:
     """The case with the noise its readings show: from repeats, else from what a smooth fit leaves over.
 
-    Positive readings that span WIDE or more scatter in proportion to their size, others alike.
+    Repeats scatter alike or in proportion to their size, whichever makes them more probable. Without them positive
+    readings that span WIDE or more are taken to scatter in proportion.
     """
-    share = bool(np.all(y > 0) and np.all(base > 0) and (case.kind.logarithmic or np.ptp(np.log(y)) > np.log(WIDE)))
-    seen, model = (np.log(y), np.log(base)) if share else (y, base)
-    sd = noise_from_repeats(case, rows, seen) or noise_from_smoothness(seen, model, space, values)
-    return with_noise(case, sd, 0.0) if share else with_noise(case, 0.0, sd)
+    group = _repeated(case, rows)
+    if group is not None:
+        size = np.maximum(np.abs(_medians(y, group))[group], 1e-9 * float(np.max(np.abs(y))) + 1e-300)
+        alike, share = pooled_sd(y, group), pooled_sd(y / size, group)
+        if case.kind.logarithmic or np.log(share) + _typical_log(size, group) < np.log(alike):
+            return with_noise(case, share, 0.0)
+        return with_noise(case, 0.0, alike)
+    wide = bool(np.all(y > 0) and np.all(base > 0) and (case.kind.logarithmic or np.ptp(np.log(y)) > np.log(WIDE)))
+    if wide:
+        return with_noise(case, noise_from_smoothness(np.log(y), np.log(base), space, values), 0.0)
+    return with_noise(case, 0.0, noise_from_smoothness(y, base, space, values))
+
+
+def _typical_log(size: np.ndarray, group: np.ndarray) -> float:
+    """Mean of ln size over readings that have repeats."""
+    return float(np.mean(np.log(size)[np.bincount(group)[group] > 1]))
 
 
 def noise_from_repeats(case: Case, rows: Table, y: np.ndarray) -> float:
     """Standard deviation from readings at equal conditions; zero when there are fewer than five repeats."""
+    group = _repeated(case, rows)
+    return 0.0 if group is None else pooled_sd(y, group)
+
+
+def _repeated(case: Case, rows: Table) -> np.ndarray | None:
+    """Group of each reading by equal conditions, numbered from 0; None where fewer than five are repeats."""
     names = [*(c.name for c in case.kind.columns), "rig", "setup"]
     keys = [np.unique(rows[name], return_inverse=True)[1] for name in names if name in rows]
     if not keys:
-        return 0.0
+        return None
     _, group = np.unique(np.stack(keys, axis=1), axis=0, return_inverse=True)
-    return pooled_sd(y, group.reshape(-1)) if y.size - group.max() - 1 >= 5 else 0.0
+    group = group.reshape(-1)
+    return group if group.size - int(group.max()) - 1 >= 5 else None
+
+
+def _medians(y: np.ndarray, group: np.ndarray) -> np.ndarray:
+    """Median of the readings of each group."""
+    count = np.bincount(group)
+    ranked = y[np.lexsort((y, group))]
+    first = np.cumsum(count) - count
+    return np.asarray(0.5 * (ranked[first + (count - 1) // 2] + ranked[first + count // 2]))
 
 
 def pooled_sd(y: np.ndarray, group: np.ndarray) -> float:
@@ -160,10 +188,7 @@ def pooled_sd(y: np.ndarray, group: np.ndarray) -> float:
     >>> round(pooled_sd(y, np.repeat([0, 1, 2], 3)), 3)
     1.095
     """
-    count = np.bincount(group)
-    ranked = y[np.lexsort((y, group))]
-    first = np.cumsum(count) - count
-    middle = 0.5 * (ranked[first + (count - 1) // 2] + ranked[first + count // 2])
+    count, middle = np.bincount(group), _medians(y, group)
     limit = 4.0 * _typical_difference(y, group, count) / 0.9539 * np.sqrt(1.0 - 1.0 / count)
     keep = np.abs(y - middle[group]) <= limit[group]
     if not keep.any() or not limit.any():

@@ -72,6 +72,19 @@ class Search:
         found["unknown"] = self.unknown.evidence + np.log(PRIOR["unknown"])
         return found
 
+    @property
+    def log_bayes_factor(self) -> float:
+        """Log Bayes factor of all explanations together, in their literature forms, against nothing missing."""
+        logs = [
+            w if isinstance(m, str) else w - self.scores[m] + self.fits[m].evidence
+            for m, w in self.log_weights.items()
+            if m != ()
+        ]
+        nothing = prior_of_none(len(self.sampled))
+        prior = PRIOR["single"] + PRIOR["pair"] + PRIOR["unknown"]
+        odds = float(np.logaddexp.reduce(logs)) - self.log_weights[()]
+        return odds + float(np.log(nothing / prior))
+
 
 def search(
     problem: Problem,
