@@ -66,6 +66,8 @@ def _cuts(name: str, values: np.ndarray) -> list[tuple[dict[str, Any], np.ndarra
             if i == 0 and j == levels.size - 1:
                 continue
             mask = (points >= low) & (points <= levels[j])
+            if not mask.any():
+                continue
             found.append(({"column": name, "low": float(values[mask].min()), "high": float(values[mask].max())}, mask))
     return found
 

@@ -28,3 +28,10 @@ def test_temperatures_that_wander_by_a_kelvin_are_one_level() -> None:
 def test_a_sweep_stays_a_sweep() -> None:
     time = np.linspace(0.0, 7200.0, 400)
     assert set_points(time) is time
+
+
+def test_a_sweep_of_many_values_is_cut_where_there_are_values() -> None:
+    """Between two clusters a twelfth of the readings can hold none."""
+    time = np.concatenate([np.linspace(0.0, 10.0, 20), np.linspace(5000.0, 7200.0, 5)])
+    found = region(Table({"time_s": time}), ["time_s"], np.where(time > 100.0, 6.0, 0.3))
+    assert [cut["column"] for cut in found.where] == ["time_s"]

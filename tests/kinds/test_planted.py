@@ -103,6 +103,11 @@ def planted_run_in():
     return history(0.08 + 0.04 / (1.0 + TIME / 500.0))
 
 
+def planted_event():
+    """A ramp over two readings: the catalogue carries a sudden step."""
+    return history(0.08 * (1.0 + 0.18 * np.clip((TIME - 3900.0) / 240.0, 0.0, 1.0)))
+
+
 def planted_two_scales():
     return history(0.1 + 0.04 * (np.exp(-TIME / 900.0) - np.exp(-TIME / 300.0)) - 0.03 * TIME / 7200.0)
 
@@ -192,6 +197,7 @@ CASES = {
     "load_dependent_friction": (planted_load, ("stribeck", "direction_dependence")),
     "grease_temperature": (planted_grease, ("stribeck", "grease_shear_thinning", "direction_dependence")),
     "grease_shear_thinning": (planted_grease_thinning, ("direction_dependence", "torque_constant")),
+    "friction_event": (planted_event, ("tribofilm_growth", "friction_run_in", "sensor_drift")),
     "tribofilm_growth": (planted_tribofilm, ("friction_run_in", "sensor_drift")),
     "friction_run_in": (planted_run_in, ("sensor_drift",)),
     "two_time_scales": (planted_two_scales, ("friction_run_in", "tribofilm_growth", "sensor_drift")),

@@ -1,0 +1,34 @@
+"""An event in a history of friction."""
+
+import numpy as np
+
+from mixedlub.effect import Between, Normal, Parameter, effect
+
+SUDDEN = 0.002
+
+
+@effect(
+    stage="boundary",
+    acts_on="boundary_friction",
+    parameters=(
+        Parameter("change", "-", Normal(0.0, 0.3), "relative change of friction by the event", null=0.0, symbol="c"),
+        Parameter("place", "-", Between(0.0, 1.0), "place in the programme", scan=120, symbol="q_e"),
+    ),
+    equation=r"\mu_B \leftarrow \mu_B\left[1 + c\,\sigma\!\left(\frac{q - q_e}{w}\right)\right],\quad "
+    r"\sigma(x) = \frac{1}{1 + e^{-x}},\ w = 0.002",
+    source="sudden transitions of friction in long tests, as of mild to severe wear: P. J. Blau, Friction Science and "
+    "Technology, 2nd ed., CRC Press (2009), chapter 8",
+    fingerprint={"sequence": "+"},
+    separated_by="a log of the test: what was touched, refilled or restarted then; a film that breaks or a particle in "
+    "the contact shows in contact resistance, noise or the track",
+    after=("tribofilm_growth", "friction_run_in", "two_time_scales"),
+    kinds=("friction_history",),
+)
+def friction_event(boundary_friction, sequence, *, change, place):
+    """At one moment the surfaces change, as when a film breaks or oil is renewed, and friction is another from then on.
+
+    >>> friction_event(0.1, np.array([0.2, 0.6]), change=0.2, place=0.5).round(3).tolist()
+    [0.1, 0.12]
+    """
+    since = np.clip((sequence - place) / SUDDEN, -500.0, 500.0)
+    return boundary_friction * (1.0 + change / (1.0 + np.exp(-since)))
