@@ -51,6 +51,8 @@ def understood(case: Case) -> Iterator[str]:
         forward = _forward(case)
     notes += [] if forward is None else [note for note in forward.notes if note not in notes]
     yield from bodies
+    if forward is None or "boundary_friction" in forward.inputs:
+        yield f"Boundary friction coefficient: {case.system.boundary_friction:g}."
     yield from _tables(case)
     yield from _uncertain(case, () if forward is None else forward.calibrations)
     yield from _audit(case, forward)
@@ -87,7 +89,6 @@ def _bodies(case: Case) -> Iterator[str]:
             f"Surface {name}: Rq {np.sqrt(surface.m0) * 1e6:.3g} um, Nayak bandwidth "
             f"{surface.m0 * surface.m4 / surface.m2**2:.3g}, from {origin}{coated}."
         )
-    yield f"Boundary friction coefficient: {system.boundary_friction:g}."
 
 
 def _tables(case: Case) -> Iterator[str]:

@@ -52,6 +52,9 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
         if column in units or not _has_unit(column, header)
     }
     notes = [f"{name}: {len(columns)} of {len(sheet.cells)} columns taken: {', '.join(columns)}"]
+    rest_of_it = [header for header in sheet.cells if header not in headers.values()]
+    if rest_of_it:
+        notes.append(f"{name}: not taken: {', '.join(rest_of_it)}")
     if sheet.left_out:
         notes.append(f"{name}: {sheet.left_out} left out: no part of the table")
     return Draft(kind, quantity, columns, {}, rest, tuple(notes))

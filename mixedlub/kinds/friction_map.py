@@ -108,8 +108,9 @@ def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibrati
     size = _size(system, recorded)
 
     def unknown(name: str, prior: LogNormal | BetweenLog | Normal, nominal: float, meaning: str) -> Calibration:
-        unit = "N m" if system.recording.quantity == "friction_torque_Nm" else "-"
-        parameter = Parameter(name, unit, prior, meaning)
+        torque = system.recording.quantity == "friction_torque_Nm"
+        label = name if torque else name.replace("torque", "friction")
+        parameter = Parameter(label, "N m" if torque else "-", prior, meaning)
         return Calibration(parameter, lambda inputs, value: {name: value}, nominal, (name,))
 
     found = (
