@@ -16,6 +16,8 @@ from mixedlub.diagnosis.fit import Fit, Linear, linear_fit, settled
 from mixedlub.diagnosis.problem import Problem
 
 LENGTHS = (0.25, 0.7)
+ROUGH = 0.08
+"""Length of a form of one condition whose neighbouring levels are all but independent of one another."""
 SIZES = (0.7, 2.0, 6.0, 20.0, 60.0)
 """How large a mismatch of the reading may be, in sigmas."""
 FACTORS = (0.03, 0.1, 0.3, 1.0)
@@ -65,6 +67,8 @@ def shapes(space: Coordinates, carriers: Carriers) -> list[Shape]:
             if len(names) > 1:
                 found.append(Shape((), length, 1.0, carrier, True))
                 found.extend(Shape((name,), length, 1.0, carrier, False) for name in names)
+                if length == LENGTHS[0]:
+                    found.extend(Shape((name,), ROUGH, 1.0, carrier, False) for name in names)
             if len(names) > 2:
                 pairs = (two for two in combinations(names, 2) if set(two) != SAME)
                 found.extend(Shape(two, length, 1.0, carrier, True) for two in pairs)

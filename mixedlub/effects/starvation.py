@@ -10,7 +10,7 @@ from mixedlub.effect import BetweenLog, LogNormal, Parameter, effect
         Parameter(
             "strength",
             "-",
-            LogNormal(0.5, 0.6),
+            LogNormal(0.4, 0.8),
             "power with which the film falls far above onset",
             null=0.0,
             symbol="s",
