@@ -16,7 +16,7 @@ from mixedlub.diagnosis.empirical import Absorbed, Unnamed
 from mixedlub.diagnosis.fitted import calibration, parameters
 from mixedlub.diagnosis.headline import doubts, headline, lesser, p_words, probability_words, standing
 from mixedlub.diagnosis.labels import STAGE_WORDS, effect_words, number, range_text, with_names, words_of
-from mixedlub.diagnosis.maps import missing
+from mixedlub.diagnosis.maps import missing, residuals
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.readings import checked_channel, outliers, reading_conditions, steadied_noise
 from mixedlub.effect import Effect
@@ -32,6 +32,8 @@ SPREAD = (
     "calibrated as if nothing were missing. That spreads its shortfall over all conditions, so that signs there may "
     "differ from these."
 )
+TURNED = 0.2
+"""Share of readings whose sign in the figures is another one, from which that is explained."""
 LEFT_OUT = "What was left out?"
 BEST_TIED = "What was left out? Best of the tied candidates"
 UNNAMED = "If it is something unknown"
@@ -146,7 +148,8 @@ def _where(d: Diagnosis) -> tuple[str, ...]:
     said.append(
         f"Largest at run {int(d.recorded.table['run'][most])} ({reading_conditions(d, most)}): {z[most]:+.1f} sigma."
     )
-    return (*said, SPREAD)
+    turned = np.sign(residuals(d)[0]) != np.sign(z)
+    return (*said, SPREAD) if turned.mean() > TURNED else tuple(said)
 
 
 def _rms(values: np.ndarray) -> float:
