@@ -18,19 +18,31 @@ from mixedlub.effect import LogNormal, Parameter, effect
             symbol="a",
         ),
         Parameter(
-            "time_constant", "-", LogNormal(0.1, 1.2), "share of the programme to lose 63 % of the excess", symbol="q_r"
+            "time_constant",
+            "-",
+            LogNormal(0.1, 1.2),
+            "share of the programme after which the excess falls at its first pace no longer",
+            symbol="q_r",
+        ),
+        Parameter(
+            "tail", "-", LogNormal(4.0, 1.2), "large: it ends exponentially; 1: as the reciprocal of time", symbol="m"
         ),
     ),
-    equation=r"\mu_B \leftarrow \mu_B\,(1 + a\,e^{-q/q_r})",
-    source="P. J. Blau, Tribol. Int. 38 (2005) 1007, the simplest of the running-in curves",
+    equation=r"\mu_B \leftarrow \mu_B\left[1 + a\left(1 + \frac{q}{m\,q_r}\right)^{-m}\right]",
+    source="P. J. Blau, Tribol. Int. 38 (2005) 1007, the simplest of the running-in curves; with a tail as of wear "
+    "whose pace falls with what is worn",
     fingerprint={"sequence": "-"},
     separated_by="a profile of the track before and after; a second run on the same track starts at the lower friction",
     kinds=("friction_history",),
 )
-def friction_run_in(boundary_friction, sequence, *, excess, time_constant):
+def friction_run_in(boundary_friction, sequence, *, excess, time_constant, tail):
     """Peaks wear off and the track conforms; friction falls to the level of the run-in surfaces.
 
-    >>> friction_run_in(0.1, np.array([0.0, 1.0]), excess=0.2, time_constant=0.05).round(3).tolist()
+    >>> ends = dict(excess=0.2, time_constant=0.05)
+    >>> friction_run_in(0.1, np.array([0.0, 1.0]), **ends, tail=100.0).round(3).tolist()
     [0.12, 0.1]
+    >>> friction_run_in(0.1, np.array([0.0, 1.0]), **ends, tail=1.0).round(3).tolist()
+    [0.12, 0.101]
     """
-    return boundary_friction * (1.0 + excess * np.exp(-np.maximum(sequence, 0.0) / time_constant))
+    worn = np.maximum(sequence, 0.0) / time_constant
+    return boundary_friction * (1.0 + excess * np.exp(-tail * np.log1p(worn / tail)))
