@@ -17,6 +17,7 @@ bench: .venv/dev
 
 prove: .venv/dev
 	$(BIN)/mixedlub prove --out out/prove $(if $(QUICK),--quick)
+	$(BIN)/mixedlub prove --rigs --out out/prove_rigs $(if $(QUICK),--quick)
 
 check: lint types examples
 

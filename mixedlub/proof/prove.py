@@ -74,8 +74,8 @@ def scored(truths: Sequence[Truth], answers: Path, tool: str) -> Score:
 def prove(
     out: Path,
     diagnose: Diagnose,
-    cases: int = 240,
-    seed: int = 440917,
+    cases: int,
+    seed: int,
     jobs: int = 2,
     baselines: bool = True,
     progress: Progress = quiet,

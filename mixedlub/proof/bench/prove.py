@@ -20,7 +20,7 @@ BROKEN = "broken.txt"
 
 
 def prove_rigs(
-    out: Path, diagnose: Diagnose, cases: int = 200, seed: int = 440917, jobs: int = 2, progress: Progress = quiet
+    out: Path, diagnose: Diagnose, cases: int, seed: int, jobs: int = 2, progress: Progress = quiet
 ) -> dict[str, Score]:
     """The score over all kinds under ``all``, then one a kind; a run broken off goes on where it stopped.
 
