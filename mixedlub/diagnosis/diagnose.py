@@ -21,7 +21,7 @@ from mixedlub.diagnosis.noise import estimated, is_stated
 from mixedlub.diagnosis.posterior import Key, Posterior, names_effects, posterior
 from mixedlub.diagnosis.predict import Prediction, Refined, Rows, refine
 from mixedlub.diagnosis.problem import Problem
-from mixedlub.diagnosis.scatter import quiet, shown, stated_or_more
+from mixedlub.diagnosis.scatter import CLEAR, more, quiet, shown, stated_or_more, under_its_own
 from mixedlub.diagnosis.search import Progress, Search, search
 from mixedlub.diagnosis.validity import beyond_range
 from mixedlub.effect import find
@@ -34,6 +34,10 @@ AVERAGED = 6
 SMALL = 2e-3
 MANY_WRONG = 0.1
 CANDIDATES = 6
+UNFOLLOWED = (
+    "readings lie farther from every explanation than from their repeats: something is missing whose form none that "
+    "was tried follows"
+)
 QUIET = "readings scatter by less than half of the stated noise: with noise nearer to theirs more could be told"
 
 
@@ -96,11 +100,9 @@ def diagnose_case(
     y = np.asarray(rows[case.quantity], dtype=float)
     warnings = [*case.notes, *assumed, *_hidden(case, wanted, rows), *forward.notes, *audit(case, rows, y, forward)]
     stated = is_stated(case, rows)
-    found, times = _search(case, rows, forward, y, exclude, progress)
+    found, times, test = _search(case, rows, forward, y, exclude, level, progress)
     case, rows = found.problem.case, found.problem.rows
     warnings += _scatter_notes(found, stated, times)
-    progress("testing against nothing missing")
-    test = mismatch_test(found, level)
     progress("leaving levels out")
     judged, kept = _judged(found, test)
     refined = _refine_leaders(found, judged)
@@ -128,6 +130,8 @@ def _scatter_notes(found: Search, stated: bool, times: float) -> list[str]:
         unit = unit_of(found.problem.case.quantity)
         size = f"{100.0 * noise.relative:.2g} % of it" if noise.relative else f"{noise.absolute:.2g} {unit}".rstrip()
         return [f"the noise of a reading was estimated as {size}"]
+    if stated and more(found)[0] > CLEAR:
+        return [Doubt(UNFOLLOWED)]
     return [QUIET] if quiet(found) else []
 
 
@@ -171,9 +175,19 @@ def _hidden(case: Case, wanted: Table | None, rows: Table) -> list[str]:
 
 
 def _search(
-    case: Case, rows: Table, forward: Forward, y: np.ndarray, exclude: Sequence[str], progress: Progress
-) -> tuple[Search, float]:
-    """Every explanation weighed, and how many times the stated noise that took."""
+    case: Case,
+    rows: Table,
+    forward: Forward,
+    y: np.ndarray,
+    exclude: Sequence[str],
+    level: float,
+    progress: Progress,
+) -> tuple[Search, float, Mismatch]:
+    """Every explanation weighed, how many times the stated noise that took, and whether anything is missing.
+
+    Where no noise is stated, nothing missing is tested under the noise that it would need itself as well: the
+    noise that suits an explanation best is no fair one for its rival.
+    """
     space = coordinates(case, rows, forward)
     if not space.axes:
         raise InputError("all readings were taken at the same conditions; vary at least one", where="recordings.csv")
@@ -183,8 +197,13 @@ def _search(
         return search(Problem.of(case, rows, forward, y), space, values, exclude, progress)
 
     if is_stated(case, rows):
-        return stated_or_more(case, rows, trial)
-    return shown(estimated(case, rows, y, forward.predict(), space, values), rows, trial), 1.0
+        found, times = stated_or_more(case, rows, trial)
+        progress("testing against nothing missing")
+        return found, times, mismatch_test(found, level)
+    found = shown(estimated(case, rows, y, forward.predict(), space, values), rows, trial)
+    progress("testing against nothing missing")
+    tests = [mismatch_test(one, level) for one in (found, under_its_own(found, trial))]
+    return found, 1.0, max(tests, key=lambda test: test.p_value)
 
 
 def _judged(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:

@@ -19,6 +19,7 @@ LOW, HIGHEST = 0.52, 1.23
 SEVERAL = 2000
 """Most readings whose sds are compared with one another: beyond, the wild ones even out."""
 WIDE = 3.0
+TRUSTED = 10
 PARTNERS = 12
 """Readings of its group that each one is compared with, at most."""
 
@@ -134,7 +135,7 @@ def estimated(
     Repeats scatter alike or in proportion to their size, whichever makes them more probable. Without them positive
     readings that span WIDE or more are taken to scatter in proportion.
     """
-    group = _repeated(case, rows)
+    group = repeated(case, rows)
     if group is not None:
         size = np.maximum(np.abs(_medians(y, group))[group], 1e-9 * float(np.max(np.abs(y))) + 1e-300)
         alike, share = pooled_sd(y, group), pooled_sd(y / size, group)
@@ -154,13 +155,13 @@ def _typical_log(size: np.ndarray, group: np.ndarray) -> float:
 
 def noise_from_repeats(case: Case, rows: Table, y: np.ndarray) -> float:
     """Standard deviation from readings at equal conditions; zero when there are fewer than five repeats."""
-    group = _repeated(case, rows)
+    group = repeated(case, rows)
     return 0.0 if group is None else pooled_sd(y, group)
 
 
-def _repeated(case: Case, rows: Table) -> np.ndarray | None:
+def repeated(case: Case, rows: Table) -> np.ndarray | None:
     """Group of each reading by equal conditions, numbered from 0; None where fewer than five are repeats."""
-    names = [*(c.name for c in case.kind.columns), "rig", "setup"]
+    names = [*(c.name for c in (*case.kind.columns, *case.kind.channels)), "rig", "setup"]
     keys = [np.unique(rows[name], return_inverse=True)[1] for name in names if name in rows]
     if not keys:
         return None
@@ -182,16 +183,17 @@ def pooled_sd(y: np.ndarray, group: np.ndarray) -> float:
 
     Two readings of a group differ by N(0, 2 sd^2) whatever the group's size, so the median absolute difference is
     sqrt(2) Phi^-1(3/4) sd = 0.9539 sd. Readings beyond four times what that gives, off the median of their group,
-    are left out (6e-5 of good ones), and the rest pooled.
+    are left out (6e-5 of good ones), and the rest pooled. Below TRUSTED repeats that median is too uncertain to
+    leave anything out by.
 
-    >>> y = np.array([1.0, 3.0, 2.0, 11.0, 13.0, 12.0, 21.0, 23.0, 90.0])
-    >>> round(pooled_sd(y, np.repeat([0, 1, 2], 3)), 3)
-    1.095
+    >>> y = np.array([1.0, 3.0, 2.0, 3.0, 11.0, 13.0, 12.0, 13.0, 21.0, 23.0, 22.0, 21.0, 31.0, 33.0, 32.0, 90.0])
+    >>> round(pooled_sd(y, np.repeat([0, 1, 2, 3], 4)), 3)
+    0.965
     """
     count, middle = np.bincount(group), _medians(y, group)
     limit = 4.0 * _typical_difference(y, group, count) / 0.9539 * np.sqrt(1.0 - 1.0 / count)
     keep = np.abs(y - middle[group]) <= limit[group]
-    if not keep.any() or not limit.any():
+    if not keep.any() or not limit.any() or group.size - count.size < TRUSTED:
         keep = np.ones(y.size, bool)
     _, kept = np.unique(group[keep], return_inverse=True)
     size = np.bincount(kept)

@@ -9,7 +9,7 @@ import numpy as np
 
 from mixedlub.diagnosis.mismatch import Mismatch
 from mixedlub.diagnosis.problem import Explanation, effects_of
-from mixedlub.diagnosis.search import PRIOR, Search, prior_of_none
+from mixedlub.diagnosis.search import PRIOR, Search, priors
 from mixedlub.effect import STAGES
 
 TIE = 0.1
@@ -61,8 +61,8 @@ class Posterior:
 def untold(found: Search) -> dict[str, float]:
     """Chance of the effects that move no reading: as probable as they were before."""
     odds = {e.id: e.odds for s in (*found.sampled, *found.untestable) for e in effects_of((s.id,))}
-    all_else = PRIOR["single"] + PRIOR["pair"] + PRIOR["unknown"]
-    single = PRIOR["single"] / (prior_of_none(len(odds)) + all_else)
+    nothing, single, pair = priors(len(odds))
+    single /= nothing + single + pair + PRIOR["unknown"]
     return {s.id: single * odds[s.id] / sum(odds.values()) for s in found.untestable}
 
 

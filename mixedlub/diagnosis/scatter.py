@@ -9,18 +9,18 @@ import numpy as np
 
 from mixedlub.case import Case
 from mixedlub.diagnosis.fit import log_likelihood
-from mixedlub.diagnosis.noise import with_noise
+from mixedlub.diagnosis.noise import pooled_sd, repeated, with_noise
 from mixedlub.diagnosis.search import MANY, Search
 from mixedlub.table import Table
 
 FACTORS = np.array([1.1, 1.25, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 4.0, 6.0, 10.0])
 """How many times the stated noise may be meant."""
-MOST = 30.0
 CLEAR = 8.0
-"""Log Bayes factor from which stated noise is not believed: a prior of 5 % for all other noise, then 20 to 1."""
+"""Gain in log probability from which stated noise is not believed; under nothing but noise it stays below 3."""
+ROUNDS = 4
+UNLIKELY = 1e-3
 QUIETER, STEPS = 0.7, 5
-"""Noise shown by repeats or by smoothness is an upper bound: steps by which it is lowered, and how many at most."""
-
+"""Noise that a smooth fit leaves over holds what the fit does not follow: by how much it is lowered, how often."""
 ENOUGH = 10
 """Readings, beyond the coordinates of the base model, from which their scatter is known well enough to judge."""
 
@@ -33,14 +33,29 @@ def stated_or_more(case: Case, rows: Table, trial: Trial) -> tuple[Search, float
     Every explanation is weighed again with its residuals against more noise. That is believed where the best of
     them beats the best one under the stated noise, the unnamed mismatch among them: what goes smoothly with the
     conditions is a mismatch, what goes with none is noise. Fits under too little noise follow it, and hide a part.
+    Repeats at equal conditions bound it: what they agree on is no noise.
     """
     found, times = trial(case, rows), 1.0
-    gain, factor = more(found)
-    while gain > (CLEAR if times == 1.0 else 0.0) and times * factor <= MOST:
+    most = repeats_allow(found)
+    for needed in (CLEAR, *[0.0] * (ROUNDS - 1)):
+        gain, factor = more(found)
+        if gain <= needed or times * factor > most:
+            break
         times *= factor
         found = trial(*scaled(case, rows, times))
-        gain, factor = more(found)
     return found, times
+
+
+def repeats_allow(found: Search) -> float:
+    """How many times the stated noise repeats at equal conditions could have, at most; no bound without repeats."""
+    from scipy.stats import chi2
+
+    problem = found.problem
+    group = repeated(problem.case, problem.rows)
+    if group is None:
+        return np.inf
+    spare = group.size - int(group.max()) - 1
+    return float(pooled_sd(problem.y / problem.sd, group) * np.sqrt(spare / chi2.ppf(UNLIKELY, spare)))
 
 
 def more(found: Search) -> tuple[float, float]:
@@ -65,20 +80,21 @@ def shown(case: Case, rows: Table, trial: Trial) -> Search:
         return found[0]
     for step in range(1, STEPS + 1):
         found.append(trial(*scaled(case, rows, QUIETER**step)))
-        if _log_probability(found[-1]) <= _log_probability(found[-2]):
+        if found[-1].log_probability <= found[-2].log_probability:
             break
     else:
         return found[-1]
     if len(found) < 3:
         return found[0]
-    below, best, above = (_log_probability(one) for one in found[:-4:-1])
+    below, best, above = (one.log_probability for one in found[:-4:-1])
     steps = len(found) - 2 + 0.5 * (below - above) / (2.0 * best - below - above)
     return trial(*scaled(case, rows, QUIETER**steps))
 
 
-def _log_probability(found: Search) -> float:
-    """Log probability density of the readings under all explanations together, up to a constant."""
-    return float(np.logaddexp.reduce(list(found.log_weights.values())) - np.log(found.problem.sd).sum())
+def under_its_own(found: Search, trial: Trial) -> Search:
+    """The search under the noise that the calibrated base model would need if nothing were missing."""
+    gain, times = louder(found.none.residual)
+    return trial(*scaled(found.problem.case, found.problem.rows, times)) if gain > 0.0 else found
 
 
 def louder(residual: np.ndarray) -> tuple[float, float]:

@@ -64,7 +64,7 @@ class Search:
         each = list(odds.values())
         pairs = sum(a * b for a, b in combinations(each, 2))
         total = (1.0, sum(each), pairs)
-        prior = (prior_of_none(len(each)), PRIOR["single"], PRIOR["pair"] * min(1.0, len(each) / WHOLE))
+        prior = priors(len(each))
         found: dict[str | Explanation, float] = {
             m: s + float(np.log(prior[len(m)] * np.prod([odds[name] for name in m]) / total[len(m)]))
             for m, s in self.scores.items()
@@ -80,10 +80,15 @@ class Search:
             for m, w in self.log_weights.items()
             if m != ()
         ]
-        nothing = prior_of_none(len(self.sampled))
-        prior = PRIOR["single"] + PRIOR["pair"] + PRIOR["unknown"]
+        nothing, single, pair = priors(len(self.sampled))
         odds = float(np.logaddexp.reduce(logs)) - self.log_weights[()]
-        return odds + float(np.log(nothing / prior))
+        return odds + float(np.log(nothing / (single + pair + PRIOR["unknown"])))
+
+    @property
+    def log_probability(self) -> float:
+        """Log probability density of the readings under all explanations together, up to a constant."""
+        total = float(np.logaddexp.reduce(list(self.log_weights.values())))
+        return total - float(np.log(sum(priors(len(self.sampled))) + PRIOR["unknown"]) + np.log(self.problem.sd).sum())
 
 
 def search(
@@ -118,13 +123,18 @@ def _spread_rows(values: list[np.ndarray], count: int) -> np.ndarray:
     return np.sort(order[np.linspace(0, count - 1, MANY // 2).astype(int)])
 
 
-def prior_of_none(effects: int) -> float:
-    """Prior of nothing missing beside those of all else: higher where few effects share that of a single one.
+def priors(effects: int) -> tuple[float, float, float]:
+    """Priors of nothing, of one effect and of two, beside that of the unnamed, by how many effects there are.
 
-    >>> prior_of_none(30), round(prior_of_none(6), 2)
-    (0.42, 0.89)
+    That of nothing is higher where few effects share that of a single one, that of pairs lower.
+
+    >>> priors(30), [round(p, 2) for p in priors(6)]
+    ((0.42, 0.38, 0.08), [0.89, 0.38, 0.02])
     """
-    return max(PRIOR["none"], LEAST_NONE * PRIOR["single"] / max(effects, 1))
+    if effects == 0:
+        return PRIOR["none"], 0.0, 0.0
+    nothing = min(max(PRIOR["none"], LEAST_NONE * PRIOR["single"] / effects), 1.0)
+    return nothing, PRIOR["single"], PRIOR["pair"] * min(1.0, effects / WHOLE)
 
 
 def _search(

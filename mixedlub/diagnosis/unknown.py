@@ -64,6 +64,8 @@ def shapes(space: Coordinates, carriers: Carriers) -> list[Shape]:
         for carrier in carriers:
             names = [axis.name for axis in space.axes]
             found.append(Shape((), length, 1.0, carrier, False))
+            if len(names) == 1 and length == LENGTHS[0]:
+                found.append(Shape((), ROUGH, 1.0, carrier, False))
             if len(names) > 1:
                 found.append(Shape((), length, 1.0, carrier, True))
                 found.extend(Shape((name,), length, 1.0, carrier, False) for name in names)

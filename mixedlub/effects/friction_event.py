@@ -11,10 +11,10 @@ SUDDEN = 0.002
     stage="boundary",
     acts_on="boundary_friction",
     parameters=(
-        Parameter("change", "-", Normal(0.0, 0.3), "relative change of friction by the event", null=0.0, symbol="c"),
+        Parameter("change", "-", Normal(0.0, 0.3), "logarithm of the factor on friction", null=0.0, symbol="c"),
         Parameter("place", "-", Between(0.0, 1.0), "place in the programme", scan=120, symbol="q_e"),
     ),
-    equation=r"\mu_B \leftarrow \mu_B\left[1 + c\,\sigma\!\left(\frac{q - q_e}{w}\right)\right],\quad "
+    equation=r"\mu_B \leftarrow \mu_B\,e^{c\,\sigma((q - q_e)/w)},\quad "
     r"\sigma(x) = \frac{1}{1 + e^{-x}},\ w = 0.002",
     source="sudden transitions of friction in long tests, as of mild to severe wear: P. J. Blau, Friction Science and "
     "Technology, 2nd ed., CRC Press (2009), chapter 8",
@@ -28,7 +28,7 @@ def friction_event(boundary_friction, sequence, *, change, place):
     """At one moment the surfaces change, as when a film breaks or oil is renewed, and friction is another from then on.
 
     >>> friction_event(0.1, np.array([0.2, 0.6]), change=0.2, place=0.5).round(3).tolist()
-    [0.1, 0.12]
+    [0.1, 0.122]
     """
     since = np.clip((sequence - place) / SUDDEN, -500.0, 500.0)
-    return boundary_friction * (1.0 + change / (1.0 + np.exp(-since)))
+    return boundary_friction * np.exp(change / (1.0 + np.exp(-since)))

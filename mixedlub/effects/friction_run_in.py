@@ -21,7 +21,7 @@ from mixedlub.effect import LogNormal, Parameter, effect
             "time_constant",
             "-",
             LogNormal(0.1, 1.2),
-            "share of the programme after which the excess falls at its first pace no longer",
+            "share of the programme in which the excess would vanish at its first pace",
             symbol="q_r",
         ),
         Parameter(
