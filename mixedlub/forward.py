@@ -47,10 +47,10 @@ class Forward:
 
     def __init__(self, case: Case, table: Table, reading_scale: float | None = None) -> None:
         self.case = case
-        self.table = table
         recorded = table if case.recordings is None else case.recordings
         notes: list[str] = []
         with noted(notes):
+            self.table = table = case.kind.completed(table, recorded)
             self.inputs: dict[str, Any] = case.kind.inputs(case.system, case.folder, table, recorded)
             extra = case.kind.extra_calibration(case.system, recorded)
         self.notes = tuple(notes)

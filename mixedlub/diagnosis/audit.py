@@ -25,6 +25,7 @@ MOST_SLIDING = 10.0
 """Slide-roll ratios above it are more likely percent: 2 is pure sliding, more needs surfaces that run against it."""
 SLIP_WITHIN = 2.0
 """How far a slip of the unit may be off its power of ten: the base model itself is that good."""
+THINNEST_OIL = 0.4
 STUCK_ROWS, STUCK_SHARE = 5, 0.2
 """A value that stands in so many rows, and in such a share of them, is looked at."""
 STUCK_STEPS, STUCK_SPAN = 3.0, 0.05
@@ -51,6 +52,9 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
     if case.kind.logarithmic and np.any(y <= 0):
         bad = float(y[y <= 0][0])
         raise InputError(f"readings of kind {case.kind.name!r} must be above zero", where=where, value=bad)
+    if case.quantity == "viscosity_mPa_s" and np.median(y) < THINNEST_OIL:
+        said = f"are below the {THINNEST_OIL} mPa s of the thinnest liquid that the model holds for; check the unit"
+        raise InputError(f"readings {said}", where=where, value=float(np.median(y)))
     base = forward.predict()
     if not np.isfinite(base).all():
         bad = int(rows["run"][~np.isfinite(base)][0])

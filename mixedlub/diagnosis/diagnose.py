@@ -99,6 +99,8 @@ def diagnose_case(
     forward = Forward(case, rows)
     y = np.asarray(rows[case.quantity], dtype=float)
     warnings = [*case.notes, *assumed, *_hidden(case, wanted, rows), *forward.notes, *audit(case, rows, y, forward)]
+    if wanted is not None:
+        warnings += [note for note in Forward(case, wanted).notes if note not in forward.notes]
     stated = is_stated(case, rows)
     found, times, test = _search(case, rows, forward, y, exclude, level, progress)
     case, rows = found.problem.case, found.problem.rows

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,7 @@ from mixedlub.effect import BetweenLog, LogNormal, Normal, Parameter
 from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out, programme
 from mixedlub.laws import drive
 from mixedlub.laws.oil import ZERO_CELSIUS
-from mixedlub.table import Column, Table
+from mixedlub.table import CaseWarning, Column, Table
 from profiles.errors import InputError
 
 SPEEDS = ("speed_rpm", "sliding_speed_m_s")
@@ -88,6 +89,24 @@ def _motor_torque(table: Table, recorded: Table, size: float) -> Inputs:
     return found if own is None else {**found, "motor_torque": column(table[own])}
 
 
+def completed(table: Table, recorded: Table) -> Table:
+    """Rows without the motor's torque: what the shaft and the usual friction ask for, else what is usual."""
+    if MOTOR_TORQUE.name in table or MOTOR_TORQUE.name not in recorded:
+        return table
+    motor = recorded[MOTOR_TORQUE.name]
+    if "torque_Nm" in table and "torque_Nm" in recorded:
+        torque = table["torque_Nm"] + np.median(motor - recorded["torque_Nm"])
+    else:
+        torque = np.full(len(table), np.median(motor))
+        warnings.warn(
+            f"{table.source} has neither {MOTOR_TORQUE.name} nor torque_Nm: predicted for the motor's usual torque, "
+            f"{torque[0]:.3g} N m",
+            CaseWarning,
+            stacklevel=2,
+        )
+    return Table({**table.columns, MOTOR_TORQUE.name: torque}, table.source)
+
+
 def _motor_column(table: Table) -> str | None:
     """The column that holds the motor's torque: its own channel, or the torque that loads the drive."""
     return next((name for name in (MOTOR_TORQUE.name, "torque_Nm") if name in table), None)
@@ -149,4 +168,5 @@ KIND = Kind(
     extra_calibration=extra_calibration,
     part_rigs=(NO_GEARS,),
     channels=(MOTOR_TORQUE,),
+    completed=completed,
 )

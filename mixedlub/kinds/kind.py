@@ -31,6 +31,7 @@ class Kind:
     ``logarithmic`` kinds span decades and are compared by the logarithm of the reading. ``part_rigs`` are the
     names in the column ``rig`` whose readings are compared with a part of the base model. ``channels`` are what
     the instrument tells of itself beside the reading: read as columns, but no condition of the test.
+    ``completed(table, recorded)`` adds to rows that were not recorded what the channels would tell there.
     ``limits(system)`` are the lowest and highest values that a column can have on this rig, by its name.
     """
 
@@ -45,6 +46,7 @@ class Kind:
     logarithmic: bool = False
     part_rigs: tuple[str, ...] = ()
     channels: tuple[Column, ...] = ()
+    completed: Callable[[Table, Table], Table] = lambda table, recorded: table
     limits: Callable[[config.System], Mapping[str, tuple[float, float]]] = lambda system: {}
 
 

@@ -21,6 +21,8 @@ PRESSURE_SPREAD = 0.35
 SLOPE_SPREAD = 0.5
 PRESSURE_SLOPE_SPREAD = 0.4
 HUNDRED_KELVIN = 100.0
+THINNEST, THICKEST = 0.4e-6, 1.0
+"""Kinematic viscosities (m^2/s) between which the ordinate of D341 is used."""
 LEVEL = "viscosity_level"
 """What the level was moved to, for the slope that is turned about it."""
 
@@ -38,7 +40,8 @@ def missing(system: config.System) -> tuple[str, ...]:
 def moved(oil: Lubricant, pivot: float, level: float = 1.0, slope: float = 1.0) -> Lubricant:
     """The oil with its kinematic viscosity at the pivot (K) and its slope in ASTM D341 multiplied.
 
-    Both act on the ordinate of D341, so that together they give every oil that keeps to it.
+    Both act on the ordinate of D341, so that together they give every oil that keeps to it and is not thinner than
+    THINNEST at the pivot, where the ordinate ends.
 
     >>> oil = Lubricant("oil", (313.15, 373.15), (34e-6, 7.2e-6), (15e-9, 13e-9), 850.0, 6.5e-4, 5e6, 0.14, 2000.0)
     >>> flat = moved(oil, 313.15, slope=0.5)
@@ -46,9 +49,10 @@ def moved(oil: Lubricant, pivot: float, level: float = 1.0, slope: float = 1.0) 
     [34.0, 14.3]
     """
     at_pivot = oil.viscosity(np.array(pivot)) / oil.density(np.array(pivot))
-    before, after = to_d341(at_pivot), to_d341(level * at_pivot)
+    before, after = to_d341(at_pivot), to_d341(np.maximum(level * at_pivot, THINNEST))
     known = (to_d341(np.array(nu)) for nu in oil.kinematic_viscosity)
-    first, second = (float(from_d341(after + slope * (z - before))) for z in known)
+    lowest, highest = to_d341(np.array([THINNEST, THICKEST]))
+    first, second = (float(from_d341(np.clip(after + slope * (z - before), lowest, highest))) for z in known)
     return replace(oil, kinematic_viscosity=(first, second))
 
 
