@@ -146,22 +146,32 @@ def tidy(unit: str) -> str:
     """A unit as the table writes it.
 
     >>> tidy("µm"), tidy("°C"), tidy("N·m"), tidy("N m"), tidy("Pa s")
-    ('um', 'degc', 'n.m', 'n.m', 'pa.s')
+    ('um', 'degC', 'N.m', 'N.m', 'Pa.s')
     """
     plain = unit.strip().replace("µ", "u").replace("μ", "u").replace("°", "deg").replace("·", ".")
-    return re.sub(r"\s+", ".", plain).lower()
+    return re.sub(r"\s+", ".", plain)
 
 
-READ = {
-    name: {form: change for unit, change in units.items() for form in (tidy(unit), tidy(unit).replace(".", ""))}
-    for name, units in UNITS.items()
-}
-"""The units as they are compared, with and without the dot of a product."""
+def change_to(unit: str, wanted: str) -> tuple[float, float] | None:
+    """Factor and what is added, from a unit as written to a unit of UNITS; None where it is not one that is read.
+
+    Capitals are overlooked where they tell nothing, so never those of milli and mega.
+
+    >>> change_to("N mm", "Nm"), change_to("RPM", "rpm"), change_to("mPa", "MPa"), change_to("MN", "N")
+    ((0.001, 0.0), (1.0, 0.0), None, None)
+    """
+    written = tidy(unit)
+    for known, change in UNITS[wanted].items():
+        for form in (tidy(known), tidy(known).replace(".", "")):
+            same_prefix = written[:1] == form[:1] or form[:1] not in "mM"
+            if written == form or (written.lower() == form.lower() and same_prefix):
+                return change
+    return None
 
 
 def is_unit(text: str) -> bool:
     """Whether a text is one of the units that are read."""
-    return any(tidy(text) in units for units in READ.values())
+    return any(change_to(text, wanted) is not None for wanted in UNITS)
 
 
 def convert(values: np.ndarray, unit: str, target: Target, where: str) -> np.ndarray:
@@ -170,9 +180,9 @@ def convert(values: np.ndarray, unit: str, target: Target, where: str) -> np.nda
     >>> convert(np.array([1.5]), "mm/s", BY_NAME["entrainment_speed_m_s"], "file").tolist()
     [0.0015]
     """
-    known = READ[target.unit]
-    if tidy(unit) not in known:
+    change = change_to(unit, target.unit)
+    if change is None:
         hint = nearest(unit, UNITS[target.unit])
         raise InputError(f"unit of {target.name} is not known; {hint}", where=where, value=unit)
-    factor, added = known[tidy(unit)]
+    factor, added = change
     return values * factor + added

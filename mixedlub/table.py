@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub.headers import READ, split, target_of, tidy
+from mixedlub.headers import change_to, split, target_of
 from profiles.errors import InputError, nearest
 
 
@@ -165,7 +165,7 @@ def _other_unit(column: Column, unknown: list[str]) -> str | None:
     """The header that is the column in another unit, one that the import converts."""
     for name in unknown:
         unit, target = split(name)[1], target_of(name)
-        if target is not None and target.name == column.name and unit and tidy(unit) in READ[target.unit]:
+        if target is not None and target.name == column.name and unit and change_to(unit, target.unit):
             return name
     return None
 

@@ -15,6 +15,8 @@ def set_points(values: np.ndarray) -> np.ndarray:
 
     >>> set_points(np.array([2.996, 8.994, 3.001, 9.003])).tolist()
     [3.0, 9.0, 3.0, 9.0]
+    >>> set_points(np.array([1000.0, 1010.0, 1000.0, 1010.0])).tolist()   # meant
+    [1000.0, 1010.0, 1000.0, 1010.0]
     >>> set_points(np.array([1.0, 1.01, 1.02, 1.03, 1.04, 1.05])).tolist()   # swept
     [1.0, 1.01, 1.02, 1.03, 1.04, 1.05]
     """
@@ -30,6 +32,10 @@ def set_points(values: np.ndarray) -> np.ndarray:
     allowed = WIDEST * np.maximum(NEAR_SIZE * np.abs(ranked[first]), NEAR_SPAN * (ranked[-1] - ranked[0]))
     if not width.any() or np.any(width > allowed) or 2 * count.size > values.size:
         return values
+    exact, times = np.unique(ranked, return_counts=True)
+    repeated = np.searchsorted(ranked, exact[times > 1])
+    if np.unique(label[repeated]).size < repeated.size:
+        return values  # two values that were each run again stand in one cluster: they were meant
     found = np.empty(values.size)
     last = first + count - 1
     found[order] = np.array([roundest(low, high) for low, high in zip(ranked[first], ranked[last])])[label]
@@ -42,6 +48,8 @@ def roundest(low: float, high: float) -> float:
     >>> roundest(2.996, 3.001), roundest(59.2, 60.4), roundest(0.1234, 0.1234)
     (3.0, 60.0, 0.1234)
     """
+    if low <= 0.0 <= high:
+        return 0.0
     middle = 0.5 * (low + high)
     tried = (float(f"{middle:.{digits}g}") for digits in range(1, 16))
     return next((x for x in tried if low <= x <= high), float(middle))

@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Iterable
 
 from mixedlub.config import KINDS
-from mixedlub.headers import BY_NAME, READ, TEXT_COLUMNS, split, target_of, tidy
+from mixedlub.headers import BY_NAME, TEXT_COLUMNS, change_to, split, target_of
 from mixedlub.importers.sheet import Cells, is_number
 from mixedlub.kinds import kind as kind_of
 
@@ -64,7 +64,7 @@ def likeness(column: str, header: str, cells: Iterable[str] = ()) -> float:
     target = BY_NAME.get(column)
     if target is None:
         return _overlap(words, column.replace("_", " "))
-    fits = unit is not None and tidy(unit) in READ[target.unit]
+    fits = unit is not None and change_to(unit, target.unit) is not None
     if unit is not None and not fits:
         return 0.0
     own = split(column)[0]

@@ -40,6 +40,8 @@ def read_sheet(text: str, name: str) -> Sheet:
     separator = max(SEPARATORS, key=lambda mark: _regularity([line.count(mark) for _, line in numbered]))
     reader = csv.reader((line for _, line in numbered), delimiter=separator)
     rows = [(numbered[reader.line_num - 1][0], [cell.strip() for cell in row]) for row in reader]
+    if len(rows) < 2:
+        raise InputError("needs a header line and at least one row", where=name)
     if separator != ",":
         rows = [(number, [_point(cell) for cell in row]) for number, row in rows]
     first, last = _extent(rows, name)
@@ -69,20 +71,43 @@ def _extent(rows: Sequence[Line], name: str) -> tuple[int, int]:
     best = (0, 0)
     for i in range(1, len(rows)):
         header, row = rows[i - 1][1], rows[i][1]
-        words = sum(bool(cell) for cell in header)
-        if len(header) != len(row) or words < 2 or _numbers(header) or not _numbers(row):
+        if len(header) != len(row) or not _are_words(header) or not _numbers(row):
             continue
         end = i
-        while end < len(rows) and len(rows[end][1]) == len(header):
+        while end < len(rows) and len(rows[end][1]) == len(header) and not _are_words(rows[end][1]):
             end += 1
         if end - i > best[1] - best[0]:
             best = (i, end)
-    first, last = best if best[1] else (1, len(rows))
+    if not best[1]:
+        best = (1, len(rows))
+    first, last = best
     width = len(rows[first - 1][1])
-    for number, row in rows[first:last] if not best[1] else rows[last:]:
-        if len(row) != width and (not best[1] or any(_numbers(later) > 1 for _, later in rows[last:])):
-            raise InputError(f"has not as many cells as the header ({width})", where=f"{name}: line {number}")
+    _refuse_other_rows(rows[: first - 1], rows[last:], width, name)
+    for number, row in rows[first:last]:
+        if len(row) != width:
+            raise InputError(_uneven(width), where=f"{name}: line {number}")
     return first, last
+
+
+def _refuse_other_rows(before: Sequence[Line], after: Sequence[Line], width: int, name: str) -> None:
+    """Rows of numbers beside the table are data that would be lost: a row of another length, or another table."""
+    if any(_numbers(row) > 1 for _, row in after):
+        number, row = after[0]
+        rule = _uneven(width) if len(row) != width else "begins another table; put one table in a file"
+        raise InputError(rule, where=f"{name}: line {number}")
+    lost = [number for number, row in before if _numbers(row) > 1]
+    if len(lost) > 1:
+        rule = "holds other rows of numbers before its longest table; put one table in a file"
+        raise InputError(rule, where=f"{name}: lines {lost[0]} to {lost[-1]}")
+
+
+def _uneven(width: int) -> str:
+    return f"has not as many cells as the header ({width})"
+
+
+def _are_words(cells: Sequence[str]) -> bool:
+    """Whether a line could be a header: some words and no numbers."""
+    return sum(bool(cell) for cell in cells) > 1 and not _numbers(cells)
 
 
 def _numbers(cells: Sequence[str]) -> int:
@@ -110,8 +135,10 @@ def _told_apart(header: Sequence[str]) -> list[str]:
     for h in header:
         seen[h] = seen.get(h, 0) + 1
         words, unit = split(h)
-        again = f"{words} #{seen[h]}" + (f" ({unit})" if unit else "")
-        found.append(h if seen[h] == 1 else again)
+        again = h if seen[h] == 1 else f"{words} #{seen[h]}" + (f" ({unit})" if unit else "")
+        while h and again in found:
+            again = f"{again} #{seen[h]}"
+        found.append(again)
     return found
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -29,3 +31,16 @@ def test_predictions_fit_no_worse_than_calibration_alone(name, request) -> None:
     }
     assert off["answer"] < 1.05 * off["calibrated"]
     assert off["answer"] < 1.3
+
+
+def test_a_part_of_the_way_is_taken_where_a_law_curves() -> None:
+    """The tangent at 1 of exp(z) = e^1.5 leads to 1.65: all of the way is best; at -1 it leads to 10.2, too far."""
+    for start, nearest in ((1.0, 1.65), (-1.0, 1.8)):
+        tangent = start + np.exp(1.5 - start) - 1.0
+        curved = SimpleNamespace(
+            y=np.full(40, np.exp(1.5)), sd=np.full(40, 0.3), predict=lambda names, z: np.full(40, np.exp(z[0]))
+        )
+        z, _ = settled(
+            curved, (), np.array([start]), np.array([tangent]), np.zeros(40), lambda p: np.zeros((40, 0)), np.ones(40)
+        )
+        assert z[0] == pytest.approx(nearest, abs=0.15)

