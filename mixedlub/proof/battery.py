@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from pathlib import Path
@@ -202,23 +202,34 @@ def generate(
     progress: Callable[[int, int], None] | None = None,
 ) -> list[Path]:
     """Write a battery of cases into a folder, or what is missing of it; returns the case folders."""
+    return written(folder, {"seed": seed, "cases": cases}, plan(seed, cases), make, jobs, progress)
+
+
+def written(
+    folder: Path,
+    mark: Mapping[str, Any],
+    orders: Sequence[Any],
+    make: Callable[[int, int, Any, Path], object],
+    jobs: int,
+    progress: Callable[[int, int], None] | None,
+) -> list[Path]:
+    """The cases of some orders, made in ``jobs`` processes unless they are there, under the mark of their battery."""
     folder.mkdir(parents=True, exist_ok=True)
     seal = folder / "battery.json"
-    mark = {"seed": seed, "cases": cases}
     if seal.exists() and json.loads(seal.read_text()) != mark:
         raise InputError("the folder holds a battery of another seed or size", where=str(folder), value=mark)
     seal.write_text(json.dumps(mark))
-    orders = plan(seed, cases)
+    seed, count = mark["seed"], len(orders)
     if jobs == 1:
         for done, order in enumerate(orders):
             make(seed, done, order, folder)
             if progress:
-                progress(done + 1, cases)
+                progress(done + 1, count)
     else:
         with ProcessPoolExecutor(jobs) as pool:
             work = [pool.submit(make, seed, i, order, folder) for i, order in enumerate(orders)]
             for done, future in enumerate(work):
                 future.result()
                 if progress:
-                    progress(done + 1, cases)
+                    progress(done + 1, count)
     return [folder / order.name for order in orders]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -12,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from mixedlub.proof.answers import IDENTIFIABLE
-from mixedlub.proof.battery import toml
+from mixedlub.proof.battery import toml, written
 from mixedlub.proof.bench import drive, film, history, mesh, viscosity
 from mixedlub.proof.bench.fit import Aim, best, rivals, slopes
 from mixedlub.proof.bench.stage import Act, Bench, Form
@@ -326,23 +325,5 @@ def generate(
     folder: Path, seed: int, cases: int = 200, jobs: int = 1, progress: Callable[[int, int], None] | None = None
 ) -> list[Path]:
     """Write a battery of cases into a folder, or what is missing of it; returns the case folders."""
-    folder.mkdir(parents=True, exist_ok=True)
-    seal = folder / "battery.json"
     mark = {"rigs": list(ROOMS), "seed": seed, "cases": cases}
-    if seal.exists() and json.loads(seal.read_text()) != mark:
-        raise InputError("the folder holds another battery", where=str(folder), value=mark)
-    seal.write_text(json.dumps(mark))
-    orders = plan(seed, cases)
-    if jobs == 1:
-        for done, order in enumerate(orders):
-            make(seed, done, order, folder)
-            if progress:
-                progress(done + 1, cases)
-    else:
-        with ProcessPoolExecutor(jobs) as pool:
-            work = [pool.submit(make, seed, i, order, folder) for i, order in enumerate(orders)]
-            for done, future in enumerate(work):
-                future.result()
-                if progress:
-                    progress(done + 1, cases)
-    return [folder / order.name for order in orders]
+    return written(folder, mark, plan(seed, cases), make, jobs, progress)
