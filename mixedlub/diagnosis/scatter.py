@@ -63,13 +63,16 @@ def more(found: Search) -> tuple[float, float]:
     weights = found.log_weights
     best, times = -np.inf, 1.0
     for key, weight in weights.items():
-        if isinstance(key, str):
-            residual, unbent = found.unknown.fit.residual, weight
-        else:
-            residual, unbent = found.fits[key].residual, weight - found.scores[key] + found.fits[key].evidence
-        gain, factor = louder(residual)
-        if unbent + gain > best:
-            best, times = unbent + gain, factor
+        fit, bent = (
+            (found.unknown.fit, 0.0)
+            if isinstance(key, str)
+            else (found.fits[key], found.scores[key] - found.fits[key].evidence)
+        )
+        # The evidence of a fit far behind is carried over from another noise: it is no more than its likelihood.
+        carried = max(fit.evidence - float(log_likelihood(fit.residual)[0].sum()), 0.0)
+        gain, factor = louder(fit.residual)
+        if weight - bent - carried + gain > best:
+            best, times = weight - bent - carried + gain, factor
     return best - max(weights.values()), times
 
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.scatter import CLEAR, more
 
 Make = Callable[..., Path]
 TRUE = "noise = { relative = 0.02, absolute = 0.0002 }"
@@ -85,3 +87,12 @@ def test_noise_that_nobody_states_is_found_under_an_effect(
     assert np.median(d.found.problem.sd / d.readings) == pytest.approx(0.02, rel=0.25)
     assert d.posterior.verdict == ("sensor_gain",)
     assert "the noise of a reading was estimated as" in " ".join(d.warnings)
+
+
+def test_a_fit_whose_evidence_is_carried_over_raises_no_noise(offset: Diagnosis) -> None:
+    """Far behind the best a fit only keeps its distance when the noise is settled anew: its residuals grew since."""
+    found = offset.found
+    fit = found.fits["churning",]
+    wild = replace(found, fits={**found.fits, ("churning",): replace(fit, residual=20.0 * fit.residual)})
+    assert more(found)[0] < CLEAR
+    assert more(wild)[0] < CLEAR
