@@ -27,7 +27,7 @@ ORDERS = (
     Order("case_000", "film", "none", (), "clear", outliers=True),
     Order("case_001", "film", "measurement", ("fringe_step",), "clear"),
     Order("case_002", "friction_history", "single", ("contact_creep",), "faint"),
-    Order("case_003", "friction_history", "unknown", ("dosed",), "clear"),
+    Order("case_003", "friction_history", "unknown", ("humming",), "clear"),
     Order("case_004", "friction_map", "single", ("stribeck",), "clear"),
     Order("case_005", "friction_map", "pair", ("stribeck", "direction_dependence"), "clear"),
     Order("case_006", "viscosity", "single", ("viscosity_drift",), "clear"),

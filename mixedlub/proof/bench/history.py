@@ -124,6 +124,14 @@ def histories(time: np.ndarray) -> dict[str, tuple[Form, ...]]:
     def worn_in(state: Any, strength: float, pace: float) -> Any:
         return scaled(state, 1 + 0.3 * strength * (1 - np.log1p(time / pace) / np.log1p(1 / pace)))
 
+    def dosed(state: Any, strength: float, when: float) -> Any:
+        """An additive is dosed: friction steps from one reading to the next."""
+        return scaled(state, 1 + 0.1 * strength * (time > when))
+
+    def renewed(state: Any, strength: float, when: float) -> Any:
+        """Oil is renewed: friction goes over to another level within three hundredths of the programme."""
+        return scaled(state, 1 + 0.1 * strength * np.clip((time - when) / 0.03, 0.0, 1.0))
+
     fall, either = strength(0.0, 6.0), strength(-2.2, 5.0)
     pace = Knob("pace", 0.01, 1.0, (0.03, 0.25))
     waves = Knob("waves", 0.8, 3.2, (1.2, 2.4))
@@ -159,7 +167,18 @@ def histories(time: np.ndarray) -> dict[str, tuple[Form, ...]]:
              (strength(-20.0, 20.0), *(Knob(f"term_{k}", -20.0, 20.0, (0.0, 0.0)) for k in range(2, 13))),
              "cosine series", 2, rarity=0.0),
     )  # fmt: skip
-    return {"friction_run_in": run_in, "tribofilm_growth": growth, "two_time_scales": two, "wandering": free}
+    when = (strength(-5.0, 8.0), Knob("when", 0.2, 0.8, (0.3, 0.75)))
+    event = (
+        Form("friction_event", "boundary", dosed, when, "sudden", 1),
+        Form("friction_event", "boundary", renewed, when, "over a while", 1),
+    )
+    return {
+        "friction_run_in": run_in,
+        "tribofilm_growth": growth,
+        "two_time_scales": two,
+        "friction_event": event,
+        "wandering": free,
+    }
 
 
 def creeps(slip: np.ndarray) -> tuple[Form, ...]:
@@ -195,10 +214,6 @@ def _breaks(time: np.ndarray) -> tuple[Form, ...]:
     def multiplied(state: Any, factor: np.ndarray) -> Any:
         return replace(state, recorded=state.recorded * factor)
 
-    def dosed(state: Any, strength: float, when: float) -> Any:
-        """Friction steps from one reading to the next."""
-        return multiplied(state, 1 + 0.1 * strength * (time > when))
-
     def humming(state: Any, strength: float, waves: float) -> Any:
         """Something turns slowly in the rig: 14 to 25 swings in the programme."""
         return multiplied(state, 1 + 0.06 * strength * np.sin(2 * np.pi * waves * time))
@@ -213,7 +228,6 @@ def _breaks(time: np.ndarray) -> tuple[Form, ...]:
 
     either = strength(-5.0, 8.0)
     return (
-        Form("dosed", "loss", dosed, (either, Knob("when", 0.2, 0.8, (0.3, 0.75))), "constructed"),
         Form("humming", "loss", humming, (either, Knob("waves", 12.0, 28.0, (14.0, 25.0))), "constructed"),
         Form(
             "scuffing", "loss", scuffing, (strength(0.0, 8.0), Knob("reach", 0.02, 0.12, (0.04, 0.09))), "constructed"
