@@ -1,7 +1,5 @@
 """A film that stays when the speed goes to nothing."""
 
-import numpy as np
-
 from mixedlub.effect import LogNormal, Parameter, effect
 
 
@@ -25,7 +23,7 @@ from mixedlub.effect import LogNormal, Parameter, effect
 def boundary_film(film_thickness, *, thickness, joining):
     """Adsorbed or reacted layers hold the surfaces apart where the fluid film would be thinner than they are.
 
-    >>> (boundary_film(np.array([3e-9, 400e-9]), thickness=4e-9, joining=2.0) * 1e9).round(2).tolist()
+    >>> [round(boundary_film(h, thickness=4e-9, joining=2.0) * 1e9, 2) for h in (3e-9, 400e-9)]
     [5.0, 400.02]
     """
     return film_thickness * (1.0 + (thickness / film_thickness) ** joining) ** (1.0 / joining)
