@@ -19,6 +19,7 @@ from mixedlub.table import CaseWarning, Table
 VISCOSITY_SPREAD = 1.0
 PRESSURE_SPREAD = 0.35
 SLOPE_SPREAD = 0.5
+DENSITY_SPREAD = 0.04
 PRESSURE_SLOPE_SPREAD = 0.4
 HUNDRED_KELVIN = 100.0
 THINNEST, THICKEST = 0.4e-6, 1.0
@@ -84,6 +85,10 @@ def calibrations(system: config.System, temperature: np.ndarray, *, level: float
                 "viscosity_slope", "-", LogNormal(1.0, SLOPE_SPREAD), "factor on the assumed ASTM D341 slope"
             )
             found.append(Calibration(slope, _turned(oil, pivot, level), 1.0, ("viscosity", "oil_temperature")))
+            density = Parameter(
+                "density", "-", LogNormal(1.0, DENSITY_SPREAD), "factor on the density between the two viscosities"
+            )
+            found.append(Calibration(density, _scaled("viscosity", 1.0), 1.0, ("viscosity",)))
     if "pressure_viscosity" in gaps:
         parameter = Parameter(
             "pressure_viscosity", "-", LogNormal(1.0, PRESSURE_SPREAD), "factor on the assumed pressure-viscosity"
