@@ -35,8 +35,6 @@ def read_sheet(text: str, name: str) -> Sheet:
         for number, line in enumerate(text.splitlines(), start=1)
         if line.strip() and not line.lstrip().startswith("#")
     ]
-    if len(numbered) < 2:
-        raise InputError("needs a header line and at least one row", where=name)
     separator = max(SEPARATORS, key=lambda mark: _regularity([line.count(mark) for _, line in numbered]))
     reader = csv.reader((line for _, line in numbered), delimiter=separator)
     rows = [(numbered[reader.line_num - 1][0], [cell.strip() for cell in row]) for row in reader]

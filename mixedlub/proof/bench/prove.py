@@ -44,6 +44,7 @@ class Steady:
     def __call__(self, case: Path, out: Path) -> None:
         try:
             self.diagnose(case, out)
+        # Whatever goes wrong in the tool on trial is its failure on this case and no end of the trial.
         except Exception:
             (out / BROKEN).write_text(traceback.format_exc())
 
