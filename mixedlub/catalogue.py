@@ -38,7 +38,7 @@ def share(effect_id: str, rig: str) -> np.ndarray | None:
     """What the effect adds to each reading of a standard rig over the reading; None where it cannot act."""
     forward = standard.forward(rig)
     effect = catalogue()[effect_id]
-    if effect not in forward.effects():
+    if effect_id not in {e.id for e in forward.effects()}:
         return None
     base = forward.predict()
     return (forward.predict(None, {effect_id: shown(effect)}) - base) / base
@@ -146,6 +146,7 @@ def _page(effect: Effect) -> str:
     indent = max(_INDENT, 2 + max(map(len, labels)))
     for p, label in zip(effect.parameters, labels, strict=True):
         off = "" if p.null is None else f"; off at {p.null:g}"
+        off += f"; free in recordings of {', '.join(p.kinds)}" if p.kinds else ""
         parts.append(_entry(label, f"{p.meaning}; {p.prior}{_unit(p.unit)}{off}", indent))
     parts += ["", *_on_rigs(effect), "", _entry("separated by", effect.separated_by)]
     return "\n".join(parts)

@@ -79,7 +79,7 @@ class Model:
 
     def _values(self, parameters: Parameters | None) -> dict[str, dict[str, float]]:
         values = {e.id: e.nulls for e in self.effects}
-        values.update({k: dict(v) for k, v in (parameters or {}).items()})
+        values.update({k: {**values.get(k, {}), **v} for k, v in (parameters or {}).items()})
         return values
 
 

@@ -6,7 +6,7 @@ import importlib
 import inspect
 import pkgutil
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib.metadata import entry_points
 from math import exp, log, sinh
@@ -104,6 +104,7 @@ class Parameter:
 
     ``symbol`` is the letter it has in the effect's equation, as LaTeX.
     ``scan`` is how many values a search must try, where readings are matched in many separate ranges of it.
+    ``kinds`` restricts the kinds of recording in which it is free (empty: all); in others it stays at its null.
     """
 
     name: str
@@ -113,6 +114,12 @@ class Parameter:
     null: float | None = None
     symbol: str = ""
     scan: int = 0
+    kinds: tuple[str, ...] = ()
+
+    @property
+    def off(self) -> float:
+        """The null; the middle of the prior where there is none."""
+        return self.prior.value(0.0) if self.null is None else self.null
 
     @property
     def typical(self) -> tuple[float, float]:
@@ -139,6 +146,13 @@ class Effect:
     after: tuple[str, ...] = ()
     kinds: tuple[str, ...] = ()
     odds: float = 1.0
+    contains: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    held: Mapping[str, float] = field(default_factory=dict)
+
+    def holding(self, values: Mapping[str, float]) -> Effect:
+        """The same effect with some of its parameters held at these values, no longer among its parameters."""
+        free = tuple(p for p in self.parameters if p.name not in values)
+        return replace(self, parameters=free, held={**self.held, **values})
 
     @property
     def summary(self) -> str:
@@ -148,7 +162,7 @@ class Effect:
     @property
     def nulls(self) -> dict[str, float]:
         """Parameter values that switch the effect off; the middle of the prior where none does."""
-        return {p.name: p.prior.value(0.0) if p.null is None else p.null for p in self.parameters}
+        return {**self.held, **{p.name: p.off for p in self.parameters}}
 
     @property
     def middle(self) -> dict[str, float]:
@@ -157,7 +171,7 @@ class Effect:
 
     def values(self, z: np.ndarray) -> dict[str, float]:
         """Parameter values at standard-normal coordinates of the prior."""
-        return {p.name: p.prior.value(float(x)) for p, x in zip(self.parameters, z, strict=True)}
+        return {**self.held, **{p.name: p.prior.value(float(x)) for p, x in zip(self.parameters, z, strict=True)}}
 
 
 _registry: dict[str, Effect] = {}
@@ -176,6 +190,7 @@ def effect(
     after: tuple[str, ...] = (),
     kinds: tuple[str, ...] = (),
     odds: float = 1.0,
+    contains: Mapping[str, Mapping[str, float]] | None = None,
 ) -> Callable[[Callable[..., object]], Callable[..., object]]:
     """Register a law as an effect; its signature must say what the declaration says.
 
@@ -184,7 +199,8 @@ def effect(
     says whether the effect's share of the reading, (with - without)/without, grows (``"+"``), falls (``"-"``) or
     stays (``"0"``) as the condition grows; falling includes growing more negative. ``after`` names effects on
     the same quantity that come first; ``kinds`` restricts the kinds of recording (empty: all). ``odds`` below one
-    say that it is missing less often than others are, before any reading is seen.
+    say that it is missing less often than others are, before any reading is seen. ``contains`` names published
+    laws that it becomes at certain values of some parameters.
     """
     targets = (acts_on,) if isinstance(acts_on, str) else acts_on
 
@@ -221,6 +237,7 @@ def effect(
             after=after,
             kinds=kinds,
             odds=odds,
+            contains=MappingProxyType(dict(contains or {})),
         )
         return law
 
@@ -238,6 +255,17 @@ def catalogue() -> Mapping[str, Effect]:
         point.load()
     order = sorted(_registry.values(), key=lambda e: (STAGES.index(e.stage), e.id))
     return MappingProxyType({e.id: e for e in order})
+
+
+@cache
+def known_in(kind: str) -> Mapping[str, Effect]:
+    """The catalogue with only those parameters that are free in a kind of recording."""
+    return MappingProxyType(
+        {
+            e.id: e.holding({p.name: p.off for p in e.parameters if p.kinds and kind not in p.kinds})
+            for e in catalogue().values()
+        }
+    )
 
 
 def find(ids: list[str] | tuple[str, ...]) -> tuple[Effect, ...]:

@@ -12,7 +12,7 @@ import numpy as np
 from mixedlub.calibration import Calibration, calibrations
 from mixedlub.case import Case, noted
 from mixedlub.chain import Model, Parameters, Record, available
-from mixedlub.effect import Effect, catalogue
+from mixedlub.effect import Effect, known_in
 from mixedlub.kinds.kind import SCALE
 from mixedlub.table import Table
 
@@ -66,7 +66,7 @@ class Forward:
         self.inputs["reading_scale"] = reading_scale
 
     def _build(self, effects: tuple[str, ...]) -> Model:
-        known = catalogue()
+        known = known_in(self.case.kind.name)
         return Model(self.chain, tuple(self.inputs), ("reading",), [known[e] for e in effects])
 
     def predict(
@@ -97,9 +97,9 @@ class Forward:
         return Run(np.broadcast_to(reading, (len(self.table), 1))[:, 0] * self.scale, record, applied)
 
     def effects(self, exclude: Sequence[str] = ()) -> tuple[Effect, ...]:
-        """Effects of the catalogue that these rows could show."""
+        """Effects of the catalogue that these rows could show, with the parameters that are free in this kind."""
         return tuple(
             e
-            for e in catalogue().values()
+            for e in known_in(self.case.kind.name).values()
             if e.id not in exclude and available(e, self.chain, tuple(self.inputs), "reading", self.case.kind.name)
         )

@@ -15,6 +15,9 @@ USELESS, WEAK = 0.01, 0.1
 def next_test(d: Diagnosis) -> tuple[str, ...]:
     """What to run next, or that no test is worth it."""
     if d.posterior.verdict == "unknown":
+        period = wave_period(d)
+        if period:
+            return (f"Look for what on the rig swings every {period}: a thermostat, a turning part, the mains.",)
         place = ", ".join(range_text(cut) for cut in d.region.where) or "all conditions"
         return (f"To learn its form, refine and repeat the levels around {place}.",)
     if not d.next_tests:
@@ -29,6 +32,17 @@ def next_test(d: Diagnosis) -> tuple[str, ...]:
         "would settle which of two equally probable ones is right)."
     )
     return (*weak, run, *(f"{text[:1].upper()}{text[1:]}." for text in beyond(first.conditions, d.recorded.table)))
+
+
+def wave_period(d: Diagnosis) -> str:
+    """Period of the unnamed mismatch, with its unit, where it is a wave; empty where it is none."""
+    shape = d.found.unknown.best
+    if not shape.waves:
+        return ""
+    low, high = next(axis.ends for axis in d.found.space.axes if axis.name in shape.axes)
+    if shape.axes[0] == "sequence":
+        return f"{(high - low) / shape.waves:.3g} of the programme"
+    return amount((high - low) / shape.waves, shape.axes[0])
 
 
 def beyond(conditions: Mapping[str, float | str], recorded: Table) -> tuple[str, ...]:

@@ -102,13 +102,15 @@ def effect_records(d: Diagnosis) -> list[dict[str, Any]]:
     spread = np.sqrt(np.diag(refined.covariance))
     place = d.found.problem.calibration_size
     records = []
-    for e in effects_of(refined.fit.explanation):
+    for e in d.found.problem.effects(refined.fit.explanation):
         parameters = []
         for p in e.parameters:
             value, low, high = interval(p.prior, refined.z[place], spread[place])
             parameters.append({"name": p.name, "unit": p.unit, "value": value, "low90": low, "high90": high})
             place += 1
-        records.append({"id": e.id, "parameters": parameters, "source": e.source, "equation": e.equation})
+        record = {"id": e.id, "parameters": parameters, "source": e.source, "equation": e.equation}
+        laws = [{"law": c.law, "log_odds": c.log_odds} for c in d.contained if c.effect == e.id]
+        records.append({**record, "contains": laws} if laws else record)
     return records
 
 

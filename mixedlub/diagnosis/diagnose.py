@@ -11,6 +11,7 @@ import numpy as np
 
 from mixedlub.case import Case, read_case, read_conditions
 from mixedlub.diagnosis.audit import Doubt, audit
+from mixedlub.diagnosis.contained import Contained, contained
 from mixedlub.diagnosis.features import coordinates, is_held
 from mixedlub.diagnosis.fit import outlier_chance
 from mixedlub.diagnosis.heldout import HeldOut, LevelsOut
@@ -69,6 +70,7 @@ class Diagnosis:
     outlier_chance: np.ndarray
     region: Region
     heldout: HeldOut
+    contained: tuple[Contained, ...]
     next_tests: tuple[NextTest, ...]
     warnings: tuple[str, ...]
 
@@ -115,11 +117,14 @@ def diagnose_case(
     columns = [c for c in case.kind.columns if c.name in rows]
     varied = [c.name for c in columns if not is_held(c.name, rows[c.name])] or [c.name for c in columns]
     place = region(rows, varied, np.where(chance > 0.5, 0.0, recorded.mismatch_z))
+    laws = contained(found, judged.verdict)
     tests = _next_tests(found, judged, refined, columns)
     warnings += _doubts(judged, kept, chance, y, recorded)
     if not isinstance(judged.verdict, str):
         warnings += beyond_range(found.problem, judged.verdict, refined[judged.verdict].z)
-    return Diagnosis(case, found, test, judged, refined, recorded, other, chance, place, kept, tests, tuple(warnings))
+    return Diagnosis(
+        case, found, test, judged, refined, recorded, other, chance, place, kept, laws, tests, tuple(warnings)
+    )
 
 
 def _scatter_notes(found: Search, stated: bool, times: float) -> list[str]:

@@ -37,10 +37,22 @@ class Coordinate:
         """Whether the condition is a name, not a number."""
         return self.nodes.dtype.kind in "US"
 
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The lowest and the highest value."""
+        low, high = self.low, self.low + self.span
+        return (float(np.exp(low)), float(np.exp(high))) if self.logarithmic else (low, high)
+
     def scale(self, values: np.ndarray) -> np.ndarray:
         """Values on the 0..1 axis."""
         x = np.log(np.maximum(values, LEAST)) if self.logarithmic else values
         return (x - self.low) / self.span
+
+    def wave(self, values: np.ndarray, waves: float) -> np.ndarray:
+        """A cosine and a sine that go through ``waves`` periods from the lowest to the highest value."""
+        low, high = self.ends
+        turn = 2.0 * np.pi * waves * (values - low) / (high - low)
+        return np.column_stack([np.cos(turn), np.sin(turn)])
 
     def functions(self, values: np.ndarray, length: float) -> np.ndarray:
         """Columns whose random combination is a smooth function of the condition, variance one."""

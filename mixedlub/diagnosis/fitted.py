@@ -10,7 +10,6 @@ from mixedlub.diagnosis.answer import effect_records, interval, verdict_fit
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.headline import is_free
 from mixedlub.diagnosis.labels import effect_words, in_reach, number, with_names
-from mixedlub.diagnosis.problem import effects_of
 from mixedlub.effect import Effect, Parameter
 from mixedlub.headers import unit_of
 from mixedlub.report.plain import plain_equation, with_symbol
@@ -31,7 +30,7 @@ def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Table]:
     place = d.found.problem.calibration_size
     spread = np.sqrt(np.diag(verdict_fit(d).covariance))
     table, said = [COLUMNS], []
-    for e, record in zip(effects_of(d.posterior.verdict), effect_records(d), strict=True):
+    for e, record in zip(d.found.problem.effects(d.posterior.verdict), effect_records(d), strict=True):
         own = spread[place : place + len(e.parameters)]
         place += len(e.parameters)
         if is_free(e):

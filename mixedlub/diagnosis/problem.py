@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from mixedlub.case import Case
 from mixedlub.diagnosis.noise import seen_noise
-from mixedlub.effect import Effect, catalogue
+from mixedlub.effect import Effect, catalogue, known_in
 from mixedlub.forward import Forward, Run
 from mixedlub.table import Table
 
@@ -29,7 +30,8 @@ class Problem:
     ln(reading); ``level`` gives readings back.
 
     Every unknown has a standard-normal prior: calibration and effect parameters through their priors'
-    ``value``, errors shared within a set-up as columns of ``shared`` (in sigmas).
+    ``value``, errors shared within a set-up as columns of ``shared`` (in sigmas). ``held`` are parameters of
+    effects that are not unknown.
     """
 
     case: Case
@@ -38,6 +40,7 @@ class Problem:
     y: np.ndarray
     sd: np.ndarray
     shared: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
+    held: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
     @classmethod
     def of(cls, case: Case, rows: Table, forward: Forward, y: np.ndarray) -> Problem:
@@ -62,9 +65,14 @@ class Problem:
         """How many inputs calibration may move."""
         return len(self.forward.calibrations)
 
+    def effects(self, explanation: Explanation) -> list[Effect]:
+        """The effects an explanation names, with the parameters that are unknown here."""
+        known = known_in(self.case.kind.name)
+        return [known[name].holding(self.held.get(name, {})) for name in explanation]
+
     def size(self, explanation: Explanation) -> int:
         """Length of the coordinate vector of an explanation."""
-        return self.calibration_size + sum(len(e.parameters) for e in effects_of(explanation))
+        return self.calibration_size + sum(len(e.parameters) for e in self.effects(explanation))
 
     def calibration(self, z: np.ndarray) -> dict[str, float]:
         """Calibration values at coordinates z."""
@@ -74,7 +82,7 @@ class Problem:
     def parameters(self, explanation: Explanation, z: np.ndarray) -> dict[str, dict[str, float]]:
         """Effect parameters at coordinates z."""
         values, start = {}, self.calibration_size
-        for e in effects_of(explanation):
+        for e in self.effects(explanation):
             stop = start + len(e.parameters)
             values[e.id] = e.values(z[start:stop])
             start = stop
@@ -112,17 +120,18 @@ class Problem:
         size, reading = self.level(prediction), self.level(self.y)
         size = np.where(np.abs(size) < TRIFLE * np.abs(reading), reading, size)
         sd, shared = seen_noise(self.case, self.rows, size)
-        return Problem(self.case, self.rows, self.forward, self.y, sd, shared)
+        return replace(self, sd=sd, shared=shared)
 
     def take(self, rows: np.ndarray) -> Problem:
         """The problem on some of its rows."""
         table = self.rows.take(rows)
         forward = Forward(self.case, table, float(self.forward.inputs["reading_scale"]))
-        used = self.shared[rows]
-        return Problem(self.case, table, forward, self.y[rows], self.sd[rows], used[:, np.any(used != 0, axis=0)])
+        shared = self.shared[rows]
+        shared = shared[:, np.any(shared != 0, axis=0)]
+        return replace(self, rows=table, forward=forward, y=self.y[rows], sd=self.sd[rows], shared=shared)
 
 
 def effects_of(explanation: Explanation) -> list[Effect]:
-    """The effects an explanation names."""
+    """The effects an explanation names, with all their parameters."""
     known = catalogue()
     return [known[name] for name in explanation]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.diagnosis.fit import Fit, linear_fit, map_fit
-from mixedlub.diagnosis.problem import STEP, Problem, effects_of
+from mixedlub.diagnosis.problem import STEP, Problem
 
 SAMPLES = (12, 24, 40, 56)
 NEAR, APART, STARTS = 25.0, 1.2, 3
@@ -38,7 +38,7 @@ class Sampled:
 
 def sample(problem: Problem, name: str, none: Fit) -> Sampled:
     """Spread draws over the effect's prior, denser where its strength is middling, and the best of a scan."""
-    effect = effects_of((name,))[0]
+    effect = problem.effects((name,))[0]
     size = len(effect.parameters)
     z = spread(size, SAMPLES[min(size, len(SAMPLES)) - 1])
     blind = len(z)
@@ -58,7 +58,7 @@ def scan(problem: Problem, name: str, none: Fit, place: int, count: int) -> np.n
     """Own coordinates at the best few of evenly spread values of one parameter, the others fitted linearly at each."""
     from scipy.special import ndtri
 
-    size = len(effects_of((name,))[0].parameters)
+    size = len(problem.effects((name,))[0].parameters)
     others = [k for k in range(size) if k != place]
     fixed = np.hstack([none.slopes, problem.shared])
     tried = []

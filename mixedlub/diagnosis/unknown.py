@@ -1,6 +1,7 @@
 """The competing explanation that no effect of the catalogue is: a smooth function of the conditions.
 
-It is a share of the reading, an addition to it, or a factor on one quantity of the chain, such as the film.
+It is a share of the reading, an addition to it, or a factor on one quantity of the chain, such as the film. Beside
+smooth functions stand waves in time.
 """
 
 from __future__ import annotations
@@ -23,6 +24,9 @@ SIZES = (0.7, 2.0, 6.0, 20.0, 60.0)
 FACTORS = (0.03, 0.1, 0.3, 1.0)
 """How large one of a quantity of the chain may be, in its logarithm."""
 FULL = 6
+CLOCKS = ("time_s", "sequence")
+WAVES, MOST_WAVES, WAVE_STEP = 3.0, 200.0, 0.5
+"""Periods of a wave over the recording that are tried: fewer are smooth, half as many as readings are the most."""
 SAME = {"surfaces", "composite_roughness_um"}
 """The roughness is a function of the surfaces: together they say no more than these."""
 
@@ -31,7 +35,7 @@ SAME = {"surfaces", "composite_roughness_um"}
 class Shape:
     """One form an unnamed mismatch may have: along which axes, how smooth, how large, and what it rides on.
 
-    No axes stand for all of them; most laws depend on one or two.
+    No axes stand for all of them; most laws depend on one or two. A wave goes through ``waves`` periods of its axis.
     """
 
     axes: tuple[str, ...]
@@ -39,6 +43,7 @@ class Shape:
     size: float
     carrier: str
     interactions: bool
+    waves: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,9 +62,9 @@ class Unknown:
     z: np.ndarray
 
 
-def shapes(space: Coordinates, carriers: Carriers) -> list[Shape]:
+def shapes(space: Coordinates, values: list[np.ndarray], carriers: Carriers) -> list[Shape]:
     """All shapes that are tried, of size one."""
-    found = []
+    found = waves(space, values)
     for length in LENGTHS:
         for carrier in carriers:
             names = [axis.name for axis in space.axes]
@@ -77,6 +82,17 @@ def shapes(space: Coordinates, carriers: Carriers) -> list[Shape]:
     return found
 
 
+def waves(space: Coordinates, values: list[np.ndarray]) -> list[Shape]:
+    """Waves along time or place in the programme, from slow ones to one over two readings."""
+    found = []
+    for axis, where in zip(space.axes, values, strict=True):
+        if axis.name in CLOCKS:
+            levels = np.unique(where)
+            most = min(0.5 * np.ptp(levels) / np.median(np.diff(levels)), MOST_WAVES)
+            found += [Shape((axis.name,), 0.0, 1.0, READING, False, w) for w in np.arange(most, WAVES, -WAVE_STEP)]
+    return found
+
+
 def sizes(carrier: str) -> tuple[float, ...]:
     """The sizes that a shape on this carrier is tried with."""
     return SIZES if carrier in (READING, NOTHING) else FACTORS
@@ -84,7 +100,10 @@ def sizes(carrier: str) -> tuple[float, ...]:
 
 def shape_columns(shape: Shape, space: Coordinates, values: list[np.ndarray], carriers: Carriers) -> np.ndarray:
     """The shape's columns in sigmas."""
-    columns = space.columns(values, shape.length, shape.axes, shape.interactions)
+    if shape.waves:
+        columns = next(a.wave(v, shape.waves) for a, v in zip(space.axes, values, strict=True) if a.name in shape.axes)
+    else:
+        columns = space.columns(values, shape.length, shape.axes, shape.interactions)
     return shape.size * columns * carriers[shape.carrier][:, None]
 
 
@@ -107,18 +126,23 @@ def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np
     reference = linear_fit(target, np.hstack([fixed, columns_of(rich)]))
     tried: list[Shape] = []
     weighed: list[float] = []
-    for shape in shapes(space, rides):
+    for shape in shapes(space, values, rides):
         steps = sizes(shape.carrier)
         tried.extend(replace(shape, size=size) for size in steps)
         weighed.extend(_evidence_by_size(target, fixed, columns_of(shape), reference.weight, np.array(steps)))
+
+    def weighed_in_full(shape: Shape) -> Linear:
+        return linear_fit(target, np.hstack([fixed, columns_of(shape)]), reference.weight)
+
     order = np.argsort(weighed)[::-1]
-    full = {
-        int(i): linear_fit(target, np.hstack([fixed, columns_of(tried[i])]), reference.weight) for i in order[:FULL]
-    }
+    full = {int(i): weighed_in_full(tried[i]) for i in order[:FULL]}
     first = int(order[0])
     offset = full[first].evidence - weighed[first]
-    evidence = np.array([full[i].evidence if i in full else weighed[i] + offset for i in range(len(tried))])
     best = max(full, key=lambda i: full[i].evidence)
+    if tried[best].waves:
+        near = [replace(tried[best], waves=w) for w in tried[best].waves + WAVE_STEP * np.linspace(-1.0, 1.0, 21)]
+        tried[best], full[best] = max(((s, weighed_in_full(s)) for s in near), key=lambda found: found[1].evidence)
+    evidence = np.array([full[i].evidence if i in full else weighed[i] + offset for i in range(len(tried))])
     own = columns_of(tried[best])
     every = np.hstack([fixed, own])
     fit = full[best]
@@ -142,12 +166,12 @@ def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np
 def _mean_over_shapes(tried: list[Shape], evidence: np.ndarray) -> float:
     """Log mean evidence: half the weight on shapes of the reading, half on those inside the chain, if there are any.
 
-    In each half those of all conditions, of one and of two weigh the same, however many there are.
+    In each half those of all conditions, of one and of two, and waves weigh the same, however many there are.
     """
-    groups: dict[bool, dict[int, list[float]]] = {}
+    groups: dict[bool, dict[tuple[int, bool], list[float]]] = {}
     for shape, value in zip(tried, evidence, strict=True):
         halves = groups.setdefault(shape.carrier in (READING, NOTHING), {})
-        halves.setdefault(len(shape.axes), []).append(value)
+        halves.setdefault((len(shape.axes), shape.waves > 0.0), []).append(value)
     return _log_mean([_log_mean([_log_mean(alike) for alike in half.values()]) for half in groups.values()])
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.diagnosis.advice import next_test
+from mixedlub.diagnosis.advice import next_test, wave_period
 from mixedlub.diagnosis.carriers import NOTHING, READING
 from mixedlub.diagnosis.confusion import Confusion, confusion
 from mixedlub.diagnosis.diagnose import Diagnosis
@@ -33,6 +33,10 @@ SPREAD = (
     "differ from these."
 )
 TURNED = 0.2
+EVEN = 0.3
+"""Share that stays of a mismatch when its signs cancel, below which neither sign is told."""
+TIMES = 3.0
+"""Share of the reading from which it is told as a multiple."""
 """Share of readings whose sign in the figures is another one, from which that is explained."""
 LEFT_OUT = "What was left out?"
 BEST_TIED = "What was left out? Best of the tied candidates"
@@ -134,13 +138,15 @@ def _where(d: Diagnosis) -> tuple[str, ...]:
     place = ", ".join(range_text(cut) for cut in d.region.where) or "everywhere"
     part = missing(d)[1] / np.maximum(np.abs(d.recorded.predicted), 1e-300)
     share = float(np.median(np.abs(part[inside])))
-    sign = "more" if np.sum(z[inside]) > 0 else "less"
+    size = f"{number(100 * share)} % of the reading" if share < TIMES else f"{number(share)} times the reading"
+    way = float(np.sum(z[inside]) / max(np.sum(np.abs(z[inside])), 1e-300))
+    sign = "now more and now less" if abs(way) < EVEN else "more" if way > 0.0 else "less"
     said = [
         f"Above all at {place}: there the rig reads {sign} than the model without it, by {_rms(z[inside]):.1f} sigma "
-        f"(rms), {number(100 * share)} % of the reading in the median."
+        f"(rms), {size} in the median."
         if d.region.where
         else f"Everywhere: the rig reads {sign} than the model without it, by {_rms(z):.1f} sigma (rms), "
-        f"{number(100 * share)} % of the reading in the median."
+        f"{size} in the median."
     ]
     if (~inside).any():
         said.append(f"Elsewhere {_rms(z[~inside]):.1f} sigma.")
@@ -166,6 +172,7 @@ def _left_out(d: Diagnosis) -> Section:
             f"{with_names(effect_words(e.id))}, {probability_words(d, e.id)}, in {STAGE_WORDS[e.stage]}: {e.summary}",
             equation_sentence(e),
             f"Source: {e.source}",
+            *(c.text for c in d.contained if c.effect == e.id),
             f"To make sure: {e.separated_by}.",
         ]
     untold, table = parameters(d)
@@ -182,6 +189,8 @@ def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
     shape = d.found.unknown.best
     along = " and ".join(words_of(name) for name in shape.axes) or "all conditions together"
     said = [f"Of all smooth forms tried, the most probable varies with {along}, as {_carried(shape.carrier)}."]
+    if shape.waves:
+        said = [f"Of all forms tried, the most probable is a wave with a period of {wave_period(d)} in {along}."]
     if unnamed.stages:
         best, *others = unnamed.stages
         worse = [f"{words_of(o.quantity)} {best.evidence - o.evidence:.1f} nats worse" for o in others[:3]]

@@ -3,10 +3,12 @@
 import numpy as np
 
 from mixedlub.effect import LogNormal, Normal, Parameter, effect
+from mixedlub.laws.oil import roelands_coefficient, roelands_viscosity
 
 WARM = 313.15
 KELVIN = 100.0
 GLASS = 1e8
+SAMPLE = ("viscosity",)
 LOW = 0.15e9
 """Pressure up to which an inlet makes the film (Pa): what is measured there says little of the contact."""
 
@@ -15,6 +17,23 @@ LOW = 0.15e9
     stage="property",
     acts_on="contact_viscosity",
     parameters=(
+        Parameter(
+            "roelands",
+            "-",
+            Normal(0.5, 0.5),
+            "share of the way from the exponential of Barus to the power law of Roelands",
+            null=0.0,
+            symbol="r",
+            kinds=SAMPLE,
+        ),
+        Parameter(
+            "exponent",
+            "-",
+            Normal(0.6, 0.1),
+            "exponent of Roelands, one for all temperatures",
+            symbol="Z",
+            kinds=SAMPLE,
+        ),
         Parameter("slope", "-", LogNormal(1.0, 0.25), "slope above 0.15 GPa over that below", null=1.0, symbol="s"),
         Parameter(
             "bend_down",
@@ -39,18 +58,23 @@ LOW = 0.15e9
             "up_with_temperature", "-", Normal(-0.8, 1.0), "log change of the rise over 100 K, in 1/T", symbol="b"
         ),
     ),
-    equation=r"\ln\eta_p \leftarrow \ln\eta_p + G(f\ell) - G(\ell),\quad \ell = \ln\frac{\eta_p}{\eta_0},\ "
+    equation=r"\ln\eta_p \leftarrow \ln\eta_p + G(f\ell) - G(\ell),\quad "
+    r"\ell = (1 - r)\ln\frac{\eta_p}{\eta_0} + r\,\ell_R,\ "
+    r"\ell_R = (\ln\eta_0 + 9.67)\left[\left(1 + \frac{p_0}{p_r}\right)^Z - 1\right],\ "
+    r"p_r = 0.196\,\text{GPa},\quad "
     r"f = \left[1 + (s - 1)(1 - e^{-p_0/p_s})\right]\frac{e^{B'p_0} - e^{-C'p_0}}{(B' + C')\,p_0},\ "
     r"p_s = 0.15\,\text{GPa},\quad "
     r"B' = B e^{b z},\ C' = C e^{c z},\ "
     r"z = \frac{\theta_{oil} - \theta_r}{100\,\text{K}}\,\frac{\theta_r}{\theta_{oil}},\ "
     r"\theta_r = 313.15\,\text{K},\quad "
     r"G(x) = \frac{x}{[1 + (x/g)^8]^{1/8}},\ g = \ln\frac{10^8\,\text{Pa s}}{\eta_0}",
-    source="J. B. Irving, A. J. Barlow, J. Phys. E 4 (1971) 232, double exponential of pressure",
+    source="J. B. Irving, A. J. Barlow, J. Phys. E 4 (1971) 232, double exponential of pressure; on C. J. A. Roelands, "
+    "thesis, Delft 1966, as written by L. Houpert, J. Tribol. 107 (1985) 241",
     fingerprint={"speed": "+"},
     separated_by="a high-pressure viscometer at two temperatures: an exponential is straight in a log plot, Roelands "
     "only bends down, a liquid near its glass bends up again",
     odds=0.5,
+    contains={"Roelands": {"roelands": 1.0, "slope": 1.0, "bend_down": 0.0, "bend_up": 0.0}},
 )
 def pressure_viscosity_law(
     contact_viscosity,
@@ -58,6 +82,8 @@ def pressure_viscosity_law(
     hertz_pressure,
     oil_temperature,
     *,
+    roelands,
+    exponent,
     slope,
     bend_down,
     bend_up,
@@ -66,28 +92,33 @@ def pressure_viscosity_law(
 ):
     """The logarithm of viscosity rises more slowly with pressure at first and faster again near the glass.
 
-    At contact pressures Roelands' law, the base of gears and discs, has most of the bend already; the
-    coefficient that makes the film belongs to low pressure, and the slope in the contact need not be its. Both
-    bends change exponentially with 1/T.
-    It levels off at a glass. The glass's 1e8 Pa s and the 0.15 GPa make the form belong to Pa s and Pa.
+    At contact pressures Roelands' law, the base of gears and discs, has most of the bend already; a sample in a
+    viscometer starts from the exponential of Barus. The coefficient that makes the film belongs to low pressure,
+    and the slope in the contact need not be its. Both bends change exponentially with 1/T.
+    It levels off at a glass. The glass's 1e8 Pa s, the 0.15 GPa, 9.67 and p_r make the form belong to Pa s and Pa.
 
-    >>> x = pressure_viscosity_law(np.exp(10.0), 1.0, 0.5e9, 313.15, slope=1.0, bend_down=2e-9, bend_up=0.0,
-    ...     down_with_temperature=0.0, up_with_temperature=0.0)
+    >>> rest = dict(down_with_temperature=0.0, up_with_temperature=0.0, bend_up=0.0, slope=1.0, exponent=0.53135)
+    >>> x = pressure_viscosity_law(np.exp(10.0), 1.0, 0.5e9, 313.15, roelands=0.0, bend_down=2e-9, **rest)
     >>> round(float(np.log(x)), 1)   # 10 (1 - exp(-1))/1 = 6.32
     6.3
+    >>> x = pressure_viscosity_law(1.0, 0.01489, 0.9642e9, 313.15, roelands=1.0, bend_down=0.0, **rest)
+    >>> round(float(x), 1)
+    80.1
     """
     warmer = (oil_temperature - WARM) / KELVIN * (WARM / oil_temperature)
     down = bend_down * np.exp(down_with_temperature * warmer) * hertz_pressure
     up = bend_up * np.exp(up_with_temperature * warmer) * hertz_pressure
     steeper = 1.0 - (slope - 1.0) * np.expm1(-hertz_pressure / LOW)
     log = np.log(contact_viscosity / viscosity)
+    power = np.log(roelands_viscosity(viscosity, roelands_coefficient(viscosity, exponent), hertz_pressure) / viscosity)
     half = np.minimum(0.5 * (down + up), 50.0)
     shape = np.where(half > 1e-8, np.sinh(half) / np.maximum(half, 1e-8), 1.0) * np.exp(
         np.minimum(0.5 * (up - down), 50.0)
     )
     solid = np.log(GLASS / viscosity)
+    mixed = log + roelands * (power - log)
     return contact_viscosity * np.exp(
-        _below(np.minimum(log * steeper * shape, 9.0 * solid), solid) - _below(log, solid)
+        _below(np.minimum(mixed * steeper * shape, 9.0 * solid), solid) - _below(log, solid)
     )
 
 

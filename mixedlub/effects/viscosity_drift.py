@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import LogNormal, Normal, Parameter, effect
+from mixedlub.effect import LogNormal, Normal, Parameter, Wide, effect
 
 WARM = 313.15
 KELVIN = 100.0
@@ -21,7 +21,7 @@ KELVIN = 100.0
             symbol="d",
         ),
         Parameter("power", "-", LogNormal(1.0, 0.4), "1: steady, above: it gathers pace", symbol="m"),
-        Parameter("cold_gain", "-", Normal(0.5, 1.5), "log growth of the drift over 100 K of cooling", symbol="k"),
+        Parameter("cold_gain", "-", Wide(0.7), "log growth of the drift over 100 K of cooling", symbol="k"),
     ),
     equation=r"\eta_0 \leftarrow \eta_0\,e^{d\,q^m e^{k(40\,^\circ\text{C} - \theta_{oil})/100\,\text{K}}}",
     source="evaporation, oxidation or shear-down as a steady relative rate; e.g. ASTM D445 on used oils reports it so",

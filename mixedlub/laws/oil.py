@@ -92,6 +92,20 @@ def roelands_viscosity(viscosity: np.ndarray, pressure_viscosity: np.ndarray, he
     return viscosity * np.exp(log * ((1.0 + hertz_pressure / ROELANDS_PRESSURE) ** exponent - 1.0))
 
 
+def roelands_coefficient(viscosity: np.ndarray, exponent: float) -> np.ndarray:
+    r"""Pressure-viscosity coefficient that the exponent of Roelands means (1/Pa).
+
+    .. math:: \alpha = Z(\ln\eta_0 + 9.67)/p_r
+
+    One Z at all temperatures lets the coefficient fall as the oil thins. The 9.67 and p_r make the form belong to
+    Pa s and Pa. Source: as `roelands_viscosity`.
+
+    >>> round(float(roelands_coefficient(0.01489, 0.5314)) * 1e9, 2)
+    14.81
+    """
+    return exponent * (np.log(viscosity) + ROELANDS_LOG) / ROELANDS_PRESSURE
+
+
 def barus_viscosity(viscosity: np.ndarray, pressure_viscosity: np.ndarray, pressure: np.ndarray) -> np.ndarray:
     r"""Viscosity under pressure (Pa s), :math:`\eta = \eta_0 e^{\alpha p}`; good below about 0.3 GPa.
 

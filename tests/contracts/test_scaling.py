@@ -34,6 +34,7 @@ OTHER_ARGUMENTS = {
     "value": (np.array([3.0, 2.0]), "Pa"),
     "weight": (np.array([0.3, 0.4]), "-"),
     "given": (0.4, "-"),
+    "exponent": (0.6, "-"),
     "per_stress": (2e-8, "1/Pa"),
 }
 """Arguments of laws that are no words of the glossary: a value and its unit."""

@@ -16,6 +16,7 @@ from mixedlub.diagnosis.empirical import unnamed as describe
 from mixedlub.diagnosis.labels import effect_words, number, with_names
 from mixedlub.diagnosis.nexttest import NextTest
 from mixedlub.diagnosis.posterior import Key, Posterior
+from mixedlub.diagnosis.problem import Problem
 from mixedlub.effect import Normal, Parameter, catalogue
 from mixedlub.report.equations import equation
 from mixedlub.report.plain import plain_equation
@@ -203,7 +204,8 @@ def test_name_keeps_its_letters_at_the_start_of_a_sentence() -> None:
 def test_temperature_of_an_answer_is_in_celsius(offset: Diagnosis, monkeypatch: pytest.MonkeyPatch) -> None:
     one = judged(offset, {("sensor_offset",): 0.97}, 1)
     kelvin = Parameter("offset", "K", Normal(350.0, 10.0), "temperature")
-    monkeypatch.setattr(fitted, "effects_of", lambda key: [replace(catalogue()["sensor_offset"], parameters=(kelvin,))])
+    warm = [replace(catalogue()["sensor_offset"], parameters=(kelvin,))]
+    monkeypatch.setattr(Problem, "effects", lambda problem, key: warm)
     value = effect_records(one)[0]["parameters"][0]["value"]
     row = fitted.parameters(one)[1][1]
     assert (row[2], row[4]) == (number(value - 273.15), "°C")

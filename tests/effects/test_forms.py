@@ -8,7 +8,14 @@ import pytest
 from mixedlub.effects.bearing_drag import bearing_drag
 from mixedlub.effects.pressure_viscosity_law import LOW, pressure_viscosity_law
 
-STRAIGHT = {"bend_down": 0.0, "bend_up": 0.0, "down_with_temperature": 0.0, "up_with_temperature": 0.0}
+STRAIGHT = {
+    "roelands": 0.0,
+    "exponent": 0.6,
+    "bend_down": 0.0,
+    "bend_up": 0.0,
+    "down_with_temperature": 0.0,
+    "up_with_temperature": 0.0,
+}
 BEARINGS = {"strength": 1.0, "loaded": 1.0, "load_power": 1.0, "rolling_power": 0.0}
 GEAR = {"transmitted_force": 3000.0, "pinion_radius": 0.036, "gears_fitted": 1, "oil_density": 850.0}
 

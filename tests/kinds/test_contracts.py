@@ -102,7 +102,7 @@ def test_the_effects_of_these_kinds_are_offered_where_they_belong(make):
         "film": ("boundary_film", "fringe_order", "inlet_shear_heating", "zero_drift", "viscosity_drift"),
         "friction_history": ("contact_creep", "tribofilm_growth", "friction_run_in", "two_time_scales"),
         "friction_map": ("stribeck", "direction_dependence", "periodic_mesh", "torque_constant", "grease_temperature"),
-        "viscosity": ("pressure_viscosity_law", "roelands_pressure_law", "viscosity_drift"),
+        "viscosity": ("pressure_viscosity_law", "viscosity_drift"),
     }.items():
         case = make(*TABLES[kind])
         offered = {e.id for e in Forward(case, case.recordings).effects()}

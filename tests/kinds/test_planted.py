@@ -161,17 +161,22 @@ def planted_zero_drift():
     return film(380.0 * speed**0.67 + 15.0 * place, speed, sequence=place)
 
 
+def by_d341(celsius):
+    """Viscosity (mPa s) of an oil of 67 mm2/s at 40 degC."""
+    z = np.log10(np.log10(67.7)) - 3.1 * (np.log10(celsius + 273.15) - np.log10(313.15))
+    return (10.0 ** (10.0**z) - 0.7) * 0.87
+
+
 def planted_pressure_law():
     """Free-volume form of Doolittle: the catalogue carries a double exponential."""
     celsius, mpa = np.repeat([20.0, 60.0, 100.0], 12), np.tile(np.linspace(0.1, 700.0, 12), 3)
-    room = 1.0 / (1.0 + 0.9 * mpa / 700.0 * 0.18) - 0.62 + 6e-4 * (celsius - 20.0)
-    still = 1.0 - 0.62 + 6e-4 * (celsius - 20.0)
-    grown = np.exp(2.1 * (0.62 / room - 0.62 / still))
-    level = 60.0 * np.exp(-0.03 * (celsius - 20.0) + 8e-5 * (celsius - 20.0) ** 2)
+    room = 1.0 / (1.0 + 0.9 * mpa / 700.0 * 0.18) - 0.66 + 6e-4 * (celsius - 20.0)
+    still = 1.0 - 0.66 + 6e-4 * (celsius - 20.0)
+    grown = np.exp(4.5 * (0.66 / room - 0.66 / still))
     return system("viscosity", "viscosity_mPa_s"), {
         "temperature_C": celsius,
         "pressure_MPa": mpa,
-        "viscosity_mPa_s": noisy(level * grown),
+        "viscosity_mPa_s": noisy(by_d341(celsius) * grown),
     }
 
 
@@ -179,12 +184,10 @@ def planted_sample_drift():
     """Linear growth of viscosity: the catalogue carries an exponential."""
     celsius = np.concatenate([np.linspace(25.0, 70.0, 20), np.linspace(70.0, 10.0, 25)])
     place = np.linspace(0.0, 1.0, 45)
-    z = np.log10(np.log10(67.7)) - 3.1 * (np.log10(celsius + 273.15) - np.log10(313.15))
-    level = (10.0 ** (10.0**z) - 0.7) * 0.87
     return system("viscosity", "viscosity_mPa_s"), {
         "temperature_C": celsius,
         "time_s": 20000.0 * place,
-        "viscosity_mPa_s": noisy(level * (1.0 + 0.3 * place)),
+        "viscosity_mPa_s": noisy(by_d341(celsius) * (1.0 + 0.3 * place)),
     }
 
 
@@ -207,7 +210,7 @@ CASES = {
     "fringe_order": (planted_fringe, ("inlet_shear_heating", "boundary_film")),
     "fringe_step": (planted_fringe_step, ("fringe_order", "inlet_shear_heating", "boundary_film")),
     "zero_drift": (planted_zero_drift, ("inlet_shear_heating", "boundary_film")),
-    "pressure_viscosity_law": (planted_pressure_law, ("roelands_pressure_law",)),
+    "pressure_viscosity_law": (planted_pressure_law, ()),
     "viscosity_drift": (planted_sample_drift, ()),
 }
 
@@ -237,6 +240,28 @@ def test_planted_effect_beats_its_rivals(make, name):
         assert other > found + 9.0, rival
 
 
+def planted_roelands():
+    """Roelands' own writing: centipoise, kgf/cm2, decimal logarithms, one exponent at all temperatures."""
+    celsius, mpa = np.repeat([20.0, 60.0, 100.0], 12), np.tile(np.linspace(0.1, 700.0, 12), 3)
+    pressed = (np.log10(by_d341(celsius)) + 1.2) * (1.0 + mpa / 0.0980665 / 2000.0) ** 0.6 - 1.2
+    return system("viscosity", "viscosity_mPa_s"), {
+        "temperature_C": celsius,
+        "pressure_MPa": mpa,
+        "viscosity_mPa_s": noisy(10.0**pressed),
+    }
+
+
+@pytest.mark.parametrize(("plant", "holds"), [(planted_roelands, True), (planted_pressure_law, False)])
+def test_the_answer_says_whether_roelands_law_would_do(make, plant, holds):
+    found = diagnose_case(make(*plant()).folder)
+    assert found.posterior.verdict == ("pressure_viscosity_law",)
+    (roelands,) = found.contained
+    assert roelands.law == "Roelands"
+    assert (roelands.log_odds > -2.3) == holds
+    assert ("does as well" in roelands.text) == holds
+    assert ("rejected" in roelands.text) != holds
+
+
 @pytest.mark.parametrize("order", [3.0, 9.0, 17.0, 31.0])
 def test_ripple_is_found_whatever_its_order(make, order):
     found = diagnose_case(make(*planted_ripple(order)).folder)
@@ -245,6 +270,28 @@ def test_ripple_is_found_whatever_its_order(make, order):
     values = found.found.problem.parameters(("periodic_mesh",), z)["periodic_mesh"]
     assert values["order"] == pytest.approx(order, rel=0.01)
     assert np.hypot(values["cosine"], values["sine"]) == pytest.approx(0.2, rel=0.1)
+
+
+def hunting(periods, height):
+    """A temperature controller that hunts: a triangle in time, where the diagnosis carries cosine and sine."""
+    phase = (periods * (TIME - TIME[0]) / np.ptp(TIME) + 0.2) % 1.0
+    friction = 0.1 * (1.0 + height * (4.0 * np.abs(phase - 0.5) - 1.0))
+    return system("friction_history", "friction_coefficient"), {"time_s": TIME, "friction_coefficient": noisy(friction)}
+
+
+@pytest.mark.parametrize("periods", [8.3, 19.6, 28.0])
+def test_what_swings_in_time_is_no_noise(make, periods):
+    found = diagnose_case(make(*hunting(periods, 0.03)).folder)
+    assert found.test.detected
+    assert found.posterior.verdict == "unknown"
+    assert found.found.unknown.best.waves == pytest.approx(periods, abs=0.2)
+    assert found.case.system.recording.noise.relative == 0.01
+
+
+def test_scatter_has_no_period(make):
+    found = diagnose_case(make(*hunting(8.3, 0.0)).folder)
+    assert not found.test.detected
+    assert found.posterior.verdict == ()
 
 
 def test_a_scan_does_not_make_false_alarms(make):

@@ -28,7 +28,6 @@ from mixedlub.proof.design import draw_oil
 PAIRS = (
     ("viscosity_drift", "sensor_offset"),
     ("pressure_viscosity_law", "sensor_offset"),
-    ("roelands_pressure_law", "sensor_drift"),
     ("pressure_viscosity_law", "sensor_drift"),
 )
 KELVIN = 273.15
@@ -126,8 +125,9 @@ def _drifts(time: np.ndarray) -> tuple[Form, ...]:
 def _pressure_forms() -> tuple[Form, ...]:
     near_one = strength(0.0, 1.3, (0.9, 1.05))
     return (
-        Form("roelands_pressure_law", "rise", mcewen, (near_one, Knob("power", 4.0, 40.0, (7.0, 18.0))), "McEwen 1952"),
-        Form("roelands_pressure_law", "rise", roelands_of_1966,
+        Form("pressure_viscosity_law", "rise", mcewen,
+             (near_one, Knob("power", 4.0, 40.0, (7.0, 18.0))), "McEwen 1952"),
+        Form("pressure_viscosity_law", "rise", roelands_of_1966,
              (near_one, Knob("modulus", 0.17, 0.22, (0.19, 0.2))), "Roelands 1966"),
         Form("pressure_viscosity_law", "rise", mcewen_paluch,
              (near_one, Knob("power", 2.0, 15.0, (3.0, 7.0)), Knob("glass", 0.5, 2.5, (0.8, 1.6))), "Bair's hybrid"),
