@@ -1,6 +1,6 @@
 """A film that stays when the speed goes to nothing."""
 
-from mixedlub.effect import LogNormal, Parameter, effect
+from mixedlub.effect import BetweenLog, LogNormal, Parameter, effect
 
 
 @effect(
@@ -11,19 +11,32 @@ from mixedlub.effect import LogNormal, Parameter, effect
         Parameter(
             "joining", "-", LogNormal(2.0, 0.4), "1: layer and film add up; large: the thicker alone", symbol="m"
         ),
+        Parameter(
+            "gain",
+            "-",
+            BetweenLog(0.5, 100.0),
+            "most of the layer that a thin film can fill, over the film; large: a layer that stays at rest",
+            symbol="g",
+        ),
     ),
-    equation=r"h \leftarrow (h^m + h_b^m)^{1/m}",
-    source="layers below the reach of entrainment: G. Guangteng, H. A. Spikes, Tribol. Trans. 39 (1996) 448; joined "
-    "so that it fades at speed, by the root of squares or more sharply",
+    equation=r"h \leftarrow \left[h^m + \left(\frac{g h\,h_b}{g h + h_b}\right)^m\right]^{1/m}",
+    source="layers that stay at rest: G. Guangteng, H. A. Spikes, Tribol. Trans. 39 (1996) 448; layers of thicker "
+    "fluid that a thin film consists of: J. Smeeth, H. A. Spikes, S. Gunsel, Tribol. Trans. 39 (1996) 720; joined so "
+    "that it fades at speed, by the root of squares or more sharply",
     fingerprint={"speed": "-"},
     separated_by="a zero check at rest before and after: a drifted zero shifts all films, a layer only the thinnest",
     after=("inlet_shear_heating", "inlet_shear_thinning", "starvation", "roughness_lay"),
     kinds=("film",),
 )
-def boundary_film(film_thickness, *, thickness, joining):
+def boundary_film(film_thickness, *, thickness, joining, gain):
     """Adsorbed or reacted layers hold the surfaces apart where the fluid film would be thinner than they are.
 
-    >>> [round(boundary_film(h, thickness=4e-9, joining=2.0) * 1e9, 2) for h in (3e-9, 400e-9)]
+    A layer of thicker fluid is entrained itself: a film much thinner than it gains g times itself and no more.
+
+    >>> [round(boundary_film(h, thickness=4e-9, joining=2.0, gain=1e9) * 1e9, 2) for h in (3e-9, 400e-9)]
     [5.0, 400.02]
+    >>> round(boundary_film(1e-12, thickness=4e-9, joining=1.0, gain=1.5) * 1e12, 2)
+    2.5
     """
-    return film_thickness * (1.0 + (thickness / film_thickness) ** joining) ** (1.0 / joining)
+    layer = gain * thickness / (gain * film_thickness + thickness)
+    return film_thickness * (1.0 + layer**joining) ** (1.0 / joining)
