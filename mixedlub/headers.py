@@ -24,6 +24,8 @@ UNITS: dict[str, dict[str, tuple[float, float]]] = {
     "ratio": {"-": (1.0, 0.0), "1": (1.0, 0.0), "%": (0.01, 0.0)},
 }
 """What each unit of a case's columns may be given in: factor and what is added."""
+KINEMATIC = ("mm2/s", "mm²/s", "cst", "m2/s", "m²/s", "mm^2/s")
+"""Units, in small letters, in which viscosity is divided by density."""
 
 
 ENDINGS = {
@@ -90,7 +92,11 @@ TARGETS = (
     Target("load_N", "N", ("load", "ball load", "pin load", "normal load", "normal force")),
     Target("entrainment_speed_m_s", "m_s", ("rolling speed", "entrainment speed", "mean speed")),
     Target("sliding_speed_m_s", "m_s", ("sliding speed",)),
-    Target("slide_roll_ratio", "ratio", ("srr", "slide roll ratio", "slide to roll ratio")),
+    Target(
+        "slide_roll_ratio",
+        "ratio",
+        ("srr", "slide roll ratio", "slide to roll ratio", "slide/roll", "slide/roll ratio"),
+    ),
     Target(
         "oil_temperature_C", "C", ("oil temperature", "oil temp", "lubricant temperature", "lube temp", "lube rtd temp")
     ),
@@ -183,6 +189,8 @@ def convert(values: np.ndarray, unit: str, target: Target, where: str) -> np.nda
     change = change_to(unit, target.unit)
     if change is None:
         hint = nearest(unit, UNITS[target.unit])
+        if target.unit == "mPa_s" and tidy(unit).lower() in KINEMATIC:
+            hint = "this is a kinematic viscosity: times the density in g/cm³ it is in mPa s"
         raise InputError(f"unit of {target.name} is not known; {hint}", where=where, value=unit)
     factor, added = change
     return values * factor + added

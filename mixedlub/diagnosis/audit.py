@@ -6,8 +6,9 @@ import numpy as np
 
 from mixedlub.case import Case
 from mixedlub.diagnosis.features import PASSING
-from mixedlub.diagnosis.noise import is_stated, noise_from_repeats
+from mixedlub.diagnosis.noise import is_stated, nearly_repeated, noise_from_repeats, pooled_sd
 from mixedlub.forward import Forward
+from mixedlub.headers import unit_of
 from mixedlub.table import Table
 from profiles.errors import InputError
 
@@ -86,14 +87,17 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
     notes += _stuck(case, rows, y, base)
     stated = case.system.recording.noise
     if is_stated(case, rows) and stated is not None:
-        repeats = _repeats(case, rows, y)
+        group = nearly_repeated(case, rows)
+        repeats = 0.0 if group is None else pooled_sd(np.log(y / base) if case.kind.logarithmic else y - base, group)
         size = np.abs(y) if case.kind.logarithmic else np.ones(y.size)
         typical = float(np.median(np.hypot(stated.relative * np.abs(y), stated.absolute) / size))
+        unit = "" if case.kind.logarithmic else f" {unit_of(case.quantity)}".rstrip()
         if repeats > 4.0 * typical > 0:
             notes.append(
                 Doubt(
-                    f"readings at equal conditions contradict each other: they scatter by {repeats:.3g} where the "
-                    f"stated noise is {typical:.3g}"
+                    f"readings at equal conditions contradict each other: they scatter by {repeats:.3g}{unit} where "
+                    f"the stated noise is {typical:.3g}{unit}; if they belong to several assemblies or sweeps, name "
+                    "these in a column setup"
                 )
             )
     return notes

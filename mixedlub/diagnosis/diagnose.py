@@ -148,7 +148,7 @@ def _doubts(judged: Posterior, kept: HeldOut, chance: np.ndarray, y: np.ndarray,
     wrong = chance > 0.5
     if wrong.mean() > MANY_WRONG:
         doubts.append(
-            f"{wrong.sum()} of {wrong.size} readings count as wrong: the stated noise may be too small, or the answer "
+            f"{wrong.sum()} of {wrong.size} readings count as wrong: the noise may be taken too small, or the answer "
             "covers only a part of the recording"
         )
         turned = np.abs(y[wrong] + recorded.predicted[wrong]) < 0.3 * np.abs(y[wrong])
@@ -216,17 +216,23 @@ def _search(
 def _judged(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
     """Probabilities, with the verdict and what ties with it first held against levels left out.
 
-    When CANDIDATES names were tried, the others are taken to fail like the best of those that did.
+    When CANDIDATES names were tried, the others are taken to fail like the best of those that did. The unnamed
+    mismatch is held against the first name.
     """
     levels = LevelsOut.of(found)
+    names = sorted(filter(names_effects, found.log_weights), key=lambda key: -found.log_weights[key])
     tried: dict[Key, tuple[HeldOut, float]] = {}
+    unnamed: dict[Key, float] = {}
     while True:
         demerits = {key: demerit for key, (_, demerit) in tried.items()}
         if len(tried) >= CANDIDATES and all(demerits.values()):
             rest = min(demerits.values())
-            names = [key for key in found.log_weights if names_effects(key)]
             demerits = {key: demerits.get(key, rest) for key in names}
-        judged = posterior(found, test, demerits)
+        judged = posterior(found, test, demerits | unnamed)
+        if names and "unknown" in judged.tied and not unnamed:
+            tried.setdefault(names[0], _held_against(levels, found, names[0]))
+            unnamed = {"unknown": _held_against(levels, found, "unknown")[0].behind(tried[names[0]][0])}
+            continue
         fresh = [key for key in judged.tied if key not in tried and names_effects(key)]
         if not fresh or len(tried) >= CANDIDATES:
             key = judged.verdict

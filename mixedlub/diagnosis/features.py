@@ -20,17 +20,23 @@ JITTER = 1e-6
 LEAST = 1e-300
 HELD = 0.01
 """A condition that spans less than this share of its size was held: what it wanders is no variation to learn from."""
+WANDERS, MOVES = 0.1, 0.005
+"""One that spans less than the first was held as well if the base model's readings move by less than the second."""
 
 
 @dataclass(frozen=True, eq=False)
 class Coordinate:
-    """One condition scaled to 0..1, or a name; ``nodes`` are the places its functions are anchored at."""
+    """One condition scaled to 0..1, or a name; ``nodes`` are the places its functions are anchored at.
+
+    A condition ``folded`` at a size has both signs, and on either side goes by the logarithm beyond that size.
+    """
 
     name: str
     nodes: np.ndarray
     low: float = 0.0
     span: float = 1.0
     logarithmic: bool = False
+    folded: float = 0.0
 
     @property
     def named(self) -> bool:
@@ -45,8 +51,7 @@ class Coordinate:
 
     def scale(self, values: np.ndarray) -> np.ndarray:
         """Values on the 0..1 axis."""
-        x = np.log(np.maximum(values, LEAST)) if self.logarithmic else values
-        return (x - self.low) / self.span
+        return (unrolled(values, self.logarithmic, self.folded) - self.low) / self.span
 
     def wave(self, values: np.ndarray, waves: float) -> np.ndarray:
         """A cosine and a sine that go through ``waves`` periods from the lowest to the highest value."""
@@ -65,6 +70,17 @@ class Coordinate:
         return _kernel(self.scale(values), nodes, length) @ (vectors[:, keep] / np.sqrt(size[keep]))[:, ::-1]
 
 
+def unrolled(values: np.ndarray, logarithmic: bool, folded: float) -> np.ndarray:
+    """Values as they are, by their logarithm, or by that on either side of zero.
+
+    >>> unrolled(np.array([-99.0, 0.0, 1.0]), False, 1.0).round(3).tolist()
+    [-4.605, 0.0, 0.693]
+    """
+    if folded:
+        return np.asarray(np.sign(values) * np.log1p(np.abs(values) / folded))
+    return np.log(np.maximum(values, LEAST)) if logarithmic else values
+
+
 def is_held(name: str, levels: np.ndarray) -> bool:
     """Whether a condition was held: it spans next to nothing of its size.
 
@@ -75,6 +91,16 @@ def is_held(name: str, levels: np.ndarray) -> bool:
         return False
     size = levels + 273.15 if name.endswith("temperature_C") else levels
     return float(np.ptp(size)) <= HELD * float(np.max(np.abs(size)))
+
+
+def _wanders(name: str, case: Case, table: Table, forward: Forward) -> bool:
+    """Whether a condition only wandered about its set-point: little, and without a change of the base model."""
+    values = table[name] if name in table else np.array([""])
+    if values.dtype.kind in "US" or name in PASSING or np.ptp(values) > WANDERS * np.max(np.abs(values)):
+        return False
+    steady = Table({**table.columns, name: np.full(len(table), np.median(values))}, table.source)
+    here, there = forward.predict(), Forward(case, steady).predict()
+    return bool(np.max(np.abs(there - here)) <= MOVES * np.median(np.abs(here)))
 
 
 def _kernel(a: np.ndarray, b: np.ndarray, length: float) -> np.ndarray:
@@ -132,16 +158,18 @@ def coordinates(case: Case, table: Table, forward: Forward) -> Coordinates:
     """The axes along which a recording varies; what was held counts only where nothing else varies."""
     every = {name: np.unique(values) for name, values in raw_coordinates(case, table, forward).items()}
     varied = {name: levels for name, levels in every.items() if levels.size > 1}
+    swept = {k: v for k, v in varied.items() if not is_held(k, v) and not _wanders(k, case, table, forward)}
     axes = []
-    for name, levels in ({k: v for k, v in varied.items() if not is_held(k, v)} or varied).items():
+    for name, levels in (swept or varied).items():
         if levels.dtype.kind in "US":
             axes.append(Coordinate(name, levels))
             continue
         logarithmic = bool(levels[0] > 0 and levels[-1] / levels[0] > 3.0 and name != "sequence")
-        x = np.log(levels) if logarithmic else levels
+        folded = float(np.abs(levels[levels != 0.0]).min()) if levels[0] < 0.0 < levels[-1] else 0.0
+        x = unrolled(levels, logarithmic, folded)
         low, span = float(x[0]), float(x[-1] - x[0])
         nodes = (x - low) / span
         if nodes.size > NODES:
             nodes = np.linspace(0.0, 1.0, NODES)
-        axes.append(Coordinate(name, nodes, low, span, logarithmic))
+        axes.append(Coordinate(name, nodes, low, span, logarithmic, folded))
     return Coordinates(tuple(axes))

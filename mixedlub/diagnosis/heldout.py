@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.diagnosis.fit import Fit, linear_fit, map_fit
+from mixedlub.diagnosis.fit import linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.levels import set_points
 from mixedlub.diagnosis.problem import Explanation, Problem
 from mixedlub.diagnosis.search import Search
@@ -21,13 +21,16 @@ TOLERATED = 0.3
 """Share of the mismatch on levels left out that the right law, in another literature form, may leave."""
 DEMERIT = 20.0
 LEAST = 0.3
+CHANCE = 5.0
+"""How much better than the unnamed mismatch a name may predict levels left out by chance, in log probability."""
 
 
 @dataclass(frozen=True)
 class HeldOut:
     """Rms of (recorded - predicted)/sd on levels left out, calibration only and with the verdict.
 
-    ``surprise`` is that of the verdict over noise and what the other levels leave open of its parameters together.
+    ``surprise`` is that of the verdict over noise and what the other levels leave open of its parameters together,
+    ``score`` the log probability of the readings under both.
     """
 
     before: float
@@ -36,6 +39,7 @@ class HeldOut:
     folds: int
     readings: int
     surprise: float
+    score: float
 
     def demerit(self, rms: float) -> float:
         """What a named law loses in log odds if it leaves much of the mismatch unexplained on levels left out.
@@ -44,13 +48,21 @@ class HeldOut:
         another law in disguise. ``rms`` is that of the residual with all readings fitted; two standard errors of its
         square are allowed for chance, and what the other levels cannot tell of the parameters is no failure.
 
-        >>> HeldOut(3.0, 1.1, "", 5, 200, 1.1).demerit(1.0), HeldOut(3.0, 2.6, "", 5, 200, 2.6).demerit(1.0) > 5.0
+        >>> well, badly = (HeldOut(3.0, rms, "", 5, 200, rms, 0.0) for rms in (1.1, 2.6))
+        >>> well.demerit(1.0), badly.demerit(1.0) > 5.0
         (0.0, True)
         """
         noise = max(rms, 1.0) ** 2
         missing = max(self.before**2 - noise, LEAST)
         left = max(self.surprise**2 - noise * (1.0 + 2.0 * np.sqrt(2.0 / self.readings)), 0.0)
         return float(min(DEMERIT * max(left / missing - TOLERATED, 0.0), DEMERIT))
+
+    def behind(self, name: HeldOut) -> float:
+        """What the unnamed mismatch loses in log odds if a name predicts levels left out better than it does.
+
+        It follows any readings, and where it does not carry over to others and a law does, the law has seen more.
+        """
+        return float(np.clip(name.score - self.score - CHANCE, 0.0, DEMERIT))
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,7 +108,9 @@ class LevelsOut:
         after, open_variance = np.zeros((2, self.before.size))
         for f in self.folds:
             if verdict == "unknown":
-                after[f.out] = _unknown_residual(self.found, f.out) * f.test.sd / f.wide
+                left, variance = _unknown_left(self.found, f.out)
+                after[f.out] = left * f.test.sd / f.wide
+                open_variance[f.out] = variance * (f.test.sd / f.wide) ** 2
             elif verdict == ():
                 after[f.out] = self.before[f.out]
             else:
@@ -104,33 +118,39 @@ class LevelsOut:
                 run = f.test.run(fit.explanation, fit.z)
                 after[f.out] = (f.test.y - run.prediction) / f.wide
                 slopes = f.test.jacobian(fit.explanation, fit.z, run) * (f.test.sd / f.wide)[:, None]
-                open_variance[f.out] = _open_variance(fit, f.train.shared, slopes)
+                columns = np.hstack([fit.slopes, f.train.shared])
+                open_variance[f.out] = _open_variance(columns, fit.weight, slopes)
         kept = ~outliers if not outliers.all() else np.ones(outliers.size, bool)
+        spread = np.sqrt(1.0 + open_variance)
         return HeldOut(
             float(np.sqrt(np.mean(self.before[kept] ** 2))),
             float(np.sqrt(np.mean(after[kept] ** 2))),
             f"leave one level of {self.name} out" if self.name else "leave every fifth reading out",
             len(self.folds),
             int(kept.sum()),
-            float(np.sqrt(np.mean(after[kept] ** 2 / (1.0 + open_variance[kept])))),
+            float(np.sqrt(np.mean((after / spread)[kept] ** 2))),
+            float((log_likelihood(after / spread)[0] - np.log(spread)).sum()),
         )
 
 
-def _open_variance(fit: Fit, shared: np.ndarray, slopes: np.ndarray) -> np.ndarray:
-    """Variance, in sigmas, of predictions with these slopes by what a fit leaves open of its coordinates."""
-    columns = np.hstack([fit.slopes, shared])
-    inner = np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ (columns * fit.weight[:, None]))
-    own = inner[: fit.z.size, : fit.z.size]
-    return np.einsum("ij,jk,ik->i", slopes, own, slopes)
+def _open_variance(columns: np.ndarray, weight: np.ndarray, slopes: np.ndarray) -> np.ndarray:
+    """Variance, in sigmas, of predictions with these slopes by what a fit to other readings leaves open.
+
+    ``columns`` are the slopes of that fit; ``slopes`` has the first of them.
+    """
+    inner = np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ (columns * weight[:, None]))
+    own = inner[: slopes.shape[1], : slopes.shape[1]]
+    return np.asarray(np.einsum("ij,jk,ik->i", slopes, own, slopes))
 
 
-def _unknown_residual(found: Search, out: np.ndarray) -> np.ndarray:
-    """Residual of left-out readings under the unnamed mismatch fitted to the others (linearised)."""
+def _unknown_left(found: Search, out: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Residual of left-out readings under the unnamed mismatch fitted to the others (linearised), its open variance."""
     problem, none = found.problem, found.none
     own = shape_columns(found.unknown.best, found.space, found.values, found.unknown.carriers)
-    fit = linear_fit(none.anchor[~out], np.hstack([none.slopes, problem.shared, own])[~out])
-    blind = np.hstack([none.slopes, np.zeros_like(problem.shared), own])
-    return none.anchor[out] - blind[out] @ fit.coefficients
+    columns = np.hstack([none.slopes, problem.shared, own])
+    fit = linear_fit(none.anchor[~out], columns[~out])
+    blind = np.hstack([none.slopes, np.zeros_like(problem.shared), own])[out]
+    return none.anchor[out] - blind @ fit.coefficients, _open_variance(columns[~out], fit.weight, blind)
 
 
 def _folds(found: Search) -> tuple[str, np.ndarray]:

@@ -17,6 +17,8 @@ def set_points(values: np.ndarray) -> np.ndarray:
     [3.0, 9.0, 3.0, 9.0]
     >>> set_points(np.array([1000.0, 1010.0, 1000.0, 1010.0])).tolist()   # meant
     [1000.0, 1010.0, 1000.0, 1010.0]
+    >>> set_points(np.array([0.101, 0.13, 0.17, 2.2, 0.1, 0.131, 0.169, 2.21])).tolist()   # swept up and down
+    [0.1, 0.13, 0.17, 2.2, 0.1, 0.13, 0.17, 2.2]
     >>> set_points(np.array([1.0, 1.01, 1.02, 1.03, 1.04, 1.05])).tolist()   # swept
     [1.0, 1.01, 1.02, 1.03, 1.04, 1.05]
     """
@@ -24,22 +26,52 @@ def set_points(values: np.ndarray) -> np.ndarray:
         return values
     order = np.argsort(values, kind="stable")
     ranked = values[order].astype(float)
-    near = np.maximum(NEAR_SIZE * np.abs(ranked[1:]), NEAR_SPAN * (ranked[-1] - ranked[0]))
-    label = np.concatenate([[0], np.cumsum(np.diff(ranked) > near)])
+    for near in (0.0, NEAR_SPAN * (ranked[-1] - ranked[0])):
+        points = _clusters(ranked, near)
+        if points is not None:
+            found = np.empty(values.size)
+            found[order] = points
+            return found
+    return values
+
+
+def near_values(values: np.ndarray) -> np.ndarray:
+    """Number of the place of each value, one for those that are all but equal; each its own where they were swept.
+
+    >>> near_values(np.array([0.5, 0.1, 0.1001, 0.2])).tolist()
+    [2, 0, 0, 1]
+    """
+    ranked = np.sort(values).astype(float)
+    label = _labels(ranked, 0.0)
+    if label is None:
+        return np.unique(values, return_inverse=True)[1]
+    return label[np.searchsorted(ranked, values)]
+
+
+def _labels(ranked: np.ndarray, least: float) -> np.ndarray | None:
+    """Cluster of each ranked value, neighbours nearer than ``least`` taken together; None where they are too wide."""
+    label = np.concatenate([[0], np.cumsum(np.diff(ranked) > np.maximum(NEAR_SIZE * np.abs(ranked[1:]), least))])
+    first = np.searchsorted(label, np.arange(label[-1] + 1))
+    last = np.searchsorted(label, np.arange(label[-1] + 1), side="right") - 1
+    allowed = WIDEST * np.maximum(NEAR_SIZE * np.abs(ranked[first]), least)
+    return None if np.any(ranked[last] - ranked[first] > allowed) else label
+
+
+def _clusters(ranked: np.ndarray, least: float) -> np.ndarray | None:
+    """The set-points of ranked values, neighbours nearer than ``least`` taken together; None where they were swept."""
+    label = _labels(ranked, least)
+    if label is None or 2 * (label[-1] + 1) > ranked.size:
+        return None
     count = np.bincount(label)
-    first = np.cumsum(count) - count
-    width = ranked[first + count - 1] - ranked[first]
-    allowed = WIDEST * np.maximum(NEAR_SIZE * np.abs(ranked[first]), NEAR_SPAN * (ranked[-1] - ranked[0]))
-    if not width.any() or np.any(width > allowed) or 2 * count.size > values.size:
-        return values
+    last = np.cumsum(count) - 1
+    first = last - count + 1
+    if np.array_equal(ranked[first], ranked[last]):
+        return None
     exact, times = np.unique(ranked, return_counts=True)
     repeated = np.searchsorted(ranked, exact[times > 1])
     if np.unique(label[repeated]).size < repeated.size:
-        return values  # two values that were each run again stand in one cluster: they were meant
-    found = np.empty(values.size)
-    last = first + count - 1
-    found[order] = np.array([roundest(low, high) for low, high in zip(ranked[first], ranked[last])])[label]
-    return found
+        return None  # two values that were each run again stand in one cluster: they were meant
+    return np.array([roundest(low, high) for low, high in zip(ranked[first], ranked[last], strict=True)])[label]
 
 
 def roundest(low: float, high: float) -> float:

@@ -8,7 +8,8 @@ import numpy as np
 
 from mixedlub import config
 from mixedlub.case import Case
-from mixedlub.diagnosis.features import Coordinates
+from mixedlub.diagnosis.features import PASSING, WANDERS, Coordinates
+from mixedlub.diagnosis.levels import near_values
 from mixedlub.table import Table
 
 FEW = 30
@@ -168,6 +169,20 @@ def repeated(case: Case, rows: Table) -> np.ndarray | None:
     _, group = np.unique(np.stack(keys, axis=1), axis=0, return_inverse=True)
     group = group.reshape(-1)
     return group if group.size - int(group.max()) - 1 >= 5 else None
+
+
+def nearly_repeated(case: Case, rows: Table) -> np.ndarray | None:
+    """The same by conditions that are equal but for what they jitter about their set-points."""
+    columns = {}
+    for name in rows.columns:
+        values = rows[name]
+        if values.dtype.kind in "US" or name in PASSING:
+            columns[name] = values
+        elif np.ptp(values) <= WANDERS * np.max(np.abs(values)):
+            columns[name] = np.zeros(len(rows))
+        else:
+            columns[name] = near_values(values)
+    return repeated(case, Table(columns, rows.source))
 
 
 def _medians(y: np.ndarray, group: np.ndarray) -> np.ndarray:

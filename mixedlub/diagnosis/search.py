@@ -243,7 +243,7 @@ def elastic_columns(net: np.ndarray, typical: float, space: Coordinates, values:
     Where it adds little a third of its ``typical`` size stands in: another form need not vanish there too.
     """
     smooth = [
-        axis.functions(v, 0.7)[:, :4]
+        axis.functions(v, 0.35)[:, :8] if axis.folded else axis.functions(v, 0.7)[:, :4]
         for axis, v in zip(space.axes, values, strict=True)
         if not axis.named and axis.name != "sequence"
     ]

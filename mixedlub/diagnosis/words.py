@@ -10,15 +10,25 @@ import numpy as np
 
 from mixedlub.diagnosis.advice import next_test, wave_period
 from mixedlub.diagnosis.carriers import NOTHING, READING
-from mixedlub.diagnosis.confusion import Confusion, confusion
+from mixedlub.diagnosis.confusion import confusion
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.empirical import Absorbed, Unnamed
+from mixedlub.diagnosis.fit import outlier_chance
 from mixedlub.diagnosis.fitted import calibration, parameters
 from mixedlub.diagnosis.headline import doubts, headline, lesser, p_words, probability_words, standing
-from mixedlub.diagnosis.labels import STAGE_WORDS, effect_words, number, range_text, with_names, words_of
+from mixedlub.diagnosis.labels import (
+    STAGE_WORDS,
+    effect_words,
+    explanation_words,
+    number,
+    range_text,
+    with_names,
+    words_of,
+)
 from mixedlub.diagnosis.maps import missing, residuals
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.readings import checked_channel, outliers, reading_conditions, steadied_noise
+from mixedlub.diagnosis.resembling import resembling
 from mixedlub.effect import Effect
 from mixedlub.report.plain import plain_equation
 
@@ -35,6 +45,8 @@ SPREAD = (
 TURNED = 0.2
 EVEN = 0.3
 """Share that stays of a mismatch when its signs cancel, below which neither sign is told."""
+WORTH = 0.5
+"""Share of an unnamed mismatch from which the effects that take it up are told."""
 TIMES = 3.0
 """Share of the reading from which it is told as a multiple."""
 """Share of readings whose sign in the figures is another one, from which that is explained."""
@@ -78,7 +90,7 @@ def sections(d: Diagnosis, unnamed: Unnamed | None = None) -> list[Section]:
         Section(WHERE, _where(d)),
         _left_out(d),
         *([_unnamed(d, unnamed)] if unnamed is not None else []),
-        _alike(d, alike),
+        Section(ALIKE, *resembling(d, alike)),
         Section(GAIN, _gain(d)),
         Section(CHECK, checked_channel(d)),
         Section(OUTLIERS, *outliers(d)),
@@ -118,6 +130,9 @@ def _mismatch(d: Diagnosis) -> tuple[str, ...]:
     left = float((d.found.none.residual[kept] ** 2).sum() + d.found.none.z @ d.found.none.z)
     without = "" if kept.all() else ", outliers left out"
     chi2 = f"chi-square {number(left)} for {int(kept.sum())} readings after calibration{without}"
+    whole = float((d.found.none.residual**2).sum() + d.found.none.z @ d.found.none.z)
+    if not np.isclose(test.chi2_before, whole):
+        chi2 = f"chi-square {number(test.chi2_before)} for {test.rows} readings with the noise that this would need"
     size = p_words(test.p_value)
     size = f"p {size}" if size.startswith("below") else f"p = {size}"
     if test.detected:
@@ -191,6 +206,7 @@ def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
     said = [f"Of all smooth forms tried, the most probable varies with {along}, as {_carried(shape.carrier)}."]
     if shape.waves:
         said = [f"Of all forms tried, the most probable is a wave with a period of {wave_period(d)} in {along}."]
+    said += nearest_name(d)
     if unnamed.stages:
         best, *others = unnamed.stages
         worse = [f"{words_of(o.quantity)} {best.evidence - o.evidence:.1f} nats worse" for o in others[:3]]
@@ -212,6 +228,23 @@ def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
     return Section(UNNAMED, tuple(said))
 
 
+def nearest_name(d: Diagnosis) -> list[str]:
+    """Which effects of the catalogue take up most of a mismatch that has no name, and how much they leave."""
+    names = [key for key in d.posterior.weights if not isinstance(key, str) and key]
+    if not names:
+        return []
+    good = outlier_chance(d.found.unknown.fit.residual) <= 0.5
+    before, after = (float(np.sum(d.found.fits[key].residual[good] ** 2)) for key in ((), names[0]))
+    taken = 1.0 - after / before
+    if taken < WORTH:
+        return ["No effect of the catalogue takes up a half of it."]
+    words = explanation_words(list(names[0]))
+    return [
+        f"Nearest in the catalogue: {words}, with {100 * taken:.0f} % of it taken up (chi-square {number(before)} "
+        f"to {number(after)} for {int(good.sum())} readings); the rest has another form."
+    ]
+
+
 def _carried(carrier: str) -> str:
     outside = {READING: "a share of the reading", NOTHING: "an addition to it"}
     return outside.get(carrier, f"a factor on {words_of(carrier)}")
@@ -220,60 +253,6 @@ def _carried(carrier: str) -> str:
 def _stage(found: Absorbed) -> str:
     stage = STAGE_WORDS[found.stage]
     return "" if stage == words_of(found.quantity) else f" ({stage})"
-
-
-def _alike(d: Diagnosis, alike: Confusion) -> Section:
-    said = _resemblance(d, alike)
-    names = dict.fromkeys(name for key in d.posterior.tied if not isinstance(key, str) for name in key)
-    items = tuple(f"{effect_words(e.id)}: {e.separated_by}" for e in effects_of(tuple(names)))
-    if len(d.posterior.tied) < 2 or not items:
-        return Section(ALIKE, said)
-    return Section(ALIKE, (*said, "To separate them:"), items=items)
-
-
-def _resemblance(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
-    judged = d.posterior
-    said = []
-    if not isinstance(judged.verdict, str):
-        for name in judged.verdict:
-            i = alike.ids.index(name)
-            near = [
-                f"{effect_words(other)} ({alike.cosine[i, j]:.2f})"
-                for j, other in sorted(enumerate(alike.ids), key=lambda item: -alike.cosine[i, item[0]])
-                if other not in judged.verdict and alike.cosine[i, j] > 0.8
-            ]
-            if near:
-                said.append(
-                    f"Its signature at these conditions is nearest to that of {', '.join(near[:3])} "
-                    f"(1 would be the same; {effect_words(name)})."
-                )
-    unseen = unshown(d, alike)
-    rejected = [name for name in _rejected(d) if name not in unseen]
-    if rejected:
-        said.append(
-            f"Weighed and rejected (probability below 0.01 each): {', '.join(effect_words(name) for name in rejected)}."
-        )
-    if unseen:
-        said.append(
-            "Not testable here (below 3 sigma at usual strength once calibration adapts), so neither named nor "
-            f"excluded: {', '.join(effect_words(name) for name in unseen)}."
-        )
-    return tuple(said)
-
-
-def unshown(d: Diagnosis, alike: Confusion) -> list[str]:
-    """Effects outside the tied explanations that these readings would not show at usual strength."""
-    told = {name for key in d.posterior.tied if not isinstance(key, str) for name in key}
-    return [name for name in alike.unseen() if name not in told]
-
-
-def _rejected(d: Diagnosis) -> list[str]:
-    """Improbable effects on the very quantities that the answer changes."""
-    if isinstance(d.posterior.verdict, str):
-        return []
-    changed = {quantity for e in effects_of(d.posterior.verdict) for quantity in e.acts_on} - {"reading"}
-    weighed = {name: p for name, p in d.posterior.inclusion(d.found).items() if name not in ("none", "unknown")}
-    return [e.id for e in effects_of(tuple(weighed)) if weighed[e.id] < 0.01 and changed & set(e.acts_on)]
 
 
 def _gain(d: Diagnosis) -> tuple[str, ...]:

@@ -9,6 +9,7 @@ import numpy as np
 from mixedlub.config import KINDS
 from mixedlub.headers import BY_NAME, TEXT_COLUMNS, UNITS, convert, split, target_of, words_of
 from mixedlub.importers.draft import Answers, Draft, Question, contact_form, questions_of
+from mixedlub.importers.kinematics import refuse_one_surface
 from mixedlub.importers.likely import likely_headers, likely_kind
 from mixedlub.importers.sheet import Cells, Sheet, is_number, read_sheet
 from mixedlub.importers.write import toml_value
@@ -46,6 +47,7 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     rest = (*unknown, *unread, *contact_form(likely.name, answers), *questions_of(likely.name))
     if questions:
         return Draft(kind, None, {}, {}, (*questions, *rest))
+    refuse_one_surface(headers, sheet.cells, name)
     columns = {
         column: _values(column, header, sheet, units.get(column))
         for column, header in headers.items()

@@ -77,6 +77,8 @@ def _extent(rows: Sequence[Line], name: str) -> tuple[int, int]:
         if end - i > best[1] - best[0]:
             best = (i, end)
     if not best[1]:
+        if _numbers(rows[0][1]) == len(rows[0][1]) and _numbers(rows[1][1]):
+            raise InputError("no header: the first line holds numbers only; name the columns above it", where=name)
         best = (1, len(rows))
     first, last = best
     width = len(rows[first - 1][1])

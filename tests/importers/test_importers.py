@@ -251,3 +251,16 @@ def test_suffixes_are_units():
     assert split("ball_load_N") == ("ball load", "N")
     assert split("slide_roll_ratio_percent") == ("slide roll ratio", "%")
     assert target_of("rolling_speed_mm_s").name == "entrainment_speed_m_s"
+
+
+def test_kinematic_viscosity_is_told_from_dynamic():
+    with pytest.raises(InputError, match="kinematic viscosity: times the density"):
+        convert(np.array([46.0]), "mm²/s", target_of("Viscosity (mm²/s)"), "oil.csv: Viscosity (mm²/s)")
+
+
+def test_the_speed_of_one_surface_is_no_entrainment(file, tmp_path):
+    head = "Disc Speed (m/s),Ball Speed (m/s),Slide/Roll (%),Load (N),Lube Temp (degC),Film (nm)\n"
+    path = file(head + "0.1,0,200,20,40,44\n0.2,0,200,20,40,71\n")
+    told = {"import.columns.entrainment_speed_m_s": "Disc Speed (m/s)"}
+    with pytest.raises(InputError, match="is the speed of one surface; entrainment is the mean"):
+        import_files([path], tmp_path / "case", kind="film", **told)

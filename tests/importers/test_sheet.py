@@ -91,3 +91,8 @@ def test_a_header_in_quotes_over_lines_without_rows_is_refused():
 def test_milli_is_not_mega(header, column):
     with pytest.raises(InputError, match=f"unit of {column} is not known"):
         convert(np.array([1.0]), split(header)[1], BY_NAME[column], "t.csv")
+
+
+def test_a_table_without_a_header_is_refused():
+    with pytest.raises(InputError, match="no header: the first line holds numbers only"):
+        read_sheet("0.02\t44.1\n0.04\t58.8\n0.08\t79.7\n", "film.txt")
