@@ -135,8 +135,9 @@ def _scatter_notes(found: Search, stated: bool, times: float) -> list[str]:
     noise = found.problem.case.system.recording.noise
     if not stated and noise is not None:
         unit = unit_of(found.problem.case.quantity)
-        size = f"{100.0 * noise.relative:.2g} % of it" if noise.relative else f"{noise.absolute:.2g} {unit}".rstrip()
-        return [f"the noise of a reading was estimated as {size}"]
+        parts = [f"{100.0 * noise.relative:.2g} % of it"] if noise.relative else []
+        parts += [f"{noise.absolute:.2g} {unit}".rstrip()] if noise.absolute else []
+        return [f"the noise of a reading was estimated as {' and '.join(parts)}"]
     if stated and more(found)[0] > CLEAR:
         return [Doubt(UNFOLLOWED)]
     return [QUIET] if quiet(found) else []

@@ -21,6 +21,8 @@ SEVERAL = 2000
 """Most readings whose sds are compared with one another: beyond, the wild ones even out."""
 WIDE = 3.0
 TRUSTED = 10
+PARTS = ((1.0, 0.0), (1.0, 0.03), (1.0, 0.1), (1.0, 0.3), (1.0, 1.0), (0.3, 1.0), (0.0, 1.0))
+"""Shares of a reading's own size and of the typical one in its noise that are tried."""
 PARTNERS = 12
 """Readings of its group that each one is compared with, at most."""
 
@@ -133,25 +135,38 @@ def estimated(
 ) -> Case:
     """The case with the noise its readings show: from repeats, else from what a smooth fit leaves over.
 
-    Repeats scatter alike or in proportion to their size, whichever makes them more probable. Without them positive
+    Repeats scatter alike, in proportion to their size, or by both, whichever makes them most probable. Without them
+    positive
     readings that span WIDE or more are taken to scatter in proportion.
     """
     group = repeated(case, rows)
     if group is not None:
         size = np.maximum(np.abs(_medians(y, group))[group], 1e-9 * float(np.max(np.abs(y))) + 1e-300)
-        alike, share = pooled_sd(y, group), pooled_sd(y / size, group)
-        if case.kind.logarithmic or np.log(share) + _typical_log(size, group) < np.log(alike):
-            return with_noise(case, share, 0.0)
-        return with_noise(case, 0.0, alike)
+        if case.kind.logarithmic:
+            return with_noise(case, pooled_sd(y / size, group), 0.0)
+        return with_noise(case, *_by_size(y, size, group))
     wide = bool(np.all(y > 0) and np.all(base > 0) and (case.kind.logarithmic or np.ptp(np.log(y)) > np.log(WIDE)))
     if wide:
         return with_noise(case, noise_from_smoothness(np.log(y), np.log(base), space, values), 0.0)
     return with_noise(case, 0.0, noise_from_smoothness(y, base, space, values))
 
 
-def _typical_log(size: np.ndarray, group: np.ndarray) -> float:
-    """Mean of ln size over readings that have repeats."""
-    return float(np.mean(np.log(size)[np.bincount(group)[group] > 1]))
+def _by_size(y: np.ndarray, size: np.ndarray, group: np.ndarray) -> tuple[float, float]:
+    """Noise in proportion to size and noise that is alike for all, as makes the repeats most probable."""
+    count = np.bincount(group)[group]
+    several = count > 1
+    left = ((y - _medians(y, group)[group]) / np.sqrt(1.0 - 1.0 / np.maximum(count, 2)))[several]
+    typical = float(np.median(size[several]))
+    best, found = np.inf, (0.0, 0.0)
+    for own, common in PARTS:
+        scale = np.hypot(own * size, common * typical)
+        share = max(pooled_sd(y / scale, group), 1e-300)
+        sd = share * scale[several]
+        # Student's t with four degrees of freedom: readings that a noise leaves far off count against it.
+        score = float(np.mean(np.log(sd) + 2.5 * np.log1p((left / sd) ** 2 / 4.0)))
+        if score < best:
+            best, found = score, (share * own, share * common * typical)
+    return found
 
 
 def noise_from_repeats(case: Case, rows: Table, y: np.ndarray) -> float:

@@ -25,6 +25,7 @@ FACTORS = (0.03, 0.1, 0.3, 1.0)
 """How large one of a quantity of the chain may be, in its logarithm."""
 FULL = 6
 CLOCKS = ("time_s", "sequence")
+TURNED = "position_deg"
 WAVES, MOST_WAVES, WAVE_STEP = 3.0, 200.0, 0.5
 """Periods of a wave over the recording that are tried: fewer are smooth, half as many as readings are the most."""
 SAME = {"surfaces", "composite_roughness_um"}
@@ -83,8 +84,13 @@ def shapes(space: Coordinates, values: list[np.ndarray], carriers: Carriers) -> 
 
 
 def waves(space: Coordinates, values: list[np.ndarray]) -> list[Shape]:
-    """Waves along time or place in the programme, from slow ones to one over two readings."""
-    found = []
+    """Waves along time or place in the programme, from slow ones to one over two readings.
+
+    Where a shaft turns meanwhile they would be those of its position, which have a name.
+    """
+    found: list[Shape] = []
+    if any(axis.name == TURNED for axis in space.axes):
+        return found
     for axis, where in zip(space.axes, values, strict=True):
         if axis.name in CLOCKS:
             levels = np.unique(where)

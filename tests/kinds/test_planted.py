@@ -288,6 +288,20 @@ def test_what_swings_in_time_is_no_noise(make, periods):
     assert found.case.system.recording.noise.relative == 0.01
 
 
+def test_noise_of_readings_through_zero_is_told_from_repeats(make):
+    rng = np.random.default_rng(5)
+    speed = np.tile(np.concatenate([-np.geomspace(2.0, 200.0, 14)[::-1], np.geomspace(2.0, 200.0, 14)]), 8)
+    clean = 1.0 * np.sign(speed) + 2.0 * speed / 200.0 + 0.95
+    read = clean + np.hypot(0.03 * clean, 0.02) * rng.standard_normal(speed.size)
+    columns = {"friction_torque_Nm": read, "speed_rpm": speed}
+    sections = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm"}}
+    found = diagnose_case(make(sections, columns).folder)
+    noise = found.case.system.recording.noise
+    sd, true = (np.hypot(r * clean, a) for r, a in ((noise.relative, noise.absolute), (0.03, 0.02)))
+    assert np.max(np.abs(np.log(sd / true))) < np.log(1.6)
+    assert not found.test.detected
+
+
 def test_scatter_has_no_period(make):
     found = diagnose_case(make(*hunting(8.3, 0.0)).folder)
     assert not found.test.detected
