@@ -132,6 +132,10 @@ def histories(time: np.ndarray) -> dict[str, tuple[Form, ...]]:
         """Oil is renewed: friction goes over to another level within three hundredths of the programme."""
         return scaled(state, 1 + 0.1 * strength * np.clip((time - when) / 0.03, 0.0, 1.0))
 
+    def scuffing(state: Any, strength: float, reach: float) -> Any:
+        """The film breaks down: friction runs away at the end."""
+        return scaled(state, 1 + 0.3 * strength * np.exp((time - 1) / reach))
+
     fall, either = strength(0.0, 6.0), strength(-2.2, 5.0)
     pace = Knob("pace", 0.01, 1.0, (0.03, 0.25))
     waves = Knob("waves", 0.8, 3.2, (1.2, 2.4))
@@ -171,7 +175,9 @@ def histories(time: np.ndarray) -> dict[str, tuple[Form, ...]]:
     event = (
         Form("friction_event", "boundary", dosed, when, "sudden", 1),
         Form("friction_event", "boundary", renewed, when, "over a while", 1),
-    )
+        Form("friction_event", "boundary", scuffing,
+             (strength(0.0, 8.0), Knob("reach", 0.02, 0.12, (0.04, 0.09))), "running away", 1),
+    )  # fmt: skip
     return {
         "friction_run_in": run_in,
         "tribofilm_growth": growth,
@@ -218,10 +224,6 @@ def _breaks(time: np.ndarray) -> tuple[Form, ...]:
         """Something turns slowly in the rig: 14 to 25 swings in the programme."""
         return multiplied(state, 1 + 0.06 * strength * np.sin(2 * np.pi * waves * time))
 
-    def scuffing(state: Any, strength: float, reach: float) -> Any:
-        """Friction runs away at the end."""
-        return multiplied(state, 1 + 0.3 * strength * np.exp((time - 1) / reach))
-
     def alternating(state: Any, strength: float) -> Any:
         """Every second reading belongs to the other direction of a reciprocating stroke."""
         return multiplied(state, 1 + 0.05 * strength * (-1.0) ** np.arange(len(time)))
@@ -229,9 +231,6 @@ def _breaks(time: np.ndarray) -> tuple[Form, ...]:
     either = strength(-5.0, 8.0)
     return (
         Form("humming", "loss", humming, (either, Knob("waves", 12.0, 28.0, (14.0, 25.0))), "constructed"),
-        Form(
-            "scuffing", "loss", scuffing, (strength(0.0, 8.0), Knob("reach", 0.02, 0.12, (0.04, 0.09))), "constructed"
-        ),
         Form("alternating", "loss", alternating, (either,), "constructed"),
     )
 
