@@ -22,7 +22,7 @@ from mixedlub.diagnosis.noise import estimated, is_stated
 from mixedlub.diagnosis.posterior import Key, Posterior, names_effects, posterior
 from mixedlub.diagnosis.predict import Prediction, Refined, Rows, refine
 from mixedlub.diagnosis.problem import Problem
-from mixedlub.diagnosis.scatter import CLEAR, more, quiet, shown, stated_or_more, under_its_own
+from mixedlub.diagnosis.scatter import CLEAR, MOST, beyond_noise, more, quiet, shown, stated_or_more, under_its_own
 from mixedlub.diagnosis.search import Progress, Search, search
 from mixedlub.diagnosis.validity import beyond_range
 from mixedlub.effect import find
@@ -38,6 +38,10 @@ CANDIDATES = 6
 UNFOLLOWED = (
     "readings lie farther from every explanation than from their repeats: something is missing whose form none that "
     "was tried follows"
+)
+NOT_NOISE = (
+    "either something is missing that no form tried follows, or what is stated is not the noise of a reading; what is "
+    "named below was found under noise that much larger"
 )
 QUIET = "readings scatter by less than half of the stated noise: with noise nearer to theirs more could be told"
 
@@ -131,6 +135,8 @@ def _scatter_notes(found: Search, stated: bool, times: float) -> list[str]:
     """What the readings say of their noise, where that is not what the recording says."""
     if times > 1.0:
         said = f"readings scatter about {times:.2g} times as much as stated, whatever is taken to explain them"
+        if times > MOST:
+            return [Doubt(f"{said}: more than a stated noise is off by, so {NOT_NOISE}")]
         return [Doubt(f"{said}: the noise was taken as that much larger")]
     noise = found.problem.case.system.recording.noise
     if not stated and noise is not None:
@@ -207,7 +213,7 @@ def _search(
     if is_stated(case, rows):
         found, times = stated_or_more(case, rows, trial)
         progress("testing against nothing missing")
-        return found, times, mismatch_test(found, level)
+        return found, times, beyond_noise(found, times, mismatch_test(found, level))
     found = shown(estimated(case, rows, y, forward.predict(), space, values), rows, trial)
     progress("testing against nothing missing")
     tests = [mismatch_test(one, level) for one in (found, under_its_own(found, trial))]

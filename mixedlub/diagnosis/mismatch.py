@@ -20,7 +20,10 @@ UNSURE = 10.0
 
 @dataclass(frozen=True)
 class Mismatch:
-    """Outcome of the test; ``statistic`` is the mean log Bayes factor of all alternatives against none."""
+    """Outcome of the test; ``statistic`` is the mean log Bayes factor of all alternatives against none.
+
+    ``unfollowed`` says that readings scatter more than noise can about whatever was tried.
+    """
 
     detected: bool
     p_value: float
@@ -28,6 +31,7 @@ class Mismatch:
     chi2_before: float
     rows: int
     statistic: float
+    unfollowed: bool = False
 
 
 def judged_weight(found: Search) -> np.ndarray:

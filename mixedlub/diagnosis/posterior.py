@@ -71,11 +71,13 @@ def posterior(found: Search, test: Mismatch, demerits: Mapping[Key, float] | Non
 
     The evidence ranks the explanations, less the ``demerits`` of those that failed on levels left out. Where it
     and the test disagree on "none", its weight is moved just far enough that the most probable explanation agrees
-    with the test.
+    with the test. What scatters more than noise can, and follows nothing, is something unnamed.
     """
     log = dict(found.log_weights)
     for key, demerit in (demerits or {}).items():
         log[key] -= demerit
+    if test.unfollowed and log[()] > log["unknown"]:
+        log[()], log["unknown"] = log["unknown"], log[()]
     others = [value for key, value in log.items() if key != ()]
     best = max(others, default=-np.inf)
     if test.detected and log[()] >= best:

@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from mixedlub.case import Case
-from mixedlub.diagnosis.fit import log_likelihood
+from mixedlub.diagnosis.fit import log_likelihood, outlier_chance
+from mixedlub.diagnosis.mismatch import Mismatch
 from mixedlub.diagnosis.noise import pooled_sd, repeated, with_noise
 from mixedlub.diagnosis.search import MANY, Search
 from mixedlub.table import Table
@@ -18,6 +19,9 @@ FACTORS = np.array([1.1, 1.25, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 4.0, 6.0, 10.0])
 CLEAR = 8.0
 """Gain in log probability from which stated noise is not believed; under nothing but noise it stays below 3."""
 ROUNDS = 4
+SMALLEST = 1e-304
+MOST = 4.0
+"""How many times the stated noise a rig may have: what scatters more is no noise, though nothing follows it."""
 UNLIKELY = 1e-3
 QUIETER, STEPS = 0.7, 5
 """Noise that a smooth fit leaves over holds what the fit does not follow: by how much it is lowered, how often."""
@@ -44,6 +48,18 @@ def stated_or_more(case: Case, rows: Table, trial: Trial) -> tuple[Search, float
         times *= factor
         found = trial(*scaled(case, rows, times))
     return found, times
+
+
+def beyond_noise(found: Search, times: float, test: Mismatch) -> Mismatch:
+    """The test against nothing missing where readings scatter more than the stated noise can be meant to."""
+    from scipy.stats import chi2
+
+    if times <= MOST:
+        return test
+    good = outlier_chance(found.none.residual) <= 0.5
+    left = float(np.sum(found.none.residual[good] ** 2)) * (times / MOST) ** 2
+    p = min(max(float(chi2.sf(left, int(good.sum()))), SMALLEST), test.p_value)
+    return replace(test, p_value=p, detected=bool(p <= test.level), unfollowed=True)
 
 
 def repeats_allow(found: Search) -> float:

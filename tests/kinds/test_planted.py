@@ -302,6 +302,16 @@ def test_noise_of_readings_through_zero_is_told_from_repeats(make):
     assert not found.test.detected
 
 
+@pytest.mark.parametrize(("times", "verdict"), [(2.0, ()), (9.0, "unknown")])
+def test_scatter_far_beyond_what_is_stated_is_not_called_noise(make, times, verdict):
+    friction = noisy(np.full(TIME.size, 0.1), 0.01 * times, seed=8)
+    columns = {"time_s": TIME, "friction_coefficient": friction}
+    found = diagnose_case(make(system("friction_history", "friction_coefficient"), columns).folder)
+    assert found.posterior.verdict == verdict
+    assert any("times as much as stated" in text for text in found.warnings)
+    assert found.test.detected == (verdict == "unknown")
+
+
 def test_scatter_has_no_period(make):
     found = diagnose_case(make(*hunting(8.3, 0.0)).folder)
     assert not found.test.detected
