@@ -13,7 +13,7 @@ from mixedlub.calibration import Calibration, calibrations
 from mixedlub.case import Case, noted
 from mixedlub.chain import Model, Parameters, Record, available
 from mixedlub.effect import Effect, known_in
-from mixedlub.kinds.kind import SCALE
+from mixedlub.kinds.kind import SCALE, ageing
 from mixedlub.table import Table
 
 
@@ -52,6 +52,8 @@ class Forward:
         with noted(notes):
             self.table = table = case.kind.completed(table, recorded)
             self.inputs: dict[str, Any] = case.kind.inputs(case.system, case.folder, table, recorded)
+            if "sequence" in self.inputs:
+                self.inputs["ageing"] = ageing(table, recorded, self.inputs["sequence"])
             extra = case.kind.extra_calibration(case.system, recorded)
         self.notes = tuple(notes)
         self.scale = SCALE[case.quantity]

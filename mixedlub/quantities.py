@@ -135,6 +135,7 @@ drive_angle             | phi        | rad     | angle the drive has turned
 pressure                | p          | Pa      | hydrostatic pressure
 time                    | t          | s       | time since the start of the recording
 sequence                | q          | -       | place in the test programme, 0 at its start and 1 at its end
+ageing                  | q_h      | -       | share of the programme's ageing done, at a rate that doubles every 10 K
 ambient_temperature     | theta_a    | K       | temperature around the rig
 fringe_order            | N          | -       | interference order that the instrument counted
 first_fringe_order      | N_0        | -       | lowest interference order of the recording

@@ -60,6 +60,9 @@ SCALE = {
 """From SI to the unit of the column."""
 
 
+TEN_KELVIN = 10.0
+
+
 NO_GEARS = "no_gears"
 """Name in the column ``rig`` of readings taken with the gears out."""
 
@@ -80,6 +83,30 @@ def bookkeeping_inputs(system: config.System, table: Table) -> Inputs:
     if "sequence" in table:
         inputs["sequence"] = column(table["sequence"])
     return inputs
+
+
+def ageing(table: Table, recorded: Table, sequence: np.ndarray) -> np.ndarray:
+    """Share of the programme's ageing that is done at each row, at a rate that doubles every 10 K.
+
+    That is the rule of thumb of van 't Hoff for reactions, oxidation among them. Where no temperature is recorded it
+    goes with the programme. ``sequence`` has the rows of ``table``, (rows, 1).
+
+    >>> place = np.linspace(0.0, 1.0, 5)
+    >>> run = Table({"sequence": place, "temperature_C": np.array([20.0, 20.0, 20.0, 80.0, 80.0])}, "run")
+    >>> ageing(run, run, column(place))[:, 0].round(3).tolist()   # an hour at 20 degC is a minute at 80
+    [0.0, 0.01, 0.02, 0.35, 1.0]
+    """
+    name = next((n for n in ("oil_temperature_C", "temperature_C") if n in recorded), None)
+    places = recorded["sequence"] if "sequence" in recorded else programme(recorded, recorded).get("sequence")
+    if name is None or places is None:
+        return sequence
+    order = np.argsort(np.ravel(places), kind="stable")
+    place, celsius = np.ravel(places)[order], recorded[name][order]
+    inside = (place > 0.0) & (place < 1.0)
+    ends = np.concatenate([[0.0], place[inside], [1.0]])
+    rate = np.exp2((np.interp(ends, place, celsius) - celsius.max()) / TEN_KELVIN)
+    done = np.concatenate([[0.0], np.cumsum(0.5 * (rate[1:] + rate[:-1]) * np.diff(ends))])
+    return np.interp(sequence, ends, done / done[-1])
 
 
 def programme(table: Table, recorded: Table) -> Inputs:
