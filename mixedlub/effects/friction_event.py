@@ -11,7 +11,7 @@ from mixedlub.effect import Between, BetweenLog, Normal, Parameter, effect
     parameters=(
         Parameter("change", "-", Normal(0.0, 0.3), "logarithm of the factor on friction", null=0.0, symbol="c"),
         Parameter("place", "-", Between(0.0, 1.0), "place in the programme", scan=120, symbol="q_e"),
-        Parameter("width", "-", BetweenLog(0.002, 0.06), "share of the programme over which it happens", symbol="w"),
+        Parameter("width", "-", BetweenLog(0.002, 0.03), "share of the programme over which it happens", symbol="w"),
     ),
     equation=r"\mu_B \leftarrow \mu_B\,e^{c\,\sigma((q - q_e)/w)},\quad "
     r"\sigma(x) = \frac{1}{1 + e^{-x}}",

@@ -24,24 +24,32 @@ SOFTNESS = 0.2
         Parameter(
             "induction", "-", LogNormal(0.02, 1.2), "share of the programme before the film starts", symbol="q_i"
         ),
+        Parameter(
+            "exponent",
+            "-",
+            LogNormal(1.0, 0.4),
+            "1: bare track is covered at a steady rate, 0.5: growth through the film, above 1: nuclei that grow",
+            symbol="n",
+        ),
     ),
-    equation=r"\mu_B \leftarrow \mu_B\,(1 + c\,\theta),\quad \theta = 1 - e^{-g/q_c},\quad "
+    equation=r"\mu_B \leftarrow \mu_B\,(1 + c\,\theta),\quad \theta = 1 - e^{-(g/q_c)^n},\quad "
     r"g = w\ln\frac{1 + e^{(q - q_i)/w}}{1 + e^{-q_i/w}},\ w = 0.2\,q_i",
     source="coverage of the first order after an induction time: H. Fujita, H. A. Spikes, Proc. IMechE J 218 (2004) "
-    "265, films of zinc dithiophosphate and their friction",
+    "265, films of zinc dithiophosphate and their friction; exponent of M. Avrami, J. Chem. Phys. 7 (1939) 1103",
     fingerprint={"sequence": "+"},
     separated_by="an image or contact resistance of the track after each step shows coverage grow; running-in "
     "of heights shows in a profile and ends within the first per cent of the test",
 )
-def tribofilm_growth(boundary_friction, sequence, *, change, time_constant, induction):
+def tribofilm_growth(boundary_friction, sequence, *, change, time_constant, induction, exponent):
     """Additives form a solid film on the track; friction goes with the share of the track that it covers.
 
     The start is rounded over a fifth of the induction time, as nuclei do not all form at once.
 
-    >>> x = tribofilm_growth(0.06, np.array([0.0, 1.0]), change=1.0, time_constant=0.05, induction=0.2)
-    >>> x.round(4).tolist()
+    >>> film = dict(change=1.0, time_constant=0.05, induction=0.2, exponent=1.0)
+    >>> tribofilm_growth(0.06, np.array([0.0, 1.0]), **film).round(4).tolist()
     [0.06, 0.12]
     """
     width = SOFTNESS * induction
     since = width * (np.logaddexp(0.0, (sequence - induction) / width) - np.logaddexp(0.0, -induction / width))
-    return boundary_friction * (1.0 - change * np.expm1(-np.maximum(since, 0.0) / time_constant))
+    grown = (np.maximum(since, 0.0) / time_constant) ** exponent
+    return boundary_friction * (1.0 - change * np.expm1(-grown))
