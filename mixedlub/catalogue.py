@@ -37,8 +37,8 @@ def shown(effect: Effect) -> dict[str, float]:
 def share(effect_id: str, rig: str) -> np.ndarray | None:
     """What the effect adds to each reading of a standard rig over the reading; None where it cannot act."""
     forward = standard.forward(rig)
-    effect = catalogue()[effect_id]
-    if effect_id not in {e.id for e in forward.effects()}:
+    effect = next((e for e in forward.effects() if e.id == effect_id), None)
+    if effect is None:
         return None
     base = forward.predict()
     return (forward.predict(None, {effect_id: shown(effect)}) - base) / base

@@ -24,7 +24,7 @@ UNITS: dict[str, dict[str, tuple[float, float]]] = {
     "ratio": {"-": (1.0, 0.0), "1": (1.0, 0.0), "%": (0.01, 0.0)},
 }
 """What each unit of a case's columns may be given in: factor and what is added."""
-KINEMATIC = ("mm2/s", "mm²/s", "cst", "m2/s", "m²/s", "mm^2/s")
+KINEMATIC = ("mm2/s", "mm²/s", "mm^2/s", "mm².s⁻¹", "mm2.s-1", "cst", "st", "m2/s", "m²/s", "m^2/s")
 """Units, in small letters, in which viscosity is divided by density."""
 
 
@@ -190,7 +190,7 @@ def convert(values: np.ndarray, unit: str, target: Target, where: str) -> np.nda
     if change is None:
         hint = nearest(unit, UNITS[target.unit])
         if target.unit == "mPa_s" and tidy(unit).lower() in KINEMATIC:
-            hint = "this is a kinematic viscosity: times the density in g/cm³ it is in mPa s"
+            hint = "this is a kinematic viscosity: in mm²/s, times the density in g/cm³, it is in mPa s"
         raise InputError(f"unit of {target.name} is not known; {hint}", where=where, value=unit)
     factor, added = change
     return values * factor + added

@@ -17,7 +17,10 @@ def next_test(d: Diagnosis) -> tuple[str, ...]:
     if d.posterior.verdict == "unknown":
         period = wave_period(d)
         if period:
-            return (f"Look for what on the rig swings every {period}: a thermostat, a turning part, the mains.",)
+            return (
+                f"Look for what on the rig swings every {period}, as a thermostat or a turning part may. Read at other "
+                "intervals as well: what swings faster than readings are taken shows with a longer period.",
+            )
         place = ", ".join(range_text(cut) for cut in d.region.where) or "all conditions"
         return (f"To learn its form, refine and repeat the levels around {place}.",)
     if not d.next_tests:
@@ -35,14 +38,12 @@ def next_test(d: Diagnosis) -> tuple[str, ...]:
 
 
 def wave_period(d: Diagnosis) -> str:
-    """Period of the unnamed mismatch, with its unit, where it is a wave; empty where it is none."""
+    """Period of the unnamed mismatch where it is a wave in time; empty where it is none."""
     shape = d.found.unknown.best
     if not shape.waves:
         return ""
     low, high = next(axis.ends for axis in d.found.space.axes if axis.name in shape.axes)
-    if shape.axes[0] == "sequence":
-        return f"{(high - low) / shape.waves:.3g} of the programme"
-    return amount((high - low) / shape.waves, shape.axes[0])
+    return amount(float(f"{(high - low) / shape.waves:.3g}"), shape.axes[0])
 
 
 def beyond(conditions: Mapping[str, float | str], recorded: Table) -> tuple[str, ...]:

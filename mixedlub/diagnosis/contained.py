@@ -13,7 +13,7 @@ from mixedlub.diagnosis.search import Search
 REJECTED = -4.6
 """Log odds from which a law is said to be rejected: one to a hundred."""
 EQUAL = -2.3
-"""Log odds from which it is said to do as well: one to ten."""
+"""Log odds from which it cannot be excluded: one to ten."""
 
 
 @dataclass(frozen=True)
@@ -27,9 +27,11 @@ class Contained:
     @property
     def text(self) -> str:
         """What the readings say of the law."""
+        odds = f"(log odds {self.log_odds:+.1f})"
+        if self.log_odds > 0.0:
+            return f"The law of {self.law}, which it contains, does as well {odds}."
         if self.log_odds > EQUAL:
-            return f"The law of {self.law}, which it contains, does as well."
-        odds = f"(log odds {self.log_odds:.1f})"
+            return f"The law of {self.law}, which it contains, cannot be excluded {odds}."
         if self.log_odds > REJECTED:
             return f"The law of {self.law}, which it contains, does less well {odds}."
         return f"The law of {self.law}, which it contains, is rejected {odds}."

@@ -12,7 +12,7 @@ import numpy as np
 from mixedlub.case import Case, read_case, read_conditions
 from mixedlub.diagnosis.audit import Doubt, audit
 from mixedlub.diagnosis.contained import Contained, contained
-from mixedlub.diagnosis.features import coordinates, is_held
+from mixedlub.diagnosis.features import coordinates
 from mixedlub.diagnosis.fit import outlier_chance
 from mixedlub.diagnosis.heldout import HeldOut, LevelsOut
 from mixedlub.diagnosis.location import Region, region
@@ -119,10 +119,11 @@ def diagnose_case(
     other = None if wanted is None else _predict(found, judged, refined, wanted)
     chance = _outliers(found, judged, refined)
     columns = [c for c in case.kind.columns if c.name in rows]
-    varied = [c.name for c in columns if not is_held(c.name, rows[c.name])] or [c.name for c in columns]
+    swept = {axis.name for axis in found.space.axes}
+    varied = [c.name for c in columns if c.form == "name" or c.name in swept] or [c.name for c in columns]
     place = region(rows, varied, np.where(chance > 0.5, 0.0, recorded.mismatch_z))
     laws = contained(found, judged.verdict)
-    tests = _next_tests(found, judged, refined, columns)
+    tests = _next_tests(found, judged, refined, columns, varied)
     warnings += _doubts(judged, kept, chance, y, recorded)
     if not isinstance(judged.verdict, str):
         warnings += beyond_range(found.problem, judged.verdict, refined[judged.verdict].z)
@@ -313,7 +314,7 @@ def _outliers(found: Search, judged: Posterior, refined: dict[Key, Refined]) -> 
 
 
 def _next_tests(
-    found: Search, judged: Posterior, refined: dict[Key, Refined], columns: list[Column]
+    found: Search, judged: Posterior, refined: dict[Key, Refined], columns: list[Column], varied: list[str]
 ) -> tuple[NextTest, ...]:
     keys = [k for k in refined if judged.weights[k] > 0.01]
     if len(keys) < 2:
@@ -324,7 +325,7 @@ def _next_tests(
         keys = [*keys, runner]
     keys = keys[:5]
     case = found.problem.case
-    table = candidates(found.problem.rows, columns, case.kind.limits(case.system))
+    table = candidates(found.problem.rows, columns, case.kind.limits(case.system), varied)
     rows = Rows(found, table)
     predictions = [rows.of_fit(refined[k]) for k in keys]
     weights = np.array([judged.weights[k] for k in keys])

@@ -20,6 +20,8 @@ JITTER = 1e-6
 LEAST = 1e-300
 HELD = 0.01
 """A condition that spans less than this share of its size was held: what it wanders is no variation to learn from."""
+LOST_AFTER = 2.0
+"""Periods beyond a record after which a wave is out of step, as its period is not known that well."""
 WANDERS, MOVES = 0.1, 0.005
 """One that spans less than the first was held as well if the base model's readings move by less than the second."""
 
@@ -57,7 +59,13 @@ class Coordinate:
         """A cosine and a sine that go through ``waves`` periods from the lowest to the highest value."""
         low, high = self.ends
         turn = 2.0 * np.pi * waves * (values - low) / (high - low)
-        return np.column_stack([np.cos(turn), np.sin(turn)])
+        return np.column_stack([np.cos(turn), np.sin(turn)]) * self.kept(values, waves)[:, None]
+
+    def kept(self, values: np.ndarray, waves: float) -> np.ndarray:
+        """Share of a wave that is foretold: one within the record, and none a few periods beyond it."""
+        low, high = self.ends
+        beyond = np.maximum(np.maximum(low - values, values - high), 0.0) * waves / (high - low)
+        return np.exp(-((beyond / LOST_AFTER) ** 2))
 
     def functions(self, values: np.ndarray, length: float) -> np.ndarray:
         """Columns whose random combination is a smooth function of the condition, variance one."""
@@ -93,14 +101,25 @@ def is_held(name: str, levels: np.ndarray) -> bool:
     return float(np.ptp(size)) <= HELD * float(np.max(np.abs(size)))
 
 
-def _wanders(name: str, case: Case, table: Table, forward: Forward) -> bool:
-    """Whether a condition only wandered about its set-point: little, and without a change of the base model."""
-    values = table[name] if name in table else np.array([""])
-    if values.dtype.kind in "US" or name in PASSING or np.ptp(values) > WANDERS * np.max(np.abs(values)):
+def jitters(name: str, values: np.ndarray) -> bool:
+    """Whether values lie within a tenth of their size and hardly one comes again, as what is measured about one does.
+
+    >>> jitters("load_N", np.array([19.9, 20.1, 20.3, 19.7])), jitters("load_N", np.array([20.0, 21.0, 20.0, 21.0]))
+    (True, False)
+    """
+    if values.dtype.kind in "US" or name in PASSING or 2 * np.unique(values).size <= values.size:
         return False
-    steady = Table({**table.columns, name: np.full(len(table), np.median(values))}, table.source)
+    size = values + 273.15 if name.endswith("temperature_C") else values
+    return bool(np.ptp(size) <= WANDERS * np.max(np.abs(size)))
+
+
+def _wanders(name: str, case: Case, table: Table, forward: Forward) -> bool:
+    """Whether a condition only wandered about its set-point: little, and hardly moving a base model that reads it."""
+    if name not in table or not jitters(name, table[name]):
+        return False
+    steady = Table({**table.columns, name: np.full(len(table), np.median(table[name]))}, table.source)
     here, there = forward.predict(), Forward(case, steady).predict()
-    return bool(np.max(np.abs(there - here)) <= MOVES * np.median(np.abs(here)))
+    return 0.0 < float(np.max(np.abs(there - here))) <= MOVES * float(np.median(np.abs(here)))
 
 
 def _kernel(a: np.ndarray, b: np.ndarray, length: float) -> np.ndarray:
@@ -165,7 +184,8 @@ def coordinates(case: Case, table: Table, forward: Forward) -> Coordinates:
             axes.append(Coordinate(name, levels))
             continue
         logarithmic = bool(levels[0] > 0 and levels[-1] / levels[0] > 3.0 and name != "sequence")
-        folded = float(np.abs(levels[levels != 0.0]).min()) if levels[0] < 0.0 < levels[-1] else 0.0
+        both = levels[0] < 0.0 < levels[-1] and name not in PASSING
+        folded = float(np.abs(levels[levels != 0.0]).min()) if both else 0.0
         x = unrolled(levels, logarithmic, folded)
         low, span = float(x[0]), float(x[-1] - x[0])
         nodes = (x - low) / span

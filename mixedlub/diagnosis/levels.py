@@ -26,7 +26,7 @@ def set_points(values: np.ndarray) -> np.ndarray:
         return values
     order = np.argsort(values, kind="stable")
     ranked = values[order].astype(float)
-    for near in (0.0, NEAR_SPAN * (ranked[-1] - ranked[0])):
+    for near in (NEAR_SPAN * (ranked[-1] - ranked[0]), 0.0):
         points = _clusters(ranked, near)
         if points is not None:
             found = np.empty(values.size)
@@ -42,7 +42,7 @@ def near_values(values: np.ndarray) -> np.ndarray:
     [2, 0, 0, 1]
     """
     ranked = np.sort(values).astype(float)
-    label = _labels(ranked, 0.0)
+    label = _labels(ranked, 0.0) if ranked.size else None
     if label is None:
         return np.unique(values, return_inverse=True)[1]
     return label[np.searchsorted(ranked, values)]

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
 
-from mixedlub.diagnosis.levels import set_points
+from mixedlub.diagnosis.levels import roundest, set_points
 from mixedlub.diagnosis.predict import Prediction
 from mixedlub.table import Column, Table
 
 MOST = 600
+LEAST = 1e-12
 NODES = 21
 
 
@@ -26,11 +27,15 @@ class NextTest:
 
 
 def candidates(
-    table: Table, conditions: list[Column], limits: Mapping[str, tuple[float, float]] | None = None
+    table: Table,
+    conditions: list[Column],
+    limits: Mapping[str, tuple[float, float]] | None = None,
+    varied: Collection[str] | None = None,
 ) -> Table:
     """A grid over the recorded levels and a little beyond them, thinned to a few hundred conditions.
 
-    It keeps within the bounds of the columns, and within the ``limits`` of the rig.
+    It keeps within the bounds of the columns, and within the ``limits`` of the rig. Conditions that are not ``varied``
+    (none given: all are) stay where they were.
 
     >>> share = Column("slide_roll_ratio", at_least=0.0, at_most=2.0)
     >>> candidates(Table({"slide_roll_ratio": np.array([0.5, 1.9])}, ""), [share])["slide_roll_ratio"].tolist()
@@ -39,6 +44,8 @@ def candidates(
     axes: list[np.ndarray] = []
     for condition in conditions:
         levels = np.unique(set_points(table[condition.name]))
+        if varied is not None and condition.name not in varied and levels.dtype.kind not in "US":
+            levels = np.array([roundest(float(levels[0]), float(levels[-1]))])
         if levels.dtype.kind not in "US" and levels.size > 1:
             low, high = float(levels[0]), float(levels[-1])
             wide = 0.25 * (high - low)
@@ -67,7 +74,8 @@ def expected_bits(weights: np.ndarray, predictions: list[Prediction], sd: np.nda
     >>> expected_bits(np.array([0.5, 0.5]), [near, far], np.ones(1)).round(3).tolist()
     [1.0]
     """
-    share = weights / weights.sum()
+    share = np.maximum(weights, LEAST)
+    share = share / share.sum()
     mean = np.array([p.mean for p in predictions])
     spread = np.sqrt(np.array([p.variance for p in predictions]) + sd**2)
     node, mass = np.polynomial.hermite_e.hermegauss(NODES)

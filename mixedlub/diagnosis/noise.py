@@ -8,7 +8,7 @@ import numpy as np
 
 from mixedlub import config
 from mixedlub.case import Case
-from mixedlub.diagnosis.features import PASSING, WANDERS, Coordinates
+from mixedlub.diagnosis.features import PASSING, Coordinates, jitters
 from mixedlub.diagnosis.levels import near_values
 from mixedlub.table import Table
 
@@ -23,6 +23,8 @@ WIDE = 3.0
 TRUSTED = 10
 PARTS = ((1.0, 0.0), (1.0, 0.03), (1.0, 0.1), (1.0, 0.3), (1.0, 1.0), (0.3, 1.0), (0.0, 1.0))
 """Shares of a reading's own size and of the typical one in its noise that are tried."""
+BOTH = 2.0
+"""What both parts of a noise have to gain over one of them, in log probability."""
 PARTNERS = 12
 """Readings of its group that each one is compared with, at most."""
 
@@ -158,12 +160,13 @@ def _by_size(y: np.ndarray, size: np.ndarray, group: np.ndarray) -> tuple[float,
     left = ((y - _medians(y, group)[group]) / np.sqrt(1.0 - 1.0 / np.maximum(count, 2)))[several]
     typical = float(np.median(size[several]))
     best, found = np.inf, (0.0, 0.0)
+    spare = float(several.sum() - np.unique(group[several]).size)
     for own, common in PARTS:
         scale = np.hypot(own * size, common * typical)
         share = max(pooled_sd(y / scale, group), 1e-300)
         sd = share * scale[several]
         # Student's t with four degrees of freedom: readings that a noise leaves far off count against it.
-        score = float(np.mean(np.log(sd) + 2.5 * np.log1p((left / sd) ** 2 / 4.0)))
+        score = spare * float(np.mean(np.log(sd) + 2.5 * np.log1p((left / sd) ** 2 / 4.0))) + BOTH * (own * common > 0)
         if score < best:
             best, found = score, (share * own, share * common * typical)
     return found
@@ -193,7 +196,7 @@ def nearly_repeated(case: Case, rows: Table) -> np.ndarray | None:
         values = rows[name]
         if values.dtype.kind in "US" or name in PASSING:
             columns[name] = values
-        elif np.ptp(values) <= WANDERS * np.max(np.abs(values)):
+        elif jitters(name, values):
             columns[name] = np.zeros(len(rows))
         else:
             columns[name] = near_values(values)

@@ -117,7 +117,17 @@ class Rows:
         every = np.hstack([slopes, shared, own])
         mean = calibrated + self.sd * (own @ unknown.fit.coefficients[-own.shape[1] :])
         variance = np.einsum("ij,jk,ik->i", every, unknown.covariance, every) * self.sd**2
-        return Prediction(mean, variance, calibrated)
+        return Prediction(mean, variance + self._lost_wave() * self.sd**2, calibrated)
+
+    def _lost_wave(self) -> np.ndarray:
+        """Variance, in sigmas, of a wave where it is no longer foretold."""
+        unknown, rows = self.found.unknown, self.problem.rows
+        if not unknown.best.waves:
+            return np.zeros(len(rows))
+        place = next(i for i, axis in enumerate(self.found.space.axes) if axis.name in unknown.best.axes)
+        kept = self.found.space.axes[place].kept(self.values[place], unknown.best.waves)
+        height = unknown.best.size * np.linalg.norm(unknown.fit.coefficients[-2:])
+        return 0.5 * (1.0 - kept**2) * height**2
 
 
 def _noise_at(problem: Problem, table: Table, seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -50,7 +50,7 @@ def _resemblance(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
     close = ", ".join(effect_words(name) for name in improbable if name in twins)
     if close:
         said.append(
-            f"Improbable, but of nearly the same signature, so that only the size of the noise speaks against: {close}."
+            f"Improbable, but by size and strain rather than by form, for the signature is nearly the same: {close}."
         )
     if unseen:
         said.append(

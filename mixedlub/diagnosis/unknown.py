@@ -15,6 +15,7 @@ from mixedlub.diagnosis.carriers import NOTHING, READING, Carriers, Typical, car
 from mixedlub.diagnosis.features import Coordinates
 from mixedlub.diagnosis.fit import Fit, Linear, linear_fit, settled
 from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.waves import CLOCK, frequencies, strongest
 
 LENGTHS = (0.25, 0.7)
 ROUGH = 0.08
@@ -24,10 +25,6 @@ SIZES = (0.7, 2.0, 6.0, 20.0, 60.0)
 FACTORS = (0.03, 0.1, 0.3, 1.0)
 """How large one of a quantity of the chain may be, in its logarithm."""
 FULL = 6
-CLOCKS = ("time_s", "sequence")
-TURNED = "position_deg"
-WAVES, MOST_WAVES, WAVE_STEP = 3.0, 200.0, 0.5
-"""Periods of a wave over the recording that are tried: fewer are smooth, half as many as readings are the most."""
 SAME = {"surfaces", "composite_roughness_um"}
 """The roughness is a function of the surfaces: together they say no more than these."""
 
@@ -63,9 +60,9 @@ class Unknown:
     z: np.ndarray
 
 
-def shapes(space: Coordinates, values: list[np.ndarray], carriers: Carriers) -> list[Shape]:
-    """All shapes that are tried, of size one."""
-    found = waves(space, values)
+def shapes(space: Coordinates, waves: np.ndarray, carriers: Carriers) -> list[Shape]:
+    """All shapes that are tried, of size one; ``waves`` are the periods over the recording."""
+    found = [wave_of(w) for w in waves]
     for length in LENGTHS:
         for carrier in carriers:
             names = [axis.name for axis in space.axes]
@@ -83,20 +80,9 @@ def shapes(space: Coordinates, values: list[np.ndarray], carriers: Carriers) -> 
     return found
 
 
-def waves(space: Coordinates, values: list[np.ndarray]) -> list[Shape]:
-    """Waves along time or place in the programme, from slow ones to one over two readings.
-
-    Where a shaft turns meanwhile they would be those of its position, which have a name.
-    """
-    found: list[Shape] = []
-    if any(axis.name == TURNED for axis in space.axes):
-        return found
-    for axis, where in zip(space.axes, values, strict=True):
-        if axis.name in CLOCKS:
-            levels = np.unique(where)
-            most = min(0.5 * np.ptp(levels) / np.median(np.diff(levels)), MOST_WAVES)
-            found += [Shape((axis.name,), 0.0, 1.0, READING, False, w) for w in np.arange(most, WAVES, -WAVE_STEP)]
-    return found
+def wave_of(waves: float, size: float = 1.0) -> Shape:
+    """A wave in time as a share of the reading."""
+    return Shape((CLOCK,), 0.0, size, READING, False, float(waves))
 
 
 def sizes(carrier: str) -> tuple[float, ...]:
@@ -116,8 +102,8 @@ def shape_columns(shape: Shape, space: Coordinates, values: list[np.ndarray], ca
 def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np.ndarray]) -> Unknown:
     """Marginal likelihood of the base model plus an unnamed smooth mismatch, averaged over its shapes.
 
-    Which readings are outliers is settled first, under the richest shape; shapes and sizes are then weighed
-    with those weights, and the best few again in full.
+    Which readings are outliers is settled first, under the richest shape or the clearest wave; shapes and sizes are
+    then weighed with those weights, and the best few again in full.
     """
     target = none.anchor
     fixed = np.hstack([none.slopes, problem.shared])
@@ -130,24 +116,25 @@ def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np
 
     rich = Shape((), LENGTHS[0], 6.0, READING, len(space.axes) > 1)
     reference = linear_fit(target, np.hstack([fixed, columns_of(rich)]))
+    periods = frequencies(space, values)
+    clear = strongest(target, fixed, lambda w: columns_of(wave_of(w, rich.size)), periods)
+    if clear is not None:
+        periods[np.argmin(np.abs(periods - clear[0]))] = clear[0]
+        reference = max(reference, clear[1], key=lambda fit: fit.evidence)
     tried: list[Shape] = []
     weighed: list[float] = []
-    for shape in shapes(space, values, rides):
+    for shape in shapes(space, periods, rides):
         steps = sizes(shape.carrier)
         tried.extend(replace(shape, size=size) for size in steps)
         weighed.extend(_evidence_by_size(target, fixed, columns_of(shape), reference.weight, np.array(steps)))
 
-    def weighed_in_full(shape: Shape) -> Linear:
-        return linear_fit(target, np.hstack([fixed, columns_of(shape)]), reference.weight)
-
     order = np.argsort(weighed)[::-1]
-    full = {int(i): weighed_in_full(tried[i]) for i in order[:FULL]}
+    full = {
+        int(i): linear_fit(target, np.hstack([fixed, columns_of(tried[i])]), reference.weight) for i in order[:FULL]
+    }
     first = int(order[0])
     offset = full[first].evidence - weighed[first]
     best = max(full, key=lambda i: full[i].evidence)
-    if tried[best].waves:
-        near = [replace(tried[best], waves=w) for w in tried[best].waves + WAVE_STEP * np.linspace(-1.0, 1.0, 21)]
-        tried[best], full[best] = max(((s, weighed_in_full(s)) for s in near), key=lambda found: found[1].evidence)
     evidence = np.array([full[i].evidence if i in full else weighed[i] + offset for i in range(len(tried))])
     own = columns_of(tried[best])
     every = np.hstack([fixed, own])

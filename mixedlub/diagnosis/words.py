@@ -26,6 +26,7 @@ from mixedlub.diagnosis.labels import (
     words_of,
 )
 from mixedlub.diagnosis.maps import missing, residuals
+from mixedlub.diagnosis.posterior import names_effects
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.readings import checked_channel, outliers, reading_conditions, steadied_noise
 from mixedlub.diagnosis.resembling import resembling
@@ -43,13 +44,15 @@ SPREAD = (
     "differ from these."
 )
 TURNED = 0.2
+"""Share of readings whose sign in the figures is another one, from which that is explained."""
 EVEN = 0.3
 """Share that stays of a mismatch when its signs cancel, below which neither sign is told."""
 WORTH = 0.5
 """Share of an unnamed mismatch from which the effects that take it up are told."""
+SECOND = 0.1
+"""Share of a mismatch that a second effect has to take up to be told."""
 TIMES = 3.0
 """Share of the reading from which it is told as a multiple."""
-"""Share of readings whose sign in the figures is another one, from which that is explained."""
 LEFT_OUT = "What was left out?"
 BEST_TIED = "What was left out? Best of the tied candidates"
 UNNAMED = "If it is something unknown"
@@ -229,19 +232,25 @@ def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
 
 
 def nearest_name(d: Diagnosis) -> list[str]:
-    """Which effects of the catalogue take up most of a mismatch that has no name, and how much they leave."""
-    names = [key for key in d.posterior.weights if not isinstance(key, str) and key]
-    if not names:
+    """Which effects of the catalogue take up most of a mismatch that has no name; nothing where some are tied."""
+    found = d.found
+    if found.unknown.best.waves or any(names_effects(key) for key in d.posterior.tied):
         return []
-    good = outlier_chance(d.found.unknown.fit.residual) <= 0.5
-    before, after = (float(np.sum(d.found.fits[key].residual[good] ** 2)) for key in ((), names[0]))
-    taken = 1.0 - after / before
+    good = outlier_chance(found.unknown.fit.residual) <= 0.5
+    left = {key: float(np.sum(fit.residual[good] ** 2)) for key, fit in found.fits.items()}
+    most = left[()] - float(np.sum(found.unknown.fit.residual[good] ** 2))
+    names = [key for key in left if key and left[key] < left[()]]
+    if most <= 0.0 or not names:
+        return []
+    # One effect is named unless a second takes up a good part of what it leaves.
+    nearest = min(names, key=lambda key: left[key] + SECOND * most * (len(key) - 1))
+    taken = min((left[()] - left[nearest]) / most, 1.0)
     if taken < WORTH:
         return ["No effect of the catalogue takes up a half of it."]
-    words = explanation_words(list(names[0]))
     return [
-        f"Nearest in the catalogue: {words}, with {100 * taken:.0f} % of it taken up (chi-square {number(before)} "
-        f"to {number(after)} for {int(good.sum())} readings); the rest has another form."
+        f"Nearest in the catalogue: {explanation_words(list(nearest))}, with {100 * taken:.0f} % of it taken up "
+        f"(chi-square {number(left[()])} to {number(left[nearest])} for {int(good.sum())} readings); the rest has "
+        "another form."
     ]
 
 

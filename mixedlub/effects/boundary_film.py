@@ -21,10 +21,11 @@ from mixedlub.effect import BetweenLog, LogNormal, Parameter, effect
     ),
     equation=r"h \leftarrow \left[h^m + \left(\frac{g h\,h_b}{g h + h_b}\right)^m\right]^{1/m}",
     source="layers that stay at rest: G. Guangteng, H. A. Spikes, Tribol. Trans. 39 (1996) 448; layers of thicker "
-    "fluid that a thin film consists of: J. Smeeth, H. A. Spikes, S. Gunsel, Tribol. Trans. 39 (1996) 720; joined so "
+    "fluid that a thin film consists of: M. Smeeth, H. A. Spikes, S. Gunsel, Tribol. Trans. 39 (1996) 720; joined so "
     "that it fades at speed, by the root of squares or more sharply",
     fingerprint={"speed": "-"},
-    separated_by="a zero check at rest before and after: a drifted zero shifts all films, a layer only the thinnest",
+    separated_by="a zero check at rest before and after: a drifted zero shifts all films, a layer only the thinnest; "
+    "base oil without polymer, where thicker fluid at the walls would need one",
     after=("inlet_shear_heating", "inlet_shear_thinning", "starvation", "roughness_lay"),
     kinds=("film",),
 )

@@ -4,6 +4,9 @@ import numpy as np
 
 from mixedlub.effect import Between, BetweenLog, Normal, Parameter, effect
 
+TENTHS = 2.0 * np.log(9.0)
+"""From 10 to 90 % of a logistic step."""
+
 
 @effect(
     stage="boundary",
@@ -11,9 +14,9 @@ from mixedlub.effect import Between, BetweenLog, Normal, Parameter, effect
     parameters=(
         Parameter("change", "-", Normal(0.0, 0.3), "logarithm of the factor on friction", null=0.0, symbol="c"),
         Parameter("place", "-", Between(0.0, 1.0), "place in the programme", scan=120, symbol="q_e"),
-        Parameter("width", "-", BetweenLog(0.002, 0.03), "share of the programme over which it happens", symbol="w"),
+        Parameter("width", "-", BetweenLog(0.01, 0.12), "share of the programme from 10 to 90 % of it", symbol="w"),
     ),
-    equation=r"\mu_B \leftarrow \mu_B\,e^{c\,\sigma((q - q_e)/w)},\quad "
+    equation=r"\mu_B \leftarrow \mu_B\,e^{c\,\sigma(4.4\,(q - q_e)/w)},\quad "
     r"\sigma(x) = \frac{1}{1 + e^{-x}}",
     source="sudden transitions of friction in long tests, as of mild to severe wear: P. J. Blau, Friction Science and "
     "Technology, 2nd ed., CRC Press (2009), chapter 8",
@@ -24,10 +27,10 @@ from mixedlub.effect import Between, BetweenLog, Normal, Parameter, effect
     kinds=("friction_history",),
 )
 def friction_event(boundary_friction, sequence, *, change, place, width):
-    """At one moment the surfaces change, as when a film breaks or oil is renewed, and friction is another from then on.
+    """Within a short time the surfaces change, as when a film breaks or oil is renewed, and friction stays another.
 
-    >>> friction_event(0.1, np.array([0.2, 0.6]), change=0.2, place=0.5, width=0.01).round(3).tolist()
+    >>> friction_event(0.1, np.array([0.2, 0.6]), change=0.2, place=0.5, width=0.05).round(3).tolist()
     [0.1, 0.122]
     """
-    since = np.clip((sequence - place) / width, -500.0, 500.0)
+    since = np.clip(TENTHS * (sequence - place) / width, -500.0, 500.0)
     return boundary_friction * np.exp(change / (1.0 + np.exp(-since)))

@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from mixedlub.effect import Between, Parameter, effect
+from mixedlub.effect import LogNormal, Parameter, effect
 
 
 @effect(
     stage="shear",
     acts_on="viscous_torque",
     parameters=(
-        Parameter("deficit", "-", Between(0.0, 0.7), "one less the flow index of the grease", null=0.0, symbol="d"),
+        Parameter("deficit", "-", LogNormal(0.35, 0.35), "one less the flow index of the grease", null=0.0, symbol="d"),
     ),
     equation=r"T_v \leftarrow T_v\,\max(|\omega/\omega_0|,\ 10^{-6})^{-d}",
     source="W. H. Herschel, R. Bulkley, Kolloid-Z. 39 (1926) 291, power-law part",
@@ -20,7 +20,7 @@ from mixedlub.effect import Between, Parameter, effect
 def grease_shear_thinning(viscous_torque, drive_speed, reference_speed, *, deficit):
     """Grease thins as it is sheared; its drag grows with a power of speed below one.
 
-    Flow indices of greases lie above 0.3: drag that hardly grows with speed is Coulomb's, not that of a grease.
+    Drag that hardly grows with speed, with a deficit near one, is Coulomb's and not that of a grease.
 
     >>> round(float(grease_shear_thinning(1.0, 25.0, 100.0, deficit=0.5)), 3)
     2.0

@@ -6,6 +6,8 @@ from mixedlub.effect import Between, LogNormal, Normal, Parameter, Wide, effect
 
 WARM = 313.15
 KELVIN = 100.0
+MOST = 30.0
+"""Logarithm of a viscosity's change beyond which no oil is one."""
 
 
 @effect(
@@ -42,4 +44,4 @@ def viscosity_drift(viscosity, sequence, ageing, oil_temperature, *, drift, powe
     [0.04, 0.0489]
     """
     grown = drift * np.maximum((1.0 - heat) * sequence + heat * ageing, 0.0) ** power
-    return viscosity * np.exp(grown * np.exp(cold_gain * (WARM - oil_temperature) / KELVIN))
+    return viscosity * np.exp(np.clip(grown * np.exp(cold_gain * (WARM - oil_temperature) / KELVIN), -MOST, MOST))

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from mixedlub.headers import words_of
+from mixedlub.headers import split, words_of
 from mixedlub.importers.sheet import Cells, is_number
 from profiles.errors import InputError
 
@@ -34,9 +34,12 @@ entrainment is the mean with that of 'Ball Speed (m/s)': add a column of it to t
         if words_of(taken) not in pair or not all(words in by_words for words in pair):
             continue
         one, other = (by_words[words] for words in sorted(pair, key=lambda words: words != words_of(taken)))
-        if not all(is_number(cell) for header in (one, other) for cell in cells[header]):
+        if split(one)[1] != split(other)[1]:
             continue
-        first, second = (np.array(cells[header], dtype=float) for header in (one, other))
+        both = [pair for pair in zip(cells[one], cells[other], strict=True) if all(map(is_number, pair))]
+        if not both:
+            continue
+        first, second = np.abs(np.array(both, dtype=float)).T
         if np.max(np.abs(first - second)) > 2.0 * WITHIN * np.max(np.abs(first)):
             rule = f"is the speed of one surface; entrainment is the mean with that of {other!r}: add a column of it"
             raise InputError(f"{rule} to the file", where=f"{name}: entrainment_speed_m_s", value=taken)

@@ -14,7 +14,7 @@ import numpy as np
 from mixedlub import bodies, config
 from mixedlub.case import noted
 from mixedlub.chain import Model, available
-from mixedlub.effect import BetweenLog, Effect, LogNormal, find
+from mixedlub.effect import BetweenLog, Effect, LogNormal, find, known_in
 from mixedlub.gear import GearPair, Mesh, mesh
 from mixedlub.kinds.gear_pair import motion_inputs
 from mixedlub.laws.load import LEAST_SHARE
@@ -209,14 +209,15 @@ def _effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, 
         return (), {}
     effects = find(sorted(file.effects))
     parameters: dict[str, dict[str, float]] = {}
+    effects = tuple(known_in("gear_pair")[e.id] for e in effects)
     for e in effects:
         if not available(e, study_chain(file.options), tuple(inputs), "power_loss", "gear_pair"):
             raise InputError("this effect cannot act on the power loss of a study", where=f"effects.{e.id}")
-        values = e.middle
+        values = {**e.held, **e.middle}
         for name, value in file.effects[e.id].items():
-            if name not in values:
+            if name not in e.middle:
                 raise InputError(
-                    f"no such parameter of {e.id}; {nearest(name, values)}", where=f"effects.{e.id}", value=name
+                    f"no such parameter of {e.id}; {nearest(name, e.middle)}", where=f"effects.{e.id}", value=name
                 )
             prior = next(p.prior for p in e.parameters if p.name == name)
             if value < 0 and isinstance(prior, LogNormal | BetweenLog):

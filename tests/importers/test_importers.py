@@ -254,7 +254,7 @@ def test_suffixes_are_units():
 
 
 def test_kinematic_viscosity_is_told_from_dynamic():
-    with pytest.raises(InputError, match="kinematic viscosity: times the density"):
+    with pytest.raises(InputError, match="kinematic viscosity: in mm²/s, times the density"):
         convert(np.array([46.0]), "mm²/s", target_of("Viscosity (mm²/s)"), "oil.csv: Viscosity (mm²/s)")
 
 

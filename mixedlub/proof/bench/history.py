@@ -134,7 +134,7 @@ def histories(time: np.ndarray) -> dict[str, tuple[Form, ...]]:
 
     def scuffing(state: Any, strength: float, reach: float) -> Any:
         """The film breaks down: friction runs away at the end."""
-        return scaled(state, 1 + 0.3 * strength * np.exp((time - 1) / reach))
+        return scaled(state, 1 + 0.3 * strength * (reach / (1 - time + reach)) ** 2)
 
     fall, either = strength(0.0, 6.0), strength(-2.2, 5.0)
     pace = Knob("pace", 0.01, 1.0, (0.03, 0.25))
@@ -224,6 +224,10 @@ def _breaks(time: np.ndarray) -> tuple[Form, ...]:
         """Something turns slowly in the rig: 14 to 25 swings in the programme."""
         return multiplied(state, 1 + 0.06 * strength * np.sin(2 * np.pi * waves * time))
 
+    def chattering(state: Any, strength: float, waves: float) -> Any:
+        """A vibration builds up: its swings grow with the test."""
+        return multiplied(state, 1 + 0.1 * strength * time * np.sin(2 * np.pi * waves * time**2))
+
     def alternating(state: Any, strength: float) -> Any:
         """Every second reading belongs to the other direction of a reciprocating stroke."""
         return multiplied(state, 1 + 0.05 * strength * (-1.0) ** np.arange(len(time)))
@@ -231,6 +235,7 @@ def _breaks(time: np.ndarray) -> tuple[Form, ...]:
     either = strength(-5.0, 8.0)
     return (
         Form("humming", "loss", humming, (either, Knob("waves", 12.0, 28.0, (14.0, 25.0))), "constructed"),
+        Form("chattering", "loss", chattering, (either, Knob("waves", 8.0, 20.0, (9.0, 15.0))), "constructed"),
         Form("alternating", "loss", alternating, (either,), "constructed"),
     )
 
