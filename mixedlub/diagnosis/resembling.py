@@ -67,9 +67,10 @@ def unshown(d: Diagnosis, alike: Confusion) -> list[str]:
 
 
 def _improbable(d: Diagnosis) -> list[str]:
-    """Improbable effects on the very quantities that the answer changes, and faults of the instrument."""
+    """Improbable effects on what the answer changes; faults of the channel unless single readings have one."""
     if isinstance(d.posterior.verdict, str):
         return []
-    changed = {quantity for e in effects_of(d.posterior.verdict) for quantity in e.acts_on} | {"reading"}
+    changed = {quantity for e in effects_of(d.posterior.verdict) for quantity in e.acts_on}
+    changed = changed - {"reading"} if d.outlier_runs else changed | {"reading"}
     weighed = {name: p for name, p in d.posterior.inclusion(d.found).items() if name not in ("none", "unknown")}
     return [e.id for e in effects_of(tuple(weighed)) if weighed[e.id] < REJECTED and changed & set(e.acts_on)]
