@@ -85,7 +85,7 @@ class Law:
 
 @dataclass(frozen=True)
 class Unnamed:
-    """The stages by how well they absorb the mismatch, and the power law, if one holds on levels left out."""
+    """The stages that absorb the mismatch at all, best first, and the power law, if one holds on levels left out."""
 
     stages: tuple[Absorbed, ...]
     law: Law | None
@@ -93,7 +93,8 @@ class Unnamed:
 
 def unnamed(found: Search) -> Unnamed:
     """Describe a mismatch for which the catalogue has no name."""
-    return Unnamed(absorbing_stages(found), power_law(found))
+    stages = tuple(stage for stage in absorbing_stages(found) if stage.evidence > 0.0)
+    return Unnamed(stages, power_law(found))
 
 
 def absorbing_stages(found: Search) -> tuple[Absorbed, ...]:
