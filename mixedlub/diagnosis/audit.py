@@ -88,7 +88,7 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
     stated = case.system.recording.noise
     if is_stated(case, rows) and stated is not None:
         group = nearly_repeated(case, rows)
-        repeats = 0.0 if group is None else pooled_sd(_without_drift(case, rows, y, base), group)
+        repeats = 0.0 if group is None else pooled_sd(_without_drift(case, rows, y, base, group), group)
         size = np.abs(y) if case.kind.logarithmic else np.ones(y.size)
         typical = float(np.median(np.hypot(stated.relative * np.abs(y), stated.absolute) / size))
         unit = "" if case.kind.logarithmic else f" {unit_of(case.quantity)}".rstrip()
@@ -123,15 +123,17 @@ def _stuck(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str
     return [Doubt(f"{said}: check for a channel that was stuck or filled in (runs {', '.join(runs)}{more})")]
 
 
-def _without_drift(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> np.ndarray:
-    """Readings less the base model, and less what of them goes steadily with the programme."""
+def _without_drift(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, group: np.ndarray) -> np.ndarray:
+    """Readings less the base model, and less what of repeats goes steadily with the programme."""
     left = np.log(y / base) if case.kind.logarithmic else y - base
     place = next((rows[name] for name in ("sequence", "time_s") if name in rows), None)
     if place is None or np.ptp(place) == 0.0:
         return left
-    size = np.ones(y.size) if case.kind.logarithmic else base
-    columns = np.column_stack([np.ones(y.size), size, size * (place - place.min()) / np.ptp(place)])
-    return left - columns @ np.linalg.lstsq(columns, left, rcond=None)[0]
+    grown = (place - place.min()) / np.ptp(place) * (1.0 if case.kind.logarithmic else base)
+    count = np.bincount(group)
+    within, apart = (x - (np.bincount(group, weights=x) / count)[group] for x in (left, grown))
+    spread = float(apart @ apart)
+    return left - grown * (float(apart @ within) / spread) if spread > 0.0 else left
 
 
 def _repeats(case: Case, rows: Table, y: np.ndarray) -> float:

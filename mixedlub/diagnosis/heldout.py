@@ -30,7 +30,7 @@ class HeldOut:
     """Rms of (recorded - predicted)/sd on levels left out, calibration only and with the verdict.
 
     ``surprise`` is that of the verdict over noise and what the other levels leave open of its parameters together,
-    ``score`` the log probability of the readings under both.
+    ``score`` the log probability of the readings under both, ``score_before`` that with calibration only.
     """
 
     before: float
@@ -40,6 +40,7 @@ class HeldOut:
     readings: int
     surprise: float
     score: float
+    score_before: float
 
     def demerit(self, rms: float) -> float:
         """What a named law loses in log odds if it leaves much of the mismatch unexplained on levels left out.
@@ -48,7 +49,7 @@ class HeldOut:
         another law in disguise. ``rms`` is that of the residual with all readings fitted; two standard errors of its
         square are allowed for chance, and what the other levels cannot tell of the parameters is no failure.
 
-        >>> well, badly = (HeldOut(3.0, rms, "", 5, 200, rms, 0.0) for rms in (1.1, 2.6))
+        >>> well, badly = (HeldOut(3.0, rms, "", 5, 200, rms, 0.0, 0.0) for rms in (1.1, 2.6))
         >>> well.demerit(1.0), badly.demerit(1.0) > 5.0
         (0.0, True)
         """
@@ -60,9 +61,11 @@ class HeldOut:
     def behind(self, name: HeldOut) -> float:
         """What the unnamed mismatch loses in log odds if a name predicts levels left out better than it does.
 
-        It follows any readings, and where it does not carry over to others and a law does, the law has seen more.
+        It follows any readings, and where it does not carry over to others and a law does, the law has seen more. A
+        law that tells no more there than calibration alone has seen nothing.
         """
-        return float(np.clip(name.score - self.score - CHANCE, 0.0, DEMERIT))
+        told = min(name.score - self.score, name.score - name.score_before)
+        return float(np.clip(told - CHANCE, 0.0, DEMERIT))
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,6 +133,7 @@ class LevelsOut:
             int(kept.sum()),
             float(np.sqrt(np.mean((after / spread)[kept] ** 2))),
             float((log_likelihood(after / spread)[0] - np.log(spread)).sum()),
+            float(log_likelihood(self.before)[0].sum()),
         )
 
 

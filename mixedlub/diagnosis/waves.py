@@ -32,7 +32,7 @@ def frequencies(space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
     levels = np.unique(values[place])
     if levels.size < 2.0 * LEAST:
         return np.zeros(0)
-    most = min(0.5 * np.ptp(levels) / np.median(np.diff(levels)), 0.5 * levels.size, MOST)
+    most = min(0.5 * np.ptp(levels) / np.median(np.diff(levels)), 0.75 * levels.size, MOST)
     found = np.arange(most, LEAST, -STEP)
     cycled = [np.unique(v, return_inverse=True)[1] for i, v in enumerate(values) if i != place]
     cycled = [label for label in cycled if label.max() < min(NODES, 0.5 * label.size)]

@@ -115,7 +115,7 @@ def test_a_name_that_fails_on_levels_left_out_loses_its_place() -> None:
 
 @pytest.mark.parametrize(("after", "rows", "loses"), [(1.0, 150, False), (1.3, 150, False), (2.2, 150, True)])
 def test_the_demerit_spares_what_chance_and_another_form_leave(after: float, rows: int, loses: bool) -> None:
-    assert (HeldOut(3.0, after, "", 5, rows, after, 0.0).demerit(1.0) > 0.0) is loses
+    assert (HeldOut(3.0, after, "", 5, rows, after, 0.0, 0.0).demerit(1.0) > 0.0) is loses
 
 
 def test_an_effect_that_is_seldom_missing_has_lower_odds(monkeypatch: pytest.MonkeyPatch) -> None:

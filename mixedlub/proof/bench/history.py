@@ -226,7 +226,7 @@ def _breaks(time: np.ndarray) -> tuple[Form, ...]:
 
     def chattering(state: Any, strength: float, waves: float) -> Any:
         """A vibration builds up: its swings grow with the test."""
-        return multiplied(state, 1 + 0.1 * strength * time * np.sin(2 * np.pi * waves * time**2))
+        return multiplied(state, 1 + 0.1 * strength * time * np.sin(2 * np.pi * waves * time))
 
     def alternating(state: Any, strength: float) -> Any:
         """Every second reading belongs to the other direction of a reciprocating stroke."""
@@ -235,7 +235,7 @@ def _breaks(time: np.ndarray) -> tuple[Form, ...]:
     either = strength(-5.0, 8.0)
     return (
         Form("humming", "loss", humming, (either, Knob("waves", 12.0, 28.0, (14.0, 25.0))), "constructed"),
-        Form("chattering", "loss", chattering, (either, Knob("waves", 8.0, 20.0, (9.0, 15.0))), "constructed"),
+        Form("chattering", "loss", chattering, (either, Knob("waves", 8.0, 25.0, (10.0, 20.0))), "constructed"),
         Form("alternating", "loss", alternating, (either,), "constructed"),
     )
 
