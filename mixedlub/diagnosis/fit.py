@@ -12,6 +12,8 @@ from mixedlub.forward import Run
 
 OUTLIER_SHARE = 0.01
 OUTLIER_WIDTH = 10.0
+BOUND = 5.0
+"""Usual residuals beyond which a reading is bounded while a fit is still far off."""
 PARTS = (1.0, 0.5, 0.25, 0.1, 0.0)
 _LOG_IN = np.log1p(-OUTLIER_SHARE)
 _LOG_OUT = np.log(OUTLIER_SHARE / OUTLIER_WIDTH * np.sqrt(2.0 / np.pi))
@@ -111,13 +113,15 @@ def linear_fit(target: np.ndarray, columns: np.ndarray, weight: np.ndarray | Non
 def map_fit(problem: Problem, explanation: Explanation, start: np.ndarray, *, warm: bool = False) -> Fit:
     """Gauss-Newton with damping to the most probable coordinates, then Laplace's evidence.
 
-    Unless the start is ``warm``, plain least squares come first: from afar every reading looks like an outlier.
+    Unless the start is ``warm``, least squares come first, with only those readings bounded that are far beyond the
+    others: from afar every reading looks like an outlier.
     """
     z = np.clip(start, -REACH, REACH)
     shared = np.zeros(problem.shared.shape[1])
-    state = _State.at(problem, explanation, z, shared, likelihood=gaussian if not warm else log_likelihood)
+    state = _State.at(problem, explanation, z, shared, likelihood=log_likelihood)
     if not warm:
-        state = _climb(problem, explanation, state, gaussian, tolerance=0.5)
+        first = bounded((problem.y - state.run.prediction) / problem.sd)
+        state = _climb(problem, explanation, state, first, tolerance=0.5)
     state = _climb(problem, explanation, state, log_likelihood, tolerance=2e-3)
     columns = np.hstack([state.slopes, problem.shared])
     curvature = np.eye(columns.shape[1]) + columns.T @ (columns * state.weight[:, None])
@@ -159,16 +163,25 @@ def settled(
     return best
 
 
-def gaussian(residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Log density and weights of residuals under plain noise.
-
-    >>> gaussian(np.array([2.0]))[0].tolist()
-    [-2.0]
-    """
-    return -0.5 * residual**2, np.ones(residual.size)
-
-
 Likelihood = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+
+def bounded(start: np.ndarray) -> Likelihood:
+    """Log density and weights of residuals as by Huber: normal up to several times what is usual among ``start``.
+
+    >>> density, weight = bounded(np.zeros(9))(np.array([2.0, 40.0]))
+    >>> density.tolist(), weight.tolist()
+    ([-2.0, -187.5], [1.0, 0.125])
+    """
+    usual = 1.4826 * float(np.median(np.abs(start))) if np.isfinite(start).all() else np.inf
+    bound = BOUND * max(usual, 1.0)
+
+    def likelihood(residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        size = np.maximum(np.abs(residual), 1e-12)
+        inside = np.minimum(size, bound)
+        return -inside * (size - 0.5 * inside), np.minimum(1.0, bound / size)
+
+    return likelihood
 
 
 @dataclass(frozen=True, eq=False)

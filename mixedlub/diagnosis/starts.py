@@ -119,4 +119,6 @@ def fit_single(problem: Problem, none: Fit, sampled: Sampled) -> Fit:
     tries = [starts[i] for i in chosen]
     if none.z @ none.z > STRAINED:
         tries.append(np.concatenate([np.zeros(none.z.size), sampled.z[order[0]]]))
-    return max((map_fit(problem, (sampled.id,), start) for start in tries), key=lambda f: f.evidence)
+    # Wild readings may pull a fit away from where it starts well.
+    nearby = map_fit(problem, (sampled.id,), starts[chosen[0]], warm=True)
+    return max((nearby, *(map_fit(problem, (sampled.id,), start) for start in tries)), key=lambda f: f.evidence)

@@ -1,6 +1,6 @@
 """Starvation."""
 
-from mixedlub.effect import BetweenLog, LogNormal, Normal, Parameter, effect
+from mixedlub.effect import BetweenLog, LogNormal, Parameter, Wide, effect
 
 USUAL = 1e9
 
@@ -19,7 +19,7 @@ USUAL = 1e9
         ),
         Parameter("onset", "N/m", BetweenLog(0.01, 1.0), "viscosity times speed at which oil runs short", symbol="c"),
         Parameter("steepness", "-", LogNormal(2.5, 0.4), "how sharply starvation sets in", symbol=r"\gamma"),
-        Parameter("width_power", "-", Normal(0.0, 1.2), "power of the contact's width in the onset", symbol="w"),
+        Parameter("width_power", "-", Wide(0.5), "power of the contact's width in the onset", symbol="w"),
     ),
     equation=r"h \leftarrow h\,\left[1 + \left(\frac{\eta_0 u}{c\,(p_0/p_u)^w}\right)^{\gamma}\right]^{-s/\gamma},"
     r"\quad p_u = 1\,\text{GPa}",
