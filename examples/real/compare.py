@@ -16,7 +16,7 @@ from mixedlub.case import read_case
 from mixedlub.diagnosis.answer import as_json, checked
 from mixedlub.diagnosis.confusion import confusion
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.words import unshown
+from mixedlub.diagnosis.resembling import unshown
 from profiles.errors import InputError
 
 KNOWN = tomllib.loads((Path(__file__).parent / "known.toml").read_text(encoding="utf-8"))
