@@ -6,6 +6,7 @@ import pytest
 from mixedlub.chain import Model
 from mixedlub.chains import GEAR_LOSS
 from mixedlub.study import batch, read_study, run_study
+from profiles.errors import InputError
 
 ALL = (*batch.OUTPUTS, *batch.CHECKS)
 
@@ -96,6 +97,16 @@ def test_effect_changes_the_result_and_its_null_does_not(write_study):
     hot = run_study(read_study(write_study(effects={"inlet_shear_heating": {"strength": 1.0}})))
     assert np.array_equal(base["power_loss"], null["power_loss"])
     assert (hot["film_thickness"] < base["film_thickness"]).all()
+
+
+def test_parameters_of_other_kinds_stay_at_their_null(write_study):
+    """Roelands is the base of a gear pair: what leads from Barus to it is a parameter of samples only."""
+    bent = {"bend_down": 0.0, "bend_up": 0.0, "slope": 1.0}
+    base = run_study(read_study(write_study()))
+    same = run_study(read_study(write_study(effects={"pressure_viscosity_law": bent})))
+    assert np.allclose(base["power_loss"], same["power_loss"], rtol=1e-12)
+    with pytest.raises(InputError, match=r"no such parameter of pressure_viscosity_law"):
+        read_study(write_study(effects={"pressure_viscosity_law": {"roelands": 0.5}}))
 
 
 def test_unloaded_points_leave_results_finite(write_study):
