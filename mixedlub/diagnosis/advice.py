@@ -42,7 +42,7 @@ def wave_period(d: Diagnosis) -> str:
     shape = d.found.unknown.best
     if not shape.waves:
         return ""
-    low, high = next(axis.ends for axis in d.found.space.axes if axis.name in shape.axes)
+    low, high = d.found.space.axes[d.found.space.place(shape.axes[0])].ends
     return amount(float(f"{(high - low) / shape.waves:.3g}"), shape.axes[0])
 
 

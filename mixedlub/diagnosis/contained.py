@@ -39,7 +39,7 @@ class Contained:
 
 def contained(found: Search, verdict: Key) -> tuple[Contained, ...]:
     """Weigh the published laws that a verdict's effects contain, each with the rest of the verdict fitted again."""
-    if isinstance(verdict, str) or verdict not in found.fits:
+    if isinstance(verdict, str):
         return ()
     problem, free = found.problem, found.fits[verdict]
     weighed = []

@@ -20,10 +20,10 @@ JITTER = 1e-6
 LEAST = 1e-300
 HELD = 0.01
 """A condition that spans less than this share of its size was held: what it wanders is no variation to learn from."""
-LOST_AFTER = 2.0
-"""Periods beyond a record after which a wave is out of step, as its period is not known that well."""
 WANDERS, MOVES = 0.1, 0.005
 """One that spans less than the first was held as well if the base model's readings move by less than the second."""
+LOST_AFTER = 2.0
+"""Periods beyond a record after which a wave is out of step, as its period is not known that well."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,6 +131,10 @@ class Coordinates:
     """The conditions of a case along which its readings were varied."""
 
     axes: tuple[Coordinate, ...]
+
+    def place(self, name: str) -> int:
+        """Which of the axes a condition is."""
+        return [axis.name for axis in self.axes].index(name)
 
     def values(self, case: Case, table: Table, forward: Forward) -> list[np.ndarray]:
         """The conditions of a table, one array an axis."""

@@ -138,8 +138,7 @@ def estimated(
     """The case with the noise its readings show: from repeats, else from what a smooth fit leaves over.
 
     Repeats scatter alike, in proportion to their size, or by both, whichever makes them most probable. Without them
-    positive
-    readings that span WIDE or more are taken to scatter in proportion.
+    positive readings that span WIDE or more are taken to scatter in proportion.
     """
     group = repeated(case, rows)
     if group is not None:

@@ -124,7 +124,7 @@ class Rows:
         unknown, rows = self.found.unknown, self.problem.rows
         if not unknown.best.waves:
             return np.zeros(len(rows))
-        place = next(i for i, axis in enumerate(self.found.space.axes) if axis.name in unknown.best.axes)
+        place = self.found.space.place(unknown.best.axes[0])
         kept = self.found.space.axes[place].kept(self.values[place], unknown.best.waves)
         height = unknown.best.size * np.linalg.norm(unknown.fit.coefficients[-2:])
         return 0.5 * (1.0 - kept**2) * height**2

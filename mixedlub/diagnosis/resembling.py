@@ -8,20 +8,18 @@ from mixedlub.diagnosis.labels import effect_words
 from mixedlub.diagnosis.problem import effects_of
 
 NEAR, ALIKE = 0.8, 0.95
-"""Cosine of two signatures from which they are near, and from which only the size of the noise keeps them apart."""
+"""Cosine of two signatures from which they are near, and from which they have nearly the same form."""
 REJECTED = 0.01
 
-Said = tuple[tuple[str, ...], tuple[tuple[str, ...], ...], str, tuple[str, ...], tuple[str, ...]]
 
-
-def resembling(d: Diagnosis, alike: Confusion) -> Said:
-    """The parts of a section: sentences, no table, heading or alarms, and the tests that separate what is tied."""
+def resembling(d: Diagnosis, alike: Confusion) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Sentences, and the tests that separate what is tied."""
     said = _resemblance(d, alike)
     names = dict.fromkeys(name for key in d.posterior.tied if not isinstance(key, str) for name in key)
     items = tuple(f"{effect_words(e.id)}: {e.separated_by}" for e in effects_of(tuple(names)))
     if len(d.posterior.tied) < 2 or not items:
-        return said, (), "", (), ()
-    return (*said, "To separate them:"), (), "", (), items
+        return said, ()
+    return (*said, "To separate them:"), items
 
 
 def _resemblance(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:

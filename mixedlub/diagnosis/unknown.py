@@ -93,7 +93,8 @@ def sizes(carrier: str) -> tuple[float, ...]:
 def shape_columns(shape: Shape, space: Coordinates, values: list[np.ndarray], carriers: Carriers) -> np.ndarray:
     """The shape's columns in sigmas."""
     if shape.waves:
-        columns = next(a.wave(v, shape.waves) for a, v in zip(space.axes, values, strict=True) if a.name in shape.axes)
+        place = space.place(shape.axes[0])
+        columns = space.axes[place].wave(values[place], shape.waves)
     else:
         columns = space.columns(values, shape.length, shape.axes, shape.interactions)
     return shape.size * columns * carriers[shape.carrier][:, None]
@@ -127,15 +128,14 @@ def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np
         steps = sizes(shape.carrier)
         tried.extend(replace(shape, size=size) for size in steps)
         weighed.extend(_evidence_by_size(target, fixed, columns_of(shape), reference.weight, np.array(steps)))
-
     order = np.argsort(weighed)[::-1]
     full = {
         int(i): linear_fit(target, np.hstack([fixed, columns_of(tried[i])]), reference.weight) for i in order[:FULL]
     }
     first = int(order[0])
     offset = full[first].evidence - weighed[first]
-    best = max(full, key=lambda i: full[i].evidence)
     evidence = np.array([full[i].evidence if i in full else weighed[i] + offset for i in range(len(tried))])
+    best = max(full, key=lambda i: full[i].evidence)
     own = columns_of(tried[best])
     every = np.hstack([fixed, own])
     fit = full[best]

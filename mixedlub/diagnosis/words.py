@@ -86,14 +86,14 @@ class Section:
 
 def sections(d: Diagnosis, unnamed: Unnamed | None = None) -> list[Section]:
     """The whole answer, question by question."""
-    alike = confusion(d.found)
+    resemblance, separating = resembling(d, confusion(d.found))
     found = [
         Section(ANSWER, (headline(d), *standing(d)), alarms=doubts(d)),
         Section(MISMATCH, (*_mismatch(d), *steadied_noise(d))),
         Section(WHERE, _where(d)),
         _left_out(d),
         *([_unnamed(d, unnamed)] if unnamed is not None else []),
-        Section(ALIKE, *resembling(d, alike)),
+        Section(ALIKE, resemblance, items=separating),
         Section(GAIN, _gain(d)),
         Section(CHECK, checked_channel(d)),
         Section(OUTLIERS, *outliers(d)),
@@ -130,11 +130,12 @@ def _mismatch(d: Diagnosis) -> tuple[str, ...]:
     test = d.test
     alarm = f"This test is wrong in {100 * test.level:g} % of the cases in which nothing is missing."
     kept = d.outlier_chance <= 0.5
-    left = float((d.found.none.residual[kept] ** 2).sum() + d.found.none.z @ d.found.none.z)
+    squares = d.found.none.residual**2
+    strain = float(d.found.none.z @ d.found.none.z)
     without = "" if kept.all() else ", outliers left out"
-    chi2 = f"chi-square {number(left)} for {int(kept.sum())} readings after calibration{without}"
-    whole = float((d.found.none.residual**2).sum() + d.found.none.z @ d.found.none.z)
-    if not np.isclose(test.chi2_before, whole):
+    left = number(float(squares[kept].sum()) + strain)
+    chi2 = f"chi-square {left} for {int(kept.sum())} readings after calibration{without}"
+    if not np.isclose(test.chi2_before, squares.sum() + strain):
         chi2 = f"chi-square {number(test.chi2_before)} for {test.rows} readings with the noise that this would need"
     size = p_words(test.p_value)
     size = f"p {size}" if size.startswith("below") else f"p = {size}"

@@ -36,7 +36,7 @@ entrainment is the mean with that of 'Ball Speed (m/s)': add a column of it to t
         one, other = (by_words[words] for words in sorted(pair, key=lambda words: words != words_of(taken)))
         if split(one)[1] != split(other)[1]:
             continue
-        both = [pair for pair in zip(cells[one], cells[other], strict=True) if all(map(is_number, pair))]
+        both = [row for row in zip(cells[one], cells[other], strict=True) if all(map(is_number, row))]
         if not both:
             continue
         first, second = np.abs(np.array(both, dtype=float)).T

@@ -62,7 +62,6 @@ SCALE = {
 
 TEN_KELVIN = 10.0
 
-
 NO_GEARS = "no_gears"
 """Name in the column ``rig`` of readings taken with the gears out."""
 

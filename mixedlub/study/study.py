@@ -207,17 +207,17 @@ def _effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, 
     """The effects switched on, each parameter at its given value or the middle of its prior."""
     if not file.effects:
         return (), {}
-    effects = find(sorted(file.effects))
+    known = known_in("gear_pair")
+    effects = tuple(known[e.id] for e in find(sorted(file.effects)))
     parameters: dict[str, dict[str, float]] = {}
-    effects = tuple(known_in("gear_pair")[e.id] for e in effects)
     for e in effects:
         if not available(e, study_chain(file.options), tuple(inputs), "power_loss", "gear_pair"):
             raise InputError("this effect cannot act on the power loss of a study", where=f"effects.{e.id}")
-        values = {**e.held, **e.middle}
+        values = e.middle
         for name, value in file.effects[e.id].items():
-            if name not in e.middle:
+            if name not in values:
                 raise InputError(
-                    f"no such parameter of {e.id}; {nearest(name, e.middle)}", where=f"effects.{e.id}", value=name
+                    f"no such parameter of {e.id}; {nearest(name, values)}", where=f"effects.{e.id}", value=name
                 )
             prior = next(p.prior for p in e.parameters if p.name == name)
             if value < 0 and isinstance(prior, LogNormal | BetweenLog):

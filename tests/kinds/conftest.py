@@ -77,7 +77,7 @@ def system(kind: str, quantity: str, **sections: Any) -> dict[str, Any]:
 
 
 def least_squares(
-    case: Case, ids: Sequence[str], sd: np.ndarray, starts: int = 4
+    case: Case, ids: Sequence[str], sd: np.ndarray, starts: int = 4, held: Mapping[str, float] | None = None
 ) -> tuple[float, dict[str, Any], np.ndarray]:
     """Smallest chi-square with prior of some effects: its value, their parameters, the prediction."""
     from scipy.optimize import least_squares as solve
@@ -85,7 +85,7 @@ def least_squares(
     assert case.recordings is not None
     forward = Forward(case, case.recordings)
     y = case.recordings[case.quantity]
-    effects = [catalogue()[e] for e in ids]
+    effects = [catalogue()[e].holding(held or {}) for e in ids]
     sizes = [len(forward.calibrations), *(len(e.parameters) for e in effects)]
 
     def predicted(z: np.ndarray) -> tuple[np.ndarray, dict[str, Any]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -81,8 +82,8 @@ def square_law_brake(c: Contact, strength: float) -> Contact:
     return replace(c, recorded=c.recorded + 8 * strength * torque**2 / speed)
 
 
-def _outside(name: str, hook: str, law: object, *knobs: Knob, **more: object) -> Concealed:
-    return Concealed(name, "unknown", hook, law, (strength(-4.0, 8.0), *knobs), "constructed", 0, **more)  # type: ignore[arg-type]  # forwarded as given
+def _outside(name: str, hook: str, law: Any, *knobs: Knob, **more: Any) -> Concealed:
+    return Concealed(name, "unknown", hook, law, (strength(-4.0, 8.0), *knobs), "constructed", 0, **more)
 
 
 EFFECTS = (
