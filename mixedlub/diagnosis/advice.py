@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
+
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.features import PASSING
 from mixedlub.diagnosis.labels import amount, conditions_text, explanation_words, range_text, words_of
 from mixedlub.table import Table
 
@@ -21,6 +24,9 @@ def next_test(d: Diagnosis) -> tuple[str, ...]:
                 f"Look for what on the rig swings every {period}, as a thermostat or a turning part may. Read at other "
                 "intervals as well: what swings faster than readings are taken shows with a longer period.",
             )
+        if d.found.unknown.best.form == "step" and d.found.unknown.best.axes[0] in PASSING:
+            moment = standing_place(d)
+            return (f"Look up what was done to the rig or the sample at {moment}, and repeat a reading from before.",)
         place = ", ".join(range_text(cut) for cut in d.region.where) or "all conditions"
         return (f"To learn its form, refine and repeat the levels around {place}.",)
     if not d.next_tests:
@@ -44,6 +50,16 @@ def wave_period(d: Diagnosis) -> str:
         return ""
     low, high = d.found.space.axes[d.found.space.place(shape.axes[0])].ends
     return amount(float(f"{(high - low) / shape.waves:.3g}"), shape.axes[0])
+
+
+def standing_place(d: Diagnosis) -> str:
+    """Where the unnamed mismatch stands that is a peak or a step; the number of a run where that is what passes."""
+    shape, rows = d.found.unknown.best, d.found.problem.rows
+    name, at = shape.axes[0], shape.at or 0.0
+    if name == "sequence":
+        return f"run {rows['run'][np.argmin(np.abs(rows[name] - at))]:g}"
+    both = d.found.space.axes[d.found.space.place(name)].folded and at
+    return f"{words_of(name)} {amount(at, name)}{' in both directions' if both else ''}"
 
 
 def beyond(conditions: Mapping[str, float | str], recorded: Table) -> tuple[str, ...]:

@@ -13,7 +13,7 @@ from mixedlub.effect import Effect, Normal, Parameter
 from mixedlub.forward import Run
 
 READING, NOTHING = "reading", "nothing"
-QUANTITIES = ("film_thickness", "shear_stress", "area_ratio", "boundary_friction", "line_load")
+QUANTITIES = ("film_thickness", "shear_stress", "area_ratio", "boundary_friction", "line_load", "running_friction")
 LEAST = 1e-9
 
 Carriers = Mapping[str, np.ndarray]

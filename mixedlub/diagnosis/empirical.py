@@ -14,7 +14,7 @@ from mixedlub.diagnosis.carriers import log_slope
 from mixedlub.diagnosis.fit import linear_fit
 from mixedlub.diagnosis.labels import number, words_of
 from mixedlub.diagnosis.search import Search
-from mixedlub.diagnosis.unknown import FACTORS, SIZES
+from mixedlub.diagnosis.shapes import FACTORS, SIZES
 from mixedlub.headers import unit_of
 from mixedlub.quantities import GLOSSARY
 

@@ -67,6 +67,16 @@ class Coordinate:
         beyond = np.maximum(np.maximum(low - values, values - high), 0.0) * waves / (high - low)
         return np.exp(-((beyond / LOST_AFTER) ** 2))
 
+    def about(self, values: np.ndarray, at: float, width: float) -> np.ndarray:
+        """A bell about a value, ``width`` a share of the range, or without width a step there.
+
+        Of a condition with both signs there is one on either side.
+        """
+        x = self.scale(values)
+        sides = (1.0, -1.0) if self.folded and at else (1.0,)
+        off = [side * (x - self.scale(np.array(side * at))) for side in sides]
+        return np.column_stack([np.exp(-0.5 * (d / width) ** 2) if width else (d >= 0.0).astype(float) for d in off])
+
     def functions(self, values: np.ndarray, length: float) -> np.ndarray:
         """Columns whose random combination is a smooth function of the condition, variance one."""
         if self.named:

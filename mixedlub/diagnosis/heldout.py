@@ -14,7 +14,6 @@ from mixedlub.diagnosis.fit import linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.levels import set_points
 from mixedlub.diagnosis.problem import Explanation, Problem
 from mixedlub.diagnosis.search import Search
-from mixedlub.diagnosis.unknown import shape_columns
 
 MOST_FOLDS = 8
 TOLERATED = 0.3
@@ -150,7 +149,7 @@ def _open_variance(columns: np.ndarray, weight: np.ndarray, slopes: np.ndarray) 
 def _unknown_left(found: Search, out: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Residual of left-out readings under the unnamed mismatch fitted to the others (linearised), its open variance."""
     problem, none = found.problem, found.none
-    own = shape_columns(found.unknown.best, found.space, found.values, found.unknown.carriers)
+    own = found.unknown.best.columns(found.space, found.values, found.unknown.carriers)
     columns = np.hstack([none.slopes, problem.shared, own])
     fit = linear_fit(none.anchor[~out], columns[~out])
     blind = np.hstack([none.slopes, np.zeros_like(problem.shared), own])[out]

@@ -8,7 +8,7 @@ import numpy as np
 
 from mixedlub.diagnosis.carriers import READING
 from mixedlub.diagnosis.search import Search
-from mixedlub.diagnosis.unknown import Shape, shape_columns
+from mixedlub.diagnosis.shapes import Shape
 
 DRAWS = 2000
 CELLS = 4_000_000
@@ -60,7 +60,7 @@ def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch
     blocks = []
     for length, interactions in SHAPES:
         shape = Shape((), length, 1.0, READING, interactions and len(found.space.axes) > 1)
-        blocks.append(shape_columns(shape, found.space, found.values, found.unknown.carriers))
+        blocks.append(shape.columns(found.space, found.values, found.unknown.carriers))
 
     def whiten(rows: np.ndarray) -> np.ndarray:
         """Rows times the inverse covariance of noise and calibration together."""

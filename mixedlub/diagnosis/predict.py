@@ -11,7 +11,6 @@ from mixedlub.diagnosis.fit import Fit, linear_fit, settled
 from mixedlub.diagnosis.noise import seen_noise
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search import ELASTIC, Search, elastic_columns, typical_size
-from mixedlub.diagnosis.unknown import shape_columns
 from mixedlub.forward import Forward
 from mixedlub.table import Table
 
@@ -112,7 +111,7 @@ class Rows:
         calibrated, slopes = run.prediction, self.problem.jacobian((), unknown.z, run)
         name = unknown.best.carrier
         rides = {name: carrier(self.problem, self.problem.run((), found.none.z), unknown.typical, name)}
-        own = shape_columns(unknown.best, found.space, self.values, rides)
+        own = unknown.best.columns(found.space, self.values, rides)
         shared = np.zeros((len(self.table), found.problem.shared.shape[1]))
         every = np.hstack([slopes, shared, own])
         mean = calibrated + self.sd * (own @ unknown.fit.coefficients[-own.shape[1] :])

@@ -9,7 +9,7 @@ from itertools import combinations
 import numpy as np
 
 from mixedlub.diagnosis.features import Coordinates
-from mixedlub.diagnosis.fit import Fit, linear_fit, map_fit
+from mixedlub.diagnosis.fit import Fit, bounded, linear_fit, map_fit
 from mixedlub.diagnosis.problem import Explanation, Problem, effects_of
 from mixedlub.diagnosis.starts import Sampled, fit_single, sample
 from mixedlub.diagnosis.unknown import Unknown, unknown_fit
@@ -21,7 +21,7 @@ WHOLE = 25
 """Effects from which pairs have all of their prior: beside a first effect each other one is as rare among few."""
 LEADERS = 8
 FAR = 60.0
-PAIRS = 30
+PAIRS, BOUNDED_PAIRS = 30, 8
 MANY = 3000
 ELASTIC = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
 """Relative error of an effect's literature form: its rms and the weight given to it."""
@@ -182,15 +182,32 @@ def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: 
 def _promising_pairs(
     problem: Problem, singles: dict[Explanation, Fit], sampled: tuple[Sampled, ...]
 ) -> list[tuple[Explanation, np.ndarray]]:
-    """Pairs that the linearised model likes best, each with a start."""
+    """Pairs that the linearised model likes best, each with a start.
+
+    A first effect alone may have taken for outliers the few readings that show the second: some pairs are those liked
+    best where no reading is written off, but bounded.
+    """
+    found: dict[Explanation, np.ndarray] = {}
+    for write_off, most in ((True, PAIRS), (False, BOUNDED_PAIRS)):
+        ranked = sorted(_pair_scores(problem, singles, sampled, write_off).items(), key=lambda item: -item[1][0])
+        fresh = [(pair, start) for pair, (_, start) in ranked if pair not in found]
+        found.update(fresh[:most])
+    return list(found.items())
+
+
+def _pair_scores(
+    problem: Problem, singles: dict[Explanation, Fit], sampled: tuple[Sampled, ...], write_off: bool
+) -> dict[Explanation, tuple[float, np.ndarray]]:
+    """Score of each pair of a leading effect and another one in the linearised model, and where it is best."""
     leaders = sorted(singles.values(), key=lambda f: -f.evidence)[:LEADERS]
     found: dict[Explanation, tuple[float, np.ndarray]] = {}
     calibration = problem.calibration_size
     for fit in leaders:
         columns = np.hstack([fit.slopes, problem.shared])
-        weight = fit.weight
+        weight = fit.weight if write_off else bounded(fit.residual)(fit.residual)[1]
         inner = np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ (columns * weight[:, None]))
         left = fit.residual * weight
+        level = fit.evidence if write_off else -0.5 * float(left @ fit.residual)
 
         def whiten(change: np.ndarray, columns=columns, weight=weight, inner=inner) -> np.ndarray:
             scaled = change * weight
@@ -203,14 +220,13 @@ def _promising_pairs(
             gain = other.change @ left - 0.5 * np.einsum("ij,ij->i", other.change, seen)
             gain -= 0.5 * np.einsum("ij,ij->i", other.z, other.z)
             k = int(np.argmax(gain))
-            score = fit.evidence + float(gain[k])
+            score = level + float(gain[k])
             own = {fit.explanation[0]: fit.z[calibration:], other.id: other.z[k]}
             pair = tuple(sorted(own))
             start = np.concatenate([fit.z[:calibration], *(own[name] for name in pair)])
             if pair not in found or score > found[pair][0]:
                 found[pair] = (score, start)
-    ranked = sorted(found.items(), key=lambda item: -item[1][0])[:PAIRS]
-    return [(pair, start) for pair, (_, start) in ranked]
+    return found
 
 
 def elastic_evidence(problem: Problem, none: Fit, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:

@@ -1,47 +1,25 @@
-"""The competing explanation that no effect of the catalogue is: a smooth function of the conditions.
+"""The competing explanation that no effect of the catalogue is: a function of the conditions that nobody has named.
 
-It is a share of the reading, an addition to it, or a factor on one quantity of the chain, such as the film. Beside
-smooth functions stand waves in time.
+It is a share of the reading, an addition to it, or a factor on one quantity of the chain, such as the film.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from itertools import combinations
 
 import numpy as np
 
 from mixedlub.diagnosis.carriers import NOTHING, READING, Carriers, Typical, carriers
+from mixedlub.diagnosis.clearest import clearest
 from mixedlub.diagnosis.features import Coordinates
 from mixedlub.diagnosis.fit import Fit, Linear, linear_fit, settled
 from mixedlub.diagnosis.problem import Problem
-from mixedlub.diagnosis.waves import CLOCK, frequencies, strongest
+from mixedlub.diagnosis.shapes import Shape, families, rich
 
-LENGTHS = (0.25, 0.7)
-ROUGH = 0.08
-"""Length of a form of one condition whose neighbouring levels are all but independent of one another."""
-SIZES = (0.7, 2.0, 6.0, 20.0, 60.0)
-"""How large a mismatch of the reading may be, in sigmas."""
-FACTORS = (0.03, 0.1, 0.3, 1.0)
-"""How large one of a quantity of the chain may be, in its logarithm."""
 FULL = 6
-SAME = {"surfaces", "composite_roughness_um"}
-"""The roughness is a function of the surfaces: together they say no more than these."""
-
-
-@dataclass(frozen=True)
-class Shape:
-    """One form an unnamed mismatch may have: along which axes, how smooth, how large, and what it rides on.
-
-    No axes stand for all of them; most laws depend on one or two. A wave goes through ``waves`` periods of its axis.
-    """
-
-    axes: tuple[str, ...]
-    length: float
-    size: float
-    carrier: str
-    interactions: bool
-    waves: float = 0.0
+EVENT = "friction_event"
+"""Effect that is the name of what happens at one time."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,51 +38,11 @@ class Unknown:
     z: np.ndarray
 
 
-def shapes(space: Coordinates, waves: np.ndarray, carriers: Carriers) -> list[Shape]:
-    """All shapes that are tried, of size one; ``waves`` are the periods over the recording."""
-    found = [wave_of(w) for w in waves]
-    for length in LENGTHS:
-        for carrier in carriers:
-            names = [axis.name for axis in space.axes]
-            found.append(Shape((), length, 1.0, carrier, False))
-            if len(names) == 1 and length == LENGTHS[0]:
-                found.append(Shape((), ROUGH, 1.0, carrier, False))
-            if len(names) > 1:
-                found.append(Shape((), length, 1.0, carrier, True))
-                found.extend(Shape((name,), length, 1.0, carrier, False) for name in names)
-                if length == LENGTHS[0]:
-                    found.extend(Shape((name,), ROUGH, 1.0, carrier, False) for name in names)
-            if len(names) > 2:
-                pairs = (two for two in combinations(names, 2) if set(two) != SAME)
-                found.extend(Shape(two, length, 1.0, carrier, True) for two in pairs)
-    return found
-
-
-def wave_of(waves: float, size: float = 1.0) -> Shape:
-    """A wave in time as a share of the reading."""
-    return Shape((CLOCK,), 0.0, size, READING, False, float(waves))
-
-
-def sizes(carrier: str) -> tuple[float, ...]:
-    """The sizes that a shape on this carrier is tried with."""
-    return SIZES if carrier in (READING, NOTHING) else FACTORS
-
-
-def shape_columns(shape: Shape, space: Coordinates, values: list[np.ndarray], carriers: Carriers) -> np.ndarray:
-    """The shape's columns in sigmas."""
-    if shape.waves:
-        place = space.place(shape.axes[0])
-        columns = space.axes[place].wave(values[place], shape.waves)
-    else:
-        columns = space.columns(values, shape.length, shape.axes, shape.interactions)
-    return shape.size * columns * carriers[shape.carrier][:, None]
-
-
 def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np.ndarray]) -> Unknown:
-    """Marginal likelihood of the base model plus an unnamed smooth mismatch, averaged over its shapes.
+    """Marginal likelihood of the base model plus an unnamed mismatch, averaged over its shapes.
 
-    Which readings are outliers is settled first, under the richest shape or the clearest wave; shapes and sizes are
-    then weighed with those weights, and the best few again in full.
+    Which readings are outliers is settled for each family of shapes by its own clearest: a smooth form takes the crests
+    of a wave and the readings of a peak for outliers.
     """
     target = none.anchor
     fixed = np.hstack([none.slopes, problem.shared])
@@ -113,32 +51,19 @@ def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np
     rides = carriers(problem, base, typical)
 
     def columns_of(shape: Shape) -> np.ndarray:
-        return shape_columns(shape, space, values, rides)
+        return shape.columns(space, values, rides)
 
-    rich = Shape((), LENGTHS[0], 6.0, READING, len(space.axes) > 1)
-    reference = linear_fit(target, np.hstack([fixed, columns_of(rich)]))
-    periods = frequencies(space, values)
-    clear = strongest(target, fixed, lambda w: columns_of(wave_of(w, rich.size)), periods)
-    if clear is not None:
-        periods[np.argmin(np.abs(periods - clear[0]))] = clear[0]
-        reference = max(reference, clear[1], key=lambda fit: fit.evidence)
-    tried: list[Shape] = []
-    weighed: list[float] = []
-    for shape in shapes(space, periods, rides):
-        steps = sizes(shape.carrier)
-        tried.extend(replace(shape, size=size) for size in steps)
-        weighed.extend(_evidence_by_size(target, fixed, columns_of(shape), reference.weight, np.array(steps)))
-    order = np.argsort(weighed)[::-1]
-    full = {
-        int(i): linear_fit(target, np.hstack([fixed, columns_of(tried[i])]), reference.weight) for i in order[:FULL]
-    }
-    first = int(order[0])
-    offset = full[first].evidence - weighed[first]
-    evidence = np.array([full[i].evidence if i in full else weighed[i] + offset for i in range(len(tried))])
-    best = max(full, key=lambda i: full[i].evidence)
-    own = columns_of(tried[best])
+    weighed = []
+    for family in families(space, values, rides, any(e.id == EVENT for e in problem.forward.effects())):
+        if family[0].form == "smooth":
+            reference = linear_fit(target, np.hstack([fixed, columns_of(rich(space))]))
+        else:
+            clear, reference = clearest(target, fixed, columns_of, family)
+            family = list(dict.fromkeys([*family, clear]))
+        weighed.append(_weighed(target, fixed, columns_of, family, reference.weight))
+    best, fit = max(((each.best, each.fit) for each in weighed), key=lambda found: found[1].evidence)
+    own = columns_of(best)
     every = np.hstack([fixed, own])
-    fit = full[best]
     covariance = np.linalg.inv(np.eye(every.shape[1]) + every.T @ (every * fit.weight[:, None]))
     count = none.z.size
     errors = fit.coefficients[count : fixed.shape[1]]
@@ -146,8 +71,8 @@ def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np
     z, beside = settled(problem, (), none.z, fit.coefficients[:count], common, lambda prediction: own, fit.weight)
     coefficients = np.concatenate([z, errors, beside.coefficients])
     return Unknown(
-        evidence=_mean_over_shapes(tried, evidence),
-        best=tried[best],
+        evidence=_mean_over_shapes({shape: e for each in weighed for shape, e in each.evidence.items()}),
+        best=best,
         carriers=rides,
         typical=typical,
         fit=replace(fit, coefficients=coefficients, residual=beside.residual, weight=beside.weight),
@@ -156,15 +81,45 @@ def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np
     )
 
 
-def _mean_over_shapes(tried: list[Shape], evidence: np.ndarray) -> float:
+@dataclass(frozen=True, eq=False)
+class _Weighed:
+    """Log evidence of the shapes of one family in all their sizes, and the fit of the best of them."""
+
+    evidence: dict[Shape, float]
+    best: Shape
+    fit: Linear
+
+
+def _weighed(
+    target: np.ndarray,
+    fixed: np.ndarray,
+    columns_of: Callable[[Shape], np.ndarray],
+    family: list[Shape],
+    weight: np.ndarray,
+) -> _Weighed:
+    """Weigh shapes at fixed weights of the readings, and the best few again in full."""
+    tried: list[Shape] = []
+    quick: list[float] = []
+    for shape in family:
+        tried.extend(replace(shape, size=size) for size in shape.sizes)
+        quick.extend(_evidence_by_size(target, fixed, columns_of(shape), weight, np.array(shape.sizes)))
+    order = np.argsort(quick)[::-1]
+    full = {int(i): linear_fit(target, np.hstack([fixed, columns_of(tried[i])]), weight) for i in order[:FULL]}
+    offset = full[int(order[0])].evidence - quick[order[0]]
+    evidence = {shape: full[i].evidence if i in full else quick[i] + offset for i, shape in enumerate(tried)}
+    best = max(full, key=lambda i: full[i].evidence)
+    return _Weighed(evidence, tried[best], full[best])
+
+
+def _mean_over_shapes(tried: dict[Shape, float]) -> float:
     """Log mean evidence: half the weight on shapes of the reading, half on those inside the chain, if there are any.
 
-    In each half those of all conditions, of one and of two, and waves weigh the same, however many there are.
+    In each half those of all conditions, of one and of two, waves, peaks and steps weigh the same, however many.
     """
-    groups: dict[bool, dict[tuple[int, bool], list[float]]] = {}
-    for shape, value in zip(tried, evidence, strict=True):
+    groups: dict[bool, dict[tuple[int, str], list[float]]] = {}
+    for shape, value in tried.items():
         halves = groups.setdefault(shape.carrier in (READING, NOTHING), {})
-        halves.setdefault((len(shape.axes), shape.waves > 0.0), []).append(value)
+        halves.setdefault((len(shape.axes), shape.form), []).append(value)
     return _log_mean([_log_mean([_log_mean(alike) for alike in half.values()]) for half in groups.values()])
 
 

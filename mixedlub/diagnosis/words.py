@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.diagnosis.advice import next_test, wave_period
+from mixedlub.diagnosis.advice import next_test, standing_place, wave_period
 from mixedlub.diagnosis.carriers import NOTHING, READING
 from mixedlub.diagnosis.confusion import confusion
 from mixedlub.diagnosis.diagnose import Diagnosis
@@ -207,9 +207,7 @@ def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
     law = unnamed.law
     shape = d.found.unknown.best
     along = " and ".join(words_of(name) for name in shape.axes) or "all conditions together"
-    said = [f"Of all smooth forms tried, the most probable varies with {along}, as {_carried(shape.carrier)}."]
-    if shape.waves:
-        said = [f"Of all forms tried, the most probable is a wave with a period of {wave_period(d)} in {along}."]
+    said = [f"Of all forms tried, the most probable {_form(d, along)}."]
     said += nearest_name(d)
     if unnamed.stages:
         best, *others = unnamed.stages
@@ -232,10 +230,20 @@ def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
     return Section(UNNAMED, tuple(said))
 
 
+def _form(d: Diagnosis, along: str) -> str:
+    """The most probable form of a mismatch without a name, as a predicate."""
+    shape = d.found.unknown.best
+    if shape.form == "smooth":
+        return f"varies smoothly with {along}, as {_carried(shape.carrier)}"
+    if shape.form == "wave":
+        return f"is a wave with a period of {wave_period(d)} in {along}"
+    return f"is a {shape.form} at {standing_place(d)}, as {_carried(shape.carrier)}"
+
+
 def nearest_name(d: Diagnosis) -> list[str]:
     """Which effects of the catalogue take up most of a mismatch that has no name; nothing where some are tied."""
     found = d.found
-    if found.unknown.best.waves or any(names_effects(key) for key in d.posterior.tied):
+    if found.unknown.best.form == "wave" or any(names_effects(key) for key in d.posterior.tied):
         return []
     good = outlier_chance(found.unknown.fit.residual) <= 0.5
     left = {key: float(np.sum(fit.residual[good] ** 2)) for key, fit in found.fits.items()}

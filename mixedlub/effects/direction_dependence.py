@@ -17,19 +17,32 @@ from mixedlub.effect import Normal, Parameter, effect
             null=0.0,
             symbol="a",
         ),
+        Parameter(
+            "viscous_asymmetry",
+            "-",
+            Normal(0.0, 0.2),
+            "what the viscous part has more of it than the dry part",
+            null=0.0,
+            symbol="b",
+        ),
     ),
-    equation=r"T_r \leftarrow T_r\,(1 + a\operatorname{sgn}\omega)",
-    source="B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, Automatica 30 (1994) 1083, section 2.3",
+    equation=r"T_r \leftarrow T_r\,(1 + a\operatorname{sgn}\omega) + b\,T_v\,|\omega|/\omega_0",
+    source="B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, Automatica 30 (1994) 1083, section 2.3: either "
+    "direction has its own dry and its own viscous friction",
     fingerprint={"speed": "0"},
     separated_by="the slope against speed in both directions: a payload shifts both branches alike, a different "
     "flank or preload also turns the slopes",
     after=("stribeck", "load_dependent_friction"),
     kinds=("friction_map",),
 )
-def direction_dependence(running_friction, drive_speed, *, asymmetry):
-    """The two flanks of a drive rub differently, in proportion to all friction, viscous part included.
+def direction_dependence(
+    running_friction, viscous_torque, drive_speed, reference_speed, *, asymmetry, viscous_asymmetry
+):
+    """The two flanks of a drive rub differently: all friction in proportion, and the viscous part in its own.
 
-    >>> direction_dependence(np.array([2.0, -2.0]), np.array([1.0, -1.0]), asymmetry=0.1).tolist()
+    >>> alike = dict(asymmetry=0.1, viscous_asymmetry=0.0)
+    >>> direction_dependence(np.array([2.0, -2.0]), 1.0, np.array([1.0, -1.0]), 1.0, **alike).tolist()
     [2.2, -1.8]
     """
-    return running_friction * (1.0 + asymmetry * np.sign(drive_speed))
+    viscous = viscous_torque * np.abs(drive_speed) / reference_speed
+    return running_friction * (1.0 + asymmetry * np.sign(drive_speed)) + viscous_asymmetry * viscous

@@ -122,9 +122,15 @@ def _size(system: config.System, recorded: Table) -> float:
     return float(np.median(values)) or 1.0
 
 
+def _largest(system: config.System, recorded: Table) -> float:
+    """Size of the largest readings: most may be at speeds too low for viscous friction."""
+    quantity = system.recording.quantity
+    return float(np.max(np.abs(recorded[quantity]))) or 1.0 if quantity in recorded else 1.0
+
+
 def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibration, ...]:
     """Dry, viscous and payload torque, all unknown: broad priors of the size of the readings."""
-    size = _size(system, recorded)
+    size, largest = _size(system, recorded), _largest(system, recorded)
 
     def unknown(name: str, prior: LogNormal | BetweenLog | Normal, nominal: float, meaning: str) -> Calibration:
         torque = system.recording.quantity == "friction_torque_Nm"
@@ -135,7 +141,10 @@ def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibrati
     found = (
         unknown("coulomb_torque", LogNormal(size, 1.0), size, "dry friction, the same in both directions"),
         unknown(
-            "viscous_torque", BetweenLog(3e-3 * size, 3.0 * size), 0.5 * size, "viscous friction at the largest speed"
+            "viscous_torque",
+            BetweenLog(3e-3 * size, 3.0 * largest),
+            0.5 * size,
+            "viscous friction at the largest speed",
         ),
         unknown("payload_torque", Normal(0.0, size), 0.0, "constant part that keeps its sign"),
     )

@@ -206,10 +206,25 @@ class TestIntegrals:
         assert rise == pytest.approx(found * slip * film / (12.0 * conductivity), rel=1e-3)
 
     def test_thinning_grows_with_stress_and_stops_for_a_newtonian_oil(self) -> None:
-        oil = {"critical_stress": 5e3, "plateau": 0.0, "stress_rule": 1.0}
+        oil = {"critical_stress": 5e3, "plateau": 0.0, "stress_rule": 1.0, "onset": 1.0, "sliding": 1.0}
         films = [inlet_shear_thinning(2e-7, 0.015, 2.0, 0.0, index=n, **oil) for n in (1.0, 0.9, 0.7)]
         assert films[0] == 2e-7
         assert films[0] > films[1] > films[2] > 0.2 * films[0]
+
+    @pytest.mark.parametrize(("onset", "times"), [(1.0, 2.0), (2.0, 4.0)])
+    def test_loss_of_film_sets_in_with_that_power_of_stress(self, onset: float, times: float) -> None:
+        """Far below the critical stress Carreau's and Eyring's viscosities fall with its square."""
+        oil = {"index": 0.7, "plateau": 0.0, "stress_rule": 1.0, "onset": onset, "sliding": 0.0}
+        lost = [1.0 - inlet_shear_thinning(2e-7, 0.015, 2.0, 0.0, critical_stress=g, **oil) / 2e-7 for g in (4e8, 2e8)]
+        assert lost[1] / lost[0] == pytest.approx(times, rel=2e-3)
+
+    def test_sliding_thins_the_inlet_as_far_as_it_has_part_in_its_shear(self) -> None:
+        oil = {"index": 0.75, "critical_stress": 5e3, "plateau": 0.0, "stress_rule": 1.0, "onset": 1.0}
+        rolling, apart, taking_part = (
+            inlet_shear_thinning(2e-7, 0.015, 2.0, slip, **oil, sliding=part)
+            for slip, part in ((0.0, 1.0), (1.0, 0.0), (1.0, 1.0))
+        )
+        assert rolling == apart > taking_part
 
     @pytest.mark.parametrize("relief", [5e-6, 30e-6])
     def test_relief_hands_load_on_without_losing_any(self, relief: float) -> None:

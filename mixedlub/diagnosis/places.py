@@ -1,0 +1,61 @@
+"""Forms tied to one place of one condition: a peak about it, such as a resonance, or a step there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mixedlub.diagnosis.features import PASSING, Coordinates
+from mixedlub.diagnosis.levels import set_points
+
+WIDTHS = (0.01, 0.03, 0.1)
+"""Standard deviations of a peak, as shares of the condition's range: the least is one level alone."""
+LEVELS = 5
+"""Levels of a condition, on either side of zero, from which its smooth functions do not follow a peak anyhow."""
+MOST_PLACES = 40
+FEWEST = 3.0
+"""Readings that a form has to be made of: fewer are outliers."""
+MOST_SHARE = 0.4
+"""Share of the readings that a peak may cover: more are a trend."""
+DERIVED, TURNED = "composite_roughness_um", "position_deg"
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where on a condition a form stands; ``width`` is a peak's standard deviation as a share of the range.
+
+    No width stands for a step.
+    """
+
+    name: str
+    at: float
+    width: float
+
+
+def places(space: Coordinates, values: list[np.ndarray], timeless: bool) -> list[Place]:
+    """Peaks and steps that a recording could show; none in time where that is ``timeless``."""
+    found: list[Place] = []
+    for axis, v in zip(space.axes, values, strict=True):
+        if axis.named or axis.name in (DERIVED, TURNED) or (timeless and axis.name in PASSING):
+            continue
+        points = set_points(v)
+        levels = np.unique(np.abs(points) if axis.folded else points)
+        if levels.size < LEVELS:
+            continue
+        if levels.size > MOST_PLACES:
+            levels = levels[np.linspace(0, levels.size - 1, MOST_PLACES).round().astype(int)]
+        for at in levels:
+            told: list[np.ndarray] = []
+            for width in (*WIDTHS, 0.0):
+                near = axis.about(points, float(at), width).sum(axis=1)
+                if _made_of(near, width > 0.0) and not any(np.allclose(near, other, atol=0.05) for other in told):
+                    found.append(Place(axis.name, float(at), width))
+                    told.append(near)
+    return found
+
+
+def _made_of(near: np.ndarray, peak: bool) -> bool:
+    """Whether a form is of enough readings to be no outliers, and, if a peak, of few enough to be no trend."""
+    readings = float(near.sum() ** 2 / max((near**2).sum(), 1e-300))
+    return FEWEST <= readings <= (MOST_SHARE * near.size if peak else near.size - FEWEST)
