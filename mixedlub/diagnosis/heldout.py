@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.diagnosis.fit import linear_fit, log_likelihood, map_fit
+from mixedlub.diagnosis.fit import Fit, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.levels import set_points
-from mixedlub.diagnosis.problem import Explanation, Problem
+from mixedlub.diagnosis.problem import REACH, Explanation, Problem
 from mixedlub.diagnosis.search import Search
 
 MOST_FOLDS = 8
@@ -20,6 +20,8 @@ TOLERATED = 0.3
 """Share of the mismatch on levels left out that the right law, in another literature form, may leave."""
 DEMERIT = 20.0
 LEAST = 0.3
+NEARBY = np.linspace(-0.6, 0.6, 25)
+"""Coordinates about that of a sudden change's place over which other levels may leave it open."""
 CHANCE = 5.0
 """How much better than the unnamed mismatch a name may predict levels left out by chance, in log probability."""
 
@@ -121,7 +123,7 @@ class LevelsOut:
                 after[f.out] = (f.test.y - run.prediction) / f.wide
                 slopes = f.test.jacobian(fit.explanation, fit.z, run) * (f.test.sd / f.wide)[:, None]
                 columns = np.hstack([fit.slopes, f.train.shared])
-                open_variance[f.out] = _open_variance(columns, fit.weight, slopes)
+                open_variance[f.out] = _open_variance(columns, fit.weight, slopes) + _unplaced(f, fit)
         kept = ~outliers if not outliers.all() else np.ones(outliers.size, bool)
         spread = np.sqrt(1.0 + open_variance)
         return HeldOut(
@@ -146,14 +148,42 @@ def _open_variance(columns: np.ndarray, weight: np.ndarray, slopes: np.ndarray) 
     return np.asarray(np.einsum("ij,jk,ik->i", slopes, own, slopes))
 
 
+def _unplaced(fold: _Fold, fit: Fit) -> np.ndarray:
+    """Variance, in sigmas, by where a sudden change stands if the level left out was the one that showed it."""
+    train, size = fold.train, fold.train.calibration_size
+    parameters = [p for e in train.effects(fit.explanation) for p in e.parameters]
+    variance = np.zeros(fold.test.y.size)
+    for place in (i for i, p in enumerate(parameters, size) if p.scan):
+        tried = np.repeat(fit.z[None, :], NEARBY.size, axis=0)
+        tried[:, place] = np.clip(tried[:, place] + NEARBY, -REACH, REACH)
+        left = np.array([(train.y - train.predict(fit.explanation, z)) / train.sd for z in tried]) - fit.common
+        told = log_likelihood(left)[0].sum(axis=1) - 0.5 * tried[:, place] ** 2
+        chance = np.exp(told - told.max())
+        seen = np.array([fold.test.predict(fit.explanation, z) for z in tried]) / fold.wide
+        mean = chance @ seen / chance.sum()
+        variance += chance @ (seen - mean) ** 2 / chance.sum()
+    return variance
+
+
 def _unknown_left(found: Search, out: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Residual of left-out readings under the unnamed mismatch fitted to the others (linearised), its open variance."""
+    """Residual of left-out readings under the unnamed mismatch fitted to the others (linearised), its open variance.
+
+    Where a peak or a step stands is for the other readings to say as well.
+    """
     problem, none = found.problem, found.none
-    own = found.unknown.best.columns(found.space, found.values, found.unknown.carriers)
-    columns = np.hstack([none.slopes, problem.shared, own])
-    fit = linear_fit(none.anchor[~out], columns[~out])
-    blind = np.hstack([none.slopes, np.zeros_like(problem.shared), own])[out]
-    return none.anchor[out] - blind @ fit.coefficients, _open_variance(columns[~out], fit.weight, blind)
+    log, left, variance = [], [], []
+    for shape in found.unknown.best.elsewhere(found.space, found.values):
+        own = shape.columns(found.space, found.values, found.unknown.carriers)
+        columns = np.hstack([none.slopes, problem.shared, own])
+        fit = linear_fit(none.anchor[~out], columns[~out])
+        blind = np.hstack([none.slopes, np.zeros_like(problem.shared), own])[out]
+        log.append(fit.evidence)
+        left.append(none.anchor[out] - blind @ fit.coefficients)
+        variance.append(_open_variance(columns[~out], fit.weight, blind))
+    chance = np.exp(np.array(log) - max(log))
+    chance = chance / chance.sum()
+    mean = chance @ np.array(left)
+    return mean, chance @ (np.array(variance) + (np.array(left) - mean) ** 2)
 
 
 def _folds(found: Search) -> tuple[str, np.ndarray]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from mixedlub.diagnosis.features import PASSING, Coordinates
 from mixedlub.diagnosis.levels import set_points
+from mixedlub.diagnosis.waves import goes_with, stepped_levels
 
 WIDTHS = (0.01, 0.03, 0.1)
 """Standard deviations of a peak, as shares of the condition's range: the least is one level alone."""
@@ -18,6 +19,8 @@ FEWEST = 3.0
 """Readings that a form has to be made of: fewer are outliers."""
 MOST_SHARE = 0.4
 """Share of the readings that a peak may cover: more are a trend."""
+SAME = 0.75
+"""Share of what happens at one time that goes with a condition from which it is that condition's."""
 DERIVED, TURNED = "composite_roughness_um", "position_deg"
 
 
@@ -34,25 +37,37 @@ class Place:
 
 
 def places(space: Coordinates, values: list[np.ndarray], timeless: bool) -> list[Place]:
-    """Peaks and steps that a recording could show; none in time where that is ``timeless``."""
+    """Peaks and steps that a recording could show; none in time where that is ``timeless``.
+
+    What in time goes with the levels of a condition, which were run one after the other, is left to that condition.
+    """
     found: list[Place] = []
-    for axis, v in zip(space.axes, values, strict=True):
+    for i, (axis, v) in enumerate(zip(space.axes, values, strict=True)):
         if axis.named or axis.name in (DERIVED, TURNED) or (timeless and axis.name in PASSING):
             continue
-        points = set_points(v)
-        levels = np.unique(np.abs(points) if axis.folded else points)
+        points, levels = set_points(v), levels_of(space, values, i)
         if levels.size < LEVELS:
             continue
-        if levels.size > MOST_PLACES:
-            levels = levels[np.linspace(0, levels.size - 1, MOST_PLACES).round().astype(int)]
+        stepped = stepped_levels(values, i) if axis.name in PASSING else []
         for at in levels:
             told: list[np.ndarray] = []
             for width in (*WIDTHS, 0.0):
                 near = axis.about(points, float(at), width).sum(axis=1)
+                if any(goes_with(near[:, None], label, SAME) for label in stepped):
+                    continue
                 if _made_of(near, width > 0.0) and not any(np.allclose(near, other, atol=0.05) for other in told):
                     found.append(Place(axis.name, float(at), width))
                     told.append(near)
     return found
+
+
+def levels_of(space: Coordinates, values: list[np.ndarray], axis: int) -> np.ndarray:
+    """Places on a condition at which forms are tried; of one with both signs those on the positive side."""
+    points = set_points(values[axis])
+    levels = np.unique(np.abs(points) if space.axes[axis].folded else points)
+    if levels.size <= MOST_PLACES:
+        return levels
+    return levels[np.linspace(0, levels.size - 1, MOST_PLACES).round().astype(int)]
 
 
 def _made_of(near: np.ndarray, peak: bool) -> bool:

@@ -102,7 +102,7 @@ class Problem:
         return self.seen(self.forward.predict(self.calibration(z)))
 
     def jacobian(self, explanation: Explanation, z: np.ndarray, at: Run | None = None) -> np.ndarray:
-        """Derivative of predictions over sd with respect to z, by forward differences."""
+        """Derivative of predictions over sd with respect to z, by forward differences; zero where laws end."""
         here = self.run(explanation, z) if at is None else at
         slopes = np.empty((self.y.size, z.size))
         for i in range(z.size):
@@ -110,6 +110,7 @@ class Problem:
             moved[i] += STEP if z[i] < REACH else -STEP
             change = self.run(explanation, moved, here).prediction - here.prediction
             slopes[:, i] = change / (self.sd * (moved[i] - z[i]))
+        slopes[~np.isfinite(slopes)] = 0.0
         return slopes
 
     def with_sd(self, prediction: np.ndarray) -> Problem:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from itertools import combinations
 
@@ -9,7 +10,7 @@ import numpy as np
 
 from mixedlub.diagnosis.carriers import NOTHING, READING, Carriers
 from mixedlub.diagnosis.features import Coordinates
-from mixedlub.diagnosis.places import places
+from mixedlub.diagnosis.places import levels_of, places
 from mixedlub.diagnosis.waves import CLOCK, FINER, frequencies
 
 LENGTHS = (0.25, 0.7)
@@ -21,6 +22,8 @@ FACTORS = (0.03, 0.1, 0.3, 1.0)
 """How large one of a quantity of the chain may be, in its logarithm."""
 LOCAL = (READING, NOTHING, "running_friction")
 """What peaks and steps ride on: in a drive also its friction, without the payload."""
+EVENT, MISCOUNT = "friction_event", "fringe_order"
+"""Effects that are the names of what happens at one time, and of a step that is an addition."""
 SAME = {"surfaces", "composite_roughness_um"}
 """The roughness is a function of the surfaces: together they say no more than these."""
 
@@ -67,20 +70,28 @@ class Shape:
         """Shapes between those of its family: a wave of any period may be one."""
         return [replace(self, waves=float(w)) for w in self.waves + FINER] if self.waves else [self]
 
+    def elsewhere(self, space: Coordinates, values: list[np.ndarray]) -> list[Shape]:
+        """The same peak or step at every level of its condition; of other forms itself alone."""
+        if self.at is None:
+            return [self]
+        return [replace(self, at=float(at)) for at in levels_of(space, values, space.place(self.axes[0]))]
+
 
 def rich(space: Coordinates) -> Shape:
     """The smooth shape that follows most."""
     return Shape((), LENGTHS[0], 6.0, READING, len(space.axes) > 1)
 
 
-def families(space: Coordinates, values: list[np.ndarray], carriers: Carriers, timeless: bool) -> list[list[Shape]]:
-    """All shapes that are tried, of size one, by their form; what happens at one time has a name if ``timeless``."""
+def families(
+    space: Coordinates, values: list[np.ndarray], carriers: Carriers, names: Collection[str]
+) -> list[list[Shape]]:
+    """All shapes that are tried, of size one, by their form, but those that are effects among ``names``."""
     waves = [Shape((CLOCK,), 0.0, 1.0, READING, False, waves=float(w)) for w in frequencies(space, values)]
     local = [
         Shape((place.name,), place.width, 1.0, carrier, False, at=place.at)
-        for place in places(space, values, timeless)
+        for place in places(space, values, timeless=EVENT in names)
         for carrier in LOCAL
-        if carrier in carriers
+        if carrier in carriers and not (place.width == 0.0 and carrier == NOTHING and MISCOUNT in names)
     ]
     peaks, steps = ([s for s in local if s.form == form] for form in ("peak", "step"))
     return [family for family in (_smooth(space, carriers), waves, peaks, steps) if family]

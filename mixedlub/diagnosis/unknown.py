@@ -18,8 +18,6 @@ from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.shapes import Shape, families, rich
 
 FULL = 6
-EVENT = "friction_event"
-"""Effect that is the name of what happens at one time."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +52,7 @@ def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np
         return shape.columns(space, values, rides)
 
     weighed = []
-    for family in families(space, values, rides, any(e.id == EVENT for e in problem.forward.effects())):
+    for family in families(space, values, rides, {e.id for e in problem.forward.effects()}):
         if family[0].form == "smooth":
             reference = linear_fit(target, np.hstack([fixed, columns_of(rich(space))]))
         else:

@@ -29,17 +29,22 @@ def frequencies(space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
         return np.zeros(0)
     most = min(0.5 * np.ptp(levels) / np.median(np.diff(levels)), 0.75 * levels.size, MOST)
     found = np.arange(most, LEAST, -STEP)
-    cycled = [np.unique(v, return_inverse=True)[1] for i, v in enumerate(values) if i != place]
-    cycled = [label for label in cycled if label.max() < min(NODES, 0.5 * label.size)]
+    stepped = stepped_levels(values, place)
     return np.array(
-        [w for w in found if not any(_goes_with(space.axes[place].wave(values[place], w), label) for label in cycled)]
+        [w for w in found if not any(goes_with(space.axes[place].wave(values[place], w), label) for label in stepped)]
     )
 
 
-def _goes_with(columns: np.ndarray, label: np.ndarray) -> bool:
-    """Whether either column is told by the level of a condition."""
+def stepped_levels(values: list[np.ndarray], place: int) -> list[np.ndarray]:
+    """Level of each reading in the other conditions that have few of them."""
+    found = [np.unique(v, return_inverse=True)[1] for i, v in enumerate(values) if i != place]
+    return [label for label in found if label.max() < min(NODES, 0.5 * label.size)]
+
+
+def goes_with(columns: np.ndarray, label: np.ndarray, share: float = CYCLES) -> bool:
+    """Whether the level of a condition tells that share of any column's variance."""
     centred = columns - columns.mean(axis=0)
     count = np.bincount(label)
     means = np.column_stack([np.bincount(label, weights=c) / np.maximum(count, 1) for c in centred.T])
     told = (count[:, None] * means**2).sum(axis=0)
-    return bool(np.any(told > CYCLES * np.maximum((centred**2).sum(axis=0), 1e-9 * label.size)))
+    return bool(np.any(told > share * np.maximum((centred**2).sum(axis=0), 1e-9 * label.size)))
