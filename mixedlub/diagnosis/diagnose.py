@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 
 from mixedlub.case import Case, read_case, read_conditions
-from mixedlub.diagnosis.audit import Doubt, audit
+from mixedlub.diagnosis.audit import audit
 from mixedlub.diagnosis.contained import Contained, contained
+from mixedlub.diagnosis.doubts import doubts, scatter_notes
 from mixedlub.diagnosis.features import coordinates
 from mixedlub.diagnosis.fit import outlier_chance
 from mixedlub.diagnosis.heldout import HeldOut, LevelsOut
@@ -22,28 +23,17 @@ from mixedlub.diagnosis.noise import estimated, is_stated
 from mixedlub.diagnosis.posterior import Key, Posterior, names_effects, posterior
 from mixedlub.diagnosis.predict import Prediction, Refined, Rows, refine
 from mixedlub.diagnosis.problem import Problem
-from mixedlub.diagnosis.scatter import CLEAR, MOST, beyond_noise, more, quiet, shown, stated_or_more, under_its_own
+from mixedlub.diagnosis.scatter import beyond_noise, shown, stated_or_more, under_its_own
 from mixedlub.diagnosis.search import Progress, Search, search
 from mixedlub.diagnosis.validity import beyond_range
 from mixedlub.effect import find
 from mixedlub.forward import Forward
-from mixedlub.headers import unit_of
 from mixedlub.table import Column, Table
 from profiles.errors import InputError
 
 AVERAGED = 6
 SMALL = 2e-3
-MANY_WRONG = 0.1
 CANDIDATES = 6
-UNFOLLOWED = (
-    "readings lie farther from every explanation than from their repeats: something is missing whose form none that "
-    "was tried follows"
-)
-NOT_NOISE = (
-    "either something is missing that no form tried follows, or what is stated is not the noise of a reading; what is "
-    "named below was found under noise that much larger"
-)
-QUIET = "readings scatter by less than half of the stated noise: with noise nearer to theirs more could be told"
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +100,7 @@ def diagnose_case(
     stated = is_stated(case, rows)
     found, times, test = _search(case, rows, forward, y, exclude, level, progress)
     case, rows = found.problem.case, found.problem.rows
-    warnings += _scatter_notes(found, stated, times)
+    warnings += scatter_notes(found, stated, times)
     progress("leaving levels out")
     judged, kept = _judged(found, test)
     refined = _refine_leaders(found, judged)
@@ -124,50 +114,12 @@ def diagnose_case(
     place = region(rows, varied, np.where(chance > 0.5, 0.0, recorded.mismatch_z))
     laws = contained(found, judged.verdict)
     tests = _next_tests(found, judged, refined, columns, varied)
-    warnings += _doubts(judged, kept, chance, y, recorded)
+    warnings += doubts(judged.verdict, kept, rows, y, recorded.predicted, chance > 0.5)
     if not isinstance(judged.verdict, str):
         warnings += beyond_range(found.problem, judged.verdict, refined[judged.verdict].z)
     return Diagnosis(
         case, found, test, judged, refined, recorded, other, chance, place, kept, laws, tests, tuple(warnings)
     )
-
-
-def _scatter_notes(found: Search, stated: bool, times: float) -> list[str]:
-    """What the readings say of their noise, where that is not what the recording says."""
-    if times > 1.0:
-        said = f"readings scatter about {times:.2g} times as much as stated, whatever is taken to explain them"
-        if times > MOST:
-            return [Doubt(f"{said}: more than a stated noise is off by, so {NOT_NOISE}")]
-        return [Doubt(f"{said}: the noise was taken as that much larger")]
-    noise = found.problem.case.system.recording.noise
-    if not stated and noise is not None:
-        unit = unit_of(found.problem.case.quantity)
-        parts = [f"{100.0 * noise.relative:.2g} % of it"] if noise.relative else []
-        parts += [f"{noise.absolute:.2g} {unit}".rstrip()] if noise.absolute else []
-        return [f"the noise of a reading was estimated as {' and '.join(parts)}"]
-    if stated and more(found)[0] > CLEAR:
-        return [Doubt(UNFOLLOWED)]
-    return [QUIET] if quiet(found) else []
-
-
-def _doubts(judged: Posterior, kept: HeldOut, chance: np.ndarray, y: np.ndarray, recorded: Predicted) -> list[str]:
-    """What speaks against the answer as a whole: very many wrong readings, a form that holds nowhere else."""
-    doubts = []
-    wrong = chance > 0.5
-    if wrong.mean() > MANY_WRONG:
-        doubts.append(
-            f"{wrong.sum()} of {wrong.size} readings count as wrong: the noise may be taken too small, or the answer "
-            "covers only a part of the recording"
-        )
-        turned = np.abs(y[wrong] + recorded.predicted[wrong]) < 0.3 * np.abs(y[wrong])
-        if turned.mean() > 0.5:
-            doubts.append(f"{turned.sum()} of them have the size that is expected with the opposite sign")
-    if judged.verdict == "unknown" and kept.after > kept.before:
-        doubts.append(
-            "the unnamed mismatch predicts levels left out no better than calibration alone: outside the recorded "
-            "conditions rely on neither"
-        )
-    return [Doubt(text) for text in doubts]
 
 
 def _completed(wanted: Table | None, rows: Table) -> tuple[Table | None, list[str]]:

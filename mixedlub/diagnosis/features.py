@@ -20,8 +20,8 @@ JITTER = 1e-6
 LEAST = 1e-300
 HELD = 0.01
 """A condition that spans less than this share of its size was held: what it wanders is no variation to learn from."""
-WANDERS, MOVES = 0.1, 0.005
-"""One that spans less than the first was held as well if the base model's readings move by less than the second."""
+WANDERS, WANDERS_K, MOVES = 0.1, 6.0, 0.005
+"""One that spans less than the first, or so many kelvin, was held if the base model moves by less than the last."""
 LOST_AFTER = 2.0
 """Periods beyond a record after which a wave is out of step, as its period is not known that well."""
 
@@ -114,13 +114,16 @@ def is_held(name: str, levels: np.ndarray) -> bool:
 def jitters(name: str, values: np.ndarray) -> bool:
     """Whether values lie within a tenth of their size and hardly one comes again, as what is measured about one does.
 
+    Temperatures lie within a few kelvin.
+
     >>> jitters("load_N", np.array([19.9, 20.1, 20.3, 19.7])), jitters("load_N", np.array([20.0, 21.0, 20.0, 21.0]))
     (True, False)
     """
     if values.dtype.kind in "US" or name in PASSING or 2 * np.unique(values).size <= values.size:
         return False
-    size = values + 273.15 if name.endswith("temperature_C") else values
-    return bool(np.ptp(size) <= WANDERS * np.max(np.abs(size)))
+    if name.endswith("temperature_C"):
+        return bool(np.ptp(values) <= WANDERS_K)
+    return bool(np.ptp(values) <= WANDERS * np.max(np.abs(values)))
 
 
 def _wanders(name: str, case: Case, table: Table, forward: Forward) -> bool:

@@ -44,17 +44,23 @@ def with_noise(case: Case, relative: float, absolute: float) -> Case:
     return replace(case, system=case.system.model_copy(update={"recording": recording}))
 
 
-def seen_noise(case: Case, rows: Table, level: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def seen_noise(
+    case: Case, rows: Table, level: np.ndarray, expected: np.ndarray | None = None
+) -> tuple[np.ndarray, np.ndarray]:
     """`noise` of readings as they are compared: relative where that is by the logarithm."""
-    size = np.abs(level) if case.kind.logarithmic else np.ones(level.size)
-    sd, shared = noise(case, rows, level)
-    return sd / size, shared
+    if case.kind.logarithmic:
+        sd, shared = noise(case, rows, level)
+        return sd / np.abs(level), shared
+    return noise(case, rows, level, expected)
 
 
-def noise(case: Case, rows: Table, level: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def noise(
+    case: Case, rows: Table, level: np.ndarray, expected: np.ndarray | None = None
+) -> tuple[np.ndarray, np.ndarray]:
     """Standard deviation of each reading and, in sigmas, the columns of errors shared within a set-up.
 
-    ``level`` is the size of the readings.
+    ``level`` is the size of the readings. Relative errors of a set-up are shares of what the model ``expected``: as
+    shares of the readings they would stand in for a model of any form.
     """
     quantity = case.quantity
     stated = case.system.recording.noise
@@ -72,7 +78,8 @@ def noise(case: Case, rows: Table, level: np.ndarray) -> tuple[np.ndarray, np.nd
         member = (rows["setup"][:, None] == names[None, :]).astype(float)
         columns = []
         if stated.setup_relative > 0:
-            columns.append(member * (stated.setup_relative * level / sd)[:, None])
+            share = level if expected is None else expected
+            columns.append(member * (stated.setup_relative * share / sd)[:, None])
         if stated.setup_absolute > 0:
             columns.append(member * (stated.setup_absolute / sd)[:, None])
         shared = np.hstack(columns)
@@ -189,17 +196,23 @@ def repeated(case: Case, rows: Table) -> np.ndarray | None:
 
 
 def nearly_repeated(case: Case, rows: Table) -> np.ndarray | None:
-    """The same by conditions that are equal but for what they jitter about their set-points."""
-    columns = {}
+    """The same by conditions that are equal but for what they jitter about their set-points.
+
+    None where all of them jitter: readings at one set-point are no repeats of what was to be told.
+    """
+    columns, told = {}, False
+    conditions = {c.name for c in case.kind.columns}
     for name in rows.columns:
         values = rows[name]
         if values.dtype.kind in "US" or name in PASSING:
             columns[name] = values
+            told |= name in conditions and np.unique(values).size > 1
         elif jitters(name, values):
             columns[name] = np.zeros(len(rows))
         else:
             columns[name] = near_values(values)
-    return repeated(case, Table(columns, rows.source))
+            told |= name in conditions and bool(columns[name].any())
+    return repeated(case, Table(columns, rows.source)) if told else None
 
 
 def _medians(y: np.ndarray, group: np.ndarray) -> np.ndarray:

@@ -45,7 +45,7 @@ class Problem:
     @classmethod
     def of(cls, case: Case, rows: Table, forward: Forward, y: np.ndarray) -> Problem:
         """The problem of a recording whose noise is known."""
-        sd, shared = seen_noise(case, rows, y)
+        sd, shared = seen_noise(case, rows, y, forward.predict())
         return cls(case, rows, forward, np.log(y) if case.kind.logarithmic else y, sd, shared)
 
     def seen(self, level: np.ndarray) -> np.ndarray:
@@ -120,7 +120,7 @@ class Problem:
         """
         size, reading = self.level(prediction), self.level(self.y)
         size = np.where(np.abs(size) < TRIFLE * np.abs(reading), reading, size)
-        sd, shared = seen_noise(self.case, self.rows, size)
+        sd, shared = seen_noise(self.case, self.rows, size, self.level(prediction))
         return replace(self, sd=sd, shared=shared)
 
     def take(self, rows: np.ndarray) -> Problem:

@@ -9,7 +9,8 @@ from itertools import combinations
 import numpy as np
 
 from mixedlub.diagnosis.features import Coordinates
-from mixedlub.diagnosis.fit import Fit, bounded, linear_fit, map_fit
+from mixedlub.diagnosis.fit import Fit, linear_fit, map_fit
+from mixedlub.diagnosis.pairs import promising_pairs
 from mixedlub.diagnosis.problem import Explanation, Problem, effects_of
 from mixedlub.diagnosis.starts import Sampled, fit_single, sample
 from mixedlub.diagnosis.unknown import Unknown, unknown_fit
@@ -21,7 +22,6 @@ WHOLE = 25
 """Effects from which pairs have all of their prior: beside a first effect each other one is as rare among few."""
 LEADERS = 8
 FAR = 60.0
-PAIRS, BOUNDED_PAIRS = 30, 8
 MANY = 3000
 ELASTIC = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
 """Relative error of an effect's literature form: its rms and the weight given to it."""
@@ -161,8 +161,10 @@ def _search(
             sampled = tuple(replace(s, change=s.change * (old / problem.sd)) for s in sampled)
     fits: dict[Explanation, Fit] = {(): none, **singles}
     progress("trying pairs of effects")
-    for explanation, start in _promising_pairs(problem, singles, sampled):
-        fits[explanation] = map_fit(problem, explanation, start)
+    for pair, start in promising_pairs(problem, none, singles, sampled):
+        fit = map_fit(problem, pair, start)
+        if pair not in fits or fit.evidence > fits[pair].evidence:
+            fits[pair] = fit
     scores = {m: elastic_evidence(problem, none, f, space, values) for m, f in fits.items()}
     progress("weighing an unnamed mismatch")
     unknown = unknown_fit(problem, none, space, values)
@@ -177,56 +179,6 @@ def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: 
     new = {m: map_fit(problem, m, f.z, warm=True) for m, f in singles.items() if f.evidence > best.evidence - FAR}
     shift = new[best.explanation].evidence - best.evidence
     return {m: new[m] if m in new else f.in_sigmas(scale, f.evidence + shift) for m, f in singles.items()}
-
-
-def _promising_pairs(
-    problem: Problem, singles: dict[Explanation, Fit], sampled: tuple[Sampled, ...]
-) -> list[tuple[Explanation, np.ndarray]]:
-    """Pairs that the linearised model likes best, each with a start.
-
-    A first effect alone may have taken for outliers the few readings that show the second: some pairs are those liked
-    best where no reading is written off, but bounded.
-    """
-    found: dict[Explanation, np.ndarray] = {}
-    for write_off, most in ((True, PAIRS), (False, BOUNDED_PAIRS)):
-        ranked = sorted(_pair_scores(problem, singles, sampled, write_off).items(), key=lambda item: -item[1][0])
-        fresh = [(pair, start) for pair, (_, start) in ranked if pair not in found]
-        found.update(fresh[:most])
-    return list(found.items())
-
-
-def _pair_scores(
-    problem: Problem, singles: dict[Explanation, Fit], sampled: tuple[Sampled, ...], write_off: bool
-) -> dict[Explanation, tuple[float, np.ndarray]]:
-    """Score of each pair of a leading effect and another one in the linearised model, and where it is best."""
-    leaders = sorted(singles.values(), key=lambda f: -f.evidence)[:LEADERS]
-    found: dict[Explanation, tuple[float, np.ndarray]] = {}
-    calibration = problem.calibration_size
-    for fit in leaders:
-        columns = np.hstack([fit.slopes, problem.shared])
-        weight = fit.weight if write_off else bounded(fit.residual)(fit.residual)[1]
-        inner = np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ (columns * weight[:, None]))
-        left = fit.residual * weight
-        level = fit.evidence if write_off else -0.5 * float(left @ fit.residual)
-
-        def whiten(change: np.ndarray, columns=columns, weight=weight, inner=inner) -> np.ndarray:
-            scaled = change * weight
-            return scaled - ((scaled @ columns) @ inner) @ (columns * weight[:, None]).T
-
-        for other in sampled:
-            if other.id in fit.explanation:
-                continue
-            seen = whiten(other.change)
-            gain = other.change @ left - 0.5 * np.einsum("ij,ij->i", other.change, seen)
-            gain -= 0.5 * np.einsum("ij,ij->i", other.z, other.z)
-            k = int(np.argmax(gain))
-            score = level + float(gain[k])
-            own = {fit.explanation[0]: fit.z[calibration:], other.id: other.z[k]}
-            pair = tuple(sorted(own))
-            start = np.concatenate([fit.z[:calibration], *(own[name] for name in pair)])
-            if pair not in found or score > found[pair][0]:
-                found[pair] = (score, start)
-    return found
 
 
 def elastic_evidence(problem: Problem, none: Fit, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:
