@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tomllib
 import warnings
+from collections.abc import Collection
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -82,12 +83,15 @@ def named_bases() -> dict[str, dict[str, Any]]:
     return tomllib.loads(files("mixedlub").joinpath("lubricants.toml").read_text(encoding="utf-8"))
 
 
-def lubricant(section: config.Lubricant | None) -> Lubricant:
-    """The oil; what the section leaves open comes from its base stock, with a warning that says so."""
+def lubricant(section: config.Lubricant | None, unread: Collection[str] = ()) -> Lubricant:
+    """The oil; what the section leaves open comes from its base stock, with a warning that says so.
+
+    Keys that are ``unread`` in a kind of recording are not warned of.
+    """
     section = section or config.Lubricant()
     known = {k: v for k, v in section.model_dump().items() if v is not None and k not in ("name", "base")}
     base = named_bases()[section.base or "mineral"]
-    assumed = [key for key in base if key not in known and key != "source"]
+    assumed = [key for key in base if key not in known and key != "source" and key not in unread]
     if assumed:
         stock = section.base or "mineral (assumed)"
         warnings.warn(

@@ -12,7 +12,7 @@ import numpy as np
 from mixedlub.case import Case, read_case, read_conditions
 from mixedlub.diagnosis.audit import audit
 from mixedlub.diagnosis.contained import Contained, contained
-from mixedlub.diagnosis.doubts import doubts, scatter_notes
+from mixedlub.diagnosis.doubts import against, scatter_notes
 from mixedlub.diagnosis.features import coordinates
 from mixedlub.diagnosis.fit import outlier_chance
 from mixedlub.diagnosis.heldout import HeldOut, LevelsOut
@@ -114,7 +114,7 @@ def diagnose_case(
     place = region(rows, varied, np.where(chance > 0.5, 0.0, recorded.mismatch_z))
     laws = contained(found, judged.verdict)
     tests = _next_tests(found, judged, refined, columns, varied)
-    warnings += doubts(judged.verdict, kept, rows, y, recorded.predicted, chance > 0.5)
+    warnings += against(judged.verdict, kept, rows, y, recorded.predicted, chance > 0.5)
     if not isinstance(judged.verdict, str):
         warnings += beyond_range(found.problem, judged.verdict, refined[judged.verdict].z)
     return Diagnosis(

@@ -44,7 +44,7 @@ def scatter_notes(found: Search, stated: bool, times: float) -> list[str]:
     return [QUIET] if quiet(found) else []
 
 
-def doubts(
+def against(
     verdict: Key, kept: HeldOut, rows: Table, y: np.ndarray, predicted: np.ndarray, wrong: np.ndarray
 ) -> list[str]:
     """What speaks against the answer as a whole: readings written off, a form that holds nowhere else."""

@@ -153,7 +153,7 @@ def _unplaced(fold: _Fold, fit: Fit) -> np.ndarray:
     train, size = fold.train, fold.train.calibration_size
     parameters = [p for e in train.effects(fit.explanation) for p in e.parameters]
     variance = np.zeros(fold.test.y.size)
-    for place in (i for i, p in enumerate(parameters, size) if p.scan):
+    for place in (i for i, p in enumerate(parameters, size) if p.sudden):
         tried = np.repeat(fit.z[None, :], NEARBY.size, axis=0)
         tried[:, place] = np.clip(tried[:, place] + NEARBY, -REACH, REACH)
         left = np.array([(train.y - train.predict(fit.explanation, z)) / train.sd for z in tried]) - fit.common

@@ -113,14 +113,15 @@ class Problem:
         slopes[~np.isfinite(slopes)] = 0.0
         return slopes
 
-    def with_sd(self, prediction: np.ndarray) -> Problem:
+    def with_sd(self, prediction: np.ndarray, base: np.ndarray) -> Problem:
         """The same problem with the noise taken at the size of a prediction instead of the readings.
 
-        A prediction far below its reading, as of a part rig that the model has nothing for, is no size to go by.
+        A prediction far below its reading, as of a part rig that the model has nothing for, is no size to go by. The
+        errors of set-ups are shares of the calibrated ``base``: of what fits better they would be its shape for free.
         """
         size, reading = self.level(prediction), self.level(self.y)
         size = np.where(np.abs(size) < TRIFLE * np.abs(reading), reading, size)
-        sd, shared = seen_noise(self.case, self.rows, size, self.level(prediction))
+        sd, shared = seen_noise(self.case, self.rows, size, self.level(base))
         return replace(self, sd=sd, shared=shared)
 
     def take(self, rows: np.ndarray) -> Problem:

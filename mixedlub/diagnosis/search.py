@@ -9,7 +9,7 @@ from itertools import combinations
 import numpy as np
 
 from mixedlub.diagnosis.features import Coordinates
-from mixedlub.diagnosis.fit import Fit, linear_fit, map_fit
+from mixedlub.diagnosis.fit import Fit, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.pairs import promising_pairs
 from mixedlub.diagnosis.problem import Explanation, Problem, effects_of
 from mixedlub.diagnosis.starts import Sampled, fit_single, sample
@@ -25,6 +25,8 @@ FAR = 60.0
 MANY = 3000
 ELASTIC = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
 """Relative error of an effect's literature form: its rms and the weight given to it."""
+RANGE = np.linspace(-2.5, 2.5, 101)
+"""Coordinates at which a sudden change is tried, to see where else it may stand."""
 BEND_LIMIT = 4.0
 BEND_SHARE = 0.01
 BEND_MOST = 30.0
@@ -110,7 +112,7 @@ def search(
     ranked = sorted(screen.scores, key=lambda m: -screen.log_weights[m])
     leaders = dict.fromkeys([(), *ranked[:LEADERS]])
     best = map_fit(problem, ranked[0], screen.fits[ranked[0]].z, warm=True)
-    problem = problem.with_sd(best.prediction)
+    problem = problem.with_sd(best.prediction, problem.predict((), screen.none.z))
     fits = {m: map_fit(problem, m, screen.fits[m].z, warm=True) for m in leaders}
     scores = {m: elastic_evidence(problem, fits[()], f, space, values) for m, f in fits.items()}
     unknown = unknown_fit(problem, fits[()], space, values)
@@ -143,7 +145,7 @@ def _search(
     progress("calibrating the base model")
     none = map_fit(problem, (), np.zeros(problem.size(())))
     # Readings do not tell their own noise: those that happen to be low would count for more.
-    problem = problem.with_sd(none.prediction)
+    problem = problem.with_sd(none.prediction, none.prediction)
     none = map_fit(problem, (), none.z)
     effects = problem.forward.effects(exclude)
     progress(f"trying {len(effects)} effects")
@@ -155,7 +157,7 @@ def _search(
         best = max(singles.values(), key=lambda f: f.evidence)
         if best.evidence > none.evidence + 3.0:
             old = problem.sd
-            problem = problem.with_sd(best.prediction)
+            problem = problem.with_sd(best.prediction, none.prediction)
             none = map_fit(problem, (), none.z)
             singles = _again(problem, singles, best, old / problem.sd)
             sampled = tuple(replace(s, change=s.change * (old / problem.sd)) for s in sampled)
@@ -165,6 +167,7 @@ def _search(
         fit = map_fit(problem, pair, start)
         if pair not in fits or fit.evidence > fits[pair].evidence:
             fits[pair] = fit
+    fits = {m: replace(f, evidence=f.evidence + placed(problem, f)) for m, f in fits.items()}
     scores = {m: elastic_evidence(problem, none, f, space, values) for m, f in fits.items()}
     progress("weighing an unnamed mismatch")
     unknown = unknown_fit(problem, none, space, values)
@@ -179,6 +182,22 @@ def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: 
     new = {m: map_fit(problem, m, f.z, warm=True) for m, f in singles.items() if f.evidence > best.evidence - FAR}
     shift = new[best.explanation].evidence - best.evidence
     return {m: new[m] if m in new else f.in_sigmas(scale, f.evidence + shift) for m, f in singles.items()}
+
+
+def placed(problem: Problem, fit: Fit) -> float:
+    """What log evidence gains or loses by the true range of sudden changes: Laplace sees no slope, so no end of it."""
+    parameters = [p for e in problem.effects(fit.explanation) for p in e.parameters]
+    gained = 0.0
+    for place in (i for i, p in enumerate(parameters, problem.calibration_size) if p.sudden):
+        tried = np.repeat(fit.z[None, :], RANGE.size, axis=0)
+        tried[:, place] = RANGE
+        left = np.array([(problem.y - problem.predict(fit.explanation, z)) / problem.sd for z in tried]) - fit.common
+        log = np.nan_to_num(log_likelihood(left)[0].sum(axis=1), nan=-np.inf) - 0.5 * RANGE**2
+        here = float(log_likelihood(fit.residual)[0].sum()) - 0.5 * fit.z[place] ** 2
+        curvature = 1.0 + float(fit.weight @ fit.slopes[:, place] ** 2)
+        whole = np.logaddexp(float(np.logaddexp.reduce(log)), here) + np.log(RANGE[1] - RANGE[0])
+        gained += whole - here - 0.5 * float(np.log(2.0 * np.pi / curvature))
+    return gained
 
 
 def elastic_evidence(problem: Problem, none: Fit, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:

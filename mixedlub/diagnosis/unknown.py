@@ -112,12 +112,13 @@ def _weighed(
 def _mean_over_shapes(tried: dict[Shape, float]) -> float:
     """Log mean evidence: half the weight on shapes of the reading, half on those inside the chain, if there are any.
 
-    In each half those of all conditions, of one and of two, waves, peaks and steps weigh the same, however many.
+    In each half those of all conditions, of one and of two, waves, and peaks and steps weigh the same, however many.
     """
     groups: dict[bool, dict[tuple[int, str], list[float]]] = {}
     for shape, value in tried.items():
         halves = groups.setdefault(shape.carrier in (READING, NOTHING), {})
-        halves.setdefault((len(shape.axes), shape.form), []).append(value)
+        sort = "local" if shape.at is not None else shape.form
+        halves.setdefault((len(shape.axes), sort), []).append(value)
     return _log_mean([_log_mean([_log_mean(alike) for alike in half.values()]) for half in groups.values()])
 
 

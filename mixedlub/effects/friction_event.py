@@ -13,7 +13,7 @@ TENTHS = 2.0 * np.log(9.0)
     acts_on="boundary_friction",
     parameters=(
         Parameter("change", "-", Normal(0.0, 0.3), "logarithm of the factor on friction", null=0.0, symbol="c"),
-        Parameter("place", "-", Between(0.0, 1.0), "place in the programme", scan=120, symbol="q_e"),
+        Parameter("place", "-", Between(0.0, 1.0), "place in the programme", scan=120, sudden=True, symbol="q_e"),
         Parameter("width", "-", BetweenLog(0.01, 0.12), "share of the programme from 10 to 90 % of it", symbol="w"),
     ),
     equation=r"\mu_B \leftarrow \mu_B\,e^{c\,\sigma(4.4\,(q - q_e)/w)},\quad "

@@ -13,7 +13,13 @@ SHARPNESS = 60.0
     parameters=(
         Parameter("jump", "m", Normal(0.0, 2e-7), "error of the reading: about 200 nm an order", null=0.0, symbol="j"),
         Parameter(
-            "onset", "m", BetweenLog(1e-8, 2e-6), "film thickness from which the count is off", scan=60, symbol="h_s"
+            "onset",
+            "m",
+            BetweenLog(1e-8, 2e-6),
+            "film thickness from which the count is off",
+            scan=60,
+            sudden=True,
+            symbol="h_s",
         ),
     ),
     equation=r"y \leftarrow y + j\,\tfrac12[1 + \tanh(60\ln(h/h_s))]",

@@ -24,7 +24,9 @@ REFERENCE = 0.01
             "-",
             Between(1.0, 2.0),
             "1: thinning sets in as gradually as in Bair's solutions, 2: as in Carreau's and Eyring's fluid",
+            null=1.0,
             symbol="a",
+            kinds=("film",),
         ),
         Parameter("sliding", "-", Between(0.0, 1.0), "part that sliding has in the shear of the inlet", symbol="b"),
     ),
@@ -55,7 +57,8 @@ def inlet_shear_thinning(
     Against an inlet solution within 10 % for N up to 1.6 and 16 % for N 31 at n = 0.75; use for n above 0.6.
     An oil with polymer has a second Newtonian plateau mu_2/mu_1 and keeps at least (mu_2/mu_1)^0.69 of its film,
     the exponent of viscosity in the film law. Whether stress or shear rate starts thinning depends on how the
-    polymer relaxes; the reference viscosity 0.01 Pa s between the two makes the form belong to Pa s.
+    polymer relaxes; the reference viscosity 0.01 Pa s between the two makes the form belong to Pa s. Bair's solutions
+    slide and roll; formulae for rolling alone, used where there is sliding, leave its shear out.
 
     >>> oil = dict(index=0.75, critical_stress=5e3, plateau=0.0, stress_rule=1.0, onset=1.0, sliding=1.0)
     >>> h = inlet_shear_thinning(0.2e-6, 15e-3, 2.0, 0.0, **oil)

@@ -123,9 +123,14 @@ def is_number(cell: str) -> bool:
 
 
 def _are_units(cells: Sequence[str]) -> bool:
-    """Whether a line names units and nothing else, at least one that is known."""
-    named = [cell.strip("()[]") for cell in cells if cell]
-    return bool(named) and all(is_unit(unit) for unit in named)
+    """Whether a line names units and nothing else, at least one that is known; a unit may be new if in brackets."""
+    named = [cell for cell in cells if cell]
+    known = [is_unit(cell.strip("()[]")) for cell in named]
+    return any(known) and all(k or _in_brackets(cell) for k, cell in zip(known, named, strict=True))
+
+
+def _in_brackets(cell: str) -> bool:
+    return (cell[0], cell[-1]) in (("(", ")"), ("[", "]"))
 
 
 def _told_apart(header: Sequence[str]) -> list[str]:

@@ -17,6 +17,8 @@ from mixedlub.table import Column, Table
 
 AMBIENT_MPA = 0.101325
 NEAR_AMBIENT_MPA = 50.0
+UNREAD = ("eyring_stress_MPa", "thermal_conductivity_W_mK", "specific_heat_J_kgK")
+"""Properties of an oil that its viscosity does not hang on."""
 
 COLUMNS = (
     Column("temperature_C", at_least=-100.0, at_most=400.0),
@@ -58,7 +60,9 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
 def _oil(system: config.System, recorded: Table) -> Lubricant:
     """The oil, at the level that the readings suggest where it is not given."""
     kelvin = recorded["temperature_C"] + oil.ZERO_CELSIUS
-    return unknown_oil.moved(bodies.lubricant(system.lubricant), unknown_oil.pivot_of(kelvin), _level(system, recorded))
+    return unknown_oil.moved(
+        bodies.lubricant(system.lubricant, UNREAD), unknown_oil.pivot_of(kelvin), _level(system, recorded)
+    )
 
 
 def _pressure(table: Table) -> np.ndarray:
@@ -71,7 +75,7 @@ def _level(system: config.System, recorded: Table) -> float:
         return 1.0
     near = _pressure(recorded) <= max(NEAR_AMBIENT_MPA * 1e6, float(_pressure(recorded).min()))
     rows = recorded.take(near)
-    guess = bodies.lubricant(system.lubricant).viscosity(rows["temperature_C"] + oil.ZERO_CELSIUS)
+    guess = bodies.lubricant(system.lubricant, UNREAD).viscosity(rows["temperature_C"] + oil.ZERO_CELSIUS)
     return unknown_oil.level_of(rows, "viscosity_mPa_s", guess * 1e3)
 
 

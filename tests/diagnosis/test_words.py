@@ -12,7 +12,7 @@ from mixedlub.diagnosis import fitted, page, words
 from mixedlub.diagnosis.answer import effect_records
 from mixedlub.diagnosis.audit import SCARCE, Doubt, audit
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.doubts import doubts
+from mixedlub.diagnosis.doubts import against
 from mixedlub.diagnosis.empirical import unnamed as describe
 from mixedlub.diagnosis.labels import effect_words, number, with_names
 from mixedlub.diagnosis.nexttest import NextTest
@@ -148,7 +148,7 @@ def test_wrong_unit_and_sign_are_doubts(
 def test_very_many_wrong_readings_are_a_doubt(offset: Diagnosis) -> None:
     wrong = np.arange(offset.readings.size) % 3 == 0
     rows, predicted = offset.recorded.table, offset.recorded.predicted
-    notes = doubts(offset.posterior.verdict, offset.heldout, rows, offset.readings, predicted, wrong)
+    notes = against(offset.posterior.verdict, offset.heldout, rows, offset.readings, predicted, wrong)
     assert isinstance(notes[0], Doubt)
     assert "readings count as wrong" in notes[0]
 

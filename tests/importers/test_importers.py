@@ -264,3 +264,12 @@ def test_the_speed_of_one_surface_is_no_entrainment(file, tmp_path):
     told = {"import.columns.entrainment_speed_m_s": "Disc Speed (m/s)"}
     with pytest.raises(InputError, match="is the speed of one surface; entrainment is the mean"):
         import_files([path], tmp_path / "case", kind="film", **told)
+
+
+def test_a_line_of_units_may_hold_new_ones_and_gaps(file, tmp_path):
+    head = "Tick,Time,Load,Frequency,COF\n,[s],[uN],[Hz],\n"
+    path = file(head + "".join(f"{i},{10 * i},5e7,50,0.1{i}\n" for i in range(6)))
+    told = {"import.units.friction_coefficient": "-"}
+    table = read_case(import_files([path], tmp_path / "case", kind="friction_history", **told)).recordings
+    assert table["load_N"].tolist() == pytest.approx([50.0] * 6)
+    assert table["time_s"].tolist() == [0.0, 10.0, 20.0, 30.0, 40.0, 50.0]

@@ -52,8 +52,8 @@ def test_false_alarms_stay_at_the_stated_level(problems: list[Problem]) -> None:
         values = space.values(p.case, p.rows, p.forward)
         truth = p.predict((), np.linspace(-1.0, 1.0, p.calibration_size))
         for seed in range(5):
-            y = truth + p.with_sd(truth).sd * np.random.default_rng(seed).standard_normal(truth.size)
-            drawn = Problem(p.case, p.rows, p.forward, y, p.with_sd(truth).sd, p.shared)
+            y = truth + p.with_sd(truth, truth).sd * np.random.default_rng(seed).standard_normal(truth.size)
+            drawn = Problem(p.case, p.rows, p.forward, y, p.with_sd(truth, truth).sd, p.shared)
             alarms += mismatch_test(search(drawn, space, values, others), 0.05).detected
             trials += 1
     assert alarms <= 4, f"{alarms} of {trials} at level 0.05"

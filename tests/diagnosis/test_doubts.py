@@ -1,0 +1,49 @@
+"""What stands above the headline: readings that err together, and an answer that holds nowhere else."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mixedlub.case import Case
+from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.doubts import against
+from mixedlub.diagnosis.features import jitters
+from mixedlub.diagnosis.noise import nearly_repeated
+from mixedlub.table import Table
+
+from .test_inference import problem
+
+
+def told(offset: Diagnosis, wrong: np.ndarray) -> list[str]:
+    rows, predicted = offset.recorded.table, offset.recorded.predicted
+    clock = Table({**rows.columns, "sequence": np.linspace(0.0, 1.0, len(rows))}, rows.source)
+    y = predicted * np.where(wrong, 1.5, 1.0)
+    return against(offset.posterior.verdict, offset.heldout, clock, y, predicted, wrong)
+
+
+def test_wrong_readings_that_follow_one_another_are_told_of(offset: Diagnosis) -> None:
+    wrong = np.isin(np.arange(len(offset.recorded.table)), [3, 4, 5, 6])
+    runs = offset.recorded.table["run"][wrong]
+    (note,) = [note for note in told(offset, wrong) if "follow one another" in note]
+    assert ", ".join(str(run) for run in runs) in note
+
+
+def test_wrong_readings_apart_are_not(offset: Diagnosis) -> None:
+    wrong = np.isin(np.arange(len(offset.recorded.table)), [3, 14, 25, 36])
+    assert not [note for note in told(offset, wrong) if "follow one another" in note]
+
+
+@pytest.mark.parametrize(
+    ("celsius", "about"), [([0.0, 5.0, 10.0, 20.0, 25.0], False), ([99.0, 100.4, 100.1, 101.2], True)]
+)
+def test_temperatures_some_kelvin_apart_were_meant(celsius: list[float], about: bool) -> None:
+    assert jitters("temperature_C", np.array(celsius)) is about
+
+
+def test_a_single_condition_that_jitters_makes_no_repeats() -> None:
+    p = problem()
+    case: Case = p.case
+    names = [c.name for c in case.kind.columns if c.form != "name" and c.name in p.rows]
+    one = Table({"run": np.arange(1, 9), names[0]: 100.0 + 0.3 * np.arange(8.0)}, "recordings.csv")
+    assert nearly_repeated(case, one) is None
