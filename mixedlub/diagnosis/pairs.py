@@ -38,6 +38,8 @@ def _drawn_together(
     problem: Problem, none: Fit, sampled: tuple[Sampled, ...]
 ) -> dict[Explanation, tuple[float, np.ndarray]]:
     """Score of the best two draws of each pair of effects, their changes added, and where they are."""
+    if not sampled:
+        return {}
     columns = np.hstack([none.slopes, problem.shared])
     inner = np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ columns)
     changes = np.vstack([s.change for s in sampled])

@@ -45,7 +45,8 @@ class OpdxReader:
         if (kind, size) != (0x0D, 8):
             raise InputError("heights are not in double precision", where=where, value=(kind, size))
         checked_count(count, (len(raw) - 5) // 8, where)
-        heights = np.frombuffer(raw, "<f8", count, 5) * scale
+        with np.errstate(over="ignore", invalid="ignore"):  # a height beyond all numbers is none
+            heights = np.frombuffer(raw, "<f8", count, 5) * scale
         present = np.isfinite(heights)
         origin: dict[str, object] = {"format": self.format}
         settings = tree.get("MetaData")
