@@ -1,0 +1,56 @@
+"""Which pairs of effects are fitted, and from where; and what a sudden change's place costs."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mixedlub.diagnosis.diagnose import diagnose_case
+from mixedlub.diagnosis.fit import map_fit
+from mixedlub.diagnosis.pairs import promising_pairs
+from mixedlub.diagnosis.search import placed
+from mixedlub.diagnosis.starts import fit_single, sample
+
+from ..kinds.conftest import BALL, make, system
+from .test_inference import problem
+
+__all__ = ["make"]
+
+
+def test_two_effects_start_where_they_are_best_together() -> None:
+    """Readings made of one draw of each of two effects: the pair starts from these draws."""
+    p = problem()
+    none = map_fit(p, (), np.zeros(p.size(())))
+    sampled = tuple(sample(p, name, none) for name in ("churning", "boundary_film_temperature", "tip_relief"))
+    first, second = sampled[0], sampled[1]
+    i, j = (int(np.argmax(np.linalg.norm(s.change, axis=1))) for s in (first, second))
+    made = replace(p, y=none.prediction + p.sd * (first.change[i] + second.change[j]))
+    fitted = map_fit(made, (), none.z)
+    singles = {(s.id,): fit_single(made, fitted, s) for s in sampled}
+    starts = [
+        start
+        for pair, start in promising_pairs(made, fitted, singles, sampled)
+        if pair == ("boundary_film_temperature", "churning")
+    ]
+    wanted = np.concatenate([second.z[j], first.z[i]])
+    assert any(np.allclose(start[p.calibration_size :], wanted) for start in starts)
+
+
+def test_the_place_of_a_sudden_change_is_paid_for(make) -> None:
+    """A miscounted order above the fifth of 20 films may begin in one gap of 20: a share of what it could be."""
+    speed = np.geomspace(0.01, 2.0, 20)
+    film = 300.0 * speed**0.67 * (1.0 + 0.01 * np.random.default_rng(5).standard_normal(speed.size))
+    film[15:] += 190.0
+    sections = system("film", "film_thickness_nm", contact=BALL)
+    held = {"load_N": 20.0, "oil_temperature_C": 40.0, "slide_roll_ratio": 0.0}
+    columns = {"entrainment_speed_m_s": speed, **{name: np.full(20, value) for name, value in held.items()}}
+    found = diagnose_case(make(sections, {**columns, "film_thickness_nm": film}).folder)
+    fit = found.found.fits["fringe_order",]
+    gap = np.log(film[15] - 190.0) - np.log(film[14])
+    density = 1.0 / np.log(2e-6 / 1e-8)
+    place = found.found.problem.calibration_size + 1
+    curvature = 1.0 + fit.weight @ fit.slopes[:, place] ** 2
+    laplace = -0.5 * fit.z[place] ** 2 - 0.5 * np.log(curvature)
+    assert placed(found.found.problem, fit) + laplace == pytest.approx(np.log(gap * density), abs=0.7)
