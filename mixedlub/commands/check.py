@@ -51,8 +51,10 @@ def understood(case: Case) -> Iterator[str]:
         forward = _forward(case)
     notes += [] if forward is None else [note for note in forward.notes if note not in notes]
     yield from bodies
-    if forward is None or "boundary_friction" in forward.inputs:
+    if forward is None:
         yield f"Boundary friction coefficient: {case.system.boundary_friction:g}."
+    elif "boundary_friction" in forward.inputs:
+        yield f"Boundary friction coefficient: {np.median(forward.inputs['boundary_friction']):.3g}."
     yield from _tables(case)
     yield from _uncertain(case, () if forward is None else forward.calibrations)
     yield from _audit(case, forward)
