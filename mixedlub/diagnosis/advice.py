@@ -28,6 +28,8 @@ def next_test(d: Diagnosis) -> tuple[str, ...]:
             moment = standing_place(d)
             return (f"Look up what was done to the rig or the sample at {moment}, and repeat a reading from before.",)
         place = ", ".join(range_text(cut) for cut in d.region.where) or "all conditions"
+        if d.found.unknown.best.at is not None:
+            place = standing_place(d)
         return (f"To learn its form, refine and repeat the levels around {place}.",)
     if not d.next_tests:
         return ("No useful test: there is no second explanation to tell the first one from.",)

@@ -264,7 +264,7 @@ def nearest_name(d: Diagnosis) -> list[str]:
 
 
 def _carried(carrier: str) -> str:
-    outside = {READING: "a share of the reading", NOTHING: "an addition to it"}
+    outside = {READING: "a share of the reading", NOTHING: "an addition to the reading"}
     return outside.get(carrier, f"a factor on {words_of(carrier)}")
 
 
