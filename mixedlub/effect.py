@@ -104,7 +104,7 @@ class Parameter:
 
     ``symbol`` is the letter it has in the effect's equation, as LaTeX.
     ``scan`` is how many values a search must try, where readings are matched in many separate ranges of it.
-    ``sudden`` says that readings move only as it passes them, and not at all in between.
+    ``sudden`` says that readings move where it passes them and hardly in between.
     ``kinds`` restricts the kinds of recording in which it is free (empty: all); in others it stays at its null.
     """
 

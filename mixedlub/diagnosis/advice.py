@@ -59,7 +59,8 @@ def standing_place(d: Diagnosis) -> str:
     shape, rows = d.found.unknown.best, d.found.problem.rows
     name, at = shape.axes[0], shape.at or 0.0
     if name == "sequence":
-        return f"run {rows['run'][np.argmin(np.abs(rows[name] - at))]:g}"
+        off = np.where(rows[name] >= at, rows[name] - at, np.inf) if shape.form == "step" else np.abs(rows[name] - at)
+        return f"run {rows['run'][np.argmin(off)]:g}"
     both = d.found.space.axes[d.found.space.place(name)].folded and at
     return f"{words_of(name)} {amount(at, name)}{' in both directions' if both else ''}"
 

@@ -114,7 +114,8 @@ def diagnose_case(
     place = region(rows, varied, np.where(chance > 0.5, 0.0, recorded.mismatch_z))
     laws = contained(found, judged.verdict)
     tests = _next_tests(found, judged, refined, columns, varied)
-    warnings += against(judged.verdict, kept, rows, y, recorded.predicted, chance > 0.5)
+    at_one_place = judged.verdict == "unknown" and found.unknown.best.at is not None
+    warnings += against(judged.verdict, kept, rows, y, recorded.predicted, chance > 0.5, at_one_place)
     if not isinstance(judged.verdict, str):
         warnings += beyond_range(found.problem, judged.verdict, refined[judged.verdict].z)
     return Diagnosis(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.diagnosis.audit import Doubt
+from mixedlub.diagnosis.features import PASSING
 from mixedlub.diagnosis.heldout import HeldOut
 from mixedlub.diagnosis.posterior import Key
 from mixedlub.diagnosis.scatter import CLEAR, MOST, more, quiet
@@ -15,6 +16,7 @@ from mixedlub.table import Table
 MANY_WRONG = 0.1
 LEAST_STREAK, RARE = 3, 0.05
 """Wrong readings in a row that are told of, where fewer such streaks than that would be there by chance."""
+MOST_OF_LEVEL = 0.75
 UNFOLLOWED = (
     "readings lie farther from every explanation than from their repeats: something is missing whose form none that "
     "was tried follows"
@@ -45,9 +47,18 @@ def scatter_notes(found: Search, stated: bool, times: float) -> list[str]:
 
 
 def against(
-    verdict: Key, kept: HeldOut, rows: Table, y: np.ndarray, predicted: np.ndarray, wrong: np.ndarray
+    verdict: Key,
+    kept: HeldOut,
+    rows: Table,
+    y: np.ndarray,
+    predicted: np.ndarray,
+    wrong: np.ndarray,
+    at_one_place: bool = False,
 ) -> list[str]:
-    """What speaks against the answer as a whole: readings written off, a form that holds nowhere else."""
+    """What speaks against the answer as a whole: readings written off, a form that holds nowhere else.
+
+    What stands ``at_one_place`` is not for other levels to foretell.
+    """
     found = []
     if wrong.mean() > MANY_WRONG:
         found.append(
@@ -59,12 +70,11 @@ def against(
             found.append(f"{turned.sum()} of them have the size that is expected with the opposite sign")
     streak = in_a_row(rows, wrong, y - predicted)
     if streak:
-        runs = ", ".join(str(run) for run in streak)
         found.append(
-            f"runs {runs} count as wrong, follow one another and lie on the same side: that is something that "
-            "happened and no chance, and the answer leaves it out"
+            f"the {len(streak)} readings from run {streak[0]} to run {streak[-1]} count as wrong, follow one another "
+            "and lie on the same side: that is no chance, and the answer leaves it out"
         )
-    if verdict != () and kept.after > kept.before:
+    if verdict != () and not at_one_place and kept.score < kept.score_before:
         answer = "the unnamed mismatch" if verdict == "unknown" else "the answer"
         found.append(
             f"{answer} predicts levels left out no better than calibration alone: outside the recorded conditions "
@@ -81,8 +91,8 @@ def in_a_row(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[int]:
     >>> in_a_row(table, wrong, np.ones(40)), in_a_row(table, wrong, (-1.0) ** np.arange(40))
     ([1, 2, 3], [])
     """
-    clock = next((rows[name] for name in ("time_s", "sequence") if name in rows), None)
-    if clock is None or not wrong.any():
+    clock = next((rows[name] for name in ("sequence", "time_s") if name in rows), None)
+    if clock is None or not wrong.any() or np.unique(clock).size < clock.size:
         return []
     order = np.argsort(clock, kind="stable")
     side = (np.sign(left) * wrong)[order]
@@ -93,4 +103,15 @@ def in_a_row(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[int]:
     by_chance = 2.0 * wrong.size * (0.5 * wrong.mean()) ** count
     if count < LEAST_STREAK or by_chance > RARE:
         return []
-    return [int(run) for run in rows["run"][order[starts[longest] : starts[longest] + count]]]
+    streak = order[starts[longest] : starts[longest] + count]
+    return [] if _one_level(rows, streak) else [int(run) for run in rows["run"][streak]]
+
+
+def _one_level(rows: Table, streak: np.ndarray) -> bool:
+    """Whether a streak is a level of a condition that was run in one go: no matter of time."""
+    for name, values in rows.columns.items():
+        if name not in (*PASSING, "run"):
+            there = values == values[streak[0]]
+            if there[streak].all() and not there.all() and streak.size >= MOST_OF_LEVEL * there.sum():
+                return True
+    return False

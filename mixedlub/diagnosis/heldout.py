@@ -12,7 +12,7 @@ import numpy as np
 
 from mixedlub.diagnosis.fit import Fit, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.levels import set_points
-from mixedlub.diagnosis.problem import REACH, Explanation, Problem
+from mixedlub.diagnosis.problem import Explanation, Problem
 from mixedlub.diagnosis.search import Search
 
 MOST_FOLDS = 8
@@ -20,8 +20,8 @@ TOLERATED = 0.3
 """Share of the mismatch on levels left out that the right law, in another literature form, may leave."""
 DEMERIT = 20.0
 LEAST = 0.3
-NEARBY = np.linspace(-0.6, 0.6, 25)
-"""Coordinates about that of a sudden change's place over which other levels may leave it open."""
+RANGE = np.linspace(-2.5, 2.5, 101)
+"""Coordinates at which a sudden change may stand for all that other levels say."""
 CHANCE = 5.0
 """How much better than the unnamed mismatch a name may predict levels left out by chance, in log probability."""
 
@@ -123,7 +123,9 @@ class LevelsOut:
                 after[f.out] = (f.test.y - run.prediction) / f.wide
                 slopes = f.test.jacobian(fit.explanation, fit.z, run) * (f.test.sd / f.wide)[:, None]
                 columns = np.hstack([fit.slopes, f.train.shared])
-                open_variance[f.out] = _open_variance(columns, fit.weight, slopes) + _unplaced(f, fit)
+                gain, variance = _elsewhere(f, fit)
+                after[f.out] -= gain
+                open_variance[f.out] = _open_variance(columns, fit.weight, slopes) + variance
         kept = ~outliers if not outliers.all() else np.ones(outliers.size, bool)
         spread = np.sqrt(1.0 + open_variance)
         return HeldOut(
@@ -148,21 +150,28 @@ def _open_variance(columns: np.ndarray, weight: np.ndarray, slopes: np.ndarray) 
     return np.asarray(np.einsum("ij,jk,ik->i", slopes, own, slopes))
 
 
-def _unplaced(fold: _Fold, fit: Fit) -> np.ndarray:
-    """Variance, in sigmas, by where a sudden change stands if the level left out was the one that showed it."""
+def _elsewhere(fold: _Fold, fit: Fit) -> tuple[np.ndarray, np.ndarray]:
+    """What predictions of the left-out readings gain, and their variance, by where a sudden change may stand.
+
+    The level left out may be the one that showed it. In sigmas.
+    """
     train, size = fold.train, fold.train.calibration_size
     parameters = [p for e in train.effects(fit.explanation) for p in e.parameters]
-    variance = np.zeros(fold.test.y.size)
+    gain, variance = np.zeros((2, fold.test.y.size))
     for place in (i for i, p in enumerate(parameters, size) if p.sudden):
-        tried = np.repeat(fit.z[None, :], NEARBY.size, axis=0)
-        tried[:, place] = np.clip(tried[:, place] + NEARBY, -REACH, REACH)
+        where = np.append(RANGE, fit.z[place])
+        tried = np.repeat(fit.z[None, :], where.size, axis=0)
+        tried[:, place] = where
         left = np.array([(train.y - train.predict(fit.explanation, z)) / train.sd for z in tried]) - fit.common
-        told = log_likelihood(left)[0].sum(axis=1) - 0.5 * tried[:, place] ** 2
-        chance = np.exp(told - told.max())
         seen = np.array([fold.test.predict(fit.explanation, z) for z in tried]) / fold.wide
+        told = log_likelihood(left)[0].sum(axis=1) - 0.5 * where**2
+        told = np.where(np.isfinite(told) & np.isfinite(seen).all(axis=1), told, -np.inf)
+        chance = np.exp(told - told.max())
+        seen = np.nan_to_num(seen)
         mean = chance @ seen / chance.sum()
+        gain += mean - seen[-1]
         variance += chance @ (seen - mean) ** 2 / chance.sum()
-    return variance
+    return gain, variance
 
 
 def _unknown_left(found: Search, out: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

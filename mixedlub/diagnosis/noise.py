@@ -59,8 +59,8 @@ def noise(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Standard deviation of each reading and, in sigmas, the columns of errors shared within a set-up.
 
-    ``level`` is the size of the readings. Relative errors of a set-up are shares of what the model ``expected``: as
-    shares of the readings they would stand in for a model of any form.
+    ``level`` is the size of the readings. Relative errors of a set-up are shares of what the model ``expected``,
+    calibrated or not: as shares of the readings they would stand in for a model of any form.
     """
     quantity = case.quantity
     stated = case.system.recording.noise

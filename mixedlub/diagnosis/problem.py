@@ -102,14 +102,17 @@ class Problem:
         return self.seen(self.forward.predict(self.calibration(z)))
 
     def jacobian(self, explanation: Explanation, z: np.ndarray, at: Run | None = None) -> np.ndarray:
-        """Derivative of predictions over sd with respect to z, by forward differences; zero where laws end."""
+        """Derivative of predictions over sd with respect to z, by differences to the side where laws do not end."""
         here = self.run(explanation, z) if at is None else at
         slopes = np.empty((self.y.size, z.size))
         for i in range(z.size):
-            moved = z.copy()
-            moved[i] += STEP if z[i] < REACH else -STEP
-            change = self.run(explanation, moved, here).prediction - here.prediction
-            slopes[:, i] = change / (self.sd * (moved[i] - z[i]))
+            for step in (STEP, -STEP) if z[i] < REACH else (-STEP, STEP):
+                moved = z.copy()
+                moved[i] += step
+                change = self.run(explanation, moved, here).prediction - here.prediction
+                slopes[:, i] = change / (self.sd * step)
+                if np.isfinite(change).all():
+                    break
         slopes[~np.isfinite(slopes)] = 0.0
         return slopes
 

@@ -11,7 +11,7 @@ import numpy as np
 from mixedlub.diagnosis.features import Coordinates
 from mixedlub.diagnosis.fit import Fit, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.pairs import promising_pairs
-from mixedlub.diagnosis.problem import Explanation, Problem, effects_of
+from mixedlub.diagnosis.problem import REACH, Explanation, Problem, effects_of
 from mixedlub.diagnosis.starts import Sampled, fit_single, sample
 from mixedlub.diagnosis.unknown import Unknown, unknown_fit
 
@@ -20,13 +20,14 @@ LEAST_NONE = 14.0
 """How many times as probable nothing is than one effect: one that readings neither ask for nor exclude is no tie."""
 WHOLE = 25
 """Effects from which pairs have all of their prior: beside a first effect each other one is as rare among few."""
-LEADERS = 8
+KEPT = 8
+"""Explanations of a share of the rows that are weighed again on all of them."""
 FAR = 60.0
 MANY = 3000
 ELASTIC = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
 """Relative error of an effect's literature form: its rms and the weight given to it."""
-RANGE = np.linspace(-2.5, 2.5, 101)
-"""Coordinates at which a sudden change is tried, to see where else it may stand."""
+RANGE, SHARP = np.linspace(-3.0, 3.0, 121), np.linspace(-5.0, 5.0, 41)
+"""Coordinates at which a sudden change is tried, to see where else it may stand, and standard deviations about it."""
 BEND_LIMIT = 4.0
 BEND_SHARE = 0.01
 BEND_MOST = 30.0
@@ -110,12 +111,13 @@ def search(
     screen = _search(problem.take(rows), space, [v[rows] for v in values], exclude, progress)
     progress(f"weighing the leaders on all {problem.y.size} readings")
     ranked = sorted(screen.scores, key=lambda m: -screen.log_weights[m])
-    leaders = dict.fromkeys([(), *ranked[:LEADERS]])
+    leaders = dict.fromkeys([(), *ranked[:KEPT]])
     best = map_fit(problem, ranked[0], screen.fits[ranked[0]].z, warm=True)
     problem = problem.with_sd(best.prediction, problem.predict((), screen.none.z))
-    fits = {m: map_fit(problem, m, screen.fits[m].z, warm=True) for m in leaders}
+    fits = {m: placed(problem, map_fit(problem, m, screen.fits[m].z, warm=True)) for m in leaders}
     scores = {m: elastic_evidence(problem, fits[()], f, space, values) for m, f in fits.items()}
-    unknown = unknown_fit(problem, fits[()], space, values)
+    names = {s.id for s in screen.sampled}
+    unknown = unknown_fit(problem, fits[()], space, values, names)
     return Search(problem, space, values, fits[()], fits, scores, unknown, screen.sampled, screen.untestable, screen)
 
 
@@ -167,10 +169,10 @@ def _search(
         fit = map_fit(problem, pair, start)
         if pair not in fits or fit.evidence > fits[pair].evidence:
             fits[pair] = fit
-    fits = {m: replace(f, evidence=f.evidence + placed(problem, f)) for m, f in fits.items()}
+    fits = {m: placed(problem, f) for m, f in fits.items()}
     scores = {m: elastic_evidence(problem, none, f, space, values) for m, f in fits.items()}
     progress("weighing an unnamed mismatch")
-    unknown = unknown_fit(problem, none, space, values)
+    unknown = unknown_fit(problem, none, space, values, {s.id for s in sampled})
     return Search(problem, space, values, none, fits, scores, unknown, sampled, untestable)
 
 
@@ -184,20 +186,22 @@ def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: 
     return {m: new[m] if m in new else f.in_sigmas(scale, f.evidence + shift) for m, f in singles.items()}
 
 
-def placed(problem: Problem, fit: Fit) -> float:
-    """What log evidence gains or loses by the true range of sudden changes: Laplace sees no slope, so no end of it."""
+def placed(problem: Problem, fit: Fit) -> Fit:
+    """The fit with the evidence of all places where its sudden changes may stand: Laplace sees but the slope at one."""
     parameters = [p for e in problem.effects(fit.explanation) for p in e.parameters]
     gained = 0.0
     for place in (i for i, p in enumerate(parameters, problem.calibration_size) if p.sudden):
-        tried = np.repeat(fit.z[None, :], RANGE.size, axis=0)
-        tried[:, place] = RANGE
-        left = np.array([(problem.y - problem.predict(fit.explanation, z)) / problem.sd for z in tried]) - fit.common
-        log = np.nan_to_num(log_likelihood(left)[0].sum(axis=1), nan=-np.inf) - 0.5 * RANGE**2
-        here = float(log_likelihood(fit.residual)[0].sum()) - 0.5 * fit.z[place] ** 2
         curvature = 1.0 + float(fit.weight @ fit.slopes[:, place] ** 2)
-        whole = np.logaddexp(float(np.logaddexp.reduce(log)), here) + np.log(RANGE[1] - RANGE[0])
-        gained += whole - here - 0.5 * float(np.log(2.0 * np.pi / curvature))
-    return gained
+        sharp = fit.z[place] + SHARP / np.sqrt(curvature)
+        where = np.unique(np.clip(np.concatenate([RANGE, sharp]), -REACH, REACH))
+        tried = np.repeat(fit.z[None, :], where.size, axis=0)
+        tried[:, place] = where
+        left = np.array([(problem.y - problem.predict(fit.explanation, z)) / problem.sd for z in tried]) - fit.common
+        log = np.nan_to_num(log_likelihood(left)[0].sum(axis=1), nan=-np.inf) - 0.5 * where**2
+        here = float(log_likelihood(fit.residual)[0].sum()) - 0.5 * fit.z[place] ** 2
+        whole = np.trapezoid(np.exp(np.minimum(log - here, 50.0)), where)
+        gained += float(np.log(max(whole, 1e-300)) - 0.5 * np.log(2.0 * np.pi / curvature))
+    return replace(fit, evidence=fit.evidence + gained)
 
 
 def elastic_evidence(problem: Problem, none: Fit, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:

@@ -9,8 +9,8 @@ from itertools import combinations
 import numpy as np
 
 from mixedlub.diagnosis.carriers import NOTHING, READING, Carriers
-from mixedlub.diagnosis.features import Coordinates
-from mixedlub.diagnosis.places import levels_of, places
+from mixedlub.diagnosis.features import PASSING, Coordinates
+from mixedlub.diagnosis.places import Place, finer, places
 from mixedlub.diagnosis.waves import CLOCK, FINER, frequencies
 
 LENGTHS = (0.25, 0.7)
@@ -23,7 +23,7 @@ FACTORS = (0.03, 0.1, 0.3, 1.0)
 LOCAL = (READING, NOTHING, "running_friction")
 """What peaks and steps ride on: in a drive also its friction, without the payload."""
 EVENT, MISCOUNT = "friction_event", "fringe_order"
-"""Effects that are the names of what happens at one time, and of a step that is an addition."""
+"""Effects that are the names of a step in time, and of an added step in what moves a film."""
 SAME = {"surfaces", "composite_roughness_um"}
 """The roughness is a function of the surfaces: together they say no more than these."""
 
@@ -66,15 +66,19 @@ class Shape:
         """The sizes it is tried with."""
         return SIZES if self.carrier in (READING, NOTHING) else FACTORS
 
-    def near(self) -> list[Shape]:
-        """Shapes between those of its family: a wave of any period may be one."""
+    def near(self, space: Coordinates, values: list[np.ndarray]) -> list[Shape]:
+        """Shapes between those of its family: waves of any period, peaks and steps at any level."""
+        if self.at is not None:
+            between = finer(space, values, space.place(self.axes[0]), self.at, self.length)
+            return [replace(self, at=float(at)) for at in between]
         return [replace(self, waves=float(w)) for w in self.waves + FINER] if self.waves else [self]
 
     def elsewhere(self, space: Coordinates, values: list[np.ndarray]) -> list[Shape]:
-        """The same peak or step at every level of its condition; of other forms itself alone."""
+        """The same peak or step wherever on its condition one is tried; of other forms itself alone."""
         if self.at is None:
             return [self]
-        return [replace(self, at=float(at)) for at in levels_of(space, values, space.place(self.axes[0]))]
+        alike = (p.at for p in places(space, values, False) if (p.name, p.width) == (self.axes[0], self.length))
+        return [replace(self, at=at) for at in dict.fromkeys((self.at, *alike))]
 
 
 def rich(space: Coordinates) -> Shape:
@@ -91,10 +95,14 @@ def families(
         Shape((place.name,), place.width, 1.0, carrier, False, at=place.at)
         for place in places(space, values, timeless=EVENT in names)
         for carrier in LOCAL
-        if carrier in carriers and not (place.width == 0.0 and carrier == NOTHING and MISCOUNT in names)
+        if carrier in carriers and not (MISCOUNT in names and _is_miscount(place, carrier))
     ]
     peaks, steps = ([s for s in local if s.form == form] for form in ("peak", "step"))
     return [family for family in (_smooth(space, carriers), waves, peaks, steps) if family]
+
+
+def _is_miscount(place: Place, carrier: str) -> bool:
+    return place.width == 0.0 and carrier == NOTHING and place.name not in PASSING
 
 
 def _smooth(space: Coordinates, carriers: Carriers) -> list[Shape]:

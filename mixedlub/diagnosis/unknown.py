@@ -5,7 +5,7 @@ It is a share of the reading, an addition to it, or a factor on one quantity of 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -36,8 +36,12 @@ class Unknown:
     z: np.ndarray
 
 
-def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np.ndarray]) -> Unknown:
+def unknown_fit(
+    problem: Problem, none: Fit, space: Coordinates, values: list[np.ndarray], names: Collection[str]
+) -> Unknown:
     """Marginal likelihood of the base model plus an unnamed mismatch, averaged over its shapes.
+
+    A form that is one of the ``names``, the effects that are tried, is not unnamed.
 
     Which readings are outliers is settled for each family of shapes by its own clearest: a smooth form takes the crests
     of a wave and the readings of a peak for outliers.
@@ -52,11 +56,11 @@ def unknown_fit(problem: Problem, none: Fit, space: Coordinates, values: list[np
         return shape.columns(space, values, rides)
 
     weighed = []
-    for family in families(space, values, rides, {e.id for e in problem.forward.effects()}):
+    for family in families(space, values, rides, names):
         if family[0].form == "smooth":
             reference = linear_fit(target, np.hstack([fixed, columns_of(rich(space))]))
         else:
-            clear, reference = clearest(target, fixed, columns_of, family)
+            clear, reference = clearest(target, fixed, columns_of, family, lambda s: s.near(space, values))
             family = list(dict.fromkeys([*family, clear]))
         weighed.append(_weighed(target, fixed, columns_of, family, reference.weight))
     best, fit = max(((each.best, each.fit) for each in weighed), key=lambda found: found[1].evidence)
@@ -117,8 +121,8 @@ def _mean_over_shapes(tried: dict[Shape, float]) -> float:
     groups: dict[bool, dict[tuple[int, str], list[float]]] = {}
     for shape, value in tried.items():
         halves = groups.setdefault(shape.carrier in (READING, NOTHING), {})
-        sort = "local" if shape.at is not None else shape.form
-        halves.setdefault((len(shape.axes), sort), []).append(value)
+        form = "local" if shape.at is not None else shape.form
+        halves.setdefault((len(shape.axes), form), []).append(value)
     return _log_mean([_log_mean([_log_mean(alike) for alike in half.values()]) for half in groups.values()])
 
 

@@ -43,6 +43,9 @@ def direction_dependence(
     >>> alike = dict(asymmetry=0.1, viscous_asymmetry=0.0)
     >>> direction_dependence(np.array([2.0, -2.0]), 1.0, np.array([1.0, -1.0]), 1.0, **alike).tolist()
     [2.2, -1.8]
+    >>> apart = dict(asymmetry=0.1, viscous_asymmetry=0.2)   # 1.0 dry, 1.0 viscous: 1.1 + 1.3, 0.9 + 0.7
+    >>> direction_dependence(np.array([2.0, -2.0]), 1.0, np.array([1.0, -1.0]), 1.0, **apart).round(3).tolist()
+    [2.4, -1.6]
     """
     viscous = viscous_torque * np.abs(drive_speed) / reference_speed
     return running_friction * (1.0 + asymmetry * np.sign(drive_speed)) + viscous_asymmetry * viscous

@@ -26,13 +26,14 @@ REFERENCE = 0.01
             "1: thinning sets in as gradually as in Bair's solutions, 2: as in Carreau's and Eyring's fluid",
             null=1.0,
             symbol="a",
-            kinds=("film",),
+            kinds=("film", "mesh_friction"),
         ),
         Parameter("sliding", "-", Between(0.0, 1.0), "part that sliding has in the shear of the inlet", symbol="b"),
     ),
     equation=r"h \leftarrow h\,\left\{c + (1 - c)\left[1 + (0.79\,((1+bS)N)^{1/(1+0.2bS)})^a\right]"
     r"^{-3.6(1-n)^{1.7}/a}\right\},\quad N = \eta_0^m\,\eta_r^{1-m} u/(h G_{cr}),\ \eta_r = 0.01\,\text{Pa s}",
-    source="S. Bair, Proc. IMechE J 219 (2005) 69; constants as quoted in the literature",
+    source="S. Bair, Proc. IMechE J 219 (2005) 69; constants as quoted in the literature; a = 1 and b = 1 "
+    "are its form, others this catalogue's widening of it",
     fingerprint={"load": "-", "speed": "+", "roughness": "-", "slide_roll_ratio": "-"},
     separated_by="film thickness of the same base oil without polymer, or a viscometer at high shear rate: thinning "
     "follows shear stress in the inlet, heating follows viscosity times speed squared",

@@ -31,6 +31,7 @@ COLUMNS = (
 )
 MOTOR_TORQUE = Column("motor_torque_Nm", required=False)
 """No condition of the test: friction is what it has above the torque at the shaft."""
+LARGE = 0.95
 BARE_SHARE = 0.3
 """Friction of motor and sensor alone, over that of the whole drive, before the readings say it."""
 
@@ -123,9 +124,9 @@ def _size(system: config.System, recorded: Table) -> float:
 
 
 def _largest(system: config.System, recorded: Table) -> float:
-    """Size of the largest readings: most may be at speeds too low for viscous friction."""
+    """Size of the largest readings but for wild ones: most may be at speeds too low for viscous friction."""
     quantity = system.recording.quantity
-    return float(np.max(np.abs(recorded[quantity]))) or 1.0 if quantity in recorded else 1.0
+    return float(np.quantile(np.abs(recorded[quantity]), LARGE)) or 1.0 if quantity in recorded else 1.0
 
 
 def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibration, ...]:

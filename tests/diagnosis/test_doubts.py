@@ -7,7 +7,7 @@ import pytest
 
 from mixedlub.case import Case
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.doubts import against
+from mixedlub.diagnosis.doubts import against, in_a_row
 from mixedlub.diagnosis.features import jitters
 from mixedlub.diagnosis.noise import nearly_repeated
 from mixedlub.table import Table
@@ -26,7 +26,7 @@ def test_wrong_readings_that_follow_one_another_are_told_of(offset: Diagnosis) -
     wrong = np.isin(np.arange(len(offset.recorded.table)), [3, 4, 5, 6])
     runs = offset.recorded.table["run"][wrong]
     (note,) = [note for note in told(offset, wrong) if "follow one another" in note]
-    assert ", ".join(str(run) for run in runs) in note
+    assert f"the 4 readings from run {runs[0]} to run {runs[-1]} count as wrong" in note
 
 
 def test_wrong_readings_apart_are_not(offset: Diagnosis) -> None:
@@ -47,3 +47,21 @@ def test_a_single_condition_that_jitters_makes_no_repeats() -> None:
     names = [c.name for c in case.kind.columns if c.form != "name" and c.name in p.rows]
     one = Table({"run": np.arange(1, 9), names[0]: 100.0 + 0.3 * np.arange(8.0)}, "recordings.csv")
     assert nearly_repeated(case, one) is None
+
+
+def test_a_level_run_in_one_go_is_no_matter_of_time() -> None:
+    rows = {"run": np.arange(1, 41), "sequence": np.linspace(0.0, 1.0, 40), "speed_rpm": np.repeat(np.arange(8.0), 5)}
+    wrong = rows["speed_rpm"] == 3.0
+    assert in_a_row(Table(rows), wrong, np.ones(40)) == []
+    assert in_a_row(Table({**rows, "speed_rpm": np.tile(np.arange(8.0), 5)}), wrong, np.ones(40)) == [
+        16,
+        17,
+        18,
+        19,
+        20,
+    ]
+
+
+def test_clocks_that_start_anew_make_no_streak() -> None:
+    rows = Table({"run": np.arange(1, 31), "time_s": np.tile(np.arange(10.0), 3)})
+    assert in_a_row(rows, rows["time_s"] == 0.0, np.ones(30)) == []

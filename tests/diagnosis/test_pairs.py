@@ -53,4 +53,17 @@ def test_the_place_of_a_sudden_change_is_paid_for(make) -> None:
     place = found.found.problem.calibration_size + 1
     curvature = 1.0 + fit.weight @ fit.slopes[:, place] ** 2
     laplace = -0.5 * fit.z[place] ** 2 - 0.5 * np.log(curvature)
-    assert placed(found.found.problem, fit) + laplace == pytest.approx(np.log(gap * density), abs=0.7)
+    paid = placed(found.found.problem, fit).evidence - fit.evidence + laplace
+    assert paid == pytest.approx(np.log(gap * density), abs=0.7)
+
+
+@pytest.mark.parametrize("count", [60, 400])
+def test_a_change_whose_place_is_known_costs_no_more_than_laplace_says(make, count: int) -> None:
+    """An event spread over many readings has its place from their slope."""
+    time = np.linspace(60.0, 7200.0, count)
+    friction = 0.1 + 0.03 / (1.0 + np.exp(-(time - 4000.0) / 250.0))
+    friction = friction * (1.0 + 0.01 * np.random.default_rng(2).standard_normal(count))
+    columns = {"time_s": time, "friction_coefficient": friction}
+    found = diagnose_case(make(system("friction_history", "friction_coefficient"), columns).folder).found
+    fit = map_fit(found.problem, ("friction_event",), found.fits["friction_event",].z, warm=True)
+    assert placed(found.problem, fit).evidence == pytest.approx(fit.evidence, abs=0.5)
