@@ -68,7 +68,7 @@ class Problem:
     def effects(self, explanation: Explanation) -> list[Effect]:
         """The effects an explanation names, with the parameters that are unknown here."""
         known = known_in(self.case.kind.name)
-        return [known[name].holding(self.held.get(name, {})) for name in explanation]
+        return [known[name].holding(self.held[name]) if name in self.held else known[name] for name in explanation]
 
     def size(self, explanation: Explanation) -> int:
         """Length of the coordinate vector of an explanation."""
