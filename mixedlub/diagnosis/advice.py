@@ -27,9 +27,10 @@ def next_test(d: Diagnosis) -> tuple[str, ...]:
         if d.found.unknown.best.form == "step" and d.found.unknown.best.axes[0] in PASSING:
             moment = standing_place(d)
             return (f"Look up what was done to the rig or the sample at {moment}, and repeat a reading from before.",)
-        place = ", ".join(range_text(cut) for cut in d.region.where) or "all conditions"
         if d.found.unknown.best.at is not None:
             place = standing_place(d)
+        else:
+            place = ", ".join(range_text(cut) for cut in d.region.where) or "all conditions"
         return (f"To learn its form, refine and repeat the levels around {place}.",)
     if not d.next_tests:
         return ("No useful test: there is no second explanation to tell the first one from.",)

@@ -110,9 +110,10 @@ class LevelsOut:
         """Refit the parameters of a verdict without each level, and predict it."""
         outliers = outliers[self.used]
         after, open_variance = np.zeros((2, self.before.size))
+        forms = _unnamed_columns(self.found) if verdict == "unknown" else []
         for f in self.folds:
             if verdict == "unknown":
-                left, variance = _unknown_left(self.found, f.out)
+                left, variance = _unknown_left(self.found, forms, f.out)
                 after[f.out] = left * f.test.sd / f.wide
                 open_variance[f.out] = variance * (f.test.sd / f.wide) ** 2
             elif verdict == ():
@@ -174,15 +175,20 @@ def _elsewhere(fold: _Fold, fit: Fit) -> tuple[np.ndarray, np.ndarray]:
     return gain, variance
 
 
-def _unknown_left(found: Search, out: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _unnamed_columns(found: Search) -> list[np.ndarray]:
+    """Columns of the unnamed mismatch, of a peak or a step wherever it may stand."""
+    shapes = found.unknown.best.elsewhere(found.space, found.values)
+    return [shape.columns(found.space, found.values, found.unknown.carriers) for shape in shapes]
+
+
+def _unknown_left(found: Search, forms: list[np.ndarray], out: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Residual of left-out readings under the unnamed mismatch fitted to the others (linearised), its open variance.
 
-    Where a peak or a step stands is for the other readings to say as well.
+    Which of its ``forms`` it is, is for the other readings to say as well.
     """
     problem, none = found.problem, found.none
     log, left, variance = [], [], []
-    for shape in found.unknown.best.elsewhere(found.space, found.values):
-        own = shape.columns(found.space, found.values, found.unknown.carriers)
+    for own in forms:
         columns = np.hstack([none.slopes, problem.shared, own])
         fit = linear_fit(none.anchor[~out], columns[~out])
         blind = np.hstack([none.slopes, np.zeros_like(problem.shared), own])[out]

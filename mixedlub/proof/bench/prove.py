@@ -60,7 +60,7 @@ def judge(out: Path, sealed: Sequence[Path]) -> dict[str, Score]:
         asked |= set(told["effects"]) if told["class"] != "unknown" else set()
         answered = out / "answers" / case.name
         if (answered / BROKEN).exists():
-            last = (answered / BROKEN).read_text().strip().splitlines()[-1]
+            last = (answered / BROKEN).read_text().strip().splitlines()[-1].replace(f"{out}/", "")
             broken.append(f"{case.name} {told['rig']:16s} {told['class']:11s}  {'+'.join(told['effects'])} -> {last}")
             continue
         pairs[told["rig"]].append((read_truth(case), read_answer(answered)))
