@@ -14,14 +14,13 @@ from mixedlub.diagnosis.fit import Fit, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.levels import set_points
 from mixedlub.diagnosis.problem import Explanation, Problem
 from mixedlub.diagnosis.search import Search
+from mixedlub.diagnosis.sudden import anywhere, sudden_places
 
 MOST_FOLDS = 8
 TOLERATED = 0.3
 """Share of the mismatch on levels left out that the right law, in another literature form, may leave."""
 DEMERIT = 20.0
 LEAST = 0.3
-RANGE = np.linspace(-2.5, 2.5, 101)
-"""Coordinates at which a sudden change may stand for all that other levels say."""
 CHANCE = 5.0
 """How much better than the unnamed mismatch a name may predict levels left out by chance, in log probability."""
 
@@ -156,21 +155,16 @@ def _elsewhere(fold: _Fold, fit: Fit) -> tuple[np.ndarray, np.ndarray]:
 
     The level left out may be the one that showed it. In sigmas.
     """
-    train, size = fold.train, fold.train.calibration_size
-    parameters = [p for e in train.effects(fit.explanation) for p in e.parameters]
     gain, variance = np.zeros((2, fold.test.y.size))
-    for place in (i for i, p in enumerate(parameters, size) if p.sudden):
-        where = np.append(RANGE, fit.z[place])
-        tried = np.repeat(fit.z[None, :], where.size, axis=0)
-        tried[:, place] = where
-        left = np.array([(train.y - train.predict(fit.explanation, z)) / train.sd for z in tried]) - fit.common
+    here = fold.test.predict(fit.explanation, fit.z) / fold.wide
+    for place in sudden_places(fold.train, fit.explanation):
+        tried, told = anywhere(fold.train, fit, place, fit.z[place])
         seen = np.array([fold.test.predict(fit.explanation, z) for z in tried]) / fold.wide
-        told = log_likelihood(left)[0].sum(axis=1) - 0.5 * where**2
-        told = np.where(np.isfinite(told) & np.isfinite(seen).all(axis=1), told, -np.inf)
+        told = np.where(np.isfinite(seen).all(axis=1), told, -np.inf)
         chance = np.exp(told - told.max())
         seen = np.nan_to_num(seen)
         mean = chance @ seen / chance.sum()
-        gain += mean - seen[-1]
+        gain += mean - here
         variance += chance @ (seen - mean) ** 2 / chance.sum()
     return gain, variance
 

@@ -11,8 +11,9 @@ import numpy as np
 from mixedlub.diagnosis.features import Coordinates
 from mixedlub.diagnosis.fit import Fit, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.pairs import promising_pairs
-from mixedlub.diagnosis.problem import REACH, Explanation, Problem, effects_of
+from mixedlub.diagnosis.problem import Explanation, Problem, effects_of
 from mixedlub.diagnosis.starts import Sampled, fit_single, sample
+from mixedlub.diagnosis.sudden import anywhere, sudden_places
 from mixedlub.diagnosis.unknown import Unknown, unknown_fit
 
 PRIOR = {"none": 0.42, "single": 0.38, "pair": 0.08, "unknown": 0.12}
@@ -26,8 +27,8 @@ FAR = 60.0
 MANY = 3000
 ELASTIC = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
 """Relative error of an effect's literature form: its rms and the weight given to it."""
-RANGE, SHARP = np.linspace(-3.0, 3.0, 121), np.linspace(-5.0, 5.0, 41)
-"""Coordinates at which a sudden change is tried, to see where else it may stand, and standard deviations about it."""
+SHARP = np.linspace(-5.0, 5.0, 41)
+"""Standard deviations about its place at which a sudden change is tried beside all others."""
 BEND_LIMIT = 4.0
 BEND_SHARE = 0.01
 BEND_MOST = 30.0
@@ -188,18 +189,12 @@ def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: 
 
 def placed(problem: Problem, fit: Fit) -> Fit:
     """The fit with the evidence of all places where its sudden changes may stand: Laplace sees but the slope at one."""
-    parameters = [p for e in problem.effects(fit.explanation) for p in e.parameters]
     gained = 0.0
-    for place in (i for i, p in enumerate(parameters, problem.calibration_size) if p.sudden):
+    for place in sudden_places(problem, fit.explanation):
         curvature = 1.0 + float(fit.weight @ fit.slopes[:, place] ** 2)
-        sharp = fit.z[place] + SHARP / np.sqrt(curvature)
-        where = np.unique(np.clip(np.concatenate([RANGE, sharp]), -REACH, REACH))
-        tried = np.repeat(fit.z[None, :], where.size, axis=0)
-        tried[:, place] = where
-        left = np.array([(problem.y - problem.predict(fit.explanation, z)) / problem.sd for z in tried]) - fit.common
-        log = np.nan_to_num(log_likelihood(left)[0].sum(axis=1), nan=-np.inf) - 0.5 * where**2
+        tried, log = anywhere(problem, fit, place, fit.z[place] + SHARP / np.sqrt(curvature))
         here = float(log_likelihood(fit.residual)[0].sum()) - 0.5 * fit.z[place] ** 2
-        whole = np.trapezoid(np.exp(np.minimum(log - here, 50.0)), where)
+        whole = np.trapezoid(np.exp(np.minimum(log - here, 50.0)), tried[:, place])
         gained += float(np.log(max(whole, 1e-300)) - 0.5 * np.log(2.0 * np.pi / curvature))
     return replace(fit, evidence=fit.evidence + gained)
 
