@@ -15,6 +15,9 @@ from mixedlub.kinds import Kind, kind
 from mixedlub.table import BOOKKEEPING, RUN, CaseWarning, Column, Table, read_table
 from profiles.errors import InputError
 
+SHOWN = 5
+"""Runs that a note lists at most."""
+
 
 @dataclass(frozen=True)
 class Case:
@@ -88,7 +91,24 @@ def _read(path: Path, found: Kind, quantity: str | None, system: config.System, 
             where=f"{path}: {quantity}",
             value=float(table[quantity][0]),
         )
-    return table
+    return table if quantity is None else _sds_told(table, f"{quantity}_sd", path)
+
+
+def _sds_told(table: Table, name: str, path: Path) -> Table:
+    """The table with standard deviations that are left out, or 0, taken as the median of the others."""
+    if name not in table:
+        return table
+    told = table[name] > 0.0
+    if told.all():
+        return table
+    if not told.any():
+        raise InputError("no cell says how much a reading scatters; leave the column out", where=f"{path}: {name}")
+    runs = ", ".join(str(run) for run in table["run"][~told][:SHOWN].tolist())
+    more = f" and {int((~told).sum()) - SHOWN} more" if (~told).sum() > SHOWN else ""
+    middle = float(np.median(table[name][told]))
+    note = f"{path.name}: {name} is 0 or left out at run {runs}{more}: taken as the median of the others, {middle:.3g}"
+    warnings.warn(note, CaseWarning, stacklevel=2)
+    return Table({**table.columns, name: np.where(told, table[name], middle)}, table.source)
 
 
 def _columns(found: Kind, system: config.System, measured: bool) -> tuple[Column, ...]:
@@ -101,9 +121,9 @@ def _columns(found: Kind, system: config.System, measured: bool) -> tuple[Column
 def _measured(system: config.System, required: bool) -> tuple[Column, ...]:
     """The recorded quantity, its standard deviation, and the check channel."""
     quantity = system.recording.quantity
-    columns = [Column(quantity, required=required), Column(f"{quantity}_sd", above=0.0, required=False)]
+    columns = [Column(quantity, required=required), Column(f"{quantity}_sd", at_least=0.0, required=False, blank=True)]
     if system.recording.check is not None:
-        columns.append(Column(system.recording.check, required=False))
+        columns.append(Column(system.recording.check, required=False, blank=True))
     return tuple(columns)
 
 

@@ -195,7 +195,7 @@ def _tables(names: Sequence[str]) -> str:
 
 def _common() -> list[tuple[str, ...]]:
     told = [_column("", c) for c in (RUN, *BOOKKEEPING)]
-    told.append(("READING_sd", "as read", "optional", "above 0", MEANINGS["READING_sd"]))
+    told.append(("READING_sd", "as read", "optional", "above 0; 0 or empty: not told", MEANINGS["READING_sd"]))
     return [*told, ("CHECK", "any", "optional", "number", MEANINGS["CHECK"])]
 
 

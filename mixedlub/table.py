@@ -21,7 +21,10 @@ class CaseWarning(UserWarning):
 
 @dataclass(frozen=True)
 class Column:
-    """What a column holds: a number within bounds, a whole number, or a name (one of ``names`` if there are any)."""
+    """What a column holds: a number within bounds, a whole number, or a name (one of ``names`` if there are any).
+
+    Where a number may be ``blank`` an empty cell is nan.
+    """
 
     name: str
     form: str = "number"
@@ -30,6 +33,7 @@ class Column:
     at_most: float = np.inf
     required: bool = True
     names: tuple[str, ...] = ()
+    blank: bool = False
 
     def allows(self, value: float) -> bool:
         """Whether a number lies within the bounds."""
@@ -44,6 +48,8 @@ class Column:
             if self.names and text not in self.names:
                 raise InputError(f"no such name in system.toml; {nearest(text, self.names)}", where=where, value=text)
             return text
+        if self.blank and text.lower() in BLANK:
+            return float("nan")
         try:
             value = float(text)
         except ValueError:
@@ -61,6 +67,8 @@ class Column:
         return value
 
 
+BLANK = ("", "nan", "na", "n/a")
+"""What an empty cell of a table may read."""
 RUN = Column("run", "whole")
 BOOKKEEPING = (
     Column("rig", "name", required=False),

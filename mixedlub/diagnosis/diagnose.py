@@ -153,8 +153,8 @@ def _search(
 ) -> tuple[Search, float, Mismatch]:
     """Every explanation weighed, how many times the stated noise that took, and whether anything is missing.
 
-    Where no noise is stated, nothing missing is tested under the noise that it would need itself as well: the
-    noise that suits an explanation best is no fair one for its rival.
+    Where no noise is stated, nothing missing is tested under the noise that it would need itself as well, and where
+    that is the answer it has that noise: what suits an explanation best is no fair one for its rival.
     """
     space = coordinates(case, rows, forward)
     if not space.axes:
@@ -170,15 +170,16 @@ def _search(
         return found, times, beyond_noise(found, times, mismatch_test(found, level))
     found = shown(estimated(case, rows, y, forward.predict(), space, values), rows, trial)
     progress("testing against nothing missing")
-    tests = [mismatch_test(one, level) for one in (found, under_its_own(found, trial))]
-    return found, 1.0, max(tests, key=lambda test: test.p_value)
+    tests = [(mismatch_test(one, level), one) for one in (found, under_its_own(found, trial))]
+    test, other = max(tests, key=lambda pair: pair[0].p_value)
+    return found if test.detected else other, 1.0, test
 
 
 def _judged(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
     """Probabilities, with the verdict and what ties with it first held against levels left out.
 
     When CANDIDATES names were tried, the others are taken to fail like the best of those that did. The unnamed
-    mismatch is held against the first name.
+    mismatch is held against the first name. A verdict that leaves more there than noise makes the odds less sure.
     """
     levels = LevelsOut.of(found)
     names = sorted(filter(names_effects, found.log_weights), key=lambda key: -found.log_weights[key])
@@ -190,6 +191,8 @@ def _judged(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
             rest = min(demerits.values())
             demerits = {key: demerits.get(key, rest) for key in names}
         judged = posterior(found, test, demerits | unnamed)
+        if judged.verdict in tried:
+            judged = posterior(found, test, demerits | unnamed, tried[judged.verdict][0].inflation)
         if names and "unknown" in judged.tied and not unnamed:
             tried.setdefault(names[0], _held_against(levels, found, names[0]))
             unnamed = {"unknown": _held_against(levels, found, "unknown")[0].behind(tried[names[0]][0])}

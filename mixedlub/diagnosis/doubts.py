@@ -7,7 +7,7 @@ import numpy as np
 from mixedlub.diagnosis.audit import Doubt
 from mixedlub.diagnosis.features import PASSING
 from mixedlub.diagnosis.heldout import HeldOut
-from mixedlub.diagnosis.posterior import Key
+from mixedlub.diagnosis.posterior import Key, names_effects
 from mixedlub.diagnosis.scatter import CLEAR, MOST, more, quiet
 from mixedlub.diagnosis.search import Search
 from mixedlub.headers import unit_of
@@ -17,6 +17,8 @@ MANY_WRONG = 0.1
 LEAST_STREAK, RARE = 3, 0.05
 """Wrong readings in a row that are told of, where fewer such streaks than that would be there by chance."""
 MOST_OF_LEVEL = 0.75
+WORTH_TELLING = 1.5
+"""Inflation of the variance from which it is told."""
 UNFOLLOWED = (
     "readings lie farther from every explanation than from their repeats: something is missing whose form none that "
     "was tried follows"
@@ -73,6 +75,12 @@ def against(
         found.append(
             f"the {len(streak)} readings from run {streak[0]} to run {streak[-1]} count as wrong, follow one another "
             "and lie on the same side: that is no chance, and the answer leaves it out"
+        )
+    if names_effects(verdict) and kept.inflation >= WORTH_TELLING:
+        found.append(
+            f"levels left out lie {np.sqrt(kept.inflation):.2g} times as far off as noise and the other levels leave "
+            "open: even the best explanation is not the whole of it, so the odds between explanations were taken as "
+            "less sure"
         )
     if verdict != () and not at_one_place and kept.score < kept.score_before:
         answer = "the unnamed mismatch" if verdict == "unknown" else "the answer"

@@ -42,6 +42,19 @@ class HeldOut:
     score: float
     score_before: float
 
+    @property
+    def inflation(self) -> float:
+        r"""How many times their variance readings left out lie off, :math:`\hat c = s^2/(1 + 2\sqrt{2/n})`; 1 or more.
+
+        Noise and what other levels leave open are known; what is beyond them, and beyond two standard errors of
+        chance, makes every log probability of the readings too steep by as much: J.-D. Lebreton, K. P. Burnham,
+        J. Clobert, D. R. Anderson, Ecol. Monogr. 62 (1992) 67.
+
+        >>> [round(HeldOut(9.0, s, "", 5, 200, s, 0.0, 0.0).inflation, 1) for s in (1.0, 2.0)]
+        [1.0, 3.3]
+        """
+        return float(max(self.surprise**2 / (1.0 + 2.0 * np.sqrt(2.0 / self.readings)), 1.0))
+
     def demerit(self, rms: float) -> float:
         """What a named law loses in log odds if it leaves much of the mismatch unexplained on levels left out.
 

@@ -13,6 +13,7 @@ from mixedlub.diagnosis.predict import Prediction
 from mixedlub.table import Column, Table
 
 MOST = 600
+SEED = 1
 LEAST = 1e-12
 NODES = 21
 
@@ -57,8 +58,10 @@ def candidates(
             )
         axes.append(levels if levels.size <= 8 else levels[np.linspace(0, levels.size - 1, 8).astype(int)])
     grid = list(product(*axes))
-    step = max(1, len(grid) // MOST)
-    grid = grid[::step]
+    if len(grid) > MOST:
+        # At random: every so many would go round with the levels of a condition, and miss some of them.
+        kept = np.random.default_rng(SEED).choice(len(grid), MOST, replace=False)
+        grid = [grid[i] for i in np.sort(kept)]
     columns = {condition.name: np.array([row[i] for row in grid]) for i, condition in enumerate(conditions)}
     columns["run"] = np.arange(1, len(grid) + 1)
     if "sequence" in table:

@@ -149,7 +149,7 @@ def estimated(
     """
     group = repeated(case, rows)
     if group is not None:
-        size = np.maximum(np.abs(_medians(y, group))[group], 1e-9 * float(np.max(np.abs(y))) + 1e-300)
+        size = np.maximum(np.abs(medians(y, group))[group], 1e-9 * float(np.max(np.abs(y))) + 1e-300)
         if case.kind.logarithmic:
             return with_noise(case, pooled_sd(y / size, group), 0.0)
         return with_noise(case, *_by_size(y, size, group))
@@ -163,7 +163,7 @@ def _by_size(y: np.ndarray, size: np.ndarray, group: np.ndarray) -> tuple[float,
     """Noise in proportion to size and noise that is alike for all, as makes the repeats most probable."""
     count = np.bincount(group)[group]
     several = count > 1
-    left = ((y - _medians(y, group)[group]) / np.sqrt(1.0 - 1.0 / np.maximum(count, 2)))[several]
+    left = ((y - medians(y, group)[group]) / np.sqrt(1.0 - 1.0 / np.maximum(count, 2)))[several]
     typical = float(np.median(size[several]))
     best, found = np.inf, (0.0, 0.0)
     spare = float(several.sum() - np.unique(group[several]).size)
@@ -215,7 +215,7 @@ def nearly_repeated(case: Case, rows: Table) -> np.ndarray | None:
     return repeated(case, Table(columns, rows.source)) if told else None
 
 
-def _medians(y: np.ndarray, group: np.ndarray) -> np.ndarray:
+def medians(y: np.ndarray, group: np.ndarray) -> np.ndarray:
     """Median of the readings of each group."""
     count = np.bincount(group)
     ranked = y[np.lexsort((y, group))]
@@ -235,7 +235,7 @@ def pooled_sd(y: np.ndarray, group: np.ndarray) -> float:
     >>> round(pooled_sd(y, np.repeat([0, 1, 2, 3], 4)), 3)
     0.965
     """
-    count, middle = np.bincount(group), _medians(y, group)
+    count, middle = np.bincount(group), medians(y, group)
     limit = 4.0 * _typical_difference(y, group, count) / 0.9539 * np.sqrt(1.0 - 1.0 / count)
     keep = np.abs(y - middle[group]) <= limit[group]
     if not keep.any() or not limit.any() or group.size - count.size < TRUSTED:

@@ -66,16 +66,22 @@ def untold(found: Search) -> dict[str, float]:
     return {s.id: single * odds[s.id] / sum(odds.values()) for s in found.untestable}
 
 
-def posterior(found: Search, test: Mismatch, demerits: Mapping[Key, float] | None = None) -> Posterior:
+def posterior(
+    found: Search, test: Mismatch, demerits: Mapping[Key, float] | None = None, inflation: float = 1.0
+) -> Posterior:
     """Normalised weights; whether anything is missing at all is for the test to decide.
 
     The evidence ranks the explanations, less the ``demerits`` of those that failed on levels left out. Where it
     and the test disagree on "none", its weight is moved just far enough that the most probable explanation agrees
-    with the test. What scatters more than noise can, and follows nothing, is something unnamed.
+    with the test. What scatters more than noise can, and follows nothing, is something unnamed. Where even the best
+    leaves readings ``inflation`` times their variance off, they tell the explanations apart by that much less.
     """
-    log = dict(found.log_weights)
+    log = {}
+    for key, value in found.log_weights.items():
+        told = found.unknown.evidence if isinstance(key, str) else found.scores[key]
+        log[key] = value + told * (1.0 / inflation - 1.0)
     for key, demerit in (demerits or {}).items():
-        log[key] -= demerit
+        log[key] -= demerit / inflation
     if test.unfollowed and log[()] > log["unknown"]:
         log[()], log["unknown"] = log["unknown"], log[()]
     others = [value for key, value in log.items() if key != ()]

@@ -10,12 +10,14 @@ import numpy as np
 from mixedlub.case import Case
 from mixedlub.diagnosis.fit import log_likelihood, outlier_chance
 from mixedlub.diagnosis.mismatch import Mismatch
-from mixedlub.diagnosis.noise import pooled_sd, repeated, with_noise
+from mixedlub.diagnosis.noise import BOTH, PARTS, medians, pooled_sd, repeated, with_noise
 from mixedlub.diagnosis.search import MANY, Search
 from mixedlub.table import Table
 
 FACTORS = np.array([1.1, 1.25, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 4.0, 6.0, 10.0])
 """How many times the stated noise may be meant."""
+SIZES = np.geomspace(0.3, 3.0, 13)
+"""Of an estimated noise, how many times as much another mixture of its parts may have."""
 CLEAR = 8.0
 """Gain in log probability from which stated noise is not believed; under nothing but noise it stays below 3."""
 ROUNDS = 4
@@ -40,7 +42,8 @@ def stated_or_more(case: Case, rows: Table, trial: Trial) -> tuple[Search, float
     Repeats at equal conditions bound it: what they agree on is no noise.
     """
     found, times = trial(case, rows), 1.0
-    most = repeats_allow(found)
+    problem = found.problem
+    most = repeats_allow(problem.y, problem.sd, repeated(problem.case, problem.rows))
     for needed in (CLEAR, *[0.0] * (ROUNDS - 1)):
         gain, factor = more(found)
         if gain <= needed or times * factor > most:
@@ -62,22 +65,33 @@ def beyond_noise(found: Search, times: float, test: Mismatch) -> Mismatch:
     return replace(test, p_value=p, detected=bool(p <= test.level), unfollowed=True)
 
 
-def repeats_allow(found: Search) -> float:
-    """How many times the stated noise repeats at equal conditions could have, at most; no bound without repeats."""
+def repeats_allow(y: np.ndarray, sd: np.ndarray, group: np.ndarray | None) -> float:
+    """How many times their sd readings could have whose repeats form these groups, at most; no bound without any.
+
+    >>> jumping = 0.1 * np.tile([0.8, 1.0, 1.25, 1.0], 5)
+    >>> y = 100.0 + 0.1 * np.random.default_rng(1).standard_normal(20)
+    >>> repeats_allow(y, jumping, np.repeat(np.arange(5), 4)) < 2.0
+    True
+    """
     from scipy.stats import chi2
 
-    problem = found.problem
-    group = repeated(problem.case, problem.rows)
     if group is None:
         return np.inf
     spare = group.size - int(group.max()) - 1
-    return float(pooled_sd(problem.y / problem.sd, group) * np.sqrt(spare / chi2.ppf(UNLIKELY, spare)))
+    apart = (y - medians(y, group)[group]) / sd
+    return float(pooled_sd(apart, group) * np.sqrt(spare / chi2.ppf(UNLIKELY, spare)))
 
 
 def more(found: Search) -> tuple[float, float]:
     """Gain in log probability of the best explanation by more noise over the best without, and the factor."""
+    gain, best = _under_other_noise(found, FACTORS[:, None])
+    return gain, float(FACTORS[best])
+
+
+def _under_other_noise(found: Search, times: np.ndarray) -> tuple[float, int]:
+    """Gain in log probability of the best explanation under noise ``times`` (m, readings) as large, and which of m."""
     weights = found.log_weights
-    best, times = -np.inf, 1.0
+    most, best = -np.inf, 0
     for key, weight in weights.items():
         fit, bent = (
             (found.unknown.fit, 0.0)
@@ -86,14 +100,40 @@ def more(found: Search) -> tuple[float, float]:
         )
         # The evidence of a fit far behind is carried over from another noise: it is no more than its likelihood.
         carried = max(fit.evidence - float(log_likelihood(fit.residual)[0].sum()), 0.0)
-        gain, factor = louder(fit.residual)
-        if weight - bent - carried + gain > best:
-            best, times = weight - bent - carried + gain, factor
-    return best - max(weights.values()), times
+        gains = _gains(fit.residual, times)
+        if weight - bent - carried + gains.max() > most:
+            most, best = weight - bent - carried + float(gains.max()), int(np.argmax(gains))
+    return most - max(weights.values()), best
 
 
 def shown(case: Case, rows: Table, trial: Trial) -> Search:
-    """The search under the estimated noise, lowered to where the readings are most probable."""
+    """The search under the estimated noise, lowered to where the readings are most probable.
+
+    What is left over then says how much of it goes in proportion to the reading and how much is alike for all.
+    """
+    found = _lowered(case, rows, trial)
+    gain, other = _other_parts(found)
+    if len(rows) > MANY or gain < BOTH:
+        return found
+    again = trial(other, rows)
+    return again if again.log_probability > found.log_probability + BOTH else found
+
+
+def _other_parts(found: Search) -> tuple[float, Case]:
+    """Gain in log probability by the best other mixture of the parts of noise, and the case with it."""
+    problem = found.problem
+    best = min(found.fits.values(), key=lambda fit: -found.log_weights[fit.explanation])
+    size = np.abs(problem.level(best.prediction))
+    typical = float(np.median(size))
+    scales = SIZES * float(np.median(problem.sd * problem.unit_size(best.prediction))) / typical
+    noises = [(k * own, k * common * typical) for k in scales for own, common in PARTS]
+    sds = np.array([np.hypot(own * size, common) for own, common in noises]) / problem.unit_size(best.prediction)
+    gain, which = _under_other_noise(found, np.maximum(sds, 1e-300) / problem.sd)
+    return gain, with_noise(problem.case, *noises[which])
+
+
+def _lowered(case: Case, rows: Table, trial: Trial) -> Search:
+    """The search under the case's noise or a share of it, whichever makes the readings most probable."""
     found = [trial(case, rows)]
     if len(rows) > MANY:
         return found[0]
@@ -125,11 +165,14 @@ def louder(residual: np.ndarray) -> tuple[float, float]:
     >>> bool(louder(np.random.default_rng(1).standard_normal(100))[0] < 1.0)
     True
     """
-    plain = float(log_likelihood(residual)[0].sum())
-    gains = [
-        float(log_likelihood(residual / times)[0].sum()) - residual.size * np.log(times) - plain for times in FACTORS
-    ]
-    return max(gains), float(FACTORS[int(np.argmax(gains))])
+    gains = _gains(residual, FACTORS[:, None])
+    return float(gains.max()), float(FACTORS[int(np.argmax(gains))])
+
+
+def _gains(residual: np.ndarray, times: np.ndarray) -> np.ndarray:
+    """Gains (m,) of the log likelihood of residuals by noise ``times`` (m, readings) as large."""
+    logs = np.broadcast_to(np.log(times), (len(times), residual.size))
+    return np.asarray((log_likelihood(residual / times)[0] - logs).sum(axis=1) - log_likelihood(residual)[0].sum())
 
 
 def quiet(found: Search) -> bool:

@@ -25,6 +25,7 @@ KEPT = 8
 """Explanations of a share of the rows that are weighed again on all of them."""
 FAR = 60.0
 MANY = 3000
+SEED = 1
 ELASTIC = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
 """Relative error of an effect's literature form: its rms and the weight given to it."""
 SHARP = np.linspace(-5.0, 5.0, 41)
@@ -125,7 +126,10 @@ def search(
 def _spread_rows(values: list[np.ndarray], count: int) -> np.ndarray:
     """A share of the rows that covers the conditions evenly."""
     order = np.lexsort(values[::-1]) if values else np.arange(count)
-    return np.sort(order[np.linspace(0, count - 1, MANY // 2).astype(int)])
+    edges = np.linspace(0, count, MANY // 2 + 1)
+    # One of each stretch at random: every so many would go round with the levels of a condition.
+    at = edges[:-1] + np.random.default_rng(SEED).random(MANY // 2) * np.diff(edges)
+    return np.sort(order[at.astype(int)])
 
 
 def priors(effects: int) -> tuple[float, float, float]:

@@ -121,4 +121,5 @@ def fit_single(problem: Problem, none: Fit, sampled: Sampled) -> Fit:
         tries.append(np.concatenate([np.zeros(none.z.size), sampled.z[order[0]]]))
     # Wild readings may pull a fit away from where it starts well.
     nearby = map_fit(problem, (sampled.id,), starts[chosen[0]], warm=True)
-    return max((nearby, *(map_fit(problem, (sampled.id,), start) for start in tries)), key=lambda f: f.evidence)
+    found = (nearby, *(map_fit(problem, (sampled.id,), start) for start in tries))
+    return max(found, key=lambda fit: fit.evidence if np.isfinite(fit.evidence) else -np.inf)

@@ -18,8 +18,9 @@ from mixedlub.effect import LogNormal, Parameter, effect
             symbol=r"\alpha_h",
         ),
     ),
-    equation=r"f_r \leftarrow f_r + \alpha_h \frac{2\,w\,b_H}{3\pi R}",
-    source="K. L. Johnson, Contact Mechanics, 1985, section 9.2",
+    equation=r"f_r \leftarrow f_r + \alpha_h \frac{w\,b_H}{3\pi R}",
+    source="K. L. Johnson, Contact Mechanics, 1985, section 9.1: a share of the work 2 w b u/(3 pi R) done in the "
+    "front half, shared by both bodies",
     fingerprint={"speed": "+", "roughness": "-", "slide_roll_ratio": "-"},
     separated_by="load alone: it grows with its power 1.5 and sees neither oil nor finish; as a rule too small to "
     "matter",
@@ -31,6 +32,6 @@ def elastic_hysteresis(rolling_force, line_load, hertz_half_width, radius, *, lo
     Steel loses 0.005 to 0.02 of it, which seldom shows beside friction.
 
     >>> round(float(elastic_hysteresis(0.0, 214.86e3, 0.142e-3, 8.3262e-3, loss_fraction=0.01)), 1)
-    7.8
+    3.9
     """
-    return rolling_force + loss_fraction * (2.0 / (3.0 * np.pi)) * line_load * hertz_half_width / radius
+    return rolling_force + loss_fraction / (3.0 * np.pi) * line_load * hertz_half_width / radius

@@ -1,5 +1,7 @@
 """Micro-EHL."""
 
+import numpy as np
+
 from mixedlub.effect import Between, LogNormal, Parameter, effect
 
 REFERENCE = 0.01
@@ -65,7 +67,7 @@ def micro_ehl(
     """
     inlet = REFERENCE * (viscosity / REFERENCE) ** viscous
     speed = 2.0 * inlet * entrainment_speed / (reduced_modulus * radius)
-    load = 6.283185307179586 * (hertz_pressure / reduced_modulus) ** 2
+    load = 2.0 * np.pi * (hertz_pressure / reduced_modulus) ** 2
     moes = (load / speed**0.5) ** 0.75 / (pressure_viscosity * reduced_modulus * speed**0.25) ** 0.5
     length = wavelength / hertz_half_width * moes
     attenuation = (1.0 + 0.15 * length + 0.015 * length**2) ** -2

@@ -125,8 +125,7 @@ def real_area_ratio(
     >>> round(float(real_area_ratio(0.1806, 4.4106e10, 7.8332e-6, 0.48970e-6)), 4)
     0.1675
     """
-    area = area_integral(separation)
-    area *= area_per_overlap(summit_density, summit_radius, summit_sigma)
+    area = area_integral(separation) * area_per_overlap(summit_density, summit_radius, summit_sigma)
     return np.minimum(area, 1.0, out=area if np.ndim(area) else None)
 
 

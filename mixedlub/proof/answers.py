@@ -61,6 +61,13 @@ class Answer:
     seconds: float = float("nan")
 
 
+def silent(truth: Truth) -> Answer:
+    """What a tool that broke down on a case said of it: nothing, and the base model for all readings."""
+    nothing = frozenset({"no answer"})
+    base = truth.base
+    return Answer(truth.case, nothing, (nothing,), {}, False, frozenset(), {}, {}, truth.run, base, base, base, base)
+
+
 def _names(label: Any) -> frozenset[str]:
     return frozenset([label] if isinstance(label, str) else label)
 

@@ -12,7 +12,7 @@ from mixedlub.proof.score import Row, Score
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-INK, GOOD, BAD, PALE = "#1b1b1b", "#1b7837", "#b2182b", "#e8eef4"
+INK, GOOD, BAD = "#1b1b1b", "#1b7837", "#b2182b"
 
 
 def _blank(width: float, height: float) -> Figure:

@@ -1,6 +1,7 @@
-"""The ceiling: what one who knows the generator's own laws makes of the noisy recordings.
+"""A mark to compare with: what one who knows the generator's own laws makes of the noisy recordings.
 
-No tool can be expected to do better; where the oracle is wrong, the noise has hidden the answer.
+Its evidence is a coarse one (chi-square and half a log reading a knob), and so is its view of the unnamed: a tool that
+weighs better can do better.
 """
 
 from __future__ import annotations

@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis import search as searching
+from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.features import coordinates
 from mixedlub.diagnosis.fit import linear_fit, map_fit, outlier_chance
 from mixedlub.diagnosis.mismatch import mismatch_test
 from mixedlub.diagnosis.noise import noise_from_repeats, noise_from_smoothness
+from mixedlub.diagnosis.posterior import posterior
 from mixedlub.diagnosis.problem import Explanation, Problem
 from mixedlub.diagnosis.reference import importance_evidence
 from mixedlub.effect import catalogue
@@ -143,3 +145,14 @@ def test_an_effect_without_any_finite_answer_is_not_considered(monkeypatch: pyte
     found = found_in(p)
     assert "churning" not in [s.id for s in found.sampled]
     assert ("sensor_gain",) in found.fits
+
+
+def test_readings_left_out_that_lie_too_far_off_make_the_odds_less_sure(offset: Diagnosis) -> None:
+    found, test = offset.found, offset.test
+    names = [key for key in found.fits if key]
+    plain, unsure = (posterior(found, test, inflation=c) for c in (1.0, 4.0))
+    best, other = sorted(names, key=lambda key: -found.scores[key])[:2]
+    gap = [np.log(p.weights[best] / p.weights[other]) for p in (plain, unsure)]
+    prior = [found.log_weights[key] - found.scores[key] for key in (best, other)]
+    level = prior[0] - prior[1]
+    assert gap[1] - level == pytest.approx((gap[0] - level) / 4.0)

@@ -30,3 +30,18 @@ def test_roll_angles_near_the_ends_of_the_path_of_contact(
     assert first < 8.6
     assert d.next_tests
     assert all(first <= float(t.conditions["roll_angle_deg"]) <= last for t in d.next_tests)
+
+
+def test_candidates_thinned_out_keep_every_level() -> None:
+    sizes = {"torque_Nm": 5, "speed_rpm": 5, "oil_temperature_C": 4}
+    levels = {name: np.arange(1.0, 1.0 + n) * 10.0 for name, n in sizes.items()}
+    levels |= {"pinion_surface": np.array(["a", "b", "c"]), "gear_surface": np.array(["ground", "polished"])}
+    grid = np.meshgrid(*levels.values(), indexing="ij")
+    table = Table({name: column.ravel() for name, column in zip(levels, grid, strict=True)}, "")
+    conditions = [Column(name, form="name" if "surface" in name else "number") for name in levels]
+    found = candidates(table, conditions)
+    assert len(found) == 600
+    for name, column in levels.items():
+        assert set(np.unique(found[name])) >= set(column[[0, -1]].tolist()), name
+    both = {*zip(found["pinion_surface"].tolist(), found["gear_surface"].tolist(), strict=True)}
+    assert len(both) == 6

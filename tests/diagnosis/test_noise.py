@@ -12,6 +12,7 @@ from mixedlub.case import Case, read_case
 from mixedlub.diagnosis.audit import audit
 from mixedlub.diagnosis.noise import noise, noise_from_repeats, pooled_sd
 from mixedlub.forward import Forward
+from profiles.errors import InputError
 
 
 def repeated(folder: Path, scatter: float, columns: dict[str, Callable[[int], object]] | None = None) -> Case:
@@ -131,3 +132,20 @@ def test_sds_of_three_tests_come_nearer_to_the_true_one(make_case: Callable[...,
     found = taken(with_stated(folder, sampled))
     assert found.min() > 1.5 * sampled.min()
     assert np.mean(np.log(found) ** 2) < 0.5 * np.mean(np.log(sampled) ** 2)
+
+
+def test_sds_that_are_left_out_or_zero_are_those_of_the_others(make_case: Callable[..., Path], tmp_path: Path) -> None:
+    folder = make_case(tmp_path / "case", "gear_pair")
+    path = folder / "recordings.csv"
+    lines = path.read_text(encoding="utf-8").splitlines()
+    cells = ["0.8", "0", "", "nan", "0.8"] * len(lines)
+    rows = [f"{lines[0]},{lines[0].split(',')[-1]}_sd", *(f"{a},{b}" for a, b in zip(lines[1:], cells, strict=False))]
+    path.write_text("\n".join(rows) + "\n", encoding="utf-8")
+    case = read_case(folder)
+    assert taken(case) == pytest.approx(0.8, rel=1e-9)
+    assert any("0 or left out at run 2, 3, 4, 7, 8 and" in note for note in case.notes)
+
+
+def test_a_column_of_sds_that_says_nothing_is_refused(make_case: Callable[..., Path], tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="leave the column out"):
+        with_stated(make_case(tmp_path / "case", "gear_pair"), np.zeros(20))

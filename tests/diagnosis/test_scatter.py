@@ -89,6 +89,26 @@ def test_noise_that_nobody_states_is_found_under_an_effect(
     assert "the noise of a reading was estimated as" in " ".join(d.warnings)
 
 
+def humming(conditions: dict[str, np.ndarray], base: np.ndarray) -> np.ndarray:
+    """Beside the noise in proportion one that is alike for all, a twentieth of the median."""
+    return base + 0.05 * float(np.median(base)) * np.random.default_rng(4).standard_normal(base.size)
+
+
+def test_noise_that_nobody_states_may_have_a_part_alike_for_all(
+    make_case: Make, tmp_path: Path, excluded: tuple[str, ...]
+) -> None:
+    folder = make_case(tmp_path / "case", "gear_pair", humming)
+    path = folder / "system.toml"
+    text = path.read_text(encoding="utf-8")
+    path.write_text("\n".join(line for line in text.splitlines() if not line.startswith("noise")), encoding="utf-8")
+    d = diagnose_case(folder, exclude=excluded)
+    noise = d.case.system.recording.noise
+    assert noise is not None
+    assert noise.absolute == pytest.approx(0.05 * float(np.median(d.readings)), rel=0.4)
+    assert noise.relative < 0.03
+    assert d.posterior.verdict == ()
+
+
 def test_a_fit_whose_evidence_is_carried_over_raises_no_noise(offset: Diagnosis) -> None:
     """Far behind the best a fit only keeps its distance when the noise is settled anew: its residuals grew since."""
     found = offset.found

@@ -10,6 +10,7 @@ from mixedlub import standard
 from mixedlub.catalogue import lookalikes, shown, signatures
 from mixedlub.effect import catalogue
 from mixedlub.effects.asperity_plasticity import asperity_plasticity
+from mixedlub.effects.elastic_hysteresis import elastic_hysteresis
 from mixedlub.effects.film_heating import film_heating
 from mixedlub.effects.inlet_shear_heating import inlet_shear_heating
 from mixedlub.effects.inlet_shear_thinning import inlet_shear_thinning
@@ -17,7 +18,7 @@ from mixedlub.effects.rolling_resistance import rolling_resistance
 from mixedlub.effects.skewed_heights import _skewed_area_integral
 from mixedlub.effects.tip_relief import tip_relief
 from mixedlub.effects.torque_offset import torque_offset
-from mixedlub.laws import drag, heating
+from mixedlub.laws import drag, heating, loss
 from roughness.integrals import area_integral
 
 PROTOTYPE = {
@@ -165,6 +166,18 @@ class TestIntegrals:
         elastic = np.pi * density * radius * sigma * area_integral(gap)
         found = asperity_plasticity(elastic, gap, density, radius, sigma, modulus, strength=1.0, hardness=hardness)
         assert found == pytest.approx(expected, rel=1e-6)
+
+    def test_hysteresis_loses_its_share_of_the_work_of_the_front_half(self) -> None:
+        """Surfaces a distance x before the middle of a Hertz line contact close at the speed x u/R."""
+        load, width, radius, speed = 200e3, 0.15e-3, 8.3e-3, 3.0
+        peak = 2.0 * load / (np.pi * width)
+
+        def work(x: float) -> float:
+            return peak * np.sqrt(1.0 - (x / width) ** 2) * x * speed / radius
+
+        force = elastic_hysteresis(0.0, load, width, radius, loss_fraction=0.01)
+        lost = loss.rolling_loss(np.full(1, force), np.full(1, speed), 1.0, np.ones(1))
+        assert float(lost[0]) == pytest.approx(0.01 * integrate.quad(work, 0.0, width)[0], rel=1e-9)
 
     def test_flash_temperature_integrates_a_moving_source(self) -> None:
         """Mean over the contact of a semi-elliptic flux that one fast body carries off alone, halved between two."""

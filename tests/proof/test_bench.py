@@ -247,14 +247,15 @@ def test_counts_by_kind_wrong_answers_and_break_downs(cases, tmp_path):
         place.mkdir(parents=True)
         Steady(says_none)(folder, place)
     scores = judge(tmp_path, cases)
-    assert set(scores) == {"all", "film", "friction_history", "friction_map", "viscosity"}
+    assert set(scores) == {"all", "film", "friction_history", "friction_map", "viscosity", "mesh_friction"}
     assert scores["all"]["none"].value == 1.0
     assert scores["all"]["right"].value == 0.0
+    assert scores["mesh_friction"]["right"].value == 0.0
     assert scores["friction_history"]["tied"].value == 0.5
     text = (tmp_path / "score.txt").read_text()
     lines = {line[:36].strip(): line[36:].split() for line in text.splitlines()}
     assert lines["none where nothing is missing"] == ["1/1", "-", "-", "1/1", "-"]
-    assert lines["right or tied, one effect, all"] == ["0/1", "1/2", "0/1", "0/1", "-"]
+    assert lines["right or tied, one effect, all"] == ["0/1", "1/2", "0/1", "0/1", "0/1"]
     assert "case_004 friction_map     single     *" in text
     assert "stribeck -> none  tied: sensor_gain" in text
     assert "film_heating -> RuntimeError: no gears here" in text

@@ -8,15 +8,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from mixedlub.proof.answers import Answer, Truth, read_answer, read_truth
+from mixedlub.proof.answers import Answer, Truth, read_answer, read_truth, silent
 from mixedlub.proof.bench.battery import ROOMS, generate
 from mixedlub.proof.measures import crossed, outliers_false, outliers_found, right, tied
 from mixedlub.proof.prove import TOOL, Diagnose, Progress, answer_all, quiet, unsealed
 from mixedlub.proof.score import Score, score
+from profiles.errors import InputError
 
 Pair = tuple[Truth, Answer]
 SHOWN = 3
-BROKEN = "broken.txt"
+BROKEN, REFUSED = "broken.txt", "refused.txt"
 
 
 def prove_rigs(
@@ -37,33 +38,41 @@ def prove_rigs(
 
 @dataclass(frozen=True)
 class Steady:
-    """A diagnosis that breaks down on a case leaves what it said instead of an answer, and the proof goes on."""
+    """A diagnosis that refuses a case or breaks down on it leaves what it said instead, and the proof goes on."""
 
     diagnose: Diagnose
 
     def __call__(self, case: Path, out: Path) -> None:
         try:
             self.diagnose(case, out)
+        except InputError as refusal:
+            (out / REFUSED).write_text(str(refusal))
         # Whatever goes wrong in the tool on trial is its failure on this case and no end of the trial.
         except Exception:
             (out / BROKEN).write_text(traceback.format_exc())
 
 
 def judge(out: Path, sealed: Sequence[Path]) -> dict[str, Score]:
-    """Scores of the answers that are there."""
+    """Scores of the answers: a case the tool broke down on is answered wrong, one it refused is no case."""
     pairs: dict[str, list[Pair]] = {kind: [] for kind in ROOMS}
     asked: set[str] = set()
-    broken = []
+    broken: list[str] = []
+    refused: list[str] = []
     for case in sealed:
         told = json.loads((case / "truth.json").read_text())
         asked |= {name for name in told["alternatives"] if name != "none" and "+" not in name}
         asked |= set(told["effects"]) if told["class"] != "unknown" else set()
         answered = out / "answers" / case.name
-        if (answered / BROKEN).exists():
-            last = (answered / BROKEN).read_text().strip().splitlines()[-1].replace(f"{out}/", "")
-            broken.append(f"{case.name} {told['rig']:16s} {told['class']:11s}  {'+'.join(told['effects'])} -> {last}")
+        for name, those in ((BROKEN, broken), (REFUSED, refused)):
+            if (answered / name).exists():
+                last = (answered / name).read_text().strip().splitlines()[-1].replace(f"{out}/", "")
+                those.append(
+                    f"{case.name} {told['rig']:16s} {told['class']:11s}  {'+'.join(told['effects'])} -> {last}"
+                )
+        if (answered / REFUSED).exists():
             continue
-        pairs[told["rig"]].append((read_truth(case), read_answer(answered)))
+        truth = read_truth(case)
+        pairs[told["rig"]].append((truth, silent(truth) if (answered / BROKEN).exists() else read_answer(answered)))
     ids = sorted(asked)
     whole = [pair for kind in pairs.values() for pair in kind]
     scores = {"all": score(whole, TOOL, ids)}
@@ -73,7 +82,8 @@ def judge(out: Path, sealed: Sequence[Path]) -> dict[str, Score]:
         if kind in scores:
             scores[kind].save(out / f"score_{kind}.json")
     text = [scores["all"].text(), by_kind(pairs), wrong(pairs)]
-    text += ["broke down without an answer, counted nowhere above", *broken, ""] if broken else []
+    text += ["broke down without an answer, counted as wrong above", *broken, ""] if broken else []
+    text += ["refused as bad input, counted nowhere above", *refused, ""] if refused else []
     (out / "score.txt").write_text("\n".join(text))
     return scores
 

@@ -41,8 +41,8 @@ def rolling_resistance(c: Contact, strength: float) -> Contact:
 
 
 def elastic_hysteresis(c: Contact, strength: float) -> Contact:
-    """A share 0.01 s of the elastic energy passing through is lost: f' = 0.01 s w 2 b/(3 pi R)."""
-    return _resisted(c, 0.01 * strength * 2 * c.half_width * c.line_load / (3 * np.pi * c.rig.radius))
+    """A share 0.01 s of the elastic energy passing through is lost: f' = 0.01 s w b/(3 pi R) on either body."""
+    return _resisted(c, 0.01 * strength * c.half_width * c.line_load / (3 * np.pi * c.rig.radius))
 
 
 def windage(c: Contact, strength: float) -> Contact:
