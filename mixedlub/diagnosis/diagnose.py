@@ -23,8 +23,8 @@ from mixedlub.diagnosis.noise import estimated, is_stated
 from mixedlub.diagnosis.posterior import Key, Posterior, names_effects, posterior
 from mixedlub.diagnosis.predict import Prediction, Refined, Rows, refine
 from mixedlub.diagnosis.problem import Problem
-from mixedlub.diagnosis.scatter import beyond_noise, shown, stated_or_more, under_its_own
-from mixedlub.diagnosis.search import Progress, Search, search
+from mixedlub.diagnosis.scatter import beyond_noise, scaled, shown, stated_or_more, under_its_own
+from mixedlub.diagnosis.search import MANY, Progress, Search, search, spread_rows
 from mixedlub.diagnosis.validity import beyond_range
 from mixedlub.effect import find
 from mixedlub.forward import Forward
@@ -164,11 +164,20 @@ def _search(
     def trial(case: Case, rows: Table) -> Search:
         return search(Problem.of(case, rows, forward, y), space, values, exclude, progress)
 
+    def glance(case: Case, rows: Table) -> Search:
+        few = spread_rows(values, y.size)
+        return search(Problem.of(case, rows, forward, y).take(few), space, [v[few] for v in values], exclude, progress)
+
+    seek = trial if y.size <= MANY else glance
     if is_stated(case, rows):
-        found, times = stated_or_more(case, rows, trial)
+        found, times = stated_or_more(case, rows, seek)
+        if seek is glance:
+            found = trial(*scaled(case, rows, times))
         progress("testing against nothing missing")
         return found, times, beyond_noise(found, times, mismatch_test(found, level))
-    found = shown(estimated(case, rows, y, forward.predict(), space, values), rows, trial)
+    found = shown(estimated(case, rows, y, forward.predict(), space, values), rows, seek)
+    if seek is glance:
+        found = trial(found.problem.case, rows)
     progress("testing against nothing missing")
     tests = [(mismatch_test(one, level), one) for one in (found, under_its_own(found, trial))]
     test, other = max(tests, key=lambda pair: pair[0].p_value)

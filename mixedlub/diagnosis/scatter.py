@@ -11,7 +11,7 @@ from mixedlub.case import Case
 from mixedlub.diagnosis.fit import log_likelihood, outlier_chance
 from mixedlub.diagnosis.mismatch import Mismatch
 from mixedlub.diagnosis.noise import BOTH, PARTS, medians, pooled_sd, repeated, with_noise
-from mixedlub.diagnosis.search import MANY, Search
+from mixedlub.diagnosis.search import Search
 from mixedlub.table import Table
 
 FACTORS = np.array([1.1, 1.25, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 4.0, 6.0, 10.0])
@@ -113,7 +113,7 @@ def shown(case: Case, rows: Table, trial: Trial) -> Search:
     """
     found = _lowered(case, rows, trial)
     gain, other = _other_parts(found)
-    if len(rows) > MANY or gain < BOTH:
+    if gain < BOTH:
         return found
     again = trial(other, rows)
     return again if again.log_probability > found.log_probability + BOTH else found
@@ -135,8 +135,6 @@ def _other_parts(found: Search) -> tuple[float, Case]:
 def _lowered(case: Case, rows: Table, trial: Trial) -> Search:
     """The search under the case's noise or a share of it, whichever makes the readings most probable."""
     found = [trial(case, rows)]
-    if len(rows) > MANY:
-        return found[0]
     for step in range(1, STEPS + 1):
         found.append(trial(*scaled(case, rows, QUIETER**step)))
         if found[-1].log_probability <= found[-2].log_probability:

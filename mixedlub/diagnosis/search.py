@@ -24,7 +24,8 @@ WHOLE = 25
 KEPT = 8
 """Explanations of a share of the rows that are weighed again on all of them."""
 FAR = 60.0
-MANY = 3000
+MANY, SPREAD = 1200, 600
+"""Readings beyond which a spread of so many stands for all while explanations are sought."""
 SEED = 1
 ELASTIC = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
 """Relative error of an effect's literature form: its rms and the weight given to it."""
@@ -109,7 +110,7 @@ def search(
     """
     if problem.y.size <= MANY:
         return _search(problem, space, values, exclude, progress)
-    rows = _spread_rows(values, problem.y.size)
+    rows = spread_rows(values, problem.y.size)
     screen = _search(problem.take(rows), space, [v[rows] for v in values], exclude, progress)
     progress(f"weighing the leaders on all {problem.y.size} readings")
     ranked = sorted(screen.scores, key=lambda m: -screen.log_weights[m])
@@ -123,12 +124,12 @@ def search(
     return Search(problem, space, values, fits[()], fits, scores, unknown, screen.sampled, screen.untestable, screen)
 
 
-def _spread_rows(values: list[np.ndarray], count: int) -> np.ndarray:
+def spread_rows(values: list[np.ndarray], count: int) -> np.ndarray:
     """A share of the rows that covers the conditions evenly."""
     order = np.lexsort(values[::-1]) if values else np.arange(count)
-    edges = np.linspace(0, count, MANY // 2 + 1)
+    edges = np.linspace(0, count, SPREAD + 1)
     # One of each stretch at random: every so many would go round with the levels of a condition.
-    at = edges[:-1] + np.random.default_rng(SEED).random(MANY // 2) * np.diff(edges)
+    at = edges[:-1] + np.random.default_rng(SEED).random(SPREAD) * np.diff(edges)
     return np.sort(order[at.astype(int)])
 
 
