@@ -52,7 +52,7 @@ friction_map.friction_coefficient | friction over load, signed with the speed
 film_thickness_nm        | central film thickness
 friction_torque_Nm       | friction torque of the drive
 viscosity_mPa_s          | dynamic viscosity
-READING_sd               | standard deviation of each reading; goes before recording.noise
+READING_sd               | sd of each reading, 0 or empty: not told; goes before recording.noise
 CHECK                    | the column that recording.check names: never fitted
 
 # top of the file
@@ -195,7 +195,7 @@ def _tables(names: Sequence[str]) -> str:
 
 def _common() -> list[tuple[str, ...]]:
     told = [_column("", c) for c in (RUN, *BOOKKEEPING)]
-    told.append(("READING_sd", "as read", "optional", "above 0; 0 or empty: not told", MEANINGS["READING_sd"]))
+    told.append(("READING_sd", "as read", "optional", "from 0", MEANINGS["READING_sd"]))
     return [*told, ("CHECK", "any", "optional", "number", MEANINGS["CHECK"])]
 
 

@@ -13,10 +13,10 @@ from pathlib import Path
 import numpy as np
 
 from mixedlub.case import read_case
-from mixedlub.diagnosis.answer import as_json, checked
-from mixedlub.diagnosis.confusion import confusion
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.resembling import unshown
+from mixedlub.diagnosis.judging.confusion import confusion
+from mixedlub.diagnosis.telling.answer import as_json, checked
+from mixedlub.diagnosis.telling.resembling import unshown
 from profiles.errors import InputError
 
 KNOWN = tomllib.loads((Path(__file__).parent / "known.toml").read_text(encoding="utf-8"))

@@ -141,7 +141,7 @@ def _uncertain(case: Case, movable: Sequence[Calibration]) -> Iterator[str]:
 
 def _audit(case: Case, forward: Forward | None) -> Iterator[str]:
     """What is doubtful about the readings, or why they cannot be diagnosed."""
-    from mixedlub.diagnosis.audit import doubts
+    from mixedlub.diagnosis.recording.audit import doubts
 
     if case.recordings is None or forward is None:
         return

@@ -10,22 +10,22 @@ from typing import Any
 import numpy as np
 
 from mixedlub.case import Case, read_case, read_conditions
-from mixedlub.diagnosis.audit import audit
-from mixedlub.diagnosis.contained import Contained, contained
-from mixedlub.diagnosis.doubts import against, scatter_notes
-from mixedlub.diagnosis.features import coordinates
-from mixedlub.diagnosis.fit import outlier_chance
-from mixedlub.diagnosis.heldout import HeldOut, LevelsOut
-from mixedlub.diagnosis.location import Region, region
-from mixedlub.diagnosis.mismatch import Mismatch, mismatch_test
-from mixedlub.diagnosis.nexttest import NextTest, candidates, expected_bits
-from mixedlub.diagnosis.noise import estimated, is_stated
-from mixedlub.diagnosis.posterior import Key, Posterior, names_effects, posterior
-from mixedlub.diagnosis.predict import Prediction, Refined, Rows, refine
-from mixedlub.diagnosis.problem import Problem
-from mixedlub.diagnosis.scatter import beyond_noise, scaled, shown, stated_or_more, under_its_own
-from mixedlub.diagnosis.search import MANY, Progress, Search, search, spread_rows
-from mixedlub.diagnosis.validity import beyond_range
+from mixedlub.diagnosis.fitting.fit import outlier_chance
+from mixedlub.diagnosis.fitting.problem import Problem
+from mixedlub.diagnosis.fitting.scatter import beyond_noise, scaled, shown, stated_or_more, under_its_own
+from mixedlub.diagnosis.fitting.search import MANY, Progress, Search, search, spread_rows
+from mixedlub.diagnosis.judging.doubts import against, scatter_notes
+from mixedlub.diagnosis.judging.heldout import HeldOut, LevelsOut
+from mixedlub.diagnosis.judging.location import Region, region
+from mixedlub.diagnosis.judging.mismatch import Mismatch, mismatch_test
+from mixedlub.diagnosis.judging.nexttest import NextTest, candidates, expected_bits
+from mixedlub.diagnosis.judging.posterior import Key, Posterior, names_effects, posterior
+from mixedlub.diagnosis.judging.predict import Prediction, Refined, Rows, refine
+from mixedlub.diagnosis.judging.published import Contained, contained
+from mixedlub.diagnosis.judging.validity import beyond_range
+from mixedlub.diagnosis.recording.audit import audit
+from mixedlub.diagnosis.recording.features import coordinates
+from mixedlub.diagnosis.recording.noise import estimated, is_stated
 from mixedlub.effect import find
 from mixedlub.forward import Forward
 from mixedlub.table import Column, Table

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mixedlub.case import Case, read_case
-from mixedlub.diagnosis.audit import doubts
+from mixedlub.diagnosis.recording.audit import doubts
 from mixedlub.forward import Forward
 from mixedlub.table import Table
 

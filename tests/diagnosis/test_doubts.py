@@ -7,9 +7,9 @@ import pytest
 
 from mixedlub.case import Case
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.doubts import against, in_a_row
-from mixedlub.diagnosis.features import jitters
-from mixedlub.diagnosis.noise import nearly_repeated
+from mixedlub.diagnosis.judging.doubts import against, in_a_row
+from mixedlub.diagnosis.recording.features import jitters
+from mixedlub.diagnosis.recording.noise import nearly_repeated
 from mixedlub.table import Table
 
 from .test_inference import problem

@@ -10,12 +10,12 @@ import pytest
 from matplotlib.collections import PatchCollection
 from matplotlib.figure import Figure
 
-from mixedlub.diagnosis import charts, figures, maps
-from mixedlub.diagnosis.confusion import confusion
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.empirical import Absorbed, Unnamed
-from mixedlub.diagnosis.empirical import unnamed as describe
-from mixedlub.diagnosis.style import inline, look, settled
+from mixedlub.diagnosis.drawing import charts, figures, maps
+from mixedlub.diagnosis.drawing.style import inline, look, settled
+from mixedlub.diagnosis.judging.confusion import confusion
+from mixedlub.diagnosis.unnamed.empirical import Absorbed, Unnamed
+from mixedlub.diagnosis.unnamed.empirical import unnamed as describe
 from mixedlub.report.style import as_svg
 from mixedlub.table import Table
 

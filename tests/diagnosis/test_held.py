@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from mixedlub.case import read_case
-from mixedlub.diagnosis.features import coordinates
+from mixedlub.diagnosis.recording.features import coordinates
 from mixedlub.forward import Forward
 from mixedlub.table import Table
 

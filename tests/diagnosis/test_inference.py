@@ -7,15 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mixedlub.diagnosis import search as searching
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.features import coordinates
-from mixedlub.diagnosis.fit import linear_fit, map_fit, outlier_chance
-from mixedlub.diagnosis.mismatch import mismatch_test
-from mixedlub.diagnosis.noise import noise_from_repeats, noise_from_smoothness
-from mixedlub.diagnosis.posterior import posterior
-from mixedlub.diagnosis.problem import Explanation, Problem
-from mixedlub.diagnosis.reference import importance_evidence
+from mixedlub.diagnosis.fitting import search as searching
+from mixedlub.diagnosis.fitting.fit import linear_fit, map_fit, outlier_chance
+from mixedlub.diagnosis.fitting.problem import Explanation, Problem
+from mixedlub.diagnosis.fitting.reference import importance_evidence
+from mixedlub.diagnosis.judging.mismatch import mismatch_test
+from mixedlub.diagnosis.judging.posterior import posterior
+from mixedlub.diagnosis.recording.features import coordinates
+from mixedlub.diagnosis.recording.noise import noise_from_repeats, noise_from_smoothness
 from mixedlub.effect import catalogue
 from mixedlub.forward import Run
 from mixedlub.standard import case, forward

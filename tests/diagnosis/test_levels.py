@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.diagnosis.levels import set_points
-from mixedlub.diagnosis.location import region
+from mixedlub.diagnosis.judging.location import region
+from mixedlub.diagnosis.recording.levels import set_points
 from mixedlub.table import Table
 
 RNG = np.random.default_rng(5)

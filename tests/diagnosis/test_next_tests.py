@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from mixedlub.diagnosis.diagnose import diagnose_case
-from mixedlub.diagnosis.nexttest import candidates
+from mixedlub.diagnosis.judging.nexttest import candidates
 from mixedlub.table import Column, Table
 
 

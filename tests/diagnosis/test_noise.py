@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from mixedlub.case import Case, read_case
-from mixedlub.diagnosis.audit import audit
-from mixedlub.diagnosis.noise import noise, noise_from_repeats, pooled_sd
+from mixedlub.diagnosis.recording.audit import audit
+from mixedlub.diagnosis.recording.noise import noise, noise_from_repeats, pooled_sd
 from mixedlub.forward import Forward
 from profiles.errors import InputError
 

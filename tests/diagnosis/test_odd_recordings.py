@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.features import is_held
-from mixedlub.diagnosis.noise import steadied
+from mixedlub.diagnosis.recording.features import is_held
+from mixedlub.diagnosis.recording.noise import steadied
 
 from .conftest import left_out
 

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import diagnose_case
-from mixedlub.diagnosis.fit import map_fit
-from mixedlub.diagnosis.pairs import promising_pairs
-from mixedlub.diagnosis.search import placed
-from mixedlub.diagnosis.starts import fit_single, sample
+from mixedlub.diagnosis.fitting.fit import map_fit
+from mixedlub.diagnosis.fitting.pairs import promising_pairs
+from mixedlub.diagnosis.fitting.search import placed
+from mixedlub.diagnosis.fitting.starts import fit_single, sample
 
 from ..kinds.conftest import BALL, make, system
 from .test_inference import problem

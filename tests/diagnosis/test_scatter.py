@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.scatter import CLEAR, more
+from mixedlub.diagnosis.fitting.scatter import CLEAR, more
 
 Make = Callable[..., Path]
 TRUE = "noise = { relative = 0.02, absolute = 0.0002 }"

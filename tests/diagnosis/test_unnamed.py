@@ -10,14 +10,14 @@ import pytest
 
 from mixedlub import config, standard
 from mixedlub.case import Case
-from mixedlub.diagnosis.carriers import NOTHING, QUANTITIES, READING, Typical, carriers, log_slope
-from mixedlub.diagnosis.features import Coordinate, Coordinates, coordinates
-from mixedlub.diagnosis.fit import log_likelihood, map_fit
-from mixedlub.diagnosis.heldout import HeldOut
-from mixedlub.diagnosis.mismatch import mismatch_test
-from mixedlub.diagnosis.posterior import posterior
-from mixedlub.diagnosis.problem import Explanation, Problem
-from mixedlub.diagnosis.search import search
+from mixedlub.diagnosis.fitting.fit import log_likelihood, map_fit
+from mixedlub.diagnosis.fitting.problem import Explanation, Problem
+from mixedlub.diagnosis.fitting.search import search
+from mixedlub.diagnosis.judging.heldout import HeldOut
+from mixedlub.diagnosis.judging.mismatch import mismatch_test
+from mixedlub.diagnosis.judging.posterior import posterior
+from mixedlub.diagnosis.recording.features import Coordinate, Coordinates, coordinates
+from mixedlub.diagnosis.unnamed.carriers import NOTHING, QUANTITIES, READING, Typical, carriers, log_slope
 from mixedlub.effect import Effect
 from mixedlub.forward import Forward
 from mixedlub.kinds import kind
@@ -119,7 +119,7 @@ def test_the_demerit_spares_what_chance_and_another_form_leave(after: float, row
 
 
 def test_an_effect_that_is_seldom_missing_has_lower_odds(monkeypatch: pytest.MonkeyPatch) -> None:
-    from mixedlub.diagnosis import search
+    from mixedlub.diagnosis.fitting import search
 
     found = found_in(problem())
     here = found.log_weights

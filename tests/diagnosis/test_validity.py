@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub import standard
-from mixedlub.diagnosis.problem import Problem
-from mixedlub.diagnosis.validity import beyond_range, outside
+from mixedlub.diagnosis.fitting.problem import Problem
+from mixedlub.diagnosis.judging.validity import beyond_range, outside
 from mixedlub.effect import find
 
 CREEP = find(["contact_creep"])

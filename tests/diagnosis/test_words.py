@@ -8,16 +8,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mixedlub.diagnosis import fitted, page, words
-from mixedlub.diagnosis.answer import effect_records
-from mixedlub.diagnosis.audit import SCARCE, Doubt, audit
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.doubts import against
-from mixedlub.diagnosis.empirical import unnamed as describe
-from mixedlub.diagnosis.labels import effect_words, number, with_names
-from mixedlub.diagnosis.nexttest import NextTest
-from mixedlub.diagnosis.posterior import Key, Posterior
-from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.fitting.problem import Problem
+from mixedlub.diagnosis.judging.doubts import against
+from mixedlub.diagnosis.judging.nexttest import NextTest
+from mixedlub.diagnosis.judging.posterior import Key, Posterior
+from mixedlub.diagnosis.recording.audit import SCARCE, Doubt, audit
+from mixedlub.diagnosis.telling import page, tables, words
+from mixedlub.diagnosis.telling.answer import effect_records
+from mixedlub.diagnosis.telling.labels import effect_words, number, with_names
+from mixedlub.diagnosis.unnamed.empirical import unnamed as describe
 from mixedlub.effect import Normal, Parameter, catalogue
 from mixedlub.report.equations import equation
 from mixedlub.report.plain import plain_equation
@@ -180,12 +180,12 @@ def test_parameters_that_readings_do_not_tell_are_marked(offset: Diagnosis, spre
 
 def test_of_several_vague_parameters_only_their_combined_effect_is_known() -> None:
     heating, offset = catalogue()["boundary_film_temperature"], catalogue()["sensor_offset"]
-    assert fitted._untold(heating, []) == []
-    assert fitted._untold(heating, ["drop", "width"]) == [
+    assert tables._untold(heating, []) == []
+    assert tables._untold(heating, ["drop", "width"]) == [
         "Boundary film temperature: the 90 % intervals of drop and width are as wide as before the readings. Only the "
         "combined effect of the parameters is known."
     ]
-    assert "combined" not in fitted._untold(offset, ["offset"])[0]
+    assert "combined" not in tables._untold(offset, ["offset"])[0]
 
 
 def test_sensor_offset_has_the_size_that_it_is_a_share_of(offset: Diagnosis) -> None:
@@ -209,7 +209,7 @@ def test_temperature_of_an_answer_is_in_celsius(offset: Diagnosis, monkeypatch: 
     warm = [replace(catalogue()["sensor_offset"], parameters=(kelvin,))]
     monkeypatch.setattr(Problem, "effects", lambda problem, key: warm)
     value = effect_records(one)[0]["parameters"][0]["value"]
-    row = fitted.parameters(one)[1][1]
+    row = tables.parameters(one)[1][1]
     assert (row[2], row[4]) == (number(value - 273.15), "°C")
 
 

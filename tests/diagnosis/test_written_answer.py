@@ -12,9 +12,9 @@ from typing import Any
 
 import pytest
 
-from mixedlub.diagnosis.answer import as_json, predictions_csv
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.write import diagnose, write
+from mixedlub.diagnosis.telling.answer import as_json, predictions_csv
+from mixedlub.diagnosis.telling.write import diagnose, write
 from mixedlub.effect import STAGES, catalogue
 
 

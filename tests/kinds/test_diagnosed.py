@@ -8,9 +8,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from mixedlub.diagnosis.answer import as_json, checked
 from mixedlub.diagnosis.diagnose import diagnose_case
-from mixedlub.diagnosis.words import as_text, sections
+from mixedlub.diagnosis.telling.answer import as_json, checked
+from mixedlub.diagnosis.telling.words import as_text, sections
 from mixedlub.effect import catalogue
 
 PER_CENT = 9.84e-5

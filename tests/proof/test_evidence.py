@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from mixedlub.case import read_case
-from mixedlub.diagnosis.features import coordinates
-from mixedlub.diagnosis.fit import map_fit
-from mixedlub.diagnosis.mismatch import mismatch_test
-from mixedlub.diagnosis.problem import Problem
-from mixedlub.diagnosis.reference import nested_evidence
-from mixedlub.diagnosis.search import search
+from mixedlub.diagnosis.fitting.fit import map_fit
+from mixedlub.diagnosis.fitting.problem import Problem
+from mixedlub.diagnosis.fitting.reference import nested_evidence
+from mixedlub.diagnosis.fitting.search import search
+from mixedlub.diagnosis.judging.mismatch import mismatch_test
+from mixedlub.diagnosis.recording.features import coordinates
 from mixedlub.effect import catalogue
 from mixedlub.forward import Forward
 from mixedlub.proof.battery import generate

@@ -1,0 +1,1 @@
+"""Explanations fitted to a recording and weighed."""

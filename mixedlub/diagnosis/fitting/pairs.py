@@ -1,0 +1,94 @@
+"""Which pairs of effects are worth a fit, and where those fits start."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+
+from mixedlub.diagnosis.fitting.fit import Fit, bounded
+from mixedlub.diagnosis.fitting.problem import Explanation, Problem
+from mixedlub.diagnosis.fitting.starts import Sampled
+
+LEADERS = 8
+PAIRS, BOUNDED_PAIRS, JOINT_PAIRS = 30, 8, 10
+
+
+def promising_pairs(
+    problem: Problem, none: Fit, singles: dict[Explanation, Fit], sampled: tuple[Sampled, ...]
+) -> list[tuple[Explanation, np.ndarray]]:
+    """Pairs that the linearised model likes best, each with a start, or two.
+
+    A first effect alone may have taken for outliers the few readings that show the second: some pairs are those liked
+    best where no reading is written off, but bounded. And it may stand where no second one helps it: others are
+    those whose draws are best together.
+    """
+    found: dict[Explanation, np.ndarray] = {}
+    for write_off, most in ((True, PAIRS), (False, BOUNDED_PAIRS)):
+        ranked = _ranked(_beside_leaders(problem, singles, sampled, write_off))
+        found.update([item for item in ranked if item[0] not in found][:most])
+    return [*found.items(), *_ranked(_drawn_together(problem, none, sampled))[:JOINT_PAIRS]]
+
+
+def _ranked(scores: dict[Explanation, tuple[float, np.ndarray]]) -> list[tuple[Explanation, np.ndarray]]:
+    return [(pair, start) for pair, (_, start) in sorted(scores.items(), key=lambda item: -item[1][0])]
+
+
+def _drawn_together(
+    problem: Problem, none: Fit, sampled: tuple[Sampled, ...]
+) -> dict[Explanation, tuple[float, np.ndarray]]:
+    """Score of the best two draws of each pair of effects, their changes added, and where they are."""
+    if not sampled:
+        return {}
+    columns = np.hstack([none.slopes, problem.shared])
+    inner = np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ columns)
+    changes = np.vstack([s.change for s in sampled])
+    whitened = changes - (changes @ columns) @ inner @ columns.T
+    gain = whitened @ none.anchor - 0.5 * np.einsum("ij,ij->i", changes, whitened)
+    gain -= 0.5 * np.concatenate([np.einsum("ij,ij->i", s.z, s.z) for s in sampled])
+    ends = np.cumsum([len(s.z) for s in sampled])
+    found = {}
+    for one, other in combinations(range(len(sampled)), 2):
+        a, b = (slice(ends[k] - len(sampled[k].z), ends[k]) for k in (one, other))
+        score = gain[a][:, None] + gain[b][None, :] - whitened[a] @ changes[b].T
+        i, j = np.unravel_index(int(np.argmax(score)), score.shape)
+        own = {sampled[one].id: sampled[one].z[i], sampled[other].id: sampled[other].z[j]}
+        left = none.anchor - sampled[one].change[i] - sampled[other].change[j]
+        calibrated = (inner @ (columns.T @ left))[: none.z.size]
+        pair = tuple(sorted(own))
+        found[pair] = (float(score[i, j]), np.concatenate([calibrated, *(own[name] for name in pair)]))
+    return found
+
+
+def _beside_leaders(
+    problem: Problem, singles: dict[Explanation, Fit], sampled: tuple[Sampled, ...], write_off: bool
+) -> dict[Explanation, tuple[float, np.ndarray]]:
+    """Score of each pair of a leading effect as fitted alone and another one, and where it is best."""
+    leaders = sorted(singles.values(), key=lambda f: -f.evidence)[:LEADERS]
+    found: dict[Explanation, tuple[float, np.ndarray]] = {}
+    calibration = problem.calibration_size
+    for fit in leaders:
+        columns = np.hstack([fit.slopes, problem.shared])
+        weight = fit.weight if write_off else bounded(fit.residual)(fit.residual)[1]
+        inner = np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ (columns * weight[:, None]))
+        left = fit.residual * weight
+        level = fit.evidence if write_off else -0.5 * float(left @ fit.residual)
+
+        def whiten(change: np.ndarray, columns=columns, weight=weight, inner=inner) -> np.ndarray:
+            scaled = change * weight
+            return scaled - ((scaled @ columns) @ inner) @ (columns * weight[:, None]).T
+
+        for other in sampled:
+            if other.id in fit.explanation:
+                continue
+            seen = whiten(other.change)
+            gain = other.change @ left - 0.5 * np.einsum("ij,ij->i", other.change, seen)
+            gain -= 0.5 * np.einsum("ij,ij->i", other.z, other.z)
+            k = int(np.argmax(gain))
+            score = level + float(gain[k])
+            own = {fit.explanation[0]: fit.z[calibration:], other.id: other.z[k]}
+            pair = tuple(sorted(own))
+            start = np.concatenate([fit.z[:calibration], *(own[name] for name in pair)])
+            if pair not in found or score > found[pair][0]:
+                found[pair] = (score, start)
+    return found

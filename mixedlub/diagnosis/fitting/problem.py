@@ -1,0 +1,142 @@
+"""The inference problem of a case: readings, their noise, and predictions in standard-normal coordinates."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from mixedlub.case import Case
+from mixedlub.diagnosis.recording.noise import seen_noise
+from mixedlub.effect import Effect, catalogue, known_in
+from mixedlub.forward import Forward, Run
+from mixedlub.table import Table
+
+Explanation = tuple[str, ...]
+"""Effect ids in order; empty for "none"."""
+
+STEP = 1e-4
+REACH = 4.5
+LEAST = 1e-30
+TRIFLE = 0.1
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """Readings y with standard deviation sd, and the forward model of the rows they were taken at.
+
+    Kinds that span decades are seen by the logarithm: ``y``, ``sd`` and every prediction are then those of
+    ln(reading); ``level`` gives readings back.
+
+    Every unknown has a standard-normal prior: calibration and effect parameters through their priors'
+    ``value``, errors shared within a set-up as columns of ``shared`` (in sigmas). ``held`` are parameters of
+    effects that are not unknown.
+    """
+
+    case: Case
+    rows: Table
+    forward: Forward
+    y: np.ndarray
+    sd: np.ndarray
+    shared: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
+    held: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, case: Case, rows: Table, forward: Forward, y: np.ndarray) -> Problem:
+        """The problem of a recording whose noise is known."""
+        sd, shared = seen_noise(case, rows, y, forward.predict())
+        return cls(case, rows, forward, np.log(y) if case.kind.logarithmic else y, sd, shared)
+
+    def seen(self, level: np.ndarray) -> np.ndarray:
+        """Readings as they are compared."""
+        return np.log(np.maximum(level, LEAST)) if self.case.kind.logarithmic else level
+
+    def level(self, seen: np.ndarray) -> np.ndarray:
+        """Readings in the unit of their column."""
+        return np.exp(seen) if self.case.kind.logarithmic else seen
+
+    def unit_size(self, seen: np.ndarray) -> np.ndarray:
+        """Change of a reading, in its unit, for a change of one in what is compared."""
+        return np.abs(self.level(seen)) if self.case.kind.logarithmic else np.ones(seen.size)
+
+    @property
+    def calibration_size(self) -> int:
+        """How many inputs calibration may move."""
+        return len(self.forward.calibrations)
+
+    def effects(self, explanation: Explanation) -> list[Effect]:
+        """The effects an explanation names, with the parameters that are unknown here."""
+        known = known_in(self.case.kind.name)
+        return [known[name].holding(self.held[name]) if name in self.held else known[name] for name in explanation]
+
+    def size(self, explanation: Explanation) -> int:
+        """Length of the coordinate vector of an explanation."""
+        return self.calibration_size + sum(len(e.parameters) for e in self.effects(explanation))
+
+    def calibration(self, z: np.ndarray) -> dict[str, float]:
+        """Calibration values at coordinates z."""
+        names = self.forward.calibrations
+        return {c.name: c.parameter.prior.value(float(x)) for c, x in zip(names, z[: len(names)], strict=True)}
+
+    def parameters(self, explanation: Explanation, z: np.ndarray) -> dict[str, dict[str, float]]:
+        """Effect parameters at coordinates z."""
+        values, start = {}, self.calibration_size
+        for e in self.effects(explanation):
+            stop = start + len(e.parameters)
+            values[e.id] = e.values(z[start:stop])
+            start = stop
+        return values
+
+    def run(self, explanation: Explanation, z: np.ndarray, near: Run | None = None) -> Run:
+        """Predicted readings at coordinates z, with the steps that lead there."""
+        run = self.forward.run(self.calibration(z), self.parameters(explanation, z), near)
+        return replace(run, prediction=self.seen(run.prediction)) if self.case.kind.logarithmic else run
+
+    def predict(self, explanation: Explanation, z: np.ndarray) -> np.ndarray:
+        """Predicted readings at coordinates z."""
+        return self.run(explanation, z).prediction
+
+    def base(self, z: np.ndarray) -> np.ndarray:
+        """Predicted readings at the same calibration with nothing added."""
+        return self.seen(self.forward.predict(self.calibration(z)))
+
+    def jacobian(self, explanation: Explanation, z: np.ndarray, at: Run | None = None) -> np.ndarray:
+        """Derivative of predictions over sd with respect to z, by differences to the side where laws do not end."""
+        here = self.run(explanation, z) if at is None else at
+        slopes = np.empty((self.y.size, z.size))
+        for i in range(z.size):
+            for step in (STEP, -STEP) if z[i] < REACH else (-STEP, STEP):
+                moved = z.copy()
+                moved[i] += step
+                change = self.run(explanation, moved, here).prediction - here.prediction
+                slopes[:, i] = change / (self.sd * step)
+                if np.isfinite(change).all():
+                    break
+        slopes[~np.isfinite(slopes)] = 0.0
+        return slopes
+
+    def with_sd(self, prediction: np.ndarray, base: np.ndarray) -> Problem:
+        """The same problem with the noise taken at the size of a prediction instead of the readings.
+
+        A prediction far below its reading, as of a part rig that the model has nothing for, is no size to go by. The
+        errors of set-ups are shares of the calibrated ``base``: of what fits better they would be its shape for free.
+        """
+        size, reading = self.level(prediction), self.level(self.y)
+        size = np.where(np.abs(size) < TRIFLE * np.abs(reading), reading, size)
+        sd, shared = seen_noise(self.case, self.rows, size, self.level(base))
+        return replace(self, sd=sd, shared=shared)
+
+    def take(self, rows: np.ndarray) -> Problem:
+        """The problem on some of its rows."""
+        table = self.rows.take(rows)
+        forward = Forward(self.case, table, float(self.forward.inputs["reading_scale"]))
+        shared = self.shared[rows]
+        shared = shared[:, np.any(shared != 0, axis=0)]
+        return replace(self, rows=table, forward=forward, y=self.y[rows], sd=self.sd[rows], shared=shared)
+
+
+def effects_of(explanation: Explanation) -> list[Effect]:
+    """The effects an explanation names, with all their parameters."""
+    known = catalogue()
+    return [known[name] for name in explanation]

@@ -1,0 +1,193 @@
+"""The search under the noise that is stated, under more where the readings ask for it, under theirs where none is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from mixedlub.case import Case
+from mixedlub.diagnosis.fitting.fit import log_likelihood, outlier_chance
+from mixedlub.diagnosis.fitting.search import Search
+from mixedlub.diagnosis.judging.mismatch import Mismatch
+from mixedlub.diagnosis.recording.noise import BOTH, PARTS, medians, pooled_sd, repeated, with_noise
+from mixedlub.table import Table
+
+FACTORS = np.array([1.1, 1.25, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 4.0, 6.0, 10.0])
+"""How many times the stated noise may be meant."""
+SIZES = np.geomspace(0.3, 3.0, 13)
+"""Of an estimated noise, how many times as much another mixture of its parts may have."""
+CLEAR = 8.0
+"""Gain in log probability from which stated noise is not believed; under nothing but noise it stays below 3."""
+ROUNDS = 4
+SMALLEST = 1e-304
+MOST = 4.0
+"""How many times the stated noise a rig may have: what scatters more is no noise, though nothing follows it."""
+UNLIKELY = 1e-3
+QUIETER, STEPS = 0.7, 5
+"""Noise that a smooth fit leaves over holds what the fit does not follow: by how much it is lowered, how often."""
+ENOUGH = 10
+"""Readings, beyond the coordinates of the base model, from which their scatter is known well enough to judge."""
+
+Trial = Callable[[Case, Table], Search]
+
+
+def stated_or_more(case: Case, rows: Table, trial: Trial) -> tuple[Search, float]:
+    """The search under the stated noise, or under ``times`` as much where the readings say so clearly.
+
+    Every explanation is weighed again with its residuals against more noise. That is believed where the best of
+    them beats the best one under the stated noise, the unnamed mismatch among them: what goes smoothly with the
+    conditions is a mismatch, what goes with none is noise. Fits under too little noise follow it, and hide a part.
+    Repeats at equal conditions bound it: what they agree on is no noise.
+    """
+    found, times = trial(case, rows), 1.0
+    problem = found.problem
+    most = repeats_allow(problem.y, problem.sd, repeated(problem.case, problem.rows))
+    for needed in (CLEAR, *[0.0] * (ROUNDS - 1)):
+        gain, factor = more(found)
+        if gain <= needed or times * factor > most:
+            break
+        times *= factor
+        found = trial(*scaled(case, rows, times))
+    return found, times
+
+
+def beyond_noise(found: Search, times: float, test: Mismatch) -> Mismatch:
+    """The test against nothing missing where readings scatter more than the stated noise can be meant to."""
+    from scipy.stats import chi2
+
+    if times <= MOST:
+        return test
+    good = outlier_chance(found.none.residual) <= 0.5
+    left = float(np.sum(found.none.residual[good] ** 2)) * (times / MOST) ** 2
+    p = min(max(float(chi2.sf(left, int(good.sum()))), SMALLEST), test.p_value)
+    return replace(test, p_value=p, detected=bool(p <= test.level), unfollowed=True)
+
+
+def repeats_allow(y: np.ndarray, sd: np.ndarray, group: np.ndarray | None) -> float:
+    """How many times their sd readings could have whose repeats form these groups, at most; no bound without any.
+
+    >>> jumping = 0.1 * np.tile([0.8, 1.0, 1.25, 1.0], 5)
+    >>> y = 100.0 + 0.1 * np.random.default_rng(1).standard_normal(20)
+    >>> repeats_allow(y, jumping, np.repeat(np.arange(5), 4)) < 2.0
+    True
+    """
+    from scipy.stats import chi2
+
+    if group is None:
+        return np.inf
+    spare = group.size - int(group.max()) - 1
+    apart = (y - medians(y, group)[group]) / sd
+    return float(pooled_sd(apart, group) * np.sqrt(spare / chi2.ppf(UNLIKELY, spare)))
+
+
+def more(found: Search) -> tuple[float, float]:
+    """Gain in log probability of the best explanation by more noise over the best without, and the factor."""
+    gain, best = _under_other_noise(found, FACTORS[:, None])
+    return gain, float(FACTORS[best])
+
+
+def _under_other_noise(found: Search, times: np.ndarray) -> tuple[float, int]:
+    """Gain in log probability of the best explanation under noise ``times`` (m, readings) as large, and which of m."""
+    weights = found.log_weights
+    most, best = -np.inf, 0
+    for key, weight in weights.items():
+        fit, bent = (
+            (found.unknown.fit, 0.0)
+            if isinstance(key, str)
+            else (found.fits[key], found.scores[key] - found.fits[key].evidence)
+        )
+        # The evidence of a fit far behind is carried over from another noise: it is no more than its likelihood.
+        carried = max(fit.evidence - float(log_likelihood(fit.residual)[0].sum()), 0.0)
+        gains = _gains(fit.residual, times)
+        if weight - bent - carried + gains.max() > most:
+            most, best = weight - bent - carried + float(gains.max()), int(np.argmax(gains))
+    return most - max(weights.values()), best
+
+
+def shown(case: Case, rows: Table, trial: Trial) -> Search:
+    """The search under the estimated noise, lowered to where the readings are most probable.
+
+    What is left over then says how much of it goes in proportion to the reading and how much is alike for all.
+    """
+    found = _lowered(case, rows, trial)
+    gain, other = _other_parts(found)
+    if gain < BOTH:
+        return found
+    again = trial(other, rows)
+    return again if again.log_probability > found.log_probability + BOTH else found
+
+
+def _other_parts(found: Search) -> tuple[float, Case]:
+    """Gain in log probability by the best other mixture of the parts of noise, and the case with it."""
+    problem = found.problem
+    best = min(found.fits.values(), key=lambda fit: -found.log_weights[fit.explanation])
+    size = np.abs(problem.level(best.prediction))
+    typical = float(np.median(size))
+    scales = SIZES * float(np.median(problem.sd * problem.unit_size(best.prediction))) / typical
+    noises = [(k * own, k * common * typical) for k in scales for own, common in PARTS]
+    sds = np.array([np.hypot(own * size, common) for own, common in noises]) / problem.unit_size(best.prediction)
+    gain, which = _under_other_noise(found, np.maximum(sds, 1e-300) / problem.sd)
+    return gain, with_noise(problem.case, *noises[which])
+
+
+def _lowered(case: Case, rows: Table, trial: Trial) -> Search:
+    """The search under the case's noise or a share of it, whichever makes the readings most probable."""
+    found = [trial(case, rows)]
+    for step in range(1, STEPS + 1):
+        found.append(trial(*scaled(case, rows, QUIETER**step)))
+        if found[-1].log_probability <= found[-2].log_probability:
+            break
+    else:
+        return found[-1]
+    if len(found) < 3:
+        return found[0]
+    below, best, above = (one.log_probability for one in found[:-4:-1])
+    steps = len(found) - 2 + 0.5 * (below - above) / (2.0 * best - below - above)
+    return trial(*scaled(case, rows, QUIETER**steps))
+
+
+def under_its_own(found: Search, trial: Trial) -> Search:
+    """The search under the noise that the calibrated base model would need if nothing were missing."""
+    gain, times = louder(found.none.residual)
+    return trial(*scaled(found.problem.case, found.problem.rows, times)) if gain > 0.0 else found
+
+
+def louder(residual: np.ndarray) -> tuple[float, float]:
+    """Largest gain of the log likelihood of residuals (in sigmas) by more noise, and how many times the noise.
+
+    >>> gain, times = louder(2.0 * np.random.default_rng(1).standard_normal(100))
+    >>> bool(gain > 20.0), times
+    (True, 1.6)
+    >>> bool(louder(np.random.default_rng(1).standard_normal(100))[0] < 1.0)
+    True
+    """
+    gains = _gains(residual, FACTORS[:, None])
+    return float(gains.max()), float(FACTORS[int(np.argmax(gains))])
+
+
+def _gains(residual: np.ndarray, times: np.ndarray) -> np.ndarray:
+    """Gains (m,) of the log likelihood of residuals by noise ``times`` (m, readings) as large."""
+    logs = np.broadcast_to(np.log(times), (len(times), residual.size))
+    return np.asarray((log_likelihood(residual / times)[0] - logs).sum(axis=1) - log_likelihood(residual)[0].sum())
+
+
+def quiet(found: Search) -> bool:
+    """Whether readings scatter by less than half of their noise about the calibrated base model alone.
+
+    That model has few coordinates to follow noise with: so little is left only if the noise is overstated.
+    """
+    spare = found.none.residual.size - found.none.z.size
+    return spare >= ENOUGH and float(found.none.residual @ found.none.residual) < 0.25 * spare
+
+
+def scaled(case: Case, rows: Table, factor: float) -> tuple[Case, Table]:
+    """The case and its readings with ``factor`` times the noise of a single reading."""
+    name = f"{case.quantity}_sd"
+    if name in rows:
+        rows = Table({**rows.columns, name: factor * rows[name]}, rows.source)
+        return replace(case, recordings=rows), rows
+    noise = case.system.recording.noise
+    assert noise is not None
+    return with_noise(case, factor * noise.relative, factor * noise.absolute), rows

@@ -1,0 +1,245 @@
+"""Search over explanations: none, each effect, pairs of effects, and the unnamed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+
+from mixedlub.diagnosis.fitting.fit import Fit, linear_fit, log_likelihood, map_fit
+from mixedlub.diagnosis.fitting.pairs import promising_pairs
+from mixedlub.diagnosis.fitting.problem import Explanation, Problem, effects_of
+from mixedlub.diagnosis.fitting.starts import Sampled, fit_single, sample
+from mixedlub.diagnosis.fitting.sudden import anywhere, sudden_places
+from mixedlub.diagnosis.recording.features import Coordinates
+from mixedlub.diagnosis.unnamed.unknown import Unknown, unknown_fit
+
+PRIOR = {"none": 0.42, "single": 0.38, "pair": 0.08, "unknown": 0.12}
+LEAST_NONE = 14.0
+"""How many times as probable nothing is than one effect: one that readings neither ask for nor exclude is no tie."""
+WHOLE = 25
+"""Effects from which pairs have all of their prior: beside a first effect each other one is as rare among few."""
+KEPT = 8
+"""Explanations of a share of the rows that are weighed again on all of them."""
+FAR = 60.0
+MANY, SPREAD = 1200, 600
+"""Readings beyond which a spread of so many stands for all while explanations are sought."""
+SEED = 1
+ELASTIC = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
+"""Relative error of an effect's literature form: its rms and the weight given to it."""
+SHARP = np.linspace(-5.0, 5.0, 41)
+"""Standard deviations about its place at which a sudden change is tried beside all others."""
+BEND_LIMIT = 4.0
+BEND_SHARE = 0.01
+BEND_MOST = 30.0
+"""What bending may add to the log evidence, shared by the effects of an explanation.
+
+A form wrong by 14 % costs a hundredth of the squares of what it adds. No less than BEND_LIMIT is allowed and no more
+than BEND_MOST: a form a little wrong is not another effect, and another effect not a form a little wrong.
+"""
+
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Search:
+    """Everything the search found; ``untestable`` effects move no reading and so are no explanation."""
+
+    problem: Problem
+    space: Coordinates
+    values: list[np.ndarray]
+    none: Fit
+    fits: dict[Explanation, Fit]
+    scores: dict[Explanation, float]
+    unknown: Unknown
+    sampled: tuple[Sampled, ...]
+    untestable: tuple[Sampled, ...] = ()
+    screen: Search | None = None
+
+    @property
+    def screened(self) -> Search:
+        """The search that looked at every explanation: on a share of the rows where there are very many."""
+        return self if self.screen is None else self.screen
+
+    @property
+    def log_weights(self) -> dict[str | Explanation, float]:
+        """Log prior plus log evidence of every explanation; "unknown" is its own key."""
+        odds = {e.id: e.odds for s in self.sampled for e in effects_of((s.id,))}
+        each = list(odds.values())
+        pairs = sum(a * b for a, b in combinations(each, 2))
+        total = (1.0, sum(each), pairs)
+        prior = priors(len(each))
+        found: dict[str | Explanation, float] = {
+            m: s + float(np.log(prior[len(m)] * np.prod([odds[name] for name in m]) / total[len(m)]))
+            for m, s in self.scores.items()
+        }
+        found["unknown"] = self.unknown.evidence + np.log(PRIOR["unknown"])
+        return found
+
+    @property
+    def log_bayes_factor(self) -> float:
+        """Log Bayes factor of all explanations together, in their literature forms, against nothing missing."""
+        logs = [
+            w if isinstance(m, str) else w - self.scores[m] + self.fits[m].evidence
+            for m, w in self.log_weights.items()
+            if m != ()
+        ]
+        nothing, single, pair = priors(len(self.sampled))
+        odds = float(np.logaddexp.reduce(logs)) - self.log_weights[()]
+        return odds + float(np.log(nothing / (single + pair + PRIOR["unknown"])))
+
+    @property
+    def log_probability(self) -> float:
+        """Log probability density of the readings under all explanations together, up to a constant."""
+        total = float(np.logaddexp.reduce(list(self.log_weights.values())))
+        return total - float(np.log(sum(priors(len(self.sampled))) + PRIOR["unknown"]) + np.log(self.problem.sd).sum())
+
+
+def search(
+    problem: Problem,
+    space: Coordinates,
+    values: list[np.ndarray],
+    exclude: Sequence[str] = (),
+    progress: Progress = lambda text: None,
+) -> Search:
+    """Fit every explanation worth fitting and weigh them.
+
+    Beyond MANY rows all explanations are tried on a spread of them, and the leaders are weighed on all.
+    """
+    if problem.y.size <= MANY:
+        return _search(problem, space, values, exclude, progress)
+    rows = spread_rows(values, problem.y.size)
+    screen = _search(problem.take(rows), space, [v[rows] for v in values], exclude, progress)
+    progress(f"weighing the leaders on all {problem.y.size} readings")
+    ranked = sorted(screen.scores, key=lambda m: -screen.log_weights[m])
+    leaders = dict.fromkeys([(), *ranked[:KEPT]])
+    best = map_fit(problem, ranked[0], screen.fits[ranked[0]].z, warm=True)
+    problem = problem.with_sd(best.prediction, problem.predict((), screen.none.z))
+    fits = {m: placed(problem, map_fit(problem, m, screen.fits[m].z, warm=True)) for m in leaders}
+    scores = {m: elastic_evidence(problem, fits[()], f, space, values) for m, f in fits.items()}
+    names = {s.id for s in screen.sampled}
+    unknown = unknown_fit(problem, fits[()], space, values, names)
+    return Search(problem, space, values, fits[()], fits, scores, unknown, screen.sampled, screen.untestable, screen)
+
+
+def spread_rows(values: list[np.ndarray], count: int) -> np.ndarray:
+    """A share of the rows that covers the conditions evenly."""
+    order = np.lexsort(values[::-1]) if values else np.arange(count)
+    edges = np.linspace(0, count, SPREAD + 1)
+    # One of each stretch at random: every so many would go round with the levels of a condition.
+    at = edges[:-1] + np.random.default_rng(SEED).random(SPREAD) * np.diff(edges)
+    return np.sort(order[at.astype(int)])
+
+
+def priors(effects: int) -> tuple[float, float, float]:
+    """Priors of nothing, of one effect and of two, beside that of the unnamed, by how many effects there are.
+
+    That of nothing is higher where few effects share that of a single one, that of pairs lower.
+
+    >>> priors(30), [round(p, 2) for p in priors(6)]
+    ((0.42, 0.38, 0.08), [0.89, 0.38, 0.02])
+    """
+    if effects == 0:
+        return PRIOR["none"], 0.0, 0.0
+    nothing = min(max(PRIOR["none"], LEAST_NONE * PRIOR["single"] / effects), 1.0)
+    return nothing, PRIOR["single"], PRIOR["pair"] * min(1.0, effects / WHOLE)
+
+
+def _search(
+    problem: Problem, space: Coordinates, values: list[np.ndarray], exclude: Sequence[str], progress: Progress
+) -> Search:
+    progress("calibrating the base model")
+    none = map_fit(problem, (), np.zeros(problem.size(())))
+    # Readings do not tell their own noise: those that happen to be low would count for more.
+    problem = problem.with_sd(none.prediction, none.prediction)
+    none = map_fit(problem, (), none.z)
+    effects = problem.forward.effects(exclude)
+    progress(f"trying {len(effects)} effects")
+    drawn = [s for s in (sample(problem, e.id, none) for e in effects) if len(s.z)]
+    sampled = tuple(s for s in drawn if s.testable)
+    untestable = tuple(s for s in drawn if not s.testable)
+    singles: dict[Explanation, Fit] = {(s.id,): fit_single(problem, none, s) for s in sampled}
+    if singles:
+        best = max(singles.values(), key=lambda f: f.evidence)
+        if best.evidence > none.evidence + 3.0:
+            old = problem.sd
+            problem = problem.with_sd(best.prediction, none.prediction)
+            none = map_fit(problem, (), none.z)
+            singles = _again(problem, singles, best, old / problem.sd)
+            sampled = tuple(replace(s, change=s.change * (old / problem.sd)) for s in sampled)
+    fits: dict[Explanation, Fit] = {(): none, **singles}
+    progress("trying pairs of effects")
+    for pair, start in promising_pairs(problem, none, singles, sampled):
+        fit = map_fit(problem, pair, start)
+        if pair not in fits or fit.evidence > fits[pair].evidence:
+            fits[pair] = fit
+    fits = {m: placed(problem, f) for m, f in fits.items()}
+    scores = {m: elastic_evidence(problem, none, f, space, values) for m, f in fits.items()}
+    progress("weighing an unnamed mismatch")
+    unknown = unknown_fit(problem, none, space, values, {s.id for s in sampled})
+    return Search(problem, space, values, none, fits, scores, unknown, sampled, untestable)
+
+
+def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: np.ndarray) -> dict[Explanation, Fit]:
+    """The fits under a new noise level; those hopelessly behind the best only keep their distance to it.
+
+    ``scale`` is the old noise over the new.
+    """
+    new = {m: map_fit(problem, m, f.z, warm=True) for m, f in singles.items() if f.evidence > best.evidence - FAR}
+    shift = new[best.explanation].evidence - best.evidence
+    return {m: new[m] if m in new else f.in_sigmas(scale, f.evidence + shift) for m, f in singles.items()}
+
+
+def placed(problem: Problem, fit: Fit) -> Fit:
+    """The fit with the evidence of all places where its sudden changes may stand: Laplace sees but the slope at one."""
+    gained = 0.0
+    for place in sudden_places(problem, fit.explanation):
+        curvature = 1.0 + float(fit.weight @ fit.slopes[:, place] ** 2)
+        tried, log = anywhere(problem, fit, place, fit.z[place] + SHARP / np.sqrt(curvature))
+        here = float(log_likelihood(fit.residual)[0].sum()) - 0.5 * fit.z[place] ** 2
+        whole = np.trapezoid(np.exp(np.minimum(log - here, 50.0)), tried[:, place])
+        gained += float(np.log(max(whole, 1e-300)) - 0.5 * np.log(2.0 * np.pi / curvature))
+    return replace(fit, evidence=fit.evidence + gained)
+
+
+def elastic_evidence(problem: Problem, none: Fit, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:
+    """Evidence with the effects' literature forms allowed to be a little wrong, smoothly over the conditions."""
+    if not fit.explanation:
+        return fit.evidence
+    base = np.hstack([fit.slopes, problem.shared])
+    plain = linear_fit(fit.anchor, base, fit.weight).evidence
+    net = (fit.prediction - none.prediction) / problem.sd
+    bend = elastic_columns(net, typical_size(net), space, values)
+    gains = []
+    for size, weight in ELASTIC:
+        if size == 0.0:
+            gains.append(np.log(weight))
+            continue
+        bent = linear_fit(fit.anchor, np.hstack([base, size * bend]), fit.weight).evidence
+        gains.append(np.log(weight) + bent - plain)
+    most = float(np.clip(BEND_SHARE * net @ (net * fit.weight), BEND_LIMIT, BEND_MOST))
+    return fit.evidence + min(float(np.logaddexp.reduce(gains)), most / len(fit.explanation))
+
+
+def typical_size(net: np.ndarray) -> float:
+    """Root mean square."""
+    return float(np.sqrt(np.mean(net**2)))
+
+
+def elastic_columns(net: np.ndarray, typical: float, space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
+    """What an explanation adds to the calibrated base, in sigmas, times smooth functions of the numeric conditions.
+
+    Where it adds little a third of its ``typical`` size stands in: another form need not vanish there too.
+    """
+    smooth = [
+        axis.functions(v, 0.35)[:, :8] if axis.folded else axis.functions(v, 0.7)[:, :4]
+        for axis, v in zip(space.axes, values, strict=True)
+        if not axis.named and axis.name != "sequence"
+    ]
+    if not smooth:
+        return np.zeros((net.size, 0))
+    pairs = [(a[:, :3, None] * b[:, None, :3]).reshape(a.shape[0], -1) for a, b in combinations(smooth, 2)]
+    functions = np.hstack(smooth + pairs) / np.sqrt(len(smooth) + len(pairs))
+    return np.hypot(net, 0.3 * typical)[:, None] * functions

@@ -1,0 +1,125 @@
+"""What speaks against an answer as a whole, and what the readings say of their noise."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mixedlub.diagnosis.fitting.scatter import CLEAR, MOST, more, quiet
+from mixedlub.diagnosis.fitting.search import Search
+from mixedlub.diagnosis.judging.heldout import HeldOut
+from mixedlub.diagnosis.judging.posterior import Key, names_effects
+from mixedlub.diagnosis.recording.audit import Doubt
+from mixedlub.diagnosis.recording.features import PASSING
+from mixedlub.headers import unit_of
+from mixedlub.table import Table
+
+MANY_WRONG = 0.1
+LEAST_STREAK, RARE = 3, 0.05
+"""Wrong readings in a row that are told of, where fewer such streaks than that would be there by chance."""
+MOST_OF_LEVEL = 0.75
+WORTH_TELLING = 1.5
+"""Inflation of the variance from which it is told."""
+UNFOLLOWED = (
+    "readings lie farther from every explanation than from their repeats: something is missing whose form none that "
+    "was tried follows"
+)
+NOT_NOISE = (
+    "either something is missing that no form tried follows, or what is stated is not the noise of a reading; what is "
+    "named below was found under noise that much larger"
+)
+QUIET = "readings scatter by less than half of the stated noise: with noise nearer to theirs more could be told"
+
+
+def scatter_notes(found: Search, stated: bool, times: float) -> list[str]:
+    """What the readings say of their noise, where that is not what the recording says."""
+    if times > 1.0:
+        said = f"readings scatter about {times:.2g} times as much as stated, whatever is taken to explain them"
+        if times > MOST:
+            return [Doubt(f"{said}: more than a stated noise is off by, so {NOT_NOISE}")]
+        return [Doubt(f"{said}: the noise was taken as that much larger")]
+    noise = found.problem.case.system.recording.noise
+    if not stated and noise is not None:
+        unit = unit_of(found.problem.case.quantity)
+        parts = [f"{100.0 * noise.relative:.2g} % of it"] if noise.relative else []
+        parts += [f"{noise.absolute:.2g} {unit}".rstrip()] if noise.absolute else []
+        return [f"the noise of a reading was estimated as {' and '.join(parts)}"]
+    if stated and more(found)[0] > CLEAR:
+        return [Doubt(UNFOLLOWED)]
+    return [QUIET] if quiet(found) else []
+
+
+def against(
+    verdict: Key,
+    kept: HeldOut,
+    rows: Table,
+    y: np.ndarray,
+    predicted: np.ndarray,
+    wrong: np.ndarray,
+    at_one_place: bool = False,
+) -> list[str]:
+    """What speaks against the answer as a whole: readings written off, a form that holds nowhere else.
+
+    What stands ``at_one_place`` is not for other levels to foretell.
+    """
+    found = []
+    if wrong.mean() > MANY_WRONG:
+        found.append(
+            f"{wrong.sum()} of {wrong.size} readings count as wrong: the noise may be taken too small, or the answer "
+            "covers only a part of the recording"
+        )
+        turned = np.abs(y[wrong] + predicted[wrong]) < 0.3 * np.abs(y[wrong])
+        if turned.mean() > 0.5:
+            found.append(f"{turned.sum()} of them have the size that is expected with the opposite sign")
+    streak = in_a_row(rows, wrong, y - predicted)
+    if streak:
+        found.append(
+            f"the {len(streak)} readings from run {streak[0]} to run {streak[-1]} count as wrong, follow one another "
+            "and lie on the same side: that is no chance, and the answer leaves it out"
+        )
+    if names_effects(verdict) and kept.inflation >= WORTH_TELLING:
+        found.append(
+            f"levels left out lie {np.sqrt(kept.inflation):.2g} times as far off as noise and the other levels leave "
+            "open: even the best explanation is not the whole of it, so the odds between explanations were taken as "
+            "less sure"
+        )
+    if verdict != () and not at_one_place and kept.score < kept.score_before:
+        answer = "the unnamed mismatch" if verdict == "unknown" else "the answer"
+        found.append(
+            f"{answer} predicts levels left out no better than calibration alone: outside the recorded conditions "
+            "rely on neither"
+        )
+    return [Doubt(text) for text in found]
+
+
+def in_a_row(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[int]:
+    """Runs of the longest streak in time of wrong readings on one side, if chance would hardly make one.
+
+    >>> table = Table({"run": np.arange(1, 41), "time_s": np.arange(40.0)})
+    >>> wrong = np.isin(np.arange(40), [0, 1, 2, 17])
+    >>> in_a_row(table, wrong, np.ones(40)), in_a_row(table, wrong, (-1.0) ** np.arange(40))
+    ([1, 2, 3], [])
+    """
+    clock = next((rows[name] for name in ("sequence", "time_s") if name in rows), None)
+    if clock is None or not wrong.any() or np.unique(clock).size < clock.size:
+        return []
+    order = np.argsort(clock, kind="stable")
+    side = (np.sign(left) * wrong)[order]
+    starts = np.flatnonzero(np.diff(side, prepend=np.nan) != 0.0)
+    lengths = np.diff(np.append(starts, side.size)) * (side[starts] != 0.0)
+    longest = int(np.argmax(lengths))
+    count = int(lengths[longest])
+    by_chance = 2.0 * wrong.size * (0.5 * wrong.mean()) ** count
+    if count < LEAST_STREAK or by_chance > RARE:
+        return []
+    streak = order[starts[longest] : starts[longest] + count]
+    return [] if _one_level(rows, streak) else [int(run) for run in rows["run"][streak]]
+
+
+def _one_level(rows: Table, streak: np.ndarray) -> bool:
+    """Whether a streak is a level of a condition that was run in one go: no matter of time."""
+    for name, values in rows.columns.items():
+        if name not in (*PASSING, "run"):
+            there = values == values[streak[0]]
+            if there[streak].all() and not there.all() and streak.size >= MOST_OF_LEVEL * there.sum():
+                return True
+    return False

@@ -1,0 +1,228 @@
+"""Does the verdict predict conditions it was not fitted to: whole levels left out, its parameters refitted.
+
+Which effect it names, which readings are outliers, how much readings scatter and the form of an unnamed mismatch stay
+as all readings chose them; laws are held against the levels as published, without the bending that predictions have.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mixedlub.diagnosis.fitting.fit import Fit, linear_fit, log_likelihood, map_fit
+from mixedlub.diagnosis.fitting.problem import Explanation, Problem
+from mixedlub.diagnosis.fitting.search import Search
+from mixedlub.diagnosis.fitting.sudden import anywhere, sudden_places
+from mixedlub.diagnosis.recording.levels import set_points
+
+MOST_FOLDS = 8
+TOLERATED = 0.3
+"""Share of the mismatch on levels left out that the right law, in another literature form, may leave."""
+DEMERIT = 20.0
+LEAST = 0.3
+CHANCE = 5.0
+"""How much better than the unnamed mismatch a name may predict levels left out by chance, in log probability."""
+
+
+@dataclass(frozen=True)
+class HeldOut:
+    """Rms of (recorded - predicted)/sd on levels left out, calibration only and with the verdict.
+
+    ``surprise`` is that of the verdict over noise and what the other levels leave open of its parameters together,
+    ``score`` the log probability of the readings under both, ``score_before`` that with calibration only.
+    """
+
+    before: float
+    after: float
+    split: str
+    folds: int
+    readings: int
+    surprise: float
+    score: float
+    score_before: float
+
+    @property
+    def inflation(self) -> float:
+        r"""How many times their variance readings left out lie off, :math:`\hat c = s^2/(1 + 2\sqrt{2/n})`; 1 or more.
+
+        Noise and what other levels leave open are known; what is beyond them, and beyond two standard errors of
+        chance, makes every log probability of the readings too steep by as much: J.-D. Lebreton, K. P. Burnham,
+        J. Clobert, D. R. Anderson, Ecol. Monogr. 62 (1992) 67.
+
+        >>> [round(HeldOut(9.0, s, "", 5, 200, s, 0.0, 0.0).inflation, 1) for s in (1.0, 2.0)]
+        [1.0, 3.3]
+        """
+        return float(max(self.surprise**2 / (1.0 + 2.0 * np.sqrt(2.0 / self.readings)), 1.0))
+
+    def demerit(self, rms: float) -> float:
+        """What a named law loses in log odds if it leaves much of the mismatch unexplained on levels left out.
+
+        A law that is a little wrong still explains most of it there; what fits all readings but fails there is
+        another law in disguise. ``rms`` is that of the residual with all readings fitted; two standard errors of its
+        square are allowed for chance, and what the other levels cannot tell of the parameters is no failure.
+
+        >>> well, badly = (HeldOut(3.0, rms, "", 5, 200, rms, 0.0, 0.0) for rms in (1.1, 2.6))
+        >>> well.demerit(1.0), badly.demerit(1.0) > 5.0
+        (0.0, True)
+        """
+        noise = max(rms, 1.0) ** 2
+        missing = max(self.before**2 - noise, LEAST)
+        left = max(self.surprise**2 - noise * (1.0 + 2.0 * np.sqrt(2.0 / self.readings)), 0.0)
+        return float(min(DEMERIT * max(left / missing - TOLERATED, 0.0), DEMERIT))
+
+    def behind(self, name: HeldOut) -> float:
+        """What the unnamed mismatch loses in log odds if a name predicts levels left out better than it does.
+
+        It follows any readings, and where it does not carry over to others and a law does, the law has seen more. A
+        law that tells no more there than calibration alone has seen nothing.
+        """
+        told = min(name.score - self.score, name.score - name.score_before)
+        return float(np.clip(told - CHANCE, 0.0, DEMERIT))
+
+
+@dataclass(frozen=True, eq=False)
+class _Fold:
+    """One level left out: its rows, the problem of the others and its own, and what its readings scatter by."""
+
+    out: np.ndarray
+    train: Problem
+    test: Problem
+    wide: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class LevelsOut:
+    """The levels of one condition left out in turn, and how calibration alone predicts them."""
+
+    found: Search
+    used: np.ndarray
+    name: str
+    folds: tuple[_Fold, ...]
+    before: np.ndarray
+
+    @classmethod
+    def of(cls, whole: Search) -> LevelsOut:
+        """Leave out each level of the condition with the most levels (up to 8)."""
+        found = whole.screened
+        name, label = _folds(found)
+        folds, before = [], np.zeros(found.problem.y.size)
+        for k in range(int(label.max()) + 1):
+            out = label == k
+            train, test = found.problem.take(~out), found.problem.take(out)
+            # A set-up's own error is part of what a left-out reading scatters by.
+            wide = test.sd * np.sqrt(1.0 + np.sum(test.shared**2, axis=1))
+            none = map_fit(train, (), found.none.z)
+            before[out] = (test.y - test.predict((), none.z)) / wide
+            folds.append(_Fold(out, train, test, wide))
+        used = np.isin(whole.problem.rows["run"], found.problem.rows["run"])
+        return cls(found, used, name, tuple(folds), before)
+
+    def held(self, verdict: Explanation | str, outliers: np.ndarray) -> HeldOut:
+        """Refit the parameters of a verdict without each level, and predict it."""
+        outliers = outliers[self.used]
+        after, open_variance = np.zeros((2, self.before.size))
+        forms = _unnamed_columns(self.found) if verdict == "unknown" else []
+        for f in self.folds:
+            if verdict == "unknown":
+                left, variance = _unknown_left(self.found, forms, f.out)
+                after[f.out] = left * f.test.sd / f.wide
+                open_variance[f.out] = variance * (f.test.sd / f.wide) ** 2
+            elif verdict == ():
+                after[f.out] = self.before[f.out]
+            else:
+                fit = map_fit(f.train, tuple(verdict), self.found.fits[tuple(verdict)].z, warm=True)
+                run = f.test.run(fit.explanation, fit.z)
+                after[f.out] = (f.test.y - run.prediction) / f.wide
+                slopes = f.test.jacobian(fit.explanation, fit.z, run) * (f.test.sd / f.wide)[:, None]
+                columns = np.hstack([fit.slopes, f.train.shared])
+                gain, variance = _elsewhere(f, fit)
+                after[f.out] -= gain
+                open_variance[f.out] = _open_variance(columns, fit.weight, slopes) + variance
+        kept = ~outliers if not outliers.all() else np.ones(outliers.size, bool)
+        spread = np.sqrt(1.0 + open_variance)
+        return HeldOut(
+            float(np.sqrt(np.mean(self.before[kept] ** 2))),
+            float(np.sqrt(np.mean(after[kept] ** 2))),
+            f"leave one level of {self.name} out" if self.name else "leave every fifth reading out",
+            len(self.folds),
+            int(kept.sum()),
+            float(np.sqrt(np.mean((after / spread)[kept] ** 2))),
+            float((log_likelihood(after / spread)[0] - np.log(spread)).sum()),
+            float(log_likelihood(self.before)[0].sum()),
+        )
+
+
+def _open_variance(columns: np.ndarray, weight: np.ndarray, slopes: np.ndarray) -> np.ndarray:
+    """Variance, in sigmas, of predictions with these slopes by what a fit to other readings leaves open.
+
+    ``columns`` are the slopes of that fit; ``slopes`` has the first of them.
+    """
+    inner = np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ (columns * weight[:, None]))
+    own = inner[: slopes.shape[1], : slopes.shape[1]]
+    return np.asarray(np.einsum("ij,jk,ik->i", slopes, own, slopes))
+
+
+def _elsewhere(fold: _Fold, fit: Fit) -> tuple[np.ndarray, np.ndarray]:
+    """What predictions of the left-out readings gain, and their variance, by where a sudden change may stand.
+
+    The level left out may be the one that showed it. In sigmas.
+    """
+    gain, variance = np.zeros((2, fold.test.y.size))
+    here = fold.test.predict(fit.explanation, fit.z) / fold.wide
+    for place in sudden_places(fold.train, fit.explanation):
+        tried, told = anywhere(fold.train, fit, place, fit.z[place])
+        seen = np.array([fold.test.predict(fit.explanation, z) for z in tried]) / fold.wide
+        told = np.where(np.isfinite(seen).all(axis=1), told, -np.inf)
+        chance = np.exp(told - told.max())
+        seen = np.nan_to_num(seen)
+        mean = chance @ seen / chance.sum()
+        gain += mean - here
+        variance += chance @ (seen - mean) ** 2 / chance.sum()
+    return gain, variance
+
+
+def _unnamed_columns(found: Search) -> list[np.ndarray]:
+    """Columns of the unnamed mismatch, of a peak or a step wherever it may stand."""
+    shapes = found.unknown.best.elsewhere(found.space, found.values)
+    return [shape.columns(found.space, found.values, found.unknown.carriers) for shape in shapes]
+
+
+def _unknown_left(found: Search, forms: list[np.ndarray], out: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Residual of left-out readings under the unnamed mismatch fitted to the others (linearised), its open variance.
+
+    Which of its ``forms`` it is, is for the other readings to say as well.
+    """
+    problem, none = found.problem, found.none
+    log, left, variance = [], [], []
+    for own in forms:
+        columns = np.hstack([none.slopes, problem.shared, own])
+        fit = linear_fit(none.anchor[~out], columns[~out])
+        blind = np.hstack([none.slopes, np.zeros_like(problem.shared), own])[out]
+        log.append(fit.evidence)
+        left.append(none.anchor[out] - blind @ fit.coefficients)
+        variance.append(_open_variance(columns[~out], fit.weight, blind))
+    chance = np.exp(np.array(log) - max(log))
+    chance = chance / chance.sum()
+    mean = chance @ np.array(left)
+    return mean, chance @ (np.array(variance) + (np.array(left) - mean) ** 2)
+
+
+def _folds(found: Search) -> tuple[str, np.ndarray]:
+    best: tuple[int, str, np.ndarray] | None = None
+    for axis, values in zip(found.space.axes, found.values, strict=True):
+        if axis.name in ("sequence", "composite_roughness_um"):
+            continue
+        values = set_points(values)
+        levels, label = np.unique(values, return_inverse=True)
+        if levels.size > MOST_FOLDS and not axis.named:
+            edges = np.unique(np.quantile(values, np.linspace(0, 1, MOST_FOLDS + 1)[1:-1]))
+            label = np.searchsorted(edges, values, side="right")
+        if levels.size > MOST_FOLDS and axis.named:
+            label = label % MOST_FOLDS
+        count = int(np.unique(label).size)
+        if count >= 3 and (best is None or count > best[0]):
+            best = (count, axis.name, np.unique(label, return_inverse=True)[1])
+    if best is None:
+        return "", np.arange(found.problem.y.size) % min(5, found.problem.y.size)
+    return best[1], best[2]

@@ -1,0 +1,103 @@
+"""Is there anything to explain: a test of the calibrated base model at a stated false-alarm rate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mixedlub.diagnosis.fitting.search import Search
+from mixedlub.diagnosis.unnamed.carriers import READING
+from mixedlub.diagnosis.unnamed.shapes import Shape
+
+DRAWS = 2000
+CELLS = 4_000_000
+SHAPES = ((0.7, False), (0.25, True))
+SIZES = (1.0, 4.0)
+UNSURE = 10.0
+"""How far the search's Bayes factor may be off."""
+
+
+@dataclass(frozen=True)
+class Mismatch:
+    """Outcome of the test; ``statistic`` is the mean log Bayes factor of all alternatives against none.
+
+    ``unfollowed`` says that readings scatter more than noise can about whatever was tried.
+    """
+
+    detected: bool
+    p_value: float
+    level: float
+    chi2_before: float
+    rows: int
+    statistic: float
+    unfollowed: bool = False
+
+
+def judged_weight(found: Search) -> np.ndarray:
+    """Which readings are outliers, as the best explanation judges: the base model may write off what it lacks."""
+    best = max(found.log_weights.items(), key=lambda item: item[1])[0]
+    return found.unknown.fit.weight if isinstance(best, str) else found.fits[best].weight
+
+
+def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch:
+    """Compare the data's Bayes factor against none with its law when nothing is missing.
+
+    Alternatives are the catalogue's prior draws with free amplitude and smooth functions of the conditions.
+    Data without mismatch are drawn from the linearised base model: calibration from its prior, noise from its
+    law. Beyond the largest draw the bound P(B > b) <= 1/b of any Bayes factor gives the p-value; the bound of the
+    search's own, which has fitted what no prior draw comes near, such as a ripple of any order, is taken with a
+    margin for its approximations.
+    """
+    full = found
+    found = full.screened
+    problem, none = found.problem, found.none
+    fixed = np.hstack([none.slopes, problem.shared])
+    weight = judged_weight(found)
+    inner = np.linalg.inv(np.eye(fixed.shape[1]) + fixed.T @ (fixed * weight[:, None]))
+    directions = [s.change[: s.blind] for s in found.sampled]
+    effects = np.vstack(directions) if directions else np.zeros((0, problem.y.size))
+    blocks = []
+    for length, interactions in SHAPES:
+        shape = Shape((), length, 1.0, READING, interactions and len(found.space.axes) > 1)
+        blocks.append(shape.columns(found.space, found.values, found.unknown.carriers))
+
+    def whiten(rows: np.ndarray) -> np.ndarray:
+        """Rows times the inverse covariance of noise and calibration together."""
+        scaled = rows * weight
+        return scaled - (scaled @ fixed) @ inner @ (fixed * weight[:, None]).T
+
+    seen = whiten(effects)
+    power = np.einsum("ij,ij->i", effects, seen)
+    smooth = []
+    for block in blocks:
+        pulled = whiten(block.T)
+        size, turn = np.linalg.eigh(pulled @ block)
+        smooth.append((np.maximum(size, 0.0), turn.T @ pulled))
+
+    def statistic(targets: np.ndarray) -> np.ndarray:
+        """Log mean Bayes factor of each row of targets."""
+        parts = []
+        if len(seen):
+            along = targets @ seen.T
+            each = 0.5 * along**2 / (1.0 + power) - 0.5 * np.log1p(power)
+            parts.append(np.logaddexp.reduce(each, axis=1) - np.log(each.shape[1]) + np.log(0.6))
+        for size, pull in smooth:
+            along = (targets @ pull.T) ** 2
+            for amplitude in SIZES:
+                grown = 1.0 + amplitude**2 * size
+                each = 0.5 * (amplitude**2 * along / grown - np.log(grown)).sum(axis=1)
+                parts.append(each + np.log(0.4 / (len(smooth) * len(SIZES))))
+        return np.logaddexp.reduce(np.array(parts), axis=0)
+
+    rng = np.random.default_rng(seed)
+    count = int(np.clip(CELLS // problem.y.size, 200, DRAWS))
+    noise = rng.standard_normal((count, problem.y.size)) / np.sqrt(weight)
+    drawn = statistic(noise + rng.standard_normal((count, fixed.shape[1])) @ fixed.T)
+    observed = float(statistic(none.anchor[None, :])[0])
+    p = (1.0 + float((drawn >= observed).sum())) / (count + 1.0)
+    if observed > drawn.max():
+        p = min(p, float(np.exp(-min(observed, 700.0))))
+    p = min(p, UNSURE * float(np.exp(-min(full.log_bayes_factor, 700.0))))
+    chi2 = float((full.none.residual**2).sum() + full.none.z @ full.none.z)
+    return Mismatch(bool(p <= level), p, level, chi2, int(full.problem.y.size), observed)

@@ -1,0 +1,98 @@
+"""From weights of explanations to probabilities, verdict and ties."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from mixedlub.diagnosis.fitting.problem import Explanation, effects_of
+from mixedlub.diagnosis.fitting.search import PRIOR, Search, priors
+from mixedlub.diagnosis.judging.mismatch import Mismatch
+from mixedlub.effect import STAGES
+
+TIE = 0.1
+FLOOR = 1e-6
+MARGIN = 1.25
+
+Key = str | Explanation
+
+
+def names_effects(key: Key) -> bool:
+    """Whether an explanation names effects: neither "nothing missing" nor the unnamed."""
+    return not isinstance(key, str) and bool(key)
+
+
+@dataclass(frozen=True)
+class Posterior:
+    """Probability of every explanation, the verdict first; ``unknown`` is keyed by its name, none by ()."""
+
+    weights: Mapping[Key, float]
+    verdict: Key
+    tied: tuple[Key, ...]
+
+    def names(self, key: Key) -> list[str]:
+        """The explanation as the answer writes it."""
+        if isinstance(key, str):
+            return [key]
+        return list(key) or ["none"]
+
+    def inclusion(self, found: Search) -> dict[str, float]:
+        """Probability that each effect is part of the explanation; none and unknown as explanations."""
+        chance = {s.id: 0.0 for s in found.sampled} | untold(found)
+        for key, weight in self.weights.items():
+            if not isinstance(key, str):
+                for name in key:
+                    chance[name] += weight
+        chance = {"none": self.weights.get((), 0.0), "unknown": self.weights.get("unknown", 0.0), **chance}
+        return {name: float(np.clip(value, FLOOR, 1.0 - FLOOR)) for name, value in chance.items()}
+
+    def stages(self) -> dict[str, float]:
+        """Probability that each stage of the chain is part of the explanation."""
+        chance = dict.fromkeys(STAGES, 0.0)
+        for key, weight in self.weights.items():
+            if not isinstance(key, str):
+                for stage in {e.stage for e in effects_of(key)}:
+                    chance[stage] += weight
+        return {stage: float(np.clip(value, FLOOR, 1.0 - FLOOR)) for stage, value in chance.items()}
+
+
+def untold(found: Search) -> dict[str, float]:
+    """Chance of the effects that move no reading: as probable as they were before."""
+    odds = {e.id: e.odds for s in (*found.sampled, *found.untestable) for e in effects_of((s.id,))}
+    nothing, single, pair = priors(len(odds))
+    single /= nothing + single + pair + PRIOR["unknown"]
+    return {s.id: single * odds[s.id] / sum(odds.values()) for s in found.untestable}
+
+
+def posterior(
+    found: Search, test: Mismatch, demerits: Mapping[Key, float] | None = None, inflation: float = 1.0
+) -> Posterior:
+    """Normalised weights; whether anything is missing at all is for the test to decide.
+
+    The evidence ranks the explanations, less the ``demerits`` of those that failed on levels left out. Where it
+    and the test disagree on "none", its weight is moved just far enough that the most probable explanation agrees
+    with the test. What scatters more than noise can, and follows nothing, is something unnamed. Where even the best
+    leaves readings ``inflation`` times their variance off, they tell the explanations apart by that much less.
+    """
+    log = {}
+    for key, value in found.log_weights.items():
+        told = found.unknown.evidence if isinstance(key, str) else found.scores[key]
+        log[key] = value + told * (1.0 / inflation - 1.0)
+    for key, demerit in (demerits or {}).items():
+        log[key] -= demerit / inflation
+    if test.unfollowed and log[()] > log["unknown"]:
+        log[()], log["unknown"] = log["unknown"], log[()]
+    others = [value for key, value in log.items() if key != ()]
+    best = max(others, default=-np.inf)
+    if test.detected and log[()] >= best:
+        log[()] = best - np.log(MARGIN)
+    elif not test.detected and log[()] <= best:
+        log[()] = best + np.log(MARGIN)
+    top = max(log.values())
+    total = sum(np.exp(v - top) for v in log.values())
+    weights = {key: float(np.exp(v - top) / total) for key, v in sorted(log.items(), key=lambda item: -item[1])}
+    verdict = next(iter(weights))
+    tied = tuple(key for key, w in weights.items() if w >= TIE * weights[verdict])
+    return Posterior(weights, verdict, tied)

@@ -1,0 +1,148 @@
+"""A look at the recording before anything is fitted: is it what it says it is."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mixedlub.case import Case
+from mixedlub.diagnosis.recording.features import PASSING
+from mixedlub.diagnosis.recording.noise import is_stated, nearly_repeated, noise_from_repeats, pooled_sd
+from mixedlub.forward import Forward
+from mixedlub.headers import unit_of
+from mixedlub.table import Table
+from profiles.errors import InputError
+
+FEWEST = 5
+SCARCE = 30
+UNIT_SLIPS = {
+    1e2: "a hundred times",
+    1e-2: "a hundredth of",
+    1e3: "a thousand times",
+    1e-3: "a thousandth of",
+    1e6: "a million times",
+    1e-6: "a millionth of",
+}
+MOST_SLIDING = 10.0
+"""Slide-roll ratios above it are more likely percent: 2 is pure sliding, more needs surfaces that run against it."""
+SLIP_WITHIN = 2.0
+"""How far a slip of the unit may be off its power of ten: the base model itself is that good."""
+THINNEST_OIL = 0.4
+STUCK_ROWS, STUCK_SHARE = 5, 0.2
+"""A value that stands in so many rows, and in such a share of them, is looked at."""
+STUCK_STEPS, STUCK_SPAN = 3.0, 0.05
+"""Where the base model changes by more steps of the reading than that, and by such a share of its size, it is stuck."""
+
+
+class Doubt(str):
+    """A warning that questions the answer as a whole, and so stands above it."""
+
+    __slots__ = ()
+
+
+def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]:
+    """What the user should know of the recording; an error where it cannot be what it is labelled."""
+    return [*doubts(case, rows, y, forward), *_noise_source(case, rows, y)]
+
+
+def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]:
+    """What speaks against the recording; an error where it cannot be diagnosed."""
+    notes: list[str] = []
+    where = f"{case.folder / 'recordings.csv'}: {case.quantity}"
+    if y.size < FEWEST:
+        raise InputError(f"needs at least {FEWEST} readings to say anything", where=where, value=y.size)
+    if case.kind.logarithmic and np.any(y <= 0):
+        bad = float(y[y <= 0][0])
+        raise InputError(f"readings of kind {case.kind.name!r} must be above zero", where=where, value=bad)
+    if case.quantity == "viscosity_mPa_s" and np.median(y) < THINNEST_OIL:
+        said = f"are below the {THINNEST_OIL} mPa s of the thinnest liquid that the model holds for; check the unit"
+        raise InputError(f"readings {said}", where=where, value=float(np.median(y)))
+    base = forward.predict()
+    if not np.isfinite(base).all():
+        bad = int(rows["run"][~np.isfinite(base)][0])
+        raise InputError(
+            "the base model has no finite answer for this run's conditions", where=f"{where}, run", value=bad
+        )
+    whole = np.setdiff1d(rows["rig"], case.kind.part_rigs) if "rig" in rows else np.array([])
+    if whole.size > 1:
+        known = f"only as {' or '.join(case.kind.part_rigs)}" if case.kind.part_rigs else "for no case of this kind"
+        notes.append(
+            f"readings of the rigs {', '.join(whole.tolist())} are all compared with the whole base model: a part "
+            f"rig is modelled {known}"
+        )
+    if y.size < SCARCE:
+        notes.append(f"only {y.size} readings: expect ties and wide intervals")
+    positive = (np.abs(base) > 0) & (np.abs(y) > 0)
+    if positive.sum() >= FEWEST:
+        ratio = float(np.median(np.abs(y[positive] / base[positive])))
+        for slip, words in UNIT_SLIPS.items():
+            if slip / SLIP_WITHIN < ratio < slip * SLIP_WITHIN:
+                said = f"readings are about {words} what the base model gives: check the unit of {case.quantity}"
+                notes.append(Doubt(said))
+        if np.mean(base[positive] * y[positive] < 0) > 0.5:
+            notes.append(Doubt("most readings have the other sign than the base model: check the sign"))
+    sliding = np.abs(rows["slide_roll_ratio"]).max() if "slide_roll_ratio" in rows else 0.0
+    if sliding > MOST_SLIDING:
+        said = f"slide_roll_ratio reaches {sliding:g} where 2 is pure sliding: check that it is not in percent"
+        notes.append(Doubt(said))
+    notes += _stuck(case, rows, y, base)
+    stated = case.system.recording.noise
+    if is_stated(case, rows) and stated is not None:
+        group = nearly_repeated(case, rows)
+        repeats = 0.0 if group is None else pooled_sd(_without_drift(case, rows, y, base, group), group)
+        size = np.abs(y) if case.kind.logarithmic else np.ones(y.size)
+        typical = float(np.median(np.hypot(stated.relative * np.abs(y), stated.absolute) / size))
+        unit = "" if case.kind.logarithmic else f" {unit_of(case.quantity)}".rstrip()
+        if repeats > 4.0 * typical > 0:
+            notes.append(
+                Doubt(
+                    f"readings at equal conditions contradict each other: they scatter by {repeats:.3g}{unit} where "
+                    f"the stated noise is {typical:.3g}{unit}; if they belong to several assemblies or sweeps, name "
+                    "these in a column setup"
+                )
+            )
+    return notes
+
+
+def _stuck(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str]:
+    """A value that repeats exactly in many rows although their conditions differ, while other readings vary."""
+    values, counts = np.unique(y, return_counts=True)
+    most = int(np.argmax(counts))
+    if values.size < 2 or counts[most] < max(STUCK_ROWS, STUCK_SHARE * y.size):
+        return []
+    same = y == values[most]
+    span = float(np.ptp(base[same]))
+    if span <= max(STUCK_STEPS * float(np.min(np.diff(values))), STUCK_SPAN * float(np.median(np.abs(base)))):
+        return []
+    names = [c.name for c in case.kind.columns if c.name in rows and c.name not in PASSING]
+    varied = [name for name in names if np.unique(rows[name][same]).size > 1]
+    if not varied:
+        return []
+    runs = [str(run) for run in rows["run"][same][:STUCK_ROWS]]
+    more = "" if len(runs) == counts[most] else ", ..."
+    said = f"{counts[most]} of {y.size} readings are exactly {values[most]:g} though {', '.join(varied)} vary"
+    return [Doubt(f"{said}: check for a channel that was stuck or filled in (runs {', '.join(runs)}{more})")]
+
+
+def _without_drift(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, group: np.ndarray) -> np.ndarray:
+    """Readings less the base model, and less what of repeats goes steadily with the programme."""
+    left = np.log(y / base) if case.kind.logarithmic else y - base
+    place = next((rows[name] for name in ("sequence", "time_s") if name in rows), None)
+    if place is None or np.ptp(place) == 0.0:
+        return left
+    grown = (place - place.min()) / np.ptp(place) * (1.0 if case.kind.logarithmic else base)
+    count = np.bincount(group)
+    within, apart = (x - (np.bincount(group, weights=x) / count)[group] for x in (left, grown))
+    spread = float(apart @ apart)
+    return left - grown * (float(apart @ within) / spread) if spread > 0.0 else left
+
+
+def _repeats(case: Case, rows: Table, y: np.ndarray) -> float:
+    return noise_from_repeats(case, rows, np.log(y) if case.kind.logarithmic else y)
+
+
+def _noise_source(case: Case, rows: Table, y: np.ndarray) -> list[str]:
+    """Where the scatter of a reading comes from when the recording does not state it."""
+    if is_stated(case, rows):
+        return []
+    source = "repeats" if _repeats(case, rows, y) > 0 else "the fit"
+    return [f"no noise given: the standard deviation of a reading is estimated from {source}"]

@@ -1,0 +1,1 @@
+"""The answer in words, on a page and in files."""

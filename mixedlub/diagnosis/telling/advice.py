@@ -1,0 +1,85 @@
+"""The next test in words: what to run, what it would tell, and where it leaves the recorded range."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.recording.features import PASSING
+from mixedlub.diagnosis.telling.labels import amount, conditions_text, explanation_words, range_text, words_of
+from mixedlub.table import Table
+
+USELESS, WEAK = 0.01, 0.1
+"""Bits below which a test is not worth naming, and below which it is not worth much."""
+
+
+def next_test(d: Diagnosis) -> tuple[str, ...]:
+    """What to run next, or that no test is worth it."""
+    if d.posterior.verdict == "unknown":
+        period = wave_period(d)
+        if period:
+            return (
+                f"Look for what on the rig swings every {period}, as a thermostat or a turning part may. Read at other "
+                "intervals as well: what swings faster than readings are taken shows with a longer period.",
+            )
+        if d.found.unknown.best.form == "step" and d.found.unknown.best.axes[0] in PASSING:
+            moment = standing_place(d)
+            return (f"Look up what was done to the rig or the sample at {moment}, and repeat a reading from before.",)
+        if d.found.unknown.best.at is not None:
+            place = standing_place(d)
+        else:
+            place = ", ".join(range_text(cut) for cut in d.region.where) or "all conditions"
+        return (f"To learn its form, refine and repeat the levels around {place}.",)
+    if not d.next_tests:
+        return ("No useful test: there is no second explanation to tell the first one from.",)
+    first = d.next_tests[0]
+    if first.expected_bits < USELESS:
+        return ("No useful test: no single reading at these conditions or a little beyond would say more.",)
+    names = "; ".join(explanation_words(name.split("+")) for name in first.separates)
+    weak = ("No single reading would tell much more; the best would be:",) if first.expected_bits < WEAK else ()
+    run = (
+        f"Run {conditions_text(first.conditions)}: {first.expected_bits:.2f} bit towards telling apart {names} (1 bit "
+        "would settle which of two equally probable ones is right)."
+    )
+    return (*weak, run, *(f"{text[:1].upper()}{text[1:]}." for text in beyond(first.conditions, d.recorded.table)))
+
+
+def wave_period(d: Diagnosis) -> str:
+    """Period of the unnamed mismatch where it is a wave in time; empty where it is none."""
+    shape = d.found.unknown.best
+    if not shape.waves:
+        return ""
+    low, high = d.found.space.axes[d.found.space.place(shape.axes[0])].ends
+    return amount(float(f"{(high - low) / shape.waves:.3g}"), shape.axes[0])
+
+
+def standing_place(d: Diagnosis) -> str:
+    """Where the unnamed mismatch stands that is a peak or a step; the number of a run where that is what passes."""
+    shape, rows = d.found.unknown.best, d.found.problem.rows
+    name, at = shape.axes[0], shape.at or 0.0
+    if name == "sequence":
+        off = np.where(rows[name] >= at, rows[name] - at, np.inf) if shape.form == "step" else np.abs(rows[name] - at)
+        return f"run {rows['run'][np.argmin(off)]:g}"
+    both = d.found.space.axes[d.found.space.place(name)].folded and at
+    return f"{words_of(name)} {amount(at, name)}{' in both directions' if both else ''}"
+
+
+def beyond(conditions: Mapping[str, float | str], recorded: Table) -> tuple[str, ...]:
+    """Which conditions of a test lie outside what was recorded; empty where none does.
+
+    >>> import numpy as np
+    >>> beyond({"speed_rpm": 4000.0, "torque_Nm": 50.0}, Table({"speed_rpm": np.array([500.0, 3000.0])}))
+    ('beyond the recorded range: speed 4000 rpm (recorded up to 3000 rpm)',)
+    """
+    off = []
+    for name, value in conditions.items():
+        if isinstance(value, str) or name not in recorded:
+            continue
+        low, high = float(recorded[name].min()), float(recorded[name].max())
+        if value > high:
+            off.append(f"{words_of(name)} {amount(value, name)} (recorded up to {amount(high, name)})")
+        elif value < low:
+            off.append(f"{words_of(name)} {amount(value, name)} (recorded down to {amount(low, name)})")
+    return (f"beyond the recorded range: {', '.join(off)}",) if off else ()

@@ -1,0 +1,125 @@
+"""The verdict in a few sentences, with what speaks against believing it."""
+
+from __future__ import annotations
+
+from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.fitting.problem import effects_of
+from mixedlub.diagnosis.recording.audit import SCARCE, Doubt
+from mixedlub.diagnosis.telling.labels import STAGE_WORDS, effect_words, explanation_words
+from mixedlub.effect import Effect
+
+MOST_TIED = 5
+LEAST_P = 1e-300
+
+
+def chance(p: float) -> str:
+    """A probability as it is said.
+
+    >>> chance(0.853), chance(0.9999), chance(0.001)
+    ('0.85', 'above 0.99', 'below 0.01')
+    """
+    if p > 0.994:
+        return "above 0.99"
+    return "below 0.01" if p < 0.006 else f"{p:.2f}"
+
+
+def p_words(p: float) -> str:
+    """The p-value of the mismatch test as it is said everywhere.
+
+    >>> p_words(0.0042), p_words(1e-304)
+    ('0.0042', 'below 1e-300')
+    """
+    return f"{p:.2g}" if p > LEAST_P else f"below {LEAST_P:.0e}"
+
+
+def doubts(d: Diagnosis) -> tuple[str, ...]:
+    """Warnings that question the whole answer, as they stand above it."""
+    return tuple(f"Caution: {text}." for text in d.warnings if isinstance(text, Doubt))
+
+
+def lesser(d: Diagnosis) -> tuple[str, ...]:
+    """The other warnings."""
+    return tuple(text for text in d.warnings if not isinstance(text, Doubt))
+
+
+def headline(d: Diagnosis) -> str:
+    """The verdict in one sentence; where readings are few, after one that says so."""
+    count = d.readings.size
+    said = _verdict(d)
+    return said if count >= SCARCE else f"Only {count} readings: take this as a hint, not as a finding. {said}"
+
+
+def _verdict(d: Diagnosis) -> str:
+    judged = d.posterior
+    if len(judged.tied) > 1:
+        named = [f"{explanation_words(judged.names(k))} ({chance(judged.weights[k])})" for k in judged.tied[:MOST_TIED]]
+        more = len(judged.tied) - MOST_TIED
+        rest = [f"{more} less probable one{'s' if more > 1 else ''}"] if more > 0 else []
+        if judged.verdict == ():
+            return (
+                f"No mismatch beyond noise: nothing needs to be missing ({chance(judged.weights[()])}). A tie all the "
+                f"same, for these readings are too few or too coarse to exclude {_listed([*named[1:], *rest], 'or')}."
+            )
+        return f"A tie: the readings cannot decide between {_listed([*named, *rest], 'and')}."
+    p = chance(judged.weights[judged.verdict])
+    if judged.verdict == ():
+        return f"Nothing is missing that these readings could show: the calibrated model explains them ({p})."
+    if judged.verdict == "unknown":
+        return f"Something is missing that the catalogue does not have (probability {p})."
+    assert not isinstance(judged.verdict, str)
+    effects = effects_of(judged.verdict)
+    free = [effect_words(e.id) for e in effects if is_free(e)]
+    physics = [effect_words(e.id) for e in effects if e.stage != "measurement" and not is_free(e)]
+    faults = [effect_words(e.id) for e in effects if e.stage == "measurement"]
+    if not physics and not free:
+        return f"No physics is missing; the instrument is at fault: {' and '.join(faults)} (probability {p})."
+    parts = [f"Missing physics: {' and '.join(physics)}"] if physics else []
+    if free:
+        parts.append(f"{'a' if parts else 'A'} change of free form, its cause not named: {' and '.join(free)}")
+    if faults:
+        parts.append(f"a fault of the instrument: {' and '.join(faults)}")
+    return f"{'; and '.join(parts)} (probability {p})."
+
+
+def is_free(e: Effect) -> bool:
+    """Whether an effect describes a history in a form that fits any, so that it names no cause."""
+    return e.source.startswith("empirical")
+
+
+def _listed(items: list[str], last: str) -> str:
+    """Items with semicolons, the last one joined by a word.
+
+    >>> _listed(["a", "b and c", "d"], "or")
+    'a; b and c; or d'
+    """
+    return items[0] if len(items) == 1 else f"{'; '.join(items[:-1])}; {last} {items[-1]}"
+
+
+def standing(d: Diagnosis) -> list[str]:
+    """What all tied explanations share, and whether physics or instrument."""
+    judged = d.posterior
+    said = []
+    named = [set(k) for k in judged.tied if not isinstance(k, str)]
+    common = set.intersection(*named) if len(named) == len(judged.tied) > 1 else set()
+    inclusion = judged.inclusion(d.found)
+    if common:
+        every = " and ".join(f"{effect_words(n)} ({chance(inclusion[n])})" for n in sorted(common))
+        said.append(f"In every one of them: {every}.")
+    stages = {name: p for name, p in judged.stages().items() if p >= 0.05}
+    if judged.verdict != () and stages:
+        ranked = sorted(stages.items(), key=lambda item: -item[1])
+        said.append("Where in the chain: " + ", ".join(f"{STAGE_WORDS[s]} {chance(p)}" for s, p in ranked) + ".")
+    return said
+
+
+def probability_words(d: Diagnosis, name: str) -> str:
+    """How probable one effect of the verdict is, and with what it was counted."""
+    key = d.posterior.verdict
+    assert not isinstance(key, str)
+    own, every = chance(d.posterior.weights[key]), chance(d.posterior.inclusion(d.found)[name])
+    if own == every:
+        return f"probability {every}"
+    if len(key) == 1:
+        return f"probability {own} alone, {every} alone or with a second effect"
+    beside = explanation_words([other for other in key if other != name])
+    return f"probability {own} together with {beside}, {every} in any company"

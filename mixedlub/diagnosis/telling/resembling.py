@@ -1,0 +1,74 @@
+"""What else it could be, in words: look-alikes, what was rejected, what these readings cannot show."""
+
+from __future__ import annotations
+
+from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.fitting.problem import effects_of
+from mixedlub.diagnosis.judging.confusion import Confusion
+from mixedlub.diagnosis.telling.labels import effect_words
+
+NEAR, ALIKE = 0.8, 0.95
+"""Cosine of two signatures from which they are near, and from which they have nearly the same form."""
+REJECTED = 0.01
+
+
+def resembling(d: Diagnosis, alike: Confusion) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Sentences, and the tests that separate what is tied."""
+    said = _resemblance(d, alike)
+    names = dict.fromkeys(name for key in d.posterior.tied if not isinstance(key, str) for name in key)
+    items = tuple(f"{effect_words(e.id)}: {e.separated_by}" for e in effects_of(tuple(names)))
+    if len(d.posterior.tied) < 2 or not items:
+        return said, ()
+    return (*said, "To separate them:"), items
+
+
+def _resemblance(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
+    judged = d.posterior
+    verdict = () if isinstance(judged.verdict, str) else judged.verdict
+    said, twins = [], set()
+    for name in verdict:
+        i = alike.ids.index(name)
+        near = {
+            other: float(alike.cosine[i, j])
+            for j, other in sorted(enumerate(alike.ids), key=lambda item: -alike.cosine[i, item[0]])
+            if other not in verdict and alike.cosine[i, j] > NEAR
+        }
+        twins |= {other for other, cosine in near.items() if cosine > ALIKE}
+        if near:
+            listed = ", ".join(f"{effect_words(other)} ({cosine:.2f})" for other, cosine in list(near.items())[:3])
+            said.append(
+                f"Its signature at these conditions is nearest to that of {listed} "
+                f"(1 would be the same; {effect_words(name)})."
+            )
+    unseen = unshown(d, alike)
+    improbable = [name for name in _improbable(d) if name not in unseen]
+    rejected = ", ".join(effect_words(name) for name in improbable if name not in twins)
+    if rejected:
+        said.append(f"Weighed and rejected (probability below {REJECTED:g} each): {rejected}.")
+    close = ", ".join(effect_words(name) for name in improbable if name in twins)
+    if close:
+        said.append(
+            f"Improbable, but by size and strain rather than by form, for the signature is nearly the same: {close}."
+        )
+    if unseen:
+        said.append(
+            "Not testable here (below 3 sigma at usual strength once calibration adapts), so neither named nor "
+            f"excluded: {', '.join(effect_words(name) for name in unseen)}."
+        )
+    return tuple(said)
+
+
+def unshown(d: Diagnosis, alike: Confusion) -> list[str]:
+    """Effects outside the tied explanations that these readings would not show at usual strength."""
+    told = {name for key in d.posterior.tied if not isinstance(key, str) for name in key}
+    return [name for name in alike.unseen() if name not in told]
+
+
+def _improbable(d: Diagnosis) -> list[str]:
+    """Improbable effects on what the answer changes; faults of the channel unless single readings have one."""
+    if isinstance(d.posterior.verdict, str):
+        return []
+    changed = {quantity for e in effects_of(d.posterior.verdict) for quantity in e.acts_on}
+    changed = changed - {"reading"} if d.outlier_runs else changed | {"reading"}
+    weighed = {name: p for name, p in d.posterior.inclusion(d.found).items() if name not in ("none", "unknown")}
+    return [e.id for e in effects_of(tuple(weighed)) if weighed[e.id] < REJECTED and changed & set(e.acts_on)]

@@ -1,0 +1,287 @@
+"""The answer in plain words, on one page: the same sentences in the text and on the page."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.drawing.maps import missing, residuals
+from mixedlub.diagnosis.fitting.fit import outlier_chance
+from mixedlub.diagnosis.fitting.problem import effects_of
+from mixedlub.diagnosis.judging.confusion import confusion
+from mixedlub.diagnosis.judging.posterior import names_effects
+from mixedlub.diagnosis.telling.advice import next_test, standing_place, wave_period
+from mixedlub.diagnosis.telling.headline import doubts, headline, lesser, p_words, probability_words, standing
+from mixedlub.diagnosis.telling.labels import (
+    STAGE_WORDS,
+    effect_words,
+    explanation_words,
+    number,
+    range_text,
+    with_names,
+    words_of,
+)
+from mixedlub.diagnosis.telling.readings import checked_channel, outliers, reading_conditions, steadied_noise
+from mixedlub.diagnosis.telling.resembling import resembling
+from mixedlub.diagnosis.telling.tables import calibration, parameters
+from mixedlub.diagnosis.unnamed.carriers import NOTHING, READING
+from mixedlub.diagnosis.unnamed.empirical import Absorbed, Unnamed
+from mixedlub.effect import Effect
+from mixedlub.report.plain import plain_equation
+
+WIDTH = 88
+REFITTED = "Parameters were refitted without each level; what the answer is was settled with all of them."
+ANSWER = "Answer"
+MISMATCH = "Is there a mismatch beyond noise and calibration?"
+WHERE = "Where?"
+SPREAD = (
+    "The model without it has the answer's calibration here. “Before” in the figures is another one: the base model "
+    "calibrated as if nothing were missing. That spreads its shortfall over all conditions, so that signs there may "
+    "differ from these."
+)
+TURNED = 0.2
+"""Share of readings whose sign in the figures is another one, from which that is explained."""
+EVEN = 0.3
+"""Share that stays of a mismatch when its signs cancel, below which neither sign is told."""
+WORTH = 0.5
+"""Share of an unnamed mismatch from which the effects that take it up are told."""
+SECOND = 0.1
+"""Share of a mismatch that a second effect has to take up to be told."""
+TIMES = 3.0
+"""Share of the reading from which it is told as a multiple."""
+LEFT_OUT = "What was left out?"
+BEST_TIED = "What was left out? Best of the tied candidates"
+UNNAMED = "If it is something unknown"
+ALIKE = "What else could it be?"
+GAIN = "How much better is it on conditions it did not fit?"
+NATS = (
+    "A nat is a factor 2.7 in the odds: below about 3 nats these readings do not tell the quantities apart, and the "
+    "two answers may name different ones."
+)
+CHECK = "Does a channel that was not fitted agree?"
+OUTLIERS = "Outlier readings"
+CALIBRATION = "What calibration was moved to"
+NEXT = "Next test"
+
+
+@dataclass(frozen=True)
+class Section:
+    """A question, the sentences that answer it, and a table (first row its head) where numbers are asked for.
+
+    ``heading`` stands over it where the bare question would mislead, ``alarms`` above the first sentence; ``items``
+    are a list that the last sentence announces.
+    """
+
+    title: str
+    sentences: tuple[str, ...]
+    table: tuple[tuple[str, ...], ...] = ()
+    heading: str = ""
+    alarms: tuple[str, ...] = ()
+    items: tuple[str, ...] = ()
+
+
+def sections(d: Diagnosis, unnamed: Unnamed | None = None) -> list[Section]:
+    """The whole answer, question by question."""
+    resemblance, separating = resembling(d, confusion(d.found))
+    found = [
+        Section(ANSWER, (headline(d), *standing(d)), alarms=doubts(d)),
+        Section(MISMATCH, (*_mismatch(d), *steadied_noise(d))),
+        Section(WHERE, _where(d)),
+        _left_out(d),
+        *([_unnamed(d, unnamed)] if unnamed is not None else []),
+        Section(ALIKE, resemblance, items=separating),
+        Section(GAIN, _gain(d)),
+        Section(CHECK, checked_channel(d)),
+        Section(OUTLIERS, *outliers(d)),
+        Section(CALIBRATION, *calibration(d)),
+        Section(NEXT, next_test(d)),
+        Section("Warnings", lesser(d)),
+    ]
+    return [s for s in found if s.sentences or s.table or s.items]
+
+
+def as_text(title: str, parts: Iterable[Section]) -> str:
+    """Sections as plain text, wrapped."""
+    lines = [title, "=" * len(title)]
+    for part in parts:
+        lines += ["", (part.heading or part.title).upper()]
+        for sentence in (*part.alarms, *part.sentences):
+            lines += _wrapped(sentence, "  ") or [""]
+        for item in part.items:
+            lines += _wrapped(item, "  - ")
+        if part.table:
+            widths = [max(len(row[i]) for row in part.table) for i in range(len(part.table[0]))]
+            lines += [
+                "    " + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+                for row in part.table
+            ]
+    return "\n".join(lines) + "\n"
+
+
+def _wrapped(text: str, start: str) -> list[str]:
+    return textwrap.wrap(text, WIDTH, initial_indent=start, subsequent_indent=" " * len(start), break_long_words=False)
+
+
+def _mismatch(d: Diagnosis) -> tuple[str, ...]:
+    test = d.test
+    alarm = f"This test is wrong in {100 * test.level:g} % of the cases in which nothing is missing."
+    kept = d.outlier_chance <= 0.5
+    squares = d.found.none.residual**2
+    strain = float(d.found.none.z @ d.found.none.z)
+    without = "" if kept.all() else ", outliers left out"
+    left = number(float(squares[kept].sum()) + strain)
+    chi2 = f"chi-square {left} for {int(kept.sum())} readings after calibration{without}"
+    if not np.isclose(test.chi2_before, squares.sum() + strain):
+        chi2 = f"chi-square {number(test.chi2_before)} for {test.rows} readings with the noise that this would need"
+    size = p_words(test.p_value)
+    size = f"p {size}" if size.startswith("below") else f"p = {size}"
+    if test.detected:
+        return (f"Yes ({size}; {chi2}).", alarm)
+    return (f"None that can be told from noise ({size}; {chi2}).", alarm)
+
+
+def _where(d: Diagnosis) -> tuple[str, ...]:
+    if d.posterior.verdict == ():
+        return ()
+    z = np.where(d.outlier_chance > 0.5, 0.0, d.recorded.mismatch_z)
+    inside = np.ones(z.size, bool)
+    for cut in d.region.where:
+        column = d.recorded.table[cut["column"]]
+        inside &= (
+            np.isin(column, cut["values"]) if "values" in cut else (column >= cut["low"]) & (column <= cut["high"])
+        )
+    place = ", ".join(range_text(cut) for cut in d.region.where) or "everywhere"
+    part = missing(d)[1] / np.maximum(np.abs(d.recorded.predicted), 1e-300)
+    share = float(np.median(np.abs(part[inside])))
+    size = f"{number(100 * share)} % of the reading" if share < TIMES else f"{number(share)} times the reading"
+    way = float(np.sum(z[inside]) / max(np.sum(np.abs(z[inside])), 1e-300))
+    sign = "now more and now less" if abs(way) < EVEN else "more" if way > 0.0 else "less"
+    said = [
+        f"Above all at {place}: there the rig reads {sign} than the model without it, by {_rms(z[inside]):.1f} sigma "
+        f"(rms), {size} in the median."
+        if d.region.where
+        else f"Everywhere: the rig reads {sign} than the model without it, by {_rms(z):.1f} sigma (rms), "
+        f"{size} in the median."
+    ]
+    if (~inside).any():
+        said.append(f"Elsewhere {_rms(z[~inside]):.1f} sigma.")
+    most = int(np.argmax(np.abs(z)))
+    said.append(
+        f"Largest at run {int(d.recorded.table['run'][most])} ({reading_conditions(d, most)}): {z[most]:+.1f} sigma."
+    )
+    turned = np.sign(residuals(d)[0]) != np.sign(z)
+    return (*said, SPREAD) if turned.mean() > TURNED else tuple(said)
+
+
+def _rms(values: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
+
+
+def _left_out(d: Diagnosis) -> Section:
+    judged = d.posterior
+    if isinstance(judged.verdict, str) or judged.verdict == ():
+        return Section(LEFT_OUT, ())
+    sentences: list[str] = []
+    for e in effects_of(judged.verdict):
+        sentences += [
+            f"{with_names(effect_words(e.id))}, {probability_words(d, e.id)}, in {STAGE_WORDS[e.stage]}: {e.summary}",
+            equation_sentence(e),
+            f"Source: {e.source}",
+            *(c.text for c in d.contained if c.effect == e.id),
+            f"To make sure: {e.separated_by}.",
+        ]
+    untold, table = parameters(d)
+    return Section(LEFT_OUT, (*sentences, *untold), table, heading=BEST_TIED if len(judged.tied) > 1 else "")
+
+
+def equation_sentence(e: Effect) -> str:
+    """The equation of an effect as a sentence of the text."""
+    return f"Equation: {plain_equation(e.equation)}"
+
+
+def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
+    law = unnamed.law
+    shape = d.found.unknown.best
+    along = " and ".join(words_of(name) for name in shape.axes) or "all conditions together"
+    said = [f"Of all forms tried, the most probable {_form(d, along)}."]
+    said += nearest_name(d)
+    if unnamed.stages:
+        best, *others = unnamed.stages
+        worse = [f"{words_of(o.quantity)} {best.evidence - o.evidence:.1f} nats worse" for o in others[:3]]
+        said.append(
+            "Another question is which quantity could take it up if a factor there were free to vary with every "
+            f"condition: best {words_of(best.quantity)}{_stage(best)}{'; ' if worse else ''}{'; '.join(worse)}."
+        )
+        if worse:
+            said.append(NATS)
+    if law is None:
+        said.append(
+            "No simple law: no power law of conditions or film quantities predicts levels it was not fitted to."
+        )
+    else:
+        said.append(
+            f"Shortest form found, empirical (a description, not physics): {law.text}. On whole levels left out "
+            f"the error falls from {law.heldout_before:.2f} to {law.heldout_after:.2f} sigma."
+        )
+    return Section(UNNAMED, tuple(said))
+
+
+def _form(d: Diagnosis, along: str) -> str:
+    """The most probable form of a mismatch without a name, as a predicate."""
+    shape = d.found.unknown.best
+    if shape.form == "smooth":
+        return f"varies smoothly with {along}, as {_carried(shape.carrier)}"
+    if shape.form == "wave":
+        return f"is a wave with a period of {wave_period(d)} in {along}"
+    return f"is a {shape.form} at {standing_place(d)}, as {_carried(shape.carrier)}"
+
+
+def nearest_name(d: Diagnosis) -> list[str]:
+    """Which effects of the catalogue take up most of a mismatch that has no name; nothing where some are tied."""
+    found = d.found
+    if found.unknown.best.form == "wave" or any(names_effects(key) for key in d.posterior.tied):
+        return []
+    good = outlier_chance(found.unknown.fit.residual) <= 0.5
+    left = {key: float(np.sum(fit.residual[good] ** 2)) for key, fit in found.fits.items()}
+    most = left[()] - float(np.sum(found.unknown.fit.residual[good] ** 2))
+    names = [key for key in left if key and left[key] < left[()]]
+    if most <= 0.0 or not names:
+        return []
+    # One effect is named unless a second takes up a good part of what it leaves.
+    nearest = min(names, key=lambda key: left[key] + SECOND * most * (len(key) - 1))
+    taken = min((left[()] - left[nearest]) / most, 1.0)
+    if taken < WORTH:
+        return ["No effect of the catalogue takes up a half of it."]
+    return [
+        f"Nearest in the catalogue: {explanation_words(list(nearest))}, with {100 * taken:.0f} % of it taken up "
+        f"(chi-square {number(left[()])} to {number(left[nearest])} for {int(good.sum())} readings); the rest has "
+        "another form."
+    ]
+
+
+def _carried(carrier: str) -> str:
+    outside = {READING: "a share of the reading", NOTHING: "an addition to the reading"}
+    return outside.get(carrier, f"a factor on {words_of(carrier)}")
+
+
+def _stage(found: Absorbed) -> str:
+    stage = STAGE_WORDS[found.stage]
+    return "" if stage == words_of(found.quantity) else f" ({stage})"
+
+
+def _gain(d: Diagnosis) -> tuple[str, ...]:
+    kept = d.heldout
+    split = kept.split
+    for axis in d.found.space.axes:
+        split = split.replace(axis.name, words_of(axis.name))
+    how = f"({split}, {kept.folds} folds; 1 is noise)"
+    if d.posterior.verdict == ():
+        return (f"Calibration alone predicts left-out levels to {kept.before:.2f} sigma {how}.",)
+    change = f"from {kept.before:.2f} sigma with calibration alone to {kept.after:.2f} sigma with the answer {how}."
+    if kept.after > 0.95 * kept.before:
+        return (f"Not better: {change} Do not extrapolate it.", REFITTED)
+    return (f"{change[:1].upper()}{change[1:]}", REFITTED)
