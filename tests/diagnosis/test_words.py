@@ -224,7 +224,7 @@ def test_calibration_says_what_is_a_factor_and_what_a_value(complete: Diagnosis)
     meanings = [row[-1] for row in section(complete, words.CALIBRATION).table[1:]]
     assert meanings[0].startswith("value: ")
     assert all(text.startswith("factor on ") for text in meanings[1:])
-    assert "1 sd is the uncertainty that the case states" in told(complete)[words.CALIBRATION]
+    assert "1 sd is the uncertainty of the input, stated by the case" in told(complete)[words.CALIBRATION]
 
 
 def test_bits_and_nats_are_explained(offset: Diagnosis, unnamed: Diagnosis) -> None:

@@ -92,9 +92,16 @@ def recorded_against_simulated(d: Diagnosis) -> Figure:
         top.tick_params(labelbottom=False)
         foot.axhspan(-2, 2, color=GRID, lw=0)
         foot.scatter(simulated[good], np.clip(z[good], -reach, reach), s=9, color=colour, alpha=0.75, linewidths=0)
-        foot.scatter(
-            simulated[bad], np.clip(z[bad], -reach, reach), s=22, facecolors="none", edgecolors=OUTLIER, linewidths=1.1
-        )
+        for marker, there in (("o", np.abs(z) <= reach), ("^", z > reach), ("v", z < -reach)):
+            foot.scatter(
+                simulated[bad & there],
+                np.clip(z[bad & there], -reach, reach),
+                s=22,
+                marker=marker,
+                facecolors="none",
+                edgecolors=OUTLIER,
+                linewidths=1.1,
+            )
         foot.set_ylim(-1.08 * reach, 1.08 * reach)
         foot.set_xlabel(f"simulated {axis_label(d.case.quantity)}")
         rms = float(np.sqrt(np.mean(z[~bad] ** 2)))
@@ -139,6 +146,7 @@ def _legend(axes: Axes, outliers: bool) -> None:
     ]
     if outliers:
         marks.append(Line2D([], [], ls="", marker="o", mfc="none", mec=OUTLIER, label="outlier, counted for little"))
+        marks.append(Line2D([], [], ls="", marker="^", mfc="none", mec=OUTLIER, label="the same, beyond the scale"))
     axes.legend(handles=marks, loc="upper left")
 
 
@@ -277,6 +285,9 @@ def intervals(d: Diagnosis) -> Figure:
     unit = "%" if percent else unit_of(d.case.quantity) or "-"
     axes.set_ylabel(f"recorded − predicted ({unit})")
     axes.set_xlabel(f"reading, sorted by predicted {words_of(d.case.quantity)}")
-    axes.set_title(f"{int(inside[~bad].sum())} of {int((~bad).sum())} readings inside", fontweight="normal")
+    good = d.outlier_chance <= 0.5
+    held = int((good & (y >= p.low90) & (y <= p.high90)).sum())
+    drawn = f", {order.size} of them drawn" if order.size < y.size else ""
+    axes.set_title(f"{held} of {int(good.sum())} readings inside{drawn}", fontweight="normal")
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=5, columnspacing=1.2, handletextpad=0.4)
     return figure

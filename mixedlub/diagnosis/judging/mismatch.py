@@ -22,7 +22,8 @@ UNSURE = 10.0
 class Mismatch:
     """Outcome of the test; ``statistic`` is the mean log Bayes factor of all alternatives against none.
 
-    ``unfollowed`` says that readings scatter more than noise can about whatever was tried.
+    ``unfollowed`` says that readings scatter more than noise can about whatever was tried, ``lenient`` that the
+    p-value is that under the noise which nothing missing would need itself.
     """
 
     detected: bool
@@ -32,6 +33,7 @@ class Mismatch:
     rows: int
     statistic: float
     unfollowed: bool = False
+    lenient: bool = False
 
 
 def judged_weight(found: Search) -> np.ndarray:

@@ -38,8 +38,7 @@ CAPTIONS = {
         WHERE,
         "Residuals over the test conditions; the tiles of a block are the readings taken there (surfaces and the "
         "other conditions, in the same order everywhere). Red: the rig reads more than simulated; grey "
-        "with a cross: outlier. Before: calibrated as if nothing were missing, which spreads the shortfall over all "
-        "conditions; the text above keeps the answer's calibration instead, so that signs may differ.",
+        "with a cross: outlier.",
     ),
     "roll_angle_map": (
         WHERE,
@@ -73,6 +72,10 @@ CAPTIONS = {
     "next_test": (NEXT, "Where the recommended tests lie among the recorded conditions, and what each would tell."),
 }
 """Section and caption of each figure."""
+SPREADS = (
+    " Before: calibrated as if nothing were missing, which spreads the shortfall over all conditions; the text above "
+    "keeps the answer's calibration instead, so that signs may differ."
+)
 
 
 @dataclass(frozen=True)
@@ -94,7 +97,8 @@ def render(d: Diagnosis, parts: Iterable[Section], drawings: Mapping[str, str]) 
     pictures: dict[str, list[Picture]] = defaultdict(list)
     for name, (section, caption) in CAPTIONS.items():
         if name in drawings:
-            pictures[section].append(Picture(Markup(inline(drawings[name], name)), caption))
+            more = SPREADS if name == "residual_map" and d.posterior.verdict != () else ""
+            pictures[section].append(Picture(Markup(inline(drawings[name], name)), caption + more))
     return template.render(
         title=f"{d.case.name}: what the simulation leaves out",
         case=d.case.name,

@@ -44,7 +44,8 @@ def _resemblance(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
     improbable = [name for name in _improbable(d) if name not in unseen]
     rejected = ", ".join(effect_words(name) for name in improbable if name not in twins)
     if rejected:
-        said.append(f"Weighed and rejected (probability below {REJECTED:g} each): {rejected}.")
+        why = "Weighed and rejected" if verdict or judged.verdict == "unknown" else "Would show here, and did not"
+        said.append(f"{why} (probability below {REJECTED:g} each): {rejected}.")
     close = ", ".join(effect_words(name) for name in improbable if name in twins)
     if close:
         said.append(
@@ -65,10 +66,9 @@ def unshown(d: Diagnosis, alike: Confusion) -> list[str]:
 
 
 def _improbable(d: Diagnosis) -> list[str]:
-    """Improbable effects on what the answer changes; faults of the channel unless single readings have one."""
-    if isinstance(d.posterior.verdict, str):
-        return []
-    changed = {quantity for e in effects_of(d.posterior.verdict) for quantity in e.acts_on}
-    changed = changed - {"reading"} if d.outlier_runs else changed | {"reading"}
+    """Improbable effects; faults of the channel are none of them where single readings have one."""
     weighed = {name: p for name, p in d.posterior.inclusion(d.found).items() if name not in ("none", "unknown")}
-    return [e.id for e in effects_of(tuple(weighed)) if weighed[e.id] < REJECTED and changed & set(e.acts_on)]
+    faulty = bool(d.outlier_runs)
+    return [
+        e.id for e in effects_of(tuple(weighed)) if weighed[e.id] < REJECTED and not (faulty and "reading" in e.acts_on)
+    ]

@@ -88,7 +88,8 @@ def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Table]:
             strained.append(name)
     said = [f"Strained: {', '.join(strained)} more than {STRAINED:g} sd from what was stated."] if strained else []
     said.append(
-        "1 sd is the uncertainty that the case states for the input: within 2 sd it was moved no further than expected."
+        "1 sd is the uncertainty of the input, stated by the case or assumed where it states none: within 2 sd it was "
+        "moved no further than expected."
     )
     return tuple(said), tuple(table)
 
