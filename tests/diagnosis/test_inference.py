@@ -102,6 +102,14 @@ def test_very_many_readings_give_the_answer_of_all(monkeypatch: pytest.MonkeyPat
     assert thinned.fits[best].evidence == pytest.approx(all_rows.fits[best].evidence, abs=0.5)
 
 
+@pytest.mark.parametrize("count", [1201, 2899, 20500])
+def test_a_spread_of_very_many_readings_has_each_once_and_every_level(count: int) -> None:
+    levels = np.arange(count) % 4
+    rows = searching.spread_rows([np.linspace(0.0, 1.0, count), levels.astype(float)], count)
+    assert np.unique(rows).size == searching.SPREAD
+    assert np.unique(levels[rows]).size == 4
+
+
 def test_rows_without_a_coating_know_the_effect_of_one() -> None:
     """A level left out may hold all readings on coated flanks, or none."""
     p = problem("disc")

@@ -127,10 +127,10 @@ def search(
 def spread_rows(values: list[np.ndarray], count: int) -> np.ndarray:
     """A share of the rows that covers the conditions evenly."""
     order = np.lexsort(values[::-1]) if values else np.arange(count)
-    edges = np.linspace(0, count, SPREAD + 1)
+    edges = np.linspace(0, count, SPREAD + 1).astype(int)
     # One of each stretch at random: every so many would go round with the levels of a condition.
-    at = edges[:-1] + np.random.default_rng(SEED).random(SPREAD) * np.diff(edges)
-    return np.sort(order[at.astype(int)])
+    at = np.random.default_rng(SEED).integers(edges[:-1], edges[1:])
+    return np.sort(order[at])
 
 
 def priors(effects: int) -> tuple[float, float, float]:

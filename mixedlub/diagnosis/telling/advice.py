@@ -31,6 +31,8 @@ def next_test(d: Diagnosis) -> tuple[str, ...]:
             place = standing_place(d)
         else:
             place = ", ".join(range_text(cut) for cut in d.region.where) or "all conditions"
+        if set(d.found.unknown.best.axes) <= set(PASSING) and d.found.unknown.best.axes:
+            return ("It goes with time alone: run the programme again, in another order, and see whether it returns.",)
         return (f"To learn its form, refine and repeat the levels around {place}.",)
     if not d.next_tests:
         return ("No useful test: there is no second explanation to tell the first one from.",)
