@@ -102,7 +102,9 @@ def _sds_told(table: Table, name: str, path: Path) -> Table:
     if told.all():
         return table
     if not told.any():
-        raise InputError("no cell says how much a reading scatters; leave the column out", where=f"{path}: {name}")
+        note = f"{path.name}: {name} is 0 or left out everywhere: it says nothing of how much a reading scatters"
+        warnings.warn(note, CaseWarning, stacklevel=2)
+        return Table({k: v for k, v in table.columns.items() if k != name}, table.source)
     runs = ", ".join(str(run) for run in table["run"][~told][:SHOWN].tolist())
     more = f" and {int((~told).sum()) - SHOWN} more" if (~told).sum() > SHOWN else ""
     middle = float(np.median(table[name][told]))

@@ -14,7 +14,8 @@ from mixedlub.diagnosis.fitting.fit import outlier_chance
 from mixedlub.diagnosis.fitting.problem import Problem
 from mixedlub.diagnosis.fitting.scatter import beyond_noise, scaled, shown, stated_or_more, under_its_own
 from mixedlub.diagnosis.fitting.search import MANY, Progress, Search, search, spread_rows
-from mixedlub.diagnosis.judging.doubts import against, scatter_notes
+from mixedlub.diagnosis.fitting.sudden import sudden_places
+from mixedlub.diagnosis.judging.doubts import against, scatter_notes, unsure_odds
 from mixedlub.diagnosis.judging.heldout import HeldOut, LevelsOut
 from mixedlub.diagnosis.judging.location import Region, region
 from mixedlub.diagnosis.judging.mismatch import Mismatch, mismatch_test
@@ -115,6 +116,7 @@ def diagnose_case(
     laws = contained(found, judged.verdict)
     tests = _next_tests(found, judged, refined, columns, varied)
     at_one_place = judged.verdict == "unknown" and found.unknown.best.at is not None
+    warnings += unsure_odds(judged)
     warnings += against(judged.verdict, kept, rows, y, recorded.predicted, chance > 0.5, at_one_place)
     if not isinstance(judged.verdict, str):
         warnings += beyond_range(found.problem, judged.verdict, refined[judged.verdict].z)
@@ -204,8 +206,10 @@ def _judged(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
             rest = min(demerits.values())
             demerits = {key: demerits.get(key, rest) for key in names}
         judged = posterior(found, test, demerits | unnamed)
-        if judged.verdict in tried:
-            judged = posterior(found, test, demerits | unnamed, tried[judged.verdict][0].inflation)
+        first = judged.verdict
+        # What stands at one place is not for other levels to foretell.
+        if first in tried and not isinstance(first, str) and not sudden_places(found.problem, first):
+            judged = posterior(found, test, demerits | unnamed, tried[first][0].inflation)
         if names and "unknown" in judged.tied and not unnamed:
             tried.setdefault(names[0], _held_against(levels, found, names[0]))
             unnamed = {"unknown": _held_against(levels, found, "unknown")[0].behind(tried[names[0]][0])}

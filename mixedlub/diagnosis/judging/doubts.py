@@ -7,7 +7,7 @@ import numpy as np
 from mixedlub.diagnosis.fitting.scatter import CLEAR, MOST, more, quiet
 from mixedlub.diagnosis.fitting.search import Search
 from mixedlub.diagnosis.judging.heldout import HeldOut
-from mixedlub.diagnosis.judging.posterior import Key, names_effects
+from mixedlub.diagnosis.judging.posterior import Key, Posterior
 from mixedlub.diagnosis.recording.audit import Doubt
 from mixedlub.diagnosis.recording.features import PASSING
 from mixedlub.headers import unit_of
@@ -76,12 +76,6 @@ def against(
             f"the {len(streak)} readings from run {streak[0]} to run {streak[-1]} count as wrong, follow one another "
             "and lie on the same side: that is no chance, and the answer leaves it out"
         )
-    if names_effects(verdict) and kept.inflation >= WORTH_TELLING:
-        found.append(
-            f"levels left out lie {np.sqrt(kept.inflation):.2g} times as far off as noise and the other levels leave "
-            "open: even the best explanation is not the whole of it, so the odds between explanations were taken as "
-            "less sure"
-        )
     if verdict != () and not at_one_place and kept.score < kept.score_before:
         answer = "the unnamed mismatch" if verdict == "unknown" else "the answer"
         found.append(
@@ -89,6 +83,19 @@ def against(
             "rely on neither"
         )
     return [Doubt(text) for text in found]
+
+
+def unsure_odds(judged: Posterior) -> list[str]:
+    """That the odds were taken as less sure, where levels left out asked for it clearly."""
+    if judged.inflation < WORTH_TELLING:
+        return []
+    times = np.sqrt(judged.inflation)
+    return [
+        Doubt(
+            f"levels left out lie {times:.2g} times as far off as noise and the other levels leave open: even the best "
+            "explanation is not the whole of it, so the odds between effects were taken as less sure"
+        )
+    ]
 
 
 def in_a_row(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[int]:

@@ -26,11 +26,15 @@ def names_effects(key: Key) -> bool:
 
 @dataclass(frozen=True)
 class Posterior:
-    """Probability of every explanation, the verdict first; ``unknown`` is keyed by its name, none by ()."""
+    """Probability of every explanation, the verdict first; ``unknown`` is keyed by its name, none by ().
+
+    Log odds between names were taken as ``inflation`` times smaller than the readings give them.
+    """
 
     weights: Mapping[Key, float]
     verdict: Key
     tied: tuple[Key, ...]
+    inflation: float = 1.0
 
     def names(self, key: Key) -> list[str]:
         """The explanation as the answer writes it."""
@@ -74,14 +78,19 @@ def posterior(
     The evidence ranks the explanations, less the ``demerits`` of those that failed on levels left out. Where it
     and the test disagree on "none", its weight is moved just far enough that the most probable explanation agrees
     with the test. What scatters more than noise can, and follows nothing, is something unnamed. Where even the best
-    leaves readings ``inflation`` times their variance off, they tell the explanations apart by that much less.
+    name leaves readings ``inflation`` times their variance off, they tell names apart by that much less; what the
+    names have together stays.
     """
-    log = {}
-    for key, value in found.log_weights.items():
-        told = found.unknown.evidence if isinstance(key, str) else found.scores[key]
-        log[key] = value + told * (1.0 / inflation - 1.0)
+    log: dict[Key, float] = dict(found.log_weights)
     for key, demerit in (demerits or {}).items():
-        log[key] -= demerit / inflation
+        log[key] -= demerit
+    names = [key for key in log if names_effects(key)]
+    if names and inflation > 1.0:
+        told = {k: found.scores[k] - (demerits or {}).get(k, 0.0) for k in names if not isinstance(k, str)}
+        together = float(np.logaddexp.reduce([log[key] for key in names]))
+        log |= {key: log[key] + value * (1.0 / inflation - 1.0) for key, value in told.items()}
+        back = together - float(np.logaddexp.reduce([log[key] for key in names]))
+        log |= {key: log[key] + back for key in names}
     if test.unfollowed and log[()] > log["unknown"]:
         log[()], log["unknown"] = log["unknown"], log[()]
     others = [value for key, value in log.items() if key != ()]
@@ -95,4 +104,4 @@ def posterior(
     weights = {key: float(np.exp(v - top) / total) for key, v in sorted(log.items(), key=lambda item: -item[1])}
     verdict = next(iter(weights))
     tied = tuple(key for key, w in weights.items() if w >= TIE * weights[verdict])
-    return Posterior(weights, verdict, tied)
+    return Posterior(weights, verdict, tied, inflation)

@@ -38,7 +38,7 @@ def is_stated(case: Case, rows: Table) -> bool:
 def with_noise(case: Case, relative: float, absolute: float) -> Case:
     """The case with other noise of a single reading than it states."""
     noise = (case.system.recording.noise or config.Noise()).model_copy(
-        update={"relative": relative, "absolute": absolute}
+        update={"relative": float(relative), "absolute": float(absolute)}
     )
     recording = case.system.recording.model_copy(update={"noise": noise})
     return replace(case, system=case.system.model_copy(update={"recording": recording}))
