@@ -99,18 +99,6 @@ def unrolled(values: np.ndarray, logarithmic: bool, folded: float) -> np.ndarray
     return np.log(np.maximum(values, LEAST)) if logarithmic else values
 
 
-def evenly_passing(name: str, levels: np.ndarray) -> bool:
-    """Whether a condition is one that passes by itself and was read at intervals that are more alike than their ratios.
-
-    >>> evenly_passing("time_s", np.arange(1.0, 61.0)), evenly_passing("time_s", np.geomspace(1.0, 60.0, 9))
-    (True, False)
-    """
-    if name not in PASSING or levels[0] <= 0.0:
-        return name in PASSING
-    unlike = [np.ptp(np.quantile(d, [0.1, 0.9])) / np.median(d) for d in (np.diff(levels), np.diff(np.log(levels)))]
-    return bool(unlike[0] <= unlike[1])
-
-
 def is_held(name: str, levels: np.ndarray) -> bool:
     """Whether a condition was held: it spans next to nothing of its size.
 
@@ -212,7 +200,7 @@ def coordinates(case: Case, table: Table, forward: Forward) -> Coordinates:
         if levels.dtype.kind in "US":
             axes.append(Coordinate(name, levels))
             continue
-        logarithmic = bool(levels[0] > 0 and levels[-1] / levels[0] > 3.0 and not evenly_passing(name, levels))
+        logarithmic = bool(levels[0] > 0 and levels[-1] / levels[0] > 3.0 and name != "sequence")
         both = levels[0] < 0.0 < levels[-1] and name not in PASSING
         folded = float(np.abs(levels[levels != 0.0]).min()) if both else 0.0
         x = unrolled(levels, logarithmic, folded)
