@@ -33,8 +33,11 @@ from mixedlub.table import Column, Table
 from profiles.errors import InputError
 
 AVERAGED = 6
+"""Explanations whose predictions are averaged, at most."""
 SMALL = 2e-3
+"""Probability below which an explanation adds nothing to a prediction that could be seen."""
 CANDIDATES = 6
+"""Names held against levels left out, at most: each costs as many fits as there are levels."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,10 +11,13 @@ from mixedlub.diagnosis.fitting.problem import REACH, Explanation, Problem
 from mixedlub.forward import Run
 
 OUTLIER_SHARE = 0.01
+"""Readings that are wrong before anything is known of them: one in a hundred, as rigs that are looked after have."""
 OUTLIER_WIDTH = 10.0
+"""Half-width of the wrong ones in sigmas: clearly beyond noise, or it would be noise."""
 BOUND = 5.0
 """Usual residuals beyond which a reading is bounded while a fit is still far off."""
 PARTS = (1.0, 0.5, 0.25, 0.1, 0.0)
+"""Parts of the way to the coordinates of linearised laws that are tried."""
 _LOG_IN = np.log1p(-OUTLIER_SHARE)
 _LOG_OUT = np.log(OUTLIER_SHARE / OUTLIER_WIDTH * np.sqrt(2.0 / np.pi))
 

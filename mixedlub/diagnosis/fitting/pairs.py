@@ -11,6 +11,7 @@ from mixedlub.diagnosis.fitting.problem import Explanation, Problem
 from mixedlub.diagnosis.fitting.starts import Sampled
 
 LEADERS = 8
+"""Effects that pairs are formed with: a pair of which neither leads alone is found by drawing both together."""
 PAIRS, BOUNDED_PAIRS, JOINT_PAIRS = 30, 8, 10
 
 

@@ -17,9 +17,13 @@ Explanation = tuple[str, ...]
 """Effect ids in order; empty for "none"."""
 
 STEP = 1e-4
+"""Step of the differences, in prior standard deviations: far above rounding, far below what laws curve by."""
 REACH = 4.5
+"""Largest coordinate, in prior standard deviations: beyond it a prior says never."""
 LEAST = 1e-30
+"""Smallest prediction whose logarithm is taken."""
 TRIFLE = 0.1
+"""Share of its reading below which a prediction is no size to take noise by."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,10 +21,13 @@ SIZES = np.geomspace(0.3, 3.0, 13)
 CLEAR = 8.0
 """Gain in log probability from which stated noise is not believed; under nothing but noise it stays below 3."""
 ROUNDS = 4
+"""Times the noise is raised at most: fits under too little noise follow it, so one step seldom suffices."""
 SMALLEST = 1e-304
+"""Smallest p-value: what a number of the answer can still hold."""
 MOST = 4.0
 """How many times the stated noise a rig may have: what scatters more is no noise, though nothing follows it."""
 UNLIKELY = 1e-3
+"""Chance of repeats that scatter as little as these under the noise that bounds it."""
 QUIETER, STEPS = 0.7, 5
 """Noise that a smooth fit leaves over holds what the fit does not follow: by how much it is lowered, how often."""
 ENOUGH = 10

@@ -17,6 +17,7 @@ from mixedlub.diagnosis.recording.features import Coordinates
 from mixedlub.diagnosis.unnamed.unknown import Unknown, unknown_fit
 
 PRIOR = {"none": 0.42, "single": 0.38, "pair": 0.08, "unknown": 0.12}
+"""Before any reading: a campaign with nothing missing is as usual as one with one effect, two are rare."""
 LEAST_NONE = 14.0
 """How many times as probable nothing is than one effect: one that readings neither ask for nor exclude is no tie."""
 WHOLE = 25
@@ -24,6 +25,7 @@ WHOLE = 25
 KEPT = 8
 """Explanations of a share of the rows that are weighed again on all of them."""
 FAR = 60.0
+"""Log evidence behind the best from which a fit is not made again under a new noise."""
 MANY, SPREAD = 1200, 600
 """Readings beyond which a spread of so many stands for all while explanations are sought."""
 SEED = 1

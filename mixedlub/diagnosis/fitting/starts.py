@@ -10,6 +10,7 @@ from mixedlub.diagnosis.fitting.fit import Fit, linear_fit, map_fit
 from mixedlub.diagnosis.fitting.problem import STEP, Problem
 
 SAMPLES = (12, 24, 40, 56)
+"""Draws of the prior by the number of parameters: a space of more takes more to be covered."""
 NEAR, APART, STARTS = 25.0, 1.2, 3
 """A single effect is fitted from this many draws: not far behind the best one, and that far apart."""
 SCANNED_TO = 3.0

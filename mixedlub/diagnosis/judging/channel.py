@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 FEWEST = 5
+"""Readings from which a correlation is told."""
 
 
 @dataclass(frozen=True)

@@ -14,9 +14,11 @@ from mixedlub.headers import unit_of
 from mixedlub.table import Table
 
 MANY_WRONG = 0.1
+"""Share of wrong readings from which the answer is doubted: ten times what is usual."""
 LEAST_STREAK, RARE = 3, 0.05
 """Wrong readings in a row that are told of, where fewer such streaks than that would be there by chance."""
 MOST_OF_LEVEL = 0.75
+"""Share of the readings of a level that a streak has to hold to be that level."""
 WORTH_TELLING = 1.5
 """Inflation of the variance from which it is told."""
 UNFOLLOWED = (

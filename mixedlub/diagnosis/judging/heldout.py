@@ -17,10 +17,13 @@ from mixedlub.diagnosis.fitting.sudden import anywhere, sudden_places
 from mixedlub.diagnosis.recording.levels import set_points
 
 MOST_FOLDS = 8
+"""Levels left out in turn, at most; more are joined."""
 TOLERATED = 0.3
 """Share of the mismatch on levels left out that the right law, in another literature form, may leave."""
 DEMERIT = 20.0
+"""Most that failing on levels left out costs in log odds: no doubt is left then."""
 LEAST = 0.3
+"""Smallest mismatch, in squared sigmas, of which a share left over is told."""
 CHANCE = 5.0
 """How much better than the unnamed mismatch a name may predict levels left out by chance, in log probability."""
 

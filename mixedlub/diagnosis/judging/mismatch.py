@@ -11,9 +11,13 @@ from mixedlub.diagnosis.unnamed.carriers import READING
 from mixedlub.diagnosis.unnamed.shapes import Shape
 
 DRAWS = 2000
+"""Drawn recordings without a mismatch: a p-value of 0.01 is then known to a fifth of it."""
 CELLS = 4_000_000
+"""Numbers held at once; very many readings get fewer draws."""
 SHAPES = ((0.7, False), (0.25, True))
+"""Smooth alternatives: how far they reach along a condition, and whether pairs of conditions act together."""
 SIZES = (1.0, 4.0)
+"""Sizes of the alternatives in sigmas: just visible, and plain."""
 UNSURE = 10.0
 """How far the search's Bayes factor may be off."""
 

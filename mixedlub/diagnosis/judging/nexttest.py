@@ -13,9 +13,12 @@ from mixedlub.diagnosis.recording.levels import roundest, set_points
 from mixedlub.table import Column, Table
 
 MOST = 600
+"""Conditions that are looked at."""
 SEED = 1
 LEAST = 1e-12
+"""Smallest probability of an explanation: its logarithm is taken."""
 NODES = 21
+"""Gauss-Hermite nodes of the integral over a reading."""
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,11 @@ from mixedlub.diagnosis.judging.mismatch import Mismatch
 from mixedlub.effect import STAGES
 
 TIE = 0.1
+"""Share of the verdict's probability from which an explanation ties with it."""
 FLOOR = 1e-6
+"""Nothing is told as certain."""
 MARGIN = 1.25
+"""Odds by which the test puts "nothing missing" behind the best explanation or ahead of it: just enough to be told."""
 
 Key = str | Explanation
 

@@ -12,11 +12,13 @@ from mixedlub.forward import Forward
 from mixedlub.table import Table
 
 NODES = 12
+"""Nodes of the functions along a condition, at most: what is finer is a wave, a peak or a step."""
 PASSING = ("sequence", "time_s", "position_deg")
 """Conditions that only pass on: where they start from is no size."""
 SMOOTHEST = 4
 """How many functions of a number go into products with those of another condition."""
 JITTER = 1e-6
+"""Keeps the kernel of close nodes invertible."""
 LEAST = 1e-300
 HELD = 0.01
 """A condition that spans less than this share of its size was held: what it wanders is no variation to learn from."""

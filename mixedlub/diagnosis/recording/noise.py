@@ -15,12 +15,15 @@ from mixedlub.table import Table
 FEW = 30
 """Tests from which an sd counts as known: its own scatter is then 13 %."""
 FAR_ABOVE = 5.0
+"""Times its like from which an sd marks a reading to be ignored."""
 LOW, HIGHEST = 0.52, 1.23
 """Mean of ln s below that of the true sd over the variance of ln s, and that variance, both of two tests."""
 SEVERAL = 2000
 """Most readings whose sds are compared with one another: beyond, the wild ones even out."""
 WIDE = 3.0
+"""Ratio of the largest to the smallest reading from which noise goes in proportion where nothing else tells."""
 TRUSTED = 10
+"""Repeats from which a wild one among them can be told."""
 PARTS = ((1.0, 0.0), (1.0, 0.03), (1.0, 0.1), (1.0, 0.3), (1.0, 1.0), (0.3, 1.0), (0.0, 1.0))
 """Shares of a reading's own size and of the typical one in its noise that are tried."""
 BOTH = 2.0

@@ -17,6 +17,7 @@ from mixedlub.diagnosis.telling.advice import beyond
 from mixedlub.effect import Prior
 
 NINETY = 1.6449
+"""Half-width of a 90 % interval in standard deviations."""
 
 
 def as_json(d: Diagnosis) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from mixedlub.diagnosis.telling.labels import STAGE_WORDS, effect_words, explana
 from mixedlub.effect import Effect
 
 MOST_TIED = 5
+"""Tied explanations that are named."""
 LEAST_P = 1e-300
 
 

@@ -10,6 +10,7 @@ from mixedlub.diagnosis.telling.labels import effect_words
 NEAR, ALIKE = 0.8, 0.95
 """Cosine of two signatures from which they are near, and from which they have nearly the same form."""
 REJECTED = 0.01
+"""Probability below which an effect counts as rejected."""
 
 
 def resembling(d: Diagnosis, alike: Confusion) -> tuple[tuple[str, ...], tuple[str, ...]]:

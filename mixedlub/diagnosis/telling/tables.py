@@ -15,6 +15,7 @@ from mixedlub.headers import unit_of
 from mixedlub.report.plain import plain_equation, with_symbol
 
 STRAINED = 2.0
+"""Standard deviations from which an input counts as strained."""
 UNTOLD = 0.8
 """Share of the prior's 90 % interval from which a fitted one counts as no narrower, where the prior is normal."""
 AS_BEFORE = "as wide as before the readings"

@@ -14,6 +14,7 @@ from mixedlub.diagnosis.unnamed.places import Place, finer, places
 from mixedlub.diagnosis.unnamed.waves import CLOCK, FINER, frequencies
 
 LENGTHS = (0.25, 0.7)
+"""How far a smooth form reaches along a condition, as shares of its range."""
 ROUGH = 0.08
 """Length of a form of one condition whose neighbouring levels are all but independent of one another."""
 SIZES = (0.7, 2.0, 6.0, 20.0, 60.0)

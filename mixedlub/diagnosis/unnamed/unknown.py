@@ -18,6 +18,7 @@ from mixedlub.diagnosis.unnamed.clearest import clearest
 from mixedlub.diagnosis.unnamed.shapes import Shape, families, rich
 
 FULL = 6
+"""Shapes weighed again with their own weights of the readings; the others keep the distance of the quick weighing."""
 
 
 @dataclass(frozen=True, eq=False)
