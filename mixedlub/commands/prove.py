@@ -59,8 +59,8 @@ def command(
             bar.update(tasks[stage], completed=done)
 
         if rigs:
-            prove_rigs(folder, diagnose, RIGS_QUICK if quick else cases or RIGS, seed, jobs, show)
+            prove_rigs(folder, diagnose, cases or (RIGS_QUICK if quick else RIGS), seed, jobs, show)
         else:
-            prove(folder, diagnose, QUICK if quick else cases or FULL, seed, jobs, not quick, show)
+            prove(folder, diagnose, cases or (QUICK if quick else FULL), seed, jobs, not quick, show)
     say((folder / "score.txt").read_text(encoding="utf-8"))
     say(f"written to {folder}")
