@@ -103,6 +103,8 @@ def recorded_against_simulated(d: Diagnosis) -> Figure:
                 linewidths=1.1,
             )
         foot.set_ylim(-1.08 * reach, 1.08 * reach)
+        if not logarithmic:
+            foot.locator_params(axis="x", nbins=5)
         foot.set_xlabel(f"simulated {axis_label(d.case.quantity)}")
         rms = float(np.sqrt(np.mean(z[~bad] ** 2)))
         foot.set_title(f"rms {rms:.2f} sigma", fontsize=8, fontweight="normal", color=MUTED)

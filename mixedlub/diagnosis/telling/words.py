@@ -143,6 +143,19 @@ def _mismatch(d: Diagnosis) -> tuple[str, ...]:
     return (f"None that can be told from noise ({size}; {chi2}).", alarm)
 
 
+def _direction(z: np.ndarray, predicted: np.ndarray) -> str:
+    """Whether readings are more or less than expected, or larger or smaller where they have both signs.
+
+    >>> _direction(np.array([2.0, 3.0]), np.ones(2)), _direction(np.array([2.0, -3.0]), np.array([1.0, -1.0]))
+    ('more', 'more in size, either sign,')
+    """
+    whole = max(float(np.sum(np.abs(z))), 1e-300)
+    for way, how in ((float(z.sum()), ""), (float(z @ np.sign(predicted)), " in size, either sign,")):
+        if abs(way) >= EVEN * whole:
+            return f"{'more' if way > 0.0 else 'less'}{how}"
+    return "now more and now less"
+
+
 def _where(d: Diagnosis) -> tuple[str, ...]:
     if d.posterior.verdict == ():
         return ()
@@ -157,8 +170,7 @@ def _where(d: Diagnosis) -> tuple[str, ...]:
     part = missing(d)[1] / np.maximum(np.abs(d.recorded.predicted), 1e-300)
     share = float(np.median(np.abs(part[inside])))
     size = f"{number(100 * share)} % of the reading" if share < TIMES else f"{number(share)} times the reading"
-    way = float(np.sum(z[inside]) / max(np.sum(np.abs(z[inside])), 1e-300))
-    sign = "now more and now less" if abs(way) < EVEN else "more" if way > 0.0 else "less"
+    sign = _direction(z[inside], d.recorded.predicted[inside])
     said = [
         f"Above all at {place}: there the rig reads {sign} than the model without it, by {_rms(z[inside]):.1f} sigma "
         f"(rms), {size} in the median."
