@@ -41,7 +41,7 @@ from mixedlub.effect import LogNormal, Normal, Parameter, effect
     equation=r"\mu_B \leftarrow \mu_B\,[1 + a\,x e^{1 - x} + b(1 - e^{-(q/q_2)^m})],\quad x = q/q_1",
     source="P. J. Blau, Tribol. Int. 38 (2005) 1007: running-in curves with an early maximum, as a film that forms and "
     "is overtaken by the wear of the track; M. Avrami, J. Chem. Phys. 7 (1939) 1103 for a change that spreads",
-    fingerprint={"sequence": "-"},
+    fingerprint={"sequence": "+"},
     separated_by="contact resistance and a wear scar measured at times: a film takes minutes, wear goes on",
     kinds=("friction_history",),
 )

@@ -24,7 +24,7 @@ TERMS = 12
     equation=r"\mu_B \leftarrow \mu_B\,\exp\sum_{k=1}^{12} a_k\cos(k\pi q)",
     source="empirical: a cosine series, the most general history without a law; films that form and wear off in turn "
     "are described by H. Fujita, H. A. Spikes, Proc. IMechE J 218 (2004) 265",
-    fingerprint={"sequence": "0"},
+    fingerprint={"sequence": "-"},
     separated_by="images of the track at the highs and lows; a second run shows whether the swings repeat",
     kinds=("friction_history",),
     odds=0.3,
