@@ -45,7 +45,16 @@ from mixedlub.effect import LogNormal, Normal, Parameter, effect
     separated_by="contact resistance and a wear scar measured at times: a film takes minutes, wear goes on",
     kinds=("friction_history",),
 )
-def two_time_scales(boundary_friction, sequence, *, passing, lasting, passing_time, lasting_time, gathering):
+def two_time_scales(
+    boundary_friction: np.ndarray,
+    sequence: np.ndarray,
+    *,
+    passing: float,
+    lasting: float,
+    passing_time: float,
+    lasting_time: float,
+    gathering: float,
+) -> np.ndarray:
     """A film forms and passes quickly while the track wears slowly; each moves friction by its own share.
 
     >>> fast, slow = dict(passing=0.1, passing_time=0.02), dict(lasting=-0.3, lasting_time=0.5, gathering=1.0)
