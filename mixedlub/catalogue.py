@@ -12,6 +12,7 @@ from textwrap import fill
 import numpy as np
 
 from mixedlub import standard
+from mixedlub.chain import Model
 from mixedlub.effect import Effect, catalogue, find
 from mixedlub.quantities import GLOSSARY
 from mixedlub.report.plain import plain_equation, plain_symbol, with_symbol
@@ -25,6 +26,7 @@ NEGLIGIBLE = 0.02
 
 _WIDTH = 100
 _INDENT = 16
+_RIG_INDENT = 20
 
 
 def shown(effect: Effect) -> dict[str, float]:
@@ -45,21 +47,46 @@ def share(effect_id: str, rig: str) -> np.ndarray | None:
 
 
 def changes(effect: Effect, rig: str) -> dict[str, float]:
-    """Change of the effect's share from the lowest to the highest level of each condition, over its largest size."""
+    """Change of the effect's share from the lowest to the highest levels of each condition, over its largest size.
+
+    Conditions are those varied on the rig, by their size where they have a direction, and the quantities that the
+    effect's fingerprint names beside them; for what moves with the programme, its place in that alone.
+    """
     found = share(effect.id, rig)
     if found is None or not found.any():
         return {}
-    table = standard.forward(rig).table
-    sides = {}
-    for condition, (column, levels) in standard.CONDITIONS[rig].items():
-        if condition == "surfaces":
-            sides["roughness"] = (table[column] == "superfinished", table[column] == "coarse")
-        else:
-            sides[condition] = (table[column] == levels[0], table[column] == levels[-1])
     if "sequence" in effect.reads:
-        sides = {"sequence": (table["sequence"] < 0.2, table["sequence"] > 0.8)}
+        place = np.ravel(standard.forward(rig).inputs["sequence"])
+        sides = {"sequence": (place < 0.2, place > 0.8)}
+    else:
+        sides = _sides(effect, rig)
     largest = np.abs(found).max()
     return {c: float((found[high].mean() - found[low].mean()) / largest) for c, (low, high) in sides.items()}
+
+
+def _sides(effect: Effect, rig: str) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Rows at the lowest and at the highest levels of each condition."""
+    forward = standard.forward(rig)
+    sides = {}
+    for condition, (column, _) in standard.CONDITIONS[rig].items():
+        values = forward.table[column]
+        if condition == "surfaces":
+            sides["roughness"] = (values == "superfinished", values == "coarse")
+        elif condition != "sequence":
+            sides[condition] = _thirds(values)
+    made = {name for name, _ in forward.chain} | set(forward.inputs)
+    named = [q for q in effect.fingerprint if q in made and q not in sides]
+    states = Model(forward.chain, tuple(forward.inputs), named)(forward.inputs)
+    rows = (len(forward.table), 1)
+    return sides | {q: _thirds(v[:, 0]) for q, v in states.items() if np.shape(v) == rows and np.ptp(v) > 0}
+
+
+def _thirds(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Rows in the lowest and in the highest third of the levels, at least one of them."""
+    size = np.abs(values)
+    levels = np.unique(size)
+    some = max(len(levels) // 3, 1)
+    return size <= levels[some - 1], size >= levels[-some]
 
 
 def fingerprint(effect: Effect, rig: str) -> dict[str, str]:
@@ -155,22 +182,27 @@ def _page(effect: Effect) -> str:
 
 
 def _on_rigs(effect: Effect) -> list[str]:
-    lines = []
+    lines = ["on the standard rig of each kind of recording"]
     for rig in RIGS:
         found = share(effect.id, rig)
-        if found is None:
-            lines.append(_entry(f"on a {rig}", "cannot act"))
+        if found is None or not found.any():
             continue
         low, middle, high = (f"{100 * v:.3g}" for v in np.quantile(found, (0.0, 0.5, 1.0)))
         signs = ", ".join(f"{condition} {sign}" for condition, sign in fingerprint(effect, rig).items())
-        lines.append(_entry(f"on a {rig}", f"{low} to {high} % of the reading, half of them below {middle} %"))
-        lines.append(_entry("  fingerprint", f"share of the reading with growing {signs}" if signs else "none"))
         alike = ", ".join(f"{other} ({c:+.2f})" for other, c in lookalikes(effect.id, rig).items())
-        lines.append(_entry("  looks like", alike or "no other, after calibration"))
+        about = {
+            f"  {rig}": f"{low} to {high} % of the reading, half of them below {middle} %",
+            "    fingerprint": f"share of the reading with growing {signs}" if signs else "none",
+            "    looks like": alike or "no other, after calibration",
+        }
         if effect.id in signatures(rig):
-            left = signatures(rig)[effect.id][1]
-            lines.append(_entry("  calibration", f"leaves {100 * left:.0f} % of it"))
-    return lines
+            about["    calibration"] = f"leaves {100 * signatures(rig)[effect.id][1]:.0f} % of it"
+        lines += [_entry(name, text, _RIG_INDENT) for name, text in about.items()]
+    shares = {rig: share(effect.id, rig) for rig in RIGS}
+    unable = ", ".join(rig for rig, found in shares.items() if found is None)
+    hidden = ", ".join(rig for rig, found in shares.items() if found is not None and not found.any())
+    lines += [_entry("  cannot act", f"on {unable}", _RIG_INDENT)] if unable else []
+    return [*lines, _entry("  shows nothing", f"on {hidden}", _RIG_INDENT)] if hidden else lines
 
 
 def _unit(unit: str) -> str:

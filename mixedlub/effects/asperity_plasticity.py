@@ -27,16 +27,16 @@ _FARTHEST = 10.0
     after=("skewed_heights",),
 )
 def asperity_plasticity(
-    area_ratio,
-    separation,
-    summit_density,
-    summit_radius,
-    summit_sigma,
-    reduced_modulus,
+    area_ratio: np.ndarray,
+    separation: np.ndarray,
+    summit_density: np.ndarray,
+    summit_radius: np.ndarray,
+    summit_sigma: np.ndarray,
+    reduced_modulus: np.ndarray,
     *,
-    strength,
-    hardness,
-):
+    strength: float,
+    hardness: float,
+) -> np.ndarray:
     """Asperities pressed beyond yield spread to up to twice the area of elastic ones.
 
     K = 0.454 + 0.41 nu at nu = 0.3. With E* = E'/2, onset is at the plasticity index

@@ -48,21 +48,21 @@ _LEAST = 0.1
     "where it was",
 )
 def bearing_drag(
-    power_loss,
-    transmitted_force,
-    pinion_radius,
-    pinion_speed,
-    gear_speed,
-    viscosity,
-    oil_density,
-    gears_fitted,
+    power_loss: np.ndarray,
+    transmitted_force: np.ndarray,
+    pinion_radius: np.ndarray,
+    pinion_speed: np.ndarray,
+    gear_speed: np.ndarray,
+    viscosity: np.ndarray,
+    oil_density: np.ndarray,
+    gears_fitted: np.ndarray,
     *,
-    strength,
-    loaded,
-    load_power,
-    rolling_power,
-    rubbing,
-):
+    strength: float,
+    loaded: float,
+    load_power: float,
+    rolling_power: float,
+    rubbing: float,
+) -> np.ndarray:
     """Four rolling bearings turn in oil and carry the tooth force.
 
     Two bearings a shaft, each half the force, as large as a pinion's shaft allows. Palmgren's

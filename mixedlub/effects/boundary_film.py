@@ -1,5 +1,7 @@
 """A film that stays when the speed goes to nothing."""
 
+import numpy as np
+
 from mixedlub.effect import BetweenLog, LogNormal, Parameter, effect
 
 
@@ -29,7 +31,7 @@ from mixedlub.effect import BetweenLog, LogNormal, Parameter, effect
     after=("inlet_shear_heating", "inlet_shear_thinning", "starvation", "roughness_lay"),
     kinds=("film",),
 )
-def boundary_film(film_thickness, *, thickness, joining, gain):
+def boundary_film(film_thickness: np.ndarray, *, thickness: float, joining: float, gain: float) -> np.ndarray:
     """Adsorbed or reacted layers hold the surfaces apart where the fluid film would be thinner than they are.
 
     A layer of thicker fluid is entrained itself: a film much thinner than it gains g times itself and no more.

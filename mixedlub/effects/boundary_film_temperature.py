@@ -24,7 +24,9 @@ from mixedlub.effect import Between, LogNormal, Normal, Parameter, effect
     separated_by="oil without the additive, or film ratios above 3, where it vanishes; it sits between two "
     "temperatures, whereas everything viscous changes steadily",
 )
-def boundary_film_temperature(boundary_friction, oil_temperature, *, drop, activation, width):
+def boundary_film_temperature(
+    boundary_friction: np.ndarray, oil_temperature: np.ndarray, *, drop: float, activation: float, width: float
+) -> np.ndarray:
     """Additives cover the asperities above a certain temperature and change their friction; a negative drop raises it.
 
     >>> round(float(boundary_film_temperature(0.1, 353.15, drop=0.7, activation=353.15, width=8.0)), 3)

@@ -1,5 +1,7 @@
 """Boundary friction that depends on speed."""
 
+import numpy as np
+
 from mixedlub.effect import Between, BetweenLog, Normal, Parameter, effect
 
 SLOWEST = 1e-3
@@ -36,7 +38,15 @@ SLOWEST = 1e-3
     separated_by="film ratios below 0.5 at small sliding: friction follows the logarithm of sliding speed where the "
     "film cannot matter; it vanishes at thick films",
 )
-def boundary_speed_dependence(boundary_friction, sliding_speed, entrainment_speed, *, slope, reference, rolling):
+def boundary_speed_dependence(
+    boundary_friction: np.ndarray,
+    sliding_speed: np.ndarray,
+    entrainment_speed: np.ndarray,
+    *,
+    slope: float,
+    reference: float,
+    rolling: float,
+) -> np.ndarray:
     """The friction of touching asperities grows or falls with the logarithm of speed.
 
     Papers plot it against the sliding speed or, at a fixed slide-roll ratio, against the rolling speed. Where between

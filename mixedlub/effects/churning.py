@@ -1,5 +1,7 @@
 """Churning."""
 
+import numpy as np
+
 from mixedlub.effect import Between, LogNormal, Parameter, effect
 from mixedlub.laws.drag import churning_changenet_velex
 
@@ -28,20 +30,20 @@ from mixedlub.laws.drag import churning_changenet_velex
     "stays",
 )
 def churning(
-    power_loss,
-    gear_radius,
-    gear_speed,
-    face_width,
-    gear_module,
-    gear_teeth,
-    viscosity,
-    oil_density,
-    gears_fitted,
+    power_loss: np.ndarray,
+    gear_radius: np.ndarray,
+    gear_speed: np.ndarray,
+    face_width: np.ndarray,
+    gear_module: np.ndarray,
+    gear_teeth: np.ndarray,
+    viscosity: np.ndarray,
+    oil_density: np.ndarray,
+    gears_fitted: np.ndarray,
     *,
-    strength,
-    viscous,
-    surplus,
-):
+    strength: float,
+    viscous: float,
+    surplus: float,
+) -> np.ndarray:
     """The wheel that dips into the oil stirs it.
 
     The wheel is taken to dip half its radius; methods differ by a factor 6 at high speed. Power goes as

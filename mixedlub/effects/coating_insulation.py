@@ -1,5 +1,7 @@
 """Insulation by a coating."""
 
+import numpy as np
+
 from mixedlub.effect import LogNormal, Parameter, effect
 from mixedlub.laws import heating
 
@@ -22,17 +24,17 @@ from mixedlub.laws import heating
     after=("film_heating",),
 )
 def coating_insulation(
-    shear_stress,
-    eyring_stress,
-    sliding_speed,
-    viscosity,
-    contact_viscosity,
-    temperature_viscosity,
-    coating_thickness,
-    coating_conductivity,
+    shear_stress: np.ndarray,
+    eyring_stress: np.ndarray,
+    sliding_speed: np.ndarray,
+    viscosity: np.ndarray,
+    contact_viscosity: np.ndarray,
+    temperature_viscosity: np.ndarray,
+    coating_thickness: np.ndarray,
+    coating_conductivity: np.ndarray,
     *,
-    strength,
-):
+    strength: float,
+) -> np.ndarray:
     """A coating that conducts badly keeps the heat in the film, which then shears more easily.
 
     Valid while the coating is thin against the depth that heat reaches in the time of contact (2-3 um of

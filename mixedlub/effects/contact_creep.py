@@ -34,7 +34,16 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
     valid={"slide_roll_ratio": (0.0, 0.5)},
     kinds=("disc", "friction_history"),
 )
-def contact_creep(friction, boundary_friction, area_ratio, slide_roll_ratio, *, saturation_slip, power, of_asperities):
+def contact_creep(
+    friction: np.ndarray,
+    boundary_friction: np.ndarray,
+    area_ratio: np.ndarray,
+    slide_roll_ratio: np.ndarray,
+    *,
+    saturation_slip: float,
+    power: float,
+    of_asperities: float,
+) -> np.ndarray:
     """Part of a nominal slip is taken up by elastic shear of the bodies, so friction starts in proportion to slip.
 
     That is for all friction of bodies in contact. With oil between them the film's traction may do so alone, when

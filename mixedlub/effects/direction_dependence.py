@@ -36,8 +36,14 @@ from mixedlub.effect import Normal, Parameter, effect
     kinds=("friction_map",),
 )
 def direction_dependence(
-    running_friction, viscous_torque, drive_speed, reference_speed, *, asymmetry, viscous_asymmetry
-):
+    running_friction: np.ndarray,
+    viscous_torque: np.ndarray,
+    drive_speed: np.ndarray,
+    reference_speed: np.ndarray,
+    *,
+    asymmetry: float,
+    viscous_asymmetry: float,
+) -> np.ndarray:
     """The two flanks of a drive rub differently: all friction in proportion, and the viscous part in its own.
 
     >>> alike = dict(asymmetry=0.1, viscous_asymmetry=0.0)

@@ -31,7 +31,15 @@ LEAST = 0.1
     "accelerometer or the transmission error shows it",
     odds=0.3,
 )
-def dynamic_load(transmitted_force, pinion_speed, pinion_teeth, *, amplitude, resonance, damping):
+def dynamic_load(
+    transmitted_force: np.ndarray,
+    pinion_speed: np.ndarray,
+    pinion_teeth: np.ndarray,
+    *,
+    amplitude: float,
+    resonance: float,
+    damping: float,
+) -> np.ndarray:
     """Near resonance of the mesh the teeth carry more or less than the static force where they slide most.
 
     Which of the two is a matter of phase between vibration and roll angle, so the amplitude has either sign

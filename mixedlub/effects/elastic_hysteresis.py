@@ -26,7 +26,14 @@ from mixedlub.effect import LogNormal, Parameter, effect
     "matter",
     odds=0.3,
 )
-def elastic_hysteresis(rolling_force, line_load, hertz_half_width, radius, *, loss_fraction):
+def elastic_hysteresis(
+    rolling_force: np.ndarray,
+    line_load: np.ndarray,
+    hertz_half_width: np.ndarray,
+    radius: np.ndarray,
+    *,
+    loss_fraction: float,
+) -> np.ndarray:
     """The bodies do not give back all the work of being flattened, which resists rolling.
 
     Steel loses 0.005 to 0.02 of it, which seldom shows beside friction.

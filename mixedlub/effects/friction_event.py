@@ -26,7 +26,9 @@ TENTHS = 2.0 * np.log(9.0)
     after=("tribofilm_growth", "friction_run_in", "two_time_scales"),
     kinds=("friction_history",),
 )
-def friction_event(boundary_friction, sequence, *, change, place, width):
+def friction_event(
+    boundary_friction: np.ndarray, sequence: np.ndarray, *, change: float, place: float, width: float
+) -> np.ndarray:
     """Within a short time the surfaces change, as when a film breaks or oil is renewed, and friction stays another.
 
     >>> friction_event(0.1, np.array([0.2, 0.6]), change=0.2, place=0.5, width=0.05).round(3).tolist()

@@ -1,5 +1,7 @@
 """An adsorbed film of a friction modifier."""
 
+import numpy as np
+
 from mixedlub.effect import LogNormal, Parameter, effect
 
 
@@ -25,7 +27,9 @@ from mixedlub.effect import LogNormal, Parameter, effect
     separated_by="the same oil at several contents of the additive: friction falls and levels off",
     kinds=("friction_map",),
 )
-def friction_modifier_film(coulomb_torque, additive_fraction, *, drop, half_share):
+def friction_modifier_film(
+    coulomb_torque: np.ndarray, additive_fraction: np.ndarray, *, drop: float, half_share: float
+) -> np.ndarray:
     """Molecules of the additive cover the surfaces and shear more easily than metal on metal.
 
     >>> round(friction_modifier_film(0.16, 0.5, drop=0.4, half_share=0.1), 4)

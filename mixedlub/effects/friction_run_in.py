@@ -35,7 +35,9 @@ from mixedlub.effect import LogNormal, Parameter, effect
     separated_by="a profile of the track before and after; a second run on the same track starts at the lower friction",
     kinds=("friction_history",),
 )
-def friction_run_in(boundary_friction, sequence, *, excess, time_constant, tail):
+def friction_run_in(
+    boundary_friction: np.ndarray, sequence: np.ndarray, *, excess: float, time_constant: float, tail: float
+) -> np.ndarray:
     """Peaks wear off and the track conforms; friction falls to the level of the run-in surfaces.
 
     >>> ends = dict(excess=0.2, time_constant=0.05)

@@ -30,7 +30,7 @@ SHARPNESS = 60.0
     "the film does not",
     kinds=("film",),
 )
-def fringe_order(reading, film_thickness, *, jump, onset):
+def fringe_order(reading: np.ndarray, film_thickness: np.ndarray, *, jump: float, onset: float) -> np.ndarray:
     """All films above the miscounted order read one or more fringes too thick or too thin.
 
     >>> (fringe_order(np.array([1e-7, 1e-6]), np.array([1e-7, 1e-6]), jump=2e-7, onset=5e-7) * 1e9).round(1).tolist()

@@ -1,5 +1,7 @@
 """Films that step where the instrument changes its interference order."""
 
+import numpy as np
+
 from mixedlub.effect import Parameter, Wide, effect
 
 
@@ -16,7 +18,9 @@ from mixedlub.effect import Parameter, Wide, effect
     separated_by="the same film read in two orders, by another spacer or at a place where both are in sight",
     kinds=("film",),
 )
-def fringe_step(reading, fringe_order, first_fringe_order, *, step):
+def fringe_step(
+    reading: np.ndarray, fringe_order: np.ndarray, first_fringe_order: np.ndarray, *, step: float
+) -> np.ndarray:
     """Every change of the interference order shifts what is read by the same amount, a small part of a fringe.
 
     >>> round(fringe_step(120e-9, 4.0, 3.0, step=-20e-9) * 1e9, 1)

@@ -17,7 +17,9 @@ from mixedlub.effect import LogNormal, Parameter, effect
     separated_by="speeds over two decades: the drag bends in a log-log plot, and has no minimum as Stribeck friction",
     kinds=("friction_map",),
 )
-def grease_shear_thinning(viscous_torque, drive_speed, reference_speed, *, deficit):
+def grease_shear_thinning(
+    viscous_torque: np.ndarray, drive_speed: np.ndarray, reference_speed: np.ndarray, *, deficit: float
+) -> np.ndarray:
     """Grease thins as it is sheared; its drag grows with a power of speed below one.
 
     Drag that hardly grows with speed, with a deficit near one, is Coulomb's and not that of a grease.

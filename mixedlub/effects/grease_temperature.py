@@ -27,7 +27,9 @@ REFERENCE = 313.15
     separated_by="the same speeds warm and cold: the slope against speed changes, the dry level does not",
     kinds=("friction_map",),
 )
-def grease_temperature(viscous_torque, oil_temperature, *, fall_per_kelvin):
+def grease_temperature(
+    viscous_torque: np.ndarray, oil_temperature: np.ndarray, *, fall_per_kelvin: float
+) -> np.ndarray:
     """Warm grease shears more easily, so the part of friction that grows with speed shrinks.
 
     >>> round(float(grease_temperature(1.0, 333.15, fall_per_kelvin=0.03)), 3)

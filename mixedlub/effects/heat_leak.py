@@ -1,5 +1,7 @@
 """Heat leak."""
 
+import numpy as np
+
 from mixedlub.effect import LogNormal, Parameter, effect
 
 
@@ -26,7 +28,15 @@ from mixedlub.effect import LogNormal, Parameter, effect
     separated_by="another ambient or bearing oil temperature at the same point; the torque-difference method beside it",
     kinds=("gear_pair",),
 )
-def heat_leak(reading, oil_temperature, ambient_temperature, reading_scale, *, share, wall):
+def heat_leak(
+    reading: np.ndarray,
+    oil_temperature: np.ndarray,
+    ambient_temperature: np.ndarray,
+    reading_scale: np.ndarray,
+    *,
+    share: float,
+    wall: float,
+) -> np.ndarray:
     """Heat that leaves by shafts and walls is missing from a power measured by the warming of the oil.
 
     >>> round(heat_leak(100.0, 343.15, 298.15, 100.0, share=0.05, wall=0.002), 1)

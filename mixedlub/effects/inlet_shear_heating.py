@@ -24,18 +24,18 @@ from mixedlub.effect import LogNormal, Parameter, effect
     valid={"slide_roll_ratio": (0.0, 2.0)},
 )
 def inlet_shear_heating(
-    film_thickness,
-    temperature_viscosity,
-    viscosity,
-    entrainment_speed,
-    oil_conductivity,
-    slide_roll_ratio,
-    hertz_pressure,
-    reduced_modulus,
+    film_thickness: np.ndarray,
+    temperature_viscosity: np.ndarray,
+    viscosity: np.ndarray,
+    entrainment_speed: np.ndarray,
+    oil_conductivity: np.ndarray,
+    slide_roll_ratio: np.ndarray,
+    hertz_pressure: np.ndarray,
+    reduced_modulus: np.ndarray,
     *,
-    strength,
-    sliding,
-):
+    strength: float,
+    sliding: float,
+) -> np.ndarray:
     """Shear in the inlet warms the oil, so the film is thinner than the isothermal law says.
 
     The published numerator 1 - 13.2 (p0/E') L^0.42 is written as an exponential, which stays positive; the two

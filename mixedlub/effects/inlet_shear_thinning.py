@@ -1,5 +1,7 @@
 """Shear thinning in the inlet."""
 
+import numpy as np
+
 from mixedlub.effect import Between, BetweenLog, Parameter, effect
 
 REFERENCE = 0.01
@@ -41,18 +43,18 @@ REFERENCE = 0.01
     after=("inlet_shear_heating", "starvation"),
 )
 def inlet_shear_thinning(
-    film_thickness,
-    viscosity,
-    entrainment_speed,
-    slide_roll_ratio,
+    film_thickness: np.ndarray,
+    viscosity: np.ndarray,
+    entrainment_speed: np.ndarray,
+    slide_roll_ratio: np.ndarray,
     *,
-    index,
-    critical_stress,
-    plateau,
-    stress_rule,
-    onset,
-    sliding,
-):
+    index: float,
+    critical_stress: float,
+    plateau: float,
+    stress_rule: float,
+    onset: float,
+    sliding: float,
+) -> np.ndarray:
     """Polymers align in the inlet, the oil thins, and the film is below that of a Newtonian oil.
 
     Against an inlet solution within 10 % for N up to 1.6 and 16 % for N 31 at n = 0.75; use for n above 0.6.

@@ -27,7 +27,9 @@ from mixedlub.effect import BetweenLog, LogNormal, Parameter, effect
     "rolling speed, and the level moves with pressure only",
     after=("film_heating", "coating_insulation", "contact_creep"),
 )
-def limiting_shear_stress(shear_stress, hertz_pressure, *, coefficient, sharpness):
+def limiting_shear_stress(
+    shear_stress: np.ndarray, hertz_pressure: np.ndarray, *, coefficient: float, sharpness: float
+) -> np.ndarray:
     """A film under pressure cannot carry more shear than a fixed share of that pressure.
 
     Lambda is 0.03 to 0.09 in the literature (naphthenic 0.053, paraffinic 0.047, PAO 0.035, polyglycol 0.044).

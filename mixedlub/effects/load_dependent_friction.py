@@ -22,7 +22,14 @@ from mixedlub.effect import LogNormal, Parameter, effect
     after=("stribeck",),
     kinds=("friction_map",),
 )
-def load_dependent_friction(running_friction, coulomb_torque, load_fraction, drive_speed, *, growth):
+def load_dependent_friction(
+    running_friction: np.ndarray,
+    coulomb_torque: np.ndarray,
+    load_fraction: np.ndarray,
+    drive_speed: np.ndarray,
+    *,
+    growth: float,
+) -> np.ndarray:
     """Loaded flanks and bearings add dry friction in proportion to the load.
 
     >>> float(load_dependent_friction(2.0, 2.0, 0.5, 10.0, growth=0.2))

@@ -38,21 +38,21 @@ REFERENCE = 0.01
     valid={"slide_roll_ratio": (0.0, 2.0)},
 )
 def micro_ehl(
-    m0,
-    m2,
-    m4,
-    hertz_half_width,
-    hertz_pressure,
-    radius,
-    reduced_modulus,
-    viscosity,
-    entrainment_speed,
-    pressure_viscosity,
+    m0: np.ndarray,
+    m2: np.ndarray,
+    m4: np.ndarray,
+    hertz_half_width: np.ndarray,
+    hertz_pressure: np.ndarray,
+    radius: np.ndarray,
+    reduced_modulus: np.ndarray,
+    viscosity: np.ndarray,
+    entrainment_speed: np.ndarray,
+    pressure_viscosity: np.ndarray,
     *,
-    wavelength,
-    viscous,
-    texture,
-):
+    wavelength: float,
+    viscous: float,
+    texture: float,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The pressure of the film flattens long waves of the roughness inside the contact.
 
     W is taken from the Hertz pressure, 2 pi (p0/E')^2. Forms differ in whether the inlet's viscosity counts; the

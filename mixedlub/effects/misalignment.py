@@ -1,5 +1,7 @@
 """Misalignment."""
 
+import numpy as np
+
 from mixedlub.effect import Between, LogNormal, Parameter, effect
 
 _STIFFNESS = 2e10
@@ -22,7 +24,9 @@ _REFERENCE = 1e5
     separated_by="the contact pattern, strain along the face, and a shim that reverses it; it fades with load",
     odds=0.5,
 )
-def misalignment(line_load, transmitted_force, face_width, *, misalignment, relief):
+def misalignment(
+    line_load: np.ndarray, transmitted_force: np.ndarray, face_width: np.ndarray, *, misalignment: float, relief: float
+) -> np.ndarray:
     """Flanks out of parallel touch over part of the face, and more load per length meets the same film law.
 
     A load share from a gear program often holds it already. Stiffness and w_r make the form belong to Pa and N/m.

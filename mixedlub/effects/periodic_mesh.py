@@ -21,7 +21,15 @@ from mixedlub.effect import BetweenLog, Normal, Parameter, effect
     separated_by="readings against position at one speed: the ripple keeps its place on the wheel at any speed",
     kinds=("friction_map",),
 )
-def periodic_mesh(friction_torque, coulomb_torque, drive_angle, *, cosine, sine, order):
+def periodic_mesh(
+    friction_torque: np.ndarray,
+    coulomb_torque: np.ndarray,
+    drive_angle: np.ndarray,
+    *,
+    cosine: float,
+    sine: float,
+    order: float,
+) -> np.ndarray:
     """Teeth in mesh and eccentric wheels make the torque pulsate with position.
 
     >>> periodic_mesh(2.0, 1.0, np.array([0.0, np.pi / 4]), cosine=0.5, sine=0.0, order=4.0).round(3).tolist()

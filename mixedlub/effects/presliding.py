@@ -27,7 +27,9 @@ from mixedlub.effect import LogNormal, Parameter, effect
     after=("stribeck", "load_dependent_friction", "direction_dependence"),
     kinds=("friction_map",),
 )
-def presliding(running_friction, drive_speed, reference_speed, *, speed_share):
+def presliding(
+    running_friction: np.ndarray, drive_speed: np.ndarray, reference_speed: np.ndarray, *, speed_share: float
+) -> np.ndarray:
     """Near standstill the contacts only give elastically and friction has not yet reached its sliding value.
 
     Dahl's friction over a travel x is T (1 - exp(-k x/T)).

@@ -77,19 +77,19 @@ LOW = 0.15e9
     contains={"Roelands": {"roelands": 1.0, "slope": 1.0, "bend_down": 0.0, "bend_up": 0.0}},
 )
 def pressure_viscosity_law(
-    contact_viscosity,
-    viscosity,
-    hertz_pressure,
-    oil_temperature,
+    contact_viscosity: np.ndarray,
+    viscosity: np.ndarray,
+    hertz_pressure: np.ndarray,
+    oil_temperature: np.ndarray,
     *,
-    roelands,
-    exponent,
-    slope,
-    bend_down,
-    bend_up,
-    down_with_temperature,
-    up_with_temperature,
-):
+    roelands: float,
+    exponent: float,
+    slope: float,
+    bend_down: float,
+    bend_up: float,
+    down_with_temperature: float,
+    up_with_temperature: float,
+) -> np.ndarray:
     """The logarithm of viscosity rises more slowly with pressure at first and faster again near the glass.
 
     At contact pressures Roelands' law, the base of gears and discs, has most of the bend already; a sample in a
@@ -122,6 +122,6 @@ def pressure_viscosity_law(
     )
 
 
-def _below(log, solid):
+def _below(log: np.ndarray, solid: np.ndarray) -> np.ndarray:
     """A logarithm that levels off at that of a glass, rounded."""
     return log / (1.0 + (log / solid) ** 8) ** 0.125

@@ -1,5 +1,7 @@
 """Rolling resistance."""
 
+import numpy as np
+
 from mixedlub.effect import Between, LogNormal, Parameter, effect
 
 _PIVOT = 3e-11
@@ -21,7 +23,16 @@ _PIVOT = 3e-11
     separated_by="zero load with teeth in mesh against out of mesh; churning hardly sees viscosity, rolling grows "
     "with its power 0.7",
 )
-def rolling_resistance(rolling_force, radius, reduced_modulus, viscosity, entrainment_speed, *, strength, exponent):
+def rolling_resistance(
+    rolling_force: np.ndarray,
+    radius: np.ndarray,
+    reduced_modulus: np.ndarray,
+    viscosity: np.ndarray,
+    entrainment_speed: np.ndarray,
+    *,
+    strength: float,
+    exponent: float,
+) -> np.ndarray:
     """Oil drawn into the contact resists rolling, whatever the load.
 
     Against numerical solutions 0.91 to 1.09 where W is above 1e-4.

@@ -1,5 +1,7 @@
 """Lay of the roughness."""
 
+import numpy as np
+
 from mixedlub.effect import Between, LogNormal, Normal, Parameter, effect
 
 
@@ -22,7 +24,9 @@ from mixedlub.effect import Between, LogNormal, Normal, Parameter, effect
     valid={"composite_roughness": (0.0, 5e-6)},
     after=("inlet_shear_heating", "inlet_shear_thinning", "starvation"),
 )
-def roughness_lay(film_thickness, composite_roughness, *, lay, onset, decay):
+def roughness_lay(
+    film_thickness: np.ndarray, composite_roughness: np.ndarray, *, lay: float, onset: float, decay: float
+) -> np.ndarray:
     """Ridges across the motion hold oil back and thicken the film, ridges along it let the oil out.
 
     The power form keeps the film positive for either sign and any roughness; a = 1, k = 1, lambda_r = 0.15 adds

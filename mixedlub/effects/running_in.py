@@ -22,7 +22,16 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
     separated_by="the first point repeated at the end: running-in does not come back, temperature drift does; the "
     "profile measured again settles it",
 )
-def running_in(m0, m2, m4, sequence, *, strength, rate, texture):
+def running_in(
+    m0: np.ndarray,
+    m2: np.ndarray,
+    m4: np.ndarray,
+    sequence: np.ndarray,
+    *,
+    strength: float,
+    rate: float,
+    texture: float,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The roughness wears smoother in the course of the programme, fast at first.
 
     >>> m0, m2, _ = running_in(1.0, 1.0, 1.0, 1.0, strength=0.45, rate=30.0, texture=1.6)

@@ -1,5 +1,7 @@
 """Seal drag."""
 
+import numpy as np
+
 from mixedlub.effect import Between, LogNormal, Parameter, effect
 from mixedlub.laws.drag import seal_torque
 
@@ -24,7 +26,17 @@ _PIVOT = 20e-6
     separated_by="the seals off, or a run of the shafts alone: torque that hardly changes with speed; a zero error "
     "of the torque meter changes sign with the sense of rotation, a seal does not",
 )
-def seal_drag(power_loss, pinion_radius, pinion_speed, gear_speed, viscosity, oil_density, *, strength, viscous):
+def seal_drag(
+    power_loss: np.ndarray,
+    pinion_radius: np.ndarray,
+    pinion_speed: np.ndarray,
+    gear_speed: np.ndarray,
+    viscosity: np.ndarray,
+    oil_density: np.ndarray,
+    *,
+    strength: float,
+    viscous: float,
+) -> np.ndarray:
     """A lip seal rubs on each shaft.
 
     Shafts as thick as the pinion's pitch radius, and most are thinner. The lip force and 20 mm^2/s make the form

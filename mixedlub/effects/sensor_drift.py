@@ -1,5 +1,7 @@
 """Drift of the recorded channel."""
 
+import numpy as np
+
 from mixedlub.effect import Parameter, Wide, effect
 
 
@@ -16,7 +18,7 @@ from mixedlub.effect import Parameter, Wide, effect
     "leaves smoother flanks, drift does neither",
     after=("fringe_order", "fringe_step", "heat_leak", "torque_constant", "torque_offset", "zero_drift"),
 )
-def sensor_drift(reading, sequence, *, drift):
+def sensor_drift(reading: np.ndarray, sequence: np.ndarray, *, drift: float) -> np.ndarray:
     """The channel's scale creeps in the course of the programme.
 
     >>> round(sensor_drift(100.0, 0.5, drift=0.06), 6)

@@ -1,5 +1,7 @@
 """Gain of the recorded channel."""
 
+import numpy as np
+
 from mixedlub.effect import Parameter, Wide, effect
 
 
@@ -14,7 +16,7 @@ from mixedlub.effect import Parameter, Wide, effect
     "every reading, whatever the surfaces",
     after=("fringe_order", "fringe_step", "heat_leak", "torque_constant", "torque_offset", "zero_drift"),
 )
-def sensor_gain(reading, *, gain):
+def sensor_gain(reading: np.ndarray, *, gain: float) -> np.ndarray:
     """The channel reads the same share too much everywhere.
 
     >>> round(sensor_gain(100.0, gain=0.02), 6)

@@ -1,5 +1,7 @@
 """Offset of the recorded channel."""
 
+import numpy as np
+
 from mixedlub.effect import Parameter, Wide, effect
 
 
@@ -15,7 +17,7 @@ from mixedlub.effect import Parameter, Wide, effect
     separated_by="a reading with the rig at rest: the same number everywhere",
     after=("fringe_order", "heat_leak", "sensor_drift", "sensor_gain", "torque_constant", "torque_offset"),
 )
-def sensor_offset(reading, reading_scale, *, offset):
+def sensor_offset(reading: np.ndarray, reading_scale: np.ndarray, *, offset: float) -> np.ndarray:
     """The channel does not read zero at zero.
 
     >>> sensor_offset(100.0, 50.0, offset=0.1)

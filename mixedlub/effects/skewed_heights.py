@@ -35,7 +35,16 @@ _SMALL = 1e-4
     "to thinner films and leaves the fluid's friction alone",
     valid={"area_ratio": (0.0, 0.3)},
 )
-def skewed_heights(area_ratio, separation, summit_density, summit_radius, summit_sigma, *, skewness, narrowing):
+def skewed_heights(
+    area_ratio: np.ndarray,
+    separation: np.ndarray,
+    summit_density: np.ndarray,
+    summit_radius: np.ndarray,
+    summit_sigma: np.ndarray,
+    *,
+    skewness: float,
+    narrowing: float,
+) -> np.ndarray:
     """Heights worn to a plateau, or with a few high peaks, touch less, or more, than Gaussian ones.
 
     Heights keep their mean and, without narrowing, their standard deviation; a negatively skewed surface ends at a

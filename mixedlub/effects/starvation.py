@@ -1,5 +1,7 @@
 """Starvation."""
 
+import numpy as np
+
 from mixedlub.effect import BetweenLog, LogNormal, Parameter, Wide, effect
 
 USUAL = 1e9
@@ -30,8 +32,16 @@ USUAL = 1e9
     "does not change",
 )
 def starvation(
-    film_thickness, viscosity, entrainment_speed, hertz_pressure, *, strength, onset, steepness, width_power
-):
+    film_thickness: np.ndarray,
+    viscosity: np.ndarray,
+    entrainment_speed: np.ndarray,
+    hertz_pressure: np.ndarray,
+    *,
+    strength: float,
+    onset: float,
+    steepness: float,
+    width_power: float,
+) -> np.ndarray:
     """Too little oil reaches the inlet above a certain viscosity times speed, and the film falls behind.
 
     Chevalier and others write h/h_ff = r/(1 + r^gamma)^(1/gamma) with gamma 2 to 5 and r the supplied over the fully

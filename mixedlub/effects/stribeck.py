@@ -26,7 +26,15 @@ from mixedlub.effect import LogNormal, Parameter, effect
     "it rises; a payload or an offset does not change sign with the direction",
     kinds=("friction_map",),
 )
-def stribeck(running_friction, coulomb_torque, drive_speed, reference_speed, *, excess, speed_share):
+def stribeck(
+    running_friction: np.ndarray,
+    coulomb_torque: np.ndarray,
+    drive_speed: np.ndarray,
+    reference_speed: np.ndarray,
+    *,
+    excess: float,
+    speed_share: float,
+) -> np.ndarray:
     """At low speed the lubricant film collapses and friction rises above its dry level at speed.
 
     >>> x = stribeck(2.0, 2.0, np.array([1e-9, 100.0]), 100.0, excess=0.5, speed_share=0.1)

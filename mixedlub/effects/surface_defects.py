@@ -1,5 +1,7 @@
 """Surface defects."""
 
+import numpy as np
+
 from mixedlub.effect import LogNormal, Parameter, effect
 
 
@@ -18,7 +20,7 @@ from mixedlub.effect import LogNormal, Parameter, effect
     after=("asperity_plasticity", "skewed_heights"),
     odds=0.3,
 )
-def surface_defects(area_ratio, *, share):
+def surface_defects(area_ratio: np.ndarray, *, share: float) -> np.ndarray:
     """Scratches and burrs keep touching where the film is thick enough for the rest.
 
     It is rare that all surfaces of a test carry the same share of them.

@@ -33,8 +33,17 @@ _TYPICAL = 2e5
     odds=0.5,
 )
 def tip_relief(
-    load_share, path_fraction, contact_ratio, transmitted_force, contact_width, face_width, *, relief, length, fade
-):
+    load_share: np.ndarray,
+    path_fraction: np.ndarray,
+    contact_ratio: np.ndarray,
+    transmitted_force: np.ndarray,
+    contact_width: np.ndarray,
+    face_width: np.ndarray,
+    *,
+    relief: float,
+    length: float,
+    fade: float,
+) -> np.ndarray:
     """Relieved tips hand their load to the tooth pair in the middle, where sliding is small.
 
     Two pairs share between them, so their shares still add to one and a single pair keeps all.

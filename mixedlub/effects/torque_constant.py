@@ -22,7 +22,9 @@ from mixedlub.effect import LogNormal, Normal, Parameter, effect
     "motor, not the gears",
     kinds=("friction_map",),
 )
-def torque_constant(reading, motor_torque, reference_torque, *, error, fall):
+def torque_constant(
+    reading: np.ndarray, motor_torque: np.ndarray, reference_torque: np.ndarray, *, error: float, fall: float
+) -> np.ndarray:
     """Torque computed from current is too high by an error that grows as the iron saturates; it looks like friction.
 
     >>> round(float(torque_constant(0.1, 4.0, 8.0, error=0.02, fall=0.1)), 3)

@@ -1,5 +1,7 @@
 """Offset of the torque meter."""
 
+import numpy as np
+
 from mixedlub.effect import Parameter, Wide, effect
 
 
@@ -24,7 +26,9 @@ from mixedlub.effect import Parameter, Wide, effect
     kinds=("gear_pair",),
     after=("heat_leak",),
 )
-def torque_offset(reading, pinion_speed, largest_torque, *, offset):
+def torque_offset(
+    reading: np.ndarray, pinion_speed: np.ndarray, largest_torque: np.ndarray, *, offset: float
+) -> np.ndarray:
     """A torque meter that does not read zero at rest adds a torque that is not there.
 
     >>> round(torque_offset(100.0, 157.0, 100.0, offset=5e-4), 2)   # 0.05 N m at 1500 rpm

@@ -40,7 +40,15 @@ SOFTNESS = 0.2
     separated_by="an image or contact resistance of the track after each step shows coverage grow; running-in "
     "of heights shows in a profile and ends within the first per cent of the test",
 )
-def tribofilm_growth(boundary_friction, sequence, *, change, time_constant, induction, exponent):
+def tribofilm_growth(
+    boundary_friction: np.ndarray,
+    sequence: np.ndarray,
+    *,
+    change: float,
+    time_constant: float,
+    induction: float,
+    exponent: float,
+) -> np.ndarray:
     """Additives form a solid film on the track; friction goes with the share of the track that it covers.
 
     The start is rounded over a fifth of the induction time, as nuclei do not all form at once.

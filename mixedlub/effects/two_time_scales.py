@@ -41,11 +41,20 @@ from mixedlub.effect import LogNormal, Normal, Parameter, effect
     equation=r"\mu_B \leftarrow \mu_B\,[1 + a\,x e^{1 - x} + b(1 - e^{-(q/q_2)^m})],\quad x = q/q_1",
     source="P. J. Blau, Tribol. Int. 38 (2005) 1007: running-in curves with an early maximum, as a film that forms and "
     "is overtaken by the wear of the track; M. Avrami, J. Chem. Phys. 7 (1939) 1103 for a change that spreads",
-    fingerprint={"sequence": "-"},
+    fingerprint={"sequence": "+"},
     separated_by="contact resistance and a wear scar measured at times: a film takes minutes, wear goes on",
     kinds=("friction_history",),
 )
-def two_time_scales(boundary_friction, sequence, *, passing, lasting, passing_time, lasting_time, gathering):
+def two_time_scales(
+    boundary_friction: np.ndarray,
+    sequence: np.ndarray,
+    *,
+    passing: float,
+    lasting: float,
+    passing_time: float,
+    lasting_time: float,
+    gathering: float,
+) -> np.ndarray:
     """A film forms and passes quickly while the track wears slowly; each moves friction by its own share.
 
     >>> fast, slow = dict(passing=0.1, passing_time=0.02), dict(lasting=-0.3, lasting_time=0.5, gathering=1.0)

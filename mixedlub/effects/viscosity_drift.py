@@ -33,7 +33,17 @@ MOST = 30.0
     separated_by="the first point repeated at the end, and a fresh sample under a solvent trap: what the trap stops is "
     "evaporation, what a fresh sample repeats is chemistry or the edge of the gap",
 )
-def viscosity_drift(viscosity, sequence, ageing, oil_temperature, *, drift, power, cold_gain, heat):
+def viscosity_drift(
+    viscosity: np.ndarray,
+    sequence: np.ndarray,
+    ageing: np.ndarray,
+    oil_temperature: np.ndarray,
+    *,
+    drift: float,
+    power: float,
+    cold_gain: float,
+    heat: float,
+) -> np.ndarray:
     """The sample changes with its history; these readings cannot say whether by evaporation, chemistry or wear.
 
     No law of temperature and pressure can show it. What a lost light fraction or a new phase adds is felt most in

@@ -24,28 +24,28 @@ TERMS = 12
     equation=r"\mu_B \leftarrow \mu_B\,\exp\sum_{k=1}^{12} a_k\cos(k\pi q)",
     source="empirical: a cosine series, the most general history without a law; films that form and wear off in turn "
     "are described by H. Fujita, H. A. Spikes, Proc. IMechE J 218 (2004) 265",
-    fingerprint={"sequence": "0"},
+    fingerprint={"sequence": "-"},
     separated_by="images of the track at the highs and lows; a second run shows whether the swings repeat",
     kinds=("friction_history",),
     odds=0.3,
 )
 def wandering_surface_state(
-    boundary_friction,
-    sequence,
+    boundary_friction: np.ndarray,
+    sequence: np.ndarray,
     *,
-    swing_1,
-    swing_2,
-    swing_3,
-    swing_4,
-    swing_5,
-    swing_6,
-    swing_7,
-    swing_8,
-    swing_9,
-    swing_10,
-    swing_11,
-    swing_12,
-):
+    swing_1: float,
+    swing_2: float,
+    swing_3: float,
+    swing_4: float,
+    swing_5: float,
+    swing_6: float,
+    swing_7: float,
+    swing_8: float,
+    swing_9: float,
+    swing_10: float,
+    swing_11: float,
+    swing_12: float,
+) -> np.ndarray:
     """Friction follows a surface state that comes and goes: a free form that describes and names no cause.
 
     >>> null = {f"swing_{k}": 0.0 for k in range(2, 13)}

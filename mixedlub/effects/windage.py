@@ -1,5 +1,7 @@
 """Windage."""
 
+import numpy as np
+
 from mixedlub.effect import Between, LogNormal, Parameter, effect
 from mixedlub.laws.drag import windage_diab
 
@@ -24,19 +26,19 @@ _PIVOT = 15.0
     separated_by="a dry, shrouded or evacuated run: nearly the cube of speed, and blind to oil and its temperature",
 )
 def windage(
-    power_loss,
-    pinion_radius,
-    gear_radius,
-    pinion_speed,
-    gear_speed,
-    face_width,
-    pinion_teeth,
-    gear_teeth,
-    gears_fitted,
+    power_loss: np.ndarray,
+    pinion_radius: np.ndarray,
+    gear_radius: np.ndarray,
+    pinion_speed: np.ndarray,
+    gear_speed: np.ndarray,
+    face_width: np.ndarray,
+    pinion_teeth: np.ndarray,
+    gear_teeth: np.ndarray,
+    gears_fitted: np.ndarray,
     *,
-    strength,
-    exponent,
-):
+    strength: float,
+    exponent: float,
+) -> np.ndarray:
     """The wheels drive the air round.
 
     The properties of air and the pivot of 15 m/s make the form belong to SI. Published formulas agree within a

@@ -1,5 +1,7 @@
 """A zero that wanders off during the test."""
 
+import numpy as np
+
 from mixedlub.effect import Normal, Parameter, effect
 
 
@@ -22,7 +24,7 @@ from mixedlub.effect import Normal, Parameter, effect
     separated_by="a reading at rest before and after the test",
     kinds=("film", "friction_map"),
 )
-def zero_drift(reading, reading_scale, sequence, *, drift):
+def zero_drift(reading: np.ndarray, reading_scale: np.ndarray, sequence: np.ndarray, *, drift: float) -> np.ndarray:
     """The reading at rest is no longer zero at the end; every reading shifts by the same amount.
 
     Offered where readings change size or sign within the recording, as films and torques of drives do: on a

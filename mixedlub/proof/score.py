@@ -47,7 +47,7 @@ def at_most(value: float) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class Row:
-    """One figure: its value, what it counts, a 90 % bootstrap interval over cases, and the goal."""
+    """One figure: its value, what it counts, a 90 % interval, and the goal."""
 
     key: str
     text: str
@@ -129,7 +129,10 @@ def _ratio(hits: Sequence[float]) -> float:
 
 @dataclass(frozen=True)
 class Figure:
-    """How one row is made: which cases count, what is measured of each, how they are put together."""
+    """How one row is made: which cases count, what is measured of each, how they are put together.
+
+    A ``share`` counts what is so or not so: one thing a case, or ``weight`` of them.
+    """
 
     key: str
     text: str
@@ -187,29 +190,40 @@ def _glaring(truth: Truth, answer: Answer) -> bool:
 ONE, SOME = ("single", "measurement"), ("single", "measurement", "pair")
 HIDDEN = (*SOME, "unknown")
 FIGURES: tuple[Figure, ...] = (
-    Figure("right", "right verdict, one effect, identifiable", _clear(*ONE), right, at_least(0.95)),
-    Figure("right_physics", "  of these physics", _clear("single"), right),
-    Figure("right_fault", "  of these instrument faults", _clear("measurement"), right),
-    Figure("tied", "right or honestly tied, one effect, all", _in(*ONE), tied, at_least(0.98)),
+    Figure("right", "right verdict, one effect, identifiable", _clear(*ONE), right, at_least(0.95), how="share"),
+    Figure("right_physics", "  of these physics", _clear("single"), right, how="share"),
+    Figure("right_fault", "  of these instrument faults", _clear("measurement"), right, how="share"),
+    Figure("tied", "right or honestly tied, one effect, all", _in(*ONE), tied, at_least(0.98), how="share"),
     Figure("ties", "explanations named where one effect is hidden", _in(*ONE), _explanations),
-    Figure("pair_both", "both effects of a pair named", _in("pair"), _both, at_least(0.85)),
-    Figure("pair_exact", "pair named exactly", _in("pair"), right),
-    Figure("none", "none where nothing is missing", _in("none"), right, at_least(0.98)),
-    Figure("false_alarm", "mismatch detected where nothing is missing", _in("none"), _detected),
-    Figure("power", "mismatch detected where one effect is hidden", _in(*ONE), _detected),
-    Figure("unknown", "unknown where so and identifiable", _clear("unknown"), _named_unknown, at_least(0.90)),
-    Figure("unknown_distinct", "  of these, not made to mimic", _distinct, _named_unknown),
-    Figure("unknown_clear", "  of these, clearly visible (12 or more)", _glaring, _named_unknown),
-    Figure("outliers_found", "outlier readings found", _spoiled, outliers_found, at_least(0.95), weight=spoiled),
+    Figure("pair_both", "both effects of a pair named", _in("pair"), _both, at_least(0.85), how="share"),
+    Figure("pair_exact", "pair named exactly", _in("pair"), right, how="share"),
+    Figure("none", "none where nothing is missing", _in("none"), right, at_least(0.98), how="share"),
+    Figure("false_alarm", "mismatch detected where nothing is missing", _in("none"), _detected, how="share"),
+    Figure("power", "mismatch detected where one effect is hidden", _in(*ONE), _detected, how="share"),
+    Figure(
+        "unknown", "unknown where so and identifiable", _clear("unknown"), _named_unknown, at_least(0.90), how="share"
+    ),
+    Figure("unknown_distinct", "  of these, not made to mimic", _distinct, _named_unknown, how="share"),
+    Figure("unknown_clear", "  of these, clearly visible (12 or more)", _glaring, _named_unknown, how="share"),
+    Figure(
+        "outliers_found",
+        "outlier readings found",
+        _spoiled,
+        outliers_found,
+        at_least(0.95),
+        how="share",
+        weight=spoiled,
+    ),
     Figure(
         "outliers_false",
         "good readings flagged as outliers",
         _any,
         outliers_false,
         at_most(0.005),
-        weight=clean,
+        "share",
+        clean,
     ),
-    Figure("crossed", "fault called physics or physics fault", _clear(*ONE), crossed, at_most(0.02)),
+    Figure("crossed", "fault called physics or physics fault", _clear(*ONE), crossed, at_most(0.02), how="share"),
     Figure(
         "held_out",
         "withheld: error of predicted over calibrated",
@@ -242,6 +256,37 @@ def _reduce(values: np.ndarray, weights: np.ndarray, how: str) -> float:
 
 
 def _interval(values: np.ndarray, weights: np.ndarray, how: str) -> tuple[float, float]:
+    """90 % interval: Wilson's for a share, else by bootstrap over cases.
+
+    A bootstrap of nothing but hits has no width. Readings of a case go wrong together, which Wilson's does not know:
+    where cases count for several, the interval reaches as far as either.
+    """
+    if how != "share":
+        return _bootstrap(values, weights, how)
+    if not len(values):
+        return float("nan"), float("nan")
+    low, high = wilson(round(float(values @ weights)), round(float(weights.sum())))
+    if np.all(weights == 1.0) or len(values) < 2:
+        return low, high
+    first, last = _bootstrap(values, weights, how)
+    return min(low, first), max(high, last)
+
+
+def wilson(hits: int, of: int) -> tuple[float, float]:
+    """Wilson's 90 % score interval of a proportion.
+
+    Source: E. B. Wilson, J. Am. Stat. Assoc. 22 (1927) 209.
+
+    >>> [round(end, 3) for end in wilson(20, 20)]   # 1 / (1 + 1.645^2 / 20)
+    [0.881, 1.0]
+    """
+    from scipy.stats import binomtest
+
+    low, high = binomtest(hits, of).proportion_ci(0.90, "wilson")
+    return float(low), float(high)
+
+
+def _bootstrap(values: np.ndarray, weights: np.ndarray, how: str) -> tuple[float, float]:
     """90 % bootstrap interval over cases, from a fixed seed."""
     if len(values) < 2 or how == "max":
         return float("nan"), float("nan")
@@ -288,7 +333,7 @@ def _probability_rows(pairs: Sequence[Pair], ids: Sequence[str]) -> list[Row]:
         Row("log_score", "log score of the probabilities, a case", float(logs.mean()), len(logs),
             *_interval(logs, np.ones_like(logs), "mean"), None),
         Row("claims", "claims above 0.9 that are right", _ratio(list(bold)), len(bold),
-            *_interval(bold, np.ones_like(bold), "mean"), (0.90, INF)),
+            *_interval(bold, np.ones_like(bold), "share"), (0.90, INF)),
         Row("calibration_error", "expected calibration error, probabilities over 0.02", error, len(some),
             float("nan"), float("nan"), None),
     ]  # fmt: skip

@@ -1,4 +1,4 @@
-"""Small gear and disc rigs on which every effect of the catalogue is put through its contract."""
+"""Small rigs of every kind of recording on which every effect of the catalogue is put through its contract."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from mixedlub.effect import Effect, catalogue
 from mixedlub.forward import Forward
 from mixedlub.quantities import GLOSSARY
 
-RIGS = ("gear_pair", "disc")
+RIGS = tuple(standard.CONDITIONS)
 LEVELS = {
     "gear_pair": {"load": (60.0, 140.0), "speed": (600.0, 2800.0), "oil_temperature": (45.0, 95.0)},
     "disc": {
@@ -22,25 +22,38 @@ LEVELS = {
         "slide_roll_ratio": (0.0, 0.5),
         "oil_temperature": (45.0, 95.0),
     },
+    "film": {
+        "load": (10.0, 40.0),
+        "speed": tuple(np.geomspace(0.02, 4.0, 40)),
+        "slide_roll_ratio": (0.0, 0.5),
+        "oil_temperature": (45.0, 95.0),
+    },
+    "friction_history": {"sequence": (0.0, 900.0, 3600.0, 7200.0), "oil_temperature": (70.0,)},
+    "friction_map": {"drive_angle": (0.0, 100.0, 250.0)},
+    "viscosity": {},
+    "mesh_friction": {"speed": (600.0, 2800.0), "roll_angle": (16.0, 21.0, 24.0, 31.0)},
 }
+DISSIPATED = {
+    "gear_pair": "power_loss",
+    "disc": "tangential_friction",
+    "film": "film_thickness",
+    "friction_history": "tangential_friction",
+    "friction_map": "running_friction",
+    "viscosity": "contact_viscosity",
+    "mesh_friction": "friction",
+}
+"""What is positive on each rig whatever the effects, the reading's own faults aside."""
+
 ELSEWHERE = {
-    "face_position": 0.5,
-    "tangential_friction": 0.05,
-    "friction_torque": 0.3,
-    "sliding_position": -0.2,
-    "drive_speed": -12.0,
-    "bulk_viscosity": 0.4,
     "pressure": 2e8,
-    "time": 500.0,
     "heat_flux": 1e7,
     "wheel_radius": 0.04,
     "wheel_speed": 150.0,
     "wheel_teeth": 25.0,
     "bearing_diameter": 0.045,
     "seal_diameter": 0.04,
-    "transverse_radius": 0.02,
 }
-"""Plausible values of what neither rig has."""
+"""Plausible values of what no rig has."""
 
 
 @cache
@@ -53,6 +66,11 @@ def rig(name: str) -> Forward:
 def acting(name: str) -> tuple[Effect, ...]:
     """Effects that a rig can show."""
     return rig(name).effects()
+
+
+def on_rigs(effect: Effect) -> list[str]:
+    """The rigs on which an effect can act."""
+    return [name for name in RIGS if effect.id in {e.id for e in acting(name)}]
 
 
 def cases() -> list[tuple[str, str]]:
@@ -73,9 +91,9 @@ def everything(chain: Chain, given: dict[str, Any]) -> dict[str, Any]:
 
 @cache
 def states() -> dict[str, dict[str, Any]]:
-    """Values of every word of the glossary on each rig, the other rig's or a plausible number where it lacks one."""
+    """Values of every word of the glossary on each rig, another rig's or a plausible number where it lacks one."""
     own = {name: everything(rig(name).chain, rig(name).inputs) for name in RIGS}
-    anywhere = {k: float(np.ravel(v)[0]) for name in RIGS for k, v in own[name].items()}
+    anywhere = {k: float(np.ravel(v)[-1]) for name in reversed(RIGS) for k, v in own[name].items()}
     return {
         name: {word: own[name].get(word, anywhere.get(word, ELSEWHERE.get(word, 1.0))) for word in GLOSSARY}
         for name in RIGS

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
 from itertools import combinations
 from pathlib import Path
 from time import perf_counter
@@ -11,14 +10,13 @@ from time import perf_counter
 import numpy as np
 import pytest
 
-from mixedlub.catalogue import RIGS as STANDARD
 from mixedlub.catalogue import effects_text, fingerprint, lookalikes
 from mixedlub.chain import Model
 from mixedlub.effect import Effect, catalogue
 from mixedlub.quantities import GLOSSARY, dimension
 from mixedlub.report.plain import plain_equation
 from profiles.errors import InputError
-from tests.contracts.rigs import EFFECTS, RIGS, acting, apply, cases, moved, rig, states
+from tests.contracts.rigs import DISSIPATED, EFFECTS, RIGS, acting, apply, cases, moved, on_rigs, rig, states
 
 each = pytest.mark.parametrize("effect", EFFECTS, ids=[e.id for e in EFFECTS])
 each_case = pytest.mark.parametrize(("name", "effect_id"), cases())
@@ -43,16 +41,29 @@ PHYSICAL = {
 CONDITIONS = ("load", "speed", "slide_roll_ratio", "oil_temperature", "roughness", "sequence")
 
 
+HOME = ("gear_pair", "disc")
+"""The rigs whose loss and friction a fingerprint speaks of; of what shows on neither, the first rig that shows it."""
+
+
+def home(effect: Effect) -> dict[str, dict[str, str]]:
+    """The computed fingerprints that the declared one is held against."""
+    found = {name: fingerprint(effect, name) for name in RIGS}
+    shown = {name: signs for name, signs in found.items() if signs}
+    near = {name: signs for name, signs in shown.items() if name in HOME}
+    return near or dict(list(shown.items())[:1])
+
+
 def positive_loss(name: str, effects: tuple[Effect, ...]) -> None:
-    """With these effects on, readings are finite and the loss (not its measurement) positive wherever it slides."""
+    """With these effects on, readings are finite and what is dissipated, or a film, is positive wherever it slides."""
     forward = rig(name)
-    want = "power_loss" if name == "gear_pair" else "tangential_friction"
+    want = DISSIPATED[name]
     model = Model(forward.chain, tuple(forward.inputs), ("reading", want), effects)
     found = model(forward.inputs, {e.id: moved(e) for e in effects})
     assert np.isfinite(found["reading"]).all()
-    slides = forward.inputs["sliding_speed"].max(axis=-1, keepdims=True) > 0
-    assert (found[want] >= 0).all()
-    assert found[want][np.broadcast_to(slides, found[want].shape)].min() > 0
+    size = found[want] * np.sign(forward.inputs.get("drive_speed", 1.0))
+    assert (size >= 0).all()
+    slides = np.max(forward.inputs.get("sliding_speed", 1.0), axis=-1, keepdims=True) > 0
+    assert size[np.broadcast_to(slides, size.shape)].min() > 0
 
 
 @each_case
@@ -85,6 +96,13 @@ def test_alone_and_in_every_pair_the_loss_is_finite_and_positive(name: str, effe
             positive_loss(name, (effect, other))
 
 
+@each
+def test_it_acts_on_the_rig_of_every_kind_it_names(effect: Effect) -> None:
+    """So that any two effects of one kind are tried together above."""
+    assert on_rigs(effect)
+    assert set(effect.kinds) <= set(on_rigs(effect))
+
+
 @pytest.mark.parametrize("name", RIGS)
 def test_all_on_the_loss_is_finite_and_positive(name: str) -> None:
     positive_loss(name, acting(name))
@@ -111,20 +129,20 @@ def test_effects_on_one_quantity_commute_or_are_ordered(a: Effect, b: Effect) ->
 
 
 @each
-@pytest.mark.parametrize("name", STANDARD)
-def test_declared_fingerprint_is_the_computed_one(name: str, effect: Effect) -> None:
-    computed = fingerprint(effect, name)
+def test_declared_fingerprint_is_the_computed_one(effect: Effect) -> None:
+    computed = home(effect)
     for condition, sign in effect.fingerprint.items():
         assert condition in CONDITIONS or condition in GLOSSARY, condition
-        assert sign in ("+", "-", "0"), sign
-        assert computed.get(condition, sign) == sign, f"{condition}: declared {sign}, computed {computed[condition]}"
+        found = {name: signs[condition] for name, signs in computed.items() if condition in signs}
+        assert found, f"{condition}: computed nowhere"
+        assert set(found.values()) == {sign}, f"{condition}: declared {sign}, computed {found}"
 
 
 @each
 def test_typical_parameters_keep_the_quantity_physical(effect: Effect) -> None:
     bounds = [p.typical for p in effect.parameters]
     corners = np.array(np.meshgrid(*bounds)).reshape(len(bounds), -1).T
-    for name in RIGS:
+    for name in on_rigs(effect):
         for corner in corners:
             values = dict(zip((p.name for p in effect.parameters), map(float, corner), strict=True))
             after = apply(effect, states()[name], values)
@@ -138,10 +156,11 @@ def test_typical_parameters_keep_the_quantity_physical(effect: Effect) -> None:
 
 @each_case
 def test_smooth_in_its_parameters(name: str, effect_id: str) -> None:
-    """Central differences over two small steps agree."""
+    """Central differences over two small steps agree; what a search must scan finely changes over finer steps."""
     effect = catalogue()[effect_id]
 
     def slope(k: int, step: float) -> np.ndarray:
+        step /= max(effect.parameters[k].scan, 1)
         low, high = (
             rig(name).predict(
                 None, {effect_id: effect.values(np.where(np.arange(len(effect.parameters)) == k, z, 0.3))}
@@ -155,20 +174,30 @@ def test_smooth_in_its_parameters(name: str, effect_id: str) -> None:
         assert np.abs(coarse - fine).max() <= 0.03 * np.abs(fine).max(), effect.parameters[k].name
 
 
-@each_case
+@pytest.mark.parametrize(("name", "effect_id"), [case for case in cases() if case[0] != "viscosity"])
 def test_costs_no_more_than_a_few_base_evaluations(name: str, effect_id: str) -> None:
-    forward = rig(name)
-    values = {effect_id: moved(catalogue()[effect_id])}
+    """Beside a base that makes what the effect reads; the fastest of calls in turn, for a machine may be busy.
 
-    def fastest(call: Callable[[], object]) -> float:
-        times = []
-        for _ in range(7):
-            start = perf_counter()
-            call()
-            times.append(perf_counter() - start)
-        return min(times)
+    The two laws of a sample's viscosity are no measure; its effects are timed on the other rigs.
+    """
+    effect, inputs = catalogue()[effect_id], rig(name).inputs
+    want = ("reading", *effect.acts_on, *effect.reads)
+    off = Model(rig(name).chain, tuple(inputs), want)
+    on = Model(rig(name).chain, tuple(inputs), want, (effect,))
+    values = {effect_id: moved(effect)}
 
-    assert fastest(lambda: forward.predict(None, values)) < 5.0 * fastest(forward.predict)
+    def seconds(model: Model, parameters: dict[str, dict[str, float]]) -> float:
+        start = perf_counter()
+        model(inputs, parameters)
+        return perf_counter() - start
+
+    base = with_effect = np.inf
+    for _ in range(40):
+        for _ in range(5):
+            base, with_effect = min(base, seconds(off, {})), min(with_effect, seconds(on, values))
+        if with_effect < 5.0 * base:
+            return
+    pytest.fail(f"{with_effect / base:.1f} times the base model")
 
 
 @each
@@ -179,7 +208,7 @@ def test_says_what_it_is(effect: Effect) -> None:
     assert effect.equation.strip()
     assert effect.source.strip()
     assert len(effect.separated_by) > 20
-    assert effect.fingerprint or not any(fingerprint(effect, name) for name in STANDARD)
+    assert effect.fingerprint or not any(fingerprint(effect, name) for name in RIGS)
     assert any(p.null is not None for p in effect.parameters), "nothing switches it off"
     for p in effect.parameters:
         assert p.meaning.strip()
@@ -203,6 +232,13 @@ def test_page_shows_equation_source_and_separating_test(effect: Effect) -> None:
     assert "\\" not in page
 
 
+@each_case
+def test_page_shows_the_fingerprint_on_every_rig_where_it_shows(name: str, effect_id: str) -> None:
+    page = " ".join(effects_text(effect_id).split())
+    signs = ", ".join(f"{condition} {sign}" for condition, sign in fingerprint(catalogue()[effect_id], name).items())
+    assert not signs or f"fingerprint share of the reading with growing {signs}" in page
+
+
 def test_table_lists_every_effect() -> None:
     table = effects_text(None)
     assert all(e.id in table for e in EFFECTS)
@@ -213,7 +249,7 @@ def test_unknown_effect_names_the_nearest() -> None:
         effects_text("windag")
 
 
-@pytest.mark.parametrize("name", STANDARD)
+@pytest.mark.parametrize("name", RIGS)
 def test_lookalikes_are_mutual(name: str) -> None:
     for effect in EFFECTS:
         for other in lookalikes(effect.id, name):

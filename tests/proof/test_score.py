@@ -124,6 +124,50 @@ def test_outliers_are_counted_reading_by_reading():
     assert value("outliers_false", *pairs) == pytest.approx(1 / (12 + 14))
 
 
+Z90 = 1.6448536
+"""Normal quantile that 5 % lie beyond."""
+
+
+def test_a_proportion_without_a_miss_has_an_interval():
+    row = score([(truth_of(), answer_of())] * 20)["right"]
+    assert row.value == 1.0
+    assert row.low == pytest.approx(1.0 / (1.0 + Z90**2 / 20))
+    assert row.high == 1.0
+
+
+def test_a_proportion_without_a_hit_has_an_interval():
+    row = score([(truth_of(), answer_of("windage"))] * 20)["right"]
+    assert row.value == row.low == 0.0
+    assert row.high == pytest.approx(Z90**2 / 20 / (1.0 + Z90**2 / 20))
+
+
+def test_the_interval_of_one_half_is_even_about_it():
+    row = score([(truth_of(), answer_of()), (truth_of(), answer_of("windage"))] * 5)["right"]
+    assert row.high - 0.5 == pytest.approx(0.5 - row.low)
+    assert row.high - 0.5 == pytest.approx(0.5 * Z90 / np.sqrt(10 + Z90**2))
+
+
+def test_claims_have_the_interval_of_a_proportion():
+    row = score([(truth_of(), answer_of())] * 10)["claims"]
+    assert (row.value, row.count) == (1.0, 10)
+    assert row.low == pytest.approx(1.0 / (1.0 + Z90**2 / 10))
+
+
+def test_readings_that_go_wrong_together_widen_the_interval():
+    some = truth_of(outliers=frozenset({3, 4, 5, 6, 7}))
+    found, missed = (some, answer_of(outliers=some.outliers)), (some, answer_of())
+    together = score([found, missed] * 4)["outliers_found"]
+    assert together.count == 40
+    assert together.high - together.low > 2.0 * Z90 * 0.5 / np.sqrt(40)
+    assert score([found] * 8)["outliers_found"].low == pytest.approx(1.0 / (1.0 + Z90**2 / 40))
+
+
+def test_means_keep_their_bootstrap():
+    pairs = [(truth_of(), answer_of(seconds=float(s))) for s in range(1, 10)] + [(truth_of(), answer_of())]
+    assert score(pairs)["seconds"].low < score(pairs)["seconds"].value
+    assert score([(truth_of(), answer_of())] * 5)["coverage"].low == pytest.approx(0.9, abs=1e-3)
+
+
 def test_held_out_error_is_taken_at_withheld_conditions():
     truth = truth_of()
     answer = answer_of(predicted=truth.values + np.where(truth.withheld, 1.0, 50.0))
