@@ -75,14 +75,11 @@ def _beside_leaders(
         left = fit.residual * weight
         level = fit.evidence if write_off else -0.5 * float(left @ fit.residual)
 
-        def whiten(change: np.ndarray, columns=columns, weight=weight, inner=inner) -> np.ndarray:
-            scaled = change * weight
-            return scaled - ((scaled @ columns) @ inner) @ (columns * weight[:, None]).T
-
         for other in sampled:
             if other.id in fit.explanation:
                 continue
-            seen = whiten(other.change)
+            scaled = other.change * weight
+            seen = scaled - ((scaled @ columns) @ inner) @ (columns * weight[:, None]).T
             gain = other.change @ left - 0.5 * np.einsum("ij,ij->i", other.change, seen)
             gain -= 0.5 * np.einsum("ij,ij->i", other.z, other.z)
             k = int(np.argmax(gain))
