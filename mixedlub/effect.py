@@ -199,7 +199,9 @@ def effect(
     The first arguments are the quantities acted on, then the quantities read, then keyword-only parameters.
     ``fingerprint`` names conditions (load, speed, slide_roll_ratio, oil_temperature, roughness, sequence) and
     says whether the effect's share of the reading, (with - without)/without, grows (``"+"``), falls (``"-"``) or
-    stays (``"0"``) as the condition grows; falling includes growing more negative. ``after`` names effects on
+    stays (``"0"``) as the condition grows; falling includes growing more negative. It speaks of the loss of gears and
+    the friction of discs, of what shows on neither of the first standard rig that shows it; a film, say, may have the
+    opposite sign. ``after`` names effects on
     the same quantity that come first; ``kinds`` restricts the kinds of recording (empty: all). ``odds`` below one
     say that it is missing less often than others are, before any reading is seen. ``contains`` names published
     laws that it becomes at certain values of some parameters.
