@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import LogNormal, Normal, Parameter, effect
+from mixedlub.effect import LogNormal, Parameter, Wide, effect
 
 SOFTNESS = 0.2
 
@@ -11,9 +11,7 @@ SOFTNESS = 0.2
     stage="boundary",
     acts_on="boundary_friction",
     parameters=(
-        Parameter(
-            "change", "-", Normal(0.3, 0.5), "relative change of friction under a complete film", null=0.0, symbol="c"
-        ),
+        Parameter("change", "-", Wide(0.45), "relative change of friction under a complete film", null=0.0, symbol="c"),
         Parameter(
             "time_constant",
             "-",

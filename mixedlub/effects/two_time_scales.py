@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import LogNormal, Normal, Parameter, effect
+from mixedlub.effect import LogNormal, Parameter, Wide, effect
 
 
 @effect(
@@ -12,14 +12,12 @@ from mixedlub.effect import LogNormal, Normal, Parameter, effect
         Parameter(
             "passing",
             "-",
-            Normal(0.0, 0.15),
+            Wide(0.13),
             "relative change at the height of the passing state",
             null=0.0,
             symbol="a",
         ),
-        Parameter(
-            "lasting", "-", Normal(0.0, 0.5), "relative change that the slow state ends at", null=0.0, symbol="b"
-        ),
+        Parameter("lasting", "-", Wide(0.45), "relative change that the slow state ends at", null=0.0, symbol="b"),
         Parameter(
             "passing_time",
             "-",
