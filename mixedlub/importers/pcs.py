@@ -9,7 +9,7 @@ from datetime import datetime
 import numpy as np
 
 from mixedlub.headers import BY_NAME, convert, split, target_of
-from mixedlub.importers.draft import Answers, Draft, Question, questions_of
+from mixedlub.importers.draft import Answers, Draft, Question, questions_of, refuse_unknown
 from profiles.errors import InputError
 
 STEP = re.compile(r'^Step (\d+)(?: "[^"]*")? started at (\d\d/\d\d/\d{4} \d\d:\d\d(?::\d\d)?)')
@@ -84,6 +84,7 @@ def _columns(header: str, rows: list[list[str]], where: str) -> dict[str, np.nda
 
 def draft(text: str, name: str, answers: Answers) -> Draft:
     """The case that a file makes: a film against speed, or friction against time."""
+    refuse_unknown(answers, ("import.temperature",))
     held = steps(text, name)
     films = tuple(s for s in held if s.form in FILM_TYPES and _has(s, "film_thickness_nm"))
     frictions = tuple(s for s in held if _has(s, "friction_coefficient") and _has(s, "time_s"))
