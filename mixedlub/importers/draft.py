@@ -18,6 +18,9 @@ Answers = Mapping[str, Any]
 """Answers by dotted key: keys of system.toml, or ``import.`` and what the importer itself asks."""
 
 
+WARNING = "warning: "
+"""How a note begins that tells of readings lost or in doubt."""
+
 PART = re.compile(r'"[^"]*"|[^.]+')
 """A part of a dotted key; a name with a point in it stands in quotes."""
 

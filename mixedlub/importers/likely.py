@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable
 
 from mixedlub.config import KINDS
-from mixedlub.headers import BY_NAME, TEXT_COLUMNS, change_to, split, target_of
+from mixedlub.headers import BY_NAME, TEXT_COLUMNS, change_to, is_unit, split, target_of
 from mixedlub.importers.sheet import Cells, is_number
 from mixedlub.kinds import friction_map
 from mixedlub.kinds import kind as kind_of
@@ -17,6 +17,8 @@ ENOUGH = 0.4
 UNIT_FITS = 0.45
 NO_UNIT_FITS = 0.01
 """A number without a unit is rather one that has none than one whose unit is not said."""
+ABSENT = 0.5
+"""What a needed column that no header is near takes away."""
 TEXT_FITS = 0.4
 DATED = re.compile(r"\d+[-/.:]\d+")
 """How a date or a clock begins, which names no surface."""
@@ -51,7 +53,7 @@ def _share(name: str, cells: Cells) -> tuple[float, int]:
     reading = max((near_by.get(q, 0.0) for q in found.quantities), default=0.0)
     conditions = [near_by.get(c, 0.0) for c in needed] + [max((near_by.get(c, 0.0) for c in group), default=0.0)]
     conditions = conditions[: len(needed) + bool(group)]
-    share = sum(conditions) / (len(conditions) + 1)
+    share = sum(c or -ABSENT for c in conditions) / (len(conditions) + 1)
     return (reading + share, sum(c > 0.0 for c in conditions))
 
 
@@ -66,7 +68,9 @@ def is_logarithm(header: str) -> bool:
     >>> [is_logarithm(h) for h in ("ln_kinematic_viscosity", "log10(viscosity)", "Log time (s)", "load_N")]
     [True, True, False, False]
     """
-    return split(header)[1] is None and bool(re.match(r"(?:ln|lg|log(?:2|10|e)?)(?![a-z0-9])", header.strip().lower()))
+    unit = split(header)[1]
+    logged = re.match(r"(?:ln|lg|log(?:2|10|e)?)(?![a-z0-9])", header.strip().lower())
+    return logged is not None and (unit is None or not is_unit(unit))
 
 
 def likeness(column: str, header: str, cells: Iterable[str] = ()) -> float:

@@ -18,6 +18,10 @@ from profiles.errors import InputError, nearest
 
 COLUMNS = "import.columns."
 UNIT_KEYS = "import.units."
+OF_READINGS = ("mean", "average", "avg", "median", "value", "measured", "nominal", "actual", "set")
+"""Last words of a header that are no unit."""
+COUNTS = ("fringe_order",)
+"""Columns that have no unit to ask for."""
 ALIKE = 0.1
 """Likeness by which two headers may differ and still be asked about."""
 
@@ -202,8 +206,9 @@ def _units(
         target = target_for(column)
         if target is None or column in TEXT_COLUMNS:
             continue
-        own = None if header.strip().lower() == column.lower() else split(header)[1]
-        native = header.strip().lower() == column.lower()
+        named = header.strip().lower() == column.lower()
+        own = None if named else split(header)[1]
+        native = named or column in COUNTS
         unit = answers.get(UNIT_KEYS + column)
         if unit is not None:
             units[column] = str(unit)
@@ -223,6 +228,6 @@ def _unit_question(column: str, header: str, target: Target) -> Question:
     spoken = {
         w for form in (*BY_NAME[column.removesuffix("_sd")].spoken, column.replace("_", " ")) for w in form.split()
     }
-    sure = len(words) == 1 or words[-1] in spoken or bool(re.fullmatch(r"[#\d]+", words[-1]))
+    sure = len(words) == 1 or words[-1] in (*spoken, *OF_READINGS) or bool(re.fullmatch(r"[#\d]+", words[-1]))
     text = f"Unit of the column {header!r}, taken as {column}"
     return Question(UNIT_KEYS + column, text, toml_value(known[0] if sure else "UNIT"), among=known)
