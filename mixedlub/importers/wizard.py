@@ -210,6 +210,9 @@ def _write(
     if not isinstance(every, int) or isinstance(every, bool) or every < 1:
         raise InputError("must be a whole number of at least 1", where=EVERY.key, value=every)
     columns = {name: values[::every] for name, values in draft.columns.items()}
+    check = checked.recording.check
+    if check is not None and check not in columns:
+        raise InputError("is no column that is taken from these files", where="recording.check", value=check)
     lacking = gaps(checked, columns)
     others = undescribed(checked, columns)
     if checked.surfaces and others:
@@ -220,8 +223,8 @@ def _write(
     complete = not any(gap.required for gap in lacking)
     refusals: list[str] = []
 
-    def check(folder: Path) -> None:
+    def read_back(folder: Path) -> None:
         refusals.append(refuse_unreadable(folder, checked, complete, out))
 
-    write_case(out, system, numbered, overwrite=overwrite, comments=comments, carried=files, check=check)
+    write_case(out, system, numbered, overwrite=overwrite, comments=comments, carried=files, check=read_back)
     return out, "".join(refusals)

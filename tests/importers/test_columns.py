@@ -1,4 +1,4 @@
-"""Which header is which column: answers are checked, every column of a kind is taken, two candidates are asked about."""
+"""Which header is which column: answers are checked, every column is taken, two candidates are asked about."""
 
 import shlex
 

@@ -68,7 +68,7 @@ def test_from_python_a_cut_file_is_a_warning(file, tmp_path):
 
 
 def test_a_file_cut_before_its_first_reading_says_so(file, tmp_path):
-    with pytest.raises(InputError, match="no step with films.*holds 1 of the 3 steps"):
+    with pytest.raises(InputError, match=r"no step with films.*holds 1 of the 3 steps"):
         said_of(file(FILM[: FILM.index(HEAD)]), BALL, tmp_path / "case")
 
 

@@ -192,10 +192,10 @@ def test_a_shipped_trace_is_not_looked_for(rig, tmp_path):
 
 
 def test_a_carried_file_never_takes_the_place_of_the_readings(rig, tmp_path):
+    rig(recordings_dot_csv=SHARES)
+    told = {"kind": "gear_pair", "gears": {"teeth": [17, 26], "load_sharing": {"table": "recordings.csv"}}}
     with pytest.raises(InputError, match="is a name that the case needs for another file"):
-        (tmp_path / "recordings.csv").write_text(SHARES, encoding="utf-8")
-        told = {"gears": {"teeth": [17, 26], "load_sharing": {"table": "recordings.csv"}}}
-        import_files([tmp_path / "t.csv"], tmp_path / "rig", kind="gear_pair", **told)
+        import_files([tmp_path / "t.csv"], tmp_path / "rig", **told)
 
 
 def test_a_carried_file_that_differs_is_not_replaced_unsaid(tmp_path):
