@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePath
@@ -33,7 +32,7 @@ def is_share(text: str) -> bool:
     (True, False)
     """
     first = next((line for line in text.splitlines() if line.strip()), "")
-    return {cell.strip() for cell in next(csv.reader([first]), [])} == SHARE_COLUMNS
+    return {cell.strip() for cell in first.split(",")} == SHARE_COLUMNS
 
 
 def with_share(answers: Mapping[str, Any], tables: Sequence[Path]) -> dict[str, Any]:

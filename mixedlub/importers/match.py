@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -92,7 +92,9 @@ def match(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> Match:
         free = {h: v for h, v in cells.items() if h not in found.headers.values()}
         missing.append(next(iter(likely_headers(group, free)), group[0]))
     found.questions.extend(_missing(missing, cells, found.headers, answers))
-    units, questions, notes = _units(found.headers, missing, answers)
+    open_ones = {q.key.removeprefix(COLUMNS) for q in found.questions}
+    _refuse_idle_units({*found.headers, *open_ones}, answers)
+    units, questions, notes = _units(found.headers, answers)
     ordered = {c.name: found.headers[c.name] for c in columns if c.name in found.headers}
     return Match(ordered, units, (*found.questions, *questions), (*found.notes, *notes))
 
@@ -112,7 +114,7 @@ def _told(column: str, cells: Cells, answers: Answers) -> str:
 
 def _find(column: Column, cells: Cells, found: _Finding) -> None:
     """The header of a column, by its name or by the words of instruments; the first of several where none is needed."""
-    own = [h for h in cells if h.strip().lower() == column.name.lower()]
+    own = [h for h in cells if _is_named(h, column.name)]
     if own:
         found.headers[column.name] = own[0]
         return
@@ -134,6 +136,11 @@ def _find(column: Column, cells: Cells, found: _Finding) -> None:
     if differing:
         others = ", ".join(map(repr, differing))
         found.notes.append(f"{spoken[0]!r} taken as {column.name}, not {others}; {COLUMNS}{column.name} says otherwise")
+
+
+def _is_named(header: str, column: str) -> bool:
+    """Whether a header is the column's own name; capitals tell milli from mega where there is a unit."""
+    return header == column or (target_for(column) is None and header.lower() == column.lower())
 
 
 def _one_of(group: tuple[str, ...], told: set[str], found: _Finding) -> None:
@@ -185,10 +192,8 @@ def _as_near(column: str, header: str | None, free: Cells) -> str:
     return f"; as near: {', '.join(others)}" if others else ""
 
 
-def _units(
-    headers: Mapping[str, str], missing: Sequence[str], answers: Answers
-) -> tuple[dict[str, str], list[Question], list[str]]:
-    """Units by column, as told or as the header says, and what to ask where neither does."""
+def _refuse_idle_units(columns: Set[str], answers: Answers) -> None:
+    """An error about a unit that its column cannot have, or that is told of a column which nothing is taken as."""
     for key, unit in answers.items():
         column = key.removeprefix(UNIT_KEYS)
         target = target_for(column)
@@ -197,8 +202,12 @@ def _units(
         if change_to(str(unit), target.unit) is None:
             could = ", ".join(UNITS[target.unit])
             raise InputError(f"unit of {column} is not known; it could be {could}", where=key, value=unit)
-        if column not in headers and column not in missing and COLUMNS + column not in answers:
+        if "kind" in answers and column not in columns:
             raise InputError(f"no column is taken as {column}; name its header by {COLUMNS}{column}", where=key)
+
+
+def _units(headers: Mapping[str, str], answers: Answers) -> tuple[dict[str, str], list[Question], list[str]]:
+    """Units by column, as told or as the header says, and what to ask where neither does."""
     units: dict[str, str] = {}
     questions: list[Question] = []
     notes: list[str] = []
@@ -206,7 +215,7 @@ def _units(
         target = target_for(column)
         if target is None or column in TEXT_COLUMNS:
             continue
-        named = header.strip().lower() == column.lower()
+        named = _is_named(header, column)
         own = None if named else split(header)[1]
         native = named or column in COUNTS
         unit = answers.get(UNIT_KEYS + column)

@@ -229,3 +229,13 @@ def test_no_unit_is_offered_where_the_header_may_end_in_one_that_is_not_known():
 
     assert offered("friction_torque_kpm") == '"UNIT"'
     assert offered("friction torque") == '"N.m"'
+
+
+def test_capitals_tell_milli_from_mega():
+    text = "temperature_C,pressure_mPa,viscosity_mPa_s\n40,1,30\n60,1,12\n"
+    assert "pressure_MPa" not in draft(text, "t.csv", {"kind": "viscosity", "import.units.temperature_C": "C"}).columns
+
+
+def test_a_unit_may_be_told_before_the_header_is():
+    found = draft("a,friction_torque_Nm\n1,2\n", "t.csv", {**DRIVE, "import.units.speed_rpm": "1/s"})
+    assert "import.columns.speed_rpm" in {q.key for q in found.questions}
