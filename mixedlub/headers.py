@@ -7,21 +7,43 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from profiles.errors import InputError, nearest
+from profiles.errors import InputError
 
 UNITS: dict[str, dict[str, tuple[float, float]]] = {
     "m_s": {"m/s": (1.0, 0.0), "mm/s": (1e-3, 0.0), "um/s": (1e-6, 0.0)},
-    "N": {"N": (1.0, 0.0), "uN": (1e-6, 0.0), "mN": (1e-3, 0.0), "kN": (1e3, 0.0)},
-    "C": {"degC": (1.0, 0.0), "C": (1.0, 0.0), "K": (1.0, -273.15)},
+    "N": {"N": (1.0, 0.0), "uN": (1e-6, 0.0), "mN": (1e-3, 0.0), "kN": (1e3, 0.0), "lbf": (4.4482216152605, 0.0)},
+    "C": {
+        "degC": (1.0, 0.0),
+        "C": (1.0, 0.0),
+        "K": (1.0, -273.15),
+        "degF": (5.0 / 9.0, -160.0 / 9.0),
+        "F": (5.0 / 9.0, -160.0 / 9.0),
+    },
     "rpm": {"rpm": (1.0, 0.0), "1/min": (1.0, 0.0), "rad/s": (30.0 / np.pi, 0.0), "1/s": (60.0, 0.0)},
-    "Nm": {"N.m": (1.0, 0.0), "mN.m": (1e-3, 0.0), "N.mm": (1e-3, 0.0), "N.cm": (1e-2, 0.0), "kN.m": (1e3, 0.0)},
+    "Nm": {
+        "N.m": (1.0, 0.0),
+        "mN.m": (1e-3, 0.0),
+        "N.mm": (1e-3, 0.0),
+        "N.cm": (1e-2, 0.0),
+        "kN.m": (1e3, 0.0),
+        **dict.fromkeys(("lbf.ft", "lb.ft", "ft.lbf", "ft.lb"), (1.3558179483314004, 0.0)),
+        **dict.fromkeys(("lbf.in", "lb.in", "in.lbf", "in.lb"), (0.1129848290276167, 0.0)),
+    },
     "nm": {"nm": (1.0, 0.0), "um": (1e3, 0.0)},
     "mPa_s": {"mPa.s": (1.0, 0.0), "cP": (1.0, 0.0), "Pa.s": (1e3, 0.0)},
-    "MPa": {"MPa": (1.0, 0.0), "GPa": (1e3, 0.0), "Pa": (1e-6, 0.0), "bar": (0.1, 0.0), "atm": (0.101325, 0.0)},
+    "MPa": {
+        "MPa": (1.0, 0.0),
+        "GPa": (1e3, 0.0),
+        "Pa": (1e-6, 0.0),
+        "bar": (0.1, 0.0),
+        "atm": (0.101325, 0.0),
+        "psi": (6.894757293168361e-3, 0.0),
+    },
     "s": {"s": (1.0, 0.0), "min": (60.0, 0.0), "h": (3600.0, 0.0)},
     "W": {"W": (1.0, 0.0), "kW": (1e3, 0.0)},
     "deg": {"deg": (1.0, 0.0), "rad": (180.0 / np.pi, 0.0)},
     "ratio": {"-": (1.0, 0.0), "1": (1.0, 0.0), "%": (0.01, 0.0)},
+    "percent": {"%": (1.0, 0.0), "-": (100.0, 0.0), "1": (100.0, 0.0)},
 }
 """What each unit of a case's columns may be given in: factor and what is added."""
 KINEMATIC = ("mm2/s", "mm²/s", "mm^2/s", "mm².s⁻¹", "mm2.s-1", "cst", "st", "m2/s", "m²/s", "m^2/s")
@@ -47,11 +69,33 @@ ENDINGS = {
     "percent": "%",
     "degC": "°C",
     "C": "°C",
+    "degF": "°F",
+    "F": "°F",
+    "lbft": "lb ft",
+    "ftlb": "ft lb",
     "deg": "°",
     "um": "µm",
     **{
         unit: unit
-        for unit in ("MPa", "GPa", "bar", "atm", "nm", "mm", "rpm", "kN", "kW", "min", "K", "N", "W", "s", "h")
+        for unit in (
+            "lbf",
+            "psi",
+            "MPa",
+            "GPa",
+            "bar",
+            "atm",
+            "nm",
+            "mm",
+            "rpm",
+            "kN",
+            "kW",
+            "min",
+            "K",
+            "N",
+            "W",
+            "s",
+            "h",
+        )
     },
 }
 """Ending of a name and the unit it stands for, longer endings before those they end in."""
@@ -114,6 +158,7 @@ TARGETS = (
     Target("roll_angle_deg", "deg", ("roll angle",)),
     Target("position_deg", "deg", ("position", "angle", "shaft angle")),
     Target("fringe_order", "ratio", ("order", "fringe order")),
+    Target("additive_percent", "percent", ("additive", "additive content", "additive concentration")),
 )
 BY_NAME = {t.name: t for t in TARGETS}
 TEXT_COLUMNS = ("rig", "setup", "surface_1", "surface_2", "pinion_surface", "gear_surface")
@@ -151,11 +196,11 @@ def target_of(header: str) -> Target | None:
 def tidy(unit: str) -> str:
     """A unit as the table writes it.
 
-    >>> tidy("µm"), tidy("°C"), tidy("N·m"), tidy("N m"), tidy("Pa s")
-    ('um', 'degC', 'N.m', 'N.m', 'Pa.s')
+    >>> tidy("µm"), tidy("°C"), tidy("N·m"), tidy("N m"), tidy("Pa s"), tidy("ft-lb")
+    ('um', 'degC', 'N.m', 'N.m', 'Pa.s', 'ft.lb')
     """
     plain = unit.strip().replace("µ", "u").replace("μ", "u").replace("°", "deg").replace("·", ".")
-    return re.sub(r"\s+", ".", plain)
+    return re.sub(r"(?<=[a-z])-(?=[a-z])|\s+", ".", plain)
 
 
 def change_to(unit: str, wanted: str) -> tuple[float, float] | None:
@@ -181,16 +226,37 @@ def is_unit(text: str) -> bool:
 
 
 def convert(values: np.ndarray, unit: str, target: Target, where: str) -> np.ndarray:
-    """Values in the unit of the target's column.
+    """Values in the unit of the target's column, free of the last digits that only conversion made.
 
     >>> convert(np.array([1.5]), "mm/s", BY_NAME["entrainment_speed_m_s"], "file").tolist()
     [0.0015]
+    >>> 300.1 - 273.15, convert(np.array([300.1]), "K", BY_NAME["temperature_C"], "file").tolist()
+    (26.950000000000045, [26.95])
     """
     change = change_to(unit, target.unit)
     if change is None:
-        hint = nearest(unit, UNITS[target.unit])
+        hint = f"it could be {', '.join(UNITS[target.unit])}"
         if target.unit == "mPa_s" and tidy(unit).lower() in KINEMATIC:
             hint = "this is a kinematic viscosity: in mm²/s, times the density in g/cm³, it is in mPa s"
         raise InputError(f"unit of {target.name} is not known; {hint}", where=where, value=unit)
     factor, added = change
-    return values * factor + added
+    return values if change == (1.0, 0.0) else rounded(values * factor + added, abs(added))
+
+
+DIGITS = 15
+"""Decimal digits that a double always holds."""
+
+
+def rounded(values: np.ndarray, beside: float = 0.0) -> np.ndarray:
+    """Values to 15 significant digits, of the larger where they were added to ``beside``.
+
+    >>> rounded(np.array([0.1 + 0.2])).tolist(), rounded(np.array([3600.0 + 0.7 - 3600.0]), 3600.0).tolist()
+    ([0.3], [0.7])
+    """
+    sizes = np.maximum(np.abs(values), beside)
+    return np.array(
+        [
+            round(v, DIGITS - 1 - int(np.floor(np.log10(s)))) if 0.0 < s < np.inf else v
+            for v, s in zip(values.tolist(), sizes.tolist(), strict=True)
+        ]
+    )

@@ -21,7 +21,8 @@ def command(
         list[str], typer.Option("--set", metavar="KEY=VALUE", help="An answer, with its key in system.toml.")
     ] = [],  # noqa: B006  (typer reads the default, nothing changes it)
     answers: Annotated[
-        Path | None, typer.Option(metavar="FILE.toml", help="Answers, written as in system.toml.")
+        Path | None,
+        typer.Option(metavar="FILE.toml", help="Answers, written as in system.toml; files they name come along."),
     ] = None,
     overwrite: Annotated[
         bool,

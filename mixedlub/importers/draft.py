@@ -12,11 +12,14 @@ import numpy as np
 
 from mixedlub.importers.keys import WORDS
 from mixedlub.kinds import kind as kind_of
-from profiles.errors import InputError
+from profiles.errors import InputError, nearest
 
 Answers = Mapping[str, Any]
 """Answers by dotted key: keys of system.toml, or ``import.`` and what the importer itself asks."""
 
+
+WARNING = "warning: "
+"""How a note begins that tells of readings lost or in doubt."""
 
 PART = re.compile(r'"[^"]*"|[^.]+')
 """A part of a dotted key; a name with a point in it stands in quotes."""
@@ -75,6 +78,8 @@ class Draft:
     system: Mapping[str, Any] = field(default_factory=dict)
     questions: tuple[Question, ...] = ()
     notes: tuple[str, ...] = ()
+    runs: np.ndarray | None = None
+    """Numbers of the readings, where the file has them and each stands once."""
 
 
 def _question(section: str, key: str, needed: bool) -> Question:
@@ -115,6 +120,20 @@ def contact_form(kind: str, answers: Answers) -> tuple[Question, ...]:
 def open_questions(draft: Draft, answers: Answers) -> tuple[Question, ...]:
     """The needed questions that are not answered yet."""
     return tuple(q for q in draft.questions if q.needed and q.key not in answers)
+
+
+def refuse_unknown(answers: Answers, known: Sequence[str]) -> None:
+    """An error about the first answer for the importer that it has no use for.
+
+    >>> refuse_unknown({"import.evry": 10, "kind": "film"}, [])
+    Traceback (most recent call last):
+    ...
+    profiles.errors.InputError: import.evry: key is not known for this file; nearest known: 'import.every'
+    """
+    keys = (EVERY.key, *known)
+    for key in answers:
+        if PART.findall(key)[:1] == ["import"] and key not in keys:
+            raise InputError(f"key is not known for this file; {nearest(key, keys)}", where=key)
 
 
 def nested(answers: Answers) -> dict[str, Any]:

@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 import difflib
+import re
 from collections.abc import Iterable
 
 from mixedlub.config import KINDS
-from mixedlub.headers import BY_NAME, TEXT_COLUMNS, change_to, split, target_of
+from mixedlub.headers import BY_NAME, TEXT_COLUMNS, change_to, is_unit, split, target_of
 from mixedlub.importers.sheet import Cells, is_number
+from mixedlub.kinds import friction_map
 from mixedlub.kinds import kind as kind_of
 
 ENOUGH = 0.4
 """Likeness from which a header is offered; a unit that fits, or names in the cells, make up for other words."""
 UNIT_FITS = 0.45
+NO_UNIT_FITS = 0.01
+"""A number without a unit is rather one that has none than one whose unit is not said."""
+ABSENT = 0.5
+"""What a needed column that no header is near takes away."""
 TEXT_FITS = 0.4
+DATED = re.compile(r"\d+[-/.:]\d+")
+"""How a date or a clock begins, which names no surface."""
 SAME_WORD = 0.75
 
 
@@ -36,14 +44,33 @@ def likely_kind(cells: Cells) -> str:
 
 
 def _share(name: str, cells: Cells) -> tuple[float, int]:
-    """Share of the needed columns that are there, the reading counting as much as all others; then how many."""
+    """Share of the needed columns that are there, more of them counting more, and the reading; then how many."""
     found = kind_of(name)
     needed = [c.name for c in found.columns if c.required]
-    near = likely_headers([*needed, *found.quantities], cells)
-    readings = max((likeness(q, near[q], cells[near[q]]) for q in found.quantities if q in near), default=0.0)
-    sure = [likeness(c, near[c], cells[near[c]]) for c in needed if c in near]
-    conditions = sum(sure) / len(needed) if needed else 0.0
-    return (readings + conditions, len(sure))
+    group = either(name)
+    near = likely_headers([*needed, *group, *found.quantities], cells)
+    near_by = {column: likeness(column, header, cells[header]) for column, header in near.items()}
+    reading = max((near_by.get(q, 0.0) for q in found.quantities), default=0.0)
+    conditions = [near_by.get(c, 0.0) for c in needed] + [max((near_by.get(c, 0.0) for c in group), default=0.0)]
+    conditions = conditions[: len(needed) + bool(group)]
+    share = sum(c or -ABSENT for c in conditions) / (len(conditions) + 1)
+    return (reading + share, sum(c > 0.0 for c in conditions))
+
+
+def either(kind: str) -> tuple[str, ...]:
+    """Columns of which a kind needs one and takes no more."""
+    return friction_map.SPEEDS if kind == "friction_map" else ()
+
+
+def is_logarithm(header: str) -> bool:
+    """Whether a header says that its column holds logarithms; a log with a unit is one that is kept.
+
+    >>> [is_logarithm(h) for h in ("ln_kinematic_viscosity", "log10(viscosity)", "Log time (s)", "load_N")]
+    [True, True, False, False]
+    """
+    unit = split(header)[1]
+    logged = re.match(r"(?:ln|lg|log(?:2|10|e)?)(?![a-z0-9])", header.strip().lower())
+    return logged is not None and (unit is None or not is_unit(unit))
 
 
 def likeness(column: str, header: str, cells: Iterable[str] = ()) -> float:
@@ -56,9 +83,12 @@ def likeness(column: str, header: str, cells: Iterable[str] = ()) -> float:
     if header == column or (exact is not None and exact.name == column):
         return 2.0
     words, unit = split(header)
+    if is_logarithm(header) or (column == "viscosity_mPa_s" and "kinematic" in words.split()):
+        return 0.0
     numbers = all(is_number(cell) for cell in cells)
     if column in TEXT_COLUMNS:
-        return 0.0 if unit is not None or numbers else TEXT_FITS + _overlap(words, column.replace("_", " "))
+        dated = any(DATED.match(cell) for cell in cells)
+        return 0.0 if unit is not None or numbers or dated else TEXT_FITS + _overlap(words, column.replace("_", " "))
     if not numbers:
         return 0.0
     target = BY_NAME.get(column)
@@ -68,7 +98,11 @@ def likeness(column: str, header: str, cells: Iterable[str] = ()) -> float:
     if unit is not None and not fits:
         return 0.0
     own = split(column)[0]
-    return max(_overlap(words, spoken) for spoken in (own, *target.spoken)) + (UNIT_FITS if fits else 0.0)
+    share = max(_overlap(words, spoken) for spoken in (own, *target.spoken))
+    # A share in percent may be of anything.
+    tells = fits and (share > 0.0 or target.unit not in ("ratio", "percent"))
+    bare = unit is None and target.unit == "ratio" and share > 0.0
+    return share + (UNIT_FITS if tells else 0.0) + (NO_UNIT_FITS if bare else 0.0)
 
 
 def _overlap(words: str, spoken: str) -> float:

@@ -70,7 +70,7 @@ def gaps(system: config.System, columns: Mapping[str, np.ndarray]) -> tuple[Gap,
         wanted.append("lubricant")
     for section in wanted:
         found.append(_gap(section, section, getattr(system, section), section in rules.sections))
-    for name in _surfaces(system, columns) if "surfaces" in rules.sections else ():
+    for name in undescribed(system, columns):
         found.append(_gap("surfaces", f"surfaces.{toml_key(name)}", None, True))
     stated = system.uncertainty.model_fields_set
     movable = {c.name for c in _movable(system) if set(c.needs) <= reads} - stated
@@ -93,8 +93,10 @@ def _movable(system: config.System) -> tuple[Any, ...]:
     return calibrations(system.model_copy(update={"uncertainty": everything}))
 
 
-def _surfaces(system: config.System, columns: Mapping[str, np.ndarray]) -> list[str]:
-    """Surfaces that the rows name and the system does not describe."""
+def undescribed(system: config.System, columns: Mapping[str, np.ndarray]) -> list[str]:
+    """Surfaces that the rows name and the system does not describe, where the kind computes with them."""
+    if "surfaces" not in kind_of(system.kind).sections:
+        return []
     named = [c.name for c in kind_of(system.kind).columns if c.form == "name" and "surface" in c.name]
     names = {str(value) for name in named if name in columns for value in columns[name]}
     return sorted(names - set(system.surfaces))

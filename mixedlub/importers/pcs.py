@@ -8,11 +8,12 @@ from datetime import datetime
 
 import numpy as np
 
-from mixedlub.headers import BY_NAME, convert, split, target_of
-from mixedlub.importers.draft import Answers, Draft, Question, questions_of
+from mixedlub.headers import BY_NAME, convert, rounded, split, target_of
+from mixedlub.importers.draft import WARNING, Answers, Draft, Question, questions_of, refuse_unknown
 from profiles.errors import InputError
 
 STEP = re.compile(r'^Step (\d+)(?: "[^"]*")? started at (\d\d/\d\d/\d{4} \d\d:\d\d(?::\d\d)?)')
+SAID = re.compile(r"^Number of steps (completed|in profile):\t(\d+)", re.MULTILINE)
 TYPE = re.compile(r"^Step type\t([^\t]*)(?:\tStep description\t([^\t]*))?")
 FILM_TYPES = ("FILM",)
 PROBES = {"lube": ("lube temp", "lube rtd temp"), "pot": ("pot temp", "pot rtd temp")}
@@ -55,6 +56,36 @@ def steps(text: str, name: str) -> tuple[Step, ...]:
     return tuple(found)
 
 
+def without_cut_line(text: str) -> tuple[str, int | None]:
+    """The text less a row that breaks off at its end, and the number of that line where there is one.
+
+    >>> without_cut_line("a\\t(b)\\tc\\n1\\t2\\t3\\n4\\t5")
+    ('a\\t(b)\\tc\\n1\\t2\\t3\\n', 3)
+    >>> without_cut_line("1\\t2\\n\\nAll steps completed")
+    ('1\\t2\\n\\nAll steps completed', None)
+    """
+    before, end, last = text.rpartition("\n")
+    row = before.rpartition("\n")[2]
+    if not last.strip() or last.count("\t") >= row.count("\t") or not re.match(r"[-+\d.\t]", last):
+        return text, None
+    return before + end, text.count("\n") + 1
+
+
+def _lost(text: str, name: str, cut: int | None) -> tuple[str, ...]:
+    """What the file's own header counts and the file does not hold."""
+    said = {which: int(count) for which, count in SAID.findall(text)}
+    expected = said.get("completed", said.get("in profile", 0))
+    held = sum(bool(STEP.match(line)) for line in text.splitlines())
+    notes = []
+    if held < expected:
+        notes.append(
+            f"{WARNING}{name}: holds {held} of the {expected} steps that its header counts; the rest is missing"
+        )
+    if cut is not None:
+        notes.append(f"{WARNING}{name}: line {cut} breaks off at the end of the file and is left out")
+    return tuple(notes)
+
+
 def _moment(text: str) -> datetime:
     return datetime.strptime(text, "%d/%m/%Y %H:%M:%S" if text.count(":") == 2 else "%d/%m/%Y %H:%M")
 
@@ -84,13 +115,17 @@ def _columns(header: str, rows: list[list[str]], where: str) -> dict[str, np.nda
 
 def draft(text: str, name: str, answers: Answers) -> Draft:
     """The case that a file makes: a film against speed, or friction against time."""
+    refuse_unknown(answers, ("import.temperature",))
+    text, cut = without_cut_line(text)
+    lost = _lost(text, name, cut)
     held = steps(text, name)
     films = tuple(s for s in held if s.form in FILM_TYPES and _has(s, "film_thickness_nm"))
     frictions = tuple(s for s in held if _has(s, "friction_coefficient") and _has(s, "time_s"))
     kind = "film" if films else "friction_history"
     chosen = films or _most_common(frictions)
     if not chosen:
-        raise InputError("no step with films or friction coefficients", where=name)
+        rule = "no step with films or friction coefficients"
+        raise InputError("; ".join([rule, *(note.removeprefix(WARNING) for note in lost)]), where=name)
     quantity = "film_thickness_nm" if kind == "film" else "friction_coefficient"
     wanted = ["load_N", "entrainment_speed_m_s", "slide_roll_ratio", quantity]
     if kind == "film":
@@ -102,15 +137,20 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     if kind == "friction_history":
         first = min(s.start for s in chosen)
         columns = {
-            "time_s": np.concatenate([(s.start - first).total_seconds() + _read(s, "time_s", name) for s in chosen]),
+            "time_s": np.concatenate([_since(first, s, name) for s in chosen]),
             **columns,
         }
     temperature, questions, said = _temperature(chosen, name, answers)
     columns.update(temperature)
     system = {"contact": {"geometry": "point"}} if kind == "film" else {}
-    return Draft(
-        kind, quantity, columns, system, (*questions, *questions_of(kind)), (*notes, *said, *_odd(columns, quantity))
-    )
+    told = (*lost, *notes, *said, *_odd(columns, quantity))
+    return Draft(kind, quantity, columns, system, (*questions, *questions_of(kind)), told)
+
+
+def _since(first: datetime, step: Step, name: str) -> np.ndarray:
+    """Seconds of a step's readings since the start of the first step."""
+    before = (step.start - first).total_seconds()
+    return rounded(before + _read(step, "time_s", name), before)
 
 
 def _most_common(found: tuple[Step, ...]) -> tuple[Step, ...]:

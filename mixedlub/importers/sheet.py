@@ -7,11 +7,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from mixedlub.headers import is_unit, split
+from mixedlub.importers.marks import Line, with_points
 from profiles.errors import InputError
 
 Cells = Mapping[str, list[str]]
-Line = tuple[int, list[str]]
-"""Number of a line in the file, and its cells."""
 SEPARATORS = "\t;,"
 
 
@@ -25,10 +24,11 @@ class Sheet:
     left_out: str = ""
 
 
-def read_sheet(text: str, name: str) -> Sheet:
+def read_sheet(text: str, name: str, decimal: str | None = None) -> Sheet:
     """The longest table of a text: rows of equal length under a header without numbers.
 
     What an instrument writes before and after it is left out; a row of another length amid rows is an error.
+    ``decimal`` is the mark before decimals where the file's numbers do not tell.
     """
     numbered = [
         (number, line)
@@ -40,8 +40,7 @@ def read_sheet(text: str, name: str) -> Sheet:
     rows = [(numbered[reader.line_num - 1][0], [cell.strip() for cell in row]) for row in reader]
     if len(rows) < 2:
         raise InputError("needs a header line and at least one row", where=name)
-    if separator != ",":
-        rows = [(number, [_point(cell) for cell in row]) for number, row in rows]
+    rows = with_points(rows, name, decimal)
     first, last = _extent(rows, name)
     above = first - 1
     header = rows[above][1]
@@ -55,13 +54,10 @@ def read_sheet(text: str, name: str) -> Sheet:
     return Sheet(name, cells, tuple(number for number, _ in table), " and ".join(parts))
 
 
-def _regularity(counts: list[int]) -> tuple[int, int]:
-    """How many lines have the most common number of separators, then that number."""
+def _regularity(counts: list[int]) -> int:
+    """How many lines have the most common number of separators; where two tie, a comma may be a decimal mark."""
     found = [n for n in counts if n]
-    if not found:
-        return (0, 0)
-    usual = max(set(found), key=lambda n: (found.count(n), n))
-    return (found.count(usual), usual)
+    return max((found.count(n) for n in set(found)), default=0)
 
 
 def _extent(rows: Sequence[Line], name: str) -> tuple[int, int]:
@@ -145,11 +141,6 @@ def _told_apart(header: Sequence[str]) -> list[str]:
             again = f"{again} #{seen[h]}"
         found.append(again)
     return found
-
-
-def _point(cell: str) -> str:
-    """A number with a decimal comma as one with a point; one with both is left to fail."""
-    return cell.replace(",", ".") if cell.count(",") == 1 and "." not in cell else cell
 
 
 def _range(rows: Sequence[Line]) -> str:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.headers import BY_NAME, convert, target_of
-from mixedlub.importers.draft import Answers, Draft, questions_of
+from mixedlub.headers import BY_NAME, convert, rounded, target_of
+from mixedlub.importers.draft import Answers, Draft, questions_of, refuse_unknown
 from mixedlub.table import Column
 from profiles.errors import InputError
 
@@ -19,6 +19,7 @@ def matches(text: str) -> bool:
 
 def draft(text: str, name: str, answers: Answers) -> Draft:
     """Viscosity against temperature and time; the steps follow each other."""
+    refuse_unknown(answers, ())
     parts: dict[str, list[np.ndarray]] = {w: [] for w in WANTED}
     elapsed, taken, left = 0.0, 0, 0
     for step in _steps(text):
@@ -30,7 +31,7 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
             title = next(iter(step.values()))
             raise InputError("a step without a time cannot be put after the one before", where=f"{name}: {title}")
         duration = float(found["time_s"][-1])
-        found["time_s"] = found["time_s"] + elapsed
+        found["time_s"] = rounded(found["time_s"] + elapsed, elapsed)
         elapsed += duration
         taken += 1
         for w in WANTED:

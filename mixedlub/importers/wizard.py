@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
@@ -12,10 +13,18 @@ import numpy as np
 
 from mixedlub import config
 from mixedlub.importers import pcs, plain, trios
-from mixedlub.importers.draft import Draft, Question, Unanswered, flat, nested, open_questions
-from mixedlub.importers.needs import gaps, told
+from mixedlub.importers.carried import carried, is_share, with_share
+from mixedlub.importers.draft import EVERY, WARNING, Draft, Question, Unanswered, flat, open_questions
+from mixedlub.importers.needs import gaps, told, undescribed
+from mixedlub.importers.readable import refuse_unreadable
+from mixedlub.importers.runs import together
 from mixedlub.importers.write import write_case
-from profiles.errors import InputError
+from mixedlub.table import CaseWarning
+from profiles.errors import InputError, nearest
+from profiles.readers.numbers import decoded
+
+MANY = 2000
+"""Readings in time from which a recording is raw rather than averaged."""
 
 READERS: tuple[ModuleType, ...] = (pcs, trios, plain)
 """Tried in this order; plain tables last because any text matches."""
@@ -34,32 +43,43 @@ def read(files: Sequence[Path], answers: Mapping[str, Any]) -> Draft:
             raise InputError("holds other columns than the first file; import it by itself", where=path.name)
     columns = {name: np.concatenate([d.columns[name] for d in drafts]) for name in first.columns}
     questions = {q.key: q for d in drafts for q in d.questions}
+    runs, anew = together([(path.name, d.runs) for path, d in zip(files, drafts, strict=True)])
+    notes = [note for d in drafts for note in d.notes] + ([anew] if anew else [])
     return Draft(
         first.kind,
         first.quantity,
         columns,
         first.system,
         tuple(questions.values()),
-        tuple(note for d in drafts for note in d.notes),
+        tuple(notes),
+        runs,
     )
 
 
 def _read_one(path: Path, answers: Mapping[str, Any]) -> Draft:
+    text = _text(path)
+    reader = next(r for r in READERS if r.matches(text))
+    found: Draft = reader.draft(text, path.name, answers)
+    return found
+
+
+def _text(path: Path) -> str:
     try:
         raw = path.read_bytes()
     except FileNotFoundError:
         raise InputError("no such file", where=str(path)) from None
     except OSError as error:
         raise InputError(f"cannot be read ({error})", where=str(path)) from None
-    if b"\0" in raw[:4096]:
+    text = decoded(raw, path.name)
+    if "\0" in text[:4096]:
         raise InputError("is not a text file; export it as text first", where=path.name)
-    try:
-        text = raw.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        text = raw.decode("latin-1")
-    reader = next(r for r in READERS if r.matches(text))
-    found: Draft = reader.draft(text, path.name, answers)
-    return found
+    return text
+
+
+def _apart(files: Sequence[Path]) -> tuple[list[Path], list[Path]]:
+    """Files that hold readings, and tables of load shares."""
+    shares = [path for path in files if is_share(_text(path))]
+    return [path for path in files if path not in shares], shares
 
 
 def import_files(files: Sequence[Path], out: Path, *, overwrite: bool = False, **answers: Any) -> Path:
@@ -68,12 +88,17 @@ def import_files(files: Sequence[Path], out: Path, *, overwrite: bool = False, *
     What is needed and not answered is an error that lists it; nothing is guessed. A case that is there and
     differs is an error too, unless ``overwrite`` is said.
     """
-    given = flat(answers)
+    files, shares = _apart(files)
+    given = with_share(flat(answers), shares)
     draft = read(files, given)
     missing = open_questions(draft, given)
     if missing:
         raise Unanswered(missing)
-    return _write(draft, given, out, overwrite)
+    folder, _ = _write(draft, given, out, overwrite, _folders(None, files, out))
+    for note in draft.notes:
+        if note.startswith(WARNING):
+            warnings.warn(note.removeprefix(WARNING), CaseWarning, stacklevel=2)
+    return folder
 
 
 def run(
@@ -91,6 +116,8 @@ def run(
     """
     answers = flat(config.read_toml(answers_file)) if answers_file is not None else {}
     answers.update(parse_setting(s) for s in settings)
+    files, shares = _apart(files)
+    answers = with_share(answers, shares)
     asked: set[str] = set()
     if ask is not None and not overwrite and (out / "system.toml").exists():
         say(f"{out} is a case already; it is left as it is where it differs (--overwrite replaces it)")
@@ -107,9 +134,13 @@ def run(
     missing = open_questions(draft, answers)
     if missing:
         raise Unanswered(missing)
-    folder = _write(draft, answers, out, overwrite)
+    folder, refusal = _write(draft, answers, out, overwrite, _folders(answers_file, files, out))
     for note in draft.notes:
         say(note)
+    for hint in _hints(draft, answers):
+        say(hint)
+    if refusal:
+        say(f"{WARNING}diagnose cannot use this case as it stands: {refusal}")
     say(f"{folder}: a case of kind {draft.kind} that records {draft.quantity}")
     system = config.parse(config.System, config.read_toml(folder / "system.toml"), "system.toml")
     for line in told(gaps(system, draft.columns), str(folder / "system.toml")):
@@ -149,15 +180,51 @@ def _ask(question: Question, ask: Callable[[str], str], say: Callable[[str], Non
         say("this is needed")
 
 
-def _write(draft: Draft, answers: Mapping[str, Any], out: Path, overwrite: bool) -> Path:
-    system: dict[str, Any] = {"kind": draft.kind, **nested(answers)}
+def _folders(answers_file: Path | None, files: Sequence[Path], out: Path) -> list[Path]:
+    """Where a file that the answers name is looked for."""
+    beside = [path.parent for path in (*([answers_file] if answers_file else []), *files)]
+    return list(dict.fromkeys([*beside, Path(), out]))
+
+
+def _hints(draft: Draft, answers: Mapping[str, Any]) -> list[str]:
+    rows = len(next(iter(draft.columns.values())))
+    if rows < MANY or "time_s" not in draft.columns or EVERY.key in answers:
+        return []
+    return [
+        f"{rows} readings in time: --set {EVERY.key}=10 would keep one of ten; a start-up is cut off and readings are "
+        "averaged in the file before it is imported (README, Files of instruments)"
+    ]
+
+
+def _write(
+    draft: Draft, answers: Mapping[str, Any], out: Path, overwrite: bool, folders: Sequence[Path]
+) -> tuple[Path, str]:
+    """The case folder, and why diagnose would refuse it though check reads it."""
+    told, files = carried(answers, folders)
+    system: dict[str, Any] = {"kind": draft.kind, **told}
     for section, facts in draft.system.items():
         system[section] = {**facts, **system.get(section, {})}
     system["recording"] = {"quantity": draft.quantity, **system.get("recording", {})}
     checked = config.parse(config.System, {"schema": SCHEMA, **system}, "answers")
-    every = answers.get("import.every", 1)
-    if not isinstance(every, int) or every < 1:
-        raise InputError("must be a whole number of at least 1", where="import.every", value=every)
+    every = answers.get(EVERY.key, 1)
+    if not isinstance(every, int) or isinstance(every, bool) or every < 1:
+        raise InputError("must be a whole number of at least 1", where=EVERY.key, value=every)
     columns = {name: values[::every] for name, values in draft.columns.items()}
-    comments = {gap.table: tuple(gap.comments()) for gap in gaps(checked, columns)}
-    return write_case(out, system, columns, overwrite=overwrite, comments=comments)
+    check = checked.recording.check
+    if check is not None and check not in columns:
+        raise InputError("is no column that is taken from these files", where="recording.check", value=check)
+    lacking = gaps(checked, columns)
+    others = undescribed(checked, columns)
+    if checked.surfaces and others:
+        rule = f"is named in the readings and not described; {nearest(others[0], checked.surfaces)}"
+        raise InputError(rule, where="surfaces", value=others[0])
+    numbered = columns if draft.runs is None else {"run": draft.runs[::every], **columns}
+    comments = {gap.table: tuple(gap.comments()) for gap in lacking}
+    complete = not any(gap.required for gap in lacking)
+    refusals: list[str] = []
+
+    def read_back(folder: Path) -> None:
+        refusals.append(refuse_unreadable(folder, checked, complete, out))
+
+    write_case(out, system, numbered, overwrite=overwrite, comments=comments, carried=files, check=read_back)
+    return out, "".join(refusals)

@@ -1,11 +1,12 @@
-"""A case folder written in one go: `system.toml` and `recordings.csv`."""
+"""A case folder written in one go: `system.toml`, `recordings.csv`, and the files that go with them."""
 
 from __future__ import annotations
 
 import csv
 import io
 import re
-from collections.abc import Mapping, Sequence
+import shutil
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -25,11 +26,15 @@ def write_case(
     *,
     overwrite: bool = True,
     comments: Comments | None = None,
+    carried: Mapping[str, bytes] | None = None,
+    check: Callable[[Path], None] | None = None,
 ) -> Path:
-    """Write the two files of a case folder, both or neither; other files there, and folders that are no case, stay.
+    """Write the files of a case folder, all or none; other files there, and folders that are no case, stay.
 
-    ``columns`` are those of the recording without ``run``, which is numbered here; ``comments`` are lines to put
-    under the tables of system.toml. Without ``overwrite`` a file there that says something else is an error.
+    ``columns`` are those of the recording; ``run`` is numbered here where it is not among them. ``comments`` are
+    lines to put under the tables of system.toml, ``carried`` further files by their place in the case. ``check``
+    looks at the folder before its files appear. Without ``overwrite`` a file there that says something else is an
+    error.
     """
     if not out.is_dir() and out.exists():
         raise InputError("exists and is no case folder; name another --out", where=str(out))
@@ -38,6 +43,7 @@ def write_case(
     files = {
         "system.toml": to_toml({"schema": "mixedlub-case/1", **system}, comments=comments).encode(),
         "recordings.csv": _recordings(out, columns).encode(),
+        **(carried or {}),
     }
     differing = [name for name, content in files.items() if (out / name).exists() and _held(out / name) != content]
     if differing and not overwrite:
@@ -48,14 +54,35 @@ def write_case(
         )
     if not differing and all((out / name).exists() for name in files):
         return out
+    made = [path for path in (out, *out.parents) if not path.exists()]
     try:
         out.mkdir(parents=True, exist_ok=True)
         with writing(out) as aside:
-            for name, content in files.items():
-                (aside / name).write_bytes(content)
+            _fill(aside, out, files)
+            if check is not None:
+                check(aside)
     except OSError as error:
         raise InputError(f"cannot be written to ({error.strerror})", where=str(out)) from None
+    finally:
+        _drop_empty(made)
     return out
+
+
+def _fill(aside: Path, out: Path, files: Mapping[str, bytes]) -> None:
+    """The files, with what else lies in the folders that they share, as a folder is replaced whole."""
+    for folder in {Path(name).parts[0] for name in files if len(Path(name).parts) > 1}:
+        if (out / folder).is_dir():
+            shutil.copytree(out / folder, aside / folder)
+    for name, content in files.items():
+        (aside / name).parent.mkdir(parents=True, exist_ok=True)
+        (aside / name).write_bytes(content)
+
+
+def _drop_empty(made: Sequence[Path]) -> None:
+    """Take away folders that were made for a case that did not come."""
+    for folder in made:
+        if folder.is_dir() and not any(folder.iterdir()):
+            folder.rmdir()
 
 
 def _unfinished(path: Path) -> bool:
@@ -70,16 +97,25 @@ def _recordings(out: Path, columns: Mapping[str, Sequence[Any] | np.ndarray]) ->
     lengths = {len(values) for values in columns.values()}
     if len(lengths) != 1:
         raise InputError("columns differ in length", where=str(out), value=sorted(lengths))
+    numbered = columns if "run" in columns else {"run": range(1, lengths.pop() + 1), **columns}
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["run", *columns])
-    for run, row in enumerate(zip(*columns.values(), strict=True), start=1):
-        writer.writerow([run, *(_cell(value) for value in row)])
+    writer.writerow(numbered)
+    for row in zip(*numbered.values(), strict=True):
+        writer.writerow([cell(value) for value in row])
     return text.getvalue()
 
 
-def _cell(value: Any) -> Any:
-    return f"{float(value):.7g}" if isinstance(value, float | np.floating) else value
+def cell(value: Any) -> Any:
+    """A value as a table holds it: a number in the fewest digits that read back equal, nothing for nan.
+
+    >>> cell(1619110000.1), cell(40.0), cell(0.1 + 0.2), cell(float("nan")), cell("ground")
+    ('1619110000.1', '40', '0.30000000000000004', '', 'ground')
+    """
+    if not isinstance(value, float | np.floating):
+        return value
+    number = float(value)
+    return "" if number != number else repr(number).removesuffix(".0")
 
 
 def to_toml(data: Mapping[str, Any], place: str = "", *, comments: Comments | None = None) -> str:

@@ -1,0 +1,101 @@
+"""Files that a case needs beside its tables: traces of surfaces, a table of load shares."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path, PurePath
+from typing import Any
+
+from mixedlub.bodies import SHIPPED_MARK
+from mixedlub.importers.draft import nested
+from profiles.errors import InputError, nearest
+
+OWN = ("system.toml", "recordings.csv", "conditions.csv")
+SHARE_COLUMNS = {"torque_Nm", "roll_angle_deg", "load_share"}
+SHARE = "gears.load_sharing"
+
+
+@dataclass(frozen=True)
+class Named:
+    """A file that an answer names: the keys down to it, the name as given, the folder it gets where it needs one."""
+
+    keys: tuple[str, ...]
+    name: str
+    home: str
+
+
+def is_share(text: str) -> bool:
+    """Whether a text is a table of load shares.
+
+    >>> is_share("torque_Nm, roll_angle_deg, load_share\\n50,18,0.5\\n"), is_share("speed_rpm,torque_Nm\\n1,2\\n")
+    (True, False)
+    """
+    first = next((line for line in text.splitlines() if line.strip()), "")
+    return {cell.strip() for cell in first.split(",")} == SHARE_COLUMNS
+
+
+def with_share(answers: Mapping[str, Any], tables: Sequence[Path]) -> dict[str, Any]:
+    """Answers that name the table of load shares given beside the recording."""
+    if not tables:
+        return dict(answers)
+    if len(tables) > 1:
+        raise InputError(f"is a second table of load shares, beside {tables[0]}; a case has one", where=str(tables[1]))
+    told = {key: value for key, value in answers.items() if key.startswith(f"{SHARE}.")}
+    other = {k: v for k, v in told.items() if k != f"{SHARE}.table" or PurePath(str(v)).name != tables[0].name}
+    if other:
+        key, value = next(iter(other.items()))
+        raise InputError(f"says otherwise than {tables[0]}, a table of load shares", where=key, value=value)
+    if not any(key.startswith("gears.") for key in answers if key not in told):
+        rule = "is a table of load shares, which stands in [gears]: describe the gears by --answers"
+        raise InputError(rule, where=str(tables[0]))
+    return {**answers, f"{SHARE}.table": str(tables[0].resolve())}
+
+
+def carried(answers: Mapping[str, Any], folders: Sequence[Path]) -> tuple[dict[str, Any], dict[str, bytes]]:
+    """Tables of the answers with names that hold within the case, and the files by those names.
+
+    A file is looked for in each folder in turn; one whose name leads out of the case is put into it.
+    """
+    system = nested(answers)
+    files: dict[str, bytes] = {}
+    for named in _named(system):
+        source = _found(named, folders)
+        path = PurePath(named.name)
+        inside = not path.is_absolute() and ".." not in path.parts
+        place = path.as_posix() if inside else (PurePath(named.home) / path.name).as_posix()
+        try:
+            content = source.read_bytes()
+        except OSError as error:
+            raise InputError(f"cannot be read ({error.strerror})", where=str(source)) from None
+        if place in OWN or files.get(place, content) != content:
+            rule = "is a name that the case needs for another file; rename it"
+            raise InputError(rule, where=".".join(named.keys), value=named.name)
+        files[place] = content
+        table = system
+        for key in named.keys[:-1]:
+            table = table[key]
+        table[named.keys[-1]] = place
+    return system, files
+
+
+def _named(system: Mapping[str, Any]) -> Iterator[Named]:
+    gears = system.get("gears", {})
+    share = gears.get("load_sharing", {}) if isinstance(gears, Mapping) else {}
+    if isinstance(share, Mapping) and isinstance(share.get("table"), str):
+        yield Named(("gears", "load_sharing", "table"), share["table"], "")
+    surfaces = system.get("surfaces", {})
+    for name, surface in surfaces.items() if isinstance(surfaces, Mapping) else ():
+        trace = surface.get("profile") if isinstance(surface, Mapping) else None
+        if isinstance(trace, str) and not trace.startswith(SHIPPED_MARK):
+            yield Named(("surfaces", name, "profile"), trace, "profiles")
+
+
+def _found(named: Named, folders: Sequence[Path]) -> Path:
+    for folder in folders:
+        if (folder / named.name).is_file():
+            return folder / named.name
+    near = sorted({p.name for f in folders for p in (f / named.name).parent.glob("*") if p.is_file()})
+    hint = f"; {nearest(PurePath(named.name).name, near)}" if near else ""
+    looked = " or ".join(dict.fromkeys(str(folder) for folder in folders))
+    raise InputError(f"no such file in {looked}{hint}", where=".".join(named.keys), value=named.name)

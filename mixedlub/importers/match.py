@@ -1,0 +1,242 @@
+"""Which header of a table holds which column of a case, in which unit; what nothing tells is asked."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence, Set
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from mixedlub.headers import BY_NAME, TEXT_COLUMNS, UNITS, Target, change_to, split, target_of, words_of
+from mixedlub.importers.draft import Answers, Question
+from mixedlub.importers.likely import either, is_logarithm, likely_headers, likeness
+from mixedlub.importers.sheet import Cells, is_number
+from mixedlub.importers.write import toml_value
+from mixedlub.kinds import Kind
+from mixedlub.table import BOOKKEEPING, Column
+from profiles.errors import InputError, nearest
+
+COLUMNS = "import.columns."
+UNIT_KEYS = "import.units."
+OF_READINGS = ("mean", "average", "avg", "median", "value", "measured", "nominal", "actual", "set")
+"""Last words of a header that are no unit."""
+COUNTS = ("fringe_order",)
+"""Columns that have no unit to ask for."""
+ALIKE = 0.1
+"""Likeness by which two headers may differ and still be asked about."""
+
+
+@dataclass(frozen=True)
+class Match:
+    """Headers by column, units by column where they are to be converted, open questions, and choices made."""
+
+    headers: Mapping[str, str]
+    units: Mapping[str, str]
+    questions: tuple[Question, ...]
+    notes: tuple[str, ...]
+
+
+@dataclass
+class _Finding:
+    """What is found so far."""
+
+    headers: dict[str, str] = field(default_factory=dict)
+    questions: list[Question] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+
+def wanted(kind: Kind, quantity: str, answers: Answers) -> tuple[Column, ...]:
+    """Every column that a case of a kind may hold, but for ``run``."""
+    check = answers.get("recording.check")
+    return (
+        *kind.columns,
+        *kind.channels,
+        Column(quantity),
+        Column(f"{quantity}_sd", at_least=0.0, required=False, blank=True),
+        *BOOKKEEPING,
+        *([Column(str(check), required=False, blank=True)] if check else []),
+    )
+
+
+def target_for(column: str) -> Target | None:
+    """The unit of a column and the words for it; the sd of a reading is in the unit of the reading."""
+    reading = column.removesuffix("_sd")
+    found = BY_NAME.get(reading)
+    return found if found is None or reading == column else replace(found, name=column, spoken=())
+
+
+def import_keys(columns: Sequence[Column]) -> tuple[str, ...]:
+    """The answers that match headers to these columns."""
+    return (
+        f"{COLUMNS}run",
+        *(COLUMNS + c.name for c in columns),
+        *(UNIT_KEYS + c.name for c in columns if target_for(c.name) is not None),
+    )
+
+
+def match(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> Match:
+    """Headers and units of the columns of a case, and what to ask where a needed one has none or several."""
+    columns = wanted(kind, quantity, answers)
+    told = {c.name: _told(c.name, cells, answers) for c in columns if COLUMNS + c.name in answers}
+    found = _Finding(headers=dict(told))
+    reserved = set(told.values())
+    for column in columns:
+        if column.name not in told:
+            _find(column, {h: values for h, values in cells.items() if h not in reserved}, found)
+    _one_of(either(kind.name), set(told), found)
+    _absent_check(answers.get("recording.check"), cells, found.headers)
+    asked = {q.key for q in found.questions}
+    missing = [c.name for c in columns if c.required and c.name not in found.headers and COLUMNS + c.name not in asked]
+    group = either(kind.name)
+    if group and not any(c in found.headers or COLUMNS + c in asked for c in group):
+        free = {h: v for h, v in cells.items() if h not in found.headers.values()}
+        missing.append(next(iter(likely_headers(group, free)), group[0]))
+    found.questions.extend(_missing(missing, cells, found.headers, answers))
+    open_ones = {q.key.removeprefix(COLUMNS) for q in found.questions}
+    _refuse_idle_units({*found.headers, *open_ones}, answers)
+    units, questions, notes = _units(found.headers, answers)
+    ordered = {c.name: found.headers[c.name] for c in columns if c.name in found.headers}
+    return Match(ordered, units, (*found.questions, *questions), (*found.notes, *notes))
+
+
+def _told(column: str, cells: Cells, answers: Answers) -> str:
+    header = str(answers[COLUMNS + column])
+    where = COLUMNS + column
+    if header not in cells:
+        raise InputError(f"no such header; {nearest(header, cells)}", where=where, value=header)
+    if is_logarithm(header):
+        raise InputError("is a logarithm; add a column of the quantity itself", where=where, value=header)
+    if column.startswith("viscosity_mPa_s") and "kinematic" in words_of(header).split():
+        rule = "is a kinematic viscosity; add a column of it times the density: mm²/s times g/cm³ is mPa s"
+        raise InputError(rule, where=where, value=header)
+    return header
+
+
+def _find(column: Column, cells: Cells, found: _Finding) -> None:
+    """The header of a column, by its name or by the words of instruments; the first of several where none is needed."""
+    own = [h for h in cells if _is_named(h, column.name)]
+    if own:
+        found.headers[column.name] = own[0]
+        return
+    spoken = [h for h in cells if (target := target_of(h)) is not None and target.name == column.name]
+    if column.form != "name":
+        order = {words: place for place, words in enumerate(BY_NAME[column.name].spoken)} if spoken else {}
+        # A clock, or a column of remarks, may bear the words of a number.
+        numeric = [h for h in spoken if all(is_number(cell) for cell in cells[h])]
+        spoken = sorted(numeric or spoken, key=lambda h: order.get(words_of(h), -1))
+    if not spoken:
+        return
+    differing = [h for h in spoken if (split(h)[1], cells[h]) != (split(spoken[0])[1], cells[spoken[0]])]
+    if differing and column.required:
+        text = f"Header of the column that holds {column.name}, as more than one could"
+        among = (spoken[0], *differing)
+        found.questions.append(Question(COLUMNS + column.name, text, toml_value(spoken[0]), among=among))
+        return
+    found.headers[column.name] = spoken[0]
+    if differing:
+        others = ", ".join(map(repr, differing))
+        found.notes.append(f"{spoken[0]!r} taken as {column.name}, not {others}; {COLUMNS}{column.name} says otherwise")
+
+
+def _is_named(header: str, column: str) -> bool:
+    """Whether a header is the column's own name; capitals tell milli from mega where there is a unit."""
+    return header == column or (target_for(column) is None and header.lower() == column.lower())
+
+
+def _one_of(group: tuple[str, ...], told: set[str], found: _Finding) -> None:
+    """Of columns that exclude each other the one that was told, else a question."""
+    present = [c for c in group if c in found.headers]
+    chosen = [c for c in present if c in told]
+    if len(present) < 2 or len(chosen) > 1:
+        return
+    for column in present:
+        if column not in chosen:
+            header = found.headers.pop(column)
+            if not chosen and column == present[0]:
+                text = f"Which to take: a case has one of {' and '.join(present)}; name its header by {COLUMNS}COLUMN"
+                found.questions.append(Question(COLUMNS + column, text, toml_value(header)))
+
+
+def _absent_check(check: Any, cells: Cells, headers: Mapping[str, str]) -> None:
+    if check and str(check) not in headers:
+        raise InputError(f"no such header; {nearest(str(check), cells)}", where="recording.check", value=check)
+
+
+def _missing(missing: Sequence[str], cells: Cells, headers: Mapping[str, str], answers: Answers) -> list[Question]:
+    free = {h: values for h, values in cells.items() if h not in headers.values()}
+    near = likely_headers(missing, free)
+    logarithms = [h for h in free if is_logarithm(h)]
+    refused = (
+        f"; {', '.join(logarithms)}: a logarithm cannot be taken, add a column of the quantity" if logarithms else ""
+    )
+    questions = []
+    for column in missing:
+        header = near.get(column)
+        alike = _as_near(column, header, free)
+        text = f"Header of the column that holds {column}{alike}{refused}"
+        example = toml_value(header or "HEADER")
+        questions.append(Question(COLUMNS + column, text, example, among=tuple(cells), of="the file has"))
+        target = target_for(column)
+        bare = header is not None and target is not None and header != column and split(header)[1] is None
+        if header is not None and target is not None and bare and UNIT_KEYS + column not in answers:
+            questions.append(_unit_question(column, header, target))
+    return questions
+
+
+def _as_near(column: str, header: str | None, free: Cells) -> str:
+    """Other headers that come as near to a column as the one that is offered."""
+    if header is None:
+        return ""
+    least = likeness(column, header, free[header]) - ALIKE
+    others = [h for h in free if h != header and likeness(column, h, free[h]) >= least]
+    return f"; as near: {', '.join(others)}" if others else ""
+
+
+def _refuse_idle_units(columns: Set[str], answers: Answers) -> None:
+    """An error about a unit that its column cannot have, or that is told of a column which nothing is taken as."""
+    for key, unit in answers.items():
+        column = key.removeprefix(UNIT_KEYS)
+        target = target_for(column)
+        if not key.startswith(UNIT_KEYS) or target is None:
+            continue
+        if change_to(str(unit), target.unit) is None:
+            could = ", ".join(UNITS[target.unit])
+            raise InputError(f"unit of {column} is not known; it could be {could}", where=key, value=unit)
+        if "kind" in answers and column not in columns:
+            raise InputError(f"no column is taken as {column}; name its header by {COLUMNS}{column}", where=key)
+
+
+def _units(headers: Mapping[str, str], answers: Answers) -> tuple[dict[str, str], list[Question], list[str]]:
+    """Units by column, as told or as the header says, and what to ask where neither does."""
+    units: dict[str, str] = {}
+    questions: list[Question] = []
+    notes: list[str] = []
+    for column, header in headers.items():
+        target = target_for(column)
+        if target is None or column in TEXT_COLUMNS:
+            continue
+        named = _is_named(header, column)
+        own = None if named else split(header)[1]
+        native = named or column in COUNTS
+        unit = answers.get(UNIT_KEYS + column)
+        if unit is not None:
+            units[column] = str(unit)
+            if (native and change_to(str(unit), target.unit) != (1.0, 0.0)) or own not in (None, str(unit)):
+                notes.append(f"{header!r} is taken to be in {unit}, as told, whatever its header says")
+        elif own is not None:
+            units[column] = own
+        elif not native:
+            questions.append(_unit_question(column, header, target))
+    return units, questions, notes
+
+
+def _unit_question(column: str, header: str, target: Target) -> Question:
+    """The unit is offered where the header is all words; another last word may be a unit that is not known here."""
+    known = tuple(UNITS[target.unit])
+    words = words_of(header).split()
+    spoken = {
+        w for form in (*BY_NAME[column.removesuffix("_sd")].spoken, column.replace("_", " ")) for w in form.split()
+    }
+    sure = len(words) == 1 or words[-1] in (*spoken, *OF_READINGS) or bool(re.fullmatch(r"[#\d]+", words[-1]))
+    text = f"Unit of the column {header!r}, taken as {column}"
+    return Question(UNIT_KEYS + column, text, toml_value(known[0] if sure else "UNIT"), among=known)

@@ -1,0 +1,62 @@
+"""Whether a case that is about to appear is one that `check` reads."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from mixedlub import bodies, config
+from mixedlub.case import Case, noted, read_case, read_conditions
+from mixedlub.kinds import kind as kind_of
+from profiles.errors import InputError
+
+
+def refuse_unreadable(folder: Path, system: config.System, complete: bool, shown: Path) -> str:
+    """An error where `check` would give one; why `diagnose` would refuse what `check` reads, else nothing.
+
+    Of a case that still lacks sections (not ``complete``) the tables and what is described are read. The error names
+    the place ``shown``, where the case would have appeared.
+    """
+    try:
+        with noted([]):
+            return (_whole(folder) if complete else _parts(folder, system)).replace(str(folder), str(shown))
+    except InputError as error:
+        told = config.in_file(error, str(folder / "system.toml"))
+        rule, where = (text.replace(str(folder), str(shown)) for text in (told.rule, told.where))
+        raise InputError(f"{rule}; nothing was written", where=where, value=told.value) from None
+    except ArithmeticError as error:
+        rule = f"has numbers too large or too small to compute with ({error}); nothing was written"
+        raise InputError(rule, where=str(shown)) from None
+
+
+def _whole(folder: Path) -> str:
+    from mixedlub.diagnosis.recording.audit import doubts
+    from mixedlub.forward import Forward
+
+    case = read_case(folder)
+    assert case.recordings is not None
+    _bodies(case.system, folder)
+    forward = Forward(case, case.recordings)
+    try:
+        doubts(case, case.recordings, np.asarray(case.recordings[case.quantity], dtype=float), forward)
+    except InputError as error:
+        return str(error)
+    return ""
+
+
+def _parts(folder: Path, system: config.System) -> str:
+    _bodies(system, folder)
+    read_conditions(Case("", folder, system, kind_of(system.kind), None, None, ()), folder / "recordings.csv")
+    return ""
+
+
+def _bodies(system: config.System, folder: Path) -> None:
+    """What the system describes is built once, as `check` does."""
+    if system.gears is not None:
+        bodies.gear_pair(system.gears)
+        bodies.sharing(system.gears.load_sharing, folder)
+    if system.lubricant is not None:
+        bodies.lubricant(system.lubricant)
+    for name, section in system.surfaces.items():
+        bodies.surface(name, section, folder)

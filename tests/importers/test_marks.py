@@ -1,0 +1,99 @@
+"""Commas and points in numbers: only what the whole file proves decides, and what it leaves open is refused."""
+
+import pytest
+
+from mixedlub.cli import main
+from mixedlub.importers import import_files
+from mixedlub.importers.sheet import read_sheet
+from profiles.errors import InputError
+
+THOUSANDS = "speed_rpm\tfriction_torque_Nm\n2,000\t17.50\n4,000\t18.25\n1000\t16\n"
+OPEN = "speed_rpm\tfriction_torque_Nm\n2,000\t17\n4,000\t18\n1000\t16\n"
+
+
+def speeds(text, decimal=None):
+    return [float(cell) for cell in read_sheet(text, "t.txt", decimal).cells["speed_rpm"]]
+
+
+def test_a_point_before_decimals_makes_a_comma_part_thousands():
+    assert speeds(THOUSANDS) == [2000.0, 4000.0, 1000.0]
+
+
+def test_a_comma_before_decimals_makes_a_point_part_thousands():
+    assert speeds(OPEN.replace(",", ".").replace("17", "17,5")) == [2000.0, 4000.0, 1000.0]
+
+
+@pytest.mark.parametrize("proof", ["17,5", "0,125", "17,5000", "1.234,5", "1,5e3", "1.234.567"])
+def test_one_number_that_proves_a_decimal_comma_is_enough(proof):
+    assert speeds(OPEN.replace("17", proof)) == [2.0, 4.0, 1000.0]
+
+
+@pytest.mark.parametrize("proof", ["17.5", "0.125", "17.5000", "1,234.5", "1.5e3", "1,234,567"])
+def test_one_number_that_proves_a_decimal_point_is_enough(proof):
+    assert speeds(OPEN.replace("17", proof)) == [2000.0, 4000.0, 1000.0]
+
+
+@pytest.mark.parametrize("separator", ["\t", ";"])
+def test_where_nothing_tells_the_first_open_number_is_refused_with_both_readings(separator):
+    with pytest.raises(InputError) as caught:
+        read_sheet(OPEN.replace("\t", separator), "t.txt")
+    said = str(caught.value)
+    assert said.startswith("t.txt: line 2: '2,000': could be 2000 or 2.000")
+    assert 'import.decimal="."\' for 2000' in said
+    assert 'import.decimal=","\' for 2.000' in said
+
+
+def test_a_quoted_number_among_commas_is_no_other_matter():
+    text = 'speed_rpm,friction_torque_Nm\n"2,000",17\n"4,000",18\n'
+    with pytest.raises(InputError, match="could be 2000 or"):
+        read_sheet(text, "t.csv")
+    assert speeds(text, ".") == [2000.0, 4000.0]
+
+
+def test_the_answer_decides():
+    assert speeds(OPEN, ".") == [2000.0, 4000.0, 1000.0]
+    assert speeds(OPEN, ",") == [2.0, 4.0, 1000.0]
+
+
+def test_an_answer_that_a_number_contradicts_is_refused_with_its_line():
+    with pytest.raises(InputError, match=r"t\.txt: line 2: '17\.50': is no number where decimals have ','"):
+        read_sheet(THOUSANDS, "t.txt", ",")
+
+
+def test_a_file_with_both_marks_before_decimals_is_refused():
+    text = "speed_rpm;friction_torque_Nm\n17,5;1\n3;2.25\n"
+    with pytest.raises(InputError, match=r"line 2: '17,5': decimals have a comma here and a point in line 3"):
+        read_sheet(text, "t.csv")
+
+
+def test_points_alone_stand_before_decimals():
+    assert speeds("speed_rpm,friction_torque_Nm\n1.234,2\n5.678,3\n") == [1.234, 5.678]
+
+
+def test_lines_around_the_table_do_not_overrule_it():
+    text = "Firmware;2.14\nspeed_rpm;friction_torque_Nm;note\n17,5;1;a\n3,25;2;b\n"
+    assert speeds(text) == [17.5, 3.25]
+
+
+def test_commas_within_headers_part_nothing():
+    sheet = read_sheet("Speed, rpm\tTorque, Nm\n2,5\t17,5\n4,5\t18,5\n", "t.txt")
+    assert dict(sheet.cells) == {"Speed, rpm": ["2.5", "4.5"], "Torque, Nm": ["17.5", "18.5"]}
+
+
+def test_on_the_command_line_too(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "t.txt").write_text(OPEN, encoding="utf-8")
+    words = ["import", "t.txt", "--out", "rig", "--set", "kind=friction_map", "--set"]
+    words.append("recording.quantity=friction_torque_Nm")
+    assert main(words) == 2
+    assert "t.txt: line 2: '2,000'" in capsys.readouterr().err
+    assert not (tmp_path / "rig").exists()
+    assert main([*words, "--set", 'import.decimal="."']) == 0
+    assert (tmp_path / "rig/recordings.csv").read_text(encoding="utf-8").splitlines()[1] == "1,2000,17"
+
+
+def test_another_answer_than_a_mark_is_refused(tmp_path):
+    path = tmp_path / "t.txt"
+    path.write_text(OPEN, encoding="utf-8")
+    with pytest.raises(InputError, match=r"import\.decimal: 'comma': must be '\.' or ','"):
+        import_files([path], tmp_path / "rig", kind="friction_map", **{"import.decimal": "comma"})
