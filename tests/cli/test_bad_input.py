@@ -165,7 +165,7 @@ SPOILT = {
     "one of two": ("system.toml", "[17, 26]", "[17]", "system.toml: gears.teeth: [17]: needs 2 entries, not 1"),
     "three of two": ("system.toml", "[17, 26]", "[17, 26, 3]", "gears.teeth: [17, 26, 3]: needs 2 entries, not 3"),
     "entry": ("system.toml", "[17, 26]", '[17, "x"]', "gears.teeth, entry 2: 'x': must be a whole number"),
-    "bound": ("system.toml", "module_mm = 4", "module_mm = -4", "gears.normal_module_mm: -4.2333333: must be above 0"),
+    "bound": ("system.toml", "module_mm = 4", "module_mm = -4", "normal_module_mm: -4.2333333: must be from 0.01 to 2"),
     "table": ("system.toml", '{ model = "rigid" }', '"rigid"', "gears.load_sharing: 'rigid': must be a table of keys"),
     "gears that do not mesh": ("system.toml", "[17, 26]", "[5, 60]", "system.toml: gears.tip_diameter_mm: "),
 }  # fmt: skip

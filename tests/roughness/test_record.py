@@ -144,5 +144,5 @@ def test_bad_cutoff_is_refused(gaussian_trace, cutoff):
 
 
 def test_flat_trace_is_refused():
-    with pytest.raises(InputError, match="flat"):
+    with pytest.raises(InputError, match="all heights are the same: a stuck stylus"):
         trace_record(Profile(np.zeros(5000), 1e-6))

@@ -1,0 +1,51 @@
+"""What of a case or study is far from any rig, though possible: its numbers, traces and load shares."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mixedlub import bodies, bounds, config
+from mixedlub.surface import Surface
+from mixedlub.table import CaseWarning
+
+if TYPE_CHECKING:
+    from mixedlub.study.sections import StudyFile
+
+BANDWIDTH = (1.0, 1e5)
+"""Nayak's m0 m4/m2^2: no profile has less than 1 (Cauchy and Schwarz), none of two scales apart by 300 more."""
+
+
+def far_off(
+    file: config.System | StudyFile, folder: Path, surfaces: Mapping[str, Surface] | None = None
+) -> Iterator[str]:
+    """Sentences about what is doubtful in a file; ``surfaces`` where they have been read already."""
+    yield from bounds.unusual(file)
+    if file.gears is not None:
+        yield from bodies.sharing(file.gears.load_sharing, folder).check(bodies.gear_pair(file.gears))
+    for name, section in file.surfaces.items():
+        if surfaces is None or name in surfaces:
+            found = _surface(name, section, folder) if surfaces is None else surfaces[name]
+            yield from _roughness(found, f"surfaces.{name}", section)
+
+
+def _surface(name: str, section: config.SurfaceSection, folder: Path) -> Surface:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", CaseWarning)
+        return bodies.surface(name, section, folder)
+
+
+def _roughness(surface: Surface, place: str, section: config.SurfaceSection) -> Iterator[str]:
+    """What is odd of the moments of a trace, and of three moments together."""
+    if section.profile is not None:
+        moments = (("m0_um2", surface.m0 * 1e12), ("m2", surface.m2), ("m4_per_um2", surface.m4 * 1e-12))
+        said = (bounds.beyond_usual(f"surfaces.{key}", value, f"{place}: {key} of its trace") for key, value in moments)
+        yield from filter(None, said)
+    bandwidth = surface.m0 * surface.m4 / surface.m2**2
+    if not BANDWIDTH[0] <= bandwidth <= BANDWIDTH[1]:
+        yield (
+            f"{place}: m0 m4/m2^2 is {bandwidth:.3g}, where surfaces have {BANDWIDTH[0]:g} to {BANDWIDTH[1]:g}: the "
+            "three moments do not belong together, or one is in another unit"
+        )
