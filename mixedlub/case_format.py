@@ -107,7 +107,7 @@ surfaces.NAME.m4_per_um2             | variance of curvatures of the profile
 surfaces.NAME.profile                | file of a trace, path from the case folder; or shipped:NAME
 surfaces.NAME.cutoff_mm              | long cut-off; left out: 0.8, or the trace's own
 surfaces.NAME.short_cutoff_um        | short cut-off; left out: 2.5, or the trace's own
-surfaces.NAME.form                   | none, mean, line (default), circle, polynomial-N, involute-MM
+surfaces.NAME.form                  | default line; none, mean, circle, polynomial-N, involute-MM
 surfaces.NAME.thermal_conductivity_W_mK | of the body
 surfaces.NAME.density_kg_m3          | of the body
 surfaces.NAME.specific_heat_J_kgK    | of the body

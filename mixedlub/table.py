@@ -148,8 +148,8 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] 
         again = next(row for row, values in enumerate(together) if first[values] < row)
         value, named = together[again], " and ".join(key)
         place = f"{where}: line {lines[again + 1][0]}, {named}"
-        unique = "must be unique" if len(key) == 1 else "stand in an earlier row already; each pair of them once"
-        raise InputError(f"{named} {unique}", where=place, value=value[0] if len(key) == 1 else value)
+        rule = f"{named} must be unique" + (" together" if len(key) > 1 else "")
+        raise InputError(rule, where=place, value=value[0] if len(key) == 1 else value)
     return Table(cells, path.name)
 
 

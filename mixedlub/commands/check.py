@@ -143,6 +143,7 @@ def _uncertain(case: Case, movable: Sequence[Calibration]) -> Iterator[str]:
 def _audit(case: Case, forward: Forward | None) -> Iterator[str]:
     """What is doubtful about system and readings, or why they cannot be diagnosed."""
     from mixedlub.diagnosis.recording.audit import doubts, system_doubts
+    from mixedlub.forward import Forward
 
     found = system_doubts(case)
     if case.recordings is not None and forward is not None:
@@ -151,6 +152,11 @@ def _audit(case: Case, forward: Forward | None) -> Iterator[str]:
             found += doubts(case, case.recordings, readings, forward)
         except InputError as error:
             yield f"Cannot be diagnosed: {error}."
+    if case.conditions is not None:
+        try:
+            Forward(case, case.conditions).nominal()
+        except InputError as error:
+            yield f"Cannot be predicted: {error}."
     if found:
         yield "Doubtful:"
         yield from (f"  {text}." for text in found)

@@ -41,7 +41,8 @@ def command(
             if table is not None:
                 forward = Forward(found, table)
                 notes.extend(text for text in forward.notes if text not in notes)
-                rows = dict(zip(table["run"].tolist(), forward.nominal().tolist(), strict=True)) | rows
+                each = zip(table["run"].tolist(), forward.nominal().tolist(), strict=True)
+                rows |= {run: value for run, value in each if run not in rows}
     if not rows:
         raise InputError("has neither recordings.csv nor conditions.csv; name a table with --at", where=str(case))
     folder = output_folder(out, NAME, found.name)

@@ -7,7 +7,7 @@ should know about it, and the share at the points of a mesh. The elastic one is 
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
@@ -189,11 +189,10 @@ class TableSharing:
                 'a share table along one path serves spur gears only; use { model = "rigid" }',
                 where="load_sharing",
             )
-        notes = []
-        for curve in range(len(self._curves)):
+        curves = range(len(self._curves))
+        for curve in curves:
             self._refuse_gap(pair, curve)
-            notes += [*self._short(pair, curve), *self._unbalanced(pair, curve)]
-        return tuple(notes)
+        return (*self._short(pair, curves), *self._unbalanced(pair, curves))
 
     def _refuse_gap(self, pair: GearPair, curve: int) -> None:
         """Refuse rows that say nothing of any of the pairs in contact at some place: nothing would carry the load."""
@@ -206,29 +205,33 @@ class TableSharing:
         first, last = np.degrees(angle[[0, -1]])
         raise InputError(
             f"the rows at {value:g} Nm ({first:.4g} to {last:.4g} deg) leave out a part of the path of contact "
-            f"({start:.4g} to {end:.4g} deg) where no other pair carries the load, {np.mean(~told):.0%} of a base pitch",
+            f"({start:.4g} to {end:.4g} deg) where no other carries the load, {np.mean(~told):.0%} of a base pitch",
             where=self._at_column("roll_angle_deg"),
         )
 
-    def _short(self, pair: GearPair, curve: int) -> Iterator[str]:
-        """Rows that end before the path of contact does."""
-        value, angle, _ = self._curves[curve]
+    def _short(self, pair: GearPair, curves: range) -> Iterator[str]:
+        """Rows that end before the path of contact does, of the torque where they are shortest."""
         start, end = pair.path_start / pair.base_radius[0], pair.path_end / pair.base_radius[0]
-        covered = (min(angle[-1], end) - max(angle[0], start)) / (end - start)
-        if covered < COVERED:
+        angles = [angle for _, angle, _ in self._curves]
+        covered = [(min(angle[-1], end) - max(angle[0], start)) / (end - start) for angle in angles]
+        worst = min(curves, key=lambda curve: covered[curve])
+        if covered[worst] < COVERED:
             yield (
-                f"load share table: the rows at {value:g} Nm cover only {covered:.0%} of the path of contact "
-                f"({np.degrees(start):.4g} to {np.degrees(end):.4g} deg); further out the share is taken as none"
+                f"load share table: the rows at {self._curves[worst][0]:g} Nm cover only {covered[worst]:.0%} of the "
+                f"path of contact ({np.degrees(start):.4g} to {np.degrees(end):.4g} deg); the share beyond is taken as "
+                f"none{_others([share < COVERED for share in covered])}"
             )
 
-    def _unbalanced(self, pair: GearPair, curve: int) -> Iterator[str]:
+    def _unbalanced(self, pair: GearPair, curves: range) -> Iterator[str]:
         """Shares that do not add up to the load; at steps of the share, between two rows, they may for a moment."""
-        value = self._curves[curve][0]
-        sums = self._sum_over_pairs(pair, curve)
-        if abs(sums.mean() - 1.0) > MEAN_OFF or np.abs(sums - 1.0).max() > WORST_OFF:
+        sums = [self._sum_over_pairs(pair, curve) for curve in curves]
+        off = [max(abs(s.mean() - 1.0) / MEAN_OFF, np.abs(s - 1.0).max() / WORST_OFF) for s in sums]
+        worst = max(curves, key=lambda curve: off[curve])
+        if off[worst] > 1.0:
+            low, high, mean = sums[worst].min(), sums[worst].max(), sums[worst].mean()
             yield (
-                f"load share table: at {value:g} Nm the pairs in contact carry together {sums.min():.2f} to "
-                f"{sums.max():.2f} of the load, {sums.mean():.3f} on average, where it should be 1"
+                f"load share table: at {self._curves[worst][0]:g} Nm the pairs in contact carry together {low:.2f} to "
+                f"{high:.2f} of the load, {mean:.3f} on average, where it should be 1{_others([o > 1.0 for o in off])}"
             )
 
     def _sum_over_pairs(self, pair: GearPair, curve: int) -> np.ndarray:
@@ -275,6 +278,16 @@ class TableSharing:
             )
         curves = np.stack([self._at(i, mesh.roll_angle) for i in range(len(self._curves))])
         return curves[chosen] * mesh.face_fraction
+
+
+def _others(affected: Sequence[bool]) -> str:
+    """How many more torques a sentence about one of them holds for.
+
+    >>> _others([True, True, True]), _others([True, False])
+    (' (so at 2 more torques)', '')
+    """
+    more = sum(map(bool, affected)) - 1
+    return f" (so at {more} more torque{'s' if more > 1 else ''})" if more > 0 else ""
 
 
 def column(key: str, values: object) -> np.ndarray:

@@ -33,19 +33,18 @@ def _once(values: tuple[Any, ...]) -> tuple[Any, ...]:
     return values
 
 
-Levels = BeforeValidator(_levels)
-Speeds = Annotated[tuple[Annotated[Float, Field(gt=0, le=1e6)], ...], Field(min_length=1), Levels]
-Torques = Annotated[tuple[Annotated[Float, Field(gt=0, le=1e9)], ...], Field(min_length=1), Levels]
-Temperatures = Annotated[tuple[Annotated[Float, Field(ge=-60, le=300)], ...], Field(min_length=1), Levels]
+Numbers = Annotated[tuple[Number, ...], Field(min_length=1), BeforeValidator(_levels)]
 Names = Annotated[tuple[str, ...], Field(min_length=1)]
 
 
 class Conditions(Section):
     """The factorial: every torque at every speed and oil temperature."""
 
-    torque_Nm: Torques
-    speed_rpm: Speeds
-    oil_temperature_C: Temperatures
+    place = "conditions"
+
+    torque_Nm: Numbers
+    speed_rpm: Numbers
+    oil_temperature_C: Numbers
 
     @model_validator(mode="after")
     def _each_once(self) -> Conditions:
