@@ -129,7 +129,7 @@ def beyond_usual(key: str, value: float, place: str) -> str:
     if low <= value <= high:
         return ""
     name = key.rpartition(".")[2]
-    usual = f"{low:g} or more" if high == np.inf else f"{low:g} to {high:g}"
+    usual = f"at least {low:g}" if high == np.inf else f"{low:g} to {high:g}"
     said = f"{place} is {value:.6g}, where rigs have {usual} {unit_of(name)}".rstrip()
     return f"{said}: {meant(name, value, low, high).removesuffix(ASKED) or 'check the number and its unit'}"
 

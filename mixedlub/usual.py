@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mixedlub import bodies, bounds, config
+from mixedlub.gear import TableSharing
 from mixedlub.surface import Surface
 from mixedlub.table import CaseWarning
 
@@ -18,17 +20,32 @@ BANDWIDTH = (1.0, 1e5)
 """Nayak's m0 m4/m2^2: no profile has less than 1 (Cauchy and Schwarz), none of two scales apart by 300 more."""
 
 
+GRAVE_IMBALANCE = 0.1
+"""Shares that add up to 1 within that are what gear programs give under tip relief, or round."""
+
+
+@dataclass(frozen=True)
+class Odd:
+    """A sentence about something odd, and whether it questions every number that is computed."""
+
+    text: str
+    grave: bool = True
+
+
 def far_off(
     file: config.System | StudyFile, folder: Path, surfaces: Mapping[str, Surface] | None = None
-) -> Iterator[str]:
-    """Sentences about what is doubtful in a file; ``surfaces`` where they have been read already."""
-    yield from bounds.unusual(file)
+) -> Iterator[Odd]:
+    """What is odd in a file; ``surfaces`` where they have been read already."""
+    yield from map(Odd, bounds.unusual(file))
     if file.gears is not None:
-        yield from bodies.sharing(file.gears.load_sharing, folder).check(bodies.gear_pair(file.gears))
+        pair, share = bodies.gear_pair(file.gears), bodies.sharing(file.gears.load_sharing, folder)
+        said = share.check(pair)
+        grave = isinstance(share, TableSharing) and share.imbalance(pair) > GRAVE_IMBALANCE
+        yield from (Odd(text, grave) for text in said)
     for name, section in file.surfaces.items():
         if surfaces is None or name in surfaces:
             found = _surface(name, section, folder) if surfaces is None else surfaces[name]
-            yield from _roughness(found, f"surfaces.{name}", section)
+            yield from map(Odd, _roughness(found, f"surfaces.{name}", section))
 
 
 def _surface(name: str, section: config.SurfaceSection, folder: Path) -> Surface:

@@ -98,7 +98,7 @@ def read_study(path: Path, file: StudyFile | None = None) -> Study:
         with noted(notes), np.errstate(all="ignore"):
             study = _resolve(path.stem, file, path.parent)
         _check_finite(study)
-        doubtful = tuple(far_off(file, path.parent, study.surfaces))
+        doubtful = tuple(odd.text for odd in far_off(file, path.parent, study.surfaces))
     except InputError as error:
         placed = config.in_file(error, str(path))
         if str(path) in str(placed):

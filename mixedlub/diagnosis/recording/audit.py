@@ -38,7 +38,7 @@ HOTTEST = 250.0
 """Temperatures (degC) that are all above it, or all those of a room in kelvin, are doubted."""
 TOO_LARGE, ALONE = 50.0, 10.0
 """A reading so many times what the others suggest there, and so many times the largest of them, is doubted."""
-NEGATIVE_SHARE, NEGATIVE_SIGMAS, AS_LARGE = 0.02, 5.0, (0.5, 2.0)
+NEGATIVE_SHARE, NEGATIVE_SIGMAS, AS_LARGE = 0.02, 5.0, (0.67, 1.5)
 """So few readings, negative by so many sds, as large as what the others suggest there, are doubted."""
 UNSIGNED = ("power_loss_W", "friction_coefficient", "film_thickness_nm")
 """Quantities that are positive but for their noise; friction maps carry a sign."""
@@ -57,7 +57,7 @@ def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]
 
 def system_doubts(case: Case) -> list[str]:
     """What in the files beside the readings is far from any rig."""
-    return [Doubt(text) for text in far_off(case.system, case.folder)]
+    return [Doubt(odd.text) if odd.grave else odd.text for odd in far_off(case.system, case.folder)]
 
 
 def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]:
