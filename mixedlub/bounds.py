@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -135,7 +136,7 @@ def beyond_usual(key: str, value: float, place: str) -> str:
 
 
 def unusual(table: BaseModel, place: tuple[str, ...] = ()) -> Iterator[str]:
-    """What is far from any rig in a validated file: possible numbers outside the usual ranges."""
+    """What is far from any rig in a validated file: possible numbers outside the usual ranges, one a key."""
     for name in type(table).model_fields:
         yield from _unusual(getattr(table, name), (*place, name))
 
@@ -147,7 +148,8 @@ def _unusual(value: Any, place: tuple[str, ...]) -> Iterator[str]:
         for name, inner in value.items():
             yield from _unusual(inner, (*place, name))
     elif key_of(place) in ranges() and value is not None:
-        for words, entry in _entries(value):
-            said = beyond_usual(key_of(place), entry, f"{'.'.join(place)}, {words}".rstrip(", "))
-            if said:
-                yield said
+        where = ".".join(place)
+        said = (
+            beyond_usual(key_of(place), entry, f"{where}, {words}".rstrip(", ")) for words, entry in _entries(value)
+        )
+        yield from islice(filter(None, said), 1)

@@ -12,6 +12,7 @@ from mixedlub import bodies, bounds, config
 from mixedlub.gear import TableSharing
 from mixedlub.surface import Surface
 from mixedlub.table import CaseWarning
+from profiles.errors import InputError
 
 if TYPE_CHECKING:
     from mixedlub.study.sections import StudyFile
@@ -43,15 +44,19 @@ def far_off(
         grave = isinstance(share, TableSharing) and share.imbalance(pair) > GRAVE_IMBALANCE
         yield from (Odd(text, grave) for text in said)
     for name, section in file.surfaces.items():
-        if surfaces is None or name in surfaces:
-            found = _surface(name, section, folder) if surfaces is None else surfaces[name]
+        found = _surface(name, section, folder) if surfaces is None else surfaces.get(name)
+        if found is not None:
             yield from map(Odd, _roughness(found, f"surfaces.{name}", section))
 
 
-def _surface(name: str, section: config.SurfaceSection, folder: Path) -> Surface:
+def _surface(name: str, section: config.SurfaceSection, folder: Path) -> Surface | None:
+    """The surface; None where its trace cannot be read, which is told where it is computed with."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", CaseWarning)
-        return bodies.surface(name, section, folder)
+        try:
+            return bodies.surface(name, section, folder)
+        except InputError:
+            return None
 
 
 def _roughness(surface: Surface, place: str, section: config.SurfaceSection) -> Iterator[str]:

@@ -112,9 +112,8 @@ def _check_finite(study: Study) -> None:
     levels = study.file.conditions
     columns = ("", "oil_temperature_C", "torque_Nm", "speed_rpm")
     for name, value in study.plan.inputs.items():
-        wrong = np.argwhere(~np.isfinite(value))
-        if wrong.size:
-            axes = zip(columns, wrong[0], np.shape(value))
+        if not np.all(np.isfinite(value)):
+            axes = zip(columns, np.argwhere(~np.isfinite(value))[0], np.shape(value))
             place = ", ".join(f"{c} {getattr(levels, c)[i]:g}" for c, i, n in axes if c and n > 1) or "all of them"
             said = f"the study's numbers give no finite {name.replace('_', ' ')}; look for one far out of range"
             raise InputError(said, where=f"conditions: {place}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.bounds import ranges
 from mixedlub.case import Case
 from mixedlub.diagnosis.recording.features import PASSING
 from mixedlub.diagnosis.recording.noise import is_stated, nearly_repeated, noise_from_repeats, pooled_sd
@@ -34,8 +35,6 @@ STUCK_STEPS, STUCK_SPAN = 3.0, 0.05
 """Where the base model changes by more steps of the reading than that, and by such a share of its size, it is stuck."""
 
 
-HOTTEST = 250.0
-"""Temperatures (degC) that are all above it, or all those of a room in kelvin, are doubted."""
 TOO_LARGE, ALONE = 50.0, 10.0
 """A reading so many times what the others suggest there, and so many times the largest of them, is doubted."""
 NEGATIVE_SHARE, NEGATIVE_SIGMAS, AS_LARGE = 0.02, 5.0, (0.67, 1.5)
@@ -142,6 +141,7 @@ def _misread(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[s
     if used.sum() < FEWEST:
         return []
     expected = np.abs(base) * float(np.median(np.abs(y[used] / base[used])))
+    used &= expected > 0
     large = used & (np.abs(y) > TOO_LARGE * expected)
     large &= np.abs(y) > ALONE * np.max(np.abs(y[~large]), initial=0.0)
     found = [(large, "far larger than what the others suggest there: check unit and decimal point")]
@@ -168,9 +168,9 @@ def _sds(case: Case, rows: Table, y: np.ndarray) -> np.ndarray:
 
 
 def _warm(rows: Table) -> list[str]:
-    """Temperatures that all lie where those of a room do in kelvin."""
+    """Temperatures that are all hotter than oils are, as those of a room are in kelvin."""
     name = next((n for n in ("oil_temperature_C", "temperature_C") if n in rows), None)
-    if name is None or not np.all(rows[name] > HOTTEST):
+    if name is None or not np.all(rows[name] > ranges()["conditions.oil_temperature_C"].usual[1]):
         return []
     lowest = float(rows[name].min())
     return [Doubt(f"{name} is {lowest:g} or more in all rows: check that it is not in kelvin")]
