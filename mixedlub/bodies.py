@@ -8,7 +8,7 @@ from collections.abc import Collection
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,6 +21,9 @@ from mixedlub.table import CaseWarning, Column, read_table
 from profiles import SHIPPED, shipped
 from profiles.errors import InputError, nearest
 from profiles.profile import Profile
+
+if TYPE_CHECKING:
+    from roughness import Moments
 
 SHIPPED_MARK = "shipped:"
 """Before the name of a trace that comes with the package."""
@@ -51,11 +54,13 @@ def sharing(section: config.LoadSharing, folder: Path) -> Sharing:
             Column("roll_angle_deg"),
             Column("load_share", at_least=0.0, at_most=1.5),
         )
-        table = read_table(named_file(folder, section.table, "gears.load_sharing.table"), columns, key=None)
+        file = named_file(folder, section.table, "gears.load_sharing.table")
+        table = read_table(file, columns, key=("torque_Nm", "roll_angle_deg"))
         return TableSharing(
             torque=table["torque_Nm"],
             roll_angle=np.radians(table["roll_angle_deg"]),
             share=table["load_share"],
+            source=str(file),
         )
     if section.model == "rigid":
         return RigidSharing()
@@ -164,15 +169,25 @@ def flank_profile(name: str, section: config.SurfaceSection, folder: Path) -> Pr
     return evaluation_profile(trace, form=form, cutoff=band["cutoff_mm"] * 1e-3, short_cutoff=short)
 
 
+def _moments_of_trace(name: str, section: config.SurfaceSection, folder: Path) -> Moments:
+    """Moments of the trace of a surface; what is wrong with the trace is said with the surface's name."""
+    from roughness import moments
+
+    try:
+        return moments(flank_profile(name, section, folder))
+    except InputError as error:
+        if error.where.startswith("surfaces."):
+            raise
+        raise InputError(error.rule, where=f"surfaces.{name}: {error.where}", value=error.value) from None
+
+
 def surface(name: str, section: config.SurfaceSection, folder: Path) -> Surface:
     """One surface, from its moments or from the trace it names."""
     if section.profile is None:
         m0, m2, m4 = section.m0_um2 or 0.0, section.m2 or 0.0, section.m4_per_um2 or 0.0
         m0, m4 = m0 * 1e-12, m4 * 1e12
     else:
-        from roughness import moments
-
-        found = moments(flank_profile(name, section, folder))
+        found = _moments_of_trace(name, section, folder)
         m0, m2, m4 = found.m0, found.m2, found.m4
     if m0 * m4 < 1.5 * m2**2:
         warnings.warn(

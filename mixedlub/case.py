@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from mixedlub import config
+from mixedlub.gear import ROUNDED
 from mixedlub.kinds import Kind, kind
 from mixedlub.table import BOOKKEEPING, RUN, CaseWarning, Column, Table, read_table
 from profiles.errors import InputError
@@ -81,6 +82,18 @@ def read_conditions(case: Case, path: Path) -> Table:
     return read_table(path, _columns(case.kind, case.system, False))
 
 
+def hidden(case: Case, wanted: Table | None) -> list[str]:
+    """Conditions that carry the run number of a reading taken at others: each run stands once in an answer."""
+    if wanted is None or case.recordings is None:
+        return []
+    rows = case.recordings
+    _, here, there = np.intersect1d(wanted["run"], rows["run"], return_indices=True)
+    names = [name for name in ("rig", *(c.name for c in case.kind.columns)) if name in wanted and name in rows]
+    other = np.any([wanted[name][here] != rows[name][there] for name in names], axis=0)
+    runs = ", ".join(str(run) for run in wanted["run"][here][other].tolist())
+    return [f"{wanted.source}: not predicted, as readings at other conditions have the run: {runs}"] if runs else []
+
+
 def _read(path: Path, found: Kind, quantity: str | None, system: config.System, needed: bool) -> Table | None:
     if not path.exists() and not needed:
         return None
@@ -117,7 +130,15 @@ def _columns(found: Kind, system: config.System, measured: bool) -> tuple[Column
     """What a table of the case may hold; surfaces are those of the system where the kind computes with them."""
     names = tuple(system.surfaces) if "surfaces" in found.sections else ()
     own = (replace(c, names=names) if c.form == "name" and "surface" in c.name else c for c in found.columns)
+    reach = found.limits(system)
+    own = (_rounded(c, *reach[c.name]) if c.name in reach else c for c in own)
     return (RUN, *BOOKKEEPING, *own, *found.channels, *_measured(system, measured))
+
+
+def _rounded(column: Column, low: float, high: float) -> Column:
+    """The column within what the rig can reach, its ends rounded as recordings are."""
+    margin = ROUNDED * (high - low)
+    return replace(column, at_least=low - margin, at_most=high + margin)
 
 
 def _measured(system: config.System, required: bool) -> tuple[Column, ...]:
@@ -129,4 +150,4 @@ def _measured(system: config.System, required: bool) -> tuple[Column, ...]:
     return tuple(columns)
 
 
-__all__ = ["Case", "CaseWarning", "noted", "read_case", "read_conditions"]
+__all__ = ["Case", "CaseWarning", "hidden", "noted", "read_case", "read_conditions"]

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub.bounds import key_of, ranges
 from mixedlub.config import KINDS, System
 from mixedlub.headers import unit_of
 from mixedlub.kinds import Kind, kind
@@ -106,7 +107,7 @@ surfaces.NAME.m4_per_um2             | variance of curvatures of the profile
 surfaces.NAME.profile                | file of a trace, path from the case folder; or shipped:NAME
 surfaces.NAME.cutoff_mm              | long cut-off; left out: 0.8, or the trace's own
 surfaces.NAME.short_cutoff_um        | short cut-off; left out: 2.5, or the trace's own
-surfaces.NAME.form                   | none, mean, line (if left out), circle, polynomial-N, involute-MM
+surfaces.NAME.form                  | default line; none, mean, circle, polynomial-N, involute-MM
 surfaces.NAME.thermal_conductivity_W_mK | of the body
 surfaces.NAME.density_kg_m3          | of the body
 surfaces.NAME.specific_heat_J_kgK    | of the body
@@ -253,35 +254,36 @@ def _title(section: str, told: bool) -> Iterator[str]:
 
 def _key(section: str, key: str, schema: Mapping[str, Any], required: bool) -> tuple[str, ...]:
     plain = next((s for s in schema.get("anyOf", ()) if s.get("type") != "null"), schema)
-    values, numeric = _allowed(plain)
+    values, numeric = _allowed(plain, bounds_of(section, key))
     default = "required" if required else _toml(schema.get("default"))
     unit = ("as read" if key.endswith("absolute") else unit_of(key) or "-") if numeric else ""
     return key, unit, default, values, MEANINGS[f"{section}.{key}".lstrip(".")]
 
 
-def _allowed(schema: Mapping[str, Any]) -> tuple[str, bool]:
+def bounds_of(section: str, key: str) -> tuple[float, float]:
+    """Lowest and highest value of a key that the table of bounds allows.
+
+    >>> bounds_of("surfaces.NAME.coating", "thickness_um"), bounds_of("gears", "teeth")
+    ((0.0001, 20000.0), (-inf, inf))
+    """
+    found = ranges().get(key_of((*section.split("."), key) if section else (key,)))
+    return (-np.inf, np.inf) if found is None else found.possible
+
+
+def _allowed(schema: Mapping[str, Any], bounds: tuple[float, float]) -> tuple[str, bool]:
     """What a key may hold, and whether that is numbers."""
     if "prefixItems" in schema:
-        one, numeric = _allowed(schema["prefixItems"][0])
+        one, numeric = _allowed(schema["prefixItems"][0], bounds)
         return f"[{one}] x {len(schema['prefixItems'])}", numeric
     if "const" in schema or "enum" in schema:
         options = [_toml(option) for option in schema.get("enum", [schema.get("const")])]
         return (", ".join(options) if len(options) <= FEW else "see above"), False
     if schema["type"] == "string":
         return "text", False
-    above, below = (next((schema[k] for k in ks if k in schema), None) for ks in (_ABOVE, _BELOW))
-    least, most = (next((schema[k] for k in ks if k in schema), None) for ks in (_LEAST, _MOST))
-    words = [
-        f"{word} {bound:g}"
-        for word, bound in (("above", above), ("from", least), ("below", below), ("to", most))
-        if bound is not None
-    ]
-    whole = "whole number" if schema["type"] == "integer" else "number"
-    return " ".join(words) or whole, True
-
-
-_ABOVE, _BELOW = ("exclusiveMinimum", "gt"), ("exclusiveMaximum", "lt")
-_LEAST, _MOST = ("minimum", "ge"), ("maximum", "le")
+    least, most = max(bounds[0], schema.get("minimum", schema.get("ge", -np.inf))), bounds[1]
+    if np.isfinite(least):
+        return f"{least:g} to {most:g}" if np.isfinite(most) else f"from {least:g}", True
+    return "whole number" if schema["type"] == "integer" else "number", True
 
 
 def _toml(value: Any) -> str:

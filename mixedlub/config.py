@@ -6,44 +6,70 @@ import re
 import tomllib
 from itertools import chain
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeVar
+from typing import Annotated, Any, ClassVar, Literal, TypeVar
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    ValidationError,
+    ValidationInfo,
+    field_validator,
+    model_validator,
+)
 
-from mixedlub import refusal
+from mixedlub import bounds, refusal
 from profiles.errors import InputError, nearest
 
 T = TypeVar("T", bound=BaseModel)
 
 
-def _no_switch(value: Any) -> Any:
-    if isinstance(value, bool):
+def _number(value: Any) -> Any:
+    if isinstance(value, (bool, str)):
         raise ValueError("must be a number")
     return value
 
 
-Float = Annotated[float, BeforeValidator(_no_switch)]
-Positive = Annotated[Float, Field(gt=0, allow_inf_nan=False)]
-NotNegative = Annotated[Float, Field(ge=0, allow_inf_nan=False)]
+def _whole(value: Any) -> Any:
+    if isinstance(value, (bool, str)):
+        raise ValueError("must be a whole number")
+    return value
+
+
+Float = Annotated[float, BeforeValidator(_number)]
 Number = Annotated[Float, Field(allow_inf_nan=False)]
-Modulus = Annotated[float, Field(ge=0.1, le=2000)]
-Density = Annotated[float, Field(ge=300, le=3000)]
-Radius = Annotated[float, Field(gt=0)]
+NotNegative = Annotated[Float, Field(ge=0, allow_inf_nan=False)]
+Whole = Annotated[int, BeforeValidator(_whole)]
 KINDS = ("gear_pair", "mesh_friction", "disc", "film", "friction_history", "friction_map", "viscosity")
 
 
 class Section(BaseModel):
-    """A table of the file: unknown keys are errors, values never change."""
+    """A table of the file: unknown keys are errors, values never change, and lie within the bounds of `bounds.toml`.
+
+    ``place`` is where the bounds of its keys stand there.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+    place: ClassVar[str] = ""
+
+    @field_validator("*")
+    @classmethod
+    def _possible(cls, value: Any, info: ValidationInfo) -> Any:
+        broken = bounds.broken(f"{cls.place}.{info.field_name}".lstrip("."), value)
+        if broken:
+            raise ValueError(broken)
+        return value
 
 
 class LoadSharing(Section):
+    place = "gears.load_sharing"
+
     table: str | None = None
     model: Literal["ldp", "rigid"] | None = None
-    tip_relief_um: tuple[NotNegative, NotNegative] = (0.0, 0.0)
-    relief_length_mm: tuple[NotNegative, NotNegative] = (0.0, 0.0)
-    lead_crown_um: NotNegative = 0.0
+    tip_relief_um: tuple[Number, Number] = (0.0, 0.0)
+    relief_length_mm: tuple[Number, Number] = (0.0, 0.0)
+    lead_crown_um: Number = 0.0
     misalignment_um: Number = 0.0
 
     @model_validator(mode="after")
@@ -54,31 +80,29 @@ class LoadSharing(Section):
 
 
 class Gears(Section):
-    teeth: tuple[int, int]
-    normal_module_mm: Positive
-    pressure_angle_deg: Annotated[float, Field(gt=0, lt=45)] = 20.0
-    helix_angle_deg: Annotated[float, Field(gt=-60, lt=60)] = 0.0
+    place = "gears"
+
+    teeth: tuple[Whole, Whole]
+    normal_module_mm: Number
+    pressure_angle_deg: Number = 20.0
+    helix_angle_deg: Number = 0.0
     profile_shift: tuple[Number, Number] = (0.0, 0.0)
-    tip_diameter_mm: tuple[Positive, Positive] | None = None
-    centre_distance_mm: Positive | None = None
-    face_width_mm: Positive
-    youngs_modulus_GPa: tuple[Modulus, Modulus] = (206.0, 206.0)
-    poisson_ratio: tuple[Annotated[float, Field(ge=0, lt=0.5)], Annotated[float, Field(ge=0, lt=0.5)]] = (
-        0.3,
-        0.3,
-    )
+    tip_diameter_mm: tuple[Number, Number] | None = None
+    centre_distance_mm: Number | None = None
+    face_width_mm: Number
+    youngs_modulus_GPa: tuple[Number, Number] = (206.0, 206.0)
+    poisson_ratio: tuple[Number, Number] = (0.3, 0.3)
     load_sharing: LoadSharing = LoadSharing(model="rigid")
 
 
 class Contact(Section):
+    place = "contact"
+
     geometry: Literal["line", "point"] = "line"
-    radius_mm: tuple[Radius, Radius]
-    width_mm: Positive | None = None
-    youngs_modulus_GPa: tuple[Modulus, Modulus] = (206.0, 206.0)
-    poisson_ratio: tuple[Annotated[float, Field(ge=0, lt=0.5)], Annotated[float, Field(ge=0, lt=0.5)]] = (
-        0.3,
-        0.3,
-    )
+    radius_mm: tuple[Float, Float]
+    width_mm: Number | None = None
+    youngs_modulus_GPa: tuple[Number, Number] = (206.0, 206.0)
+    poisson_ratio: tuple[Number, Number] = (0.3, 0.3)
 
     @model_validator(mode="after")
     def _line_has_width(self) -> Contact:
@@ -88,36 +112,42 @@ class Contact(Section):
 
 
 class Lubricant(Section):
+    place = "lubricant"
+
     name: str = "unnamed oil"
     base: Literal["mineral", "pao", "ester", "pag"] | None = None
     temperature_C: tuple[Number, Number] | None = None
-    kinematic_viscosity_mm2_s: tuple[Positive, Positive] | None = None
-    pressure_viscosity_per_GPa: tuple[Positive, Positive] | None = None
-    density_15C_kg_m3: Density | None = None
+    kinematic_viscosity_mm2_s: tuple[Number, Number] | None = None
+    pressure_viscosity_per_GPa: tuple[Number, Number] | None = None
+    density_15C_kg_m3: Number | None = None
     density_change_per_K: Number | None = None
-    eyring_stress_MPa: Positive | None = None
-    thermal_conductivity_W_mK: Positive | None = None
-    specific_heat_J_kgK: Positive | None = None
+    eyring_stress_MPa: Number | None = None
+    thermal_conductivity_W_mK: Number | None = None
+    specific_heat_J_kgK: Number | None = None
 
 
 class Coating(Section):
+    place = "surfaces.coating"
+
     name: str = "coating"
-    thickness_um: Positive
-    thermal_conductivity_W_mK: Positive
+    thickness_um: Number
+    thermal_conductivity_W_mK: Number
 
 
 class SurfaceSection(Section):
-    m0_um2: Positive | None = None
-    m2: Positive | None = None
-    m4_per_um2: Positive | None = None
+    place = "surfaces"
+
+    m0_um2: Number | None = None
+    m2: Number | None = None
+    m4_per_um2: Number | None = None
     profile: str | None = None
-    cutoff_mm: Positive | None = None
-    short_cutoff_um: Positive | None = None
+    cutoff_mm: Number | None = None
+    short_cutoff_um: Number | None = None
     form: str | None = None
     coating: Coating | None = None
-    thermal_conductivity_W_mK: Positive = 46.0
-    density_kg_m3: Positive = 7800.0
-    specific_heat_J_kgK: Positive = 470.0
+    thermal_conductivity_W_mK: Number = 46.0
+    density_kg_m3: Number = 7800.0
+    specific_heat_J_kgK: Number = 470.0
 
     @model_validator(mode="after")
     def _moments_or_profile(self) -> SurfaceSection:
@@ -130,21 +160,27 @@ class SurfaceSection(Section):
 
 
 class Uncertainty(Section):
-    boundary_friction: NotNegative = 0.0
-    viscosity: NotNegative = 0.0
-    pressure_viscosity: NotNegative = 0.0
-    eyring_stress: NotNegative = 0.0
-    roughness: NotNegative = 0.0
+    place = "uncertainty"
+
+    boundary_friction: Number = 0.0
+    viscosity: Number = 0.0
+    pressure_viscosity: Number = 0.0
+    eyring_stress: Number = 0.0
+    roughness: Number = 0.0
 
 
 class Noise(Section):
-    relative: NotNegative = 0.0
+    place = "recording.noise"
+
+    relative: Number = 0.0
     absolute: NotNegative = 0.0
-    setup_relative: NotNegative = 0.0
+    setup_relative: Number = 0.0
     setup_absolute: NotNegative = 0.0
 
 
 class Recording(Section):
+    place = "recording"
+
     quantity: Literal[
         "power_loss_W", "friction_coefficient", "film_thickness_nm", "friction_torque_Nm", "viscosity_mPa_s"
     ]
@@ -159,7 +195,7 @@ class System(Section):
 
     schema_: Literal["mixedlub-case/1"] = Field(alias="schema")
     kind: Literal["gear_pair", "mesh_friction", "disc", "film", "friction_history", "friction_map", "viscosity"]
-    boundary_friction: Positive = 0.1
+    boundary_friction: Number = 0.1
     description: str = ""
     gears: Gears | None = None
     contact: Contact | None = None

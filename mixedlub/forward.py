@@ -15,6 +15,7 @@ from mixedlub.chain import Model, Parameters, Record, available
 from mixedlub.effect import Effect, known_in
 from mixedlub.kinds.kind import SCALE, ageing
 from mixedlub.table import Table
+from profiles.errors import InputError
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,6 +77,18 @@ class Forward:
     ) -> np.ndarray:
         """Readings in the unit of the recorded column, one a row."""
         return self.run(calibration, parameters).prediction
+
+    def nominal(self) -> np.ndarray:
+        """The base model at the nominal calibration, one reading a row; an error where it has no finite answer."""
+        base = self.predict()
+        if not np.isfinite(base).all():
+            run = int(self.table["run"][~np.isfinite(base)][0])
+            raise InputError(
+                "the base model has no finite answer for this run's conditions; look for a number far out of range",
+                where=f"{self.case.folder / self.table.source}: {self.case.quantity}, run",
+                value=run,
+            )
+        return base
 
     def run(
         self,

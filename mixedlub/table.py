@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from mixedlub.bounds import meant
 from mixedlub.headers import change_to, split, target_of
 from profiles.errors import InputError, nearest
 
@@ -59,7 +60,8 @@ class Column:
         if not self.allows(value):
             low = value <= self.above
             rule = f"be above {self.above:g}" if low else f"lie between {self.at_least:g} and {self.at_most:g}"
-            raise InputError(f"{self.name} must {rule}", where=where, value=value)
+            other = meant(self.name, value, self.at_least, self.at_most) if np.isfinite(self.at_most) else ""
+            raise InputError(f"{self.name} must {rule}" + (f"; {other}" if other else ""), where=where, value=value)
         if self.form == "whole":
             if value != int(value):
                 raise InputError(f"{self.name} must be a whole number", where=where, value=text)
@@ -98,8 +100,8 @@ class Table:
         return Table({name: column[rows] for name, column in self.columns.items()}, self.source)
 
 
-def read_table(path: Path, columns: tuple[Column, ...], *, key: str | None = "run") -> Table:
-    """Read a CSV with the given columns, ``key`` unique; others are ignored with a warning."""
+def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] = ("run",)) -> Table:
+    """Read a CSV with the given columns, those of the ``key`` unique together; others are ignored with a warning."""
     where = str(path)
     try:
         text = path.read_text(encoding="utf-8-sig")
@@ -140,12 +142,14 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: str | None = "ru
             stacklevel=2,
         )
     cells = _parse(lines, header, known, where)
-    if key is not None:
-        first = np.unique(cells[key], return_index=True)[1]
-        if first.size < cells[key].size:
-            again = np.setdiff1d(np.arange(cells[key].size), first)[0]
-            place = f"{where}: line {lines[again + 1][0]}, {key}"
-            raise InputError(f"{key} must be unique", where=place, value=int(cells[key][again]))
+    together = list(zip(*(cells[name].tolist() for name in key), strict=True))
+    if len(set(together)) < len(together):
+        first = {values: row for row, values in reversed(list(enumerate(together)))}
+        again = next(row for row, values in enumerate(together) if first[values] < row)
+        value, named = together[again], " and ".join(key)
+        place = f"{where}: line {lines[again + 1][0]}, {named}"
+        rule = f"{named} must be unique" + (" together" if len(key) > 1 else "")
+        raise InputError(rule, where=place, value=value[0] if len(key) == 1 else value)
     return Table(cells, path.name)
 
 

@@ -26,9 +26,12 @@ def nearest(name: str, known: Iterable[str]) -> str:
 
     >>> nearest("torqe_Nm", ["torque_Nm", "speed_rpm"])
     "nearest known: 'torque_Nm'"
+    >>> nearest("m4", ["m2", "m4_per_um2"])
+    "nearest known: 'm4_per_um2'"
     """
     words = sorted(known)
-    close = difflib.get_close_matches(str(name), words, n=1, cutoff=0.5)
+    begun = [word for word in words if len(str(name)) > 1 and word.startswith(str(name))]
+    close = sorted(begun, key=len)[:1] or difflib.get_close_matches(str(name), words, n=1, cutoff=0.5)
     if close:
         return f"nearest known: {close[0]!r}"
     return "known: " + ", ".join(words)

@@ -29,6 +29,7 @@ def profile_warnings(
     as_read = profile if raw is None else raw
     return [
         *_inferred(as_read),
+        *overruled_units(as_read),
         *_stated(as_read),
         *_band(profile, found),
         *_lengths(profile, heights),
@@ -129,6 +130,12 @@ def _instrument(profile: Profile, found: Moments, raw: Profile) -> Iterator[str]
 def _inferred(raw: Profile) -> Iterator[str]:
     if raw.origin.get("units_inferred"):
         yield f"the file names no units; inferred from the numbers: {raw.origin['units']}"
+
+
+def overruled_units(raw: Profile) -> Iterator[str]:
+    """The units in the file where the caller named others."""
+    if "units_overruled" in raw.origin:
+        yield f"units: {raw.origin['units_overruled']}"
 
 
 def _stated(raw: Profile) -> Iterator[str]:

@@ -6,6 +6,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import asdict, replace
 
+import numpy as np
+
 from profiles import InputError, Profile
 from roughness.asperities import Asperities, mccool_asperities
 from roughness.cutoffs import choose_cutoffs, short_cutoff_for
@@ -19,6 +21,9 @@ from roughness.prepare import remove_form, roughness_profile
 from roughness.probability import NormalProbability, normal_probability
 from roughness.spectrum import correlation_length
 from roughness.uncertainty import bootstrap, short_cutoff_band, smoothed_moments
+
+ROUNDING = 1e-13
+"""Bends of a trace below it, over its largest height, are what arithmetic leaves."""
 
 _LENGTHS = ("Ra", "Rq", "Rz", "Rt", "Rp", "Rv", "Rz1max")
 
@@ -42,6 +47,7 @@ def evaluation_profile(
     estimates Rq, m2 and m4 at least as well as the shorter profile does that is left when instruments cut
     half a cut-off (``trim_cutoffs`` 0.5). ``method`` as in :func:`roughness_profile`.
     """
+    _refuse_flat(trace)
     filtered = cutoff == "auto" and "cutoff" in trace.cutoffs
     if filtered and form == "line":
         profile = trace
@@ -257,6 +263,17 @@ def _plain(value: object) -> object:
     if isinstance(value, float):
         return float(value) if math.isfinite(value) else None
     return value
+
+
+def _refuse_flat(trace: Profile) -> None:
+    """Refuse heights that are all one number or lie on a line but for rounding: nothing was measured."""
+    heights = trace.heights[trace.valid] if trace.valid.any() else trace.heights
+    place = str(trace.origin.get("file", f"profile {trace.name!r}"))
+    if np.ptp(heights) == 0.0:
+        stuck = "all heights are the same: a stuck stylus or an empty channel; there is no roughness"
+        raise InputError(stuck, where=place, value=f"{heights[0] * 1e6:.6g} um")
+    if np.abs(np.diff(trace.heights, 2)).max() <= ROUNDING * np.abs(trace.heights).max():
+        raise InputError("all heights lie on one straight line; there is no roughness", where=place)
 
 
 def _length(value: float | str | None, what: str) -> float | None:

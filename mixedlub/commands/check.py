@@ -40,7 +40,7 @@ def command(case: Annotated[Path, typer.Argument(metavar="CASE", help="Case fold
 
 def understood(case: Case) -> Iterator[str]:
     """The case in plain words, line by line."""
-    from mixedlub.case import noted
+    from mixedlub.case import hidden, noted
 
     yield f"{case.name}: a case of kind {case.system.kind}, recording {case.quantity}."
     if case.system.description:
@@ -50,6 +50,7 @@ def understood(case: Case) -> Iterator[str]:
         bodies = list(_bodies(case))
         forward = _forward(case)
     notes += [] if forward is None else [note for note in forward.notes if note not in notes]
+    notes += hidden(case, case.conditions)
     yield from bodies
     if forward is None:
         yield f"Boundary friction coefficient: {case.system.boundary_friction:g}."
@@ -140,17 +141,22 @@ def _uncertain(case: Case, movable: Sequence[Calibration]) -> Iterator[str]:
 
 
 def _audit(case: Case, forward: Forward | None) -> Iterator[str]:
-    """What is doubtful about the readings, or why they cannot be diagnosed."""
-    from mixedlub.diagnosis.recording.audit import doubts
+    """What is doubtful about system and readings, or why they cannot be diagnosed."""
+    from mixedlub.diagnosis.recording.audit import doubts, system_doubts
+    from mixedlub.forward import Forward
 
-    if case.recordings is None or forward is None:
-        return
-    readings = np.asarray(case.recordings[case.quantity], dtype=float)
-    try:
-        found = doubts(case, case.recordings, readings, forward)
-    except InputError as error:
-        yield f"Cannot be diagnosed: {error}."
-        return
+    found = system_doubts(case)
+    if case.recordings is not None and forward is not None:
+        readings = np.asarray(case.recordings[case.quantity], dtype=float)
+        try:
+            found += doubts(case, case.recordings, readings, forward)
+        except InputError as error:
+            yield f"Cannot be diagnosed: {error}."
+    if case.conditions is not None:
+        try:
+            Forward(case, case.conditions).nominal()
+        except InputError as error:
+            yield f"Cannot be predicted: {error}."
     if found:
         yield "Doubtful:"
         yield from (f"  {text}." for text in found)

@@ -72,9 +72,13 @@ def command(
     """
     from profiles import read
     from roughness import trace_record
+    from roughness.guards import overruled_units
 
     with named_options():
         traces = [read(file, unit=unit, spacing=spacing) for file in files]
+        overruled = {f"{file}: {text}" for file, trace in zip(files, traces) for text in overruled_units(trace)}
+        for text in sorted(overruled):
+            note(text)
         found = [
             trace_record(
                 trace,
@@ -94,7 +98,8 @@ def command(
         for line in told(record):
             say(line)
         for text in record["warnings"]:
-            note(f"{record['file']}: {text}")
+            if f"{record['file']}: {text}" not in overruled:
+                note(f"{record['file']}: {text}")
     with writing(folder) as aside:
         (aside / "profile.json").write_text(json.dumps(records, indent=1) + "\n", encoding="utf-8")
         if figures:

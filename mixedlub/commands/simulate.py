@@ -26,20 +26,23 @@ def command(
 
     Those of recordings.csv and conditions.csv, or of another table; nothing is fitted.
     """
-    from mixedlub.case import noted, read_case, read_conditions
+    from mixedlub.case import hidden, noted, read_case, read_conditions
     from mixedlub.forward import Forward
+    from mixedlub.usual import far_off
 
-    found = read_case(case_folder(case), need_recordings=False)
-    notes = list(found.notes)
+    notes: list[str] = []
+    rows: dict[int, float] = {}
     with noted(notes), within_range(str(case)):
-        tables = [read_conditions(found, at)] if at is not None else [found.recordings, found.conditions]
-        rows: dict[int, float] = {}
+        found = read_case(case_folder(case), need_recordings=False)
+        notes += [*found.notes, *(odd.text for odd in far_off(found.system, found.folder))]
+        tables = [found.recordings, found.conditions] if at is None else [read_conditions(found, at)]
+        notes += hidden(found, found.conditions) if at is None else []
         for table in tables:
-            if table is None:
-                continue
-            forward = Forward(found, table)
-            notes.extend(text for text in forward.notes if text not in notes)
-            rows.update(zip(table["run"].tolist(), forward.predict().tolist(), strict=True))
+            if table is not None:
+                forward = Forward(found, table)
+                notes.extend(text for text in forward.notes if text not in notes)
+                each = zip(table["run"].tolist(), forward.nominal().tolist(), strict=True)
+                rows |= {run: value for run, value in each if run not in rows}
     if not rows:
         raise InputError("has neither recordings.csv nor conditions.csv; name a table with --at", where=str(case))
     folder = output_folder(out, NAME, found.name)

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.case import Case, read_case, read_conditions
+from mixedlub.case import Case, hidden, read_case, read_conditions
 from mixedlub.diagnosis.fitting.fit import outlier_chance
 from mixedlub.diagnosis.fitting.problem import Problem
 from mixedlub.diagnosis.fitting.scatter import beyond_noise, scaled, shown, stated_or_more, under_its_own
@@ -98,7 +98,7 @@ def diagnose_case(
     wanted, assumed = _completed(read_conditions(case, predict) if predict is not None else case.conditions, rows)
     forward = Forward(case, rows)
     y = np.asarray(rows[case.quantity], dtype=float)
-    warnings = [*case.notes, *assumed, *_hidden(case, wanted, rows), *forward.notes, *audit(case, rows, y, forward)]
+    warnings = [*case.notes, *assumed, *hidden(case, wanted), *forward.notes, *audit(case, rows, y, forward)]
     if wanted is not None:
         warnings += [note for note in Forward(case, wanted).notes if note not in forward.notes]
     stated = is_stated(case, rows)
@@ -134,17 +134,6 @@ def _completed(wanted: Table | None, rows: Table) -> tuple[Table | None, list[st
         return wanted, []
     columns = {**wanted.columns, "sequence": np.ones(len(wanted))}
     return Table(columns, wanted.source), [f"{wanted.source} has no sequence: predicted for the end of the programme"]
-
-
-def _hidden(case: Case, wanted: Table | None, rows: Table) -> list[str]:
-    """Conditions that carry the run number of a reading taken at others: the answer lists each run once."""
-    if wanted is None:
-        return []
-    _, here, there = np.intersect1d(wanted["run"], rows["run"], return_indices=True)
-    names = [c.name for c in case.kind.columns if c.name in wanted and c.name in rows]
-    other = np.any([wanted[name][here] != rows[name][there] for name in names], axis=0)
-    runs = ", ".join(str(run) for run in wanted["run"][here][other].tolist())
-    return [f"{wanted.source}: not predicted, as readings at other conditions have the run: {runs}"] if runs else []
 
 
 def _search(

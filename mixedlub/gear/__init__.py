@@ -2,10 +2,11 @@
 
 from mixedlub.gear.distribution import LdpSharing, LoadDistribution, transmission_error
 from mixedlub.gear.geometry import GearPair
-from mixedlub.gear.mesh import Mesh, at_roll_angle, mesh
+from mixedlub.gear.mesh import ROUNDED, Mesh, at_roll_angle, mesh
 from mixedlub.gear.sharing import LoadShareWarning, RigidSharing, Sharing, TableSharing
 
 __all__ = [
+    "ROUNDED",
     "GearPair",
     "LdpSharing",
     "LoadDistribution",

@@ -18,6 +18,9 @@ from mixedlub.gear.geometry import GearPair, whole
 from mixedlub.gear.sharing import Sharing, column, torques_above_zero
 from profiles.errors import InputError
 
+ROUNDED = 0.005
+"""How far beyond the path of contact, over its length, a recorded roll angle may lie: ends are rounded."""
+
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
@@ -91,7 +94,7 @@ def at_roll_angle(pair: GearPair, sharing: Sharing, roll_angle: object, *, slice
     slices = sharing.default_slices(pair) if slices is None else whole("slices", slices, 1, 1000)
     notes = sharing.check(pair)
     start, end = pair.path_start / pair.base_radius[0], pair.path_end / pair.base_radius[0]
-    margin = 0.005 * (end - start)
+    margin = ROUNDED * (end - start)
     wrong = ~((angles >= start - margin) & (angles <= end + margin))
     if np.any(wrong):
         raise InputError(

@@ -7,6 +7,7 @@ should know about it, and the share at the points of a mesh. The elastic one is 
 from __future__ import annotations
 
 import warnings
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
@@ -18,6 +19,14 @@ from profiles.errors import InputError
 
 if TYPE_CHECKING:
     from mixedlub.gear.mesh import Mesh
+
+
+COVERED = 0.98
+"""Share of the path of contact that a table covers but for the rounding of its ends."""
+MEAN_OFF = 0.03
+"""How far the shares of the pairs in contact may on average add up to another number than 1."""
+OFTEN, OFTEN_OFF = 0.8, 0.05
+"""So much of a base pitch must add up to 1 within that; beside a step of the share, between two rows, more is off."""
 
 
 class LoadShareWarning(UserWarning):
@@ -82,6 +91,13 @@ def contact_line_length(pair: GearPair, position: np.ndarray) -> np.ndarray:
     return np.clip(overlap, 0, None).sum(axis=-1) / np.sin(abs(pair.base_helix_angle))
 
 
+def _pairs_in_contact(pair: GearPair) -> tuple[np.ndarray, np.ndarray]:
+    """Positions (m) of the tooth pairs at 64 phases inside one base pitch, and which are in contact."""
+    phase = pair.path_start + pair.base_pitch * (np.arange(64) + 0.5) / 64
+    position = phase[:, None] + pair.base_pitch * np.arange(int(pair.contact_ratio) + 1)
+    return position, position <= pair.path_end
+
+
 @dataclass(frozen=True)
 class RigidSharing:
     """Rigid, perfect teeth: the same load on every length of contact line.
@@ -119,24 +135,26 @@ class TableSharing:
     ``share`` of the base-tangent force T1/r_b1 that one tooth pair carries there. Used as it stands: linear
     in roll angle between the rows of a torque; beyond the first and last row their value is held for one row
     spacing and the share is zero further out. A torque without rows takes the nearest that has some, and
-    warns (``LoadShareWarning``).
+    warns (``LoadShareWarning``). ``source`` is the file that messages name.
     """
 
     torque: np.ndarray
     roll_angle: np.ndarray
     share: np.ndarray
+    source: str = ""
 
     def __post_init__(self) -> None:
         columns = {"torque_Nm": self.torque, "roll_angle_deg": self.roll_angle, "load_share": self.share}
-        arrays = {key: column(key, values) for key, values in columns.items()}
+        arrays = {key: column(self._at_column(key), values) for key, values in columns.items()}
         if len({array.size for array in arrays.values()}) != 1:
-            raise InputError("the three columns need the same number of rows", where="load_share")
+            raise InputError("the three columns need the same number of rows", where=self._at_column("load_share"))
         if np.any(arrays["torque_Nm"] <= 0):
-            raise InputError("a torque is above zero", where="torque_Nm", value=float(arrays["torque_Nm"].min()))
+            lowest = float(arrays["torque_Nm"].min())
+            raise InputError("a torque is above zero", where=self._at_column("torque_Nm"), value=lowest)
         shares = arrays["load_share"]
         if np.any((shares < 0) | (shares > 1.5)):
-            worst = shares[np.argmax(np.abs(shares - 0.5))]
-            raise InputError("a load share is a fraction from 0 to 1", where="load_share", value=float(worst))
+            worst = float(shares[np.argmax(np.abs(shares - 0.5))])
+            raise InputError("a load share is a fraction from 0 to 1", where=self._at_column("load_share"), value=worst)
         order = np.lexsort((arrays["roll_angle_deg"], arrays["torque_Nm"]))
         for name, key in zip(("torque", "roll_angle", "share"), arrays):
             sorted_column = arrays[key][order]
@@ -144,10 +162,16 @@ class TableSharing:
             object.__setattr__(self, name, sorted_column)
         for value, angle, _ in self._curves:
             if angle.size < 2:
-                raise InputError("at least two rows a torque are needed", where="torque_Nm", value=value)
+                said = "at least two rows a torque are needed"
+                raise InputError(said, where=self._at_column("torque_Nm"), value=value)
             if np.any(np.diff(angle) <= 0):
                 twice = float(np.degrees(angle[1:][np.diff(angle) <= 0][0]))
-                raise InputError("one row a roll angle and torque", where="roll_angle_deg", value=twice)
+                said = "one row a roll angle and torque"
+                raise InputError(said, where=self._at_column("roll_angle_deg"), value=twice)
+
+    def _at_column(self, name: str) -> str:
+        """The place of a column in a message."""
+        return f"{self.source}: {name}" if self.source else name
 
     @cached_property
     def _curves(self) -> list[tuple[float, np.ndarray, np.ndarray]]:
@@ -161,45 +185,78 @@ class TableSharing:
         return 1
 
     def check(self, pair: GearPair) -> tuple[str, ...]:
-        """Refuse helical pairs and tables of another gear; note gaps and sums that are not 1."""
+        """Refuse helical pairs and tables of another gear or of a part; note ends left out and sums that are not 1."""
         if pair.helix_angle != 0:
             raise InputError(
                 'a share table along one path serves spur gears only; use { model = "rigid" }',
                 where="load_sharing",
             )
+        curves = range(len(self._curves))
+        for curve in curves:
+            self._refuse_gap(pair, curve)
+        return (*self._short(pair, curves), *self._unbalanced(pair, curves))
+
+    def imbalance(self, pair: GearPair) -> float:
+        """How far the shares of the pairs in contact add up to another number than 1, on average over a base pitch.
+
+        That of the torque where it is largest.
+        """
+        return max(abs(float(self._sum_over_pairs(pair, curve).mean()) - 1.0) for curve in range(len(self._curves)))
+
+    def _refuse_gap(self, pair: GearPair, curve: int) -> None:
+        """Refuse rows that say nothing of any of the pairs in contact at some place: nothing would carry the load."""
+        value, angle, _ = self._curves[curve]
+        position, inside = _pairs_in_contact(pair)
+        told = (inside & self._told(curve, position / pair.base_radius[0])).any(axis=1)
+        if told.all():
+            return
+        start, end = np.degrees(np.array([pair.path_start, pair.path_end]) / pair.base_radius[0])
+        first, last = np.degrees(angle[[0, -1]])
+        raise InputError(
+            f"the rows at {value:g} Nm ({first:.4g} to {last:.4g} deg) leave out a part of the path of contact "
+            f"({start:.4g} to {end:.4g} deg) where no other carries the load, {np.mean(~told):.0%} of a base pitch",
+            where=self._at_column("roll_angle_deg"),
+        )
+
+    def _short(self, pair: GearPair, curves: range) -> Iterator[str]:
+        """Rows that end before the path of contact does, of the torque where they are shortest."""
         start, end = pair.path_start / pair.base_radius[0], pair.path_end / pair.base_radius[0]
-        notes = []
-        for value, angle, _ in self._curves:
-            covered = min(angle[-1], end) - max(angle[0], start)
-            if covered <= 0:
-                rows = f"{np.degrees(angle[0]):.4g} to {np.degrees(angle[-1]):.4g}"
-                path = f"{np.degrees(start):.4g} to {np.degrees(end):.4g}"
-                raise InputError(
-                    f"the rows at {value:g} Nm ({rows} deg) miss the path of contact ({path} deg)",
-                    where="roll_angle_deg",
-                )
-            if covered < 0.98 * (end - start):
-                notes.append(
-                    f"load share table: the rows at {value:g} Nm cover only "
-                    f"{covered / (end - start):.0%} of the path of contact"
-                )
-        worst = max(np.abs(self._sum_over_pairs(pair, i) - 1).max() for i in range(len(self._curves)))
-        if worst > 0.1:
-            notes.append(f"load share table: the pairs in contact carry together 1 only within {worst:.0%}")
-        return tuple(notes)
+        angles = [angle for _, angle, _ in self._curves]
+        covered = [(min(angle[-1], end) - max(angle[0], start)) / (end - start) for angle in angles]
+        worst = min(curves, key=lambda curve: covered[curve])
+        if covered[worst] < COVERED:
+            yield (
+                f"load share table: the rows at {self._curves[worst][0]:g} Nm cover only {covered[worst]:.0%} of the "
+                f"path of contact ({np.degrees(start):.4g} to {np.degrees(end):.4g} deg); the share beyond is taken as "
+                f"none{_others([share < COVERED for share in covered])}"
+            )
+
+    def _unbalanced(self, pair: GearPair, curves: range) -> Iterator[str]:
+        """Shares that do not add up to the load, of the torque where they are furthest off."""
+        sums = [self._sum_over_pairs(pair, curve) for curve in curves]
+        off = [max(abs(s.mean() - 1.0) / MEAN_OFF, np.quantile(np.abs(s - 1.0), OFTEN) / OFTEN_OFF) for s in sums]
+        worst = max(curves, key=lambda curve: off[curve])
+        if off[worst] > 1.0:
+            low, high, mean = sums[worst].min(), sums[worst].max(), sums[worst].mean()
+            yield (
+                f"load share table: at {self._curves[worst][0]:g} Nm the pairs in contact carry together {low:.2f} to "
+                f"{high:.2f} of the load, {mean:.3f} on average, where it should be 1{_others([o > 1.0 for o in off])}"
+            )
 
     def _sum_over_pairs(self, pair: GearPair, curve: int) -> np.ndarray:
-        """Shares of all pairs in contact added up, at 64 phases inside one base pitch."""
-        phase = pair.path_start + pair.base_pitch * (np.arange(64) + 0.5) / 64
-        position = phase[:, None] + pair.base_pitch * np.arange(int(pair.contact_ratio) + 1)
-        inside = position <= pair.path_end
+        """Shares of all pairs in contact added up, phase by phase."""
+        position, inside = _pairs_in_contact(pair)
         return (self._at(curve, position / pair.base_radius[0]) * inside).sum(axis=1)
+
+    def _told(self, curve: int, roll_angle: np.ndarray) -> np.ndarray:
+        """Where the rows of a torque hold: between them, and one row spacing further out."""
+        _, angle, _ = self._curves[curve]
+        outside = np.maximum(angle[0] - roll_angle, roll_angle - angle[-1])
+        return outside <= np.diff(angle).max()
 
     def _at(self, curve: int, roll_angle: np.ndarray) -> np.ndarray:
         _, angle, share = self._curves[curve]
-        outside = np.maximum(angle[0] - roll_angle, roll_angle - angle[-1])
-        held = outside <= np.diff(angle).max()
-        return np.where(held, np.interp(roll_angle, angle, share), 0.0)
+        return np.where(self._told(curve, roll_angle), np.interp(roll_angle, angle, share), 0.0)
 
     def breakpoints(self, pair: GearPair) -> np.ndarray:
         """The rows where the slope changes enough to matter, at any torque."""
@@ -230,6 +287,16 @@ class TableSharing:
             )
         curves = np.stack([self._at(i, mesh.roll_angle) for i in range(len(self._curves))])
         return curves[chosen] * mesh.face_fraction
+
+
+def _others(affected: Sequence[bool]) -> str:
+    """How many more torques a sentence about one of them holds for.
+
+    >>> _others([True, True, True]), _others([True, False])
+    (' (so at 2 more torques)', '')
+    """
+    more = sum(map(bool, affected)) - 1
+    return f" (so at {more} more torque{'s' if more > 1 else ''})" if more > 0 else ""
 
 
 def column(key: str, values: object) -> np.ndarray:

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
-from mixedlub.config import Gears, Lubricant, Number, Positive, Section, SurfaceSection
+from mixedlub.config import Float, Gears, Lubricant, Number, Section, SurfaceSection, Whole
 
 MOST_LEVELS = 100_000
 
@@ -33,19 +33,18 @@ def _once(values: tuple[Any, ...]) -> tuple[Any, ...]:
     return values
 
 
-Levels = BeforeValidator(_levels)
-Speeds = Annotated[tuple[Annotated[float, Field(gt=0, le=1e6)], ...], Field(min_length=1), Levels]
-Torques = Annotated[tuple[Annotated[float, Field(gt=0, le=1e9)], ...], Field(min_length=1), Levels]
-Temperatures = Annotated[tuple[Annotated[float, Field(ge=-60, le=300)], ...], Field(min_length=1), Levels]
+Numbers = Annotated[tuple[Number, ...], Field(min_length=1), BeforeValidator(_levels)]
 Names = Annotated[tuple[str, ...], Field(min_length=1)]
 
 
 class Conditions(Section):
     """The factorial: every torque at every speed and oil temperature."""
 
-    torque_Nm: Torques
-    speed_rpm: Speeds
-    oil_temperature_C: Temperatures
+    place = "conditions"
+
+    torque_Nm: Numbers
+    speed_rpm: Numbers
+    oil_temperature_C: Numbers
 
     @model_validator(mode="after")
     def _each_once(self) -> Conditions:
@@ -84,9 +83,9 @@ class Options(Section):
     contact_pressure: Literal["maximum", "mean"] = "maximum"
     averaging: Literal["mesh_integral", "paper"] = "mesh_integral"
     conditions_of: Literal["pinion", "gear"] = "pinion"
-    bulk_temperature_rise_K: Annotated[float, Field(ge=-100, le=200)] = 0.0
-    path_points: Annotated[int, Field(ge=8, le=10_000)] = 48
-    face_slices: Annotated[int, Field(ge=1, le=1000)] | None = None
+    bulk_temperature_rise_K: Annotated[Float, Field(ge=-100, le=200)] = 0.0
+    path_points: Annotated[Whole, Field(ge=8, le=10_000)] = 48
+    face_slices: Annotated[Whole, Field(ge=1, le=1000)] | None = None
 
 
 class StudyFile(Section):
@@ -95,7 +94,7 @@ class StudyFile(Section):
     schema_: Literal["mixedlub-study/1"] = Field(alias="schema")
     title: str = "Study"
     description: str = ""
-    boundary_friction: Positive = 0.1
+    boundary_friction: Number = 0.1
     gears: Gears
     lubricant: Lubricant | None = None
     surfaces: Annotated[dict[str, SurfaceSection], Field(min_length=1)]

@@ -22,6 +22,7 @@ from mixedlub.lubricant import Lubricant
 from mixedlub.study.sections import Options, Pairings, StudyFile
 from mixedlub.study.variants import study_chain
 from mixedlub.surface import Surface, paired
+from mixedlub.usual import far_off
 from profiles.errors import InputError, nearest
 
 AXES = ("pairing", "oil_temperature", "torque", "speed")
@@ -96,19 +97,26 @@ def read_study(path: Path, file: StudyFile | None = None) -> Study:
     try:
         with noted(notes), np.errstate(all="ignore"):
             study = _resolve(path.stem, file, path.parent)
-        _check_finite(study.plan.inputs)
+        _check_finite(study)
+        doubtful = tuple(odd.text for odd in far_off(file, path.parent, study.surfaces))
     except InputError as error:
         placed = config.in_file(error, str(path))
         if str(path) in str(placed):
             raise placed from None
         raise InputError(str(error), where=str(path)) from None
-    return replace(study, notes=(*notes, *study.mesh.notes))
+    return replace(study, notes=(*notes, *doubtful))
 
 
-def _check_finite(inputs: Mapping[str, Any]) -> None:
-    for name, value in inputs.items():
+def _check_finite(study: Study) -> None:
+    """Refuse a study with an input that is not finite, and say at which of its levels."""
+    levels = study.file.conditions
+    columns = ("", "oil_temperature_C", "torque_Nm", "speed_rpm")
+    for name, value in study.plan.inputs.items():
         if not np.all(np.isfinite(value)):
-            raise InputError(f"the study's numbers give no finite {name.replace('_', ' ')}")
+            axes = zip(columns, np.argwhere(~np.isfinite(value))[0], np.shape(value))
+            place = ", ".join(f"{c} {getattr(levels, c)[i]:g}" for c, i, n in axes if c and n > 1) or "all of them"
+            said = f"the study's numbers give no finite {name.replace('_', ' ')}; look for one far out of range"
+            raise InputError(said, where=f"conditions: {place}")
 
 
 def counted(count: int, thing: str) -> str:
@@ -143,16 +151,6 @@ def pairings_of(section: Pairings | None, known: Mapping[str, object]) -> tuple[
     return tuple(itertools.product(section.pinion or (), section.gear or ()))
 
 
-def _surface(name: str, section: config.SurfaceSection, folder: Path) -> Surface:
-    """One surface; what is wrong with its trace is said with its name."""
-    try:
-        return bodies.surface(name, section, folder.resolve())
-    except InputError as error:
-        if error.where.startswith("surfaces."):
-            raise
-        raise InputError(error.rule, where=f"surfaces.{name}: {error.where}", value=error.value) from None
-
-
 def _resolve(name: str, file: StudyFile, folder: Path) -> Study:
     chosen = pairings_of(file.pairings, file.surfaces)
     used = dict.fromkeys(s for both in chosen for s in both)
@@ -164,7 +162,7 @@ def _resolve(name: str, file: StudyFile, folder: Path) -> Study:
     options = file.options
     points = mesh(pair, share, points=options.path_points, slices=options.face_slices)
     oil = bodies.lubricant(file.lubricant)
-    surfaces = {s: _surface(s, file.surfaces[s], folder) for s in used}
+    surfaces = {s: bodies.surface(s, file.surfaces[s], folder.resolve()) for s in used}
     inputs = {
         **_condition_inputs(file, pair, points, oil),
         **_pairing_inputs([(surfaces[a], surfaces[b]) for a, b in chosen]),

@@ -55,6 +55,7 @@ def read_table(
         raise InputError("a profile needs at least three heights", where=source.where, value=columns.shape[1])
     named = source.unit or _header_units(content, settings, source.where)
     origin = {"format": TextReader.format, **settings} if origin is None else dict(origin)
+    origin |= _overruled(source, content, settings)
     if columns.shape[0] == 1:
         spacing = source.spacing or _header_spacing(settings, source.where)
         if spacing is None:
@@ -123,6 +124,30 @@ def _header_units(content: Table, settings: dict[str, str], where: str) -> tuple
     if height is None or position is None:
         return None
     return position, height
+
+
+def _overruled(source: Source, content: Table, settings: dict[str, str]) -> dict[str, object]:
+    """The units in the header where the caller named others; a header that names no lengths is no contradiction."""
+    if source.unit is None:
+        return {}
+    try:
+        written = _header_units(content, settings, source.where)
+    except InputError:
+        return {}
+    first = 0 if content.columns.shape[0] == 2 and source.spacing is None else 1
+    if written is None or [metres(u) for u in written[first:]] == [metres(u) for u in source.unit[first:]]:
+        return {}
+    own, told = _pair(written[first:]), _pair(source.unit[first:])
+    return {"units_overruled": f"the file names {own}, taken as {told} as told"}
+
+
+def _pair(units: tuple[str, ...]) -> str:
+    """Units of position and height in words, or of height alone.
+
+    >>> _pair(("mm", "um")), _pair(("um",))
+    ('position mm, height um', 'height um')
+    """
+    return ", ".join(f"{what} {unit}" for what, unit in zip(("position", "height")[-len(units) :], units, strict=True))
 
 
 def _cell_unit(cell: str) -> str | None:

@@ -7,11 +7,13 @@ import tempfile
 import warnings
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from mixedlub.cli import main
+from mixedlub.gear import GearPair, RigidSharing, at_roll_angle
 from tests.cli.test_commands import STUDY
 
 CONVERTED = "units are not converted here; `mixedlub import` does"
@@ -40,6 +42,16 @@ def refused(capsys, *arguments):
         ("fine = {", "fine = { colour = 1,", "colour"),
         ("[conditions]", "[condition", "TOML"),
         ("m0_um2 = 0.02", "m0_um2 = nan", "m0_um2"),
+        ("m4_per_um2 = 0.0036", "m4 = 0.0036", "surfaces.fine.m4: key is not known; nearest known: 'm4_per_um2'"),
+        ("[50, 150]", '["50"]', "conditions.torque_Nm, entry 1: '50': must be a number"),
+        ("teeth = [17, 26]", 'teeth = ["17", 26]', "gears.teeth, entry 1: '17': must be a whole number"),
+        ("[60]", "[333.15]", "conditions.oil_temperature_C: [333.15]: entry 1 must be from -60 to 300 °C; 333.15 K"),
+        ("[18.05, 7.2]", "[18.05e-6, 7.2e-6]", "1.805e-05 m2/s would be 18.05 mm²/s: is it in that unit?"),
+        (
+            "face_width_mm = 14.0",
+            "face_width_mm = 14.0\nload_sharing = { model = 'ldp', tip_relief_um = [15000, 15] }",
+            "gears.load_sharing.tip_relief_um: [15000, 15]: entry 1 must be from 0 to 2000 µm; 15000 nm would be 15 µm",
+        ),
     ],
 )
 def test_message_names_place_and_value(old, new, named, tmp_path, capsys):
@@ -165,7 +177,7 @@ SPOILT = {
     "one of two": ("system.toml", "[17, 26]", "[17]", "system.toml: gears.teeth: [17]: needs 2 entries, not 1"),
     "three of two": ("system.toml", "[17, 26]", "[17, 26, 3]", "gears.teeth: [17, 26, 3]: needs 2 entries, not 3"),
     "entry": ("system.toml", "[17, 26]", '[17, "x"]', "gears.teeth, entry 2: 'x': must be a whole number"),
-    "bound": ("system.toml", "module_mm = 4", "module_mm = -4", "gears.normal_module_mm: -4.2333333: must be above 0"),
+    "bound": ("system.toml", "module_mm = 4", "module_mm = -4", "normal_module_mm: -4.2333333: must be from 0.01 to 2"),
     "table": ("system.toml", '{ model = "rigid" }', '"rigid"', "gears.load_sharing: 'rigid': must be a table of keys"),
     "gears that do not mesh": ("system.toml", "[17, 26]", "[5, 60]", "system.toml: gears.tip_diameter_mm: "),
 }  # fmt: skip
@@ -257,6 +269,119 @@ def test_an_optional_column_in_another_unit_is_said_to_be_one(tmp_path, capsys):
     status, said = refused(capsys, "check", str(case))
     assert status == 0
     assert f"not known: pressure_GPa; {CONVERTED} (pressure_GPa)" in said
+
+
+UNIT_SLIPS = {
+    "viscosity in m2/s": ("[100.0, 11.2]", "[100e-6, 11.2e-6]", "lubricant.kinematic_viscosity_mm2_s"),
+    "module in m": ("4.2333333", "0.0042333", "gears.normal_module_mm"),
+    "friction in percent": ("boundary_friction = 0.1", "boundary_friction = 10", "boundary_friction"),
+    "stress in Pa": ("eyring_stress_MPa = 5.0", "eyring_stress_MPa = 5e6", "lubricant.eyring_stress_MPa"),
+    "coefficient in 1/Pa": ("[18.8, 13.9]", "[18.8e-9, 13.9e-9]", "lubricant.pressure_viscosity_per_GPa"),
+    "kelvin": ("[40.0, 100.0]", "[313.15, 373.15]", "lubricant.temperature_C"),
+    "nm2": ("m0_um2 = 0.13", "m0_um2 = 130000", "surfaces.ground.m0_um2"),
+}
+"""What stands in a sound case, what takes its place, the key that is refused."""
+
+
+@pytest.mark.parametrize("name", UNIT_SLIPS)
+def test_a_slip_of_the_unit_is_refused_by_every_command(name, tmp_path, capsys):
+    old, new, key = UNIT_SLIPS[name]
+    case = shutil.copytree(CASE, tmp_path / "case")
+    text = (case / "system.toml").read_text(encoding="utf-8")
+    assert old in text
+    (case / "system.toml").write_text(text.replace(old, new, 1), encoding="utf-8")
+    for command in ("simulate", "diagnose", "check"):
+        status, said = refused(
+            capsys, command, str(case), *([] if command == "check" else ["--out", str(tmp_path / "o")])
+        )
+        assert status == 2
+        assert said.startswith(f"mixedlub: {case}/system.toml: {key}: ")
+        assert said.endswith("is it in that unit?\n")
+
+
+def test_simulate_writes_no_number_that_is_not_finite(tmp_path, capsys):
+    case = shutil.copytree(CASE, tmp_path / "case")
+    text = (case / "system.toml").read_text(encoding="utf-8")
+    (case / "system.toml").write_text(text.replace("[100.0, 11.2]", "[1e8, 0.31]"), encoding="utf-8")
+    at = tmp_path / "cold.csv"
+    at.write_text("run,torque_Nm,speed_rpm,oil_temperature_C,pinion_surface,gear_surface\n8,50,500,-60,ground,ground\n")
+    status, said = refused(capsys, "simulate", str(case), "--at", str(at), "--out", str(tmp_path / "o"))
+    assert status == 2
+    assert "cold.csv: power_loss_W, run: 8: the base model has no finite answer" in said
+    assert not (tmp_path / "o").exists()
+
+
+def test_a_doubtful_number_is_told_by_check_and_simulate(tmp_path, capsys):
+    case = shutil.copytree(CASE, tmp_path / "case")
+    text = (case / "system.toml").read_text(encoding="utf-8")
+    (case / "system.toml").write_text(text.replace("face_width_mm = 14.0", "face_width_mm = 0.014"), encoding="utf-8")
+    doubt = "gears.face_width_mm is 0.014, where rigs have 0.1 to 2000 mm: 0.014 m would be 14 mm"
+    assert main(["check", str(case)]) == 0
+    assert f"Doubtful:\n  {doubt}." in capsys.readouterr().out
+    assert f"note: {doubt}\n" in refused(capsys, "simulate", str(case), "--out", str(tmp_path / "o"))[1]
+
+
+def test_a_run_that_stands_in_both_tables_keeps_its_reading(tmp_path, capsys):
+    """Its row of conditions is told by simulate and check, and takes the place of no other."""
+    case = shutil.copytree(CASE, tmp_path / "case")
+    (case / "conditions.csv").unlink(missing_ok=True)
+    assert main(["simulate", str(case), "--out", str(tmp_path / "alone")]) == 0
+    head = "run,torque_Nm,speed_rpm,oil_temperature_C,pinion_surface,gear_surface\n"
+    (case / "conditions.csv").write_text(head + "3,150,4000,70,ground,ground\n500,150,4000,70,ground,ground\n")
+    capsys.readouterr()
+    status, said = refused(capsys, "simulate", str(case), "--out", str(tmp_path / "both"))
+    assert status == 0
+    told = "conditions.csv: not predicted, as readings at other conditions have the run: 3"
+    assert told in said
+    alone, both = ((tmp_path / d / "simulation.csv").read_text().splitlines() for d in ("alone", "both"))
+    assert both[:-1] == alone
+    assert both[-1].startswith("500,")
+    assert main(["check", str(case)]) == 0
+    assert told in capsys.readouterr().out
+
+
+SHARES = {
+    "twice": (lambda rows: [*rows, rows[4]], 2, "share.csv: line 63, torque_Nm and roll_angle_deg: (50.0, "),
+    "part": (lambda rows: rows[:3], 2, "share.csv: roll_angle_deg: the rows at 50 Nm"),
+    "halved": (
+        lambda rows: [(t, a, s / 2) for t, a, s in rows],
+        0,
+        "carry together 0.47 to 0.57 of the load, 0.501 on average",
+    ),
+    "percent": (
+        lambda rows: [(t, a, s * 100) for t, a, s in rows],
+        2,
+        "share.csv: line 2, load_share: 50.0: load_share must lie between 0 and 1.5; 50 % would be 0.5",
+    ),
+}
+"""What is done to the rows of a load-share table, exit status, what is told."""
+
+
+@pytest.mark.parametrize("name", SHARES)
+def test_a_table_of_load_shares_that_cannot_be_is_told(name, tmp_path, capsys):
+    change, expected, told = SHARES[name]
+    pair = GearPair((17, 26), 4.2333333e-3, np.radians(22.5), 14e-3)
+    angles = np.degrees(np.linspace(pair.path_start, pair.path_end, 61) / pair.base_radius[0])
+    shares = at_roll_angle(pair, RigidSharing(), np.radians(angles)).load_share(50.0)
+    case = shutil.copytree(CASE, tmp_path / "case")
+    rows = change(list(zip([50.0] * 61, angles.tolist(), shares.tolist(), strict=True)))
+    lines = ["torque_Nm,roll_angle_deg,load_share", *(",".join(map(repr, row)) for row in rows)]
+    (case / "share.csv").write_text("\n".join(lines) + "\n")
+    text = (case / "system.toml").read_text(encoding="utf-8")
+    (case / "system.toml").write_text(text.replace('{ model = "rigid" }', '{ table = "share.csv" }'), encoding="utf-8")
+    status, said = refused(capsys, "simulate", str(case), "--out", str(tmp_path / "o"))
+    assert status == expected
+    assert told in said
+
+
+def test_a_roll_angle_off_the_path_is_refused_with_its_line(tmp_path, capsys):
+    case = CASE.parent / "published" / "nasa_rig"
+    at = tmp_path / "at.csv"
+    head = "run,torque_Nm,speed_rpm,oil_temperature_C,pinion_surface,gear_surface,roll_angle_deg"
+    at.write_text(f"{head}\n1,50,1000,60,ground,ground,20\n2,50,1000,60,ground,ground,60\n")
+    status, said = refused(capsys, "simulate", str(case), "--at", str(at), "--out", str(tmp_path / "o"))
+    assert status == 2
+    assert f"{at}: line 3, roll_angle_deg: 60.0: roll_angle_deg must lie between 10.2" in said
 
 
 BROKEN = {

@@ -8,9 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mixedlub.bodies import gear_pair
 from mixedlub.case import Case, read_case
-from mixedlub.diagnosis.recording.audit import doubts
+from mixedlub.diagnosis.recording.audit import Doubt, doubts, system_doubts
 from mixedlub.forward import Forward
+from mixedlub.gear import RigidSharing, at_roll_angle
+from mixedlub.importers import write_case
 from mixedlub.table import Table
 
 Change = Callable[[np.ndarray], np.ndarray]
@@ -104,3 +107,85 @@ def test_a_slip_of_the_unit_shows_though_the_model_is_off(case: Case, factor: fl
 @pytest.mark.parametrize("factor", [0.2, 0.05, 20.0])
 def test_a_model_that_is_off_by_more_is_no_slip_of_the_unit(case: Case, factor: float) -> None:
     assert told(case, lambda y: factor * y) == []
+
+
+def one(run: int, change: Change) -> Change:
+    """One reading changed."""
+    return lambda y: np.where(np.arange(y.size) == run - 1, change(y), y)
+
+
+@pytest.mark.parametrize("factor", [100.0, 1000.0, -1000.0, 1e6])
+def test_a_single_reading_far_beyond_the_others_is_asked_about(case: Case, factor: float) -> None:
+    (note,) = told(case, one(7, lambda y: factor * y))
+    assert note.startswith("run 7 reads ")
+    assert "check unit and decimal point" in note
+
+
+@pytest.mark.parametrize("factor", [0.0, 0.3, 3.0, 8.0])
+def test_a_misshapen_outlier_is_no_slip(case: Case, factor: float) -> None:
+    assert told(case, one(7, lambda y: factor * y)) == []
+
+
+def test_a_single_reading_of_the_wrong_sign_is_asked_about(case: Case) -> None:
+    (note,) = told(case, one(7, lambda y: -y))
+    assert note.startswith("run 7 reads -")
+    assert note.endswith("check the sign")
+
+
+def test_readings_a_little_below_zero_are_not_asked_about(case: Case) -> None:
+    assert told(case, one(7, lambda y: -0.1 * y)) == []
+
+
+def test_many_negative_readings_are_physics_or_an_offset_and_no_slip(case: Case) -> None:
+    assert not [
+        note for note in told(case, lambda y: np.where(np.arange(y.size) < 20, -y, y)) if "check the sign" in note
+    ]
+
+
+def test_a_friction_map_reads_either_sign(tmp_path: Path) -> None:
+    speed = np.concatenate([np.arange(-40.0, 0.0), np.arange(1.0, 41.0)])
+    system = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm"}}
+    columns = {"speed_rpm": speed, "friction_torque_Nm": 2.0 * np.sign(speed) + 0.05 * speed}
+    drive = read_case(write_case(tmp_path / "drive", system, columns))
+    assert told(drive, one(60, lambda y: -y)) == []
+
+
+def test_temperatures_of_a_room_in_kelvin_are_asked_about(case: Case) -> None:
+    rows = case.recordings
+    assert rows is not None
+    kelvin = Table({**rows.columns, "oil_temperature_C": rows["oil_temperature_C"] * 0.0 + 298.15}, rows.source)
+    notes = doubts(case, kelvin, np.array(rows[case.quantity], dtype=float), Forward(case, rows))
+    assert [note for note in notes if "kelvin" in note]
+
+
+def test_what_is_far_off_in_the_system_stands_above_the_answer(make_case: Callable[..., Path], tmp_path: Path) -> None:
+    folder = make_case(tmp_path / "case", "disc")
+    assert system_doubts(read_case(folder)) == []
+    file = folder / "system.toml"
+    text = file.read_text(encoding="utf-8")
+    assert "boundary_friction = 0.1" in text
+    file.write_text(text.replace("boundary_friction = 0.1", "boundary_friction = 1.0", 1), encoding="utf-8")
+    (note,) = system_doubts(read_case(folder))
+    assert isinstance(note, Doubt)
+    assert "boundary_friction is 1, where rigs have" in note
+
+
+@pytest.mark.parametrize(("factor", "alarm"), [(0.5, True), (0.95, False)])
+def test_shares_far_from_the_whole_load_question_the_answer_and_near_ones_are_noted(
+    factor: float, alarm: bool, make_case: Callable[..., Path], tmp_path: Path
+) -> None:
+    folder = make_case(tmp_path / "case", "gear_pair")
+    system = read_case(folder).system
+    assert system.gears is not None
+    pair = gear_pair(system.gears)
+    angle = np.linspace(pair.path_start, pair.path_end, 201) / pair.base_radius[0]
+    share = factor * at_roll_angle(pair, RigidSharing(), angle).load_share(100.0)
+    rows = "".join(f"100,{a},{s}\n" for a, s in zip(np.degrees(angle), share, strict=True))
+    (folder / "share.csv").write_text("torque_Nm,roll_angle_deg,load_share\n" + rows, encoding="utf-8")
+    file = folder / "system.toml"
+    text = file.read_text(encoding="utf-8")
+    assert text.count('model = "rigid"') == 1
+    file.write_text(text.replace('model = "rigid"', 'table = "share.csv"'), encoding="utf-8")
+    (note,) = system_doubts(read_case(folder))
+    assert float(note.split(" on average")[0].split()[-1]) == pytest.approx(factor, abs=0.005)
+    assert isinstance(note, Doubt) == alarm

@@ -180,8 +180,42 @@ class TestTable:
     def test_shares_that_do_not_add_up_are_noted(self):
         full = table((50.0,))
         half = TableSharing(full.torque, full.roll_angle, 0.5 * full.share)
-        assert any("together 1" in note for note in mesh(TIPPED, half).notes)
+        (note,) = mesh(TIPPED, half).notes
+        assert "at 50 Nm the pairs in contact carry together 0.48 to 0.53 of the load, 0.500 on average" in note
         assert mesh(TIPPED, full).notes == ()
+
+    @pytest.mark.parametrize("part", [slice(0, 3), slice(0, 30), slice(40, 61)])
+    def test_rows_that_leave_a_part_of_the_path_to_no_pair_are_refused(self, part):
+        full = table((50.0,))
+        rows = TableSharing(full.torque[part], full.roll_angle[part], full.share[part], source="share.csv")
+        with pytest.raises(InputError, match=r"^share\.csv: roll_angle_deg: the rows at 50 Nm \(.*% of a base pitch$"):
+            mesh(TIPPED, rows)
+
+    def test_one_torque_stands_for_the_others(self):
+        full = table((50.0, 100.0, 150.0))
+        half = TableSharing(full.torque, full.roll_angle, 0.5 * full.share)
+        (note,) = mesh(TIPPED, half).notes
+        assert note.endswith("where it should be 1 (so at 2 more torques)")
+
+    def test_steps_between_the_rows_of_rigid_teeth_are_not_noted(self):
+        x = np.linspace(TIPPED.path_start, TIPPED.path_end, 31)
+        share = at_roll_angle(TIPPED, RigidSharing(), x / TIPPED.base_radius[0]).load_share(50.0)
+        assert mesh(TIPPED, TableSharing(np.full(31, 50.0), x / TIPPED.base_radius[0], share)).notes == ()
+
+    def test_shares_off_by_a_few_percent_are_noted(self):
+        full = table((50.0,))
+        assert mesh(TIPPED, TableSharing(full.torque, full.roll_angle, 1.02 * full.share)).notes == ()
+        (note,) = mesh(TIPPED, TableSharing(full.torque, full.roll_angle, 1.05 * full.share)).notes
+        assert "1.050 on average" in note
+
+    def test_the_rounding_of_the_ends_is_not_noted(self):
+        full = table((50.0,))
+        angle = np.radians(np.round(np.degrees(full.roll_angle), 1))
+        assert mesh(TIPPED, TableSharing(full.torque, angle, full.share)).notes == ()
+
+    def test_messages_name_the_file(self):
+        with pytest.raises(InputError, match=r"^share\.csv: load_share: 50"):
+            TableSharing([50, 50], [0.2, 0.3], [0.5, 50], source="share.csv")
 
     def test_helical_pairs_are_refused(self):
         with pytest.raises(InputError, match=r"load_sharing: .*spur"):

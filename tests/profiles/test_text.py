@@ -160,3 +160,27 @@ def test_heading_that_names_no_length_is_not_guessed(heading):
     with pytest.raises(InputError, match="names no unit of length"):
         read_source(Source("volt.csv", f"{heading}\n{rows}".encode()))
     assert read_source(Source("volt.csv", f"{heading}\n{rows}".encode(), ("mm", "um"))).spacing == pytest.approx(1e-6)
+
+
+@pytest.mark.parametrize(
+    ("head", "unit", "said"),
+    [
+        ("x_um\tz_um\n", "mm", "the file names position um, height um, taken as position mm, height mm as told"),
+        ("x_mm\tz_um\n", "mm, nm", "the file names position mm, height um, taken as position mm, height nm as told"),
+        ("x_um\tz_um\n", "um", None),
+        ("x_um\tz_um\n", "micron", None),
+        ("x_um\tz_mV\n", "um", None),
+        ("", "mm", None),
+        ("x_um\tz_um\n", None, None),
+    ],
+)
+def test_units_that_overrule_those_of_the_file_are_told(tmp_path, head, unit, said):
+    profile = read(written(tmp_path, head + rows(POSITIONS, HEIGHTS)), unit=unit)
+    assert profile.origin.get("units_overruled") == said
+
+
+def test_the_unit_of_one_column_is_that_of_its_heights(tmp_path):
+    text = "# unit: um\n# spacing: 0.5 um\n" + "".join(f"{z:.6f}\n" for z in HEIGHTS)
+    profile = read(written(tmp_path, text), unit="nm")
+    assert profile.origin["units_overruled"] == "the file names height um, taken as height nm as told"
+    assert "units_overruled" not in read(written(tmp_path, text), unit="mm, um").origin

@@ -190,3 +190,36 @@ def test_inferred_units_are_a_warning_that_is_printed(tmp_path, evaluated, capsy
     assert any("the file names no units; inferred from the numbers: position" in text for text in row["warnings"])
     assert "the file names no units" in capsys.readouterr().err
     assert not any("names no units" in text for text in evaluated(TRACES / "0258.txt")["warnings"])
+
+
+def test_units_that_overrule_the_file_are_told_once_even_where_the_trace_is_then_refused(tmp_path, capsys):
+    file = tmp_path / "trace.txt"
+    trace = profiles.shipped("0258")
+    heights = "".join(f"{z * 1e6:.6f}\n" for z in trace.heights[:8000])
+    file.write_text(f"# unit: um\n# spacing: {trace.spacing * 1e6} um\n{heights}")
+    told = f"note: {file}: units: the file names height um, taken as height mm as told"
+    for options, status in (((), 0), (("--cutoff-mm", "100"), 2)):
+        out = str(tmp_path / "o")
+        assert main(["profile", str(file), "--unit", "mm", "--no-figures", "--out", out, *options]) == status
+        assert capsys.readouterr().err.count(told) == 1
+
+
+@pytest.mark.parametrize("command", ["check", "simulate", "study", "profile"])
+def test_a_stuck_stylus_is_refused_by_every_command(command, tmp_path, capsys):
+    trace = tmp_path / "stuck.csv"
+    trace.write_text("x_um,z_um\n" + "".join(f"{i * 0.5},0.3\n" for i in range(4000)))
+    moments = "m0_um2 = 0.13\nm2 = 0.0026\nm4_per_um2 = 0.0038"
+    case = Path(__file__).parents[2] / "examples" / "case"
+    text = (case / "system.toml").read_text(encoding="utf-8")
+    assert moments in text
+    (tmp_path / "system.toml").write_text(text.replace(moments, 'profile = "stuck.csv"'), encoding="utf-8")
+    (tmp_path / "recordings.csv").write_bytes((case / "recordings.csv").read_bytes())
+    levels = "[conditions]\ntorque_Nm = [50]\nspeed_rpm = [500]\noil_temperature_C = [60]\n"
+    study = text.replace(moments, 'profile = "stuck.csv"').replace('"mixedlub-case/1"', '"mixedlub-study/1"')
+    study = study.replace('kind = "gear_pair"\n', "").partition("[uncertainty]")[0] + levels
+    (tmp_path / "study.toml").write_text(study, encoding="utf-8")
+    named = {"study": tmp_path / "study.toml", "profile": trace}.get(command, tmp_path)
+    assert main([command, str(named), *(["--out", str(tmp_path / "o")] if command != "check" else [])]) == 2
+    said = capsys.readouterr().err
+    assert "stuck.csv: '0.3 um': all heights are the same: a stuck stylus or an empty channel" in said
+    assert command == "profile" or "surfaces.ground: " in said

@@ -144,5 +144,17 @@ def test_bad_cutoff_is_refused(gaussian_trace, cutoff):
 
 
 def test_flat_trace_is_refused():
-    with pytest.raises(InputError, match="flat"):
+    with pytest.raises(InputError, match="all heights are the same: a stuck stylus"):
         trace_record(Profile(np.zeros(5000), 1e-6))
+
+
+@pytest.mark.parametrize("scale", [1e-9, 1.0])
+def test_a_trace_that_is_one_straight_line_is_refused(scale):
+    with pytest.raises(InputError, match="all heights lie on one straight line"):
+        trace_record(Profile(scale * (0.1 + 1e-4 * np.arange(5000.0)), 1e-6))
+
+
+def test_a_trace_of_a_few_nanometres_on_a_steep_line_is_not_flat(gaussian_trace):
+    trace = gaussian_trace()
+    steep = Profile(trace.heights * 1e-2 + 0.1 * trace.positions, trace.spacing)
+    assert evaluation_profile(steep).heights.std() > 0.0

@@ -93,3 +93,17 @@ def test_pinion_list_against_gear_list(write_study):
 def test_idle_surface_is_noted(write_study):
     study = read_study(write_study(pairings={"every": ["fine"]}))
     assert any("mid, coarse" in note for note in study.notes)
+
+
+def test_numbers_far_from_any_rig_are_noted(write_study):
+    study = read_study(write_study(surfaces__fine__m0_um2=2000.0))
+    assert any("surfaces.fine.m0_um2 is 2000, where rigs have" in note for note in study.notes)
+    assert read_study(write_study(name="sound")).notes == ()
+
+
+def test_an_input_that_is_not_finite_is_told_with_its_level(write_study):
+    path = write_study(
+        lubricant__kinematic_viscosity_mm2_s=[1e8, 0.31], conditions__oil_temperature_C=[60, -60], name="cold"
+    )
+    with pytest.raises(InputError, match=r"cold\.toml: conditions: oil_temperature_C -60: .*no finite viscosity"):
+        read_study(path)

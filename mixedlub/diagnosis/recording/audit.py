@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.bounds import ranges
 from mixedlub.case import Case
 from mixedlub.diagnosis.recording.features import PASSING
 from mixedlub.diagnosis.recording.noise import is_stated, nearly_repeated, noise_from_repeats, pooled_sd
 from mixedlub.forward import Forward
 from mixedlub.headers import unit_of
 from mixedlub.table import Table
+from mixedlub.usual import far_off
 from profiles.errors import InputError
 
 FEWEST = 5
@@ -33,6 +35,14 @@ STUCK_STEPS, STUCK_SPAN = 3.0, 0.05
 """Where the base model changes by more steps of the reading than that, and by such a share of its size, it is stuck."""
 
 
+TOO_LARGE, ALONE = 50.0, 10.0
+"""A reading so many times what the others suggest there, and so many times the largest of them, is doubted."""
+NEGATIVE_SHARE, NEGATIVE_SIGMAS, AS_LARGE = 0.02, 5.0, (0.67, 1.5)
+"""So few readings, negative by so many sds, as large as what the others suggest there, are doubted."""
+UNSIGNED = ("power_loss_W", "friction_coefficient", "film_thickness_nm")
+"""Quantities that are positive but for their noise; friction maps carry a sign."""
+
+
 class Doubt(str):
     """A warning that questions the answer as a whole, and so stands above it."""
 
@@ -41,7 +51,12 @@ class Doubt(str):
 
 def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]:
     """What the user should know of the recording; an error where it cannot be what it is labelled."""
-    return [*doubts(case, rows, y, forward), *_noise_source(case, rows, y)]
+    return [*system_doubts(case), *doubts(case, rows, y, forward), *_noise_source(case, rows, y)]
+
+
+def system_doubts(case: Case) -> list[str]:
+    """What in the files beside the readings is far from any rig."""
+    return [Doubt(odd.text) if odd.grave else odd.text for odd in far_off(case.system, case.folder)]
 
 
 def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]:
@@ -56,12 +71,7 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
     if case.quantity == "viscosity_mPa_s" and np.median(y) < THINNEST_OIL:
         said = f"are below the {THINNEST_OIL} mPa s of the thinnest liquid that the model holds for; check the unit"
         raise InputError(f"readings {said}", where=where, value=float(np.median(y)))
-    base = forward.predict()
-    if not np.isfinite(base).all():
-        bad = int(rows["run"][~np.isfinite(base)][0])
-        raise InputError(
-            "the base model has no finite answer for this run's conditions", where=f"{where}, run", value=bad
-        )
+    base = forward.nominal()
     whole = np.setdiff1d(rows["rig"], case.kind.part_rigs) if "rig" in rows else np.array([])
     if whole.size > 1:
         known = f"only as {' or '.join(case.kind.part_rigs)}" if case.kind.part_rigs else "for no case of this kind"
@@ -84,7 +94,9 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
     if sliding > MOST_SLIDING:
         said = f"slide_roll_ratio reaches {sliding:g} where 2 is pure sliding: check that it is not in percent"
         notes.append(Doubt(said))
+    notes += _warm(rows)
     notes += _stuck(case, rows, y, base)
+    notes += _misread(case, rows, y, base)
     stated = case.system.recording.noise
     if is_stated(case, rows) and stated is not None:
         group = nearly_repeated(case, rows)
@@ -121,6 +133,47 @@ def _stuck(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str
     more = "" if len(runs) == counts[most] else ", ..."
     said = f"{counts[most]} of {y.size} readings are exactly {values[most]:g} though {', '.join(varied)} vary"
     return [Doubt(f"{said}: check for a channel that was stuck or filled in (runs {', '.join(runs)}{more})")]
+
+
+def _misread(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str]:
+    """Single readings that are off by a power of ten or by their sign, held against what the others suggest."""
+    used = np.abs(base) > 0
+    if used.sum() < FEWEST:
+        return []
+    expected = np.abs(base) * float(np.median(np.abs(y[used] / base[used])))
+    used &= expected > 0
+    large = used & (np.abs(y) > TOO_LARGE * expected)
+    large &= np.abs(y) > ALONE * np.max(np.abs(y[~large]), initial=0.0)
+    found = [(large, "far larger than what the others suggest there: check unit and decimal point")]
+    if case.quantity in UNSIGNED and case.kind.name != "friction_map":
+        least, most = (share * expected for share in AS_LARGE)
+        wrong = used & (y < -NEGATIVE_SIGMAS * _sds(case, rows, y)) & (-y > least) & (-y < most)
+        if wrong.sum() <= max(1.0, NEGATIVE_SHARE * y.size):
+            found.append((wrong, "negative where the others suggest a positive one as large: check the sign"))
+    return [
+        Doubt(f"run {rows['run'][i]} reads {y[i]:g} where the others suggest {expected[i]:.3g}: {words}")
+        for which, words in found
+        for i in np.flatnonzero(which)[:STUCK_ROWS]
+    ]
+
+
+def _sds(case: Case, rows: Table, y: np.ndarray) -> np.ndarray:
+    """What a reading scatters by, as stated; else a twentieth of the usual one."""
+    stated, own = case.system.recording.noise, f"{case.quantity}_sd"
+    if own in rows:
+        return np.asarray(rows[own])
+    if stated is not None and is_stated(case, rows):
+        return np.hypot(stated.relative * np.abs(y), stated.absolute)
+    return np.full(y.size, 0.05 * float(np.median(np.abs(y))))
+
+
+def _warm(rows: Table) -> list[str]:
+    """Temperatures that are all hotter than oils are, as those of a room are in kelvin."""
+    name = next((n for n in ("oil_temperature_C", "temperature_C") if n in rows), None)
+    if name is None or not np.all(rows[name] > ranges()["conditions.oil_temperature_C"].usual[1]):
+        return []
+    lowest = float(rows[name].min())
+    return [Doubt(f"{name} is {lowest:g} or more in all rows: check that it is not in kelvin")]
 
 
 def _without_drift(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, group: np.ndarray) -> np.ndarray:

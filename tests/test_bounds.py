@@ -1,0 +1,143 @@
+"""The table of bounds: every key of `system.toml` has its row, and slips of the unit fall outside it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from mixedlub import bounds, config
+from mixedlub.study.sections import Conditions
+from profiles.errors import InputError
+
+FREE = {"gears.teeth", "recording.noise.absolute", "recording.noise.setup_absolute"}
+"""Numbers without a row: whole numbers that the geometry judges, and those in the unit of the reading."""
+
+
+def numeric_keys(model: type[config.Section], place: str = "") -> set[str]:
+    """Keys of a model, and of the models in it, that hold numbers."""
+    found = set()
+    for name, field in model.model_fields.items():
+        inside = config._flatten((field.annotation,))
+        tables = [a for a in inside if config._is_model(a)]
+        for table in tables:
+            found |= numeric_keys(table, f"{place}{name}.")
+        if not tables and {float, int} & set(inside):
+            found.add(f"{place}{name}")
+    return found
+
+
+def test_every_number_of_a_case_and_of_the_conditions_of_a_study_has_its_row() -> None:
+    keys = numeric_keys(config.System) | numeric_keys(Conditions, "conditions.")
+    assert keys - FREE == set(bounds.ranges())
+
+
+def test_each_section_looks_up_its_own_rows() -> None:
+    places = {s.place for s in config.Section.__subclasses__() if s.place}
+    tables = {key.rpartition(".")[0] for key in bounds.ranges()} - {""}
+    assert tables <= places
+
+
+@pytest.mark.parametrize("key", bounds.ranges())
+def test_what_is_usual_is_possible(key: str) -> None:
+    found = bounds.ranges()[key]
+    assert found.possible[0] <= found.usual[0] < found.usual[1] <= found.possible[1]
+
+
+def system(section: str, key: str, value: object) -> dict:
+    """A film case with one key of one section set."""
+    data: dict = {
+        "schema": "mixedlub-case/1",
+        "kind": "disc",
+        "contact": {"geometry": "point", "radius_mm": [10.0, float("inf")]},
+        "lubricant": {},
+        "surfaces": {"a": {"m0_um2": 0.01, "m2": 0.001, "m4_per_um2": 0.001}},
+        "recording": {"quantity": "friction_coefficient"},
+    }
+    (data["surfaces"]["a"] if section == "surfaces" else data.setdefault(section, {}) if section else data)[key] = value
+    return data
+
+
+SLIPS = [
+    ("", "boundary_friction", 10, "10 % would be 0.1"),
+    ("lubricant", "kinematic_viscosity_mm2_s", [30e-6, 6e-6], "3e-05 m2/s would be 30 mm²/s"),
+    ("lubricant", "temperature_C", [40.0, 373.15], "373.15 K would be 100 °C"),
+    ("lubricant", "pressure_viscosity_per_GPa", [2e-8, 1e-8], "2e-08 1/Pa would be 20 1/GPa"),
+    ("lubricant", "pressure_viscosity_per_GPa", [0.02, 0.01], "0.02 1/MPa would be 20 1/GPa"),
+    ("lubricant", "eyring_stress_MPa", 5e6, "5e+06 Pa would be 5 MPa"),
+    ("lubricant", "density_15C_kg_m3", 0.85, "0.85 g/cm3 would be 850 kg/m³"),
+    ("lubricant", "specific_heat_J_kgK", 2.0, "2 kJ/(kg K) would be 2000 J/(kg K)"),
+    ("lubricant", "thermal_conductivity_W_mK", 140, "140 mW/(m K) would be 0.14 W/(m K)"),
+    ("contact", "youngs_modulus_GPa", [206e3, 206.0], "206000 MPa would be 206 GPa"),
+    ("surfaces", "m0_um2", 130000, "130000 nm2 would be 0.13 µm²"),
+    ("surfaces", "m4_per_um2", 2.1e9, "2.1e+09 1/m2 would be 0.0021 1/µm²"),
+    ("uncertainty", "viscosity", 6, "6 % would be 0.06"),
+    ("recording", "ambient_temperature_C", 298.15, "298.15 K would be 25 °C"),
+]
+
+
+@pytest.mark.parametrize(("section", "key", "value", "said"), SLIPS)
+def test_a_slip_of_the_unit_is_refused_with_the_unit_that_fits(section, key, value, said) -> None:
+    with pytest.raises(InputError) as refused:
+        config.parse(config.System, system(section, key, value), "system.toml")
+    place = {"": key, "surfaces": f"surfaces.a.{key}"}.get(section, f"{section}.{key}")
+    assert str(refused.value).startswith(f"system.toml: {place}: ")
+    assert said in str(refused.value)
+
+
+ODD_BUT_RIGHT = [
+    ("", "boundary_friction", 0.01),
+    ("", "boundary_friction", 0.4),
+    ("contact", "youngs_modulus_GPa", [75.0, 400.0]),
+    ("contact", "youngs_modulus_GPa", [1.0, 5.0]),
+    ("contact", "youngs_modulus_GPa", [1100.0, 206.0]),
+    ("lubricant", "kinematic_viscosity_mm2_s", [1e6, 0.5]),
+    ("lubricant", "pressure_viscosity_per_GPa", [0.6, 45.0]),
+    ("lubricant", "temperature_C", [-54.0, 200.0]),
+    ("lubricant", "density_15C_kg_m3", 1950.0),
+    ("lubricant", "eyring_stress_MPa", 20.0),
+    ("surfaces", "thermal_conductivity_W_mK", 0.2),
+]
+
+
+@pytest.mark.parametrize(("section", "key", "value"), ODD_BUT_RIGHT)
+def test_an_unusual_rig_is_neither_refused_nor_doubted(section, key, value) -> None:
+    found = config.parse(config.System, system(section, key, value), "system.toml")
+    assert list(bounds.unusual(found)) == []
+
+
+FAR_OFF = [
+    ("", "boundary_friction", 1.5, "boundary_friction is 1.5, where rigs have 0.003 to 0.8: 1.5 % would be 0.015"),
+    ("contact", "youngs_modulus_GPa", [206.0, 0.206], "entry 2 is 0.206, where rigs have 0.3 to 1300 GPa: 0.206 TPa w"),
+    (
+        "contact",
+        "radius_mm",
+        [0.01, 20.0],
+        "contact.radius_mm, entry 1 is 0.01, where rigs have at least 0.1 mm: 0.01 m",
+    ),
+    (
+        "surfaces",
+        "m0_um2",
+        1300,
+        "surfaces.a.m0_um2 is 1300, where rigs have 1e-08 to 400 µm²: 1300 nm2 would be 0.0013",
+    ),
+]
+
+
+@pytest.mark.parametrize(("section", "key", "value", "said"), FAR_OFF)
+def test_a_possible_number_far_from_any_rig_is_doubted_with_what_is_usual(section, key, value, said) -> None:
+    found = config.parse(config.System, system(section, key, value), "system.toml")
+    (doubt,) = bounds.unusual(found)
+    assert said in doubt
+
+
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), "50", True])
+def test_what_is_no_finite_number_is_refused(value) -> None:
+    with pytest.raises(InputError, match=r"system\.toml: lubricant\.eyring_stress_MPa: "):
+        config.parse(config.System, system("lubricant", "eyring_stress_MPa", value), "system.toml")
+
+
+def test_practice_cases_lie_within_what_is_usual(shared: Path) -> None:
+    for folder in sorted((shared / "cases").glob("case_*")):
+        found = config.parse(config.System, config.read_toml(folder / "system.toml"), folder.name)
+        assert list(bounds.unusual(found)) == []
