@@ -18,6 +18,8 @@ SHAPES = ((0.7, False), (0.25, True))
 """Smooth alternatives: how far they reach along a condition, and whether pairs of conditions act together."""
 SIZES = (1.0, 4.0)
 """Sizes of the alternatives in sigmas: just visible, and plain."""
+BY_EFFECTS = 0.6
+"""Weight of the effects among the alternatives; the smooth functions share the rest."""
 UNSURE = 10.0
 """How far the search's Bayes factor may be off."""
 
@@ -46,6 +48,55 @@ def judged_weight(found: Search) -> np.ndarray:
     return found.unknown.fit.weight if isinstance(best, str) else found.fits[best].weight
 
 
+@dataclass(frozen=True, eq=False)
+class _Alternatives:
+    """What may be missing, against recordings of the linearised base model: prior draws of effects, smooth functions.
+
+    ``seen`` are the draws under the inverse covariance of noise and calibration, ``power`` their squared size;
+    ``smooth`` the squared sizes of each block of functions and their directions.
+    """
+
+    seen: np.ndarray
+    power: np.ndarray
+    smooth: tuple[tuple[np.ndarray, np.ndarray], ...]
+
+    @classmethod
+    def of(cls, found: Search, fixed: np.ndarray, weight: np.ndarray) -> _Alternatives:
+        """Those of a search, beside the columns of calibration and set-ups, at the weights of the readings."""
+        inner = np.linalg.inv(np.eye(fixed.shape[1]) + fixed.T @ (fixed * weight[:, None]))
+
+        def whiten(rows: np.ndarray) -> np.ndarray:
+            scaled = rows * weight
+            return scaled - (scaled @ fixed) @ inner @ (fixed * weight[:, None]).T
+
+        directions = [s.change[: s.blind] for s in found.sampled]
+        effects = np.vstack(directions) if directions else np.zeros((0, weight.size))
+        seen = whiten(effects)
+        smooth = []
+        for length, interactions in SHAPES:
+            shape = Shape((), length, 1.0, READING, interactions and len(found.space.axes) > 1)
+            block = shape.columns(found.space, found.values, found.unknown.carriers)
+            pulled = whiten(block.T)
+            size, turn = np.linalg.eigh(pulled @ block)
+            smooth.append((np.maximum(size, 0.0), turn.T @ pulled))
+        return cls(seen, np.einsum("ij,ij->i", effects, seen), tuple(smooth))
+
+    def log_bayes_factor(self, targets: np.ndarray) -> np.ndarray:
+        """Log mean Bayes factor against none of each row of targets."""
+        parts = []
+        if len(self.seen):
+            along = targets @ self.seen.T
+            each = 0.5 * along**2 / (1.0 + self.power) - 0.5 * np.log1p(self.power)
+            parts.append(np.logaddexp.reduce(each, axis=1) - np.log(each.shape[1]) + np.log(BY_EFFECTS))
+        for size, pull in self.smooth:
+            along = (targets @ pull.T) ** 2
+            for amplitude in SIZES:
+                grown = 1.0 + amplitude**2 * size
+                each = 0.5 * (amplitude**2 * along / grown - np.log(grown)).sum(axis=1)
+                parts.append(each + np.log((1.0 - BY_EFFECTS) / (len(self.smooth) * len(SIZES))))
+        return np.logaddexp.reduce(np.array(parts), axis=0)
+
+
 def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch:
     """Compare the data's Bayes factor against none with its law when nothing is missing.
 
@@ -60,47 +111,12 @@ def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch
     problem, none = found.problem, found.none
     fixed = np.hstack([none.slopes, problem.shared])
     weight = judged_weight(found)
-    inner = np.linalg.inv(np.eye(fixed.shape[1]) + fixed.T @ (fixed * weight[:, None]))
-    directions = [s.change[: s.blind] for s in found.sampled]
-    effects = np.vstack(directions) if directions else np.zeros((0, problem.y.size))
-    blocks = []
-    for length, interactions in SHAPES:
-        shape = Shape((), length, 1.0, READING, interactions and len(found.space.axes) > 1)
-        blocks.append(shape.columns(found.space, found.values, found.unknown.carriers))
-
-    def whiten(rows: np.ndarray) -> np.ndarray:
-        """Rows times the inverse covariance of noise and calibration together."""
-        scaled = rows * weight
-        return scaled - (scaled @ fixed) @ inner @ (fixed * weight[:, None]).T
-
-    seen = whiten(effects)
-    power = np.einsum("ij,ij->i", effects, seen)
-    smooth = []
-    for block in blocks:
-        pulled = whiten(block.T)
-        size, turn = np.linalg.eigh(pulled @ block)
-        smooth.append((np.maximum(size, 0.0), turn.T @ pulled))
-
-    def statistic(targets: np.ndarray) -> np.ndarray:
-        """Log mean Bayes factor of each row of targets."""
-        parts = []
-        if len(seen):
-            along = targets @ seen.T
-            each = 0.5 * along**2 / (1.0 + power) - 0.5 * np.log1p(power)
-            parts.append(np.logaddexp.reduce(each, axis=1) - np.log(each.shape[1]) + np.log(0.6))
-        for size, pull in smooth:
-            along = (targets @ pull.T) ** 2
-            for amplitude in SIZES:
-                grown = 1.0 + amplitude**2 * size
-                each = 0.5 * (amplitude**2 * along / grown - np.log(grown)).sum(axis=1)
-                parts.append(each + np.log(0.4 / (len(smooth) * len(SIZES))))
-        return np.logaddexp.reduce(np.array(parts), axis=0)
-
+    alternatives = _Alternatives.of(found, fixed, weight)
     rng = np.random.default_rng(seed)
     count = int(np.clip(CELLS // problem.y.size, 200, DRAWS))
     noise = rng.standard_normal((count, problem.y.size)) / np.sqrt(weight)
-    drawn = statistic(noise + rng.standard_normal((count, fixed.shape[1])) @ fixed.T)
-    observed = float(statistic(none.anchor[None, :])[0])
+    drawn = alternatives.log_bayes_factor(noise + rng.standard_normal((count, fixed.shape[1])) @ fixed.T)
+    observed = float(alternatives.log_bayes_factor(none.anchor[None, :])[0])
     p = (1.0 + float((drawn >= observed).sum())) / (count + 1.0)
     if observed > drawn.max():
         p = min(p, float(np.exp(-min(observed, 700.0))))
