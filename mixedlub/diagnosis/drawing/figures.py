@@ -90,24 +90,10 @@ def recorded_against_simulated(d: Diagnosis) -> Figure:
         top.scatter(simulated[bad], y[bad], s=24, facecolors="none", edgecolors=OUTLIER, linewidths=1.1)
         top.set_title(what)
         top.tick_params(labelbottom=False)
-        foot.axhspan(-2, 2, color=GRID, lw=0)
-        foot.scatter(simulated[good], np.clip(z[good], -reach, reach), s=9, color=colour, alpha=0.75, linewidths=0)
-        for marker, there in (("o", np.abs(z) <= reach), ("^", z > reach), ("v", z < -reach)):
-            foot.scatter(
-                simulated[bad & there],
-                np.clip(z[bad & there], -reach, reach),
-                s=22,
-                marker=marker,
-                facecolors="none",
-                edgecolors=OUTLIER,
-                linewidths=1.1,
-            )
-        foot.set_ylim(-1.08 * reach, 1.08 * reach)
+        _left_over(foot, simulated, z, rows, bad, reach, colour)
         if not logarithmic:
             foot.locator_params(axis="x", nbins=5)
         foot.set_xlabel(f"simulated {axis_label(d.case.quantity)}")
-        rms = float(np.sqrt(np.mean(z[~bad] ** 2)))
-        foot.set_title(f"rms {rms:.2f} sigma", fontsize=8, fontweight="normal", color=MUTED)
     tops[0].set_ylabel(f"recorded {axis_label(d.case.quantity)}")
     feet[0].set_ylabel("recorded − simulated\n(sigma)")
     for right in (tops[1], feet[1]):
@@ -116,8 +102,26 @@ def recorded_against_simulated(d: Diagnosis) -> Figure:
         for top in tops:
             log_ticks(top, "y")
         log_ticks(feet[0], "x")
-    _legend(tops[0], bool(bad.any()))
+    _legend(tops[0], bool(bad.any()), bool((np.abs(np.concatenate([before[bad], after[bad]])) > reach).any()))
     return figure
+
+
+def _left_over(
+    axes: Axes, simulated: np.ndarray, z: np.ndarray, rows: np.ndarray, bad: np.ndarray, reach: float, colour: str
+) -> None:
+    """What is left in sigmas over what was simulated; what lies beyond the scale stands at its edge."""
+    held = np.clip(z, -reach, reach)
+    good = rows[~bad[rows]]
+    axes.axhspan(-2, 2, color=GRID, lw=0)
+    axes.scatter(simulated[good], held[good], s=9, color=colour, alpha=0.75, linewidths=0)
+    for marker, there in (("o", np.abs(z) <= reach), ("^", z > reach), ("v", z < -reach)):
+        own = bad & there
+        axes.scatter(
+            simulated[own], held[own], s=22, marker=marker, facecolors="none", edgecolors=OUTLIER, linewidths=1.1
+        )
+    axes.set_ylim(-1.08 * reach, 1.08 * reach)
+    rms = float(np.sqrt(np.mean(z[~bad] ** 2)))
+    axes.set_title(f"rms {rms:.2f} sigma", fontsize=8, fontweight="normal", color=MUTED)
 
 
 def _one_to_one(axes: Axes, every: np.ndarray, simulated: np.ndarray, sd: np.ndarray, logarithmic: bool) -> None:
@@ -138,7 +142,7 @@ def _one_to_one(axes: Axes, every: np.ndarray, simulated: np.ndarray, sd: np.nda
     axes.set_ylim(low, high)
 
 
-def _legend(axes: Axes, outliers: bool) -> None:
+def _legend(axes: Axes, outliers: bool, beyond: bool) -> None:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
@@ -148,7 +152,8 @@ def _legend(axes: Axes, outliers: bool) -> None:
     ]
     if outliers:
         marks.append(Line2D([], [], ls="", marker="o", mfc="none", mec=OUTLIER, label="outlier, counted for little"))
-        marks.append(Line2D([], [], ls="", marker="^", mfc="none", mec=OUTLIER, label="the same, beyond the scale"))
+    if beyond:
+        marks.append(Line2D([], [], ls="", marker="^", mfc="none", mec=OUTLIER, label="outlier beyond the scale below"))
     axes.legend(handles=marks, loc="upper left")
 
 
