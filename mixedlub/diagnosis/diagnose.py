@@ -100,7 +100,9 @@ def diagnose_case(
     y = np.asarray(rows[case.quantity], dtype=float)
     warnings = [*case.notes, *assumed, *hidden(case, wanted), *forward.notes, *audit(case, rows, y, forward)]
     if wanted is not None:
-        warnings += [note for note in Forward(case, wanted).notes if note not in forward.notes]
+        there = Forward(case, wanted)
+        there.nominal()
+        warnings += [note for note in there.notes if note not in forward.notes]
     stated = is_stated(case, rows)
     found, times, test = _search(case, rows, forward, y, exclude, level, progress)
     case, rows = found.problem.case, found.problem.rows
