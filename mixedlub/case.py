@@ -79,7 +79,7 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
 
 def read_conditions(case: Case, path: Path) -> Table:
     """Another table of conditions for the case."""
-    return read_table(path, _columns(case.kind, case.system, False))
+    return _sds_told(read_table(path, _columns(case.kind, case.system, False)), f"{case.quantity}_sd", path)
 
 
 def hidden(case: Case, wanted: Table | None) -> list[str]:
@@ -88,7 +88,8 @@ def hidden(case: Case, wanted: Table | None) -> list[str]:
         return []
     rows = case.recordings
     _, here, there = np.intersect1d(wanted["run"], rows["run"], return_indices=True)
-    names = [name for name in ("rig", *(c.name for c in case.kind.columns)) if name in wanted and name in rows]
+    told = (*(c.name for c in BOOKKEEPING), *(c.name for c in case.kind.columns))
+    names = [name for name in told if name in wanted and name in rows]
     other = np.any([wanted[name][here] != rows[name][there] for name in names], axis=0)
     runs = ", ".join(str(run) for run in wanted["run"][here][other].tolist())
     return [f"{wanted.source}: not predicted, as readings at other conditions have the run: {runs}"] if runs else []
@@ -104,7 +105,7 @@ def _read(path: Path, found: Kind, quantity: str | None, system: config.System, 
             where=f"{path}: {quantity}",
             value=float(table[quantity][0]),
         )
-    return table if quantity is None else _sds_told(table, f"{quantity}_sd", path)
+    return _sds_told(table, f"{system.recording.quantity}_sd", path)
 
 
 def _sds_told(table: Table, name: str, path: Path) -> Table:

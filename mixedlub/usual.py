@@ -17,10 +17,8 @@ from profiles.errors import InputError
 if TYPE_CHECKING:
     from mixedlub.study.sections import StudyFile
 
-BANDWIDTH = (1.0, 1e5)
+BANDWIDTH = (1.0 - 1e-6, 1e5)
 """Nayak's m0 m4/m2^2: no profile has less than 1 (Cauchy and Schwarz), none of two scales apart by 300 more."""
-
-
 GRAVE_IMBALANCE = 0.1
 """Shares that add up to 1 within that are what gear programs give under tip relief, or round."""
 

@@ -12,7 +12,7 @@ import numpy as np
 from mixedlub.case import Case, hidden, read_case, read_conditions
 from mixedlub.diagnosis.fitting.fit import outlier_chance
 from mixedlub.diagnosis.fitting.problem import Problem
-from mixedlub.diagnosis.fitting.scatter import beyond_noise, scaled, shown, stated_or_more, under_its_own
+from mixedlub.diagnosis.fitting.scatter import beyond_noise, repeats_allow, scaled, shown, stated_or_more, under_its_own
 from mixedlub.diagnosis.fitting.search import MANY, Progress, Search, search, spread_rows
 from mixedlub.diagnosis.fitting.sudden import sudden_places
 from mixedlub.diagnosis.judging.doubts import against, scatter_notes, unsure_odds
@@ -26,7 +26,7 @@ from mixedlub.diagnosis.judging.published import Contained, contained
 from mixedlub.diagnosis.judging.validity import beyond_range
 from mixedlub.diagnosis.recording.audit import audit
 from mixedlub.diagnosis.recording.features import coordinates
-from mixedlub.diagnosis.recording.noise import estimated, is_stated
+from mixedlub.diagnosis.recording.noise import estimated, is_stated, repeated
 from mixedlub.effect import find
 from mixedlub.forward import Forward
 from mixedlub.table import Column, Table
@@ -166,7 +166,9 @@ def _search(
 
     seek = trial if y.size <= MANY else glance
     if is_stated(case, rows):
-        found, times = stated_or_more(case, rows, seek)
+        whole = Problem.of(case, rows, forward, y)
+        most = repeats_allow(whole.y, whole.sd, repeated(case, rows))
+        found, times = stated_or_more(case, rows, seek, most)
         if seek is glance:
             found = trial(*scaled(case, rows, times))
         progress("testing against nothing missing")
@@ -175,8 +177,8 @@ def _search(
     if seek is glance:
         found = trial(found.problem.case, rows)
     progress("testing against nothing missing")
-    own = under_its_own(found, trial)
-    test, other = mismatch_test(found, level), mismatch_test(own, level)
+    own, test = under_its_own(found, trial), mismatch_test(found, level)
+    other = test if own is found else mismatch_test(own, level)
     if other.p_value <= test.p_value:
         return found, 1.0, test
     if not other.detected:
@@ -188,7 +190,8 @@ def _judged(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
     """Probabilities, with the verdict and what ties with it first held against levels left out.
 
     When CANDIDATES names were tried, the others are taken to fail like the best of those that did. The unnamed
-    mismatch is held against the first name. A verdict that leaves more there than noise makes the odds less sure.
+    mismatch is held against the first name. Where even the best of those
+    tried leaves more there than noise, the odds between names are less sure.
     """
     levels = LevelsOut.of(found)
     names = sorted(filter(names_effects, found.log_weights), key=lambda key: -found.log_weights[key])
@@ -203,9 +206,11 @@ def _judged(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
         first = judged.verdict
         # What stands at one place is not for other levels to foretell.
         if first in tried and not isinstance(first, str) and not sudden_places(found.problem, first):
-            judged = posterior(found, test, demerits | unnamed, tried[first][0].inflation)
+            inflation = min(kept.inflation for kept, _ in tried.values())
+            judged = posterior(found, test, demerits | unnamed, inflation)
         if names and "unknown" in judged.tied and not unnamed:
-            tried.setdefault(names[0], _held_against(levels, found, names[0]))
+            if names[0] not in tried:
+                tried[names[0]] = _held_against(levels, found, names[0])
             unnamed = {"unknown": _held_against(levels, found, "unknown")[0].behind(tried[names[0]][0])}
             continue
         fresh = [key for key in judged.tied if key not in tried and names_effects(key)]

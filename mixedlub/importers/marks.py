@@ -15,6 +15,7 @@ OTHER = {",": ".", ".": ","}
 
 GROUPED = {mark: re.compile(rf"[+-]?[1-9]\d{{0,2}}(?:\{mark}\d{{3}})+") for mark in MARKS}
 WITH_BOTH = {mark: re.compile(rf"[+-]?[1-9]\d{{0,2}}(?:\{OTHER[mark]}\d{{3}})+\{mark}\d*") for mark in MARKS}
+PLAIN = re.compile(r"[+-]?\d+(?:[eE][+-]?\d+)?")
 WITH_ONE = {mark: re.compile(rf"[+-]?(?:\d+\{mark}\d*|\{mark}\d+)(?:[eE][+-]?\d+)?") for mark in MARKS}
 
 
@@ -39,17 +40,34 @@ def with_points(rows: Sequence[Line], name: str, told: str | None = None) -> lis
     """Rows with numbers as they are read here: a point before the decimals, nothing between thousands.
 
     ``told`` is the mark where the file's reader was told it. Rows of the usual number of cells are asked first, as
-    those around a table may be written by someone else.
+    those around a table may be written by someone else, and of them the columns of numbers.
     """
     lengths = [len(row) for _, row in rows]
     usual = max(set(lengths), key=lengths.count)
-    inner = [line for line in rows if len(line[1]) == usual]
+    table = [line for line in rows if len(line[1]) == usual]
+    numeric = [_holds_numbers([row[i] for _, row in table]) for i in range(usual)]
+    inner = [(number, [cell for cell, so in zip(row, numeric, strict=True) if so]) for number, row in table]
     decimal = told or _decided(inner, [line for line in rows if len(line[1]) != usual], name)
     for number, cell in _cells(inner):
         if WITH_ONE[OTHER[decimal]].fullmatch(cell) and not GROUPED[OTHER[decimal]].fullmatch(cell):
             rule = f"is no number where decimals have {decimal!r} before them; {KEY} says otherwise"
             raise InputError(rule, where=f"{name}: line {number}", value=cell)
-    return [(number, [_read(cell, decimal) for cell in row]) for number, row in rows]
+    every = [True] * max(lengths)
+    kept = {len(row): numeric if len(row) == usual else every for _, row in rows}
+    return [
+        (number, [_read(cell, decimal) if so else cell for cell, so in zip(row, kept[len(row)], strict=False)])
+        for number, row in rows
+    ]
+
+
+def _holds_numbers(cells: Sequence[str]) -> bool:
+    """Whether a column is one of numbers: most of its cells, beside the header and gaps; labels prove no mark."""
+    return 2 * sum(_is_number(cell) for cell in cells) >= sum(bool(cell) for cell in cells) - 1
+
+
+def _is_number(cell: str) -> bool:
+    forms = (form for mark in MARKS for form in (GROUPED[mark], WITH_BOTH[mark], WITH_ONE[mark]))
+    return bool(PLAIN.fullmatch(cell)) or any(form.fullmatch(cell) for form in forms)
 
 
 def _decided(inner: Sequence[Line], outer: Sequence[Line], name: str) -> str:

@@ -62,10 +62,10 @@ class Answer:
 
 
 def silent(truth: Truth) -> Answer:
-    """What a tool that broke down on a case said of it: nothing, and the base model for all readings."""
-    nothing = frozenset({"no answer"})
-    base = truth.base
-    return Answer(truth.case, nothing, (nothing,), {}, False, frozenset(), {}, {}, truth.run, base, base, base, base)
+    """What a tool that broke down on a case is taken to have said: nothing, and every reading wrong."""
+    nothing, base = frozenset({"no answer"}), truth.base
+    wrong = frozenset(int(run) for run in truth.run[~truth.withheld])
+    return Answer(truth.case, nothing, (nothing,), {}, True, wrong, {}, {}, truth.run, base, base, base, base)
 
 
 def _names(label: Any) -> frozenset[str]:

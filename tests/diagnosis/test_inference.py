@@ -165,3 +165,6 @@ def test_readings_left_out_that_lie_too_far_off_make_the_odds_less_sure(offset: 
     prior = [found.log_weights[key] - found.scores[key] for key in (best, other)]
     level = prior[0] - prior[1]
     assert gap[1] - level == pytest.approx((gap[0] - level) / 4.0)
+    others = [max(names, key=lambda key: p.weights[key]) for p in (plain, unsure)]
+    odds = [p.weights[name] / p.weights["unknown"] for p, name in zip((plain, unsure), others, strict=True)]
+    assert odds[1] == pytest.approx(odds[0])

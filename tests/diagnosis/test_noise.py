@@ -150,3 +150,17 @@ def test_a_column_of_sds_that_says_nothing_is_none(make_case: Callable[..., Path
     assert case.recordings is not None
     assert "power_loss_W_sd" not in case.recordings
     assert any("says nothing of how much a reading scatters" in note for note in case.notes)
+
+
+def test_conditions_without_an_sd_of_their_own_are_predicted_all_the_same(
+    make_case: Callable[..., Path], tmp_path: Path
+) -> None:
+    folder = make_case(tmp_path / "case", "gear_pair")
+    lines = (folder / "recordings.csv").read_text(encoding="utf-8").splitlines()
+    wanted = [",".join(line.split(",")[:-1]) for line in lines[:4]]
+    cells = ["power_loss_W_sd", "2", "", "0"]
+    text = "\n".join(f"{row},{cell}" for row, cell in zip(wanted, cells, strict=True))
+    (folder / "conditions.csv").write_text(text + "\n", encoding="utf-8")
+    conditions = read_case(folder).conditions
+    assert conditions is not None
+    assert conditions["power_loss_W_sd"].tolist() == [2.0, 2.0, 2.0]

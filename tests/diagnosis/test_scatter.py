@@ -116,3 +116,27 @@ def test_a_fit_whose_evidence_is_carried_over_raises_no_noise(offset: Diagnosis)
     wild = replace(found, fits={**found.fits, ("churning",): replace(fit, residual=20.0 * fit.residual)})
     assert more(found)[0] < CLEAR
     assert more(wild)[0] < CLEAR
+
+
+def test_repeats_bound_the_noise_of_very_many_readings(
+    make_case: Make, tmp_path: Path, excluded: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A spread of very many readings holds hardly a repeat of any: the bound is that of all."""
+    folder = make_case(tmp_path / "case", "disc")
+    path = folder / "recordings.csv"
+    with path.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.reader(file))
+    rng = np.random.default_rng(7)
+    wild = np.repeat(1.0 + 0.3 * rng.standard_normal(len(rows) - 1), 4)
+    body = [row for row in rows[1:] for _ in range(4)]
+    lines = [
+        [str(i + 1), *row[1:-1], f"{float(row[-1]) * wild[i] * (1.0 + 0.02 * rng.standard_normal()):.9g}"]
+        for i, row in enumerate(body)
+    ]
+    with path.open("w", encoding="utf-8", newline="") as file:
+        csv.writer(file).writerows([rows[0], *lines])
+    monkeypatch.setattr("mixedlub.diagnosis.diagnose.MANY", 40)
+    monkeypatch.setattr("mixedlub.diagnosis.fitting.search.MANY", 40)
+    monkeypatch.setattr("mixedlub.diagnosis.fitting.search.SPREAD", 30)
+    d = diagnose_case(folder, exclude=excluded)
+    assert not any("times as much as stated" in note for note in d.warnings)

@@ -80,6 +80,15 @@ def test_commas_within_headers_part_nothing():
     assert dict(sheet.cells) == {"Speed, rpm": ["2.5", "4.5"], "Torque, Nm": ["17.5", "18.5"]}
 
 
+def test_labels_prove_no_mark_and_stay_as_they_are():
+    text = "sample\tspeed_rpm\tfriction_torque_Nm\n1.2\t1,250\t17\nB2\t2,250\t18\nC\t1000\t16\n"
+    with pytest.raises(InputError, match="'1,250': could be 1250 or"):
+        read_sheet(text, "t.txt")
+    sheet = read_sheet(text, "t.txt", ",")
+    assert sheet.cells["sample"] == ["1.2", "B2", "C"]
+    assert sheet.cells["speed_rpm"] == ["1.250", "2.250", "1000"]
+
+
 def test_on_the_command_line_too(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "t.txt").write_text(OPEN, encoding="utf-8")

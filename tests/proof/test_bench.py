@@ -251,6 +251,7 @@ def test_counts_by_kind_wrong_answers_and_break_downs(cases, tmp_path):
     assert scores["all"]["none"].value == 1.0
     assert scores["all"]["right"].value == 0.0
     assert scores["mesh_friction"]["right"].value == 0.0
+    assert scores["mesh_friction"]["outliers_false"].value == 1.0
     assert scores["friction_history"]["tied"].value == 0.5
     text = (tmp_path / "score.txt").read_text()
     lines = {line[:36].strip(): line[36:].split() for line in text.splitlines()}

@@ -120,14 +120,18 @@ class Problem:
         slopes[~np.isfinite(slopes)] = 0.0
         return slopes
 
+    def noise_size(self, prediction: np.ndarray) -> np.ndarray:
+        """The size that noise goes by, in the unit of the column: a prediction, or a reading far above it."""
+        size, reading = np.abs(self.level(prediction)), np.abs(self.level(self.y))
+        return np.where(size < TRIFLE * reading, reading, size)
+
     def with_sd(self, prediction: np.ndarray, base: np.ndarray) -> Problem:
         """The same problem with the noise taken at the size of a prediction instead of the readings.
 
         A prediction far below its reading, as of a part rig that the model has nothing for, is no size to go by. The
         errors of set-ups are shares of the calibrated ``base``: of what fits better they would be its shape for free.
         """
-        size, reading = self.level(prediction), self.level(self.y)
-        size = np.where(np.abs(size) < TRIFLE * np.abs(reading), reading, size)
+        size = self.noise_size(prediction)
         sd, shared = seen_noise(self.case, self.rows, size, self.level(base))
         return replace(self, sd=sd, shared=shared)
 

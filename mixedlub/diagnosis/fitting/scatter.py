@@ -36,17 +36,15 @@ ENOUGH = 10
 Trial = Callable[[Case, Table], Search]
 
 
-def stated_or_more(case: Case, rows: Table, trial: Trial) -> tuple[Search, float]:
+def stated_or_more(case: Case, rows: Table, trial: Trial, most: float = np.inf) -> tuple[Search, float]:
     """The search under the stated noise, or under ``times`` as much where the readings say so clearly.
 
     Every explanation is weighed again with its residuals against more noise. That is believed where the best of
     them beats the best one under the stated noise, the unnamed mismatch among them: what goes smoothly with the
     conditions is a mismatch, what goes with none is noise. Fits under too little noise follow it, and hide a part.
-    Repeats at equal conditions bound it: what they agree on is no noise.
+    Repeats at equal conditions bound it by ``most``: what they agree on is no noise.
     """
     found, times = trial(case, rows), 1.0
-    problem = found.problem
-    most = repeats_allow(problem.y, problem.sd, repeated(problem.case, problem.rows))
     for needed in (CLEAR, *[0.0] * (ROUNDS - 1)):
         gain, factor = more(found)
         if gain <= needed or times * factor > most:
@@ -112,9 +110,12 @@ def _under_other_noise(found: Search, times: np.ndarray) -> tuple[float, int]:
 def shown(case: Case, rows: Table, trial: Trial) -> Search:
     """The search under the estimated noise, lowered to where the readings are most probable.
 
-    What is left over then says how much of it goes in proportion to the reading and how much is alike for all.
+    What is left over then says how much of it goes in proportion to the reading and how much is alike for all, unless
+    repeats have said so already.
     """
     found = _lowered(case, rows, trial)
+    if repeated(case, rows) is not None:
+        return found
     gain, other = _other_parts(found)
     if gain < BOTH:
         return found
@@ -125,8 +126,8 @@ def shown(case: Case, rows: Table, trial: Trial) -> Search:
 def _other_parts(found: Search) -> tuple[float, Case]:
     """Gain in log probability by the best other mixture of the parts of noise, and the case with it."""
     problem = found.problem
-    best = min(found.fits.values(), key=lambda fit: -found.log_weights[fit.explanation])
-    size = np.abs(problem.level(best.prediction))
+    best = max(found.fits.values(), key=lambda fit: found.log_weights[fit.explanation])
+    size = problem.noise_size(best.prediction)
     typical = float(np.median(size))
     scales = SIZES * float(np.median(problem.sd * problem.unit_size(best.prediction))) / typical
     noises = [(k * own, k * common * typical) for k in scales for own, common in PARTS]

@@ -81,8 +81,8 @@ def posterior(
     The evidence ranks the explanations, less the ``demerits`` of those that failed on levels left out. Where it
     and the test disagree on "none", its weight is moved just far enough that the most probable explanation agrees
     with the test. What scatters more than noise can, and follows nothing, is something unnamed. Where even the best
-    name leaves readings ``inflation`` times their variance off, they tell names apart by that much less; what the
-    names have together stays.
+    name leaves readings ``inflation`` times their variance off, they tell names apart by that much less; the odds of
+    the first name against what is none stay.
     """
     log: dict[Key, float] = dict(found.log_weights)
     for key, demerit in (demerits or {}).items():
@@ -90,9 +90,9 @@ def posterior(
     names = [key for key in log if names_effects(key)]
     if names and inflation > 1.0:
         told = {k: found.scores[k] - (demerits or {}).get(k, 0.0) for k in names if not isinstance(k, str)}
-        together = float(np.logaddexp.reduce([log[key] for key in names]))
+        foremost = max(log[key] for key in names)
         log |= {key: log[key] + value * (1.0 / inflation - 1.0) for key, value in told.items()}
-        back = together - float(np.logaddexp.reduce([log[key] for key in names]))
+        back = foremost - max(log[key] for key in names)
         log |= {key: log[key] + back for key in names}
     if test.unfollowed and log[()] > log["unknown"]:
         log[()], log["unknown"] = log["unknown"], log[()]
