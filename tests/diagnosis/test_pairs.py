@@ -10,8 +10,9 @@ import pytest
 from mixedlub.diagnosis.diagnose import diagnose_case
 from mixedlub.diagnosis.fitting.fit import map_fit
 from mixedlub.diagnosis.fitting.pairs import promising_pairs
-from mixedlub.diagnosis.fitting.search import placed
+from mixedlub.diagnosis.fitting.search import one_in_time, placed
 from mixedlub.diagnosis.fitting.starts import fit_single, sample
+from mixedlub.diagnosis.recording.features import Coordinate, Coordinates
 
 from ..kinds.conftest import BALL, make, system
 from .test_inference import problem
@@ -67,3 +68,13 @@ def test_a_change_whose_place_is_known_costs_no_more_than_laplace_says(make, cou
     found = diagnose_case(make(system("friction_history", "friction_coefficient"), columns).folder).found
     fit = map_fit(found.problem, ("friction_event",), found.fits["friction_event",].z, warm=True)
     assert placed(found.problem, fit).evidence == pytest.approx(fit.evidence, abs=0.5)
+
+
+def test_a_fault_of_the_channel_is_no_second_effect_where_only_time_varies() -> None:
+    nodes = np.linspace(0.0, 1.0, 9)
+    time = Coordinate("time_s", nodes, 0.0, 3600.0)
+    load = Coordinate("load_N", nodes, 10.0, 40.0)
+    pair = ("sensor_drift", "tribofilm_growth")
+    assert one_in_time(pair, Coordinates((time,)))
+    assert not one_in_time(pair, Coordinates((load, time)))
+    assert not one_in_time(("friction_event", "tribofilm_growth"), Coordinates((time,)))

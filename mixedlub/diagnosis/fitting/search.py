@@ -24,6 +24,8 @@ WHOLE = 25
 """Effects from which pairs have all of their prior: beside a first effect each other one is as rare among few."""
 KEPT = 8
 """Explanations of a share of the rows that are weighed again on all of them."""
+CLOCKS = {"time_s", "sequence"}
+"""What passes by itself while a test runs."""
 FAR = 60.0
 """Log evidence behind the best from which a fit is not made again under a new noise."""
 MANY, SPREAD = 1200, 600
@@ -174,6 +176,8 @@ def _search(
     fits: dict[Explanation, Fit] = {(): none, **singles}
     progress("trying pairs of effects")
     for pair, start in promising_pairs(problem, none, singles, sampled):
+        if one_in_time(pair, space):
+            continue
         fit = map_fit(problem, pair, start)
         if pair not in fits or fit.evidence > fits[pair].evidence:
             fits[pair] = fit
@@ -182,6 +186,14 @@ def _search(
     progress("weighing an unnamed mismatch")
     unknown = unknown_fit(problem, none, space, values, {s.id for s in sampled})
     return Search(problem, space, values, none, fits, scores, unknown, sampled, untestable)
+
+
+def one_in_time(pair: Explanation, space: Coordinates) -> bool:
+    """Whether two effects are no two here: nothing but time varies, and one is a fault of the channel.
+
+    What changes and what reads it are then one function of time between them, however good the fit.
+    """
+    return {axis.name for axis in space.axes} <= CLOCKS and any(e.stage == "measurement" for e in effects_of(pair))
 
 
 def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: np.ndarray) -> dict[Explanation, Fit]:
