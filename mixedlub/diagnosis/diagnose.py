@@ -166,8 +166,10 @@ def _search(
 
     seek = trial if y.size <= MANY else glance
     if is_stated(case, rows):
-        whole = Problem.of(case, rows, forward, y)
-        most = repeats_allow(whole.y, whole.sd, repeated(case, rows))
+        group, most = repeated(case, rows), np.inf
+        if group is not None:
+            whole = Problem.of(case, rows, forward, y)
+            most = repeats_allow(whole.y, whole.sd, group)
         found, times = stated_or_more(case, rows, seek, most)
         if seek is glance:
             found = trial(*scaled(case, rows, times))

@@ -274,7 +274,8 @@ def intervals(d: Diagnosis) -> Figure:
     low, high = ((p.low90 - p.predicted) * scale)[order], ((p.high90 - p.predicted) * scale)[order]
     base = ((p.calibrated - p.predicted) * scale)[order]
     bad = d.outlier_chance[order] > 0.5
-    inside = (away >= low) & (away <= high)
+    held = (y >= p.low90) & (y <= p.high90)
+    inside = held[order]
     place = np.arange(order.size)
     figure = blank(7.4, 2.9)
     axes = figure.add_subplot()
@@ -293,8 +294,7 @@ def intervals(d: Diagnosis) -> Figure:
     axes.set_ylabel(f"recorded − predicted ({unit})")
     axes.set_xlabel(f"reading, sorted by predicted {words_of(d.case.quantity)}")
     good = d.outlier_chance <= 0.5
-    held = int((good & (y >= p.low90) & (y <= p.high90)).sum())
     drawn = f", {order.size} of them drawn" if order.size < y.size else ""
-    axes.set_title(f"{held} of {int(good.sum())} readings inside{drawn}", fontweight="normal")
+    axes.set_title(f"{int((held & good).sum())} of {int(good.sum())} readings inside{drawn}", fontweight="normal")
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=5, columnspacing=1.2, handletextpad=0.4)
     return figure

@@ -113,6 +113,22 @@ def linear_fit(target: np.ndarray, columns: np.ndarray, weight: np.ndarray | Non
     return Linear(evidence, coefficients, residual, w)
 
 
+def whitening(columns: np.ndarray, weight: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
+    """What multiplies rows by the inverse covariance of noise, and of columns with standard-normal priors, together.
+
+    >>> whitening(np.ones((2, 1)), np.ones(2))(np.array([[1.0, 1.0], [1.0, -1.0]])).round(3).tolist()
+    [[0.333, 0.333], [1.0, -1.0]]
+    """
+    weighted = columns * weight[:, None]
+    inner = np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ weighted)
+
+    def whitened(rows: np.ndarray) -> np.ndarray:
+        scaled = rows * weight
+        return np.asarray(scaled - ((scaled @ columns) @ inner) @ weighted.T)
+
+    return whitened
+
+
 def map_fit(problem: Problem, explanation: Explanation, start: np.ndarray, *, warm: bool = False) -> Fit:
     """Gauss-Newton with damping to the most probable coordinates, then Laplace's evidence.
 

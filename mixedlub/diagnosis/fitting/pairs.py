@@ -6,7 +6,7 @@ from itertools import combinations
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.fit import Fit, bounded
+from mixedlub.diagnosis.fitting.fit import Fit, bounded, whitening
 from mixedlub.diagnosis.fitting.problem import Explanation, Problem
 from mixedlub.diagnosis.fitting.starts import Sampled
 
@@ -71,16 +71,13 @@ def _beside_leaders(
     for fit in leaders:
         columns = np.hstack([fit.slopes, problem.shared])
         weight = fit.weight if write_off else bounded(fit.residual)(fit.residual)[1]
-        inner = np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ (columns * weight[:, None]))
+        whitened = whitening(columns, weight)
         left = fit.residual * weight
         level = fit.evidence if write_off else -0.5 * float(left @ fit.residual)
-
         for other in sampled:
             if other.id in fit.explanation:
                 continue
-            scaled = other.change * weight
-            seen = scaled - ((scaled @ columns) @ inner) @ (columns * weight[:, None]).T
-            gain = other.change @ left - 0.5 * np.einsum("ij,ij->i", other.change, seen)
+            gain = other.change @ left - 0.5 * np.einsum("ij,ij->i", other.change, whitened(other.change))
             gain -= 0.5 * np.einsum("ij,ij->i", other.z, other.z)
             k = int(np.argmax(gain))
             score = level + float(gain[k])

@@ -36,7 +36,7 @@ ENOUGH = 10
 Trial = Callable[[Case, Table], Search]
 
 
-def stated_or_more(case: Case, rows: Table, trial: Trial, most: float = np.inf) -> tuple[Search, float]:
+def stated_or_more(case: Case, rows: Table, trial: Trial, most: float) -> tuple[Search, float]:
     """The search under the stated noise, or under ``times`` as much where the readings say so clearly.
 
     Every explanation is weighed again with its residuals against more noise. That is believed where the best of
@@ -66,8 +66,8 @@ def beyond_noise(found: Search, times: float, test: Mismatch) -> Mismatch:
     return replace(test, p_value=p, detected=bool(p <= test.level), unfollowed=True)
 
 
-def repeats_allow(y: np.ndarray, sd: np.ndarray, group: np.ndarray | None) -> float:
-    """How many times their sd readings could have whose repeats form these groups, at most; no bound without any.
+def repeats_allow(y: np.ndarray, sd: np.ndarray, group: np.ndarray) -> float:
+    """How many times their sd readings could have whose repeats form these groups, at most.
 
     >>> jumping = 0.1 * np.tile([0.8, 1.0, 1.25, 1.0], 5)
     >>> y = 100.0 + 0.1 * np.random.default_rng(1).standard_normal(20)
@@ -76,8 +76,6 @@ def repeats_allow(y: np.ndarray, sd: np.ndarray, group: np.ndarray | None) -> fl
     """
     from scipy.stats import chi2
 
-    if group is None:
-        return np.inf
     spare = group.size - int(group.max()) - 1
     apart = (y - medians(y, group)[group]) / sd
     return float(pooled_sd(apart, group) * np.sqrt(spare / chi2.ppf(UNLIKELY, spare)))

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mixedlub.diagnosis.fitting.fit import whitening
 from mixedlub.diagnosis.fitting.search import Search
 from mixedlub.diagnosis.unnamed.carriers import READING
 from mixedlub.diagnosis.unnamed.shapes import Shape
@@ -63,20 +64,15 @@ class _Alternatives:
     @classmethod
     def of(cls, found: Search, fixed: np.ndarray, weight: np.ndarray) -> _Alternatives:
         """Those of a search, beside the columns of calibration and set-ups, at the weights of the readings."""
-        inner = np.linalg.inv(np.eye(fixed.shape[1]) + fixed.T @ (fixed * weight[:, None]))
-
-        def whiten(rows: np.ndarray) -> np.ndarray:
-            scaled = rows * weight
-            return scaled - (scaled @ fixed) @ inner @ (fixed * weight[:, None]).T
-
+        whitened = whitening(fixed, weight)
         directions = [s.change[: s.blind] for s in found.sampled]
         effects = np.vstack(directions) if directions else np.zeros((0, weight.size))
-        seen = whiten(effects)
+        seen = whitened(effects)
         smooth = []
         for length, interactions in SHAPES:
             shape = Shape((), length, 1.0, READING, interactions and len(found.space.axes) > 1)
             block = shape.columns(found.space, found.values, found.unknown.carriers)
-            pulled = whiten(block.T)
+            pulled = whitened(block.T)
             size, turn = np.linalg.eigh(pulled @ block)
             smooth.append((np.maximum(size, 0.0), turn.T @ pulled))
         return cls(seen, np.einsum("ij,ij->i", effects, seen), tuple(smooth))
