@@ -10,9 +10,10 @@ import pytest
 from mixedlub.diagnosis.diagnose import diagnose_case
 from mixedlub.diagnosis.fitting.fit import map_fit
 from mixedlub.diagnosis.fitting.pairs import promising_pairs
+from mixedlub.diagnosis.fitting.problem import Problem
 from mixedlub.diagnosis.fitting.search import one_in_time, placed
 from mixedlub.diagnosis.fitting.starts import fit_single, sample
-from mixedlub.diagnosis.recording.features import Coordinate, Coordinates
+from mixedlub.forward import Forward
 
 from ..kinds.conftest import BALL, make, system
 from .test_inference import problem
@@ -70,11 +71,17 @@ def test_a_change_whose_place_is_known_costs_no_more_than_laplace_says(make, cou
     assert placed(found.problem, fit).evidence == pytest.approx(fit.evidence, abs=0.5)
 
 
-def test_a_fault_of_the_channel_is_no_second_effect_where_only_time_varies() -> None:
-    nodes = np.linspace(0.0, 1.0, 9)
-    time = Coordinate("time_s", nodes, 0.0, 3600.0)
-    load = Coordinate("load_N", nodes, 10.0, 40.0)
+def test_a_fault_of_the_channel_is_no_second_effect_where_nothing_but_time_moves_either(make) -> None:
+    """A temperature that wanders by the way tells a fault from a film no better; a base model that moves does."""
+    time = np.linspace(0.0, 7200.0, 60)
+    warmth = 118.0 + 2.0 * np.sin(time / 500.0)
+    columns = {"time_s": time, "oil_temperature_C": warmth, "friction_coefficient": np.linspace(0.1, 0.11, 60)}
+    case = make(system("friction_history", "friction_coefficient"), columns)
+    assert case.recordings is not None
+    p = Problem.of(case, case.recordings, Forward(case, case.recordings), columns["friction_coefficient"])
+    none = map_fit(p, (), np.zeros(p.size(())))
     pair = ("sensor_drift", "tribofilm_growth")
-    assert one_in_time(pair, Coordinates((time,)))
-    assert not one_in_time(pair, Coordinates((load, time)))
-    assert not one_in_time(("friction_event", "tribofilm_growth"), Coordinates((time,)))
+    assert one_in_time(pair, p, none)
+    assert not one_in_time(pair, p, replace(none, prediction=none.prediction * np.linspace(1.0, 1.5, 60)))
+    assert not one_in_time(("boundary_film_temperature", "sensor_drift"), p, none)
+    assert not one_in_time(("friction_event", "tribofilm_growth"), p, none)

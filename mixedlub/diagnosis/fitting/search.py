@@ -24,8 +24,8 @@ WHOLE = 25
 """Effects from which pairs have all of their prior: beside a first effect each other one is as rare among few."""
 KEPT = 8
 """Explanations of a share of the rows that are weighed again on all of them."""
-CLOCKS = {"time_s", "sequence"}
-"""What passes by itself while a test runs."""
+CLOCKS = {"time", "sequence", "ageing"}
+"""Quantities that pass by themselves while a test runs."""
 FAR = 60.0
 """Log evidence behind the best from which a fit is not made again under a new noise."""
 MANY, SPREAD = 1200, 600
@@ -176,7 +176,7 @@ def _search(
     fits: dict[Explanation, Fit] = {(): none, **singles}
     progress("trying pairs of effects")
     for pair, start in promising_pairs(problem, none, singles, sampled):
-        if one_in_time(pair, space):
+        if one_in_time(pair, problem, none):
             continue
         fit = map_fit(problem, pair, start)
         if pair not in fits or fit.evidence > fits[pair].evidence:
@@ -188,12 +188,16 @@ def _search(
     return Search(problem, space, values, none, fits, scores, unknown, sampled, untestable)
 
 
-def one_in_time(pair: Explanation, space: Coordinates) -> bool:
-    """Whether two effects are no two here: nothing but time varies, and one is a fault of the channel.
+def one_in_time(pair: Explanation, problem: Problem, none: Fit) -> bool:
+    """Whether two effects are no two here: one is a fault of the channel, and nothing but time moves either.
 
-    What changes and what reads it are then one function of time between them, however good the fit.
+    What changes and what reads it are then one function of time between them, however good the fit. A condition that
+    wanders by the way, and that neither effect nor, beyond noise, the base model asks for, moves nothing.
     """
-    return {axis.name for axis in space.axes} <= CLOCKS and any(e.stage == "measurement" for e in effects_of(pair))
+    effects, inputs = effects_of(pair), problem.forward.inputs
+    asked = {name for e in effects for name in e.reads if name in inputs and np.ptp(inputs[name]) > 0.0}
+    still = np.ptp(none.prediction) <= np.median(problem.sd)
+    return any(e.stage == "measurement" for e in effects) and bool(still) and asked <= CLOCKS
 
 
 def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: np.ndarray) -> dict[Explanation, Fit]:

@@ -101,6 +101,12 @@ def unrolled(values: np.ndarray, logarithmic: bool, folded: float) -> np.ndarray
     return np.log(np.maximum(values, LEAST)) if logarithmic else values
 
 
+def clock_of(rows: Table) -> np.ndarray | None:
+    """What tells the order in which readings were taken; None where nothing does, or not of every one."""
+    clock = next((rows[name] for name in ("sequence", "time_s") if name in rows), None)
+    return None if clock is None or np.unique(clock).size < clock.size else clock
+
+
 def is_held(name: str, levels: np.ndarray) -> bool:
     """Whether a condition was held: it spans next to nothing of its size.
 
