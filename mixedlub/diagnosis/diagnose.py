@@ -14,6 +14,7 @@ from mixedlub.diagnosis.fitting.fit import outlier_chance
 from mixedlub.diagnosis.fitting.problem import Problem
 from mixedlub.diagnosis.fitting.scatter import beyond_noise, repeats_allow, scaled, shown, stated_or_more, under_its_own
 from mixedlub.diagnosis.fitting.search import MANY, Progress, Search, search, spread_rows
+from mixedlub.diagnosis.fitting.serial import lasting
 from mixedlub.diagnosis.fitting.sudden import sudden_places
 from mixedlub.diagnosis.judging.doubts import against, scatter_notes, unsure_odds
 from mixedlub.diagnosis.judging.heldout import HeldOut, LevelsOut
@@ -109,6 +110,7 @@ def diagnose_case(
     warnings += scatter_notes(found, stated, times)
     progress("leaving levels out")
     judged, kept = _judged(found, test)
+    kept = kept.of_one(found.screened.problem.together)
     refined = _refine_leaders(found, judged)
     progress("predicting")
     recorded = _predict(found, judged, refined, rows)
@@ -150,15 +152,18 @@ def _search(
     """Every explanation weighed, how many times the stated noise that took, and whether anything is missing.
 
     Where no noise is stated, nothing missing is tested under the noise that it would need itself as well, and where
-    that is the answer it has that noise: what suits an explanation best is no fair one for its rival.
+    that is the answer it has that noise: what suits an explanation best is no fair one for its rival. Where noise
+    lasts over several readings, so many count as one, and everything is weighed again.
     """
     space = coordinates(case, rows, forward)
     if not space.axes:
         raise InputError("all readings were taken at the same conditions; vary at least one", where="recordings.csv")
     values = space.values(case, rows, forward)
 
+    together = 1.0
+
     def trial(case: Case, rows: Table) -> Search:
-        return search(Problem.of(case, rows, forward, y), space, values, exclude, progress)
+        return search(Problem.of(case, rows, forward, y, together), space, values, exclude, progress)
 
     def glance(case: Case, rows: Table) -> Search:
         few = spread_rows(values, y.size)
@@ -173,10 +178,14 @@ def _search(
         found, times = stated_or_more(case, rows, seek, most)
         if seek is glance:
             found = trial(*scaled(case, rows, times))
+        if (together := lasting(found)) > 1.0:
+            found = trial(*scaled(case, rows, times))
         progress("testing against nothing missing")
         return found, times, beyond_noise(found, times, mismatch_test(found, level))
     found = shown(estimated(case, rows, y, forward.predict(), space, values), rows, seek)
     if seek is glance:
+        found = trial(found.problem.case, rows)
+    if (together := lasting(found)) > 1.0:
         found = trial(found.problem.case, rows)
     progress("testing against nothing missing")
     own, test = under_its_own(found, trial), mismatch_test(found, level)
@@ -282,7 +291,7 @@ def _outliers(found: Search, judged: Posterior, refined: dict[Key, Refined]) -> 
             residual = refined[key].residual
         else:
             continue
-        chance += weight * outlier_chance(residual)
+        chance += weight * outlier_chance(np.sqrt(found.problem.together) * residual)
         total += weight
     return chance / max(total, 1e-300)
 

@@ -35,7 +35,8 @@ class Problem:
 
     Every unknown has a standard-normal prior: calibration and effect parameters through their priors'
     ``value``, errors shared within a set-up as columns of ``shared`` (in sigmas). ``held`` are parameters of
-    effects that are not unknown.
+    effects that are not unknown. Where noise lasts, so that ``together`` readings tell as much as one, ``sd`` is that
+    of a reading times the root of it.
     """
 
     case: Case
@@ -45,12 +46,24 @@ class Problem:
     sd: np.ndarray
     shared: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
     held: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    together: float = 1.0
 
     @classmethod
-    def of(cls, case: Case, rows: Table, forward: Forward, y: np.ndarray) -> Problem:
+    def of(cls, case: Case, rows: Table, forward: Forward, y: np.ndarray, together: float = 1.0) -> Problem:
         """The problem of a recording whose noise is known."""
         sd, shared = seen_noise(case, rows, y, forward.predict())
-        return cls(case, rows, forward, np.log(y) if case.kind.logarithmic else y, sd, shared)
+        one = cls(case, rows, forward, np.log(y) if case.kind.logarithmic else y, sd, shared)
+        return one.with_together(together)
+
+    @property
+    def one_sd(self) -> np.ndarray:
+        """Standard deviation of a single reading."""
+        return self.sd / np.sqrt(self.together)
+
+    def with_together(self, together: float) -> Problem:
+        """The same problem where so many readings tell as much as one."""
+        times = np.sqrt(together / self.together)
+        return replace(self, sd=times * self.sd, shared=self.shared / times, together=together)
 
     def seen(self, level: np.ndarray) -> np.ndarray:
         """Readings as they are compared."""
@@ -133,7 +146,7 @@ class Problem:
         """
         size = self.noise_size(prediction)
         sd, shared = seen_noise(self.case, self.rows, size, self.level(base))
-        return replace(self, sd=sd, shared=shared)
+        return replace(self, sd=sd, shared=shared, together=1.0).with_together(self.together)
 
     def take(self, rows: np.ndarray) -> Problem:
         """The problem on some of its rows."""
@@ -142,6 +155,10 @@ class Problem:
         shared = self.shared[rows]
         shared = shared[:, np.any(shared != 0, axis=0)]
         return replace(self, rows=table, forward=forward, y=self.y[rows], sd=self.sd[rows], shared=shared)
+
+    def spread(self, rows: np.ndarray) -> Problem:
+        """The problem on a share of its rows from all over: the farther apart they are, the less noise lasts."""
+        return self.take(rows).with_together(1.0 + (self.together - 1.0) * len(rows) / self.y.size)
 
 
 def effects_of(explanation: Explanation) -> list[Effect]:

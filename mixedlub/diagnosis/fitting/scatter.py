@@ -181,7 +181,8 @@ def quiet(found: Search) -> bool:
     That model has few coordinates to follow noise with: so little is left only if the noise is overstated.
     """
     spare = found.none.residual.size - found.none.z.size
-    return spare >= ENOUGH and float(found.none.residual @ found.none.residual) < 0.25 * spare
+    squares = found.problem.together * float(found.none.residual @ found.none.residual)
+    return spare >= ENOUGH and squares < 0.25 * spare
 
 
 def scaled(case: Case, rows: Table, factor: float) -> tuple[Case, Table]:

@@ -115,7 +115,7 @@ def search(
     if problem.y.size <= MANY:
         return _search(problem, space, values, exclude, progress)
     rows = spread_rows(values, problem.y.size)
-    screen = _search(problem.take(rows), space, [v[rows] for v in values], exclude, progress)
+    screen = _search(problem.spread(rows), space, [v[rows] for v in values], exclude, progress)
     progress(f"weighing the leaders on all {problem.y.size} readings")
     ranked = sorted(screen.scores, key=lambda m: -screen.log_weights[m])
     leaders = dict.fromkeys([(), *ranked[:KEPT]])

@@ -1,35 +1,53 @@
-"""Whether what an explanation leaves over hangs together in time: readings then tell less than their number."""
+"""Noise that lasts over several readings: how many of them tell as much as one."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.diagnosis.fitting.search import Search
+from mixedlub.diagnosis.recording.features import clock_of
+
 FEWEST = 16
-"""Stretches of time from which their sums have a variance that can be told."""
+"""Stretches of a series from which the variance of their sums can be told."""
 WILD = 3.0
-"""Sigmas to which a residual counts: wild readings do not hang together."""
+"""Sigmas to which a residual counts: wild readings do not last."""
+SERIES = 400
+"""Readings from which a table without a clock is a logged series, in the order of its rows."""
 
 
-def serial_inflation(left: np.ndarray, clock: np.ndarray | None) -> float:
-    r"""How many times their variance sums of neighbours in time vary, :math:`\hat c`; 1 or more, 1 without a clock.
+def lasting(found: Search) -> float:
+    """How many readings tell as much as one, by what the explanation that follows them best leaves over.
+
+    What the most probable name or the unnamed still follows is no noise.
+    """
+    rows = found.problem.rows
+    order = clock_of(rows)
+    if order is None:
+        if len(rows) < SERIES:
+            return 1.0
+        order = np.arange(len(rows))
+    likely = max(found.fits, key=found.log_weights.__getitem__)
+    return min(together(left, order) for left in (found.fits[likely].residual, found.unknown.fit.residual))
+
+
+def together(left: np.ndarray, clock: np.ndarray) -> float:
+    r"""How many times their variance sums of neighbours in time vary; 1 or more.
 
     ``left`` are residuals in sigmas. Independent ones make :math:`\sum_n z / \sqrt n` vary as one does, for stretches
-    of any n; noise that lasts over several readings, and a law that is wrong a little for some time, make it vary
-    more, and every log probability of the readings too steep by as much. The largest excess over two standard errors
-    of chance counts: batch means, as G. S. Fishman, Principles of Discrete Event Simulation (1978), sec. 2.6.
+    of any n; noise that lasts makes it vary more, and what goes slowly over the series is known as if there were so
+    many times fewer readings. An excess within two standard errors is chance.
+    Batch means: G. S. Fishman, Principles of Discrete Event Simulation (1978).
 
-    >>> clock, noise = np.arange(512.0), np.random.default_rng(1).standard_normal(512)
-    >>> serial_inflation(noise, clock), serial_inflation(noise, None)
-    (1.0, 1.0)
-    >>> round(serial_inflation(np.repeat(noise, 8), np.arange(4096.0)))   # eight readings tell as much as one
-    6
+    >>> noise = np.random.default_rng(1).standard_normal(512)
+    >>> together(noise, np.arange(512.0)), round(together(np.repeat(noise, 8), np.arange(4096.0)))
+    (1.0, 8)
     """
-    if clock is None:
-        return 1.0
     ordered = np.clip(left, -WILD, WILD)[np.argsort(clock, kind="stable")]
     most, length = 1.0, 2
     while (count := ordered.size // length) >= FEWEST:
         sums = ordered[: count * length].reshape(count, length).sum(axis=1)
-        most = max(most, float(np.mean(sums**2)) / length / (1.0 + 2.0 * np.sqrt(2.0 / count)))
+        times = float(np.mean(sums**2)) / length
+        if times > 1.0 + 2.0 * np.sqrt(2.0 / count):
+            most = max(most, times)
         length *= 2
     return most

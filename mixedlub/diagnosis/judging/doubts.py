@@ -9,7 +9,7 @@ from mixedlub.diagnosis.fitting.search import Search
 from mixedlub.diagnosis.judging.heldout import HeldOut
 from mixedlub.diagnosis.judging.posterior import Key, Posterior
 from mixedlub.diagnosis.recording.audit import Doubt
-from mixedlub.diagnosis.recording.features import PASSING
+from mixedlub.diagnosis.recording.features import PASSING, clock_of
 from mixedlub.headers import unit_of
 from mixedlub.table import Table
 
@@ -34,6 +34,16 @@ QUIET = "readings scatter by less than half of the stated noise: with noise near
 
 def scatter_notes(found: Search, stated: bool, times: float) -> list[str]:
     """What the readings say of their noise, where that is not what the recording says."""
+    lasting = found.problem.together
+    series = (
+        [f"what readings are off by lasts over several that follow one another: about {lasting:.2g} count as one here"]
+        if lasting > 1.0
+        else []
+    )
+    return [*series, *_size_notes(found, stated, times)]
+
+
+def _size_notes(found: Search, stated: bool, times: float) -> list[str]:
     if times > 1.0:
         said = f"readings scatter about {times:.2g} times as much as stated, whatever is taken to explain them"
         if times > MOST:
@@ -108,8 +118,8 @@ def in_a_row(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[int]:
     >>> in_a_row(table, wrong, np.ones(40)), in_a_row(table, wrong, (-1.0) ** np.arange(40))
     ([1, 2, 3], [])
     """
-    clock = next((rows[name] for name in ("sequence", "time_s") if name in rows), None)
-    if clock is None or not wrong.any() or np.unique(clock).size < clock.size:
+    clock = clock_of(rows)
+    if clock is None or not wrong.any():
         return []
     order = np.argsort(clock, kind="stable")
     side = (np.sign(left) * wrong)[order]

@@ -6,7 +6,7 @@ as all readings chose them; laws are held against the levels as published, witho
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -30,7 +30,7 @@ CHANCE = 5.0
 
 @dataclass(frozen=True)
 class HeldOut:
-    """Rms of (recorded - predicted)/sd on levels left out, calibration only and with the verdict.
+    """Rms of (recorded - predicted)/sd on levels left out, calibration only and with the verdict; sd as of the problem.
 
     ``surprise`` is that of the verdict over noise and what the other levels leave open of its parameters together,
     ``score`` the log probability of the readings under both, ``score_before`` that with calibration only.
@@ -44,6 +44,11 @@ class HeldOut:
     surprise: float
     score: float
     score_before: float
+
+    def of_one(self, together: float) -> HeldOut:
+        """The same in sigmas of a single reading, where so many tell as much as one."""
+        times = float(np.sqrt(together))
+        return replace(self, before=times * self.before, after=times * self.after)
 
     @property
     def inflation(self) -> float:

@@ -80,7 +80,8 @@ class Rows:
         known = found.problem
         start = known.seen(self.forward.predict(known.calibration(found.none.z))) if level is None else level
         self.sd, _ = _noise_at(known, table, start)
-        self.problem = Problem(found.problem.case, table, self.forward, start, self.sd, np.zeros((len(table), 0)))
+        none = np.zeros((len(table), 0))
+        self.problem = Problem(known.case, table, self.forward, start, self.sd, none).with_together(known.together)
 
     def noise_at(self, seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Noise of a reading where a prediction is seen, and the variance of its set-up's error."""
@@ -95,12 +96,12 @@ class Rows:
         base = self.problem.base(z)
         columns = [slopes, np.zeros((len(self.table), self.found.problem.shared.shape[1]))]
         if refined.bend:
-            net = (mean - self.problem.predict((), self.found.none.z)) / self.sd
+            net = (mean - self.problem.predict((), self.found.none.z)) / self.problem.sd
             own = refined.bend * elastic_columns(net, refined.typical, self.found.space, self.values)
             columns.append(own)
-            mean = mean + self.sd * (own @ refined.coefficients[-own.shape[1] :])
+            mean = mean + self.problem.sd * (own @ refined.coefficients[-own.shape[1] :])
         every = np.hstack(columns)
-        variance = np.einsum("ij,jk,ik->i", every, refined.covariance, every) * self.sd**2
+        variance = np.einsum("ij,jk,ik->i", every, refined.covariance, every) * self.problem.sd**2
         return Prediction(mean, variance, base)
 
     def of_unknown(self) -> Prediction:
@@ -114,9 +115,9 @@ class Rows:
         own = unknown.best.columns(found.space, self.values, rides)
         shared = np.zeros((len(self.table), found.problem.shared.shape[1]))
         every = np.hstack([slopes, shared, own])
-        mean = calibrated + self.sd * (own @ unknown.fit.coefficients[-own.shape[1] :])
-        variance = np.einsum("ij,jk,ik->i", every, unknown.covariance, every) * self.sd**2
-        return Prediction(mean, variance + self._lost_wave() * self.sd**2, calibrated)
+        mean = calibrated + self.problem.sd * (own @ unknown.fit.coefficients[-own.shape[1] :])
+        variance = np.einsum("ij,jk,ik->i", every, unknown.covariance, every) + self._lost_wave()
+        return Prediction(mean, variance * self.problem.sd**2, calibrated)
 
     def _lost_wave(self) -> np.ndarray:
         """Variance, in sigmas, of a wave where it is no longer foretold."""
@@ -134,7 +135,7 @@ def _noise_at(problem: Problem, table: Table, seen: np.ndarray) -> tuple[np.ndar
     own = f"{problem.case.quantity}_sd"
     level = problem.level(seen)
     if own in problem.rows and own not in table:
-        typical = np.full(len(table), float(np.median(problem.sd)))
+        typical = np.full(len(table), float(np.median(problem.one_sd)))
     else:
         typical, _ = seen_noise(problem.case, table, level)
     stated = problem.case.system.recording.noise

@@ -89,10 +89,10 @@ def verdict_fit(d: Diagnosis) -> Refined:
 
 
 def verdict_residual(d: Diagnosis) -> np.ndarray:
-    """(recorded - fitted)/sd after the verdict."""
-    if d.posterior.verdict == "unknown":
-        return d.found.unknown.fit.residual
-    return verdict_fit(d).residual
+    """(recorded - fitted)/sd of a single reading after the verdict."""
+    unknown = d.posterior.verdict == "unknown"
+    left = d.found.unknown.fit.residual if unknown else verdict_fit(d).residual
+    return np.sqrt(d.found.problem.together) * left
 
 
 def effect_records(d: Diagnosis) -> list[dict[str, Any]]:

@@ -1,0 +1,48 @@
+"""Noise that lasts over several readings: a logged series tells less than the number of its readings."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+
+from ..kinds.conftest import make, system
+
+__all__ = ["make"]
+
+COUNT = 800
+TIME = np.arange(1.0, COUNT + 1.0)
+
+
+def lasting_noise(correlation: float, seed: int) -> np.ndarray:
+    """Unit noise of the first order, each reading correlated so with the one before."""
+    fresh = np.sqrt(1.0 - correlation**2) * np.random.default_rng(seed).standard_normal(COUNT)
+    return lfilter([1.0], [1.0, -correlation], fresh)
+
+
+def answer(make, friction: np.ndarray) -> Diagnosis:
+    columns = {"time_s": TIME, "friction_coefficient": friction}
+    return diagnose_case(make(system("friction_history", "friction_coefficient"), columns).folder)
+
+
+@pytest.mark.parametrize("correlation", [0.0, 0.8])
+def test_noise_that_lasts_is_no_mismatch(make, correlation: float) -> None:
+    """A first-order series tells (1 - r)/(1 + r) of its readings' number: 9 for one at r = 0.8."""
+    d = answer(make, 0.1 * (1.0 + 0.01 * lasting_noise(correlation, 3)))
+    together = d.found.problem.together
+    assert d.posterior.verdict == ()
+    assert (together == 1.0) if correlation == 0.0 else (4.0 < together < 18.0)
+    assert any("lasts over several" in text for text in d.warnings) == (correlation > 0.0)
+
+
+def test_what_is_there_is_still_found_and_a_new_reading_scatters_as_one(make) -> None:
+    friction = 0.1 + 0.02 * np.exp(-TIME / 120.0)
+    d = answer(make, friction * (1.0 + 0.01 * lasting_noise(0.8, 4)))
+    assert "friction_run_in" in {name for key in d.posterior.tied for name in d.posterior.names(key)}
+    half = 0.5 * (d.recorded.high90 - d.recorded.low90)
+    assert np.median(half) == pytest.approx(1.645 * 0.01 * np.median(friction), rel=0.25)
+    assert d.recorded.sd == pytest.approx(0.01 * d.recorded.predicted)
+    inside = (d.readings > d.recorded.low90) & (d.readings < d.recorded.high90)
+    assert 0.85 < inside.mean() < 0.96
