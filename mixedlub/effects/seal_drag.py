@@ -25,6 +25,7 @@ _PIVOT = 20e-6
     fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "roughness": "-"},
     separated_by="the seals off, or a run of the shafts alone: torque that hardly changes with speed; a zero error "
     "of the torque meter changes sign with the sense of rotation, a seal does not",
+    contains={"ISO/TR 14179-2": {"viscous": 0.0}},
 )
 def seal_drag(
     power_loss: np.ndarray,

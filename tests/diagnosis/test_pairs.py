@@ -9,8 +9,9 @@ import pytest
 
 from mixedlub.diagnosis.diagnose import diagnose_case
 from mixedlub.diagnosis.fitting.fit import map_fit
-from mixedlub.diagnosis.fitting.pairs import promising_pairs
+from mixedlub.diagnosis.fitting.pairs import exchanged, promising_pairs
 from mixedlub.diagnosis.fitting.problem import Problem
+from mixedlub.diagnosis.fitting.published import published_gain
 from mixedlub.diagnosis.fitting.search import one_in_time, placed
 from mixedlub.diagnosis.fitting.starts import fit_single, sample
 from mixedlub.forward import Forward
@@ -38,6 +39,34 @@ def test_two_effects_start_where_they_are_best_together() -> None:
     ]
     wanted = np.concatenate([second.z[j], first.z[i]])
     assert any(np.allclose(start[p.calibration_size :], wanted) for start in starts)
+
+
+def test_a_second_effect_that_took_the_place_of_another_is_exchanged() -> None:
+    """Readings made of one draw of each of two effects, one of them beside a third in the best pair so far."""
+    p = problem()
+    none = map_fit(p, (), np.zeros(p.size(())))
+    sampled = tuple(sample(p, name, none) for name in ("churning", "boundary_film_temperature", "tip_relief"))
+    first, second = sampled[0], sampled[1]
+    i, j = (int(np.argmax(np.linalg.norm(s.change, axis=1))) for s in (first, second))
+    made = replace(p, y=none.prediction + p.sd * (first.change[i] + second.change[j]))
+    start = np.concatenate([none.z, first.z[i], sampled[2].z[0]])
+    best = map_fit(made, ("churning", "tip_relief"), start)
+    found = dict(exchanged(made, best, sampled))
+    assert ("churning", "tip_relief") not in found
+    pair = ("boundary_film_temperature", "churning")
+    assert map_fit(made, pair, found[pair]).evidence > best.evidence + 20.0
+
+
+@pytest.mark.parametrize(("viscous", "gained"), [(0.0, (3.0, 8.0)), (0.55, (-np.log(2.0), -0.6))])
+def test_half_of_what_is_believed_of_an_effect_is_its_published_law(viscous: float, gained: tuple) -> None:
+    """Seal drag after ISO/TR 14179-2 has no power of viscosity to be paid for, known to 1 % of its prior; another one costs log 2."""
+    p = problem(relative=0.002)
+    held = replace(p, held={"seal_drag": {"viscous": viscous}})
+    z = np.append(np.zeros(p.calibration_size), 2.0)
+    made = replace(p, y=held.predict(("seal_drag",), z))
+    low, high = gained
+    free = map_fit(made, ("seal_drag",), np.append(z, 0.0))
+    assert low <= published_gain(made, free) < high
 
 
 def test_the_place_of_a_sudden_change_is_paid_for(make) -> None:

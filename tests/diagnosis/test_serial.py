@@ -46,3 +46,11 @@ def test_what_is_there_is_still_found_and_a_new_reading_scatters_as_one(make) ->
     assert d.recorded.sd == pytest.approx(0.01 * d.recorded.predicted)
     inside = (d.readings > d.recorded.low90) & (d.readings < d.recorded.high90)
     assert 0.85 < inside.mean() < 0.96
+
+
+def test_the_seconds_after_a_start_are_no_effect(make) -> None:
+    """A start that settles within 2 s, of 800 s that are held: wrong readings, and nothing missing."""
+    friction = 0.1 * (1.0 + 0.01 * np.random.default_rng(5).standard_normal(COUNT)) + 0.04 * np.exp(-TIME / 1.5)
+    d = answer(make, friction)
+    assert d.posterior.verdict == ()
+    assert {1, 2, 3} <= set(d.outlier_runs)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import combinations
 
 import numpy as np
@@ -13,6 +14,8 @@ from mixedlub.diagnosis.fitting.starts import Sampled
 LEADERS = 8
 """Effects that pairs are formed with: a pair of which neither leads alone is found by drawing both together."""
 PAIRS, BOUNDED_PAIRS, JOINT_PAIRS = 30, 8, 10
+EXCHANGED, ROUNDS = 6, 3
+"""Pairs that are tried in exchange for the best one at a time, and how often at most."""
 
 
 def promising_pairs(
@@ -25,10 +28,26 @@ def promising_pairs(
     those whose draws are best together.
     """
     found: dict[Explanation, np.ndarray] = {}
+    leaders = sorted(singles.values(), key=lambda f: -f.evidence)[:LEADERS]
     for write_off, most in ((True, PAIRS), (False, BOUNDED_PAIRS)):
-        ranked = _ranked(_beside_leaders(problem, singles, sampled, write_off))
+        weight = [f.weight if write_off else bounded(f.residual)(f.residual)[1] for f in leaders]
+        ranked = _ranked(_beside(problem, leaders, weight, sampled, write_off))
         found.update([item for item in ranked if item[0] not in found][:most])
     return [*found.items(), *_ranked(_drawn_together(problem, none, sampled))[:JOINT_PAIRS]]
+
+
+def exchanged(problem: Problem, best: Fit, sampled: tuple[Sampled, ...]) -> list[tuple[Explanation, np.ndarray]]:
+    """Pairs in which one of the ``best`` two effects stays as it stands, and a third takes the place of the other.
+
+    Where one effect leads by far, pairs with it fill the list, and two that are right together may not be on it.
+    """
+    calibration = problem.calibration_size
+    middle = problem.size(best.explanation[:1])
+    parts = (best.z[:middle], np.concatenate([best.z[:calibration], best.z[middle:]]))
+    kept = [best.at(problem, (name,), z) for name, z in zip(best.explanation, parts, strict=True)]
+    others = tuple(s for s in sampled if s.id not in best.explanation)
+    ranked = _ranked(_beside(problem, kept, [best.weight] * len(kept), others, False))
+    return ranked[:EXCHANGED]
 
 
 def _ranked(scores: dict[Explanation, tuple[float, np.ndarray]]) -> list[tuple[Explanation, np.ndarray]]:
@@ -61,19 +80,19 @@ def _drawn_together(
     return found
 
 
-def _beside_leaders(
-    problem: Problem, singles: dict[Explanation, Fit], sampled: tuple[Sampled, ...], write_off: bool
+def _beside(
+    problem: Problem, leaders: Sequence[Fit], weights: Sequence[np.ndarray], sampled: tuple[Sampled, ...], whole: bool
 ) -> dict[Explanation, tuple[float, np.ndarray]]:
-    """Score of each pair of a leading effect as fitted alone and another one, and where it is best."""
-    leaders = sorted(singles.values(), key=lambda f: -f.evidence)[:LEADERS]
+    """Score of each pair of a leading effect, as it stands, and another one, and where it is best.
+
+    What the leader alone has is its ``whole`` evidence, or what its readings leave over at these weights.
+    """
     found: dict[Explanation, tuple[float, np.ndarray]] = {}
     calibration = problem.calibration_size
-    for fit in leaders:
-        columns = np.hstack([fit.slopes, problem.shared])
-        weight = fit.weight if write_off else bounded(fit.residual)(fit.residual)[1]
-        whitened = whitening(columns, weight)
-        left = fit.residual * weight
-        level = fit.evidence if write_off else -0.5 * float(left @ fit.residual)
+    for fit, weight in zip(leaders, weights, strict=True):
+        whitened = whitening(np.hstack([fit.slopes, problem.shared]), weight)
+        left = whitened(fit.anchor[None, :])[0]
+        level = fit.evidence if whole else -0.5 * float(left @ fit.anchor)
         for other in sampled:
             if other.id in fit.explanation:
                 continue

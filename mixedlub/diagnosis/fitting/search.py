@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.fit import Fit, linear_fit, log_likelihood, map_fit
-from mixedlub.diagnosis.fitting.pairs import promising_pairs
+from mixedlub.diagnosis.fitting.fit import Fit, least_readings, linear_fit, log_likelihood, map_fit
+from mixedlub.diagnosis.fitting.pairs import ROUNDS, exchanged, promising_pairs
 from mixedlub.diagnosis.fitting.problem import Explanation, Problem, effects_of
+from mixedlub.diagnosis.fitting.published import published_gain
 from mixedlub.diagnosis.fitting.starts import Sampled, fit_single, sample
 from mixedlub.diagnosis.fitting.sudden import anywhere, sudden_places
 from mixedlub.diagnosis.recording.features import Coordinates
@@ -26,6 +27,8 @@ KEPT = 8
 """Explanations of a share of the rows that are weighed again on all of them."""
 CLOCKS = {"time", "sequence", "ageing"}
 """Quantities that pass by themselves while a test runs."""
+NEAR = 12.0
+"""Log evidence behind the best within which the published laws that an explanation contains are weighed too."""
 FAR = 60.0
 """Log evidence behind the best from which a fit is not made again under a new noise."""
 MANY, SPREAD = 1200, 600
@@ -122,7 +125,7 @@ def search(
     best = map_fit(problem, ranked[0], screen.fits[ranked[0]].z, warm=True)
     problem = problem.with_sd(best.prediction, problem.predict((), screen.none.z))
     fits = {m: placed(problem, map_fit(problem, m, screen.fits[m].z, warm=True)) for m in leaders}
-    scores = {m: elastic_evidence(problem, fits[()], f, space, values) for m, f in fits.items()}
+    scores = _scores(problem, fits, space, values)
     names = {s.id for s in screen.sampled}
     unknown = unknown_fit(problem, fits[()], space, values, names)
     return Search(problem, space, values, fits[()], fits, scores, unknown, screen.sampled, screen.untestable, screen)
@@ -181,11 +184,34 @@ def _search(
         fit = map_fit(problem, pair, start)
         if pair not in fits or fit.evidence > fits[pair].evidence:
             fits[pair] = fit
-    fits = {m: placed(problem, f) for m, f in fits.items()}
-    scores = {m: elastic_evidence(problem, none, f, space, values) for m, f in fits.items()}
+    _exchange(problem, none, fits, sampled)
+    fits = {m: placed(problem, f) for m, f in fits.items() if shows(problem, f, fits)}
+    scores = _scores(problem, fits, space, values)
     progress("weighing an unnamed mismatch")
     unknown = unknown_fit(problem, none, space, values, {s.id for s in sampled})
     return Search(problem, space, values, none, fits, scores, unknown, sampled, untestable)
+
+
+def _scores(
+    problem: Problem, fits: Mapping[Explanation, Fit], space: Coordinates, values: list[np.ndarray]
+) -> dict[Explanation, float]:
+    """Evidence of every explanation with forms a little wrong, and with published laws where it is near the best."""
+    scores = {m: elastic_evidence(problem, fits[()], f, space, values) for m, f in fits.items()}
+    best = max(scores.values())
+    return {m: s + (published_gain(problem, fits[m]) if s > best - NEAR else 0.0) for m, s in scores.items()}
+
+
+def _exchange(problem: Problem, none: Fit, fits: dict[Explanation, Fit], sampled: tuple[Sampled, ...]) -> None:
+    """Put other effects in the place of either of the best two, until no pair is better; adds to the fits."""
+    for _ in range(ROUNDS):
+        best = max((f for m, f in fits.items() if len(m) == 2), key=lambda f: f.evidence, default=None)
+        if best is None:
+            return
+        for pair, start in exchanged(problem, best, sampled):
+            if pair not in fits and not one_in_time(pair, problem, none):
+                fits[pair] = map_fit(problem, pair, start)
+        if best.evidence >= max(f.evidence for m, f in fits.items() if len(m) == 2):
+            return
 
 
 def one_in_time(pair: Explanation, problem: Problem, none: Fit) -> bool:
@@ -198,6 +224,17 @@ def one_in_time(pair: Explanation, problem: Problem, none: Fit) -> bool:
     asked = {name for e in effects for name in e.reads if name in inputs and np.ptp(inputs[name]) > 0.0}
     still = np.ptp(none.prediction) <= np.median(problem.sd)
     return any(e.stage == "measurement" for e in effects) and bool(still) and asked <= CLOCKS
+
+
+def shows(problem: Problem, fit: Fit, fits: Mapping[Explanation, Fit]) -> bool:
+    """Whether an explanation, beyond any part of it, moves more readings than outliers are usual.
+
+    The seconds after a start could be any effect that passes quickly.
+    """
+    parts = (other for m, other in fits.items() if set(m) < set(fit.explanation))
+    nets = (((fit.prediction - other.prediction) / problem.sd) ** 2 for other in parts)
+    fewest = least_readings(problem.y.size)
+    return all(float(net.sum() ** 2) >= fewest * float((net**2).sum()) for net in nets)
 
 
 def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: np.ndarray) -> dict[Explanation, Fit]:

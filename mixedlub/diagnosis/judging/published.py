@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-import numpy as np
-
-from mixedlub.diagnosis.fitting.fit import map_fit
+from mixedlub.diagnosis.fitting.published import published_odds
 from mixedlub.diagnosis.fitting.search import Search
 from mixedlub.diagnosis.judging.posterior import Key
 
@@ -41,15 +39,4 @@ def contained(found: Search, verdict: Key) -> tuple[Contained, ...]:
     """Weigh the published laws that a verdict's effects contain, each with the rest of the verdict fitted again."""
     if isinstance(verdict, str):
         return ()
-    problem, free = found.problem, found.fits[verdict]
-    weighed = []
-    place = problem.calibration_size
-    for e in problem.effects(verdict):
-        names = [p.name for p in e.parameters]
-        for law, values in e.contains.items():
-            if values.keys() <= set(names):
-                drop = [place + names.index(name) for name in values]
-                fit = map_fit(replace(problem, held={e.id: values}), verdict, np.delete(free.z, drop))
-                weighed.append(Contained(e.id, law, fit.evidence - free.evidence))
-        place += len(names)
-    return tuple(weighed)
+    return tuple(Contained(*law) for law in published_odds(found.problem, found.fits[verdict]))

@@ -24,6 +24,8 @@ HELD = 0.01
 """A condition that spans less than this share of its size was held: what it wanders is no variation to learn from."""
 WANDERS, WANDERS_K, MOVES = 0.1, 6.0, 0.005
 """One that spans less than the first, or so many kelvin, was held if the base model moves by less than the last."""
+HEAD = 0.01
+"""Share of the readings from which a logarithm of time is told apart: a start-up is shorter."""
 LOST_AFTER = 2.0
 """Periods beyond a record after which a wave is out of step, as its period is not known that well."""
 
@@ -32,7 +34,8 @@ LOST_AFTER = 2.0
 class Coordinate:
     """One condition scaled to 0..1, or a name; ``nodes`` are the places its functions are anchored at.
 
-    A condition ``folded`` at a size has both signs, and on either side goes by the logarithm beyond that size.
+    A condition ``folded`` at a size has both signs, and on either side goes by the logarithm beyond that size. What
+    lies below the ``floor`` of one that goes by the logarithm is one place.
     """
 
     name: str
@@ -41,6 +44,7 @@ class Coordinate:
     span: float = 1.0
     logarithmic: bool = False
     folded: float = 0.0
+    floor: float = LEAST
 
     @property
     def named(self) -> bool:
@@ -55,7 +59,8 @@ class Coordinate:
 
     def scale(self, values: np.ndarray) -> np.ndarray:
         """Values on the 0..1 axis."""
-        return (unrolled(values, self.logarithmic, self.folded) - self.low) / self.span
+        seen = np.maximum(values, self.floor) if self.logarithmic else values
+        return (unrolled(seen, self.logarithmic, self.folded) - self.low) / self.span
 
     def wave(self, values: np.ndarray, waves: float) -> np.ndarray:
         """A cosine and a sine that go through ``waves`` periods from the lowest to the highest value."""
@@ -98,7 +103,7 @@ def unrolled(values: np.ndarray, logarithmic: bool, folded: float) -> np.ndarray
     """
     if folded:
         return np.asarray(np.sign(values) * np.log1p(np.abs(values) / folded))
-    return np.log(np.maximum(values, LEAST)) if logarithmic else values
+    return np.log(values) if logarithmic else values
 
 
 def clock_of(rows: Table) -> np.ndarray | None:
@@ -211,10 +216,12 @@ def coordinates(case: Case, table: Table, forward: Forward) -> Coordinates:
         logarithmic = bool(levels[0] > 0 and levels[-1] / levels[0] > 3.0 and name != "sequence")
         both = levels[0] < 0.0 < levels[-1] and name not in PASSING
         folded = float(np.abs(levels[levels != 0.0]).min()) if both else 0.0
-        x = unrolled(levels, logarithmic, folded)
+        # Decades of time that hold next to no readings are those of the start-up.
+        floor = float(levels[int(HEAD * levels.size)]) if name in PASSING and logarithmic else LEAST
+        x = unrolled(np.maximum(levels, floor) if logarithmic else levels, logarithmic, folded)
         low, span = float(x[0]), float(x[-1] - x[0])
         nodes = (x - low) / span
         if nodes.size > NODES:
             nodes = np.linspace(0.0, 1.0, NODES)
-        axes.append(Coordinate(name, nodes, low, span, logarithmic, folded))
+        axes.append(Coordinate(name, nodes, low, span, logarithmic, folded, floor))
     return Coordinates(tuple(axes))

@@ -1,0 +1,45 @@
+"""Published laws that effects contain at certain parameters: half of what is believed beforehand lies on them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from mixedlub.diagnosis.fitting.fit import Fit, map_fit
+from mixedlub.diagnosis.fitting.problem import Problem
+
+SHARE = 0.5
+"""Of an effect's prior, the part of its published law exactly; the rest is for laws about it."""
+
+
+def published_odds(problem: Problem, free: Fit) -> Iterator[tuple[str, str, float]]:
+    """Effect, law and log odds of each law that an explanation's effects contain against all parameters free.
+
+    The rest of the explanation is fitted again.
+    """
+    place = problem.calibration_size
+    for e in problem.effects(free.explanation):
+        names = [p.name for p in e.parameters]
+        for law, values in e.contains.items():
+            if values.keys() <= set(names):
+                drop = [place + names.index(name) for name in values]
+                held = replace(problem, held={e.id: values})
+                fit = map_fit(held, free.explanation, np.delete(free.z, drop), warm=True)
+                yield e.id, law, fit.evidence - free.evidence
+        place += len(names)
+
+
+def published_gain(problem: Problem, free: Fit) -> float:
+    """What an explanation's log evidence gains by its effects' published laws; minus log 2 at least for each effect.
+
+    A law that many share must not be lost for parameters by which others differ from it.
+    """
+    odds: dict[str, list[float]] = {}
+    for name, _, log_odds in published_odds(problem, free):
+        odds.setdefault(name, []).append(log_odds)
+    return sum(
+        float(np.logaddexp(np.log1p(-SHARE), np.log(SHARE / len(logs)) + np.logaddexp.reduce(logs)))
+        for logs in odds.values()
+    )
