@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from profiles import Profile
+from roughness.defects import CUT
 from roughness.moments import Moments, moments
 from roughness.noise import height_quantum, noise_moments, tip_limited_wavelength
 from roughness.parameters import CONVENTIONS, HeightParameters, height_parameters, section_count
@@ -28,15 +29,23 @@ def profile_warnings(
     """All warnings of an evaluated profile; ``raw`` is the trace as read, where it is at hand."""
     as_read = profile if raw is None else raw
     return [
-        *_inferred(as_read),
-        *overruled_units(as_read),
-        *_stated(as_read),
+        *trace_warnings(profile, found, raw=as_read),
         *_band(profile, found),
         *_lengths(profile, heights),
         *_alike(heights, found),
         *_resolution(profile, found),
-        *_instrument(profile, found, as_read),
         *_shape(gaussian),
+    ]
+
+
+def trace_warnings(profile: Profile, found: Moments, *, raw: Profile) -> list[str]:
+    """What is doubtful about a trace as read and what was cut off it, whatever is then computed from it."""
+    return [
+        *_inferred(raw),
+        *overruled_units(raw),
+        *_cut(profile),
+        *_stated(raw),
+        *_instrument(profile, found, raw),
     ]
 
 
@@ -136,6 +145,13 @@ def overruled_units(raw: Profile) -> Iterator[str]:
     """The units in the file where the caller named others."""
     if "units_overruled" in raw.origin:
         yield f"units: {raw.origin['units_overruled']}"
+
+
+def _cut(profile: Profile) -> Iterator[str]:
+    """How much of the trace was taken for what lies beyond the edges of the part."""
+    for step in profile.steps:
+        if step.startswith(CUT):
+            yield f"{step}: the trace leaves the level of the surface there and does not come back"
 
 
 def _stated(raw: Profile) -> Iterator[str]:

@@ -37,22 +37,24 @@ def evaluation_profile(
     method: str = "gaussian",
     outliers: float | None = None,
     trim_cutoffs: float = 0.0,
+    edges: bool = True,
 ) -> Profile:
     """The roughness profile of a trace by the usual steps: edges, form, outliers, lambda_s, lambda_c.
 
     Cut-offs in m, None for none, or ``auto``: those the file says it has already passed are kept and not
     applied again, nor a line taken off, else ISO 4288 and ISO 3274 choose. A short cut-off of fewer than two
-    points is left out. Edges of the part that the trace ran over are cut; ``outliers`` masks what stands
-    further than so many robust sigmas off. The ends are kept by local regression, which on Gaussian surfaces
-    estimates Rq, m2 and m4 at least as well as the shorter profile does that is left when instruments cut
-    half a cut-off (``trim_cutoffs`` 0.5). ``method`` as in :func:`roughness_profile`.
+    points is left out. Edges of the part that the trace ran over are cut, unless ``edges`` is False; ``outliers``
+    masks what stands further than so many robust sigmas off. The ends are kept by local regression, which on
+    Gaussian surfaces estimates Rq, m2 and m4 at least as well as the shorter profile does that is left when
+    instruments cut half a cut-off (``trim_cutoffs`` 0.5). ``method`` as in :func:`roughness_profile`.
     """
     _refuse_flat(trace)
     filtered = cutoff == "auto" and "cutoff" in trace.cutoffs
     if filtered and form == "line":
         profile = trace
     else:
-        profile = remove_form(trace if filtered else without_edges(mask_edges(trace)), form)
+        bounded = mask_edges(trace) if edges and not filtered else trace
+        profile = remove_form(bounded if filtered else without_edges(bounded), form)
     if outliers is not None:
         profile = mask_outliers(profile, sigmas=outliers)
     limit = trace.cutoffs.get("cutoff") if cutoff == "auto" else _length(cutoff, "cut-off")
@@ -88,6 +90,7 @@ def trace_record(
     method: str = "gaussian",
     outliers: float | None = None,
     trim_cutoffs: float = 0.0,
+    edges: bool = True,
     convention: str | None = None,
     sections: int | None = None,
 ) -> tuple[Profile, dict[str, object]]:
@@ -106,6 +109,7 @@ def trace_record(
             method=method,
             outliers=outliers,
             trim_cutoffs=trim_cutoffs,
+            edges=edges,
         )
 
     profile = prepare(trace, cutoff, short_cutoff)

@@ -47,6 +47,10 @@ def command(
         float | None,
         typer.Option(metavar="SIGMAS", min=1.0, help="Mask spikes and pits further off than so many robust sigmas."),
     ] = None,
+    edges: Annotated[
+        bool,
+        typer.Option("--edges/--no-edges", help="Cut chamfers and falling ends of the part off the trace, or not."),
+    ] = True,
     trim: Annotated[
         float,
         typer.Option(metavar="CUTOFFS", min=0.0, help="Cut-offs to cut off each end afterwards; instruments cut 0.5."),
@@ -88,6 +92,7 @@ def command(
                 method=method,
                 outliers=outliers,
                 trim_cutoffs=trim,
+                edges=edges,
                 convention=convention,
             )
             for trace in traces

@@ -3,10 +3,12 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import profiles
 from mixedlub.cli import main
+from mixedlub.table import CaseWarning
 from tests.profiles.test_manifest import FILES, SDF, X3P
 from tests.profiles.test_shipped import TABLE_1
 
@@ -144,6 +146,27 @@ def test_study_and_profile_prepare_a_trace_alike(evaluated):
     assert made.m0 * 1e12 == pytest.approx(row["m0_um2"], rel=1e-12)
     assert made.m2 == pytest.approx(row["m2"], rel=1e-12)
     assert made.m4 * 1e-12 == pytest.approx(row["m4_per_um2"], rel=1e-12)
+
+
+def test_what_is_cut_off_a_trace_is_told_by_command_and_study(tmp_path, evaluated, capsys):
+    from mixedlub.bodies import surface
+    from mixedlub.config import SurfaceSection
+
+    trace = profiles.shipped("0258")
+    fallen = trace.heights - 0.5 * np.maximum(0.0, trace.positions - 4.4e-3)
+    rows = "".join(f"{x * 1e6:.2f},{z * 1e6:.5f}\n" for x, z in zip(trace.positions, fallen))
+    (tmp_path / "fallen.csv").write_text("x_um,z_um\n" + rows)
+    cut = evaluated(tmp_path / "fallen.csv", "--cutoff-mm", "0.8")
+    assert "note: " in (said := capsys.readouterr().err)
+    assert "edges cut: 0 mm at the start, 0.4" in said
+    whole = evaluated(tmp_path / "fallen.csv", "--cutoff-mm", "0.8", "--no-edges")
+    assert whole["parameters"]["Rt_um"] > 2 * cut["parameters"]["Rt_um"]
+    named = {"profile": "fallen.csv", "cutoff_mm": 0.8, "short_cutoff_um": 2.5}
+    with pytest.warns(CaseWarning, match=r"surfaces\.worn: edges cut: 0 mm at the start, 0\.4"):
+        made = surface("worn", SurfaceSection(**named), tmp_path)
+    assert made.m0 * 1e12 == pytest.approx(cut["moments"]["m0_um2"], rel=1e-9)
+    made = surface("worn", SurfaceSection(**named, edges=False), tmp_path)
+    assert made.m0 * 1e12 == pytest.approx(whole["moments"]["m0_um2"], rel=1e-9)
 
 
 def test_study_keeps_a_profile_that_the_instrument_filtered(shared):
