@@ -28,7 +28,7 @@ def read(path: str | os.PathLike[str], *, unit: str | None = None, spacing: floa
 
     ``unit`` names the unit of plain numbers, as ``"um"`` (both columns) or ``"mm, um"`` (position, height);
     ``spacing`` the step, in metres or as ``"0.5 um"``, for one column of heights or bad positions. Formats
-    that carry their own units ignore ``unit``.
+    that carry their own units ignore ``unit``; a step of the file that ``spacing`` overrules is in ``origin``.
     """
     return read_source(open_source(Path(path), _units(unit), None if spacing is None else length(spacing, "spacing")))
 

@@ -42,7 +42,7 @@ def trace_warnings(profile: Profile, found: Moments, *, raw: Profile) -> list[st
     """What is doubtful about a trace as read and what was cut off it, whatever is then computed from it."""
     return [
         *_inferred(raw),
-        *overruled_units(raw),
+        *overruled(raw),
         *_cut(profile),
         *_stated(raw),
         *_instrument(profile, found, raw),
@@ -137,14 +137,16 @@ def _instrument(profile: Profile, found: Moments, raw: Profile) -> Iterator[str]
 
 
 def _inferred(raw: Profile) -> Iterator[str]:
-    if raw.origin.get("units_inferred"):
-        yield f"the file names no units; inferred from the numbers: {raw.origin['units']}"
+    for key in ("units_inferred", "units_doubtful"):
+        if key in raw.origin:
+            yield str(raw.origin[key])
 
 
-def overruled_units(raw: Profile) -> Iterator[str]:
-    """The units in the file where the caller named others."""
-    if "units_overruled" in raw.origin:
-        yield f"units: {raw.origin['units_overruled']}"
+def overruled(raw: Profile) -> Iterator[str]:
+    """The units and the step in the file where the caller named others."""
+    for what in ("units", "spacing"):
+        if f"{what}_overruled" in raw.origin:
+            yield f"{what}: {raw.origin[f'{what}_overruled']}"
 
 
 def _cut(profile: Profile) -> Iterator[str]:

@@ -66,7 +66,8 @@ def command(
         str | None, typer.Option(metavar="UNIT", help="Unit of plain numbers, as um or 'mm, um' (place, height).")
     ] = None,
     spacing: Annotated[
-        str | None, typer.Option(metavar="LENGTH", help="Step of one column of heights, as '0.5 um'.")
+        str | None,
+        typer.Option(metavar="LENGTH", help="Step of the heights, as '0.5 um'; overrules the file's, and says so."),
     ] = None,
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the figures, or not.")] = True,
 ) -> None:
@@ -76,12 +77,12 @@ def command(
     """
     from profiles import read
     from roughness import trace_record
-    from roughness.guards import overruled_units
+    from roughness.guards import overruled
 
     with named_options():
         traces = [read(file, unit=unit, spacing=spacing) for file in files]
-        overruled = {f"{file}: {text}" for file, trace in zip(files, traces) for text in overruled_units(trace)}
-        for text in sorted(overruled):
+        told_already = {f"{file}: {text}" for file, trace in zip(files, traces) for text in overruled(trace)}
+        for text in sorted(told_already):
             note(text)
         found = [
             trace_record(
@@ -103,7 +104,7 @@ def command(
         for line in told(record):
             say(line)
         for text in record["warnings"]:
-            if f"{record['file']}: {text}" not in overruled:
+            if f"{record['file']}: {text}" not in told_already:
                 note(f"{record['file']}: {text}")
     with writing(folder) as aside:
         (aside / "profile.json").write_text(json.dumps(records, indent=1) + "\n", encoding="utf-8")

@@ -246,3 +246,19 @@ def test_a_stuck_stylus_is_refused_by_every_command(command, tmp_path, capsys):
     said = capsys.readouterr().err
     assert "stuck.csv: '0.3 um': all heights are the same: a stuck stylus or an empty channel" in said
     assert command == "profile" or "surfaces.ground: " in said
+
+
+def test_a_study_tells_of_inferred_units_and_an_overruled_step_is_told_by_the_command(tmp_path, capsys):
+    from mixedlub.bodies import surface
+    from mixedlub.config import SurfaceSection
+
+    trace = profiles.shipped("0258")
+    rows = "".join(f"{x * 1e3:.6f},{z * 1e6:.4f}\n" for x, z in zip(trace.positions, trace.heights))
+    (tmp_path / "bare.csv").write_text(rows)
+    with pytest.warns(CaseWarning, match=r"surfaces\.bare: the file names no units; inferred from the numbers: posit"):
+        surface("bare", SurfaceSection(profile="bare.csv", cutoff_mm=0.8, short_cutoff_um=2.5), tmp_path)
+    out = str(tmp_path / "o")
+    assert main(["profile", str(tmp_path / "bare.csv"), "--spacing", "0.3 um", "--no-figures", "--out", out]) == 0
+    (tmp_path / "named.csv").write_text("x_mm,z_um\n" + rows)
+    assert main(["profile", str(tmp_path / "named.csv"), "--spacing", "0.3 um", "--no-figures", "--out", out]) == 0
+    assert "spacing: the file has a step of 0.25 um, taken as 0.3 um as told" in capsys.readouterr().err
