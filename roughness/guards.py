@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 
 import numpy as np
@@ -12,9 +13,10 @@ from roughness.moments import Moments, moments
 from roughness.noise import height_quantum, noise_moments, tip_limited_wavelength
 from roughness.parameters import CONVENTIONS, HeightParameters, height_parameters, section_count
 from roughness.prepare import primary_profile
-from roughness.probability import NormalProbability
+from roughness.probability import NormalProbability, extreme_limit
 
 _HEADER_TOLERANCE = 0.05
+_SAY = 0.05  # of m4, that one place or the height step may hold unsaid
 _COMPARED = ("a", "q", "z", "t", "p", "v")
 
 
@@ -46,6 +48,7 @@ def trace_warnings(profile: Profile, found: Moments, *, raw: Profile) -> list[st
         *_cut(profile),
         *_stated(raw),
         *_instrument(profile, found, raw),
+        *_spikes(profile),
     ]
 
 
@@ -120,7 +123,7 @@ def _instrument(profile: Profile, found: Moments, raw: Profile) -> Iterator[str]
     if quantum is not None:
         added = noise_moments(quantum / np.sqrt(12.0), profile.spacing, profile.cutoffs.get("short_cutoff"))
         share = added[2] / found.m4
-        if share > 0.05:
+        if share > _SAY:
             yield (
                 f"the height step of {quantum * 1e9:.3g} nm accounts for {100 * min(share, 1.0):.0f} % of "
                 "m4: summit radius comes out small and density large"
@@ -134,6 +137,33 @@ def _instrument(profile: Profile, found: Moments, raw: Profile) -> Iterator[str]
                 f"below {limit * 1e6:.3g} um the trace shows the tip of {radius * 1e6:.3g} um radius: a "
                 "short cut-off above that is needed"
             )
+
+
+def _spikes(profile: Profile) -> Iterator[str]:
+    """Places whose curvature no Gaussian surface has, where one of them alone has a say in m4."""
+    bend = np.diff(profile.heights, 2)
+    bend[~(profile.valid[2:] & profile.valid[1:-1] & profile.valid[:-2])] = 0.0
+    low, high = np.quantile(bend, (0.1, 0.9))
+    far = np.abs(bend) > extreme_limit(bend.size) * (high - low) / 2.563
+    reach = 1 + math.ceil(profile.cutoffs.get("short_cutoff", 0.0) / profile.spacing)
+    near = np.convolve(far, np.ones(2 * reach + 1), "same") > 0.5 if bend.size > 2 * reach else far
+    starts = np.flatnonzero(np.diff(near, prepend=False) & near)
+    if not starts.size:
+        return
+    shares = np.add.reduceat(np.where(near, bend, 0.0) ** 2, starts) / (bend @ bend)
+    if shares.max() <= _SAY:
+        return
+    most = int(shares.argmax())
+    end = starts[most + 1] if most + 1 < starts.size else bend.size
+    at = int(starts[most] + np.abs(bend[starts[most] : end]).argmax() + 1)
+    where = f"at {at * profile.spacing * 1e3:.4g} mm, {profile.heights[at] * 1e6:.3g} um off the mean line"
+    held = f"{100 * shares.max():.0f} % of m4"
+    if starts.size > 1:
+        held += f", with {starts.size - 1} more {100 * shares.sum():.0f} %"
+    yield (
+        f"one place, {where}, holds {held}: a spike, dirt or a scratch decides the summits; masking outliers leaves it "
+        "out (--outliers 5, or outliers = 5 in a file)"
+    )
 
 
 def _inferred(raw: Profile) -> Iterator[str]:
