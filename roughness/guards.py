@@ -84,6 +84,11 @@ def _lengths(profile: Profile, heights: HeightParameters) -> Iterator[str]:
     cutoff = profile.cutoffs.get("cutoff")
     if cutoff is None:
         yield "no cut-off: heights contain waviness and what is left of the form"
+    elif (length := profile.heights.size * profile.spacing) < 0.99 * cutoff:
+        yield (
+            f"one sampling length of {length * 1e3:.3g} mm, shorter than the cut-off of {cutoff * 1e3:.3g} mm and "
+            "fewer than the 5 of ISO 4288: Rz comes out low and the moments scatter more"
+        )
     elif (count := section_count(profile)) < 5:
         yield (
             f"{count} sampling length{'s' * (count > 1)} of {cutoff * 1e3:.3g} mm, fewer than the 5 of ISO "

@@ -136,7 +136,7 @@ def profile_record(
     sections default to those of the file (``origin``) where the profile is the one it was filtered to, else to
     ISO 4287:1997 and to whole cut-offs.
     """
-    own, sections_of_file = _rules_of_the_file(profile, profile if raw is None else raw)
+    own, sections_of_file = rules_of_the_file(profile, profile if raw is None else raw)
     convention = convention or own
     sections = sections or sections_of_file
     heights = height_parameters(profile, convention=convention, sections=sections)
@@ -146,7 +146,7 @@ def profile_record(
     except InputError:
         gaussian = None
     warnings = profile_warnings(profile, heights, found, gaussian, raw=raw)
-    parameters = _parameters(profile, heights, gaussian)
+    parameters = _parameters(profile, heights, gaussian, sections)
     if parameters.pop("s_shaped") is False:
         warnings.append("the material ratio curve is not S-shaped: the Rk family is undefined and left out")
         parameters |= dict.fromkeys(("Rk_um", "Rpk_um", "Rvk_um", "Mr1_percent", "Mr2_percent"))
@@ -162,7 +162,7 @@ def profile_record(
     return {name: _plain(value) for name, value in row.items()}
 
 
-def _rules_of_the_file(profile: Profile, raw: Profile) -> tuple[str, int | None]:
+def rules_of_the_file(profile: Profile, raw: Profile) -> tuple[str, int | None]:
     """Convention and number of sections that go with the heights."""
     convention, sections = raw.origin.get("convention"), raw.origin.get("sampling_lengths")
     if "cutoff" not in raw.cutoffs or dict(profile.cutoffs) != dict(raw.cutoffs):
@@ -170,7 +170,9 @@ def _rules_of_the_file(profile: Profile, raw: Profile) -> tuple[str, int | None]
     return str(convention or "ISO 4287:1997"), sections if isinstance(sections, int) else None
 
 
-def _parameters(profile: Profile, heights: HeightParameters, gaussian: NormalProbability | None) -> dict[str, object]:
+def _parameters(
+    profile: Profile, heights: HeightParameters, gaussian: NormalProbability | None, sections: int | None
+) -> dict[str, object]:
     rule = named_convention(heights.convention)
     values = asdict(heights)
     row: dict[str, object] = {f"{n}_um": values[n] * 1e6 for n in _LENGTHS}
@@ -186,7 +188,7 @@ def _parameters(profile: Profile, heights: HeightParameters, gaussian: NormalPro
         "Rvq_um": None if layers is None else layers.valley_sigma * 1e6,
         "Rmq_percent": None if layers is None else layers.material_percent,
     }
-    elements = element_parameters(profile, discrimination=rule.discrimination, sections=heights.sections)
+    elements = element_parameters(profile, discrimination=rule.discrimination, sections=sections)
     row |= {"RSm_um": elements.RSm * 1e6, "Rc_um": elements.Rc * 1e6}
     row |= {"correlation_length_um": correlation_length(profile) * 1e6}
     return row | {"sections": heights.sections, "convention": heights.convention}

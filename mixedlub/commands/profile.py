@@ -109,7 +109,7 @@ def command(
     with writing(folder) as aside:
         (aside / "profile.json").write_text(json.dumps(records, indent=1) + "\n", encoding="utf-8")
         if figures:
-            _draw(aside / "figures", [file.stem for file in files], [profile for profile, _ in found], records)
+            _draw(aside / "figures", [file.stem for file in files], traces, [profile for profile, _ in found], records)
     say(f"details in {folder / 'profile.json'}" + (f", figures in {folder / 'figures'}" if figures else ""))
 
 
@@ -159,15 +159,18 @@ def _number(value: float | None, digits: int = 4) -> str:
     return "-" if value is None else f"{value:.{digits}g}"
 
 
-def _draw(folder: Path, names: list[str], profiles: list[Profile], records: list[dict[str, Any]]) -> None:
+def _draw(
+    folder: Path, names: list[str], traces: list[Profile], profiles: list[Profile], records: list[dict[str, Any]]
+) -> None:
     from mixedlub.report.style import as_svg, styled
     from roughness import plots
+    from roughness.record import rules_of_the_file
 
     folder.mkdir()
     with styled():
-        for number, (name, profile, record) in enumerate(zip(names, profiles, records), start=1):
+        for number, (name, trace, profile, record) in enumerate(zip(names, traces, profiles, records), start=1):
             stem = name if names.count(name) == 1 else f"{name}_{number}"
-            rule, sections = record["parameters"]["convention"], record["parameters"]["sections"]
+            rule, (_, sections) = record["parameters"]["convention"], rules_of_the_file(profile, trace)
             drawn = {
                 "trace": plots.trace_figure(profile, convention=rule, sections=sections),
                 "probability": plots.probability_figure(profile),

@@ -53,6 +53,11 @@ def test_too_few_sampling_lengths(good):
     assert said(warnings(replace(good, cutoffs={"cutoff": 2.5e-3, "short_cutoff": 8e-6})), "3 sampling lengths")
 
 
+def test_less_than_one_cutoff_is_told_with_its_length(gaussian_trace):
+    short = replace(gaussian_trace(1400), cutoffs={"cutoff": 0.8e-3, "short_cutoff": 8e-6})
+    assert said(warnings(short), "one sampling length of 0.7 mm, shorter than the cut-off of 0.8 mm")
+
+
 def test_quantum(gaussian_trace):
     p = gaussian_trace(16_000, short=12e-6)
     coarse = Profile(np.round(p.heights / 5e-8) * 5e-8, p.spacing)
