@@ -61,11 +61,11 @@ def _band(profile: Profile, found: Moments) -> Iterator[str]:
         )
     z = profile.heights - profile.heights.mean()
     lag_one = float(z[1:] @ z[:-1] / (z @ z))
-    if lag_one < 0.5 or 1.5 <= alpha < 1.6:
+    if lag_one < 0.5:
+        white = f" (alpha {alpha:.3g}; white noise gives 0 and 1.5)" if 1.4 < alpha < 1.6 else ""
         yield (
-            f"neighbouring heights correlate by {lag_one:.2f} only (alpha {alpha:.3g}; white noise gives 0 "
-            "and 1.5): the trace does not resolve its finest waves, so m2, m4, radius and density are those "
-            "of the sampling"
+            f"neighbouring heights correlate by {lag_one:.2f} only{white}: the trace does not resolve its finest "
+            "waves, so m2, m4, radius and density are those of the sampling"
         )
     short = profile.cutoffs.get("short_cutoff")
     if short is None:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from profiles import Profile
+from profiles.synthesise import of_moments
 from roughness import evaluation_profile, moments, profile_record, roughness_profile, trace_record
 
 
@@ -35,6 +36,17 @@ def test_unresolved_trace(good):
     noise = replace(good, heights=1e-7 * np.random.default_rng(0).normal(size=16_000))
     assert said(warnings(noise), "neighbouring heights correlate by 0.0")
     assert said(warnings(noise), "of m4 by spectral integration")
+
+
+@pytest.mark.parametrize("alpha", [1.52, 1.58])
+def test_a_narrow_band_that_is_resolved_is_no_white_noise(alpha):
+    """alpha from 1.5 to 1.6 alone said that neighbours correlate by 1.00 only."""
+    made = of_moments(1e-13, 2e-3, alpha * 2e-3**2 / 1e-13, points=40_000, spacing=0.25e-6, seed=1)
+    assert not said(warnings(made.profile), "correlate by")
+    noise = Profile(1e-7 * np.random.default_rng(0).normal(size=16_000), 1e-6)
+    assert said(warnings(noise), "white noise gives 0 and 1.5")
+    rough = Profile(noise.heights + 2e-7 * np.sin(np.arange(16_000) / 50), 1e-6)
+    assert not said(warnings(rough), "white noise")
 
 
 def test_too_few_points_a_short_cutoff(good):
