@@ -275,3 +275,21 @@ def test_bad_positions_are_replaced_by_the_step_that_is_told(tmp_path):
     with pytest.raises(InputError, match=r"give the step as spacing '0\.5 um'"):
         read(written(tmp_path, text))
     assert read(written(tmp_path, text), spacing="0.5 um").spacing == 0.5e-6
+
+
+def test_positions_that_fall_by_whole_numbers_are_refused_not_taken_for_a_decimal_comma(tmp_path):
+    """7999,142 was read as one column of 7999.142."""
+    falling = "".join(f"{50 - i},{abs(round(1000 * z))}\n" for i, z in enumerate(HEIGHTS))
+    for heading in ("x_um,z_nm\n", ""):
+        with pytest.raises(InputError, match="positions must increase"):
+            read(written(tmp_path, heading + falling), unit="um, nm", spacing=None)
+
+
+def test_a_heading_of_two_names_parts_two_columns_at_their_comma(tmp_path):
+    steps = "".join(f"{i // 2},{i}\n" for i in range(50))
+    with pytest.raises(InputError, match="positions must be equally spaced"):
+        read(written(tmp_path, "x_um,z_nm\n" + steps))
+    one = read(written(tmp_path, "Height, um\n" + steps), unit="um", spacing="1 um")
+    assert one.heights[3] == pytest.approx(1.3e-6)
+    one = read(written(tmp_path, "# unit: um\n# taken: in 3,5 s\n" + steps), spacing="1 um")
+    assert one.heights[3] == pytest.approx(1.3e-6)
