@@ -9,6 +9,9 @@ import numpy as np
 from profiles import InputError, Profile
 from profiles.errors import nearest
 
+FEWEST = 8
+"""Points that a sampling length needs: the slope formula alone takes seven."""
+
 
 @dataclass(frozen=True)
 class Convention:
@@ -92,12 +95,8 @@ def height_parameters(
     count = section_count(profile) if sections is None else sections
     if sections is None and rule.extremes_sectioned:
         profile = evaluation_length(profile)
-    if not 1 <= count <= profile.heights.size // 8:
-        raise InputError(
-            "each sampling length needs at least eight points",
-            where=f"profile {profile.name!r}: number of sections",
-            value=count,
-        )
+    if not 1 <= count <= profile.heights.size // FEWEST:
+        raise _too_short(profile, sections)
     mask = profile.valid
     borders = _borders(mask.size, count)
     z, at = _kept(profile.heights, mask, borders)
@@ -130,6 +129,17 @@ def height_parameters(
         sections=count,
         convention=rule.name,
     )
+
+
+def _too_short(profile: Profile, sections: int | None) -> InputError:
+    """Why there are no sections: too many were asked for, or the cut-off is too short for the spacing."""
+    cutoff, where = profile.cutoffs.get("cutoff"), f"profile {profile.name!r}"
+    needs = f"each sampling length needs at least {FEWEST} points"
+    if sections is not None or cutoff is None:
+        size = profile.heights.size
+        return InputError(f"{needs}, the profile has {size}", where=f"{where}: number of sections", value=sections)
+    held = f"the cut-off holds {cutoff / profile.spacing:.2g} of {profile.spacing * 1e6:.4g} um (is their unit right?)"
+    return InputError(f"{needs}, {held}", where=f"{where}: cut-off (mm)", value=round(cutoff * 1e3, 9))
 
 
 def section_count(profile: Profile) -> int:

@@ -16,7 +16,7 @@ from roughness.elements import element_parameters
 from roughness.guards import profile_warnings
 from roughness.material_ratio import core_parameters
 from roughness.moments import Moments, moments
-from roughness.parameters import HeightParameters, height_parameters, named_convention
+from roughness.parameters import FEWEST, HeightParameters, height_parameters, named_convention
 from roughness.prepare import remove_form, roughness_profile
 from roughness.probability import NormalProbability, normal_probability
 from roughness.spectrum import correlation_length
@@ -48,7 +48,7 @@ def evaluation_profile(
     Gaussian surfaces estimates Rq, m2 and m4 at least as well as the shorter profile does that is left when
     instruments cut half a cut-off (``trim_cutoffs`` 0.5). ``method`` as in :func:`roughness_profile`.
     """
-    _refuse_flat(trace)
+    _refuse_useless(trace)
     filtered = cutoff == "auto" and "cutoff" in trace.cutoffs
     if filtered and form == "line":
         profile = trace
@@ -271,10 +271,12 @@ def _plain(value: object) -> object:
     return value
 
 
-def _refuse_flat(trace: Profile) -> None:
-    """Refuse heights that are all one number or lie on a line but for rounding: nothing was measured."""
+def _refuse_useless(trace: Profile) -> None:
+    """Refuse too few heights, and those that are all one number or lie on a line but for rounding."""
     heights = trace.heights[trace.valid] if trace.valid.any() else trace.heights
     place = str(trace.origin.get("file", f"profile {trace.name!r}"))
+    if trace.heights.size < FEWEST:
+        raise InputError(f"a trace needs at least {FEWEST} points, has {trace.heights.size}", where=place)
     if np.ptp(heights) == 0.0:
         stuck = "all heights are the same: a stuck stylus or an empty channel; there is no roughness"
         raise InputError(stuck, where=place, value=f"{heights[0] * 1e6:.6g} um")

@@ -84,8 +84,10 @@ def command(
         told_already = {f"{file}: {text}" for file, trace in zip(files, traces) for text in overruled(trace)}
         for text in sorted(told_already):
             note(text)
-        found = [
-            trace_record(
+    found = []
+    for file, trace in zip(files, traces):
+        with named_options(file, trace):
+            evaluated = trace_record(
                 trace,
                 form=form,
                 cutoff="auto" if cutoff_mm is None else cutoff_mm * 1e-3,
@@ -96,8 +98,7 @@ def command(
                 edges=edges,
                 convention=convention,
             )
-            for trace in traces
-        ]
+        found.append(evaluated)
     records: list[dict[str, Any]] = [{**record, "file": str(file)} for file, (_, record) in zip(files, found)]
     folder = output_folder(out, NAME, files[0].stem)
     for record in records:
@@ -117,12 +118,14 @@ OPTIONS = ("unit", "spacing", "form", "method", "convention")
 
 
 @contextmanager
-def named_options() -> Iterator[None]:
-    """What is wrong with an option, under the name it has on the command line."""
+def named_options(file: Path | None = None, trace: Profile | None = None) -> Iterator[None]:
+    """What is wrong with an option or a trace, under the name it has on the command line."""
     try:
         yield
     except InputError as error:
         place = f"--{error.where}" if error.where in OPTIONS else error.where
+        if trace is not None:
+            place = place.replace(f"profile {trace.name!r}", str(file))
         rule = error.rule.replace("as unit '", "as --unit '").replace("as spacing '", "as --spacing '")
         raise InputError(rule, where=place, value=error.value) from None
 

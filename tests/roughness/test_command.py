@@ -262,3 +262,39 @@ def test_a_study_tells_of_inferred_units_and_an_overruled_step_is_told_by_the_co
     (tmp_path / "named.csv").write_text("x_mm,z_um\n" + rows)
     assert main(["profile", str(tmp_path / "named.csv"), "--spacing", "0.3 um", "--no-figures", "--out", out]) == 0
     assert "spacing: the file has a step of 0.25 um, taken as 0.3 um as told" in capsys.readouterr().err
+
+
+def test_a_bad_trace_is_named_by_its_path_and_its_points(tmp_path, capsys):
+    (tmp_path / "a").mkdir()
+    (tmp_path / "b").mkdir()
+    good = "x_um,z_um\n" + "".join(f"{i * 0.5},{z:.4f}\n" for i, z in enumerate(np.sin(np.arange(400))))
+    (tmp_path / "a" / "t.csv").write_text(good)
+    (tmp_path / "b" / "t.csv").write_text("\n".join(good.splitlines()[:6]) + "\n")
+    files = [str(tmp_path / folder / "t.csv") for folder in "ab"]
+    assert main(["profile", *files, "--no-figures", "--out", str(tmp_path / "o")]) == 2
+    assert f"{files[1]}: a trace needs at least 8 points, has 5" in capsys.readouterr().err
+    assert main(["profile", *files[:1], "--cutoff-mm", "80", "--no-figures", "--out", str(tmp_path / "o")]) == 2
+    assert f"{files[0]}: cut-off (mm): 80.0: the trace of" in capsys.readouterr().err
+
+
+def test_a_unit_that_makes_the_steps_too_long_is_asked_about(tmp_path, capsys):
+    """It said `number of sections: 5000`."""
+    heights = "".join(f"{i * 0.5},{z:.4f}\n" for i, z in enumerate(np.sin(np.arange(8000))))
+    (tmp_path / "t.csv").write_text("x_um,z_um\n" + heights)
+    options = ["--unit", "mm", "--no-figures", "--out", str(tmp_path / "o")]
+    assert main(["profile", str(tmp_path / "t.csv"), *options]) == 2
+    told = capsys.readouterr().err
+    assert "cut-off (mm): 0.8: each sampling length needs at least 8 points, the cut-off holds 1.6 of 500 um" in told
+
+
+def test_unequal_positions_tell_the_option(tmp_path, capsys):
+    (tmp_path / "t.csv").write_text("x_um,z_um\n" + "".join(f"{x},{x % 3}\n" for x in (0, 1, 2, 4, 9, 11, 12, 13, 20)))
+    assert main(["profile", str(tmp_path / "t.csv"), "--no-figures", "--out", str(tmp_path / "o")]) == 2
+    assert "if only their column is bad, give the step as --spacing '0.5 um'" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["iso4287", "iso 4287", "ISO-4287", "iso42871997"])
+def test_a_convention_is_recognised_without_case_and_blanks(name, tmp_path, capsys):
+    out = str(tmp_path / "o")
+    assert main(["profile", str(TRACES / "0258.txt"), "--no-figures", "--out", out, "--convention", name]) == 2
+    assert "nearest known: 'ISO 4287:1997'" in capsys.readouterr().err

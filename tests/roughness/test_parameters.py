@@ -98,7 +98,7 @@ def test_unknown_convention_names_the_nearest():
 
 
 def test_too_many_sections_are_refused():
-    with pytest.raises(InputError, match="at least eight points"):
+    with pytest.raises(InputError, match="at least 8 points, the profile has 8000"):
         height_parameters(WAVE, sections=2000)
 
 
