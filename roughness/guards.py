@@ -74,10 +74,10 @@ def _band(profile: Profile, found: Moments) -> Iterator[str]:
             f"{profile.spacing * 1e6:.3g} um, not by the surface"
         )
     elif short < 7.99 * profile.spacing:
-        yield (
-            f"{short / profile.spacing:.1f} points a short cut-off of {short * 1e6:.3g} um, fewer than 8: "
-            "m4 by differences comes out low"
-        )
+        low = "m4 by differences comes out low"
+        if short < 3.0 * profile.spacing:
+            low += ", by a third to two thirds, and m2 by up to an eighth"
+        yield (f"{short / profile.spacing:.1f} points a short cut-off of {short * 1e6:.3g} um, fewer than 8: {low}")
 
 
 def _lengths(profile: Profile, heights: HeightParameters) -> Iterator[str]:

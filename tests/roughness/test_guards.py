@@ -53,6 +53,12 @@ def test_too_few_points_a_short_cutoff(good):
     assert said(warnings(replace(good, cutoffs={"cutoff": 0.8e-3, "short_cutoff": 2.5e-6})), "5.0 points a short")
 
 
+def test_two_points_a_short_cutoff_lower_m2_too(good):
+    assert said(
+        warnings(replace(good, cutoffs={"cutoff": 0.8e-3, "short_cutoff": 1.2e-6})), "and m2 by up to an eighth"
+    )
+
+
 def test_no_short_cutoff(good):
     assert said(warnings(replace(good, cutoffs={"cutoff": 0.8e-3})), "no short cut-off")
 
