@@ -164,7 +164,7 @@ def _spikes(profile: Profile) -> Iterator[str]:
     where = f"at {at * profile.spacing * 1e3:.4g} mm, {profile.heights[at] * 1e6:.3g} um off the mean line"
     held = f"{100 * shares.max():.0f} % of m4"
     if starts.size > 1:
-        held += f", with {starts.size - 1} more {100 * shares.sum():.0f} %"
+        held += f" ({100 * shares.sum():.0f} % with {starts.size - 1} more)"
     yield (
         f"one place, {where}, holds {held}: a spike, dirt or a scratch decides the summits; masking outliers leaves it "
         "out (--outliers 5, or outliers = 5 in a file)"

@@ -165,7 +165,7 @@ def test_spike_of_one_sample_is_named_with_its_place_and_share(gaussian_trace, h
 
 
 def test_two_spikes_are_counted(gaussian_trace):
-    assert said(trace_record(spiked(gaussian_trace(), 20e-6, (3000, 6000)))[1]["warnings"], "of m4, with 1 more 9")
+    assert said(trace_record(spiked(gaussian_trace(), 20e-6, (3000, 6000)))[1]["warnings"], " % with 1 more)")
 
 
 def test_masked_spike_raises_no_alarm(gaussian_trace):
