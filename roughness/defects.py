@@ -83,7 +83,8 @@ def _edge(z: np.ndarray, window: int, centre: float, limit: float) -> int:
     # short stretches fit between grooves; one that passes through the level on a flank is not flat
     short, half = max(window // 4, 1), fifth // 2
     flat = np.abs(z[short:] - z[:-short] - centre * short / window) <= limit / 4
-    means = np.convolve(z, np.full(short + 1, 1.0 / (short + 1)), "valid")
+    sums = np.concatenate(([0.0], np.cumsum(z - z[0])))
+    means = z[0] + (sums[short + 1 :] - sums[: -short - 1]) / (short + 1)
     level_again = 0
     for first in begun:
         if first < level_again:
