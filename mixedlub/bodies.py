@@ -147,12 +147,14 @@ def flank_profile(name: str, section: config.SurfaceSection, folder: Path) -> Pr
     Cut-offs are those of its section; without any, a profile that its file says is filtered stays as it is.
     A short cut-off of fewer than two points is left out, as the trace does not show such waves.
     """
+    return _prepared(name, section, _trace(section.profile or "", folder, f"surfaces.{name}.profile"))
+
+
+def _prepared(name: str, section: config.SurfaceSection, trace: Profile) -> Profile:
     from roughness import evaluation_profile
 
-    trace = _trace(section.profile or "", folder, f"surfaces.{name}.profile")
-    form = section.form or "line"
     if "cutoff" in trace.cutoffs and section.cutoff_mm is None and section.short_cutoff_um is None:
-        return evaluation_profile(trace, form=form)
+        return evaluation_profile(trace, form=section.form or "line", edges=section.edges, outliers=section.outliers)
     band = {"cutoff_mm": section.cutoff_mm or 0.8, "short_cutoff_um": section.short_cutoff_um or 2.5}
     assumed = [f"{key} = {value:g}" for key, value in band.items() if getattr(section, key) is None]
     if assumed:
@@ -166,15 +168,28 @@ def flank_profile(name: str, section: config.SurfaceSection, folder: Path) -> Pr
             CaseWarning,
             stacklevel=2,
         )
-    return evaluation_profile(trace, form=form, cutoff=band["cutoff_mm"] * 1e-3, short_cutoff=short)
+    return evaluation_profile(
+        trace,
+        form=section.form or "line",
+        cutoff=band["cutoff_mm"] * 1e-3,
+        short_cutoff=short,
+        edges=section.edges,
+        outliers=section.outliers,
+    )
 
 
 def _moments_of_trace(name: str, section: config.SurfaceSection, folder: Path) -> Moments:
     """Moments of the trace of a surface; what is wrong with the trace is said with the surface's name."""
     from roughness import moments
+    from roughness.guards import trace_warnings
 
     try:
-        return moments(flank_profile(name, section, folder))
+        trace = _trace(section.profile or "", folder, f"surfaces.{name}.profile")
+        profile = _prepared(name, section, trace)
+        found = moments(profile)
+        for text in trace_warnings(profile, found, raw=trace):
+            warnings.warn(f"surfaces.{name}: {text}", CaseWarning, stacklevel=2)
+        return found
     except InputError as error:
         if error.where.startswith("surfaces."):
             raise

@@ -108,6 +108,8 @@ surfaces.NAME.profile                | file of a trace, path from the case folde
 surfaces.NAME.cutoff_mm              | long cut-off; left out: 0.8, or the trace's own
 surfaces.NAME.short_cutoff_um        | short cut-off; left out: 2.5, or the trace's own
 surfaces.NAME.form                  | default line; none, mean, circle, polynomial-N, involute-MM
+surfaces.NAME.edges                 | true: chamfers and falling ends are cut off a trace
+surfaces.NAME.outliers              | a trace is masked beyond so many robust sigmas
 surfaces.NAME.thermal_conductivity_W_mK | of the body
 surfaces.NAME.density_kg_m3          | of the body
 surfaces.NAME.specific_heat_J_kgK    | of the body
@@ -278,6 +280,8 @@ def _allowed(schema: Mapping[str, Any], bounds: tuple[float, float]) -> tuple[st
     if "const" in schema or "enum" in schema:
         options = [_toml(option) for option in schema.get("enum", [schema.get("const")])]
         return (", ".join(options) if len(options) <= FEW else "see above"), False
+    if schema["type"] == "boolean":
+        return "true, false", False
     if schema["type"] == "string":
         return "text", False
     least, most = max(bounds[0], schema.get("minimum", schema.get("ge", -np.inf))), bounds[1]
@@ -289,6 +293,8 @@ def _allowed(schema: Mapping[str, Any], bounds: tuple[float, float]) -> tuple[st
 def _toml(value: Any) -> str:
     if value is None:
         return "-"
+    if isinstance(value, bool):
+        return str(value).lower()
     if isinstance(value, str):
         return f'"{value}"'
     return f"[{', '.join(map(_toml, value))}]" if isinstance(value, (list, tuple)) else f"{value:g}"

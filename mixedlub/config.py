@@ -144,6 +144,8 @@ class SurfaceSection(Section):
     cutoff_mm: Number | None = None
     short_cutoff_um: Number | None = None
     form: str | None = None
+    edges: Annotated[bool, Field(strict=True)] = True
+    outliers: Number | None = None
     coating: Coating | None = None
     thermal_conductivity_W_mK: Number = 46.0
     density_kg_m3: Number = 7800.0

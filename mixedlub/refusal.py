@@ -23,6 +23,7 @@ RULES = {
     "greater_than_equal": "must be at least {ge:g}",
     "less_than": "must be below {lt:g}",
     "less_than_equal": "must be at most {le:g}",
+    "bool_type": "must be true or false",
     "string_type": 'must be text: "..."',
     "model_type": "must be a table of keys",
     "dict_type": "must be a table of keys",

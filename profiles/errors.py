@@ -28,10 +28,18 @@ def nearest(name: str, known: Iterable[str]) -> str:
     "nearest known: 'torque_Nm'"
     >>> nearest("m4", ["m2", "m4_per_um2"])
     "nearest known: 'm4_per_um2'"
+    >>> nearest("iso4287", ["ISO 21920-2:2021", "ISO 4287:1997"])
+    "nearest known: 'ISO 4287:1997'"
     """
     words = sorted(known)
-    begun = [word for word in words if len(str(name)) > 1 and word.startswith(str(name))]
-    close = sorted(begun, key=len)[:1] or difflib.get_close_matches(str(name), words, n=1, cutoff=0.5)
+    sought, bare = _bare(str(name)), {_bare(word): word for word in words}
+    begun = [word for word in bare if len(sought) > 1 and word.startswith(sought)]
+    close = sorted(begun, key=len)[:1] or difflib.get_close_matches(sought, bare, n=1, cutoff=0.5)
     if close:
-        return f"nearest known: {close[0]!r}"
+        return f"nearest known: {bare[close[0]]!r}"
     return "known: " + ", ".join(words)
+
+
+def _bare(word: str) -> str:
+    """The letters and digits of a word, without case."""
+    return "".join(letter for letter in word.casefold() if letter.isalnum())

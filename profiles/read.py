@@ -28,7 +28,7 @@ def read(path: str | os.PathLike[str], *, unit: str | None = None, spacing: floa
 
     ``unit`` names the unit of plain numbers, as ``"um"`` (both columns) or ``"mm, um"`` (position, height);
     ``spacing`` the step, in metres or as ``"0.5 um"``, for one column of heights or bad positions. Formats
-    that carry their own units ignore ``unit``.
+    that carry their own units ignore ``unit``; a step of the file that ``spacing`` overrules is in ``origin``.
     """
     return read_source(open_source(Path(path), _units(unit), None if spacing is None else length(spacing, "spacing")))
 
@@ -48,18 +48,18 @@ def read_source(source: Source) -> Profile:
 
 def open_source(path: Path, unit: tuple[str, str] | None, spacing: float | None) -> Source:
     """The bytes of a file, refused when it is missing, a folder or larger than any trace."""
-    where = path.name
+    where = str(path)
     if not path.exists():
-        raise InputError("no such file", where=str(path))
+        raise InputError("no such file", where=where)
     if not path.is_file():
-        raise InputError("is a folder; name the files in it" if path.is_dir() else "not a file", where=str(path))
+        raise InputError("is a folder; name the files in it" if path.is_dir() else "not a file", where=where)
     size = path.stat().st_size
     if size > MAX_BYTES:
         raise InputError(f"larger than {MAX_BYTES} bytes, the largest file that is read", where=where, value=size)
     try:
         return Source(where, path.read_bytes(), unit, spacing)
     except OSError as error:
-        raise InputError(f"cannot be opened ({error.strerror})", where=str(path)) from None
+        raise InputError(f"cannot be opened ({error.strerror})", where=where) from None
 
 
 def _units(unit: str | None) -> tuple[str, str] | None:

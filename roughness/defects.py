@@ -7,6 +7,9 @@ import numpy as np
 from profiles import InputError, Profile
 from roughness.robust import robust_mean_line
 
+CUT = "edges cut"
+"""How the step begins that shortens a trace."""
+
 
 def mask_outliers(
     profile: Profile,
@@ -46,8 +49,10 @@ def mask_outliers(
 def mask_edges(profile: Profile, *, steepness: float = 8.0, share: float = 0.02) -> Profile:
     """Mask the chamfers, steps and falling ends of a trace that runs over the edges of a part.
 
-    A window of ``share`` of the length, within the first or last fifth, whose mean slope is more than
-    ``steepness`` sigmas (from the deciles) off the median slope is edge; so is all between it and the end.
+    A window of ``share`` of the length, within the first or last fifth, is steep where its mean slope is more
+    than ``steepness`` sigmas (from the deciles) off the median slope. An edge goes from there to the end, but
+    only where the trace never comes back to the level extrapolated from the surface before it: scratches,
+    grooves and spikes come back and stay.
 
     >>> x = np.arange(1000)
     >>> found = mask_edges(Profile(np.where(x > 900, -1e-6 * (x - 900.0), 1e-8 * np.sin(x)), 1e-6))
@@ -58,18 +63,41 @@ def mask_edges(profile: Profile, *, steepness: float = 8.0, share: float = 0.02)
     if z.size < 50:
         return profile
     window = max(int(share * z.size), 3)
-    rise = (z[window:] - z[:-window]) / (window * profile.spacing)
+    rise = z[window:] - z[:-window]
     fifth = rise.size // 5
     low, centre, high = np.quantile(rise[fifth:-fifth], (0.1, 0.5, 0.9))
-    steep = np.abs(rise - centre) > steepness * (high - low) / 2.563
+    limit = steepness * (high - low) / 2.563
+    left, right = _edge(z[::-1], window, -centre, limit), _edge(z, window, centre, limit)
     edge = np.zeros(z.size, bool)
-    left, right = np.flatnonzero(steep[:fifth]), np.flatnonzero(steep[-fifth:])
-    # the last window that is still steep on its far side reaches furthest into the surface
-    if left.size:
-        edge[: left[-1] + window] = True
-    if right.size:
-        edge[rise.size - fifth + right[0] :] = True
+    edge[:left] = True
+    edge[z.size - right :] = True
     return masked(profile, edge, "edges masked")
+
+
+def _edge(z: np.ndarray, window: int, centre: float, limit: float) -> int:
+    """How many of the last heights are edge: those from the first steep window after which none is level again."""
+    rise = z[window:] - z[:-window]
+    fifth = rise.size // 5
+    steep = np.abs(rise[-fifth:] - centre) > limit
+    begun = np.flatnonzero(np.diff(steep, prepend=False) & steep) + rise.size - fifth
+    # short stretches fit between grooves; one that passes through the level on a flank is not flat
+    short, half = max(window // 4, 1), fifth // 2
+    flat = np.abs(z[short:] - z[:-short] - centre * short / window) <= limit / 4
+    sums = np.concatenate(([0.0], np.cumsum(z - z[0])))
+    means = z[0] + (sums[short + 1 :] - sums[: -short - 1]) / (short + 1)
+    level_again = 0
+    for first in begun:
+        if first < level_again:
+            continue
+        near, far = np.median(z[first - half : first]), np.median(z[first - 2 * half : first - half])
+        beyond = np.arange(first + window, means.size)
+        level = near + (near - far) / half * (beyond - first + 0.5 * (short + half + 1))
+        # a rise of the limit takes the trace off; half of it tells one level from the other
+        back = beyond[flat[beyond] & (np.abs(means[beyond] - level) <= limit / 2)]
+        if not back.size:
+            return int(z.size - first)
+        level_again = back[0]
+    return 0
 
 
 def masked(profile: Profile, away: np.ndarray, step: str) -> Profile:
@@ -96,8 +124,9 @@ def without_edges(profile: Profile) -> Profile:
     first, last = int(kept[0]), int(kept[-1]) + 1
     if first == 0 and last == profile.heights.size:
         return profile
+    start, end = (points * profile.spacing * 1e3 for points in (first, profile.heights.size - last))
     return profile.after(
-        f"ends cut, {first} and {profile.heights.size - last} points",
+        f"{CUT}: {start:.3g} mm at the start, {end:.3g} mm at the end",
         profile.heights[first:last],
         valid=profile.valid[first:last],
     )

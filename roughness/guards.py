@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 
 import numpy as np
 
 from profiles import Profile
+from roughness.defects import CUT
 from roughness.moments import Moments, moments
 from roughness.noise import height_quantum, noise_moments, tip_limited_wavelength
 from roughness.parameters import CONVENTIONS, HeightParameters, height_parameters, section_count
 from roughness.prepare import primary_profile
-from roughness.probability import NormalProbability
+from roughness.probability import NormalProbability, extreme_limit
 
 _HEADER_TOLERANCE = 0.05
+_SAY = 0.05  # of m4, that one place or the height step may hold unsaid
 _COMPARED = ("a", "q", "z", "t", "p", "v")
 
 
@@ -28,15 +31,24 @@ def profile_warnings(
     """All warnings of an evaluated profile; ``raw`` is the trace as read, where it is at hand."""
     as_read = profile if raw is None else raw
     return [
-        *_inferred(as_read),
-        *overruled_units(as_read),
-        *_stated(as_read),
+        *trace_warnings(profile, found, raw=as_read),
         *_band(profile, found),
         *_lengths(profile, heights),
         *_alike(heights, found),
         *_resolution(profile, found),
-        *_instrument(profile, found, as_read),
         *_shape(gaussian),
+    ]
+
+
+def trace_warnings(profile: Profile, found: Moments, *, raw: Profile) -> list[str]:
+    """What is doubtful about a trace as read and what was cut off it, whatever is then computed from it."""
+    return [
+        *_inferred(raw),
+        *overruled(raw),
+        *_cut(profile),
+        *_stated(raw),
+        *_instrument(profile, found, raw),
+        *_spikes(profile),
     ]
 
 
@@ -49,11 +61,11 @@ def _band(profile: Profile, found: Moments) -> Iterator[str]:
         )
     z = profile.heights - profile.heights.mean()
     lag_one = float(z[1:] @ z[:-1] / (z @ z))
-    if lag_one < 0.5 or 1.5 <= alpha < 1.6:
+    if lag_one < 0.5:
+        white = f" (alpha {alpha:.3g}; white noise gives 0 and 1.5)" if 1.4 < alpha < 1.6 else ""
         yield (
-            f"neighbouring heights correlate by {lag_one:.2f} only (alpha {alpha:.3g}; white noise gives 0 "
-            "and 1.5): the trace does not resolve its finest waves, so m2, m4, radius and density are those "
-            "of the sampling"
+            f"neighbouring heights correlate by {lag_one:.2f} only{white}: the trace does not resolve its finest "
+            "waves, so m2, m4, radius and density are those of the sampling"
         )
     short = profile.cutoffs.get("short_cutoff")
     if short is None:
@@ -62,16 +74,21 @@ def _band(profile: Profile, found: Moments) -> Iterator[str]:
             f"{profile.spacing * 1e6:.3g} um, not by the surface"
         )
     elif short < 7.99 * profile.spacing:
-        yield (
-            f"{short / profile.spacing:.1f} points a short cut-off of {short * 1e6:.3g} um, fewer than 8: "
-            "m4 by differences comes out low"
-        )
+        low = "m4 by differences comes out low"
+        if short < 3.0 * profile.spacing:
+            low += ", by a third to two thirds, and m2 by up to an eighth"
+        yield (f"{short / profile.spacing:.1f} points a short cut-off of {short * 1e6:.3g} um, fewer than 8: {low}")
 
 
 def _lengths(profile: Profile, heights: HeightParameters) -> Iterator[str]:
     cutoff = profile.cutoffs.get("cutoff")
     if cutoff is None:
         yield "no cut-off: heights contain waviness and what is left of the form"
+    elif (length := profile.heights.size * profile.spacing) < 0.99 * cutoff:
+        yield (
+            f"one sampling length of {length * 1e3:.3g} mm, shorter than the cut-off of {cutoff * 1e3:.3g} mm and "
+            "fewer than the 5 of ISO 4288: Rz comes out low and the moments scatter more"
+        )
     elif (count := section_count(profile)) < 5:
         yield (
             f"{count} sampling length{'s' * (count > 1)} of {cutoff * 1e3:.3g} mm, fewer than the 5 of ISO "
@@ -111,7 +128,7 @@ def _instrument(profile: Profile, found: Moments, raw: Profile) -> Iterator[str]
     if quantum is not None:
         added = noise_moments(quantum / np.sqrt(12.0), profile.spacing, profile.cutoffs.get("short_cutoff"))
         share = added[2] / found.m4
-        if share > 0.05:
+        if share > _SAY:
             yield (
                 f"the height step of {quantum * 1e9:.3g} nm accounts for {100 * min(share, 1.0):.0f} % of "
                 "m4: summit radius comes out small and density large"
@@ -127,15 +144,51 @@ def _instrument(profile: Profile, found: Moments, raw: Profile) -> Iterator[str]
             )
 
 
+def _spikes(profile: Profile) -> Iterator[str]:
+    """Places whose curvature no Gaussian surface has, where one of them alone has a say in m4."""
+    bend = np.diff(profile.heights, 2)
+    bend[~(profile.valid[2:] & profile.valid[1:-1] & profile.valid[:-2])] = 0.0
+    low, high = np.quantile(bend, (0.1, 0.9))
+    far = np.abs(bend) > extreme_limit(bend.size) * (high - low) / 2.563
+    reach = 1 + math.ceil(profile.cutoffs.get("short_cutoff", 0.0) / profile.spacing)
+    near = np.convolve(far, np.ones(2 * reach + 1), "same") > 0.5 if bend.size > 2 * reach else far
+    starts = np.flatnonzero(np.diff(near, prepend=False) & near)
+    if not starts.size:
+        return
+    shares = np.add.reduceat(np.where(near, bend, 0.0) ** 2, starts) / (bend @ bend)
+    if shares.max() <= _SAY:
+        return
+    most = int(shares.argmax())
+    end = starts[most + 1] if most + 1 < starts.size else bend.size
+    at = int(starts[most] + np.abs(bend[starts[most] : end]).argmax() + 1)
+    where = f"at {at * profile.spacing * 1e3:.4g} mm, {profile.heights[at] * 1e6:.3g} um off the mean line"
+    held = f"{100 * shares.max():.0f} % of m4"
+    if starts.size > 1:
+        held += f" ({100 * shares.sum():.0f} % with {starts.size - 1} more)"
+    yield (
+        f"one place, {where}, holds {held}: a spike, dirt or a scratch decides the summits; masking outliers leaves it "
+        "out (--outliers 5, or outliers = 5 in a file)"
+    )
+
+
 def _inferred(raw: Profile) -> Iterator[str]:
-    if raw.origin.get("units_inferred"):
-        yield f"the file names no units; inferred from the numbers: {raw.origin['units']}"
+    for key in ("units_inferred", "units_doubtful"):
+        if key in raw.origin:
+            yield str(raw.origin[key])
 
 
-def overruled_units(raw: Profile) -> Iterator[str]:
-    """The units in the file where the caller named others."""
-    if "units_overruled" in raw.origin:
-        yield f"units: {raw.origin['units_overruled']}"
+def overruled(raw: Profile) -> Iterator[str]:
+    """The units and the step in the file where the caller named others."""
+    for what in ("units", "spacing"):
+        if f"{what}_overruled" in raw.origin:
+            yield f"{what}: {raw.origin[f'{what}_overruled']}"
+
+
+def _cut(profile: Profile) -> Iterator[str]:
+    """How much of the trace was taken for what lies beyond the edges of the part."""
+    for step in profile.steps:
+        if step.startswith(CUT):
+            yield f"{step}: the trace leaves the level of the surface there and does not come back"
 
 
 def _stated(raw: Profile) -> Iterator[str]:

@@ -87,7 +87,7 @@ def popular_fit_error(name: str, t: np.ndarray | float) -> np.ndarray:
 
 
 def gaussian_integral(n: float, t: np.ndarray | float) -> np.ndarray:
-    r"""F_n(t) for any n > -1 and any gap ratio t, to about 1e-12 relative.
+    r"""F_n(t) for any n > -1 and any gap ratio t, to 1e-12 relative for whole n and 3e-9 for halves.
 
     .. math:: F_n(t) = \frac{\Gamma(n+1)}{\sqrt{2\pi}}\, e^{-t^2/4}\, D_{-n-1}(t)
 

@@ -24,7 +24,7 @@ def height_quantum(profile: Profile) -> float | None:
         return None
     steps = np.diff(levels)
     # the same level read through decimal text differs in the last digits
-    steps = steps[steps > 1e-6 * (levels[-1] - levels[0])]
+    steps = steps[steps > 1e-9 * (levels[-1] - levels[0])]
     return float(np.round(np.median(steps), 15)) if steps.size else None
 
 

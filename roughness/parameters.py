@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from profiles import InputError, Profile
 from profiles.errors import nearest
+
+FEWEST = 8
+"""Points that a sampling length needs: the slope formula alone takes seven."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +57,7 @@ CONVENTIONS = {
 class HeightParameters:
     """Heights in m, the rest without unit; ``sections`` sampling lengths under ``convention``.
 
-    Rt is the height over the whole profile and Rz1max the greatest height within one section.
+    Rt is the height over all sections and Rz1max the greatest height within one.
     """
 
     Ra: float
@@ -76,10 +79,12 @@ def height_parameters(
 ) -> HeightParameters:
     """Ra Rq Rz Rt Rp Rv Rz1max Rsk Rku Rdq about the zero line; masked points are left out.
 
-    Without ``sections`` the profile is split into as many equal sampling lengths as cut-offs fit into it,
-    or none where no cut-off is recorded. Rdq uses the seven-point slope. A flat profile has no Rsk and Rku
-    (nan). A mean of section Rq is at most the rms of the whole, sqrt(m0), and less where the sections differ:
-    it describes the finish, m0 the contact.
+    Without ``sections`` they are as many sampling lengths of exactly the cut-off as fit, in the middle of the
+    profile, and what is left at its ends does not count (ISO 4287, 3.1.9 and 3.1.10); a profile shorter than the
+    cut-off, or without one, is one section. With ``sections`` the whole profile is split equally.
+
+    Rdq uses the seven-point slope. A flat profile has no Rsk and Rku (nan). A mean of section Rq is at most the
+    rms of the whole, sqrt(m0), and less where the sections differ: it describes the finish, m0 the contact.
 
     >>> wave = Profile(np.sqrt(2) * np.sin(2 * np.pi * np.arange(8000) / 400), 1.0)
     >>> p = height_parameters(wave, sections=4)
@@ -88,12 +93,10 @@ def height_parameters(
     """
     rule = named_convention(convention)
     count = section_count(profile) if sections is None else sections
-    if not 1 <= count <= profile.heights.size // 8:
-        raise InputError(
-            "each sampling length needs at least eight points",
-            where=f"profile {profile.name!r}: number of sections",
-            value=count,
-        )
+    if sections is None and rule.extremes_sectioned:
+        profile = evaluation_length(profile)
+    if not 1 <= count <= profile.heights.size // FEWEST:
+        raise _too_short(profile, sections)
     mask = profile.valid
     borders = _borders(mask.size, count)
     z, at = _kept(profile.heights, mask, borders)
@@ -128,6 +131,17 @@ def height_parameters(
     )
 
 
+def _too_short(profile: Profile, sections: int | None) -> InputError:
+    """Why there are no sections: too many were asked for, or the cut-off is too short for the spacing."""
+    cutoff, where = profile.cutoffs.get("cutoff"), f"profile {profile.name!r}"
+    needs = f"each sampling length needs at least {FEWEST} points"
+    if sections is not None or cutoff is None:
+        size = profile.heights.size
+        return InputError(f"{needs}, the profile has {size}", where=f"{where}: number of sections", value=sections)
+    held = f"the cut-off holds {cutoff / profile.spacing:.2g} of {profile.spacing * 1e6:.4g} um (is their unit right?)"
+    return InputError(f"{needs}, {held}", where=f"{where}: cut-off (mm)", value=round(cutoff * 1e3, 9))
+
+
 def section_count(profile: Profile) -> int:
     """Whole cut-offs that fit into the profile; 1 where no cut-off is recorded.
 
@@ -136,6 +150,23 @@ def section_count(profile: Profile) -> int:
     """
     cutoff = profile.cutoffs.get("cutoff")
     return 1 if cutoff is None else max(1, int(profile.heights.size * profile.spacing / cutoff + 0.01))
+
+
+def evaluation_length(profile: Profile) -> Profile:
+    """The whole cut-offs in the middle of the profile; all of it where not one fits, or none is recorded.
+
+    >>> evaluation_length(Profile(np.arange(4700.0), 1e-6, cutoffs={"cutoff": 0.8e-3})).heights[[0, -1]]
+    array([ 350., 4349.])
+    """
+    cutoff, size = profile.cutoffs.get("cutoff"), profile.heights.size
+    if cutoff is None:
+        return profile
+    wanted = round(section_count(profile) * cutoff / profile.spacing)
+    if wanted >= size:
+        return profile
+    first = (size - wanted) // 2
+    part = slice(first, first + wanted)
+    return replace(profile, heights=profile.heights[part], valid=profile.valid[part])
 
 
 SEVEN_POINTS = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -75,7 +75,7 @@ def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> Nor
     """Judge whether the heights of a filtered profile are Gaussian, and between which percentages.
 
     ``gaussian``: the line holds from end to end of what the profile can show (at most 0.1 to 99.9 %) and
-    leaves no more than chance or the tolerance does;
+    leaves no more than chance or the tolerance does, and no height lies beyond :func:`extreme_limit`;
     ``gaussian_bulk``: over at least 80 % of the heights; ``plateau``: two lines, the lower one steeper, describe it;
     ``not_gaussian``: none of these. The line holds where the heights stay within ``tolerance`` sigma of it
     or within the band, whichever is wider; with fewer than 30 independent heights the band is not used,
@@ -93,7 +93,8 @@ def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> Nor
     low, high = (float(100 * ndtr(quantiles[i])) for i in (first, last))
     lines, residual = _hyperbola(quantiles, heights)
     plateau = lines if _convincing(lines, residual, quantiles, heights, tolerance) else None
-    whole = first == 0 and last == _LEVELS - 1
+    extreme = np.abs(profile.heights[profile.valid] - mean).max() / sigma
+    whole = first == 0 and last == _LEVELS - 1 and extreme <= extreme_limit(count)
     deviation = np.abs(heights - mean - sigma * quantiles).max() / sigma
     if whole and (p_value >= 0.01 or deviation <= tolerance):
         verdict = "gaussian"
@@ -122,6 +123,21 @@ def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> Nor
         plateau=plateau if verdict == "plateau" else None,
         words=_words(verdict, low, high, independent, ratio, plateau),
     )
+
+
+def extreme_limit(count: int, chance: float = 1e-3) -> float:
+    """Sigmas within which all of ``count`` Gaussian values stay but for a chance, however they correlate.
+
+    .. math:: 2 n [1 - \\Phi(t)] = p
+
+    Boole's bound: as many independent values would just exceed it in p of all cases, fewer in less.
+
+    >>> round(extreme_limit(9600), 2)
+    5.32
+    """
+    from scipy.special import ndtri
+
+    return float(-ndtri(chance / (2.0 * count)))
 
 
 def correlation_sums(correlation: np.ndarray, orders: int = 60) -> np.ndarray:
@@ -276,9 +292,17 @@ def _plotted(profile: Profile) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     ordered = profile.heights[profile.valid]
     if ordered.size < 50 or np.ptp(ordered) == 0:
         raise InputError("a probability plot needs fifty heights that differ", where=f"profile {profile.name!r}")
-    sums = correlation_sums(autocorrelation(profile))
+    sums = correlation_sums(autocorrelation(_within_limits(profile)))
     quantiles = np.linspace(-1.0, 1.0, _LEVELS) * _reach(ordered.size / sums[1])
     return quantiles, np.quantile(ordered, ndtr(quantiles), method="median_unbiased"), sums
+
+
+def _within_limits(profile: Profile) -> Profile:
+    """The profile with its extremes brought in: one spike would make all other heights look uncorrelated."""
+    low, middle, high = np.quantile(profile.heights, (0.1, 0.5, 0.9))
+    most = extreme_limit(profile.heights.size) * (high - low) / 2.563
+    inside = np.clip(profile.heights, middle - most, middle + most)
+    return profile if most == 0.0 else replace(profile, heights=inside)
 
 
 def _contact_ratio(heights: np.ndarray) -> tuple[float, float, float]:

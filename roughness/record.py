@@ -16,7 +16,7 @@ from roughness.elements import element_parameters
 from roughness.guards import profile_warnings
 from roughness.material_ratio import core_parameters
 from roughness.moments import Moments, moments
-from roughness.parameters import HeightParameters, height_parameters, named_convention
+from roughness.parameters import FEWEST, HeightParameters, height_parameters, named_convention
 from roughness.prepare import remove_form, roughness_profile
 from roughness.probability import NormalProbability, normal_probability
 from roughness.spectrum import correlation_length
@@ -37,22 +37,24 @@ def evaluation_profile(
     method: str = "gaussian",
     outliers: float | None = None,
     trim_cutoffs: float = 0.0,
+    edges: bool = True,
 ) -> Profile:
     """The roughness profile of a trace by the usual steps: edges, form, outliers, lambda_s, lambda_c.
 
     Cut-offs in m, None for none, or ``auto``: those the file says it has already passed are kept and not
     applied again, nor a line taken off, else ISO 4288 and ISO 3274 choose. A short cut-off of fewer than two
-    points is left out. Edges of the part that the trace ran over are cut; ``outliers`` masks what stands
-    further than so many robust sigmas off. The ends are kept by local regression, which on Gaussian surfaces
-    estimates Rq, m2 and m4 at least as well as the shorter profile does that is left when instruments cut
-    half a cut-off (``trim_cutoffs`` 0.5). ``method`` as in :func:`roughness_profile`.
+    points is left out. Edges of the part that the trace ran over are cut, unless ``edges`` is False; ``outliers``
+    masks what stands further than so many robust sigmas off. The ends are kept by local regression, which on
+    Gaussian surfaces estimates Rq, m2 and m4 at least as well as the shorter profile does that is left when
+    instruments cut half a cut-off (``trim_cutoffs`` 0.5). ``method`` as in :func:`roughness_profile`.
     """
-    _refuse_flat(trace)
+    _refuse_useless(trace)
     filtered = cutoff == "auto" and "cutoff" in trace.cutoffs
     if filtered and form == "line":
         profile = trace
     else:
-        profile = remove_form(trace if filtered else without_edges(mask_edges(trace)), form)
+        bounded = mask_edges(trace) if edges and not filtered else trace
+        profile = remove_form(bounded if filtered else without_edges(bounded), form)
     if outliers is not None:
         profile = mask_outliers(profile, sigmas=outliers)
     limit = trace.cutoffs.get("cutoff") if cutoff == "auto" else _length(cutoff, "cut-off")
@@ -88,6 +90,7 @@ def trace_record(
     method: str = "gaussian",
     outliers: float | None = None,
     trim_cutoffs: float = 0.0,
+    edges: bool = True,
     convention: str | None = None,
     sections: int | None = None,
 ) -> tuple[Profile, dict[str, object]]:
@@ -106,6 +109,7 @@ def trace_record(
             method=method,
             outliers=outliers,
             trim_cutoffs=trim_cutoffs,
+            edges=edges,
         )
 
     profile = prepare(trace, cutoff, short_cutoff)
@@ -132,7 +136,7 @@ def profile_record(
     sections default to those of the file (``origin``) where the profile is the one it was filtered to, else to
     ISO 4287:1997 and to whole cut-offs.
     """
-    own, sections_of_file = _rules_of_the_file(profile, profile if raw is None else raw)
+    own, sections_of_file = rules_of_the_file(profile, profile if raw is None else raw)
     convention = convention or own
     sections = sections or sections_of_file
     heights = height_parameters(profile, convention=convention, sections=sections)
@@ -142,7 +146,7 @@ def profile_record(
     except InputError:
         gaussian = None
     warnings = profile_warnings(profile, heights, found, gaussian, raw=raw)
-    parameters = _parameters(profile, heights, gaussian)
+    parameters = _parameters(profile, heights, gaussian, sections)
     if parameters.pop("s_shaped") is False:
         warnings.append("the material ratio curve is not S-shaped: the Rk family is undefined and left out")
         parameters |= dict.fromkeys(("Rk_um", "Rpk_um", "Rvk_um", "Mr1_percent", "Mr2_percent"))
@@ -158,7 +162,7 @@ def profile_record(
     return {name: _plain(value) for name, value in row.items()}
 
 
-def _rules_of_the_file(profile: Profile, raw: Profile) -> tuple[str, int | None]:
+def rules_of_the_file(profile: Profile, raw: Profile) -> tuple[str, int | None]:
     """Convention and number of sections that go with the heights."""
     convention, sections = raw.origin.get("convention"), raw.origin.get("sampling_lengths")
     if "cutoff" not in raw.cutoffs or dict(profile.cutoffs) != dict(raw.cutoffs):
@@ -166,7 +170,9 @@ def _rules_of_the_file(profile: Profile, raw: Profile) -> tuple[str, int | None]
     return str(convention or "ISO 4287:1997"), sections if isinstance(sections, int) else None
 
 
-def _parameters(profile: Profile, heights: HeightParameters, gaussian: NormalProbability | None) -> dict[str, object]:
+def _parameters(
+    profile: Profile, heights: HeightParameters, gaussian: NormalProbability | None, sections: int | None
+) -> dict[str, object]:
     rule = named_convention(heights.convention)
     values = asdict(heights)
     row: dict[str, object] = {f"{n}_um": values[n] * 1e6 for n in _LENGTHS}
@@ -182,7 +188,7 @@ def _parameters(profile: Profile, heights: HeightParameters, gaussian: NormalPro
         "Rvq_um": None if layers is None else layers.valley_sigma * 1e6,
         "Rmq_percent": None if layers is None else layers.material_percent,
     }
-    elements = element_parameters(profile, discrimination=rule.discrimination, sections=heights.sections)
+    elements = element_parameters(profile, discrimination=rule.discrimination, sections=sections)
     row |= {"RSm_um": elements.RSm * 1e6, "Rc_um": elements.Rc * 1e6}
     row |= {"correlation_length_um": correlation_length(profile) * 1e6}
     return row | {"sections": heights.sections, "convention": heights.convention}
@@ -265,10 +271,12 @@ def _plain(value: object) -> object:
     return value
 
 
-def _refuse_flat(trace: Profile) -> None:
-    """Refuse heights that are all one number or lie on a line but for rounding: nothing was measured."""
+def _refuse_useless(trace: Profile) -> None:
+    """Refuse too few heights, and those that are all one number or lie on a line but for rounding."""
     heights = trace.heights[trace.valid] if trace.valid.any() else trace.heights
     place = str(trace.origin.get("file", f"profile {trace.name!r}"))
+    if trace.heights.size < FEWEST:
+        raise InputError(f"a trace needs at least {FEWEST} points, has {trace.heights.size}", where=place)
     if np.ptp(heights) == 0.0:
         stuck = "all heights are the same: a stuck stylus or an empty channel; there is no roughness"
         raise InputError(stuck, where=place, value=f"{heights[0] * 1e6:.6g} um")

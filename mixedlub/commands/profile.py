@@ -47,6 +47,10 @@ def command(
         float | None,
         typer.Option(metavar="SIGMAS", min=1.0, help="Mask spikes and pits further off than so many robust sigmas."),
     ] = None,
+    edges: Annotated[
+        bool,
+        typer.Option("--edges/--no-edges", help="Cut chamfers and falling ends of the part off the trace, or not."),
+    ] = True,
     trim: Annotated[
         float,
         typer.Option(metavar="CUTOFFS", min=0.0, help="Cut-offs to cut off each end afterwards; instruments cut 0.5."),
@@ -62,7 +66,8 @@ def command(
         str | None, typer.Option(metavar="UNIT", help="Unit of plain numbers, as um or 'mm, um' (place, height).")
     ] = None,
     spacing: Annotated[
-        str | None, typer.Option(metavar="LENGTH", help="Step of one column of heights, as '0.5 um'.")
+        str | None,
+        typer.Option(metavar="LENGTH", help="Step of the heights, as '0.5 um'; overrules the file's, and says so."),
     ] = None,
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the figures, or not.")] = True,
 ) -> None:
@@ -72,15 +77,17 @@ def command(
     """
     from profiles import read
     from roughness import trace_record
-    from roughness.guards import overruled_units
+    from roughness.guards import overruled
 
     with named_options():
         traces = [read(file, unit=unit, spacing=spacing) for file in files]
-        overruled = {f"{file}: {text}" for file, trace in zip(files, traces) for text in overruled_units(trace)}
-        for text in sorted(overruled):
+        told_already = {f"{file}: {text}" for file, trace in zip(files, traces) for text in overruled(trace)}
+        for text in sorted(told_already):
             note(text)
-        found = [
-            trace_record(
+    found = []
+    for file, trace in zip(files, traces):
+        with named_options(file, trace):
+            evaluated = trace_record(
                 trace,
                 form=form,
                 cutoff="auto" if cutoff_mm is None else cutoff_mm * 1e-3,
@@ -88,22 +95,22 @@ def command(
                 method=method,
                 outliers=outliers,
                 trim_cutoffs=trim,
+                edges=edges,
                 convention=convention,
             )
-            for trace in traces
-        ]
+        found.append(evaluated)
     records: list[dict[str, Any]] = [{**record, "file": str(file)} for file, (_, record) in zip(files, found)]
     folder = output_folder(out, NAME, files[0].stem)
     for record in records:
         for line in told(record):
             say(line)
         for text in record["warnings"]:
-            if f"{record['file']}: {text}" not in overruled:
+            if f"{record['file']}: {text}" not in told_already:
                 note(f"{record['file']}: {text}")
     with writing(folder) as aside:
         (aside / "profile.json").write_text(json.dumps(records, indent=1) + "\n", encoding="utf-8")
         if figures:
-            _draw(aside / "figures", [file.stem for file in files], [profile for profile, _ in found], records)
+            _draw(aside / "figures", [file.stem for file in files], traces, [profile for profile, _ in found], records)
     say(f"details in {folder / 'profile.json'}" + (f", figures in {folder / 'figures'}" if figures else ""))
 
 
@@ -111,12 +118,14 @@ OPTIONS = ("unit", "spacing", "form", "method", "convention")
 
 
 @contextmanager
-def named_options() -> Iterator[None]:
-    """What is wrong with an option, under the name it has on the command line."""
+def named_options(file: Path | None = None, trace: Profile | None = None) -> Iterator[None]:
+    """What is wrong with an option or a trace, under the name it has on the command line."""
     try:
         yield
     except InputError as error:
         place = f"--{error.where}" if error.where in OPTIONS else error.where
+        if trace is not None:
+            place = place.replace(f"profile {trace.name!r}", str(file))
         rule = error.rule.replace("as unit '", "as --unit '").replace("as spacing '", "as --spacing '")
         raise InputError(rule, where=place, value=error.value) from None
 
@@ -153,15 +162,18 @@ def _number(value: float | None, digits: int = 4) -> str:
     return "-" if value is None else f"{value:.{digits}g}"
 
 
-def _draw(folder: Path, names: list[str], profiles: list[Profile], records: list[dict[str, Any]]) -> None:
+def _draw(
+    folder: Path, names: list[str], traces: list[Profile], profiles: list[Profile], records: list[dict[str, Any]]
+) -> None:
     from mixedlub.report.style import as_svg, styled
     from roughness import plots
+    from roughness.record import rules_of_the_file
 
     folder.mkdir()
     with styled():
-        for number, (name, profile, record) in enumerate(zip(names, profiles, records), start=1):
+        for number, (name, trace, profile, record) in enumerate(zip(names, traces, profiles, records), start=1):
             stem = name if names.count(name) == 1 else f"{name}_{number}"
-            rule, sections = record["parameters"]["convention"], record["parameters"]["sections"]
+            rule, (_, sections) = record["parameters"]["convention"], rules_of_the_file(profile, trace)
             drawn = {
                 "trace": plots.trace_figure(profile, convention=rule, sections=sections),
                 "probability": plots.probability_figure(profile),

@@ -72,6 +72,8 @@ WORDS: Mapping[str, Words] = {
         "cutoff_mm": ("0.8", "long cut-off in mm, for a trace"),
         "short_cutoff_um": ("2.5", "short cut-off in um, for a trace"),
         "form": ('"line"', "form taken off a trace: line, or polynomial-2 and so on"),
+        "edges": ("false", "true cuts chamfers and falling ends off a trace, false keeps them"),
+        "outliers": ("5.0", "mask spikes and pits of a trace further off than so many robust sigmas"),
         "coating": (
             '{ name = "DLC", thickness_um = 3.0, thermal_conductivity_W_mK = 2.0 }',
             "coating, thickness in um, conductivity in W/(m K); none where left out",

@@ -82,7 +82,7 @@ def equal_spacing(positions: np.ndarray, quantum: float, where: str) -> float:
     worst = int(off.argmax())
     if off[worst] > 1e-3 * step and (off[worst] > 1.01 * quantum or quantum > 0.75 * step):
         raise InputError(
-            "positions must be equally spaced (name the step with spacing= if only the column is bad)",
+            "positions must be equally spaced; if only their column is bad, give the step as spacing '0.5 um'",
             where=f"{where}: point {worst + 1}",
             value=float(positions[worst]),
         )
@@ -127,9 +127,13 @@ def make_profile(
             where=f"{source.where}: point {row + 1}",
             value=float(heights[row]),
         )
+    told = source.spacing or spacing
+    if abs(told / spacing - 1.0) > 1e-3:
+        overruled = f"the file has a step of {spacing * 1e6:.6g} um, taken as {told * 1e6:.6g} um as told"
+        origin = {**origin, "spacing_overruled": overruled}
     return Profile(
         heights,
-        source.spacing or spacing,
+        told,
         name=source.name,
         steps=steps,
         cutoffs=cutoffs or {},

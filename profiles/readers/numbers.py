@@ -11,6 +11,7 @@ import numpy as np
 
 from profiles.errors import InputError
 from profiles.readers.base import MAX_POINTS
+from profiles.units import known_unit
 
 _NUMBER = re.compile(r"[-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d+)?\Z")
 _ABSENT = re.compile(r"[-+]?(?:nan|inf|infinity|n/a|na|null|none|-+|\*+|#n/a|bad)\Z", re.IGNORECASE)
@@ -51,8 +52,8 @@ def split(line: str, delimiter: str | None) -> list[str]:
     return cells
 
 
-def _style(lines: list[str]) -> tuple[str | None, bool]:
-    """Delimiter and whether the comma is the decimal sign, from the first lines of numbers."""
+def _style(lines: list[str], heading: str = "") -> tuple[str | None, bool]:
+    """Delimiter and whether the comma is the decimal sign, from the first lines of numbers and the line above."""
     body = "\n".join(lines)
     if ";" in body:
         return ";", "," in body
@@ -64,18 +65,31 @@ def _style(lines: list[str]) -> tuple[str | None, bool]:
     if all(len(line.split()) > 1 and not re.search(r",\s|,\Z", line.strip()) for line in lines):
         return None, True
     counts = {line.strip().rstrip(",").count(",") for line in lines}
-    if counts == {1} and "." not in body and not _increasing([line.split(",")[0] for line in lines]):
+    apart = _counting([line.split(",")[0] for line in lines]) or _names_columns(heading)
+    if counts == {1} and "." not in body and not apart:
         return None, True
     return ",", False
 
 
-def _increasing(words: list[str]) -> bool:
-    """Whether the words are whole numbers that count upwards: a column of positions, not integer parts."""
+def _counting(words: list[str]) -> bool:
+    """Whether the words are whole numbers that count up or down: a column of positions, not integer parts."""
     try:
         values = [int(word) for word in words]
     except ValueError:
         return False
-    return len(values) > 1 and all(low < high for low, high in itertools.pairwise(values))
+    steps = [after - before for before, after in itertools.pairwise(values)]
+    return bool(steps) and (min(steps) > 0 or max(steps) < 0)
+
+
+def _names_columns(heading: str) -> bool:
+    """Whether a comma in the line above the numbers parts two names, not a name from its unit or a setting.
+
+    >>> _names_columns("x_um,z_nm"), _names_columns("Height, um"), _names_columns("step: 0,5 um")
+    (True, False, False)
+    """
+    cells = [cell.strip(' "') for cell in heading.split(",")]
+    named = len(cells) == 2 and all(re.search(r"[^\W\d]", cell) for cell in cells) and not re.search(r"[:=]", heading)
+    return named and (known_unit(cells[1]) is None or known_unit(cells[0]) is not None)
 
 
 def _is_numbers(line: str) -> bool:
@@ -109,7 +123,7 @@ def table(text: str, where: str) -> Table:
     if len(body) > MAX_POINTS:
         raise InputError(f"at most {MAX_POINTS} points can be read", where=where, value=len(body))
     sample = [line for line in body[:_SAMPLE] if line.strip() and _is_numbers(line)]
-    delimiter, comma = _style(sample)
+    delimiter, comma = _style(sample, next((line for line in reversed(lines[:start]) if line.strip()), ""))
     width = len(split(sample[0], delimiter))
     columns = _parse(body, delimiter, comma, width, where, start + 1)
     return Table(tuple(lines[:start]), columns, delimiter, _quantum(sample, delimiter), start + 1)

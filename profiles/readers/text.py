@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -10,9 +11,12 @@ from profiles.errors import InputError
 from profiles.profile import Profile
 from profiles.readers.base import Source, equal_spacing, make_profile
 from profiles.readers.numbers import Table, decoded, split, table
+from profiles.readers.plausible import Units, doubt, inferred_note, inferred_units
 from profiles.units import METRES, known_unit, length, metres
 
-_BRACKETED = re.compile(r"[\[(/_ ]\s*([^\s\[\]()/_]+)\s*[\])]?\s*\Z")
+_LAST_WORD = re.compile(r"([\[(/_ ])\s*([^\s\[\]()/_]+)\s*[\])]?\s*\Z")
+_MARKS = {"a": "[(", "in": "[(/", "m": "[(/_"}
+_NO_LENGTHS = {"v", "mv", "uv", "kv", "n", "mn", "s", "ms", "deg", "rad", "%"}
 _SETTING = re.compile(r"\s*[#%;*/]*\s*([^:=]{1,60}?)\s*[:=]\s*(.*?)\s*\Z")
 _STEP_NAMES = ("spacing", "step", "dx", "increment", "sampling interval", "point distance")
 _UNIT_NAMES = ("unit", "units", "z unit", "height unit")
@@ -24,8 +28,9 @@ class TextReader:
 
     Line ends of any system (bare CR too), decimal point or comma, tab, blank, comma or semicolon between
     columns. Units come from the caller, else from the header (``x_mm``, ``[mm]``, ``z (um)``,
-    ``unit: um``), else from the only pair of units that makes the trace a plausible surface; the profile's
-    ``steps`` and ``origin`` say when they were inferred. Positions must increase by equal steps, up to their rounding.
+    ``unit: um``), else, one or both, from the pair of units that is clearly the most plausible; the profile's
+    ``steps`` and ``origin`` say when they were inferred, and when those of the heading are not plausible.
+    Positions must increase by equal steps, up to their rounding.
 
     Checked against the nine text traces of public repositories in the test data and constructed files.
     """
@@ -53,35 +58,48 @@ def read_table(
         )
     if columns.shape[1] < 3:
         raise InputError("a profile needs at least three heights", where=source.where, value=columns.shape[1])
-    named = source.unit or _header_units(content, settings, source.where)
     origin = {"format": TextReader.format, **settings} if origin is None else dict(origin)
     origin |= _overruled(source, content, settings)
+    written = source.unit or _header_units(content, settings, source.where)
     if columns.shape[0] == 1:
-        spacing = source.spacing or _header_spacing(settings, source.where)
-        if spacing is None:
+        step = _header_spacing(settings, source.where) or source.spacing
+        if step is None:
             raise InputError(
                 "one column of heights needs its step: in a line 'spacing: 0.5 um', or as spacing '0.5 um'",
                 where=source.where,
             )
-        if named is None:
+        if written[1] is None:
             raise InputError(
                 "the unit of the heights is not in the file: put it in a line 'unit: um', or give it as unit 'um'",
                 where=source.where,
             )
-        return make_profile(source, columns[0] * metres(named[1], source.where), spacing, origin, steps=notes)
+        return make_profile(source, columns[0] * metres(written[1], source.where), step, origin, steps=notes)
     position, heights = columns
-    step = source.spacing or equal_spacing(position, content.quantum, source.where)
-    if named is None:
-        named = inferred_units(step if source.spacing is None else None, step, heights, source.where)
-        notes = (
-            *notes,
-            f"units inferred from the numbers: position {named[0]}, height {named[1]}",
-        )
-        origin["units_inferred"] = True
-    if source.spacing is None:
-        step *= metres(named[0], source.where)
+    own, unit = _own_step(source, position, content.quantum, written[0])
+    known = unit, written[1]
+    named = inferred_units(own, heights, source.where, known)
     origin["units"] = f"position {named[0]}, height {named[1]}"
-    return make_profile(source, heights * metres(named[1], source.where), step, origin, steps=notes)
+    if named != known:
+        note = inferred_note(known, named)
+        origin["units_inferred"] = note
+        notes = (*notes, f"units {note.partition('; ')[2]}")
+    heights, step = heights * metres(named[1], source.where), own * metres(named[0], source.where)
+    strange = doubt(source.spacing or step, heights) if source.unit is None and named == known else None
+    if strange:
+        origin["units_doubtful"] = f"{origin['units']} by the heading: {strange}, unlike a measured trace"
+    return make_profile(source, heights, step, origin, steps=notes)
+
+
+def _own_step(source: Source, position: np.ndarray, quantum: float, unit: str | None) -> tuple[float, str | None]:
+    """Step and unit of the column of positions; those of the caller where the column has no equal step or no unit."""
+    told = source.spacing
+    try:
+        own = equal_spacing(position, quantum, source.where)
+    except InputError:
+        if told is None:
+            raise
+        own, unit = told, None
+    return (own, unit) if told is None or unit is not None else (told / METRES["um"], "um")
 
 
 def header_settings(header: tuple[str, ...]) -> dict[str, str]:
@@ -104,26 +122,32 @@ def _header_spacing(settings: dict[str, str], where: str) -> float | None:
     return None
 
 
-def _header_units(content: Table, settings: dict[str, str], where: str) -> tuple[str, str] | None:
-    """Units written in the header: over the columns, or as a setting; a length beside a volt is refused."""
+def _header_units(content: Table, settings: dict[str, str], where: str) -> Units:
+    """Units written over the columns, else as a setting; None for those that are not.
+
+    A length beside what claims another unit, as a volt, is refused.
+    """
     width = content.columns.shape[0]
+    found: Units = (None, None)
     for line in reversed(content.header[-3:]):
         cells = split(line.lstrip("#%* "), content.delimiter)
         if len(cells) != width:
             cells = split(line.lstrip("#%* "), None)
-        known = [_cell_unit(cell) for cell in cells] if len(cells) == width else []
-        if known and all(known):
-            return str(known[0]), str(known[-1])
-        other = next((c for c, unit in zip(cells, known) if not unit and _BRACKETED.search(c.strip(' "'))), None)
+        if len(cells) != width:
+            continue
+        known = [_cell_unit(cell) for cell in cells]
+        other = next((cell for cell in cells if _claims_another(cell)), None)
         if any(known) and other is not None:
             raise InputError(
                 "names no unit of length: give both as unit 'mm, um'", where=f"{where}: heading", value=other
             )
-    height = next((settings[name] for name in _UNIT_NAMES if name in settings), None)
+        if all(known) or not any(found):
+            found = known[0], known[-1]
+        if all(known):
+            break
     position = next((settings[name] for name in _POSITION_UNIT_NAMES if name in settings), None)
-    if height is None or position is None:
-        return None
-    return position, height
+    height = next((settings[name] for name in _UNIT_NAMES if name in settings), None)
+    return found[0] or position, found[1] or height
 
 
 def _overruled(source: Source, content: Table, settings: dict[str, str]) -> dict[str, object]:
@@ -135,49 +159,41 @@ def _overruled(source: Source, content: Table, settings: dict[str, str]) -> dict
     except InputError:
         return {}
     first = 0 if content.columns.shape[0] == 2 and source.spacing is None else 1
-    if written is None or [metres(u) for u in written[first:]] == [metres(u) for u in source.unit[first:]]:
+    both = zip(written[first:], source.unit[first:], strict=True)
+    if all(own is None or metres(own) == metres(told) for own, told in both):
         return {}
     own, told = _pair(written[first:]), _pair(source.unit[first:])
     return {"units_overruled": f"the file names {own}, taken as {told} as told"}
 
 
-def _pair(units: tuple[str, ...]) -> str:
-    """Units of position and height in words, or of height alone.
+def _pair(units: Sequence[str | None]) -> str:
+    """Units of position and height in words, or of height alone; unknown ones left out.
 
-    >>> _pair(("mm", "um")), _pair(("um",))
-    ('position mm, height um', 'height um')
+    >>> _pair(("mm", "um")), _pair(("um",)), _pair((None, "nm"))
+    ('position mm, height um', 'height um', 'height nm')
     """
-    return ", ".join(f"{what} {unit}" for what, unit in zip(("position", "height")[-len(units) :], units, strict=True))
+    named = zip(("position", "height")[-len(units) :], units, strict=True)
+    return ", ".join(f"{what} {unit}" for what, unit in named if unit)
 
 
 def _cell_unit(cell: str) -> str | None:
-    """The unit in a column's heading: ``x_mm``, ``z [um]``, ``Lateral um``, ``(mm)`` or ``mm``."""
-    cell = cell.strip().strip('"')
-    match = _BRACKETED.search(cell)
-    return known_unit(match[1]) if match else (known_unit(cell) if cell.lower() not in ("a", "m") else None)
+    """The unit in a column's heading: ``x_mm``, ``z [um]``, ``Lateral um``, ``z/nm``, ``(mm)`` or ``mm``.
 
-
-def inferred_units(position_step: float | None, step: float, heights: np.ndarray, where: str) -> tuple[str, str]:
-    """The only pair of units that makes the trace a plausible stylus or optical trace, or an error.
-
-    Plausible: a step from 15 nm to 14 um, and a typical local slope
-    (1.48 times the median of |dz|/dx) from 0.001 to 0.5, that of engineering surfaces. Each window is
-    narrower than the factor 1000 between units, so that two answers are impossible and none is an error.
+    Words that mean other things too need more: ``a`` and ``in`` brackets, ``in`` and ``m`` at least a slash,
+    ``m`` an underscore.
     """
-    if position_step is None:
-        positions = ["m"]
-    else:
-        positions = [u for u in ("m", "mm", "um") if 1.5e-8 <= position_step * METRES[u] <= 1.4e-5]
-    rise = 1.4826 * float(np.median(np.abs(np.diff(heights))))
-    if rise == 0:
-        rise = float(np.abs(np.diff(heights)).mean())
-    pairs = [
-        (x, z)
-        for x in positions
-        for z in ("m", "mm", "um", "nm")
-        if 1e-3 <= rise * METRES[z] / (step * METRES[x]) <= 0.5
-    ]
-    if len(pairs) != 1:
-        rule = "no units in the file, and none can be inferred: heading 'x_mm, z_um', or give them as unit 'mm, um'"
-        raise InputError(rule, where=where)
-    return pairs[0]
+    mark, word = _last_word(cell)
+    return known_unit(word) if mark in _MARKS.get(word.lower(), mark) else None
+
+
+def _claims_another(cell: str) -> bool:
+    """Whether a heading ends in a unit that is no length, or in a marked word that is no unit at all."""
+    mark, word = _last_word(cell)
+    return not known_unit(word) and (mark != " " or word.lower() in _NO_LENGTHS)
+
+
+def _last_word(cell: str) -> tuple[str, str]:
+    """The last word of a heading and the mark before it, a blank where there is none."""
+    cell = cell.strip(' "')
+    match = _LAST_WORD.search(cell)
+    return (match[1], match[2]) if match else (" ", cell)

@@ -184,3 +184,112 @@ def test_the_unit_of_one_column_is_that_of_its_heights(tmp_path):
     profile = read(written(tmp_path, text), unit="nm")
     assert profile.origin["units_overruled"] == "the file names height um, taken as height nm as told"
     assert "units_overruled" not in read(written(tmp_path, text), unit="mm, um").origin
+
+
+SURFACE = 0.3 * np.sin(np.arange(400) / 3.0) + 0.05 * np.sin(np.arange(400) / 1.7)  # um, typical slope 0.15
+ALONG = 0.5 * np.arange(400)  # um
+
+
+def table_of(x, z):
+    return "".join(f"{a:.12g},{b:.12g}\n" for a, b in zip(x, z))
+
+
+@pytest.mark.parametrize(
+    ("heading", "x", "z", "told"),
+    [
+        ("x,z [nm]", 1.0, 1e3, "the file names nm for the heights only; inferred from the numbers: position um"),
+        ("x [mm],z", 1e-3, 1.0, "the file names mm for the positions only; inferred from the numbers: height um"),
+        ("x_mm,Channel A", 1e-3, 1.0, "the file names mm for the positions only"),
+        ("x_mm,trace_a", 1e-3, 1.0, "the file names mm for the positions only"),
+        ("x_mm,probe_in", 1e-3, 1.0, "the file names mm for the positions only"),
+        ("x_in,z_uin", 1 / 25400, 1 / 0.0254, "the file names uin for the heights only"),
+        ("x,z", 1 / 25400, 1 / 0.0254, "inferred from the numbers: position in, height uin"),
+    ],
+)
+def test_a_unit_of_one_column_stands_and_the_other_is_inferred(tmp_path, heading, x, z, told):
+    """`x,z [nm]` was read as um throughout, `Channel A` as angstrom, `probe_in` as inches."""
+    profile = read(written(tmp_path, f"{heading}\n{table_of(ALONG * x, SURFACE * z)}"))
+    assert profile.spacing == pytest.approx(0.5e-6)
+    assert profile.heights == pytest.approx(SURFACE * 1e-6, rel=1e-6)
+    assert profile.origin["units_inferred"].startswith(told) or profile.origin["units_inferred"].endswith(told)
+
+
+@pytest.mark.parametrize(
+    ("heading", "x", "z"),
+    [
+        ("x [in],z/in", 0.0254, 0.0254),
+        ("x_m,z (m)", 1.0, 1.0),
+        ("x [mm],z [A]", 1e-3, 1e-10),
+        ("x [mm],z Å", 1e-3, 1e-10),
+        ("x_inch,z_mil", 0.0254, 2.54e-5),
+    ],
+)
+def test_short_names_of_units_count_where_they_are_marked(tmp_path, heading, x, z):
+    profile = read(written(tmp_path, f"{heading}\n{table_of(ALONG * 1e-6, SURFACE * 1e-6)}"))
+    assert (profile.spacing, profile.heights[1]) == pytest.approx((0.5e-6 * x, SURFACE[1] * 1e-6 * z), rel=1e-6)
+    assert "units_inferred" not in profile.origin
+
+
+def test_a_known_unit_that_leaves_nothing_plausible_is_refused(tmp_path):
+    heights = SURFACE * 1e6  # as nm a slope of 150 at the largest step there is
+    with pytest.raises(InputError, match=r"names nm for the heights only, and none can be inferred: .* as unit '"):
+        read(written(tmp_path, "x,z [nm]\n" + table_of(ALONG * 1e-9, heights)))
+
+
+@pytest.mark.parametrize(
+    ("x", "z", "pairs"),
+    [
+        (1e-3, 0.002, "'mm, mm' and 'mm, um'"),  # superfinished, slope 3e-4: read as 1000 times rougher
+        (1 / 25.4, 1 / 0.0254, "'mil, uin' and 'mm, um'"),
+    ],
+)
+def test_two_plausible_pairs_are_both_named_and_refused(tmp_path, x, z, pairs):
+    with pytest.raises(InputError, match=pairs) as refused:
+        read(written(tmp_path, table_of(ALONG * x, SURFACE * z)))
+    assert "about as plausible" in str(refused.value)
+    assert "as unit '" in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("heading", "strange"),
+    [("x_mm,z_mm", "a typical slope of "), ("x_um,z_um", "a step of 0.0005 um"), ("x_mm,z_um", None)],
+)
+def test_a_heading_that_makes_no_trace_is_told(tmp_path, heading, strange):
+    told = read(written(tmp_path, f"{heading}\n{table_of(ALONG * 1e-3, SURFACE)}")).origin.get("units_doubtful", "")
+    assert (strange in told and "by the heading" in told) if strange else told == ""
+
+
+@pytest.mark.parametrize(
+    "text", ["x_um,z_um\n" + rows(POSITIONS, HEIGHTS, ","), "spacing: 0.5 um\nunit: um\n" + "0.1\n0.2\n0.1\n0.3\n"]
+)
+def test_a_step_that_overrules_the_file_is_told(tmp_path, text):
+    file = written(tmp_path, text)
+    profile = read(file, spacing="1 um")
+    assert profile.spacing == 1e-6
+    assert profile.origin["spacing_overruled"] == "the file has a step of 0.5 um, taken as 1 um as told"
+    assert "spacing_overruled" not in read(file, spacing="0.5 um").origin
+
+
+def test_bad_positions_are_replaced_by_the_step_that_is_told(tmp_path):
+    text = "x_um,z_um\n" + "".join(f"{x:.3f},{z:.6f}\n" for x, z in zip((0, 1, 3, 4, 9, 10), HEIGHTS))
+    with pytest.raises(InputError, match=r"give the step as spacing '0\.5 um'"):
+        read(written(tmp_path, text))
+    assert read(written(tmp_path, text), spacing="0.5 um").spacing == 0.5e-6
+
+
+def test_positions_that_fall_by_whole_numbers_are_refused_not_taken_for_a_decimal_comma(tmp_path):
+    """7999,142 was read as one column of 7999.142."""
+    falling = "".join(f"{50 - i},{abs(round(1000 * z))}\n" for i, z in enumerate(HEIGHTS))
+    for heading in ("x_um,z_nm\n", ""):
+        with pytest.raises(InputError, match="positions must increase"):
+            read(written(tmp_path, heading + falling), unit="um, nm", spacing=None)
+
+
+def test_a_heading_of_two_names_parts_two_columns_at_their_comma(tmp_path):
+    steps = "".join(f"{i // 2},{i}\n" for i in range(50))
+    with pytest.raises(InputError, match="positions must be equally spaced"):
+        read(written(tmp_path, "x_um,z_nm\n" + steps))
+    one = read(written(tmp_path, "Height, um\n" + steps), unit="um", spacing="1 um")
+    assert one.heights[3] == pytest.approx(1.3e-6)
+    one = read(written(tmp_path, "# unit: um\n# taken: in 3,5 s\n" + steps), spacing="1 um")
+    assert one.heights[3] == pytest.approx(1.3e-6)

@@ -3,10 +3,12 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import profiles
 from mixedlub.cli import main
+from mixedlub.table import CaseWarning
 from tests.profiles.test_manifest import FILES, SDF, X3P
 from tests.profiles.test_shipped import TABLE_1
 
@@ -146,6 +148,27 @@ def test_study_and_profile_prepare_a_trace_alike(evaluated):
     assert made.m4 * 1e-12 == pytest.approx(row["m4_per_um2"], rel=1e-12)
 
 
+def test_what_is_cut_off_a_trace_is_told_by_command_and_study(tmp_path, evaluated, capsys):
+    from mixedlub.bodies import surface
+    from mixedlub.config import SurfaceSection
+
+    trace = profiles.shipped("0258")
+    fallen = trace.heights - 0.5 * np.maximum(0.0, trace.positions - 4.4e-3)
+    rows = "".join(f"{x * 1e6:.2f},{z * 1e6:.5f}\n" for x, z in zip(trace.positions, fallen))
+    (tmp_path / "fallen.csv").write_text("x_um,z_um\n" + rows)
+    cut = evaluated(tmp_path / "fallen.csv", "--cutoff-mm", "0.8")
+    assert "note: " in (said := capsys.readouterr().err)
+    assert "edges cut: 0 mm at the start, 0.4" in said
+    whole = evaluated(tmp_path / "fallen.csv", "--cutoff-mm", "0.8", "--no-edges")
+    assert whole["parameters"]["Rt_um"] > 2 * cut["parameters"]["Rt_um"]
+    named = {"profile": "fallen.csv", "cutoff_mm": 0.8, "short_cutoff_um": 2.5}
+    with pytest.warns(CaseWarning, match=r"surfaces\.worn: edges cut: 0 mm at the start, 0\.4"):
+        made = surface("worn", SurfaceSection(**named), tmp_path)
+    assert made.m0 * 1e12 == pytest.approx(cut["moments"]["m0_um2"], rel=1e-9)
+    made = surface("worn", SurfaceSection(**named, edges=False), tmp_path)
+    assert made.m0 * 1e12 == pytest.approx(whole["moments"]["m0_um2"], rel=1e-9)
+
+
 def test_study_keeps_a_profile_that_the_instrument_filtered(shared):
     from mixedlub.bodies import flank_profile
     from mixedlub.config import SurfaceSection
@@ -223,3 +246,55 @@ def test_a_stuck_stylus_is_refused_by_every_command(command, tmp_path, capsys):
     said = capsys.readouterr().err
     assert "stuck.csv: '0.3 um': all heights are the same: a stuck stylus or an empty channel" in said
     assert command == "profile" or "surfaces.ground: " in said
+
+
+def test_a_study_tells_of_inferred_units_and_an_overruled_step_is_told_by_the_command(tmp_path, capsys):
+    from mixedlub.bodies import surface
+    from mixedlub.config import SurfaceSection
+
+    trace = profiles.shipped("0258")
+    rows = "".join(f"{x * 1e3:.6f},{z * 1e6:.4f}\n" for x, z in zip(trace.positions, trace.heights))
+    (tmp_path / "bare.csv").write_text(rows)
+    with pytest.warns(CaseWarning, match=r"surfaces\.bare: the file names no units; inferred from the numbers: posit"):
+        surface("bare", SurfaceSection(profile="bare.csv", cutoff_mm=0.8, short_cutoff_um=2.5), tmp_path)
+    out = str(tmp_path / "o")
+    assert main(["profile", str(tmp_path / "bare.csv"), "--spacing", "0.3 um", "--no-figures", "--out", out]) == 0
+    (tmp_path / "named.csv").write_text("x_mm,z_um\n" + rows)
+    assert main(["profile", str(tmp_path / "named.csv"), "--spacing", "0.3 um", "--no-figures", "--out", out]) == 0
+    assert "spacing: the file has a step of 0.25 um, taken as 0.3 um as told" in capsys.readouterr().err
+
+
+def test_a_bad_trace_is_named_by_its_path_and_its_points(tmp_path, capsys):
+    (tmp_path / "a").mkdir()
+    (tmp_path / "b").mkdir()
+    good = "x_um,z_um\n" + "".join(f"{i * 0.5},{z:.4f}\n" for i, z in enumerate(np.sin(np.arange(400))))
+    (tmp_path / "a" / "t.csv").write_text(good)
+    (tmp_path / "b" / "t.csv").write_text("\n".join(good.splitlines()[:6]) + "\n")
+    files = [str(tmp_path / folder / "t.csv") for folder in "ab"]
+    assert main(["profile", *files, "--no-figures", "--out", str(tmp_path / "o")]) == 2
+    assert f"{files[1]}: a trace needs at least 8 points, has 5" in capsys.readouterr().err
+    assert main(["profile", *files[:1], "--cutoff-mm", "80", "--no-figures", "--out", str(tmp_path / "o")]) == 2
+    assert f"{files[0]}: cut-off (mm): 80.0: the trace of" in capsys.readouterr().err
+
+
+def test_a_unit_that_makes_the_steps_too_long_is_asked_about(tmp_path, capsys):
+    """It said `number of sections: 5000`."""
+    heights = "".join(f"{i * 0.5},{z:.4f}\n" for i, z in enumerate(np.sin(np.arange(8000))))
+    (tmp_path / "t.csv").write_text("x_um,z_um\n" + heights)
+    options = ["--unit", "mm", "--no-figures", "--out", str(tmp_path / "o")]
+    assert main(["profile", str(tmp_path / "t.csv"), *options]) == 2
+    told = capsys.readouterr().err
+    assert "cut-off (mm): 0.8: each sampling length needs at least 8 points, the cut-off holds 1.6 of 500 um" in told
+
+
+def test_unequal_positions_tell_the_option(tmp_path, capsys):
+    (tmp_path / "t.csv").write_text("x_um,z_um\n" + "".join(f"{x},{x % 3}\n" for x in (0, 1, 2, 4, 9, 11, 12, 13, 20)))
+    assert main(["profile", str(tmp_path / "t.csv"), "--no-figures", "--out", str(tmp_path / "o")]) == 2
+    assert "if only their column is bad, give the step as --spacing '0.5 um'" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["iso4287", "iso 4287", "ISO-4287", "iso42871997"])
+def test_a_convention_is_recognised_without_case_and_blanks(name, tmp_path, capsys):
+    out = str(tmp_path / "o")
+    assert main(["profile", str(TRACES / "0258.txt"), "--no-figures", "--out", out, "--convention", name]) == 2
+    assert "nearest known: 'ISO 4287:1997'" in capsys.readouterr().err

@@ -61,6 +61,42 @@ def test_crown_is_no_edge(gaussian_trace):
     assert mask_edges(Profile(p.heights - 20e-6 * x**2, p.spacing)).valid.all()
 
 
+@pytest.mark.parametrize("at", [0.1e-3, 0.9e-3, 3.9e-3, 4.75e-3])
+@pytest.mark.parametrize("depth", [4e-6, -20e-6])
+def test_scratch_or_spike_near_an_end_is_no_edge(gaussian_trace, at, depth):
+    """A scratch of 4 um at 0.9 mm used to take the first millimetre of 4.8 mm with it."""
+    p = gaussian_trace()
+    notch = np.maximum(0.0, 1.0 - np.abs(p.positions - at) / 15e-6)
+    assert mask_edges(Profile(p.heights - depth * notch, p.spacing)).valid.all()
+
+
+@pytest.mark.parametrize("width", [0.1e-3, 0.3e-3, 0.6e-3])
+def test_groove_with_a_flat_bottom_is_no_edge(gaussian_trace, width):
+    p = gaussian_trace()
+    inside = (p.positions > 4.0e-3) & (p.positions < 4.0e-3 + width)
+    assert mask_edges(Profile(p.heights - 5e-6 * inside, p.spacing)).valid.all()
+
+
+def test_honed_grooves_leave_the_length_whole(gaussian_trace):
+    """Grooves all over, as plateau honing leaves them: 20 of 20 such traces lost three tenths of their length."""
+    for seed in range(20):
+        p = gaussian_trace(seed=seed)
+        z = np.array(p.heights) / 3
+        for at in np.random.default_rng(seed).uniform(0, p.length, 12):
+            z -= 3e-6 * np.maximum(0.0, 1.0 - np.abs(p.positions - at) / 15e-6)
+        assert without_edges(mask_edges(Profile(z, p.spacing))).length > 0.97 * p.length
+
+
+def test_step_and_chamfer_behind_a_scratch_are_edges(gaussian_trace):
+    p = gaussian_trace()
+    x = p.positions
+    step = p.heights - 5e-6 * (x > 4.3e-3)
+    assert without_edges(mask_edges(Profile(step, p.spacing))).length == pytest.approx(4.25e-3, abs=0.1e-3)
+    scratch = 4e-6 * np.maximum(0.0, 1.0 - np.abs(x - 4.0e-3) / 15e-6)
+    both = p.heights - scratch - 0.2 * np.maximum(0.0, x - 4.5e-3)
+    assert without_edges(mask_edges(Profile(both, p.spacing))).length == pytest.approx(4.45e-3, abs=0.1e-3)
+
+
 def test_real_raceway_loses_its_chamfers(measured):
     rows = [r.split() for r in (measured / "bearing_steel" / "NU208-IR-1.txt").read_text().split("\n") if r]
     table = np.array(rows, float)

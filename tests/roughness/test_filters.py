@@ -79,7 +79,7 @@ def test_gap_wider_than_the_kernel_keeps_what_is_there():
 
 def test_floored_kernel_is_a_whole_number_of_samples():
     assert gaussian_kernel(0.8e-6, 0.5e-6, floored=True).size == 3
-    assert not np.allclose(gaussian_kernel(0.8e-6, 0.5e-6), gaussian_kernel(0.8e-6, 0.5e-6, floored=True))
+    assert not np.allclose(gaussian_kernel(3.8e-6, 0.5e-6), gaussian_kernel(3.8e-6, 0.5e-6, floored=True))
 
 
 def test_cutoff_below_the_spacing_is_refused():
@@ -90,3 +90,24 @@ def test_cutoff_below_the_spacing_is_refused():
 def test_unknown_ends_are_refused():
     with pytest.raises(InputError, match="regression, normalised, reflect, periodic"):
         gaussian_mean_line(np.zeros(100), 1e-6, 10e-6, ends="mirror")
+
+
+@pytest.mark.parametrize("points", [2.0, 2.5, 3.0, 4.0, 4.9, 5.0, 8.0])
+@pytest.mark.parametrize("ratio", [1.0, 2.0, 4.0])
+def test_coarse_filter_transmits_as_the_standard_says(points, ratio):
+    """Samples of the Gaussian transmitted 0.89, 0.69 and 0.56 at their cut-off of 2, 2.5 and 3 points."""
+    kernel = gaussian_kernel(points, 1.0)
+    at = np.arange(kernel.size) - kernel.size // 2
+    passed = kernel @ np.cos(2 * np.pi * at / (points * ratio))
+    assert passed == pytest.approx(gaussian_transmission(points * ratio, points), abs=7e-3 if points == 2.0 else 1e-3)
+    assert kernel.sum() == pytest.approx(1.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("points", [2.0, 2.7, 4.5])
+def test_coarse_filter_keeps_a_slope_to_its_ends_and_does_not_raise_them(points):
+    slope = np.linspace(-3.0, 5.0, 500)
+    assert np.abs(gaussian_mean_line(slope, 1.0, points) - slope).max() < 1e-11
+    z = np.random.default_rng(0).normal(size=(200, 300))
+    passed = np.array([gaussian_mean_line(row, 1.0, points) for row in z])
+    assert (passed[:, :3] ** 2).mean() < 2.0 * (passed[:, 100:200] ** 2).mean()
+    assert np.isfinite(gaussian_mean_line(z[0, :12], 1.0, points)).all()

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from profiles import Profile
-from roughness import profile_record, roughness_profile, trace_record
+from profiles.synthesise import of_moments
+from roughness import evaluation_profile, moments, profile_record, roughness_profile, trace_record
 
 
 def warnings(profile, **kw):
@@ -37,8 +38,25 @@ def test_unresolved_trace(good):
     assert said(warnings(noise), "of m4 by spectral integration")
 
 
+@pytest.mark.parametrize("alpha", [1.52, 1.58])
+def test_a_narrow_band_that_is_resolved_is_no_white_noise(alpha):
+    """alpha from 1.5 to 1.6 alone said that neighbours correlate by 1.00 only."""
+    made = of_moments(1e-13, 2e-3, alpha * 2e-3**2 / 1e-13, points=40_000, spacing=0.25e-6, seed=1)
+    assert not said(warnings(made.profile), "correlate by")
+    noise = Profile(1e-7 * np.random.default_rng(0).normal(size=16_000), 1e-6)
+    assert said(warnings(noise), "white noise gives 0 and 1.5")
+    rough = Profile(noise.heights + 2e-7 * np.sin(np.arange(16_000) / 50), 1e-6)
+    assert not said(warnings(rough), "white noise")
+
+
 def test_too_few_points_a_short_cutoff(good):
     assert said(warnings(replace(good, cutoffs={"cutoff": 0.8e-3, "short_cutoff": 2.5e-6})), "5.0 points a short")
+
+
+def test_two_points_a_short_cutoff_lower_m2_too(good):
+    assert said(
+        warnings(replace(good, cutoffs={"cutoff": 0.8e-3, "short_cutoff": 1.2e-6})), "and m2 by up to an eighth"
+    )
 
 
 def test_no_short_cutoff(good):
@@ -51,6 +69,11 @@ def test_no_cutoff(good):
 
 def test_too_few_sampling_lengths(good):
     assert said(warnings(replace(good, cutoffs={"cutoff": 2.5e-3, "short_cutoff": 8e-6})), "3 sampling lengths")
+
+
+def test_less_than_one_cutoff_is_told_with_its_length(gaussian_trace):
+    short = replace(gaussian_trace(1400), cutoffs={"cutoff": 0.8e-3, "short_cutoff": 8e-6})
+    assert said(warnings(short), "one sampling length of 0.7 mm, shorter than the cut-off of 0.8 mm")
 
 
 def test_quantum(gaussian_trace):
@@ -118,3 +141,43 @@ def test_plateau_is_told(plateau_trace):
 def test_few_independent_heights(good):
     slow = 1e-6 * np.sin(2 * np.pi * np.arange(16_000) / 4000)
     assert said(warnings(replace(good, heights=slow)), "independent heights")
+
+
+def spiked(profile, height, at=(4800,)):
+    z = np.array(profile.heights)
+    z[list(at)] += height
+    return replace(profile, heights=z)
+
+
+@pytest.mark.parametrize("height", [2e-6, 20e-6])
+def test_spike_of_one_sample_is_named_with_its_place_and_share(gaussian_trace, height):
+    """20 um on one sample of 9600: the summit radius fell thirteenfold and only the verdict said anything: Gaussian."""
+    trace = gaussian_trace()
+    clean = trace_record(trace)[1]
+    assert not said(clean["warnings"], "of m4")
+    record = trace_record(spiked(trace, height))[1]
+    assert record["asperities"]["radius_um"] < 0.8 * clean["asperities"]["radius_um"]
+    (told,) = (w for w in record["warnings"] if "a spike, dirt or a scratch" in w)
+    assert told.startswith("one place, at 2.4 mm, ")
+    share = 1.0 - clean["moments"]["m4_per_um2"] / record["moments"]["m4_per_um2"]
+    assert float(told.split("holds ")[1].split(" %")[0]) == pytest.approx(100 * share, abs=3)
+    assert "--outliers" in told
+
+
+def test_two_spikes_are_counted(gaussian_trace):
+    assert said(trace_record(spiked(gaussian_trace(), 20e-6, (3000, 6000)))[1]["warnings"], " % with 1 more)")
+
+
+def test_masked_spike_raises_no_alarm(gaussian_trace):
+    """Straight bridges under a filter made steps: m4 by differences was 0.38 of m4 by spectral integration."""
+    clean = trace_record(gaussian_trace())[1]
+    profile, record = trace_record(spiked(gaussian_trace(), 20e-6), outliers=5.0)
+    assert record["warnings"] == clean["warnings"]
+    assert record["asperities"]["radius_um"] == pytest.approx(clean["asperities"]["radius_um"], rel=0.02)
+    ratio = moments(profile, estimator="spectral").m4 / moments(profile).m4
+    untouched = evaluation_profile(gaussian_trace())
+    assert ratio == pytest.approx(moments(untouched, estimator="spectral").m4 / moments(untouched).m4, rel=0.02)
+
+
+def test_deep_plateau_valleys_are_no_spikes(plateau_trace):
+    assert not said(warnings(plateau_trace()), "a spike")

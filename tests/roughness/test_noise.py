@@ -77,3 +77,11 @@ def test_tip_limit_grows_with_the_tip(gaussian_trace, radius):
     drawn = tip_traced(Profile(20 * gaussian_trace(spacing=0.2e-6, short=1e-6).heights, 0.2e-6), radius)
     assert tip_limited_wavelength(drawn, radius) > 0
     assert tip_limited_wavelength(drawn, 2 * radius) >= tip_limited_wavelength(drawn, radius)
+
+
+def test_a_deep_fall_does_not_hide_the_height_step(gaussian_trace):
+    """Written to 0.1 nm, with 200 um of chamfer: the gap between far levels was taken for it."""
+    p = gaussian_trace()
+    fallen = 0.3 * p.heights - 0.5 * np.maximum(0.0, p.positions - 4.4e-3)
+    written = Profile(np.round(fallen * 1e10) * 1e-10, p.spacing)
+    assert height_quantum(written) == pytest.approx(1e-10, rel=0.01)

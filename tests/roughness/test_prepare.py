@@ -5,6 +5,7 @@ import pytest
 
 from profiles import InputError, Profile
 from roughness import level, primary_profile, remove_form, roughness_profile, trim, waviness_profile
+from roughness.prepare import smooth_bridges
 
 X = np.linspace(-1, 1, 2001)
 
@@ -125,3 +126,14 @@ def test_second_filter_does_not_hide_the_first(gaussian_trace):
     assert twice.heights[40:-40] == pytest.approx(single.heights[40:-40], abs=1e-10)
     narrow = roughness_profile(gaussian_trace(), cutoff=0.25e-3)
     assert roughness_profile(narrow, cutoff=0.8e-3).cutoffs["cutoff"] == 0.25e-3
+
+
+def test_bridges_meet_level_and_slope_and_stay_near_the_surface(gaussian_trace):
+    p = gaussian_trace()
+    valid = np.ones(9600, bool)
+    valid[2000:2030] = valid[5000:5600] = valid[:20] = False
+    z = smooth_bridges(np.where(valid, p.heights, 1.0), valid)
+    assert (z[valid] == p.heights[valid]).all()
+    bend = np.abs(np.diff(z[1990:2040], 2)).max()
+    assert bend < 2 * np.abs(np.diff(p.heights, 2)).max()
+    assert np.abs(z[20:]).max() < 2 * np.abs(p.heights).max()

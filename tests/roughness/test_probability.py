@@ -6,7 +6,7 @@ import pytest
 from profiles import InputError, Profile
 from roughness import normal_probability
 from roughness.integrals import area_integral
-from roughness.probability import correlation_sums, two_lines
+from roughness.probability import correlation_sums, extreme_limit, two_lines
 
 
 def test_line_recovers_mean_and_sigma(gaussian_trace):
@@ -122,3 +122,21 @@ def test_words_name_the_verdict(gaussian_trace, plateau_trace):
 def test_too_few_heights_are_refused():
     with pytest.raises(InputError, match="fifty heights"):
         normal_probability(Profile(np.arange(20.0), 1e-6))
+
+
+@pytest.mark.parametrize("height", [4e-6, 20e-6])
+def test_a_height_beyond_chance_is_not_gaussian(gaussian_trace, height):
+    """One sample of 9600 at 13 and at 67 sigma passed for Gaussian, with Rku 48 and 15 times the overlap at 3 sigma."""
+    p = gaussian_trace()
+    z = np.array(p.heights)
+    z[4800] += height
+    before, found = normal_probability(p), normal_probability(Profile(z, p.spacing))
+    assert before.verdict == "gaussian"
+    assert found.verdict == "gaussian_bulk"
+    assert found.independent_heights == pytest.approx(before.independent_heights, rel=0.02)
+
+
+def test_extreme_limit_is_kept_by_gaussian_heights():
+    drawn = np.abs(np.random.default_rng(0).normal(size=(4000, 500))).max(axis=1)
+    assert np.mean(drawn > extreme_limit(500, 0.05)) == pytest.approx(0.05, abs=0.01)
+    assert np.mean(drawn > extreme_limit(500)) < 0.003

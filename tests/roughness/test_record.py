@@ -78,6 +78,19 @@ def test_outliers_are_masked_where_asked(gaussian_trace):
     )
 
 
+def test_edges_are_cut_told_and_kept_on_request(gaussian_trace):
+    trace = gaussian_trace()
+    fallen = replace(trace, heights=trace.heights - 0.5 * np.maximum(0.0, trace.positions - 4.4e-3))
+    cut, row = trace_record(fallen)
+    assert cut.length < 4.45e-3
+    told = next(w for w in row["warnings"] if w.startswith("edges cut: 0 mm at the start, 0."))
+    removed = float(told.split(", ")[1].split(" mm")[0])
+    assert removed == pytest.approx((trace.length - cut.length) * 1e3, abs=5e-3)
+    kept, row = trace_record(fallen, edges=False)
+    assert kept.length == trace.length
+    assert not any("edges cut" in w for w in row["warnings"])
+
+
 @pytest.mark.parametrize("method", ["robust", "spline"])
 def test_other_filters_are_used_where_asked(gaussian_trace, method):
     assert any(method in s for s in evaluation_profile(gaussian_trace(), method=method).steps)

@@ -1,0 +1,108 @@
+"""Which units make a table of plain numbers a measured trace."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from profiles.errors import InputError
+from profiles.units import METRES
+
+USUAL = {
+    ("mm", "um"): 1.0,
+    ("um", "um"): 1.0,
+    ("mm", "mm"): 0.3,
+    ("m", "m"): 0.3,
+    ("um", "nm"): 0.3,
+    ("in", "uin"): 0.1,
+    ("mm", "nm"): 0.05,
+    ("mil", "uin"): 0.1,
+    ("nm", "nm"): 0.03,
+}
+"""How usual a pair of units of position and height is in files; others have 0.01, inch beside metre 0.001."""
+
+_POSITIONS = ("m", "mm", "um", "nm", "in", "mil")
+_HEIGHTS = ("m", "mm", "um", "nm", "in", "mil", "uin")
+_INCHES = ("in", "mil", "uin")
+_STEPS = (5e-9, 50e-6)
+_SLOPES = (1e-5, 2.0)
+_CLEARLY = 10.0
+
+Units = tuple[str | None, str | None]
+
+
+def inferred_units(step: float, heights: np.ndarray, where: str, known: Units = (None, None)) -> tuple[str, str]:
+    """The units of position and height under which the numbers clearly are a stylus or optical trace, or an error.
+
+    A pair weighs as much as it is usual, less the further its step lies from 0.6 um and its typical slope from
+    0.05: exponential laws in decades, of scale 0.5, or 0.35 above the slope. Steps outside 5 nm to 50 um and
+    slopes outside 1e-5 to 2 are no traces. What is ``known`` stands. Units differ by less than traces do, so
+    several pairs may be traces: unless the best weighs ten times the next, both are named and refused. A trace
+    smoother than a slope of 2e-4 cannot be told from a thousand times rougher one and is read as that.
+    """
+    if known[0] and known[1]:
+        return known[0], known[1]
+    slope = typical_slope(step, heights)
+    weights = {
+        (x, z): USUAL.get((x, z), 0.01 if (x in _INCHES) == (z in _INCHES) else 0.001)
+        * (1.0 if known[0] else _weight(step * METRES[x], 0.6e-6, (0.5, 0.5), _STEPS))
+        * _weight(slope * METRES[z] / METRES[x], 0.05, (0.5, 0.35), _SLOPES)
+        for x in ([known[0]] if known[0] else _POSITIONS)
+        for z in ([known[1]] if known[1] else _HEIGHTS)
+    }
+    best, *others = sorted(weights, key=lambda pair: -weights[pair])
+    if weights[best] == 0.0:
+        rule = f"{_named(known)}, and none can be inferred: heading 'x_mm, z_um', or give them as unit 'mm, um'"
+        raise InputError(rule, where=where)
+    if others and weights[others[0]] * _CLEARLY > weights[best]:
+        one, other = (f"{x}, {z}" for x, z in (best, others[0]))
+        rule = (
+            f"{_named(known)}; '{one}' and '{other}' are about as plausible: say which in a heading, or as unit '{one}'"
+        )
+        raise InputError(rule, where=where)
+    return best
+
+
+def inferred_note(known: Units, found: tuple[str, str]) -> str:
+    """What was inferred, and beside what.
+
+    >>> inferred_note((None, "nm"), ("um", "nm"))
+    'the file names nm for the heights only; inferred from the numbers: position um'
+    """
+    new = [f"{what} {unit}" for what, own, unit in zip(("position", "height"), known, found, strict=True) if not own]
+    return f"{_named(known)}; inferred from the numbers: {', '.join(new)}"
+
+
+def doubt(step: float, heights: np.ndarray) -> str | None:
+    """What no measured trace has: its step (m) or its typical slope, of heights in m."""
+    slope = typical_slope(step, heights)
+    if not _STEPS[0] <= step <= _STEPS[1]:
+        return f"a step of {step * 1e6:.3g} um"
+    # a trace of flats has no typical slope
+    if slope and not _SLOPES[0] <= slope <= _SLOPES[1]:
+        return f"a typical slope of {slope:.2g}"
+    return None
+
+
+def typical_slope(step: float, heights: np.ndarray) -> float:
+    """1.48 times the median of \\|dz\\|/dx, the sigma of Gaussian slopes; the mean where most heights repeat."""
+    rises = np.abs(np.diff(heights))
+    return (1.4826 * float(np.median(rises)) or float(rises.mean())) / step
+
+
+def _weight(value: float, centre: float, decades: tuple[float, float], window: tuple[float, float]) -> float:
+    if not window[0] <= value <= window[1]:
+        return 0.0
+    off = math.log10(value / centre)
+    return math.exp(-abs(off) / decades[off > 0])
+
+
+def _named(known: Units) -> str:
+    if known == (None, None):
+        return "the file names no units"
+    return (
+        f"the file names {known[0]} for the positions only"
+        if known[0]
+        else (f"the file names {known[1]} for the heights only")
+    )
