@@ -12,7 +12,7 @@ import numpy as np
 from mixedlub.case import Case, hidden, read_case, read_conditions
 from mixedlub.diagnosis.fitting.fit import outlier_chance
 from mixedlub.diagnosis.fitting.problem import Problem
-from mixedlub.diagnosis.fitting.scatter import beyond_noise, repeats_allow, scaled, shown, stated_or_more, under_its_own
+from mixedlub.diagnosis.fitting.scatter import Raised, beyond_noise, repeats_allow, shown, stated_or_more, under_its_own
 from mixedlub.diagnosis.fitting.search import MANY, Progress, Search, search, spread_rows
 from mixedlub.diagnosis.fitting.serial import lasting
 from mixedlub.diagnosis.fitting.sudden import sudden_places
@@ -105,9 +105,9 @@ def diagnose_case(
         there.nominal()
         warnings += [note for note in there.notes if note not in forward.notes]
     stated = is_stated(case, rows)
-    found, times, test = _search(case, rows, forward, y, exclude, level, progress)
+    found, raised, test = _search(case, rows, forward, y, exclude, level, progress)
     case, rows = found.problem.case, found.problem.rows
-    warnings += scatter_notes(found, stated, times)
+    warnings += scatter_notes(found, stated, raised)
     progress("leaving levels out")
     judged, kept = _judged(found, test)
     kept = kept.of_one(found.screened.problem.together)
@@ -148,8 +148,8 @@ def _search(
     exclude: Sequence[str],
     level: float,
     progress: Progress,
-) -> tuple[Search, float, Mismatch]:
-    """Every explanation weighed, how many times the stated noise that took, and whether anything is missing.
+) -> tuple[Search, Raised, Mismatch]:
+    """Every explanation weighed, how much more than the stated noise that took, and whether anything is missing.
 
     Where no noise is stated, nothing missing is tested under the noise that it would need itself as well, and where
     that is the answer it has that noise: what suits an explanation best is no fair one for its rival. Where noise
@@ -175,13 +175,13 @@ def _search(
         if group is not None:
             whole = Problem.of(case, rows, forward, y)
             most = repeats_allow(whole.y, whole.sd, group)
-        found, times = stated_or_more(case, rows, seek, most)
+        found, raised = stated_or_more(case, rows, seek, most)
         if seek is glance:
-            found = trial(*scaled(case, rows, times))
+            found = trial(*raised.of(case, rows))
         if (together := lasting(found)) > 1.0:
-            found = trial(*scaled(case, rows, times))
+            found = trial(*raised.of(case, rows))
         progress("testing against nothing missing")
-        return found, times, beyond_noise(found, times, mismatch_test(found, level))
+        return found, raised, beyond_noise(found, raised.times, mismatch_test(found, level))
     found = shown(estimated(case, rows, y, forward.predict(), space, values), rows, seek)
     if seek is glance:
         found = trial(found.problem.case, rows)
@@ -191,10 +191,10 @@ def _search(
     own, test = under_its_own(found, trial), mismatch_test(found, level)
     other = test if own is found else mismatch_test(own, level)
     if other.p_value <= test.p_value:
-        return found, 1.0, test
+        return found, Raised(), test
     if not other.detected:
-        return own, 1.0, other
-    return found, 1.0, replace(test, p_value=other.p_value, lenient=True)
+        return own, Raised(), other
+    return found, Raised(), replace(test, p_value=other.p_value, lenient=True)
 
 
 def _judged(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:

@@ -59,7 +59,7 @@ def test_a_second_effect_that_took_the_place_of_another_is_exchanged() -> None:
 
 @pytest.mark.parametrize(("viscous", "gained"), [(0.0, (3.0, 8.0)), (0.55, (-np.log(2.0), -0.6))])
 def test_half_of_what_is_believed_of_an_effect_is_its_published_law(viscous: float, gained: tuple) -> None:
-    """Seal drag after ISO/TR 14179-2 has no power of viscosity to be paid for, known to 1 % of its prior; another one costs log 2."""
+    """Seal drag after ISO/TR 14179-2 has no power of viscosity to be paid for; another one costs log 2."""
     p = problem(relative=0.002)
     held = replace(p, held={"seal_drag": {"viscous": viscous}})
     z = np.append(np.zeros(p.calibration_size), 2.0)

@@ -12,6 +12,9 @@ import pytest
 
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.fitting.scatter import CLEAR, more
+from mixedlub.importers import write_case
+
+from ..kinds.conftest import BALL
 
 Make = Callable[..., Path]
 TRUE = "noise = { relative = 0.02, absolute = 0.0002 }"
@@ -140,3 +143,24 @@ def test_repeats_bound_the_noise_of_very_many_readings(
     monkeypatch.setattr("mixedlub.diagnosis.fitting.search.SPREAD", 30)
     d = diagnose_case(folder, exclude=excluded)
     assert not any("times as much as stated" in note for note in d.warnings)
+
+
+def test_sds_of_one_setting_leave_out_a_share_of_the_reading(tmp_path: Path) -> None:
+    """Films that scatter by 2 % between settings, with a column of sds of 1 to 2 nm: nothing is missing."""
+    rng = np.random.default_rng(11)
+    speed = np.geomspace(0.01, 2.0, 24)
+    film = 420.0 * speed**0.67
+    recorded = film * (1.0 + 0.02 * rng.standard_normal(24)) + 0.5 * rng.standard_normal(24)
+    columns = {
+        "entrainment_speed_m_s": speed,
+        "load_N": np.full(24, 20.0),
+        "slide_roll_ratio": np.zeros(24),
+        "oil_temperature_C": np.full(24, 40.0),
+        "film_thickness_nm": recorded,
+        "film_thickness_nm_sd": rng.uniform(0.8, 2.0, 24),
+    }
+    sections = {"kind": "film", "contact": BALL, "recording": {"quantity": "film_thickness_nm"}}
+    d = diagnose_case(write_case(tmp_path / "films", sections, columns))
+    assert d.posterior.verdict == ()
+    assert any("beside the sds told" in text for text in d.warnings)
+    assert d.found.problem.one_sd[-1] == pytest.approx(0.02 * recorded[-1], rel=0.6)

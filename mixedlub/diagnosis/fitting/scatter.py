@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,6 +16,10 @@ from mixedlub.table import Table
 
 FACTORS = np.array([1.1, 1.25, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 4.0, 6.0, 10.0])
 """How many times the stated noise may be meant."""
+SHARES = np.array([0.003, 0.006, 0.01, 0.015, 0.02, 0.03, 0.05])
+"""Shares of the reading by which a rig may scatter beyond the sds in a column, which are often those of one setting."""
+WEAKER = 4.0
+"""Gain from which such a share is believed: sds in a column say less than a noise that someone states."""
 SIZES = np.geomspace(0.3, 3.0, 13)
 """Of an estimated noise, how many times as much another mixture of its parts may have."""
 CLEAR = 8.0
@@ -36,22 +40,53 @@ ENOUGH = 10
 Trial = Callable[[Case, Table], Search]
 
 
-def stated_or_more(case: Case, rows: Table, trial: Trial, most: float) -> tuple[Search, float]:
-    """The search under the stated noise, or under ``times`` as much where the readings say so clearly.
+@dataclass(frozen=True)
+class Raised:
+    """Noise that is taken for the stated: ``times`` as much, after a ``share`` of the reading beside it."""
+
+    times: float = 1.0
+    share: float = 0.0
+
+    def of(self, case: Case, rows: Table) -> tuple[Case, Table]:
+        """The case and its readings with it."""
+        if self.share:
+            name = f"{case.quantity}_sd"
+            sd = np.hypot(rows[name].astype(float), self.share * np.abs(rows[case.quantity].astype(float)))
+            rows = Table({**rows.columns, name: sd}, rows.source)
+            case = replace(case, recordings=rows)
+        return scaled(case, rows, self.times) if self.times != 1.0 else (case, rows)
+
+
+def stated_or_more(case: Case, rows: Table, trial: Trial, most: float) -> tuple[Search, Raised]:
+    """The search under the stated noise, or under more where the readings say so clearly, and how much more.
 
     Every explanation is weighed again with its residuals against more noise. That is believed where the best of
     them beats the best one under the stated noise, the unnamed mismatch among them: what goes smoothly with the
     conditions is a mismatch, what goes with none is noise. Fits under too little noise follow it, and hide a part.
-    Repeats at equal conditions bound it by ``most``: what they agree on is no noise.
+    Repeats at equal conditions bound it by ``most``: what they agree on is no noise. Without such, a column of sds may
+    hold what one setting repeats to, and a share of the reading is lacking.
     """
-    found, times = trial(case, rows), 1.0
+    found, raised = trial(case, rows), Raised()
+    if f"{case.quantity}_sd" in rows and np.isinf(most):
+        gain, share = _lacking(found)
+        if gain > WEAKER + max(more(found)[0], 0.0):
+            raised = Raised(share=share)
+            found = trial(*raised.of(case, rows))
     for needed in (CLEAR, *[0.0] * (ROUNDS - 1)):
         gain, factor = more(found)
-        if gain <= needed or times * factor > most:
+        if gain <= needed or raised.times * factor > most:
             break
-        times *= factor
-        found = trial(*scaled(case, rows, times))
-    return found, times
+        raised = replace(raised, times=raised.times * factor)
+        found = trial(*raised.of(case, rows))
+    return found, raised
+
+
+def _lacking(found: Search) -> tuple[float, float]:
+    """Gain in log probability by the share of the reading that the best explanation asks for beside the sds told."""
+    sd = found.problem.one_sd * found.problem.unit_size(found.problem.y)
+    size = np.abs(found.problem.level(found.problem.y))
+    gain, best = _under_other_noise(found, np.hypot(1.0, SHARES[:, None] * size / sd))
+    return gain, float(SHARES[best])
 
 
 def beyond_noise(found: Search, times: float, test: Mismatch) -> Mismatch:

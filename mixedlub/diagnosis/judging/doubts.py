@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.scatter import CLEAR, MOST, more, quiet
+from mixedlub.diagnosis.fitting.scatter import CLEAR, MOST, Raised, more, quiet
 from mixedlub.diagnosis.fitting.search import Search
 from mixedlub.diagnosis.judging.heldout import HeldOut
 from mixedlub.diagnosis.judging.posterior import Key, Posterior
@@ -32,7 +32,7 @@ NOT_NOISE = (
 QUIET = "readings scatter by less than half of the stated noise: with noise nearer to theirs more could be told"
 
 
-def scatter_notes(found: Search, stated: bool, times: float) -> list[str]:
+def scatter_notes(found: Search, stated: bool, raised: Raised) -> list[str]:
     """What the readings say of their noise, where that is not what the recording says."""
     lasting = found.problem.together
     series = (
@@ -40,10 +40,14 @@ def scatter_notes(found: Search, stated: bool, times: float) -> list[str]:
         if lasting > 1.0
         else []
     )
-    return [*series, *_size_notes(found, stated, times)]
+    return [*series, *_size_notes(found, stated, raised)]
 
 
-def _size_notes(found: Search, stated: bool, times: float) -> list[str]:
+def _size_notes(found: Search, stated: bool, raised: Raised) -> list[str]:
+    times = raised.times
+    if raised.share:
+        beside = f"readings scatter by {100.0 * raised.share:.2g} % of them beside the sds told, which may be those of"
+        return [Doubt(f"{beside} one setting; the noise was taken as that much larger")]
     if times > 1.0:
         said = f"readings scatter about {times:.2g} times as much as stated, whatever is taken to explain them"
         if times > MOST:
