@@ -27,6 +27,8 @@ KEPT = 8
 """Explanations of a share of the rows that are weighed again on all of them."""
 CLOCKS = {"time", "sequence", "ageing"}
 """Quantities that pass by themselves while a test runs."""
+MOVED = 0.1
+"""Share of what an explanation moves a reading by at most, from which it moves another one too."""
 NEAR = 12.0
 """Log evidence behind the best within which the published laws that an explanation contains are weighed too."""
 FAR = 60.0
@@ -232,9 +234,9 @@ def shows(problem: Problem, fit: Fit, fits: Mapping[Explanation, Fit]) -> bool:
     The seconds after a start could be any effect that passes quickly.
     """
     parts = (other for m, other in fits.items() if set(m) < set(fit.explanation))
-    nets = (((fit.prediction - other.prediction) / problem.sd) ** 2 for other in parts)
+    nets = (np.abs(fit.prediction - other.prediction) / problem.sd for other in parts)
     fewest = least_readings(problem.y.size)
-    return all(float(net.sum() ** 2) >= fewest * float((net**2).sum()) for net in nets)
+    return all(np.count_nonzero(net >= MOVED * net.max()) >= fewest for net in nets)
 
 
 def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: np.ndarray) -> dict[Explanation, Fit]:

@@ -5,14 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.diagnosis.fitting.search import Search
-from mixedlub.diagnosis.recording.features import clock_of
+from mixedlub.diagnosis.recording.features import SERIES, clock_of
 
 FEWEST = 16
 """Stretches of a series from which the variance of their sums can be told."""
 WILD = 3.0
 """Sigmas to which a residual counts: wild readings do not last."""
-SERIES = 400
-"""Readings from which a table without a clock is a logged series, in the order of its rows."""
 
 
 def lasting(found: Search) -> float:
@@ -25,6 +23,7 @@ def lasting(found: Search) -> float:
     if order is None:
         if len(rows) < SERIES:
             return 1.0
+        # A series without a clock was logged in the order of its rows.
         order = np.arange(len(rows))
     likely = max(found.fits, key=found.log_weights.__getitem__)
     return min(together(left, order) for left in (found.fits[likely].residual, found.unknown.fit.residual))

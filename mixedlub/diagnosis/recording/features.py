@@ -24,8 +24,10 @@ HELD = 0.01
 """A condition that spans less than this share of its size was held: what it wanders is no variation to learn from."""
 WANDERS, WANDERS_K, MOVES = 0.1, 6.0, 0.005
 """One that spans less than the first, or so many kelvin, was held if the base model moves by less than the last."""
-HEAD = 0.01
-"""Share of the readings from which a logarithm of time is told apart: a start-up is shorter."""
+SERIES = 400
+"""Readings from which a table is a logged series: nobody sets so many conditions by hand."""
+HEAD = 0.005
+"""Share of a series from which a logarithm of time is told apart: a start-up is shorter."""
 LOST_AFTER = 2.0
 """Periods beyond a record after which a wave is out of step, as its period is not known that well."""
 
@@ -217,7 +219,8 @@ def coordinates(case: Case, table: Table, forward: Forward) -> Coordinates:
         both = levels[0] < 0.0 < levels[-1] and name not in PASSING
         folded = float(np.abs(levels[levels != 0.0]).min()) if both else 0.0
         # Decades of time that hold next to no readings are those of the start-up.
-        floor = float(levels[int(HEAD * levels.size)]) if name in PASSING and logarithmic else LEAST
+        series = name in PASSING and logarithmic and levels.size >= SERIES
+        floor = float(levels[int(HEAD * levels.size)]) if series else LEAST
         x = unrolled(np.maximum(levels, floor) if logarithmic else levels, logarithmic, folded)
         low, span = float(x[0]), float(x[-1] - x[0])
         nodes = (x - low) / span
