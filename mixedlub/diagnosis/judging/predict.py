@@ -9,7 +9,7 @@ import numpy as np
 from mixedlub.diagnosis.fitting.fit import Fit, linear_fit, settled
 from mixedlub.diagnosis.fitting.problem import Problem
 from mixedlub.diagnosis.fitting.search import ELASTIC, Search, elastic_columns, typical_size
-from mixedlub.diagnosis.recording.noise import seen_noise
+from mixedlub.diagnosis.recording.noise import by_level, seen_noise
 from mixedlub.diagnosis.unnamed.carriers import carrier
 from mixedlub.forward import Forward
 from mixedlub.table import Table
@@ -134,7 +134,8 @@ def _noise_at(problem: Problem, table: Table, seen: np.ndarray) -> tuple[np.ndar
     own = f"{problem.case.quantity}_sd"
     level = problem.level(seen)
     if own in problem.rows and own not in table:
-        typical = np.full(len(table), float(np.median(problem.sd)))
+        relative, absolute = by_level(problem.sd * problem.unit_size(problem.y), problem.level(problem.y))
+        typical = np.hypot(relative * level, absolute) / problem.unit_size(seen)
     else:
         typical, _ = seen_noise(problem.case, table, level)
     stated = problem.case.system.recording.noise
