@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from mixedlub.case import Case, hidden, read_case, read_conditions
-from mixedlub.diagnosis.fitting.fit import outlier_chance
+from mixedlub.diagnosis.fitting.fit import NINETY, outlier_chance
 from mixedlub.diagnosis.fitting.problem import Problem
 from mixedlub.diagnosis.fitting.scatter import beyond_noise, repeats_allow, scaled, shown, stated_or_more, under_its_own
 from mixedlub.diagnosis.fitting.search import MANY, Progress, Search, search, spread_rows
@@ -250,21 +250,21 @@ def _predict(found: Search, judged: Posterior, refined: dict[Key, Refined], tabl
     if judged.weights["unknown"] >= SMALL:
         each["unknown"] = rows.of_unknown()
     means = np.array([p.mean for p in each.values()])
-    variances = np.array([p.variance for p in each.values()])
+    variances = np.array([p.ends for p in each.values()])
     # An explanation with no finite answer at a row does not speak there; the verdict always does.
-    speaks = np.isfinite(means + variances) | np.array([k == judged.verdict for k in each])[:, None]
+    speaks = np.isfinite(means + variances.sum(axis=1)) | np.array([k == judged.verdict for k in each])[:, None]
     share = np.array([judged.weights[k] for k in each])[:, None] * speaks
     share = share / share.sum(axis=0)
-    means, variances = np.where(speaks, means, 0.0), np.where(speaks, variances, 0.0)
+    means, variances = np.where(speaks, means, 0.0), np.where(speaks[:, None], variances, 0.0)
     mean = each[()].mean if judged.verdict == () else (share * means).sum(axis=0)
     between = (share * (means - mean) ** 2).sum(axis=0)
-    within = (share * variances).sum(axis=0)
+    within = (share[:, None] * variances).sum(axis=0)
     sd, shared_variance = rows.noise_at(mean)
-    half = 1.6449 * np.sqrt(sd**2 + shared_variance + within + between)
+    below, above = NINETY * np.sqrt(sd**2 + shared_variance + within + between)
     at_verdict = each[judged.verdict].base
     mismatch = np.zeros(mean.size) if judged.verdict == () else (mean - at_verdict) / sd
     nominal = rows.forward.predict()
-    ends = problem.level(mean - half), problem.level(mean + half)
+    ends = problem.level(mean - below), problem.level(mean + above)
     size = np.abs(problem.level(mean)) if problem.case.kind.logarithmic else 1.0
     return Predicted(
         table, nominal, problem.level(calibrated), problem.level(mean), *ends, mismatch, np.asarray(sd * size)
