@@ -122,7 +122,8 @@ def diagnose_case(
     tests = _next_tests(found, judged, refined, columns, varied)
     at_one_place = judged.verdict == "unknown" and found.unknown.best.at is not None
     warnings += unsure_odds(judged)
-    warnings += against(judged.verdict, kept, rows, y, recorded.predicted, chance > 0.5, at_one_place)
+    taken_at = Table({n: v for n, v in rows.columns.items() if not n.startswith(case.quantity)}, rows.source)
+    warnings += against(judged.verdict, kept, taken_at, y, recorded.predicted, chance > 0.5, at_one_place)
     if not isinstance(judged.verdict, str):
         warnings += beyond_range(found.problem, judged.verdict, refined[judged.verdict].z)
     return Diagnosis(
