@@ -23,7 +23,7 @@ from mixedlub.diagnosis.judging.nexttest import NextTest, candidates, expected_b
 from mixedlub.diagnosis.judging.posterior import Key, Posterior, names_effects, posterior
 from mixedlub.diagnosis.judging.predict import Prediction, Refined, Rows, refine
 from mixedlub.diagnosis.judging.published import Contained, contained
-from mixedlub.diagnosis.judging.validity import beyond_range
+from mixedlub.diagnosis.judging.validity import beyond_range, unpublished
 from mixedlub.diagnosis.recording.audit import audit
 from mixedlub.diagnosis.recording.features import coordinates
 from mixedlub.diagnosis.recording.noise import estimated, is_stated, repeated
@@ -125,7 +125,10 @@ def diagnose_case(
     taken_at = Table({n: v for n, v in rows.columns.items() if not n.startswith(case.quantity)}, rows.source)
     warnings += against(judged.verdict, kept, taken_at, y, recorded.predicted, chance > 0.5, at_one_place)
     if not isinstance(judged.verdict, str):
-        warnings += beyond_range(found.problem, judged.verdict, refined[judged.verdict].z)
+        named = refined[judged.verdict]
+        warnings += beyond_range(found.problem, judged.verdict, named.z)
+        own = slice(found.problem.calibration_size, None)
+        warnings += unpublished(found.problem.effects(judged.verdict), named.z[own], named.spread[own])
     return Diagnosis(
         case, found, test, judged, refined, recorded, other, chance, place, kept, laws, tests, tuple(warnings)
     )
