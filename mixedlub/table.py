@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import difflib
+import re
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -69,6 +70,7 @@ class Column:
         return value
 
 
+PRINTED_MINUS = re.compile(r"(?:(?<=\d[eE])|(?<![\w)]))\u2212(?=[\d.,])")
 BLANK = ("", "nan", "na", "n/a")
 """What an empty cell of a table may read."""
 RUN = Column("run", "whole")
@@ -100,11 +102,20 @@ class Table:
         return Table({name: column[rows] for name, column in self.columns.items()}, self.source)
 
 
+def with_hyphens(text: str) -> str:
+    """Text whose numbers have the minus that they are read with, where a printed one (U+2212) stands before them.
+
+    >>> with_hyphens("\u22120.5;1.2e\u22123;m s\u22121")
+    '-0.5;1.2e-3;m s\u22121'
+    """
+    return PRINTED_MINUS.sub("-", text)
+
+
 def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] = ("run",)) -> Table:
     """Read a CSV with the given columns, those of the ``key`` unique together; others are ignored with a warning."""
     where = str(path)
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        text = with_hyphens(path.read_text(encoding="utf-8-sig"))
     except FileNotFoundError:
         raise InputError("no such file", where=where) from None
     except UnicodeDecodeError:
@@ -135,10 +146,10 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] 
     if unknown:
         absent = [column for column in columns if column.name not in header]
         converted = [other for column in absent if (other := _other_unit(column, unknown))]
-        named = [name if name in converted else _with_nearest(name, absent) for name in unknown]
+        listed = [name if name in converted else _with_nearest(name, absent) for name in unknown]
         told = f"; {_CONVERTED} ({', '.join(converted)})" if converted else ""
         warnings.warn(
-            f"{path.name}: {IGNORED}{', '.join(named)}{told}",
+            f"{path.name}: {IGNORED}{', '.join(listed)}{told}",
             CaseWarning,
             stacklevel=2,
         )
