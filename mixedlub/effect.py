@@ -106,6 +106,7 @@ class Parameter:
     ``scan`` is how many values a search must try, where readings are matched in many separate ranges of it.
     ``sudden`` says that readings move where it passes them and hardly in between.
     ``kinds`` restricts the kinds of recording in which it is free (empty: all); in others it stays at its null.
+    ``published`` is the range that the laws cited in the source have, where other values are tried as well.
     """
 
     name: str
@@ -117,6 +118,7 @@ class Parameter:
     scan: int = 0
     sudden: bool = False
     kinds: tuple[str, ...] = ()
+    published: tuple[float, float] | None = None
 
     @property
     def off(self) -> float:

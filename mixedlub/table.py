@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import difflib
+import re
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from mixedlub.bounds import meant
-from mixedlub.headers import change_to, split, target_of
+from mixedlub.headers import change_to, split, target_of, unit_of
 from profiles.errors import InputError, nearest
 
 
@@ -69,6 +70,7 @@ class Column:
         return value
 
 
+PRINTED_MINUS = re.compile(r"(?:(?<=\d[eE])|(?<![\w)]))\u2212(?=[\d.,])")
 BLANK = ("", "nan", "na", "n/a")
 """What an empty cell of a table may read."""
 RUN = Column("run", "whole")
@@ -100,11 +102,20 @@ class Table:
         return Table({name: column[rows] for name, column in self.columns.items()}, self.source)
 
 
+def with_hyphens(text: str) -> str:
+    """Text whose numbers have the minus that they are read with, where a printed one (U+2212) stands before them.
+
+    >>> with_hyphens("\u22120.5;1.2e\u22123;m s\u22121")
+    '-0.5;1.2e-3;m s\u22121'
+    """
+    return PRINTED_MINUS.sub("-", text)
+
+
 def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] = ("run",)) -> Table:
     """Read a CSV with the given columns, those of the ``key`` unique together; others are ignored with a warning."""
     where = str(path)
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        text = with_hyphens(path.read_text(encoding="utf-8-sig"))
     except FileNotFoundError:
         raise InputError("no such file", where=where) from None
     except UnicodeDecodeError:
@@ -135,9 +146,10 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] 
     if unknown:
         absent = [column for column in columns if column.name not in header]
         converted = [other for column in absent if (other := _other_unit(column, unknown))]
+        listed = [name if name in converted else _with_nearest(name, absent) for name in unknown]
         told = f"; {_CONVERTED} ({', '.join(converted)})" if converted else ""
         warnings.warn(
-            f"{path.name}: columns ignored because they are not known: {', '.join(unknown)}{told}",
+            f"{path.name}: {IGNORED}{', '.join(listed)}{told}",
             CaseWarning,
             stacklevel=2,
         )
@@ -153,6 +165,9 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] 
     return Table(cells, path.name)
 
 
+IGNORED = "columns ignored because they are not known: "
+MEANT = "nearest known"
+"""How the note of a column that is ignored begins, and what stands in it where it may be one that is known."""
 _CONVERTED = "units are not converted here; `mixedlub import` does"
 
 
@@ -171,6 +186,21 @@ def _instead(column: Column, unknown: list[str]) -> str:
     return (
         f"; the file has {close[0]!r}" if close else f"; the file has {', '.join(map(repr, unknown))}, not known here"
     )
+
+
+def _with_nearest(name: str, absent: list[Column]) -> str:
+    """An ignored column with the one that it may be: of the columns that are not there, one in its unit or like it.
+
+    >>> _with_nearest("load_Nm", [Column("load_N"), Column("torque_Nm"), Column("motor_torque_Nm")])
+    "load_Nm (nearest known: 'torque_Nm')"
+    >>> _with_nearest("colour", [Column("torque_Nm")]), _with_nearest("surface2", [Column("surface_2")])
+    ('colour', "surface2 (nearest known: 'surface_2')")
+    """
+    unit = unit_of(name)
+    known = [c.name for c in absent if not c.name.endswith("_sd")]
+    alike = [other for other in known if unit and unit_of(other) == unit]
+    close = difflib.get_close_matches(name, alike or known, n=1, cutoff=0.0 if alike else 0.8)
+    return f"{name} ({MEANT}: {close[0]!r})" if close else name
 
 
 def _other_unit(column: Column, unknown: list[str]) -> str | None:

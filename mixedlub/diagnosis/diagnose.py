@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from mixedlub.case import Case, hidden, read_case, read_conditions
-from mixedlub.diagnosis.fitting.fit import outlier_chance
+from mixedlub.diagnosis.fitting.fit import NINETY, outlier_chance
 from mixedlub.diagnosis.fitting.problem import Problem
 from mixedlub.diagnosis.fitting.scatter import Raised, beyond_noise, repeats_allow, shown, stated_or_more, under_its_own
 from mixedlub.diagnosis.fitting.search import MANY, Progress, Search, search, spread_rows
@@ -24,7 +24,7 @@ from mixedlub.diagnosis.judging.nexttest import NextTest, candidates, expected_b
 from mixedlub.diagnosis.judging.posterior import Key, Posterior, names_effects, posterior
 from mixedlub.diagnosis.judging.predict import Prediction, Refined, Rows, refine
 from mixedlub.diagnosis.judging.published import Contained, contained
-from mixedlub.diagnosis.judging.validity import beyond_range
+from mixedlub.diagnosis.judging.validity import beyond_range, unpublished
 from mixedlub.diagnosis.recording.audit import audit
 from mixedlub.diagnosis.recording.features import coordinates
 from mixedlub.diagnosis.recording.noise import estimated, is_stated, repeated
@@ -124,9 +124,13 @@ def diagnose_case(
     tests = _next_tests(found, judged, refined, columns, varied)
     at_one_place = judged.verdict == "unknown" and found.unknown.best.at is not None
     warnings += unsure_odds(judged)
-    warnings += against(judged.verdict, kept, rows, y, recorded.predicted, chance > 0.5, at_one_place)
+    taken_at = Table({n: v for n, v in rows.columns.items() if not n.startswith(case.quantity)}, rows.source)
+    warnings += against(judged.verdict, kept, taken_at, y, recorded.predicted, chance > 0.5, at_one_place)
     if not isinstance(judged.verdict, str):
-        warnings += beyond_range(found.problem, judged.verdict, refined[judged.verdict].z)
+        named = refined[judged.verdict]
+        warnings += beyond_range(found.problem, judged.verdict, named.z)
+        own = slice(found.problem.calibration_size, None)
+        warnings += unpublished(found.problem.effects(judged.verdict), named.z[own], named.spread[own])
     return Diagnosis(
         case, found, test, judged, refined, recorded, other, chance, place, kept, laws, tests, tuple(warnings)
     )
@@ -259,21 +263,21 @@ def _predict(found: Search, judged: Posterior, refined: dict[Key, Refined], tabl
     if judged.weights["unknown"] >= SMALL:
         each["unknown"] = rows.of_unknown()
     means = np.array([p.mean for p in each.values()])
-    variances = np.array([p.variance for p in each.values()])
+    variances = np.array([p.ends for p in each.values()])
     # An explanation with no finite answer at a row does not speak there; the verdict always does.
-    speaks = np.isfinite(means + variances) | np.array([k == judged.verdict for k in each])[:, None]
+    speaks = np.isfinite(means + variances.sum(axis=1)) | np.array([k == judged.verdict for k in each])[:, None]
     share = np.array([judged.weights[k] for k in each])[:, None] * speaks
     share = share / share.sum(axis=0)
-    means, variances = np.where(speaks, means, 0.0), np.where(speaks, variances, 0.0)
+    means, variances = np.where(speaks, means, 0.0), np.where(speaks[:, None], variances, 0.0)
     mean = each[()].mean if judged.verdict == () else (share * means).sum(axis=0)
     between = (share * (means - mean) ** 2).sum(axis=0)
-    within = (share * variances).sum(axis=0)
+    within = (share[:, None] * variances).sum(axis=0)
     sd, shared_variance = rows.noise_at(mean)
-    half = 1.6449 * np.sqrt(sd**2 + shared_variance + within + between)
+    below, above = NINETY * np.sqrt(sd**2 + shared_variance + within + between)
     at_verdict = each[judged.verdict].base
     mismatch = np.zeros(mean.size) if judged.verdict == () else (mean - at_verdict) / sd
     nominal = rows.forward.predict()
-    ends = problem.level(mean - half), problem.level(mean + half)
+    ends = problem.level(mean - below), problem.level(mean + above)
     size = np.abs(problem.level(mean)) if problem.case.kind.logarithmic else 1.0
     return Predicted(
         table, nominal, problem.level(calibrated), problem.level(mean), *ends, mismatch, np.asarray(sd * size)

@@ -30,6 +30,7 @@ _LEAST = 0.1
             Between(0.0, 2.0),
             "rise of the part that load adds where the bearing's film is gone",
             symbol="m",
+            published=(0.0, 1.4),
         ),
     ),
     equation=r"P_L \leftarrow P_L + c\,\sum_{i=1,2} 2\,\omega_i\,"

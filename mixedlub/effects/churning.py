@@ -13,8 +13,15 @@ from mixedlub.laws.drag import churning_changenet_velex
         Parameter(
             "strength", "-", LogNormal(1.0, 0.9), "factor: depth, case, number of wheels that dip", null=0.0, symbol="c"
         ),
-        Parameter("viscous", "-", Between(0.0, 1.0), "power of viscosity", symbol="q"),
-        Parameter("surplus", "-", Between(0.0, 1.1), "power of speed less that of viscosity less 1", symbol="p"),
+        Parameter("viscous", "-", Between(0.0, 1.0), "power of viscosity", symbol="q", published=(0.21, 1.0)),
+        Parameter(
+            "surplus",
+            "-",
+            Between(0.0, 1.1),
+            "power of speed less that of viscosity less 1",
+            symbol="p",
+            published=(0.0, 1.0),
+        ),
     ),
     equation=r"P_L \leftarrow P_L + \chi c\,\tfrac12\rho\omega_2^3 r_2^3 S_m C_m,\quad "
     r"C_m = 0.7623\,\mathrm{Fr}^{-0.6}\,\mathrm{Re}^{-0.21}(\mathrm{Fr}/70)^{0.6-f}(\mathrm{Re}/16000)^{0.21-q},\ "

@@ -12,7 +12,9 @@ _PIVOT = 3e-11
     acts_on="rolling_force",
     parameters=(
         Parameter("strength", "-", LogNormal(1.0, 0.7), "factor on the resistance", null=0.0, symbol="c"),
-        Parameter("exponent", "-", Between(0.63, 0.77), "power of viscosity times speed", symbol="k"),
+        Parameter(
+            "exponent", "-", Between(0.63, 0.77), "power of viscosity times speed", symbol="k", published=(0.66, 0.75)
+        ),
     ),
     equation=r"f_r \leftarrow f_r + "
     r"c\,1.47\,U_\ell^{0.75}\,E'R\left(\frac{U_\ell}{3\times10^{-11}}\right)^{k-0.75},\quad U_\ell = "

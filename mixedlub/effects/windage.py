@@ -13,7 +13,7 @@ _PIVOT = 15.0
     acts_on="power_loss",
     parameters=(
         Parameter("strength", "-", LogNormal(1.5, 1.2), "factor: walls, and oil in the air", null=0.0, symbol="c"),
-        Parameter("exponent", "-", Between(2.5, 3.0), "power of speed", symbol="k"),
+        Parameter("exponent", "-", Between(2.5, 3.0), "power of speed", symbol="k", published=(2.75, 2.9)),
     ),
     equation=r"P_L \leftarrow P_L + \chi c\left(\frac{r_1\omega_1}{15\,\text{m/s}}\right)^{k-2.75}\,"
     r"\sum_{i=1,2} \tfrac12 C_i\rho_a\omega_i^3 r_i^5,\quad "

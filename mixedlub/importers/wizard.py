@@ -19,7 +19,7 @@ from mixedlub.importers.needs import gaps, told, undescribed
 from mixedlub.importers.readable import refuse_unreadable
 from mixedlub.importers.runs import together
 from mixedlub.importers.write import write_case
-from mixedlub.table import CaseWarning
+from mixedlub.table import CaseWarning, with_hyphens
 from profiles.errors import InputError, nearest
 from profiles.readers.numbers import decoded
 
@@ -70,7 +70,7 @@ def _text(path: Path) -> str:
         raise InputError("no such file", where=str(path)) from None
     except OSError as error:
         raise InputError(f"cannot be read ({error})", where=str(path)) from None
-    text = decoded(raw, path.name)
+    text = with_hyphens(decoded(raw, path.name))
     if "\0" in text[:4096]:
         raise InputError("is not a text file; export it as text first", where=path.name)
     return text

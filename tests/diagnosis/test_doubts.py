@@ -7,7 +7,7 @@ import pytest
 
 from mixedlub.case import Case
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.judging.doubts import against, in_a_row
+from mixedlub.diagnosis.judging.doubts import against, in_a_row, levels_off
 from mixedlub.diagnosis.recording.features import jitters
 from mixedlub.diagnosis.recording.noise import nearly_repeated
 from mixedlub.table import Table
@@ -65,3 +65,28 @@ def test_a_level_run_in_one_go_is_no_matter_of_time() -> None:
 def test_clocks_that_start_anew_make_no_streak() -> None:
     rows = Table({"run": np.arange(1, 31), "time_s": np.tile(np.arange(10.0), 3)})
     assert in_a_row(rows, rows["time_s"] == 0.0, np.ones(30)) == []
+
+
+def test_a_level_written_off_on_one_side_is_told_of_by_name() -> None:
+    """Five of six readings at one of twelve speeds: a few in a hundred, and no streak in time."""
+    speed = np.tile(500.0 * np.arange(1, 13), 6)
+    rows = Table({"run": np.arange(1, 73), "torque_Nm": np.repeat([50.0, 100.0, 150.0], 24), "speed_rpm": speed})
+    left = np.where(speed == 4000.0, -12.0, 0.3)
+    wrong = (speed == 4000.0) & (np.arange(72) != 7)
+    assert levels_off(rows, wrong, left) == ["5 of the 6 readings at speed 4000 rpm"]
+    assert levels_off(rows, wrong, left * (-1.0) ** np.repeat(np.arange(6), 12)) == []
+    assert levels_off(rows, wrong & (np.arange(72) < 36), left) == []
+    assert levels_off(rows, np.isin(np.arange(72), [7, 20, 41]), left) == []
+
+
+def test_a_level_about_its_set_point_is_one() -> None:
+    celsius = np.repeat([40.0, 60.0, 80.0, 100.0], 6) + np.tile([0.1, -0.1, 0.0, 0.2, -0.2, 0.05], 4)
+    rows = Table({"run": np.arange(1, 25), "oil_temperature_C": celsius})
+    wrong = np.repeat([False, True, False, False], 6)
+    assert levels_off(rows, wrong, np.ones(24)) == ["all 6 readings at oil temperature 60 °C"]
+
+
+def test_the_level_is_a_doubt_of_the_answer(offset: Diagnosis) -> None:
+    wrong = offset.recorded.table["speed_rpm"] == 1500.0
+    (note,) = [note for note in told(offset, wrong) if "speed 1500 rpm" in note]
+    assert note.endswith("count as wrong on one side: that is no chance, and the answer leaves it out")

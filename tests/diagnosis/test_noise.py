@@ -9,9 +9,12 @@ import numpy as np
 import pytest
 
 from mixedlub.case import Case, read_case
+from mixedlub.diagnosis.fitting.problem import Problem
+from mixedlub.diagnosis.judging.predict import _noise_at
 from mixedlub.diagnosis.recording.audit import audit
 from mixedlub.diagnosis.recording.noise import noise, noise_from_repeats, pooled_sd
 from mixedlub.forward import Forward
+from mixedlub.table import Table
 
 
 def repeated(folder: Path, scatter: float, columns: dict[str, Callable[[int], object]] | None = None) -> Case:
@@ -164,3 +167,20 @@ def test_conditions_without_an_sd_of_their_own_are_predicted_all_the_same(
     conditions = read_case(folder).conditions
     assert conditions is not None
     assert conditions["power_loss_W_sd"].tolist() == [2.0, 2.0, 2.0]
+
+
+@pytest.mark.parametrize("kind", ["gear_pair", "viscosity"])
+def test_conditions_without_an_sd_have_that_of_their_level(
+    make_case: Callable[..., Path], tmp_path: Path, kind: str
+) -> None:
+    """The median of the column is 3.9 times that of the smallest loss and 0.27 times that of the largest."""
+    folder = make_case(tmp_path / "case", kind)
+    y = np.array([float(line.split(",")[-1]) for line in (folder / "recordings.csv").read_text().splitlines()[1:]])
+    least = 0.02 * float(y.min())
+    case = with_stated(folder, np.hypot(0.02 * y, least))
+    assert case.recordings is not None
+    problem = Problem.of(case, case.recordings, Forward(case, case.recordings), y)
+    wanted = Table({n: c for n, c in case.recordings.columns.items() if not n.endswith("_sd")}, "conditions.csv")
+    found, _ = _noise_at(problem, wanted, problem.y)
+    expected = np.hypot(0.02 * y, least) / problem.unit_size(problem.y)
+    assert found == pytest.approx(expected, rel=0.1)

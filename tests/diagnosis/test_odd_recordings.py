@@ -8,9 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mixedlub.case import read_case
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.recording.audit import doubts
 from mixedlub.diagnosis.recording.features import is_held
 from mixedlub.diagnosis.recording.noise import steadied
+from mixedlub.forward import Forward
+from mixedlub.importers import write_case
 
 from .conftest import left_out
 
@@ -112,3 +116,22 @@ def test_many_wrong_readings_are_told(make_case, tmp_path: Path) -> None:
 
 def test_time_since_an_epoch_is_not_held() -> None:
     assert not is_held("time_s", 1.7e9 + np.linspace(0.0, 3600.0, 20))
+
+
+def test_a_load_under_another_name_is_asked_for_and_not_a_set_up(tmp_path: Path) -> None:
+    """Readings at three loads, the load in a column of its own name, seemed to contradict each other."""
+    speed, load = np.repeat([-100.0, -50.0, 50.0, 100.0, 150.0], 6), np.tile([1.0, 5.0, 10.0], 10)
+    friction = np.sign(speed) * (2.0 + 0.3 * load) + 0.004 * speed
+    system = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm", "noise": {"relative": 0.01}}}
+    folder = write_case(tmp_path / "case", system, {"speed_rpm": speed, "friction_torque_Nm": friction})
+    path = folder / "recordings.csv"
+    lines = path.read_text(encoding="utf-8").splitlines()
+    cells = ["load_Nm", *map(str, load)]
+    path.write_text("\n".join(f"{a},{b}" for a, b in zip(lines, cells, strict=True)) + "\n", encoding="utf-8")
+    case = read_case(folder)
+    assert case.recordings is not None
+    assert any("not known: load_Nm (nearest known: 'torque_Nm')" in note for note in case.notes)
+    found = doubts(case, case.recordings, friction, Forward(case, case.recordings))
+    (said,) = [note for note in found if "contradict each other" in note]
+    assert said.endswith("a condition may stand in a column that is ignored: load_Nm (nearest known: 'torque_Nm')")
+    assert "setup" not in said

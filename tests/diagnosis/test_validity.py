@@ -6,8 +6,9 @@ import numpy as np
 
 from mixedlub import standard
 from mixedlub.diagnosis.fitting.problem import Problem
-from mixedlub.diagnosis.judging.validity import beyond_range, outside
-from mixedlub.effect import find
+from mixedlub.diagnosis.judging.validity import beyond_range, outside, unpublished
+from mixedlub.diagnosis.recording.audit import Doubt
+from mixedlub.effect import catalogue, find
 
 CREEP = find(["contact_creep"])
 ROWS = {"slide_roll_ratio": np.array([[0.02], [0.4], [0.9], [1.2]])}
@@ -40,3 +41,31 @@ def test_a_fit_is_judged_by_the_quantities_it_passes_through() -> None:
     assert f"in {y.size // 3} of {y.size} readings that is up to 0.6" in said
     slow = problem.take(np.flatnonzero(forward.table["slide_roll_ratio"] < 0.5))
     assert beyond_range(slow, ("contact_creep",), z) == []
+
+
+def fitted(strength: float, spread: float) -> tuple[np.ndarray, np.ndarray]:
+    """Coordinates of churning with a power of viscosity, and how far it is known."""
+    return np.array([0.0, strength, 0.0]), np.array([0.1, spread, 0.1])
+
+
+def test_powers_that_no_cited_law_has_are_a_doubt() -> None:
+    """A jet that hits the wheel goes with the square of speed and not with viscosity; it was named with 1.00."""
+    (said,) = unpublished(find(["churning"]), *fitted(-2.5, 0.5))
+    assert isinstance(said, Doubt)
+    assert said.startswith("churning: power of viscosity is 0.00621 (90 % 0.00")
+    assert "no law cited for it has that, they have 0.21 to 1" in said
+
+
+def test_powers_that_may_be_those_of_a_cited_law_are_no_doubt() -> None:
+    (said,) = unpublished(find(["churning"]), *fitted(-1.2, 0.6))
+    assert not isinstance(said, Doubt)
+    assert "these readings allow those too" in said
+    assert unpublished(find(["churning"]), *fitted(0.0, 0.3)) == []
+
+
+def test_published_ranges_lie_within_what_is_tried() -> None:
+    for e in catalogue().values():
+        for p in e.parameters:
+            if p.published is not None:
+                low, high = p.published
+                assert p.prior.value(-4.5) <= low + 1e-4 < high <= p.prior.value(4.5) + 1e-4

@@ -113,3 +113,15 @@ def test_a_file_without_runs_beside_one_with_is_named(file, tmp_path):
         file("temperature_C,viscosity_mPa_s\n60,12\n", "b.csv"),
     ]
     assert "b.csv has no run numbers to keep" in said_of(files, tmp_path / "case")
+
+
+@pytest.mark.parametrize("decimal", [".", ","])
+def test_a_minus_as_it_is_printed_is_read(file, tmp_path, decimal):
+    """U+2212 before a number was refused as no number."""
+    text = "time_s;friction_coefficient\n" + "".join(f"{i};\u22120.1{i}\n" for i in range(5)) + "5;1.2e\u22121\n"
+    case = import_files([file(text.replace(".", decimal))], tmp_path / "case", **HISTORY)
+    expected = [-0.1, -0.11, -0.12, -0.13, -0.14, 0.12]
+    assert read_case(case).recordings["friction_coefficient"].tolist() == expected
+    path = case / "recordings.csv"
+    path.write_text(path.read_text(encoding="utf-8").replace("-", "\u2212"), encoding="utf-8")
+    assert read_case(case).recordings["friction_coefficient"].tolist() == expected

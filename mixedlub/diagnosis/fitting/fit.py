@@ -20,6 +20,8 @@ BOUND = 5.0
 """Usual residuals beyond which a reading is bounded while a fit is still far off."""
 PARTS = (1.0, 0.5, 0.25, 0.1, 0.0)
 """Parts of the way to the coordinates of linearised laws that are tried."""
+NINETY = 1.6449
+"""Half-width of a 90 % interval in standard deviations."""
 _LOG_IN = np.log1p(-OUTLIER_SHARE)
 _LOG_OUT = np.log(OUTLIER_SHARE / OUTLIER_WIDTH * np.sqrt(2.0 / np.pi))
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import comb
+
 import numpy as np
 
 from mixedlub.diagnosis.fitting.scatter import CLEAR, MOST, Raised, more, quiet
@@ -10,6 +12,8 @@ from mixedlub.diagnosis.judging.heldout import HeldOut
 from mixedlub.diagnosis.judging.posterior import Key, Posterior
 from mixedlub.diagnosis.recording.audit import Doubt
 from mixedlub.diagnosis.recording.features import PASSING, clock_of
+from mixedlub.diagnosis.recording.levels import set_points
+from mixedlub.diagnosis.telling.labels import amount, words_of
 from mixedlub.headers import unit_of
 from mixedlub.table import Table
 
@@ -92,6 +96,10 @@ def against(
             f"the {len(streak)} readings from run {streak[0]} to run {streak[-1]} count as wrong, follow one another "
             "and lie on the same side: that is no chance, and the answer leaves it out"
         )
+    found += [
+        f"{level} count as wrong on one side: that is no chance, and the answer leaves it out"
+        for level in levels_off(rows, wrong, y - predicted)
+    ]
     if verdict != () and not at_one_place and kept.score < kept.score_before:
         answer = "the unnamed mismatch" if verdict == "unknown" else "the answer"
         found.append(
@@ -138,11 +146,32 @@ def in_a_row(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[int]:
     return [] if _one_level(rows, streak) else [int(run) for run in rows["run"][streak]]
 
 
+def levels_off(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[str]:
+    """Levels of conditions nearly all of whose readings are wrong on one side, if chance would hardly make one."""
+    found = []
+    for name, values in _conditions(rows):
+        points, label = np.unique(set_points(values), return_inverse=True)
+        size = np.bincount(label)
+        for side in (left > 0.0, left < 0.0):
+            off = np.bincount(label, weights=wrong & side).astype(int)
+            for i in np.flatnonzero((size >= LEAST_STREAK) & (off >= MOST_OF_LEVEL * size) & (size < label.size)):
+                by_chance = 2.0 * points.size * comb(int(size[i]), int(off[i])) * (0.5 * wrong.mean()) ** off[i]
+                if by_chance <= RARE:
+                    many = f"all {size[i]}" if off[i] == size[i] else f"{off[i]} of the {size[i]}"
+                    at = points[i] if points.dtype.kind in "US" else amount(float(points[i]), name)
+                    found.append(f"{many} readings at {words_of(name)} {at}")
+    return found
+
+
+def _conditions(rows: Table) -> list[tuple[str, np.ndarray]]:
+    """What was set, not what passes by."""
+    return [(name, values) for name, values in rows.columns.items() if name not in (*PASSING, "run")]
+
+
 def _one_level(rows: Table, streak: np.ndarray) -> bool:
     """Whether a streak is a level of a condition that was run in one go: no matter of time."""
-    for name, values in rows.columns.items():
-        if name not in (*PASSING, "run"):
-            there = values == values[streak[0]]
-            if there[streak].all() and not there.all() and streak.size >= MOST_OF_LEVEL * there.sum():
-                return True
+    for _, values in _conditions(rows):
+        there = values == values[streak[0]]
+        if there[streak].all() and not there.all() and streak.size >= MOST_OF_LEVEL * there.sum():
+            return True
     return False

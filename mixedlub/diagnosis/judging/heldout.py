@@ -7,13 +7,14 @@ as all readings chose them; laws are held against the levels as published, witho
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.fit import Fit, linear_fit, log_likelihood, map_fit
+from mixedlub.diagnosis.fitting.fit import linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.fitting.problem import Explanation, Problem
 from mixedlub.diagnosis.fitting.search import Search
-from mixedlub.diagnosis.fitting.sudden import anywhere, sudden_places
+from mixedlub.diagnosis.fitting.sudden import elsewhere, places, without
 from mixedlub.diagnosis.recording.levels import set_points
 
 MOST_FOLDS = 8
@@ -141,12 +142,16 @@ class LevelsOut:
             else:
                 fit = map_fit(f.train, tuple(verdict), self.found.fits[tuple(verdict)].z, warm=True)
                 run = f.test.run(fit.explanation, fit.z)
-                after[f.out] = (f.test.y - run.prediction) / f.wide
-                slopes = f.test.jacobian(fit.explanation, fit.z, run) * (f.test.sd / f.wide)[:, None]
-                columns = np.hstack([fit.slopes, f.train.shared])
-                gain, variance = _elsewhere(f, fit)
-                after[f.out] -= gain
-                open_variance[f.out] = _open_variance(columns, fit.weight, slopes) + variance
+                # The level left out may be the one that showed where a sudden change stands.
+                found = places(f.train, fit)
+                gain, (variance, _, _) = elsewhere(
+                    found, fit.z, partial(f.test.predict, fit.explanation), run.prediction
+                )
+                after[f.out] = (f.test.y - run.prediction - gain) / f.wide
+                sudden = [p.index for p in found]
+                slopes = without(f.test.jacobian(fit.explanation, fit.z, run), sudden) * (f.test.sd / f.wide)[:, None]
+                columns = np.hstack([without(fit.slopes, sudden), f.train.shared])
+                open_variance[f.out] = _open_variance(columns, fit.weight, slopes) + variance / f.wide**2
         kept = ~outliers if not outliers.all() else np.ones(outliers.size, bool)
         spread = np.sqrt(1.0 + open_variance)
         return HeldOut(
@@ -169,25 +174,6 @@ def _open_variance(columns: np.ndarray, weight: np.ndarray, slopes: np.ndarray) 
     inner = np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ (columns * weight[:, None]))
     own = inner[: slopes.shape[1], : slopes.shape[1]]
     return np.asarray(np.einsum("ij,jk,ik->i", slopes, own, slopes))
-
-
-def _elsewhere(fold: _Fold, fit: Fit) -> tuple[np.ndarray, np.ndarray]:
-    """What predictions of the left-out readings gain, and their variance, by where a sudden change may stand.
-
-    The level left out may be the one that showed it. In sigmas.
-    """
-    gain, variance = np.zeros((2, fold.test.y.size))
-    here = fold.test.predict(fit.explanation, fit.z) / fold.wide
-    for place in sudden_places(fold.train, fit.explanation):
-        tried, told = anywhere(fold.train, fit, place, fit.z[place])
-        seen = np.array([fold.test.predict(fit.explanation, z) for z in tried]) / fold.wide
-        told = np.where(np.isfinite(seen).all(axis=1), told, -np.inf)
-        chance = np.exp(told - told.max())
-        seen = np.nan_to_num(seen)
-        mean = chance @ seen / chance.sum()
-        gain += mean - here
-        variance += chance @ (seen - mean) ** 2 / chance.sum()
-    return gain, variance
 
 
 def _unnamed_columns(found: Search) -> list[np.ndarray]:

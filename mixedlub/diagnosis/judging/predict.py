@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from mixedlub.diagnosis.fitting.fit import Fit, linear_fit, settled
 from mixedlub.diagnosis.fitting.problem import Problem
 from mixedlub.diagnosis.fitting.search import ELASTIC, Search, elastic_columns, typical_size
-from mixedlub.diagnosis.recording.noise import seen_noise
+from mixedlub.diagnosis.fitting.sudden import Places, elsewhere, places, sudden_places, without
+from mixedlub.diagnosis.recording.noise import by_level, seen_noise
 from mixedlub.diagnosis.unnamed.carriers import carrier
 from mixedlub.forward import Forward
 from mixedlub.table import Table
@@ -17,16 +19,28 @@ from mixedlub.table import Table
 
 @dataclass(frozen=True, eq=False)
 class Prediction:
-    """Predicted readings, the variance of the prediction, and the base model at the same calibration."""
+    """Predicted readings, their variance, and the base model at the same calibration.
+
+    ``lean`` (2, rows) is how much more or less variance the lower and the upper end of an interval go by.
+    """
 
     mean: np.ndarray
     variance: np.ndarray
     base: np.ndarray
+    lean: np.ndarray | float = 0.0
+
+    @property
+    def ends(self) -> np.ndarray:
+        """Variances (2, rows) that the ends of an interval go by."""
+        return self.variance + np.zeros((2, 1)) + self.lean
 
 
 @dataclass(frozen=True, eq=False)
 class Refined:
-    """A fit whose effects' forms may bend a little: coordinates, bend coefficients, joint covariance."""
+    """A fit whose effects' forms may bend a little: coordinates, bend coefficients, joint covariance.
+
+    Where sudden changes stand is no matter of slopes: ``places`` have it, and the covariance is that for one place.
+    """
 
     fit: Fit
     z: np.ndarray
@@ -35,11 +49,20 @@ class Refined:
     covariance: np.ndarray
     residual: np.ndarray
     typical: float
+    places: tuple[Places, ...]
+
+    @property
+    def spread(self) -> np.ndarray:
+        """Standard deviation of every coordinate."""
+        own = np.diag(self.covariance)[: self.z.size]
+        return np.asarray(np.sqrt(own + sum(p.variance for p in self.places)))
 
 
 def refine(found: Search, fit: Fit) -> Refined:
     """Settle how much the effects' forms bend, and the coordinates with it."""
     problem = found.problem
+    sudden, sloping = sudden_places(problem, fit.explanation), fit
+    fit = replace(fit, slopes=without(fit.slopes, sudden))
     fixed = np.hstack([fit.slopes, problem.shared])
     net = (fit.prediction - found.none.prediction) / problem.sd
     typical = typical_size(net)
@@ -55,6 +78,10 @@ def refine(found: Search, fit: Fit) -> Refined:
             break
     assert best is not None
     covariance = np.linalg.inv(np.eye(used.shape[1]) + used.T @ (used * best.weight[:, None]))
+    covariance[sudden, sudden] = 0.0
+    wanted = best.coefficients[: fit.z.size].copy()
+    wanted[sudden] = fit.z[sudden]
+    stand = places(problem, sloping, used[:, fixed.shape[1] :])
 
     def bends(prediction: np.ndarray) -> np.ndarray:
         if not bend:
@@ -62,10 +89,9 @@ def refine(found: Search, fit: Fit) -> Refined:
         net = (prediction - found.none.prediction) / problem.sd
         return np.asarray(bend * elastic_columns(net, typical, found.space, found.values))
 
-    count = fit.z.size
-    z, own = settled(problem, fit.explanation, fit.z, best.coefficients[:count], fit.common, bends, fit.weight)
-    coefficients = np.concatenate([z, best.coefficients[count : fixed.shape[1]], own.coefficients])
-    return Refined(fit, z, bend, coefficients, covariance, own.residual, typical)
+    z, own = settled(problem, fit.explanation, fit.z, wanted, fit.common, bends, fit.weight)
+    coefficients = np.concatenate([z, best.coefficients[z.size : fixed.shape[1]], own.coefficients])
+    return Refined(fit, z, bend, coefficients, covariance, own.residual, typical, stand)
 
 
 class Rows:
@@ -93,6 +119,8 @@ class Rows:
         z = refined.z
         run = self.problem.run(fit.explanation, z)
         mean, slopes = run.prediction, self.problem.jacobian(fit.explanation, z, run)
+        slopes = without(slopes, [p.index for p in refined.places])
+        gain, apart = elsewhere(refined.places, z, partial(self.problem.predict, fit.explanation), mean)
         base = self.problem.base(z)
         columns = [slopes, np.zeros((len(self.table), self.found.problem.shared.shape[1]))]
         if refined.bend:
@@ -102,7 +130,7 @@ class Rows:
             mean = mean + self.problem.sd * (own @ refined.coefficients[-own.shape[1] :])
         every = np.hstack(columns)
         variance = np.einsum("ij,jk,ik->i", every, refined.covariance, every) * self.problem.sd**2
-        return Prediction(mean, variance, base)
+        return Prediction(mean + gain, variance + apart[0], base, apart[1:] - apart[0])
 
     def of_unknown(self) -> Prediction:
         """Prediction of the base model plus the unnamed mismatch; far from the recordings it fades out."""
@@ -135,7 +163,8 @@ def _noise_at(problem: Problem, table: Table, seen: np.ndarray) -> tuple[np.ndar
     own = f"{problem.case.quantity}_sd"
     level = problem.level(seen)
     if own in problem.rows and own not in table:
-        typical = np.full(len(table), float(np.median(problem.one_sd)))
+        relative, absolute = by_level(problem.one_sd * problem.unit_size(problem.y), problem.level(problem.y))
+        typical = np.hypot(relative * level, absolute) / problem.unit_size(seen)
     else:
         typical, _ = seen_noise(problem.case, table, level)
     stated = problem.case.system.recording.noise

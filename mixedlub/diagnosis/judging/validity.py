@@ -7,7 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub.diagnosis.fitting.fit import NINETY
 from mixedlub.diagnosis.fitting.problem import Explanation, Problem, effects_of
+from mixedlub.diagnosis.recording.audit import Doubt
 from mixedlub.diagnosis.telling.labels import effect_words, number, words_of
 from mixedlub.effect import Effect
 from mixedlub.quantities import GLOSSARY
@@ -23,6 +25,30 @@ def beyond_range(problem: Problem, explanation: Explanation, z: np.ndarray) -> l
     for made in record.made:
         state.update(made)
     return outside(effects_of(explanation), state, problem.y.size)
+
+
+def unpublished(effects: Sequence[Effect], z: np.ndarray, spread: np.ndarray) -> list[str]:
+    """A sentence for each parameter outside what laws cited for its effect have; a doubt where none of them would do.
+
+    ``z`` and ``spread`` are the coordinates of the effects' parameters and their standard deviations.
+    """
+    said: list[str] = []
+    every = [(e, p) for e in effects for p in e.parameters]
+    for (e, p), at, sd in zip(every, z, spread, strict=True):
+        if p.published is None:
+            continue
+        least, most = p.published
+        low, value, high = (p.prior.value(float(at + k * NINETY * sd)) for k in (-1.0, 0.0, 1.0))
+        if least <= value <= most:
+            continue
+        cited = f"{number(least)} to {number(most)}"
+        found = f"{effect_words(e.id)}: {p.meaning} is {number(value)} (90 % {number(low)} to {number(high)})"
+        if low > most or high < least:
+            form = "read it as a change of that form, not as that cause"
+            said.append(Doubt(f"{found}; no law cited for it has that, they have {cited}: {form}"))
+        else:
+            said.append(f"{found}; the laws cited for it have {cited}, and these readings allow those too")
+    return said
 
 
 def outside(effects: Sequence[Effect], state: Mapping[str, Any], rows: int) -> list[str]:

@@ -10,7 +10,7 @@ from mixedlub.diagnosis.recording.features import PASSING
 from mixedlub.diagnosis.recording.noise import is_stated, nearly_repeated, noise_from_repeats, pooled_sd
 from mixedlub.forward import Forward
 from mixedlub.headers import unit_of
-from mixedlub.table import Table
+from mixedlub.table import IGNORED, MEANT, Table
 from mixedlub.usual import far_off
 from profiles.errors import InputError
 
@@ -105,11 +105,13 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
         typical = float(np.median(np.hypot(stated.relative * np.abs(y), stated.absolute) / size))
         unit = "" if case.kind.logarithmic else f" {unit_of(case.quantity)}".rstrip()
         if repeats > 4.0 * typical > 0:
+            unread = next((n.partition(IGNORED)[2] for n in case.notes if IGNORED in n and MEANT in n), "")
+            advice = "if they belong to several assemblies or sweeps, name these in a column setup"
+            advice = f"a condition may stand in a column that is ignored: {unread}" if unread else advice
             notes.append(
                 Doubt(
                     f"readings at equal conditions contradict each other: they scatter by {repeats:.3g}{unit} where "
-                    f"the stated noise is {typical:.3g}{unit}; if they belong to several assemblies or sweeps, name "
-                    "these in a column setup"
+                    f"the stated noise is {typical:.3g}{unit}; {advice}"
                 )
             )
     return notes

@@ -30,6 +30,8 @@ BOTH = 2.0
 """What both parts of a noise have to gain over one of them, in log probability."""
 PARTNERS = 12
 """Readings of its group that each one is compared with, at most."""
+CROSSINGS, SMALLEST = 121, 1e-6
+"""Levels at which noise that is alike for all may be as large as that in proportion, and the smallest over the top."""
 
 
 def is_stated(case: Case, rows: Table) -> bool:
@@ -130,6 +132,27 @@ def steadied(sd: np.ndarray, level: np.ndarray, near: np.ndarray) -> np.ndarray:
     pooled = near @ (log - share) / near.sum(axis=1) + share + LOW * min(v, HIGHEST)
     moved = (1.0 - weight) * log + weight * pooled
     return np.where(log > pooled + np.log(FAR_ABOVE), sd, np.exp(moved))
+
+
+def by_level(sd: np.ndarray, level: np.ndarray) -> tuple[float, float]:
+    r"""Noise in proportion to the level and noise that is alike for all, as standard deviations show.
+
+    .. math:: s^2 = (b y)^2 + a^2
+
+    The form whose logarithm lies the least off, so that up to a half of them may be of another kind.
+
+    >>> level = np.array([1.0, 10.0, 20.0, 100.0, 400.0])
+    >>> [[round(x, 1) for x in by_level(sd, level)] for sd in (np.hypot(0.1 * level, 2.0), np.full(5, 2.0))]
+    [[0.1, 2.0], [0.0, 2.0]]
+    """
+    size = np.abs(level)
+    top = max(float(size.max()), 1e-290)
+    crossings = np.geomspace(0.1 * max(float(size.min()), SMALLEST * top), 10.0 * top, CROSSINGS)
+    log = np.log(sd / np.hypot(size, crossings[:, None]))
+    shares = np.median(log, axis=1)
+    best = int(np.argmin(np.abs(log - shares[:, None]).sum(axis=1)))
+    relative = float(np.exp(shares[best]))
+    return relative, relative * float(crossings[best])
 
 
 def _neighbours(case: Case, rows: Table) -> np.ndarray:

@@ -10,14 +10,12 @@ from typing import Any
 import numpy as np
 
 from mixedlub.diagnosis.diagnose import Diagnosis, Predicted
+from mixedlub.diagnosis.fitting.fit import NINETY
 from mixedlub.diagnosis.fitting.problem import effects_of
 from mixedlub.diagnosis.judging.channel import Check, check_channel
 from mixedlub.diagnosis.judging.predict import Refined
 from mixedlub.diagnosis.telling.advice import beyond
 from mixedlub.effect import Prior
-
-NINETY = 1.6449
-"""Half-width of a 90 % interval in standard deviations."""
 
 
 def as_json(d: Diagnosis) -> dict[str, Any]:
@@ -100,13 +98,13 @@ def effect_records(d: Diagnosis) -> list[dict[str, Any]]:
     if isinstance(d.posterior.verdict, str):
         return []
     refined = verdict_fit(d)
-    spread = np.sqrt(np.diag(refined.covariance))
+    spread = refined.spread
     place = d.found.problem.calibration_size
     records = []
     for e in d.found.problem.effects(refined.fit.explanation):
         parameters = []
         for p in e.parameters:
-            value, low, high = interval(p.prior, refined.z[place], spread[place])
+            value, low, high = _told(refined, p.prior, place, spread[place])
             parameters.append({"name": p.name, "unit": p.unit, "value": value, "low90": low, "high90": high})
             place += 1
         record = {"id": e.id, "parameters": parameters, "source": e.source, "equation": e.equation}
@@ -122,7 +120,7 @@ def calibration_record(d: Diagnosis) -> dict[str, dict[str, float]]:
         z, spread = unknown.z, np.sqrt(np.diag(unknown.covariance))
     else:
         refined = verdict_fit(d)
-        z, spread = refined.z, np.sqrt(np.diag(refined.covariance))
+        z, spread = refined.z, refined.spread
     record = {}
     for i, c in enumerate(d.found.problem.forward.calibrations):
         value, low, high = interval(c.parameter.prior, z[i], spread[i])
@@ -134,6 +132,15 @@ def interval(prior: Prior, z: float, spread: float) -> tuple[float, float, float
     """Value and 90 % interval of a parameter from its standard-normal coordinate."""
     ends = (prior.value(float(z - NINETY * spread)), prior.value(float(z + NINETY * spread)))
     return prior.value(float(z)), min(ends), max(ends)
+
+
+def _told(refined: Refined, prior: Prior, index: int, spread: float) -> tuple[float, float, float]:
+    """The same of a coordinate of a fit; that of a place from all places where it may stand."""
+    for stands in refined.places:
+        if stands.index == index:
+            low, value, high = (prior.value(stands.at(share)) for share in (0.05, 0.5, 0.95))
+            return value, low, high
+    return interval(prior, refined.z[index], spread)
 
 
 def separating_text(d: Diagnosis, names: tuple[str, ...]) -> str:

@@ -29,7 +29,7 @@ def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Table]:
     if isinstance(d.posterior.verdict, str) or d.posterior.verdict == ():
         return (), ()
     place = d.found.problem.calibration_size
-    spread = np.sqrt(np.diag(verdict_fit(d).covariance))
+    spread = verdict_fit(d).spread
     table, said = [COLUMNS], []
     for e, record in zip(d.found.problem.effects(d.posterior.verdict), effect_records(d), strict=True):
         own = spread[place : place + len(e.parameters)]
@@ -100,4 +100,4 @@ def _calibrated(d: Diagnosis) -> tuple[np.ndarray, np.ndarray]:
     if d.posterior.verdict == "unknown":
         return d.found.unknown.z, np.sqrt(np.diag(d.found.unknown.covariance))
     refined = verdict_fit(d)
-    return refined.z, np.sqrt(np.diag(refined.covariance))
+    return refined.z, refined.spread

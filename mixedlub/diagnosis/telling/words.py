@@ -51,8 +51,6 @@ WORTH = 0.5
 """Share of an unnamed mismatch from which the effects that take it up are told."""
 SECOND = 0.1
 """Share of a mismatch that a second effect has to take up to be told."""
-TIMES = 3.0
-"""Share of the reading from which it is told as a multiple."""
 LEFT_OUT = "What was left out?"
 BEST_TIED = "What was left out? Best of the tied candidates"
 UNNAMED = "If it is something unknown"
@@ -156,6 +154,15 @@ def _direction(z: np.ndarray, predicted: np.ndarray) -> str:
     return "now more and now less"
 
 
+def _share(lacking: np.ndarray, predicted: np.ndarray) -> np.ndarray:
+    """What is missing over the larger of the reading and the model without it: either may be all but 0.
+
+    >>> _share(np.array([3.0, -0.09]), np.array([4.0, 0.0])).tolist()
+    [0.75, 1.0]
+    """
+    return np.abs(lacking) / np.maximum(np.maximum(np.abs(predicted), np.abs(predicted - lacking)), 1e-300)
+
+
 def _where(d: Diagnosis) -> tuple[str, ...]:
     if d.posterior.verdict == ():
         return ()
@@ -167,9 +174,8 @@ def _where(d: Diagnosis) -> tuple[str, ...]:
             np.isin(column, cut["values"]) if "values" in cut else (column >= cut["low"]) & (column <= cut["high"])
         )
     place = ", ".join(range_text(cut) for cut in d.region.where) or "everywhere"
-    part = missing(d)[1] / np.maximum(np.abs(d.recorded.predicted), 1e-300)
-    share = float(np.median(np.abs(part[inside])))
-    size = f"{number(100 * share)} % of the reading" if share < TIMES else f"{number(share)} times the reading"
+    share = float(np.median(_share(missing(d)[1], d.recorded.predicted)[inside]))
+    size = f"{number(100 * share)} % of the larger of the two"
     sign = _direction(z[inside], d.recorded.predicted[inside])
     said = [
         f"Above all at {place}: there the rig reads {sign} than the model without it, by {_rms(z[inside]):.1f} sigma "
