@@ -68,6 +68,7 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
         "viscous_torque": 0.5 * size,
         "payload_torque": 0.0,
         "gears_fitted": np.where(gears_out(table), BARE_SHARE, 1.0)[:, None],
+        "temperature_difference": _warmer(table, recorded),
     }
     for name in LOADS:
         if name in table and name in recorded and np.any(recorded[name] != 0):
@@ -80,6 +81,14 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
     if "position_deg" in table:
         found["drive_angle"] = np.radians(column(table["position_deg"]))
     return found
+
+
+def _warmer(table: Table, recorded: Table) -> np.ndarray:
+    """Oil temperature of the rows over the mean of the recording (K); zero where either says none."""
+    name = "oil_temperature_C"
+    if name not in table or name not in recorded:
+        return np.zeros((len(table), 1))
+    return column(table[name] - np.mean(recorded[name]))
 
 
 def _motor_torque(table: Table, recorded: Table, size: float) -> Inputs:
