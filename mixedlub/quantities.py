@@ -88,6 +88,10 @@ oil_temperature         | theta_oil  | K       | temperature of the oil at the i
 viscosity               | eta_0      | Pa s    | dynamic viscosity at oil temperature and ambient pressure
 pressure_viscosity      | alpha      | 1/Pa    | pressure-viscosity coefficient at oil temperature
 temperature_viscosity   | beta       | 1/K     | relative fall of viscosity per kelvin
+first_known_temperature | theta_1    | K       | temperature of the first of the two given viscosities
+second_known_temperature | theta_2  | K       | temperature of the second of the two given viscosities
+known_fall              | f_12       | -       | logarithm of the first given viscosity over the second
+fall_from_first         | f_1        | -       | logarithm of the first given viscosity over that at hand
 oil_density             | rho        | kg/m^3  | density of the oil
 oil_conductivity        | k_f        | W/(m K) | thermal conductivity of the oil
 oil_heat_capacity       | c_f        | J/(kg K) | specific heat of the oil

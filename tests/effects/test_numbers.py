@@ -21,7 +21,9 @@ from mixedlub.effects.roughness_lay import roughness_lay
 from mixedlub.effects.skewed_heights import _skewed_area_integral
 from mixedlub.effects.tip_relief import tip_relief
 from mixedlub.effects.torque_offset import torque_offset
+from mixedlub.effects.viscosity_temperature_law import viscosity_temperature_law
 from mixedlub.laws import drag, heating, loss
+from mixedlub.lubricant import Lubricant
 from roughness.integrals import area_integral
 
 PROTOTYPE = {
@@ -315,6 +317,37 @@ class TestIntegrals:
         total = ((after - before) * inputs["path_weight"]).sum(axis=-1)
         moved = (np.abs(after - before) * inputs["path_weight"]).sum(axis=-1)
         assert (np.abs(total) < 0.01 * moved).all()
+
+    @pytest.mark.parametrize("divergence", [155.0, 178.15, 195.0])
+    @pytest.mark.parametrize("known", [(313.15, 373.15), (353.15, 293.15)])
+    def test_liquid_of_vogel_is_met_from_two_of_its_viscosities(
+        self, divergence: float, known: tuple[float, float]
+    ) -> None:
+        """0.065 mPa s exp(900 K/(T - T_c)): 51 mPa s at 40 degC where T_c is 178 K."""
+
+        def vogel(kelvin: np.ndarray) -> np.ndarray:
+            return 6.5e-5 * np.exp(900.0 / (kelvin - divergence))
+
+        kinematic = vogel(np.array(known)) / (850.0 * (1.0 - 6.5e-4 * (np.array(known) - 288.15)))
+        oil = Lubricant("", known, tuple(kinematic.tolist()), (2e-8, 1e-8), 850.0, 6.5e-4, 5e6, 0.14, 2e3)
+        kelvin = np.linspace(263.15, 423.15, 9)
+        inputs = oil.inputs(kelvin)
+        words = ("first_known_temperature", "second_known_temperature", "known_fall", "fall_from_first")
+        law = {"share": 1.0, "divergence": divergence}
+        found = viscosity_temperature_law(inputs["viscosity"], kelvin, *(inputs[w] for w in words), **law)
+        np.testing.assert_allclose(found, vogel(kelvin), rtol=1e-10)
+        departure = np.abs(np.log(inputs["viscosity"] / found))
+        assert departure[(kelvin > 313.0) & (kelvin < 373.0)].max() < 0.06
+
+    def test_law_of_vogel_leaves_the_two_given_viscosities(self) -> None:
+        oil = Lubricant("", (313.15, 373.15), (1e-4, 1.1e-5), (2e-8, 1e-8), 880.0, 6.5e-4, 5e6, 0.14, 2e3)
+        kelvin = np.array(oil.temperature)
+        inputs = oil.inputs(kelvin)
+        words = ("first_known_temperature", "second_known_temperature", "known_fall", "fall_from_first")
+        found = viscosity_temperature_law(
+            inputs["viscosity"], kelvin, *(inputs[w] for w in words), share=1.3, divergence=190.0
+        )
+        np.testing.assert_allclose(found, inputs["viscosity"], rtol=1e-13)
 
 
 class TestLookalikes:
