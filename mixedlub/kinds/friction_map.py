@@ -13,7 +13,7 @@ from mixedlub import config
 from mixedlub.calibration import Calibration
 from mixedlub.chain import Chain
 from mixedlub.effect import BetweenLog, LogNormal, Normal, Parameter
-from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out, programme
+from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out, inverse_load, programme
 from mixedlub.laws import drive
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.table import CaseWarning, Column, Table
@@ -61,6 +61,7 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
     size = _size(system, recorded)
     found: Inputs = {
         **bookkeeping_inputs(system, table),
+        **inverse_load(system, table, recorded),
         **programme(table, recorded),
         "drive_speed": column(speed),
         "reference_speed": float(np.max(np.abs(drive_speed(recorded)))) or 1.0,
