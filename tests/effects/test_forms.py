@@ -7,8 +7,10 @@ import pytest
 
 from mixedlub.effects.bearing_drag import bearing_drag
 from mixedlub.effects.pressure_viscosity_law import LOW, pressure_viscosity_law
+from mixedlub.effects.starvation import starvation
 from mixedlub.effects.stribeck import stribeck
 from mixedlub.effects.viscosity_drift import viscosity_drift
+from mixedlub.laws.oil import roelands_viscosity
 
 STRAIGHT = {
     "roelands": 0.0,
@@ -74,3 +76,23 @@ def test_a_film_that_collapses_keeps_viscosity_times_speed() -> None:
     law = {"excess": 0.4, "speed_share": 0.05, "exponent": 1.6, "thinning": 0.03}
     cold, warm = (stribeck(2.0, 2.0, v, 100.0, t, **law) for v, t in ((4.0, -5.0), (4.0 * np.exp(0.3), 5.0)))
     assert cold == pytest.approx(warm, rel=1e-12)
+
+
+@pytest.mark.parametrize("steepness", [0.5, 2.5, 400.0])
+@pytest.mark.parametrize("width_power", [-1.0, 0.0, 3.0])
+def test_starved_film_is_finite_however_sharp_and_far_the_onset(steepness: float, width_power: float) -> None:
+    """Chevalier's form where it can be written out, and its limit (c/(eta u))^s where it overflows."""
+    law = {"strength": 0.5, "onset": 1e-2, "steepness": steepness, "width_power": width_power}
+    speed, pressure = np.array([1e-3, 0.2, 30.0]), 1.4e9
+    ratio = 0.1 * speed / (0.01 * 1.4**width_power)
+    found = starvation(1e-7, 0.1, speed, pressure, **law)
+    with np.errstate(over="ignore"):
+        raised = ratio**steepness
+    plain = np.where(np.isfinite(raised), (1.0 + np.where(np.isfinite(raised), raised, 0.0)) ** (-0.5 / steepness), 0.0)
+    expected = 1e-7 * np.where(np.isfinite(raised), plain, ratio**-0.5)
+    np.testing.assert_allclose(found, expected, rtol=1e-12)
+    assert starvation(1e-7, 0.1, 1e9, pressure, **{**law, "strength": 30.0}) > 0.0
+
+
+def test_law_of_roelands_stays_a_number_for_a_liquid_that_is_none() -> None:
+    assert np.isfinite(roelands_viscosity(1e9, 600e-9, 3e9))
