@@ -24,7 +24,7 @@ NEAREST, MOST = 5.0, 30.0
             "divergence",
             "K",
             Between(150.0, 200.0),
-            "temperature at which Vogel's viscosity has no end",
+            "temperature at which Vogel's viscosity grows without bound",
             symbol=r"\theta_c",
         ),
     ),
@@ -50,8 +50,8 @@ def viscosity_temperature_law(
 ) -> np.ndarray:
     """Between and beyond the two temperatures at which an oil is known its viscosity follows another law.
 
-    Vogel's ln eta = A + B/(theta - theta_c) through both points, with theta_c 73 to 123 K below 0 degC as
-    fits of oils have it, lies 5 % below to 1 % above D341 between 40 and 100 degC, and up to twice as high at 0 degC.
+    Vogel's ln eta = A + B/(theta - theta_c) through both points, with theta_c 73 to 123 K below 0 degC as fits of
+    oils have it, lies 5 % below to 3 % above D341 between 40 and 100 degC, and a fifth below to twice D341 at 0 degC.
 
     >>> known = (313.15, 373.15, np.log(10.0))   # a tenth of the viscosity at 100 degC
     >>> oil, fall = np.array([313.15, 333.15, 373.15]), np.log(10.0) * np.array([0.0, 0.43, 1.0])
