@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib.metadata import entry_points
-from math import exp, log, sinh
+from math import copysign, erf, erfc, exp, log, sinh, sqrt
 from statistics import NormalDist
 from types import MappingProxyType
 
@@ -66,6 +66,30 @@ class LogNormal:
 
 
 @dataclass(frozen=True)
+class EitherSign:
+    """A lognormal prior of either sign: the size is known to within a factor, and nothing small is meant."""
+
+    median: float
+    spread: float
+
+    def value(self, z: float) -> float:
+        """The value that lies ``z`` standard deviations up the prior; zero in the middle, between the two signs.
+
+        >>> prior = EitherSign(200.0, 0.25)
+        >>> [round(prior.value(z)) for z in (-0.6745, -0.1, 0.0, 0.1, 0.6745)]   # quartiles at the medians
+        [-200, -141, 0, 141, 200]
+        """
+        if z == 0.0:
+            return 0.0
+        size, normal = min(abs(z), 37.0) / sqrt(2.0), NormalDist()
+        inner = normal.inv_cdf(erf(size)) if size < 0.7 else -normal.inv_cdf(erfc(size))
+        return copysign(self.median * exp(min(self.spread * inner, 60.0)), z)
+
+    def __str__(self) -> str:
+        return f"±{self.median:g} ×/÷ {exp(self.spread):.2g}"
+
+
+@dataclass(frozen=True)
 class Between:
     """A prior that is even between two bounds."""
 
@@ -95,7 +119,7 @@ class BetweenLog:
         return f"even in order of magnitude, {self.low:g} to {self.high:g}"
 
 
-Prior = Normal | Wide | LogNormal | Between | BetweenLog
+Prior = Normal | Wide | LogNormal | EitherSign | Between | BetweenLog
 
 
 @dataclass(frozen=True)

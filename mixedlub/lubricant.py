@@ -39,12 +39,17 @@ class Lubricant:
 
     def inputs(self, temperature: np.ndarray) -> dict[str, np.ndarray | float]:
         """What the chain wants to know of the oil at a temperature (K), by glossary name."""
+        viscosity, known = self.viscosity(temperature), self.viscosity(np.array(self.temperature))
         return {
-            "viscosity": self.viscosity(temperature),
+            "viscosity": viscosity,
             "pressure_viscosity": self.pressure_coefficient(temperature),
             "temperature_viscosity": oil.temperature_viscosity(
                 temperature, self.temperature, self.kinematic_viscosity, self.density_change
             ),
+            "first_known_temperature": self.temperature[0],
+            "second_known_temperature": self.temperature[1],
+            "known_fall": float(np.log(known[0] / known[1])),
+            "fall_from_first": np.log(known[0] / viscosity),
             "oil_density": self.density(temperature),
             "oil_conductivity": self.conductivity,
             "oil_heat_capacity": self.heat_capacity,

@@ -88,6 +88,10 @@ oil_temperature         | theta_oil  | K       | temperature of the oil at the i
 viscosity               | eta_0      | Pa s    | dynamic viscosity at oil temperature and ambient pressure
 pressure_viscosity      | alpha      | 1/Pa    | pressure-viscosity coefficient at oil temperature
 temperature_viscosity   | beta       | 1/K     | relative fall of viscosity per kelvin
+first_known_temperature | theta_1    | K       | temperature of the first of the two given viscosities
+second_known_temperature | theta_2  | K       | temperature of the second of the two given viscosities
+known_fall              | f_12       | -       | logarithm of the first given viscosity over the second
+fall_from_first         | f_1        | -       | logarithm of the first given viscosity over that at hand
 oil_density             | rho        | kg/m^3  | density of the oil
 oil_conductivity        | k_f        | W/(m K) | thermal conductivity of the oil
 oil_heat_capacity       | c_f        | J/(kg K) | specific heat of the oil
@@ -126,6 +130,8 @@ payload_torque          | T_0        | N m     | constant torque that keeps its 
 running_friction        | T_r        | N m     | friction torque of the moving parts, signed with the speed
 drive_speed             | omega      | rad/s   | signed speed of a drive (m/s where a sliding speed is recorded)
 reference_speed         | omega_0    | rad/s   | largest speed of the recording, in the unit of drive_speed
+temperature_difference  | theta_d    | K       | oil temperature over the mean of the recording, 0 where unknown
+inverse_load            | q_w        | -       | smallest load of the recording over the load
 load_fraction           | q_F        | -       | load on a drive over the largest load of the recording
 additive_fraction       | q_a        | -       | content of an additive over the largest content tested
 gears_fitted            | chi        | -       | 1 with gears; without: share of friction left, 0 for a gear pair

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import BetweenLog, Normal, Parameter, effect
+from mixedlub.effect import BetweenLog, EitherSign, Parameter, effect
 
 SHARPNESS = 60.0
 
@@ -11,7 +11,14 @@ SHARPNESS = 60.0
     stage="measurement",
     acts_on="reading",
     parameters=(
-        Parameter("jump", "m", Normal(0.0, 2e-7), "error of the reading: about 200 nm an order", null=0.0, symbol="j"),
+        Parameter(
+            "jump",
+            "m",
+            EitherSign(1.9e-7, 0.25),
+            "error of the reading: 160 to 230 nm an order of visible light, rarely two orders",
+            null=0.0,
+            symbol="j",
+        ),
         Parameter(
             "onset",
             "m",
@@ -32,6 +39,8 @@ SHARPNESS = 60.0
 )
 def fringe_order(reading: np.ndarray, film_thickness: np.ndarray, *, jump: float, onset: float) -> np.ndarray:
     """All films above the miscounted order read one or more fringes too thick or too thin.
+
+    A smaller jump is no wrong count: see `fringe_step`.
 
     >>> (fringe_order(np.array([1e-7, 1e-6]), np.array([1e-7, 1e-6]), jump=2e-7, onset=5e-7) * 1e9).round(1).tolist()
     [100.0, 1200.0]

@@ -5,6 +5,8 @@ import numpy as np
 from mixedlub.effect import BetweenLog, LogNormal, Parameter, Wide, effect
 
 USUAL = 1e9
+LEAST, MOST = 1e-300, 60.0
+"""Ratio to the onset that stands for none; logarithm of a film's loss beyond which there is no film."""
 
 
 @effect(
@@ -52,8 +54,10 @@ def starvation(
     width starves a narrow one first, w = 3 (Hamrock and Dowson). Width goes with the Hertz pressure; its usual 1 GPa
     makes the form belong to Pa.
 
-    >>> starvation(1.0, 0.1, 1.0, 1e9, strength=1.0, onset=0.1, steepness=1.0, width_power=0.0)   # r = 1, gamma = 1
+    >>> law = dict(strength=1.0, onset=0.1, steepness=1.0, width_power=0.0)   # r = 1, gamma = 1
+    >>> round(float(starvation(1.0, 0.1, 1.0, 1e9, **law)), 12)
     0.5
     """
-    start = onset * (hertz_pressure / USUAL) ** width_power
-    return film_thickness * (1.0 + (viscosity * entrainment_speed / start) ** steepness) ** (-strength / steepness)
+    beyond = np.log(np.maximum(viscosity * entrainment_speed / onset, LEAST))
+    beyond = steepness * (beyond - width_power * np.log(hertz_pressure / USUAL))
+    return film_thickness * np.exp(-np.minimum(strength / steepness * np.logaddexp(0.0, beyond), MOST))

@@ -14,13 +14,28 @@ from mixedlub.effect import LogNormal, Parameter, effect
             "speed_share",
             "-",
             LogNormal(0.1, 1.0),
-            "Stribeck speed over the largest speed of the recording",
+            "Stribeck speed over the largest speed of the recording, at its mean temperature",
             symbol="q",
         ),
+        Parameter(
+            "exponent",
+            "-",
+            LogNormal(1.0, 0.4),
+            "1: exponential as Tustin's, 2: as Gauss' curve, below 1: spread over decades of speed",
+            symbol="n",
+        ),
+        Parameter(
+            "thinning",
+            "1/K",
+            LogNormal(0.03, 0.35),
+            "fall of viscosity a kelvin, by which warm oil needs more speed",
+            symbol="b",
+        ),
     ),
-    equation=r"T_r \leftarrow T_r + s\,T_c\,e^{-|\omega|/(q\,\omega_0)}\operatorname{sgn}\omega",
-    source="B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, Automatica 30 (1994) 1083; exponent one as in "
-    "A. Tustin, J. IEE 94 (1947) 143",
+    equation=r"T_r \leftarrow T_r + s\,T_c\,e^{-[|\omega|/\omega_s]^n}\operatorname{sgn}\omega,\quad "
+    r"\omega_s = q\,\omega_0\,e^{b\,\theta_d}",
+    source="B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, Automatica 30 (1994) 1083, whose exponents are "
+    "0.5 to 2; one as in A. Tustin, J. IEE 94 (1947) 143; film laws hold the product of viscosity and speed",
     fingerprint={"speed": "-"},
     separated_by="points below a tenth of the largest speed, in both directions: friction falls with speed before "
     "it rises; a payload or an offset does not change sign with the direction",
@@ -31,15 +46,26 @@ def stribeck(
     coulomb_torque: np.ndarray,
     drive_speed: np.ndarray,
     reference_speed: np.ndarray,
+    temperature_difference: np.ndarray,
     *,
     excess: float,
     speed_share: float,
+    exponent: float,
+    thinning: float,
 ) -> np.ndarray:
     """At low speed the lubricant film collapses and friction rises above its dry level at speed.
 
-    >>> x = stribeck(2.0, 2.0, np.array([1e-9, 100.0]), 100.0, excess=0.5, speed_share=0.1)
-    >>> x.round(3).tolist()
-    [3.0, 2.0]
+    A film is as thick at half the viscosity and twice the speed; viscosity falls by 2 to 5 % a kelvin.
+
+    >>> law = dict(excess=0.5, speed_share=0.1, thinning=0.03)
+    >>> stribeck(2.0, 2.0, np.array([1e-9, 10.0, 100.0]), 100.0, 0.0, exponent=1.0, **law).round(3).tolist()
+    [3.0, 2.368, 2.0]
+    >>> stribeck(2.0, 2.0, np.array([5.0, 20.0]), 100.0, 0.0, exponent=2.0, **law).round(3).tolist()
+    [2.779, 2.018]
+    >>> warm = np.log(2.0) / 0.03
+    >>> float(stribeck(2.0, 2.0, 20.0, 100.0, warm, exponent=2.0, **law).round(3))   # as 10 rad/s at the mean
+    2.368
     """
-    share = np.abs(drive_speed) / (speed_share * reference_speed)
+    turning = speed_share * reference_speed * np.exp(thinning * temperature_difference)
+    share = (np.abs(drive_speed) / turning) ** exponent
     return running_friction + excess * coulomb_torque * np.exp(-share) * np.sign(drive_speed)

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from mixedlub.effect import Between, LogNormal, Normal, Parameter, Wide, effect
+from mixedlub.effect import Between, Normal, Parameter, Wide, effect
 
 WARM = 313.15
 KELVIN = 100.0
-MOST = 30.0
-"""Logarithm of a viscosity's change beyond which no oil is one."""
+SMALL, MOST = 1e-9, 30.0
+"""Saturation that is none; logarithm of a viscosity's change, or of a rate's, beyond which none is one."""
 
 
 @effect(
@@ -22,13 +22,21 @@ MOST = 30.0
             null=0.0,
             symbol="d",
         ),
-        Parameter("power", "-", LogNormal(1.0, 0.4), "1: steady, above: it gathers pace", symbol="m"),
+        Parameter(
+            "saturation",
+            "-",
+            Wide(1.5),
+            "0: steady, above: rates that fall by so many powers of e over the programme, below: that rise",
+            symbol="s",
+        ),
         Parameter("cold_gain", "-", Wide(0.7), "log growth of the drift over 100 K of cooling", symbol="k"),
         Parameter("heat", "-", Between(0.0, 1.0), "0: it goes with time, 1: with time and heat", symbol="a"),
     ),
     equation=r"\eta_0 \leftarrow \eta_0\,"
-    r"e^{d\,[(1 - a)q + a q_h]^m e^{k(40\,^\circ\text{C} - \theta_{oil})/100\,\text{K}}}",
-    source="evaporation, oxidation or shear-down as a steady relative rate; e.g. ASTM D445 on used oils reports it so",
+    r"e^{d\,c\,e^{k(40\,^\circ\text{C} - \theta_{oil})/100\,\text{K}}},\quad "
+    r"c = \frac{1 - e^{-s x}}{1 - e^{-s}},\quad x = (1 - a)q + a q_h",
+    source="a change of first order, as evaporation of a light fraction or a reaction whose reactant is used up "
+    "(s > 0), or one that feeds itself, as oxidation once the antioxidant is gone (s < 0); measured by ASTM D445",
     fingerprint={"sequence": "-"},
     separated_by="the first point repeated at the end, and a fresh sample under a solvent trap: what the trap stops is "
     "evaporation, what a fresh sample repeats is chemistry or the edge of the gap",
@@ -40,7 +48,7 @@ def viscosity_drift(
     oil_temperature: np.ndarray,
     *,
     drift: float,
-    power: float,
+    saturation: float,
     cold_gain: float,
     heat: float,
 ) -> np.ndarray:
@@ -49,9 +57,23 @@ def viscosity_drift(
     No law of temperature and pressure can show it. What a lost light fraction or a new phase adds is felt most in
     the cold, hence ``cold_gain``. Oxidation goes on twice as fast every 10 K, evaporation faster in heat too.
 
-    >>> place = np.array([0.0, 1.0])
-    >>> viscosity_drift(0.04, place, place, 313.15, drift=0.2, power=1.0, cold_gain=1.0, heat=0.5).round(4).tolist()
-    [0.04, 0.0489]
+    The course ends at one, so that ``drift`` is the change at the end whatever its pace.
+
+    >>> place, rest = np.array([0.0, 0.5, 1.0]), dict(drift=0.2, cold_gain=1.0, heat=0.5)
+    >>> viscosity_drift(0.04, place, place, 313.15, saturation=0.0, **rest).round(4).tolist()
+    [0.04, 0.0442, 0.0489]
+    >>> early = np.log(4.0)   # half-life is half the programme: two thirds of the change are done by then
+    >>> viscosity_drift(0.04, place, place, 313.15, saturation=early, **rest).round(4).tolist()
+    [0.04, 0.0457, 0.0489]
     """
-    grown = drift * np.maximum((1.0 - heat) * sequence + heat * ageing, 0.0) ** power
+    done = np.maximum((1.0 - heat) * sequence + heat * ageing, 0.0)
+    grown = drift * _course(done, saturation)
     return viscosity * np.exp(np.clip(grown * np.exp(cold_gain * (WARM - oil_temperature) / KELVIN), -MOST, MOST))
+
+
+def _course(done: np.ndarray, saturation: float) -> np.ndarray:
+    """From 0 to 1 as what is done does, and on; a rate that falls or rises exponentially."""
+    if abs(saturation) < SMALL:
+        return done
+    rate = float(np.clip(saturation, -MOST, MOST))
+    return np.expm1(-rate * done) / np.expm1(-rate)

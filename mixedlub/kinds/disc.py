@@ -11,7 +11,7 @@ from mixedlub.calibration import Calibration
 from mixedlub.chain import Chain
 from mixedlub.chains import LINE, POINT
 from mixedlub.kinds import unknown_oil
-from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column
+from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, inverse_load
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws import load, loss
 from mixedlub.laws.contact import reduced_modulus
@@ -77,6 +77,7 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
         **bodies.lubricant(system.lubricant).inputs(temperature),
         **pair_of_surfaces(system, folder, table, "surface_1", "surface_2"),
         **bookkeeping_inputs(system, table),
+        **inverse_load(system, table, recorded),
         "oil_temperature": temperature,
         "boundary_friction": system.boundary_friction,
     }

@@ -13,7 +13,7 @@ from mixedlub.calibration import Calibration
 from mixedlub.chain import Chain
 from mixedlub.effect import LogNormal, Parameter
 from mixedlub.kinds import disc, unknown_oil
-from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, programme
+from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, inverse_load, programme
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.table import CaseWarning, Column, Table
 
@@ -55,6 +55,7 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
     return {
         **_conditions(table),
         **bookkeeping_inputs(system, table),
+        **inverse_load(system, table, recorded),
         **programme(table, recorded),
         "boundary_friction": _level(system, recorded),
         "area_ratio": 0.0,

@@ -13,7 +13,7 @@ from mixedlub import config
 from mixedlub.calibration import Calibration
 from mixedlub.chain import Chain
 from mixedlub.effect import BetweenLog, LogNormal, Normal, Parameter
-from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out, programme
+from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out, inverse_load, programme
 from mixedlub.laws import drive
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.table import CaseWarning, Column, Table
@@ -61,6 +61,7 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
     size = _size(system, recorded)
     found: Inputs = {
         **bookkeeping_inputs(system, table),
+        **inverse_load(system, table, recorded),
         **programme(table, recorded),
         "drive_speed": column(speed),
         "reference_speed": float(np.max(np.abs(drive_speed(recorded)))) or 1.0,
@@ -68,6 +69,7 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
         "viscous_torque": 0.5 * size,
         "payload_torque": 0.0,
         "gears_fitted": np.where(gears_out(table), BARE_SHARE, 1.0)[:, None],
+        "temperature_difference": _warmer(table, recorded),
     }
     for name in LOADS:
         if name in table and name in recorded and np.any(recorded[name] != 0):
@@ -80,6 +82,14 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
     if "position_deg" in table:
         found["drive_angle"] = np.radians(column(table["position_deg"]))
     return found
+
+
+def _warmer(table: Table, recorded: Table) -> np.ndarray:
+    """Oil temperature of the rows over the mean of the recording (K); zero where either says none."""
+    name = "oil_temperature_C"
+    if name not in table or name not in recorded:
+        return np.zeros((len(table), 1))
+    return column(table[name] - np.mean(recorded[name]))
 
 
 def _motor_torque(table: Table, recorded: Table, size: float) -> Inputs:

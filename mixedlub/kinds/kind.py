@@ -66,6 +66,20 @@ NO_GEARS = "no_gears"
 """Name in the column ``rig`` of readings taken with the gears out."""
 
 
+LOADS_DIFFER, LEAST = 1.2, 1e-3
+"""Largest over smallest load from which a constant force is no constant share of it; smallest load told from none."""
+
+
+def inverse_load(system: config.System, table: Table, recorded: Table) -> Inputs:
+    """Smallest recorded load over that of each row, where readings are friction forces over loads that differ."""
+    if system.recording.quantity != "friction_coefficient" or "load_N" not in table or "load_N" not in recorded:
+        return {}
+    least, largest = float(np.min(np.abs(recorded["load_N"]))), float(np.max(np.abs(recorded["load_N"])))
+    if least == 0.0 or largest < LOADS_DIFFER * least:
+        return {}
+    return {"inverse_load": column(least / np.maximum(np.abs(table["load_N"]), LEAST * least))}
+
+
 def gears_out(table: Table) -> np.ndarray:
     """Rows taken with the gears out."""
     return table["rig"] == NO_GEARS if "rig" in table else np.zeros(len(table), dtype=bool)

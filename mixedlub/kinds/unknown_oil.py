@@ -26,6 +26,8 @@ THINNEST, THICKEST = 0.4e-6, 1.0
 """Kinematic viscosities (m^2/s) between which the ordinate of D341 is used."""
 LEVEL = "viscosity_level"
 """What the level was moved to, for the slope that is turned about it."""
+FALLS = ("temperature_viscosity", "known_fall", "fall_from_first")
+"""What else of an oil hangs on how its viscosity falls with temperature."""
 
 
 def missing(system: config.System) -> tuple[str, ...]:
@@ -144,12 +146,11 @@ def _turned(oil: Lubricant, pivot: float, nominal: float) -> Any:
 
 
 def _exchanged(inputs: Mapping[str, Any], old: Lubricant, new: Lubricant) -> dict[str, Any]:
-    """Viscosity, and its fall with temperature where the chain has it, of another oil."""
+    """Viscosity, and its fall with temperature, of another oil."""
     at = inputs["oil_temperature"]
     changed = {"viscosity": inputs["viscosity"] * (new.viscosity(at) / old.viscosity(at))}
-    if "temperature_viscosity" in inputs:
-        changed["temperature_viscosity"] = new.inputs(at)["temperature_viscosity"]
-    return changed
+    other = new.inputs(at)
+    return changed | {name: other[name] for name in FALLS if name in inputs}
 
 
 def _tilted(usual: float, pivot: float) -> Any:

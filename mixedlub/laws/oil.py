@@ -7,6 +7,8 @@ import numpy as np
 ROELANDS_PRESSURE = 1.96e8
 ROELANDS_LOG = 9.67
 ZERO_CELSIUS = 273.15
+LARGEST_LOG = 500.0
+"""Logarithm of a viscosity's rise that stands for any above, far beyond every liquid: it stays a number."""
 
 
 def kinematic_viscosity(
@@ -89,7 +91,8 @@ def roelands_viscosity(viscosity: np.ndarray, pressure_viscosity: np.ndarray, he
     """
     log = np.log(viscosity) + ROELANDS_LOG
     exponent = pressure_viscosity * ROELANDS_PRESSURE / log
-    return viscosity * np.exp(log * ((1.0 + hertz_pressure / ROELANDS_PRESSURE) ** exponent - 1.0))
+    rise = log * ((1.0 + hertz_pressure / ROELANDS_PRESSURE) ** exponent - 1.0)
+    return viscosity * np.exp(np.minimum(rise, LARGEST_LOG))
 
 
 def roelands_coefficient(viscosity: np.ndarray, exponent: float) -> np.ndarray:

@@ -7,6 +7,10 @@ import pytest
 
 from mixedlub.effects.bearing_drag import bearing_drag
 from mixedlub.effects.pressure_viscosity_law import LOW, pressure_viscosity_law
+from mixedlub.effects.starvation import starvation
+from mixedlub.effects.stribeck import stribeck
+from mixedlub.effects.viscosity_drift import viscosity_drift
+from mixedlub.laws.oil import roelands_viscosity
 
 STRAIGHT = {
     "roelands": 0.0,
@@ -40,3 +44,55 @@ def test_bearings_rub_where_they_have_no_film_and_only_there(speed: float, rise:
     without, rubbing = (bearing_drag(0.0, **GEAR, **motion, **BEARINGS, rubbing=m) for m in (0.0, 1.4))
     loaded = without - bearing_drag(0.0, **GEAR, **motion, **{**BEARINGS, "loaded": 0.0}, rubbing=0.0)
     assert (rubbing - without) / loaded == pytest.approx(rise, abs=0.02)
+
+
+@pytest.mark.parametrize("saturation", [-1e4, -6.0, -1e-10, 0.0, 1e-10, 0.7, 8.0, 1e4])
+def test_drift_is_the_change_at_the_end_whatever_its_pace(saturation: float) -> None:
+    place = np.array([0.0, 0.5, 1.0])
+    found = viscosity_drift(1.0, place, place, 313.15, drift=0.2, saturation=saturation, cold_gain=0.7, heat=0.3)
+    assert np.log(found[[0, 2]]) == pytest.approx([0.0, 0.2])
+    assert (np.log(found[1]) - 0.1) * np.sign(saturation) > -1e-12
+
+
+@pytest.mark.parametrize("constant", [0.05, 0.3, 2.0])
+def test_drift_that_saturates_is_a_change_of_first_order(constant: float) -> None:
+    """1 - exp(-t/T), of which the programme sees the part up to its end."""
+    place = np.linspace(0.0, 1.0, 9)
+    full, seen = 0.2, -0.2 * np.expm1(-1.0 / constant)
+    found = viscosity_drift(1.0, place, place, 313.15, drift=seen, saturation=1.0 / constant, cold_gain=0.0, heat=0.0)
+    np.testing.assert_allclose(np.log(found), -full * np.expm1(-place / constant), rtol=1e-12)
+
+
+def test_drift_passes_smoothly_through_the_steady_rate() -> None:
+    place = np.linspace(0.0, 1.0, 5)
+    rest = {"drift": 0.2, "cold_gain": 0.0, "heat": 0.0}
+    found = [viscosity_drift(1.0, place, place, 313.15, saturation=s, **rest) for s in (-2e-9, 0.0, 2e-9)]
+    np.testing.assert_allclose(found[0], found[1], atol=1e-9)
+    np.testing.assert_allclose(found[2], found[1], atol=1e-9)
+
+
+def test_a_film_that_collapses_keeps_viscosity_times_speed() -> None:
+    """Ten kelvin at 3 % each thin the oil by e^0.3: the same friction at e^0.3 times the speed."""
+    law = {"excess": 0.4, "speed_share": 0.05, "exponent": 1.6, "thinning": 0.03}
+    cold, warm = (stribeck(2.0, 2.0, v, 100.0, t, **law) for v, t in ((4.0, -5.0), (4.0 * np.exp(0.3), 5.0)))
+    assert cold == pytest.approx(warm, rel=1e-12)
+
+
+@pytest.mark.parametrize("steepness", [0.5, 2.5, 400.0])
+@pytest.mark.parametrize("width_power", [-1.0, 0.0, 3.0])
+def test_starved_film_is_finite_however_sharp_and_far_the_onset(steepness: float, width_power: float) -> None:
+    """Chevalier's form where it can be written out, and its limit (c/(eta u))^s where it overflows."""
+    law = {"strength": 0.5, "onset": 1e-2, "steepness": steepness, "width_power": width_power}
+    speed, pressure = np.array([1e-3, 0.2, 30.0]), 1.4e9
+    ratio = 0.1 * speed / (0.01 * 1.4**width_power)
+    found = starvation(1e-7, 0.1, speed, pressure, **law)
+    with np.errstate(over="ignore"):
+        raised = ratio**steepness
+    plain = np.where(np.isfinite(raised), (1.0 + np.where(np.isfinite(raised), raised, 0.0)) ** (-0.5 / steepness), 0.0)
+    expected = 1e-7 * np.where(np.isfinite(raised), plain, ratio**-0.5)
+    np.testing.assert_allclose(found, expected, rtol=1e-12)
+    assert starvation(1e-7, 0.1, 1e9, pressure, **{**law, "strength": 30.0}) > 0.0
+
+
+def test_law_of_roelands_stays_a_number_for_a_liquid_that_is_none() -> None:
+    assert np.isfinite(roelands_viscosity(1e9, 600e-9, 3e9))

@@ -10,24 +10,34 @@ from mixedlub import standard
 from mixedlub.catalogue import lookalikes, shown, signatures
 from mixedlub.effect import catalogue
 from mixedlub.effects.asperity_plasticity import asperity_plasticity
+from mixedlub.effects.dynamic_load import dynamic_load
 from mixedlub.effects.elastic_hysteresis import elastic_hysteresis
 from mixedlub.effects.film_heating import film_heating
 from mixedlub.effects.inlet_shear_heating import inlet_shear_heating
 from mixedlub.effects.inlet_shear_thinning import inlet_shear_thinning
+from mixedlub.effects.misalignment import misalignment
 from mixedlub.effects.rolling_resistance import rolling_resistance
+from mixedlub.effects.roughness_lay import roughness_lay
 from mixedlub.effects.skewed_heights import _skewed_area_integral
 from mixedlub.effects.tip_relief import tip_relief
 from mixedlub.effects.torque_offset import torque_offset
+from mixedlub.effects.viscosity_temperature_law import viscosity_temperature_law
 from mixedlub.laws import drag, heating, loss
+from mixedlub.lubricant import Lubricant
 from roughness.integrals import area_integral
 
 PROTOTYPE = {
-    "roughness_lay": {"lay": 1.0, "onset": 0.15, "decay": 1.0},
+    "roughness_lay": {"lay": 1.0, "onset": 0.15, "decay": 1.0, "saturation": 0.0},
     "micro_ehl": {"viscous": 1.0, "texture": 1.0},
     "bearing_drag": {"strength": 1.0, "load_power": 1.0, "rolling_power": 0.0, "rubbing": 0.0},
 }
 """Parameters of the prototype where they are not the middle of the priors: h + 0.15 sigma, all moments
 alike, Palmgren's bearings."""
+
+
+def goksem(radius: float, modulus: float, viscosity: float, speed: float, alpha: float) -> float:
+    """Force per length of Goksem and Hargreaves, 4.318 (G U)^0.658 W^0.0126 R/alpha, at W = 1.14e-4."""
+    return 4.318 * (alpha * viscosity * speed / radius) ** 0.658 * 1.14e-4**0.0126 * radius / alpha
 
 
 class TestLiterature:
@@ -83,11 +93,34 @@ class TestLiterature:
     @pytest.mark.parametrize("speed", [1.0, 2.2, 5.0])
     def test_rolling_near_goksem_and_hargreaves(self, speed: float) -> None:
         """4.318 (G U)^0.658 W^0.0126 R/alpha; the two laws meet within 40 % at gear conditions."""
-        radius, modulus, eta, alpha, load = 8.3262e-3, 226.374e9, 0.01489, 14.81e-9, 1.14e-4
-        group = alpha * modulus * eta * speed / (modulus * radius)
-        goksem = 4.318 * group**0.658 * load**0.0126 * radius / alpha
-        found = rolling_resistance(0.0, radius, modulus, eta, speed, strength=1.0, exponent=0.75)
-        assert found == pytest.approx(goksem, rel=0.4)
+        contact = (8.3262e-3, 226.374e9, 0.01489, speed, 14.81e-9)
+        found = rolling_resistance(0.0, *contact, strength=1.0, exponent=0.75)
+        assert found == pytest.approx(goksem(*contact), rel=0.4)
+
+    @pytest.mark.parametrize("speed", [1.0, 2.2, 5.0])
+    @pytest.mark.parametrize("alpha", [8e-9, 14.81e-9, 25e-9])
+    def test_rolling_with_their_power_of_speed_is_that_of_goksem_and_hargreaves(
+        self, speed: float, alpha: float
+    ) -> None:
+        contact = (8.3262e-3, 226.374e9, 0.01489, speed, alpha)
+        found = rolling_resistance(0.0, *contact, strength=1.0, exponent=0.658)
+        assert found == pytest.approx(goksem(*contact), rel=0.03)
+
+    @pytest.mark.parametrize(("power", "published"), [(0.75, 0.0), (0.658, -0.342), (0.648, -0.352), (0.638, -0.358)])
+    def test_rolling_falls_with_the_published_powers_of_alpha(self, power: float, published: float) -> None:
+        """Biboulet and Houpert; Goksem and Hargreaves; Zhou and Hoeprich; Pan and Hamrock."""
+        stiff, soft = (
+            rolling_resistance(0.0, 0.01, 226e9, 0.015, 2.0, alpha, strength=1.0, exponent=power)
+            for alpha in (20e-9, 10e-9)
+        )
+        assert np.log2(stiff / soft) == pytest.approx(published, abs=0.03)
+
+    def test_lay_of_a_film_below_the_range_of_flow_factors_stays_what_it_was_there(self) -> None:
+        """Patir and Cheng give them for h/sigma above 0.5; a = 0.5, k = 2 is Tripp's 1 + 3/H^2 to first order."""
+        ridges = {"lay": 0.5, "onset": 6.0**0.5, "decay": 2.0, "saturation": 0.5}
+        gone, thick = (roughness_lay(h, 1.0, **ridges) / h for h in (1e-9, 20.0))
+        assert gone == pytest.approx((1.0 + 6.0 / 0.25) ** 0.5, rel=1e-6)
+        assert thick == pytest.approx(1.0 + 3.0 / 20.0**2, rel=1e-4)
 
     @pytest.mark.parametrize(
         ("effect_id", "torque", "speed"),
@@ -179,6 +212,42 @@ class TestIntegrals:
         lost = loss.rolling_loss(np.full(1, force), np.full(1, speed), 1.0, np.ones(1))
         assert float(lost[0]) == pytest.approx(0.01 * integrate.quad(work, 0.0, width)[0], rel=1e-9)
 
+    @pytest.mark.parametrize("uneven", [1e-4, 9.9e-3, 0.3, 0.999, 1.0, 1.7, 12.0])
+    @pytest.mark.parametrize("power", [0.05, 0.17, 0.6])
+    def test_misaligned_face_loses_what_its_linear_load_does(self, uneven: float, power: float) -> None:
+        """A rigid gap on an even bed of springs: the load is linear along the part of the face that touches."""
+        touching = min(1.0, uneven**-0.5)
+        highest = 1.0 + uneven if uneven <= 1.0 else 2.0 * uneven**0.5
+        lowest = max(1.0 - uneven, 0.0)
+
+        def lost(y: float) -> float:
+            return (highest + (lowest - highest) * y / touching) ** (1.0 + power)
+
+        excess = integrate.quad(lambda y: lost(y) - 1.0, 0.0, touching, epsabs=1e-14, epsrel=1e-12)[0] - 1.0 + touching
+        gap = uneven * 2.0 * 1e5 / 2e10
+        found = misalignment(1.0, 1e5, 1.0, misalignment=gap, relief=1.0, loss_power=power)
+        assert np.log(found) == pytest.approx(np.log1p(excess) / power, rel=1e-5)
+
+    def test_misalignment_has_a_limit_for_a_coefficient_that_load_does_not_change(self) -> None:
+        """ln w goes to the mean of (1 + xs) ln(1 + xs) over s from -1 to 1."""
+        limit = integrate.quad(lambda s: 0.5 * (1.0 + 0.7 * s) * np.log1p(0.7 * s), -1.0, 1.0)[0]
+        found = misalignment(1.0, 1e5, 1.0, misalignment=7e-6, relief=1.0, loss_power=0.0)
+        assert np.log(found) == pytest.approx(limit, rel=1e-4)
+
+    @pytest.mark.parametrize("ratio", [0.4, 0.95, 1.3])
+    @pytest.mark.parametrize("phase", [-1.2, 0.0, 0.9])
+    def test_dynamic_load_is_the_steady_vibration_where_the_teeth_slide(self, ratio: float, phase: float) -> None:
+        """Driven by cos(r t), the phase of the sliding being pi/2 - phase after the peak of the drive."""
+        damping = 0.1
+
+        def motion(t: float, state: np.ndarray) -> list[float]:
+            return [state[1], np.cos(ratio * t) - state[0] - 2.0 * damping * state[1]]
+
+        moment = (np.pi / 2 - phase + 2.0 * np.pi * 30) / ratio
+        steady = integrate.solve_ivp(motion, (0.0, moment), [0.0, 0.0], rtol=1e-9, atol=1e-11).y[0, -1]
+        pair = {"amplitude": 0.02, "resonance": 1.0 / (2.0 * np.pi), "damping": damping, "phase": phase}
+        assert dynamic_load(1.0, ratio, 1.0, **pair) == pytest.approx(1.0 + 0.02 * ratio * steady, abs=1e-6)
+
     def test_flash_temperature_integrates_a_moving_source(self) -> None:
         """Mean over the contact of a semi-elliptic flux that one fast body carries off alone, halved between two."""
         width, speed, steel = 0.2e-3, 4.0, (46.0, 7800.0, 470.0)
@@ -248,6 +317,37 @@ class TestIntegrals:
         total = ((after - before) * inputs["path_weight"]).sum(axis=-1)
         moved = (np.abs(after - before) * inputs["path_weight"]).sum(axis=-1)
         assert (np.abs(total) < 0.01 * moved).all()
+
+    @pytest.mark.parametrize("divergence", [155.0, 178.15, 195.0])
+    @pytest.mark.parametrize("known", [(313.15, 373.15), (353.15, 293.15)])
+    def test_liquid_of_vogel_is_met_from_two_of_its_viscosities(
+        self, divergence: float, known: tuple[float, float]
+    ) -> None:
+        """0.065 mPa s exp(900 K/(T - T_c)): 51 mPa s at 40 degC where T_c is 178 K."""
+
+        def vogel(kelvin: np.ndarray) -> np.ndarray:
+            return 6.5e-5 * np.exp(900.0 / (kelvin - divergence))
+
+        kinematic = vogel(np.array(known)) / (850.0 * (1.0 - 6.5e-4 * (np.array(known) - 288.15)))
+        oil = Lubricant("", known, tuple(kinematic.tolist()), (2e-8, 1e-8), 850.0, 6.5e-4, 5e6, 0.14, 2e3)
+        kelvin = np.linspace(263.15, 423.15, 9)
+        inputs = oil.inputs(kelvin)
+        words = ("first_known_temperature", "second_known_temperature", "known_fall", "fall_from_first")
+        law = {"share": 1.0, "divergence": divergence}
+        found = viscosity_temperature_law(inputs["viscosity"], kelvin, *(inputs[w] for w in words), **law)
+        np.testing.assert_allclose(found, vogel(kelvin), rtol=1e-10)
+        departure = np.abs(np.log(inputs["viscosity"] / found))
+        assert departure[(kelvin > 313.0) & (kelvin < 373.0)].max() < 0.06
+
+    def test_law_of_vogel_leaves_the_two_given_viscosities(self) -> None:
+        oil = Lubricant("", (313.15, 373.15), (1e-4, 1.1e-5), (2e-8, 1e-8), 880.0, 6.5e-4, 5e6, 0.14, 2e3)
+        kelvin = np.array(oil.temperature)
+        inputs = oil.inputs(kelvin)
+        words = ("first_known_temperature", "second_known_temperature", "known_fall", "fall_from_first")
+        found = viscosity_temperature_law(
+            inputs["viscosity"], kelvin, *(inputs[w] for w in words), share=1.3, divergence=190.0
+        )
+        np.testing.assert_allclose(found, inputs["viscosity"], rtol=1e-13)
 
 
 class TestLookalikes:

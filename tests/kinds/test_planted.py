@@ -384,3 +384,19 @@ def test_a_motor_torque_that_contains_the_friction_is_no_condition(make) -> None
     d = diagnose_case(make(sections, columns).folder)
     assert "motor_torque_Nm" not in [axis.name for axis in d.found.space.axes]
     assert "torque_constant" in d.posterior.verdict
+
+
+@pytest.mark.parametrize(("effect_id", "drifts"), [("force_offset", False), ("force_drift", True)])
+def test_zero_error_of_the_force_weighs_as_one_over_the_load(make, effect_id: str, drifts: bool) -> None:
+    """0.1 of a load of 5 to 60 N, and a force that reads 0.05 N too much, or comes to."""
+    load = np.tile([5.0, 10.0, 20.0, 60.0], 15)
+    force = 0.05 * (TIME / 7200.0 if drifts else 1.0)
+    columns = {"time_s": TIME, "load_N": load, "friction_coefficient": noisy(0.1 + force / load, 0.003)}
+    found = diagnose_case(make(system("friction_history", "friction_coefficient"), columns).folder)
+    assert found.posterior.verdict == (effect_id,)
+
+
+def test_a_force_at_one_load_has_no_zero_error_of_its_own(make) -> None:
+    steady = {"time_s": TIME, "load_N": np.full(60, 20.0), "friction_coefficient": noisy(np.full(60, 0.1))}
+    case = make(system("friction_history", "friction_coefficient"), steady)
+    assert not {"force_offset", "force_drift"} & {e.id for e in Forward(case, case.recordings).effects()}

@@ -1,0 +1,37 @@
+"""A zero of the friction force that wanders off during the test."""
+
+import numpy as np
+
+from mixedlub.effect import Normal, Parameter, effect
+
+
+@effect(
+    stage="measurement",
+    acts_on="reading",
+    parameters=(
+        Parameter(
+            "drift",
+            "-",
+            Normal(0.0, 0.1),
+            "change of the force's zero over the programme at the smallest load, over the typical reading",
+            null=0.0,
+            symbol="d",
+        ),
+    ),
+    equation=r"y \leftarrow y + d\,y_0\,q_w\,q",
+    source="zero stability of force transducers, over the load: ISO 376",
+    fingerprint={"sequence": "+"},
+    separated_by="the friction force with the contact open, before and after the test: surfaces that change do so at "
+    "every load alike",
+    after=("heat_leak", "sensor_drift", "sensor_gain"),
+)
+def force_drift(
+    reading: np.ndarray, reading_scale: np.ndarray, inverse_load: np.ndarray, sequence: np.ndarray, *, drift: float
+) -> np.ndarray:
+    """The friction force is no longer zero at the end; a friction coefficient shows it the more the smaller the load.
+
+    >>> smallest_over_load, place = np.array([1.0, 1.0, 0.25]), np.array([0.0, 1.0, 1.0])
+    >>> force_drift(0.1, 0.1, smallest_over_load, place, drift=0.08).round(4).tolist()
+    [0.1, 0.108, 0.102]
+    """
+    return reading + drift * reading_scale * inverse_load * sequence

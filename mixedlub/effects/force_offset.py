@@ -1,0 +1,38 @@
+"""Zero error of the friction force."""
+
+import numpy as np
+
+from mixedlub.effect import Parameter, Wide, effect
+
+
+@effect(
+    stage="measurement",
+    acts_on="reading",
+    parameters=(
+        Parameter(
+            "offset",
+            "-",
+            Wide(0.05),
+            "error of the force at the smallest load, over the typical reading",
+            null=0.0,
+            symbol="a",
+        ),
+    ),
+    equation=r"y \leftarrow y + a\,y_0\,q_w",
+    source="measurement: zero error of a force transducer, over the load; zero balance in ASTM E74 and ISO 376",
+    fingerprint={"load": "-", "roughness": "-"},
+    separated_by="a reading of the friction force with the contact open; both directions of sliding, whose mean is it",
+    after=("heat_leak", "sensor_drift", "sensor_gain"),
+)
+def force_offset(
+    reading: np.ndarray, reading_scale: np.ndarray, inverse_load: np.ndarray, *, offset: float
+) -> np.ndarray:
+    """The friction force does not read zero at zero; a friction coefficient is off the more the smaller the load.
+
+    Offered where a friction coefficient is recorded at loads that differ: at one load it is `sensor_offset`.
+
+    >>> smallest_over_load = np.array([1.0, 0.25])
+    >>> force_offset(0.1, 0.1, smallest_over_load, offset=0.08).round(4).tolist()
+    [0.108, 0.102]
+    """
+    return reading + offset * reading_scale * inverse_load
