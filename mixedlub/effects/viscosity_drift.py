@@ -40,6 +40,7 @@ SMALL, MOST = 1e-9, 30.0
     fingerprint={"sequence": "-"},
     separated_by="the first point repeated at the end, and a fresh sample under a solvent trap: what the trap stops is "
     "evaporation, what a fresh sample repeats is chemistry or the edge of the gap",
+    contains={"a steady relative rate": {"saturation": 0.0, "cold_gain": 0.0, "heat": 0.0}},
 )
 def viscosity_drift(
     viscosity: np.ndarray,

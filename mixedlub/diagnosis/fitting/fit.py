@@ -12,8 +12,6 @@ from mixedlub.forward import Run
 
 OUTLIER_SHARE = 0.01
 """Readings that are wrong before anything is known of them: one in a hundred, as rigs that are looked after have."""
-FEWEST = 3.0
-"""Readings that are more than a wrong one and another by chance."""
 OUTLIER_WIDTH = 10.0
 """Half-width of the wrong ones in sigmas: clearly beyond noise, or it would be noise."""
 BOUND = 5.0
@@ -82,15 +80,6 @@ def log_likelihood(residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def _log_parts(residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Log density as good reading and as outlier, both with the same constant left out."""
     return _LOG_IN - 0.5 * residual**2, _LOG_OUT - np.log1p((residual / OUTLIER_WIDTH) ** 2)
-
-
-def least_readings(count: int) -> float:
-    """Of so many readings those that a form must move at least: as many as are wrong by chance could be that form.
-
-    >>> least_readings(40), least_readings(2400)
-    (3.0, 24.0)
-    """
-    return max(FEWEST, OUTLIER_SHARE * count)
 
 
 def outlier_chance(residual: np.ndarray) -> np.ndarray:

@@ -8,7 +8,7 @@ from itertools import combinations
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.fit import Fit, least_readings, linear_fit, log_likelihood, map_fit
+from mixedlub.diagnosis.fitting.fit import OUTLIER_SHARE, Fit, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.fitting.pairs import ROUNDS, exchanged, promising_pairs
 from mixedlub.diagnosis.fitting.problem import Explanation, Problem, effects_of
 from mixedlub.diagnosis.fitting.published import published_gain
@@ -38,8 +38,6 @@ MANY, SPREAD = 1200, 600
 SEED = 1
 ELASTIC = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
 """Relative error of an effect's literature form: its rms and the weight given to it."""
-SHARP = np.linspace(-5.0, 5.0, 41)
-"""Standard deviations about its place at which a sudden change is tried beside all others."""
 BEND_LIMIT = 4.0
 BEND_SHARE = 0.01
 BEND_MOST = 30.0
@@ -235,8 +233,7 @@ def shows(problem: Problem, fit: Fit, fits: Mapping[Explanation, Fit]) -> bool:
     """
     parts = (other for m, other in fits.items() if set(m) < set(fit.explanation))
     nets = (np.abs(fit.prediction - other.prediction) / problem.sd for other in parts)
-    fewest = least_readings(problem.y.size)
-    return all(np.count_nonzero(net >= MOVED * net.max()) >= fewest for net in nets)
+    return all(np.count_nonzero(net >= MOVED * net.max()) >= OUTLIER_SHARE * net.size for net in nets)
 
 
 def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: np.ndarray) -> dict[Explanation, Fit]:
@@ -254,7 +251,7 @@ def placed(problem: Problem, fit: Fit) -> Fit:
     gained = 0.0
     for place in sudden_places(problem, fit.explanation):
         curvature = 1.0 + float(fit.weight @ fit.slopes[:, place] ** 2)
-        tried, log = anywhere(problem, fit, place, fit.z[place] + SHARP / np.sqrt(curvature))
+        tried, log = anywhere(problem, fit, place, fit.z[[place]])
         here = float(log_likelihood(fit.residual)[0].sum()) - 0.5 * fit.z[place] ** 2
         whole = np.trapezoid(np.exp(np.minimum(log - here, 50.0)), tried[:, place])
         gained += float(np.log(max(whole, 1e-300)) - 0.5 * np.log(2.0 * np.pi / curvature))

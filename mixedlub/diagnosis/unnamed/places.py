@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.fit import least_readings
+from mixedlub.diagnosis.fitting.fit import OUTLIER_SHARE
 from mixedlub.diagnosis.recording.features import PASSING, Coordinates
 from mixedlub.diagnosis.recording.levels import set_points
 from mixedlub.diagnosis.unnamed.waves import goes_with, stepped_levels
@@ -17,6 +17,8 @@ LEVELS = 5
 """Levels of a condition, on either side of zero, from which its smooth functions do not follow a peak anyhow."""
 MOST_PLACES = 40
 """Places of a condition that are tried at first; those between the best ones are tried later."""
+FEWEST = 3.0
+"""Readings that a form has to be made of, and no fewer than outliers are usual: fewer are outliers."""
 MOST_SHARE = 0.4
 """Share of the readings that a peak may cover: more are a trend."""
 SAME = 0.75
@@ -99,5 +101,5 @@ def finer(space: Coordinates, values: list[np.ndarray], axis: int, at: float, wi
 def _made_of(near: np.ndarray, peak: bool) -> bool:
     """Whether a form is of enough readings to be no outliers, and, if a peak, of few enough to be no trend."""
     readings = float(near.sum() ** 2 / max((near**2).sum(), 1e-300))
-    fewest = least_readings(near.size)
+    fewest = max(FEWEST, OUTLIER_SHARE * near.size)
     return fewest <= readings <= (MOST_SHARE * near.size if peak else near.size - fewest)
