@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import LogNormal, Parameter, effect
+from mixedlub.effect import Between, LogNormal, Parameter, effect
 
 
 @effect(
@@ -27,8 +27,8 @@ from mixedlub.effect import LogNormal, Parameter, effect
         Parameter(
             "thinning",
             "1/K",
-            LogNormal(0.03, 0.35),
-            "fall of viscosity a kelvin, by which warm oil needs more speed",
+            Between(0.0, 0.05),
+            "fall of viscosity a kelvin, by which warm oil needs more speed; 0: the temperature is not the contact's",
             symbol="b",
         ),
     ),
@@ -40,6 +40,7 @@ from mixedlub.effect import LogNormal, Parameter, effect
     separated_by="points below a tenth of the largest speed, in both directions: friction falls with speed before "
     "it rises; a payload or an offset does not change sign with the direction",
     kinds=("friction_map",),
+    contains={"Tustin": {"exponent": 1.0, "thinning": 0.0}, "Gauss": {"exponent": 2.0, "thinning": 0.0}},
 )
 def stribeck(
     running_friction: np.ndarray,
