@@ -39,7 +39,7 @@ def together(left: np.ndarray, clock: np.ndarray) -> float:
 
     >>> noise = np.random.default_rng(1).standard_normal(512)
     >>> together(noise, np.arange(512.0)), round(together(np.repeat(noise, 8), np.arange(4096.0)))
-    (1.0, 8)
+    (1.0, 7)
     """
     ordered = np.clip(left, -WILD, WILD)[np.argsort(clock, kind="stable")]
     most, length = 1.0, 2
