@@ -295,7 +295,7 @@ def _outliers(found: Search, judged: Posterior, refined: dict[Key, Refined]) -> 
             residual = refined[key].residual
         else:
             continue
-        chance += weight * outlier_chance(np.sqrt(found.problem.together) * residual)
+        chance += weight * outlier_chance(found.problem.of_one(residual))
         total += weight
     return chance / max(total, 1e-300)
 

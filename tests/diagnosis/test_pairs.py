@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import diagnose_case
-from mixedlub.diagnosis.fitting.fit import map_fit
+from mixedlub.diagnosis.fitting.fit import Fit, map_fit
 from mixedlub.diagnosis.fitting.pairs import exchanged, promising_pairs
 from mixedlub.diagnosis.fitting.problem import Problem
 from mixedlub.diagnosis.fitting.published import published_gain
 from mixedlub.diagnosis.fitting.search import one_in_time, placed
-from mixedlub.diagnosis.fitting.starts import fit_single, sample
+from mixedlub.diagnosis.fitting.starts import Sampled, fit_single, sample
 from mixedlub.forward import Forward
 
 from ..kinds.conftest import BALL, make, system
@@ -22,14 +22,20 @@ from .test_inference import problem
 __all__ = ["make"]
 
 
-def test_two_effects_start_where_they_are_best_together() -> None:
-    """Readings made of one draw of each of two effects: the pair starts from these draws."""
+def made_of_two() -> tuple[Problem, Fit, tuple[Sampled, ...], tuple[int, int]]:
+    """The standard rig with readings of one draw of churning and one of a boundary film, and which draws."""
     p = problem()
     none = map_fit(p, (), np.zeros(p.size(())))
     sampled = tuple(sample(p, name, none) for name in ("churning", "boundary_film_temperature", "tip_relief"))
     first, second = sampled[0], sampled[1]
     i, j = (int(np.argmax(np.linalg.norm(s.change, axis=1))) for s in (first, second))
-    made = replace(p, y=none.prediction + p.sd * (first.change[i] + second.change[j]))
+    return replace(p, y=none.prediction + p.sd * (first.change[i] + second.change[j])), none, sampled, (i, j)
+
+
+def test_two_effects_start_where_they_are_best_together() -> None:
+    """Readings made of one draw of each of two effects: the pair starts from these draws."""
+    made, none, sampled, (i, j) = made_of_two()
+    p, first, second = made, sampled[0], sampled[1]
     fitted = map_fit(made, (), none.z)
     singles = {(s.id,): fit_single(made, fitted, s) for s in sampled}
     starts = [
@@ -43,12 +49,8 @@ def test_two_effects_start_where_they_are_best_together() -> None:
 
 def test_a_second_effect_that_took_the_place_of_another_is_exchanged() -> None:
     """Readings made of one draw of each of two effects, one of them beside a third in the best pair so far."""
-    p = problem()
-    none = map_fit(p, (), np.zeros(p.size(())))
-    sampled = tuple(sample(p, name, none) for name in ("churning", "boundary_film_temperature", "tip_relief"))
-    first, second = sampled[0], sampled[1]
-    i, j = (int(np.argmax(np.linalg.norm(s.change, axis=1))) for s in (first, second))
-    made = replace(p, y=none.prediction + p.sd * (first.change[i] + second.change[j]))
+    made, none, sampled, (i, _j) = made_of_two()
+    _p, first, _second = made, sampled[0], sampled[1]
     start = np.concatenate([none.z, first.z[i], sampled[2].z[0]])
     best = map_fit(made, ("churning", "tip_relief"), start)
     found = dict(exchanged(made, best, sampled))

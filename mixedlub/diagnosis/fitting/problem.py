@@ -60,6 +60,10 @@ class Problem:
         """Standard deviation of a single reading."""
         return self.sd / np.sqrt(self.together)
 
+    def of_one(self, residual: np.ndarray) -> np.ndarray:
+        """A residual in standard deviations of a single reading."""
+        return np.sqrt(self.together) * residual
+
     def with_together(self, together: float) -> Problem:
         """The same problem where so many readings tell as much as one."""
         times = np.sqrt(together / self.together)

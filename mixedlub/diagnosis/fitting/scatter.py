@@ -54,7 +54,7 @@ class Raised:
             sd = np.hypot(rows[name].astype(float), self.share * np.abs(rows[case.quantity].astype(float)))
             rows = Table({**rows.columns, name: sd}, rows.source)
             case = replace(case, recordings=rows)
-        return scaled(case, rows, self.times) if self.times != 1.0 else (case, rows)
+        return scaled(case, rows, self.times)
 
 
 def stated_or_more(case: Case, rows: Table, trial: Trial, most: float) -> tuple[Search, Raised]:
@@ -216,8 +216,8 @@ def quiet(found: Search) -> bool:
     That model has few coordinates to follow noise with: so little is left only if the noise is overstated.
     """
     spare = found.none.residual.size - found.none.z.size
-    squares = found.problem.together * float(found.none.residual @ found.none.residual)
-    return spare >= ENOUGH and squares < 0.25 * spare
+    left = found.problem.of_one(found.none.residual)
+    return spare >= ENOUGH and float(left @ left) < 0.25 * spare
 
 
 def scaled(case: Case, rows: Table, factor: float) -> tuple[Case, Table]:

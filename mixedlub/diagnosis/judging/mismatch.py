@@ -117,5 +117,5 @@ def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch
     if observed > drawn.max():
         p = min(p, float(np.exp(-min(observed, 700.0))))
     p = min(p, UNSURE * float(np.exp(-min(full.log_bayes_factor, 700.0))))
-    chi2 = float(full.problem.together * (full.none.residual**2).sum() + full.none.z @ full.none.z)
+    chi2 = float((full.problem.of_one(full.none.residual) ** 2).sum() + full.none.z @ full.none.z)
     return Mismatch(bool(p <= level), p, level, chi2, int(full.problem.y.size), observed)

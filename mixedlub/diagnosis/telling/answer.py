@@ -90,7 +90,7 @@ def verdict_residual(d: Diagnosis) -> np.ndarray:
     """(recorded - fitted)/sd of a single reading after the verdict."""
     unknown = d.posterior.verdict == "unknown"
     left = d.found.unknown.fit.residual if unknown else verdict_fit(d).residual
-    return np.sqrt(d.found.problem.together) * left
+    return d.found.problem.of_one(left)
 
 
 def effect_records(d: Diagnosis) -> list[dict[str, Any]]:

@@ -128,7 +128,7 @@ def _mismatch(d: Diagnosis) -> tuple[str, ...]:
     test = d.test
     alarm = f"This test is wrong in {100 * test.level:g} % of the cases in which nothing is missing."
     kept = d.outlier_chance <= 0.5
-    squares = d.found.problem.together * d.found.none.residual**2
+    squares = d.found.problem.of_one(d.found.none.residual) ** 2
     strain = float(d.found.none.z @ d.found.none.z)
     without = "" if kept.all() else ", outliers left out"
     left = number(float(squares[kept].sum()) + strain)
