@@ -59,7 +59,7 @@ def settled(figure: Figure) -> Figure:
     if engine is not None:
         with look():
             engine.execute(figure)
-        figure.set_layout_engine("none")
+        figure.set_layout_engine(None)
     return figure
 
 
