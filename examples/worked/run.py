@@ -18,8 +18,8 @@ from mixedlub.diagnosis.drawing import figures
 from mixedlub.diagnosis.drawing.charts import evidence
 from mixedlub.diagnosis.drawing.maps import residual_map
 from mixedlub.diagnosis.drawing.style import AFTER, BEFORE, GRID, INK, MUTED, blank, look
+from mixedlub.diagnosis.labels import conditions_text, effect_words, explanation_words
 from mixedlub.diagnosis.telling import words
-from mixedlub.diagnosis.telling.labels import conditions_text, effect_words, explanation_words
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

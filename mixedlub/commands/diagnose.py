@@ -32,7 +32,7 @@ def command(
 
     How sure, where it shows, what it is confused with, and what to test next.
     """
-    from mixedlub.diagnosis.telling.write import diagnose
+    from mixedlub.diagnosis.publishing.write import diagnose
 
     folder = output_folder(out, NAME, case_folder(case).resolve().name)
     with busy("reading") as progress, within_range(str(case)):

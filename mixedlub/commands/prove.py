@@ -45,7 +45,7 @@ def command(
     from rich.console import Console
     from rich.progress import Progress
 
-    from mixedlub.diagnosis.telling.write import diagnose
+    from mixedlub.diagnosis.publishing.write import diagnose
     from mixedlub.proof.bench.prove import prove_rigs
     from mixedlub.proof.prove import prove
 

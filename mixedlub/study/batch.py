@@ -37,6 +37,12 @@ Inputs = Mapping[str, Any]
 Found = dict[str, np.ndarray]
 
 
+def processors() -> int:
+    """Processors that this process may use; all of the machine's where the system does not tell."""
+    own = getattr(os, "sched_getaffinity", None)
+    return len(own(0)) if own is not None else os.cpu_count() or 1
+
+
 def split(shape: tuple[int, ...], reach: tuple[int, ...]) -> list[Block]:
     """Ranges that cover a grid, each at most ``reach`` long.
 
@@ -165,7 +171,7 @@ def run(
         yield from _on_cluster(plan, todo, scheduler)
         return
     pin_allocator()
-    threads = threads or len(os.sched_getaffinity(0))
+    threads = threads or processors()
     if threads == 1 or len(todo) < 2:
         for block in todo:
             yield block, compute(plan, block)

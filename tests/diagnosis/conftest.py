@@ -11,7 +11,7 @@ import pytest
 
 from mixedlub.case import read_case, read_conditions
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.telling.write import files
+from mixedlub.diagnosis.publishing.write import files
 from mixedlub.effect import catalogue
 from mixedlub.forward import Forward
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.unnamed.empirical import absorbing_stages, features, power_law
+from mixedlub.diagnosis.judging.empirical import absorbing_stages, features, power_law
 from mixedlub.effect import catalogue
 
 

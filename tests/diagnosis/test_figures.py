@@ -14,8 +14,8 @@ from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.drawing import charts, figures, maps
 from mixedlub.diagnosis.drawing.style import inline, look, settled
 from mixedlub.diagnosis.judging.confusion import confusion
-from mixedlub.diagnosis.unnamed.empirical import Absorbed, Unnamed
-from mixedlub.diagnosis.unnamed.empirical import unnamed as describe
+from mixedlub.diagnosis.judging.empirical import Absorbed, Unnamed
+from mixedlub.diagnosis.judging.empirical import unnamed as describe
 from mixedlub.report.style import as_svg
 from mixedlub.table import Table
 
@@ -81,7 +81,7 @@ def test_map_has_a_tile_for_every_reading(offset: Diagnosis) -> None:
 
 
 def test_tiles_carry_the_residuals(offset: Diagnosis) -> None:
-    before, after = maps.residuals(offset)
+    before, after = offset.residuals
     figure = maps.residual_map(offset)
     assert figure is not None
     shown = np.concatenate([c.get_array() for axes in figure.axes for c in axes.collections[:1] if axes.get_title()])
@@ -109,7 +109,7 @@ def test_block_of_tiles_fills_its_square() -> None:
 
 
 def test_readings_over_decades_are_compared_by_the_logarithm(thickening: Diagnosis) -> None:
-    before, _ = maps.residuals(thickening)
+    before, _ = thickening.residuals
     ratio = np.log(thickening.readings / thickening.recorded.calibrated)
     np.testing.assert_allclose(before, ratio / 0.02, rtol=0.01)
 
@@ -117,7 +117,7 @@ def test_readings_over_decades_are_compared_by_the_logarithm(thickening: Diagnos
 @pytest.mark.parametrize("rig", ["offset", "thickening"])
 def test_missing_part_is_what_the_answer_adds(rig: str, request: pytest.FixtureRequest) -> None:
     d = request.getfixturevalue(rig)
-    observed, explained = maps.missing(d)
+    observed, explained = d.missing
     np.testing.assert_allclose(d.readings - observed, d.recorded.predicted - explained)
     assert np.sign(explained[np.argmax(np.abs(d.recorded.mismatch_z))]) == np.sign(
         d.recorded.mismatch_z[np.argmax(np.abs(d.recorded.mismatch_z))]

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.fitting import search as searching
 from mixedlub.diagnosis.fitting.fit import linear_fit, map_fit, outlier_chance
 from mixedlub.diagnosis.fitting.problem import Explanation, Problem
 from mixedlub.diagnosis.fitting.reference import importance_evidence
@@ -16,6 +15,7 @@ from mixedlub.diagnosis.judging.mismatch import mismatch_test
 from mixedlub.diagnosis.judging.posterior import posterior
 from mixedlub.diagnosis.recording.features import coordinates
 from mixedlub.diagnosis.recording.noise import noise_from_repeats, noise_from_smoothness
+from mixedlub.diagnosis.searching import search as searching
 from mixedlub.effect import catalogue
 from mixedlub.forward import Run
 from mixedlub.standard import case, forward

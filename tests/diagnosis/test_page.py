@@ -12,9 +12,9 @@ from pathlib import Path
 import pytest
 
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.publishing.page import render
 from mixedlub.diagnosis.recording.audit import Doubt
 from mixedlub.diagnosis.telling import words
-from mixedlub.diagnosis.telling.page import render
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 

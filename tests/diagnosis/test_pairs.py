@@ -12,8 +12,8 @@ from mixedlub.diagnosis.fitting.fit import Fit, map_fit
 from mixedlub.diagnosis.fitting.pairs import exchanged, promising_pairs
 from mixedlub.diagnosis.fitting.problem import Problem
 from mixedlub.diagnosis.fitting.published import published_gain
-from mixedlub.diagnosis.fitting.search import one_in_time, placed
 from mixedlub.diagnosis.fitting.starts import Sampled, fit_single, sample
+from mixedlub.diagnosis.searching.search import one_in_time, placed
 from mixedlub.forward import Forward
 
 from ..kinds.conftest import BALL, make, system

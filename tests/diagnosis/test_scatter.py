@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.fitting.scatter import CLEAR, more
+from mixedlub.diagnosis.searching.scatter import CLEAR, more
 from mixedlub.importers import write_case
 
 from ..kinds.conftest import BALL
@@ -138,9 +138,9 @@ def test_repeats_bound_the_noise_of_very_many_readings(
     ]
     with path.open("w", encoding="utf-8", newline="") as file:
         csv.writer(file).writerows([rows[0], *lines])
-    monkeypatch.setattr("mixedlub.diagnosis.diagnose.MANY", 40)
-    monkeypatch.setattr("mixedlub.diagnosis.fitting.search.MANY", 40)
-    monkeypatch.setattr("mixedlub.diagnosis.fitting.search.SPREAD", 30)
+    monkeypatch.setattr("mixedlub.diagnosis.searching.weighed.MANY", 40)
+    monkeypatch.setattr("mixedlub.diagnosis.searching.search.MANY", 40)
+    monkeypatch.setattr("mixedlub.diagnosis.searching.search.SPREAD", 30)
     d = diagnose_case(folder, exclude=excluded)
     assert not any("times as much as stated" in note for note in d.warnings)
 

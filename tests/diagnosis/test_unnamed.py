@@ -12,11 +12,11 @@ from mixedlub import config, standard
 from mixedlub.case import Case
 from mixedlub.diagnosis.fitting.fit import log_likelihood, map_fit
 from mixedlub.diagnosis.fitting.problem import Explanation, Problem
-from mixedlub.diagnosis.fitting.search import search
 from mixedlub.diagnosis.judging.heldout import HeldOut
 from mixedlub.diagnosis.judging.mismatch import mismatch_test
 from mixedlub.diagnosis.judging.posterior import posterior
 from mixedlub.diagnosis.recording.features import Coordinate, Coordinates, coordinates
+from mixedlub.diagnosis.searching.search import search
 from mixedlub.diagnosis.unnamed.carriers import NOTHING, QUANTITIES, READING, Typical, carriers, log_slope
 from mixedlub.effect import Effect
 from mixedlub.forward import Forward
@@ -119,7 +119,7 @@ def test_the_demerit_spares_what_chance_and_another_form_leave(after: float, row
 
 
 def test_an_effect_that_is_seldom_missing_has_lower_odds(monkeypatch: pytest.MonkeyPatch) -> None:
-    from mixedlub.diagnosis.fitting import search
+    from mixedlub.diagnosis.searching import search
 
     found = found_in(problem())
     here = found.log_weights

@@ -11,13 +11,14 @@ import pytest
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.fitting.problem import Problem
 from mixedlub.diagnosis.judging.doubts import against
+from mixedlub.diagnosis.judging.empirical import unnamed as describe
 from mixedlub.diagnosis.judging.nexttest import NextTest
 from mixedlub.diagnosis.judging.posterior import Key, Posterior
+from mixedlub.diagnosis.labels import effect_words, number, with_names
+from mixedlub.diagnosis.publishing import page
 from mixedlub.diagnosis.recording.audit import SCARCE, Doubt, audit
-from mixedlub.diagnosis.telling import page, tables, words
+from mixedlub.diagnosis.telling import place, tables, words
 from mixedlub.diagnosis.telling.answer import effect_records
-from mixedlub.diagnosis.telling.labels import effect_words, number, with_names
-from mixedlub.diagnosis.unnamed.empirical import unnamed as describe
 from mixedlub.effect import Normal, Parameter, catalogue
 from mixedlub.report.equations import equation
 from mixedlub.report.plain import plain_equation
@@ -195,7 +196,7 @@ def test_sensor_offset_has_the_size_that_it_is_a_share_of(offset: Diagnosis) -> 
 
 
 def test_where_says_which_base_model_is_meant(offset: Diagnosis) -> None:
-    assert words.SPREAD in section(offset, words.WHERE).sentences
+    assert place.SPREAD in section(offset, words.WHERE).sentences
 
 
 def test_name_keeps_its_letters_at_the_start_of_a_sentence() -> None:

@@ -13,8 +13,8 @@ from typing import Any
 import pytest
 
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.publishing.write import diagnose, write
 from mixedlub.diagnosis.telling.answer import as_json, predictions_csv
-from mixedlub.diagnosis.telling.write import diagnose, write
 from mixedlub.effect import STAGES, catalogue
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import diagnose_case
-from mixedlub.diagnosis.telling.answer import as_json, checked
+from mixedlub.diagnosis.telling.answer import as_json
 from mixedlub.diagnosis.telling.words import as_text, sections
 from mixedlub.effect import catalogue
 
@@ -88,7 +88,7 @@ def test_growing_friction_is_an_evolving_surface_state(typed):
 
 def test_growing_friction_follows_the_coverage_that_was_not_fitted(typed):
     d = typed("mtm_tribofilm_growth_120C")
-    check = checked(d)
+    check = d.check
     assert check is not None
     assert check.correlation > 0.95
     assert as_json(d)["check"] == {"column": "track_coverage_percent", "correlation": check.correlation, "n": 24}

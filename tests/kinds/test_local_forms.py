@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import diagnose_case
+from mixedlub.diagnosis.judging.empirical import unnamed
 from mixedlub.diagnosis.telling.words import as_text, sections
-from mixedlub.diagnosis.unnamed.empirical import unnamed
 
 from .conftest import system
 from .test_planted import by_d341

@@ -13,10 +13,10 @@ from mixedlub.case import read_case
 from mixedlub.diagnosis.fitting.fit import map_fit
 from mixedlub.diagnosis.fitting.problem import Problem
 from mixedlub.diagnosis.fitting.reference import nested_evidence
-from mixedlub.diagnosis.fitting.search import Search, search
 from mixedlub.diagnosis.judging import mismatch
 from mixedlub.diagnosis.judging.mismatch import UNSURE, mismatch_test
 from mixedlub.diagnosis.recording.features import coordinates
+from mixedlub.diagnosis.searching.search import Search, search
 from mixedlub.effect import catalogue
 from mixedlub.forward import Forward
 from mixedlub.proof.battery import generate

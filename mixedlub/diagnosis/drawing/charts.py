@@ -10,9 +10,9 @@ from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.drawing import maps
 from mixedlub.diagnosis.drawing.style import AFTER, BEFORE, FAULT, GRID, INK, MUTED, SERIES, UNNAMED, blank
 from mixedlub.diagnosis.fitting.problem import effects_of
+from mixedlub.diagnosis.judging.empirical import Unnamed
 from mixedlub.diagnosis.judging.posterior import TIE, Key
-from mixedlub.diagnosis.telling.labels import axis_label, conditions_text, explanation_words, words_of
-from mixedlub.diagnosis.unnamed.empirical import Unnamed
+from mixedlub.diagnosis.labels import axis_label, conditions_text, explanation_words, words_of
 from mixedlub.headers import unit_of
 
 if TYPE_CHECKING:

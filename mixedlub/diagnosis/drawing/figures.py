@@ -23,9 +23,9 @@ from mixedlub.diagnosis.drawing.style import (
     wide,
 )
 from mixedlub.diagnosis.judging.confusion import confusion
+from mixedlub.diagnosis.judging.empirical import Unnamed
+from mixedlub.diagnosis.labels import axis_label, words_of
 from mixedlub.diagnosis.recording.levels import set_points
-from mixedlub.diagnosis.telling.labels import axis_label, words_of
-from mixedlub.diagnosis.unnamed.empirical import Unnamed
 from mixedlub.headers import unit_of
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ def recorded_against_simulated(d: Diagnosis) -> Figure:
     y, p = d.readings, d.recorded
     rows = _shown(d)
     bad = d.outlier_chance > 0.5
-    before, after = maps.residuals(d)
+    before, after = d.residuals
     figure = blank(7.4, 5.2)
     grid = figure.add_gridspec(2, 2, height_ratios=(2.3, 1.0))
     tops = [figure.add_subplot(grid[0, 0])]
@@ -166,7 +166,7 @@ def missing_part(d: Diagnosis) -> Figure | None:
     names = ["roll_angle_deg", *names[:2]] if "roll_angle_deg" in p.table else names
     if not names:
         return None
-    observed, explained = maps.missing(d)
+    observed, explained = d.missing
     good = _shown(d)[d.outlier_chance[_shown(d)] <= 0.5]
     unit = unit_of(d.case.quantity) or "-"
     figure = blank(2.75 * len(names) + 0.6, 3.0)
@@ -206,7 +206,7 @@ def _spread(x: np.ndarray, by: np.ndarray) -> np.ndarray:
 
 def profiles(d: Diagnosis) -> Figure | None:
     """Mean residual along each condition, calibrated base model and answer; bars are two standard errors."""
-    before, after = maps.residuals(d)
+    before, after = d.residuals
     good = d.outlier_chance <= 0.5
     table = d.recorded.table
     names = [c.name for c in d.case.kind.columns if c.name in table and np.unique(table[c.name]).size > 1]

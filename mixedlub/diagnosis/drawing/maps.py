@@ -11,8 +11,8 @@ import numpy as np
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.drawing.style import DIVERGING, INK, MUTED, OUTLIER, PAPER, blank
 from mixedlub.diagnosis.judging.confusion import Confusion
+from mixedlub.diagnosis.labels import amount, axis_label, effect_words, number, words_of
 from mixedlub.diagnosis.recording.levels import set_points
-from mixedlub.diagnosis.telling.labels import amount, axis_label, effect_words, number, words_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -58,25 +58,6 @@ def _varied(d: Diagnosis) -> list[str]:
     return [n for n in names if np.ptp(table[n]) > DRIFT * np.max(np.abs(table[n]))]
 
 
-def residuals(d: Diagnosis) -> tuple[np.ndarray, np.ndarray]:
-    """(recorded - simulated)/sd, as they are compared, with the calibrated base model and with the answer."""
-    problem, p = d.found.problem, d.recorded
-    sd = seen_sd(d)
-    return (problem.y - problem.seen(p.calibrated)) / sd, (problem.y - problem.seen(p.predicted)) / sd
-
-
-def seen_sd(d: Diagnosis) -> np.ndarray:
-    """Standard deviation of the readings as they are compared."""
-    return d.recorded.sd / np.abs(d.recorded.predicted) if d.case.kind.logarithmic else d.recorded.sd
-
-
-def missing(d: Diagnosis) -> tuple[np.ndarray, np.ndarray]:
-    """What the base model at the answer's calibration lacks, in the unit of the reading: as recorded, as explained."""
-    problem, p = d.found.problem, d.recorded
-    base = problem.level(problem.seen(p.predicted) - p.mismatch_z * seen_sd(d))
-    return d.readings - base, p.predicted - base
-
-
 def residual_map(d: Diagnosis) -> Figure | None:
     """Residuals over the conditions: calibrated base model above, the answer below."""
     from matplotlib.cm import ScalarMappable
@@ -87,7 +68,7 @@ def residual_map(d: Diagnosis) -> Figure | None:
         return None
     table = d.recorded.table
     label, panels = _levels(table[frame.panel] if frame.panel else np.zeros(len(table)), MOST_PANELS, frame.panel)
-    before, after = residuals(d)
+    before, after = d.residuals
     outlier = d.outlier_chance > 0.5
     limit = _limit(before[~outlier])
     norm = Normalize(-limit, limit)
@@ -216,7 +197,7 @@ def roll_angle_map(d: Diagnosis) -> Figure | None:
     rows = list(dict.fromkeys(texts[order].tolist()))
     row_of = {text: i for i, text in enumerate(rows)}
     place = np.array([row_of[text] for text in texts.tolist()])
-    before, after = residuals(d)
+    before, after = d.residuals
     outlier = d.outlier_chance > 0.5
     limit = _limit(before[~outlier])
     norm = Normalize(-limit, limit)

@@ -1,1 +1,1 @@
-"""Explanations fitted to a recording and weighed."""
+"""One explanation fitted to a recording, and its evidence."""

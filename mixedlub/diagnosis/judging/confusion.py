@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.search import Sampled, Search
+from mixedlub.diagnosis.searching.search import Sampled, Search
 
 WANTED = 3.0
 """Gain in log evidence from which an effect's fitted form is used rather than the middle of its prior."""

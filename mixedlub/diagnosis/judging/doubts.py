@@ -6,14 +6,14 @@ from math import comb
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.scatter import CLEAR, MOST, Raised, more, quiet
-from mixedlub.diagnosis.fitting.search import Search
 from mixedlub.diagnosis.judging.heldout import HeldOut
 from mixedlub.diagnosis.judging.posterior import Key, Posterior
+from mixedlub.diagnosis.labels import amount, words_of
 from mixedlub.diagnosis.recording.audit import Doubt
 from mixedlub.diagnosis.recording.features import PASSING, clock_of
 from mixedlub.diagnosis.recording.levels import set_points
-from mixedlub.diagnosis.telling.labels import amount, words_of
+from mixedlub.diagnosis.searching.scatter import CLEAR, MOST, Raised, more, quiet
+from mixedlub.diagnosis.searching.search import Search
 from mixedlub.headers import unit_of
 from mixedlub.table import Table
 

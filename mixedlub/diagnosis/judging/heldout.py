@@ -13,9 +13,9 @@ import numpy as np
 
 from mixedlub.diagnosis.fitting.fit import linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.fitting.problem import Explanation, Problem
-from mixedlub.diagnosis.fitting.search import Search
 from mixedlub.diagnosis.fitting.sudden import elsewhere, places, without
 from mixedlub.diagnosis.recording.levels import set_points
+from mixedlub.diagnosis.searching.search import Search
 
 MOST_FOLDS = 8
 """Levels left out in turn, at most; more are joined."""

@@ -7,16 +7,25 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.diagnosis.recording.levels import one_point, set_points
+from mixedlub.diagnosis.recording.levels import set_points
 from mixedlub.table import Table
 
+NOWHERE = 1e-9
+"""Mismatch in sigmas below which there is none."""
+LARGE = 0.5
+"""Share of the largest mismatch from which a reading is one of those to be marked off."""
+CUTS, LEVELS = 3, 12
+"""Conditions that are cut at most, and ends of a cut that are tried along one."""
+BETTER = 0.02
+"""Gain in F-score that another cut has to bring."""
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, eq=False)
 class Region:
-    """Conditions joined by "and", and the same in words."""
+    """Conditions joined by "and", and which readings they hold."""
 
     where: tuple[dict[str, Any], ...]
-    text: str
+    inside: np.ndarray
 
 
 def region(table: Table, columns: list[str], size: np.ndarray) -> Region:
@@ -27,13 +36,13 @@ def region(table: Table, columns: list[str], size: np.ndarray) -> Region:
     """
     absolute = np.abs(size)
     top = float(absolute.max(initial=0.0))
-    if top < 1e-9:
-        return Region((), "Nowhere: the calibrated base model agrees with the readings within their noise.")
-    large = absolute >= max(0.5 * top, np.median(absolute))
+    if top < NOWHERE:
+        return Region((), np.ones(absolute.size, bool))
+    large = absolute >= max(LARGE * top, np.median(absolute))
     inside = np.ones(absolute.size, bool)
     chosen: dict[str, dict[str, Any]] = {}
     score = _f_score(inside, large)
-    for _ in range(3):
+    for _ in range(CUTS):
         best: tuple[float, str, dict[str, Any], np.ndarray] | None = None
         for name in columns:
             if name in chosen:
@@ -42,12 +51,12 @@ def region(table: Table, columns: list[str], size: np.ndarray) -> Region:
                 value = _f_score(inside & mask, large)
                 if best is None or value > best[0]:
                     best = (value, name, cut, mask)
-        if best is None or best[0] < score + 0.02:
+        if best is None or best[0] < score + BETTER:
             break
         score, name, cut, mask = best
         chosen[name] = cut
         inside &= mask
-    return Region(tuple(chosen.values()), _words(tuple(chosen.values()), absolute, inside, size))
+    return Region(tuple(chosen.values()), inside)
 
 
 def _cuts(name: str, values: np.ndarray) -> list[tuple[dict[str, Any], np.ndarray]]:
@@ -58,8 +67,8 @@ def _cuts(name: str, values: np.ndarray) -> list[tuple[dict[str, Any], np.ndarra
         return [({"column": name, "values": [str(level)]}, values == level) for level in levels]
     points = set_points(values)
     levels = np.unique(points)
-    if levels.size > 12:
-        levels = np.unique(np.quantile(points, np.linspace(0.0, 1.0, 12)))
+    if levels.size > LEVELS:
+        levels = np.unique(np.quantile(points, np.linspace(0.0, 1.0, LEVELS)))
     found = []
     for i, low in enumerate(levels):
         for j in range(i, levels.size):
@@ -75,23 +84,3 @@ def _cuts(name: str, values: np.ndarray) -> list[tuple[dict[str, Any], np.ndarra
 def _f_score(found: np.ndarray, wanted: np.ndarray) -> float:
     both = float((found & wanted).sum())
     return 2.0 * both / max(float(found.sum() + wanted.sum()), 1.0)
-
-
-def _words(where: tuple[dict[str, Any], ...], absolute: np.ndarray, inside: np.ndarray, size: np.ndarray) -> str:
-    sign = "above" if np.sum(size[inside]) > 0 else "below"
-    rms = float(np.sqrt(np.mean(absolute[inside] ** 2))) if inside.any() else 0.0
-    if not where:
-        return f"Everywhere: the recording lies {sign} the base model by {rms:.1f} sigma (rms)."
-    parts = []
-    for cut in where:
-        if "values" in cut:
-            parts.append(f"{cut['column']} is {', '.join(cut['values'])}")
-        elif (point := one_point(cut["low"], cut["high"])) is not None:
-            parts.append(f"{cut['column']} is {point:g}")
-        else:
-            parts.append(f"{cut['column']} is {cut['low']:g} to {cut['high']:g}")
-    outside = float(np.sqrt(np.mean(absolute[~inside] ** 2))) if (~inside).any() else 0.0
-    return (
-        f"Where {' and '.join(parts)}: the recording lies {sign} the base model by {rms:.1f} sigma (rms), "
-        f"against {outside:.1f} elsewhere."
-    )

@@ -2,25 +2,27 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.fit import whitening
-from mixedlub.diagnosis.fitting.search import Search
+from mixedlub.diagnosis.fitting.fit import outlier_chance, whitening
+from mixedlub.diagnosis.searching.scatter import MOST
+from mixedlub.diagnosis.searching.search import Search
+from mixedlub.diagnosis.searching.weighed import Weighed
 from mixedlub.diagnosis.unnamed.carriers import READING
 from mixedlub.diagnosis.unnamed.shapes import Shape
 
 DRAWS = 2000
 """Drawn recordings without a mismatch: a p-value of 0.01 is then known to a fifth of it."""
-CELLS = 4_000_000
-"""Numbers held at once; very many readings get fewer draws."""
 SHAPES = ((0.7, False), (0.25, True))
 """Smooth alternatives: how far they reach along a condition, and whether pairs of conditions act together."""
 SIZES = (1.0, 4.0)
 """Sizes of the alternatives in sigmas: just visible, and plain."""
 BY_EFFECTS = 0.6
 """Weight of the effects among the alternatives; the smooth functions share the rest."""
+SMALLEST = 1e-304
+"""Smallest p-value: what a number of the answer can still hold."""
 UNSURE = 10.0
 """How far the search's Bayes factor may be off."""
 
@@ -109,13 +111,42 @@ def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch
     weight = judged_weight(found)
     alternatives = _Alternatives.of(found, fixed, weight)
     rng = np.random.default_rng(seed)
-    count = int(np.clip(CELLS // problem.y.size, 200, DRAWS))
-    noise = rng.standard_normal((count, problem.y.size)) / np.sqrt(weight)
-    drawn = alternatives.log_bayes_factor(noise + rng.standard_normal((count, fixed.shape[1])) @ fixed.T)
+    noise = rng.standard_normal((DRAWS, problem.y.size)) / np.sqrt(weight)
+    drawn = alternatives.log_bayes_factor(noise + rng.standard_normal((DRAWS, fixed.shape[1])) @ fixed.T)
     observed = float(alternatives.log_bayes_factor(none.anchor[None, :])[0])
-    p = (1.0 + float((drawn >= observed).sum())) / (count + 1.0)
+    p = (1.0 + float((drawn >= observed).sum())) / (DRAWS + 1.0)
     if observed > drawn.max():
         p = min(p, float(np.exp(-min(observed, 700.0))))
     p = min(p, UNSURE * float(np.exp(-min(full.log_bayes_factor, 700.0))))
     chi2 = float((full.problem.of_one(full.none.residual) ** 2).sum() + full.none.z @ full.none.z)
     return Mismatch(bool(p <= level), p, level, chi2, int(full.problem.y.size), observed)
+
+
+def told_from_nothing(weighed: Weighed, level: float) -> tuple[Search, Mismatch]:
+    """Whether anything is missing, and the search that the answer goes by.
+
+    Where no noise is stated, nothing missing is tested under the noise that it would need itself as well, and where
+    that is the answer it has that noise: what suits an explanation best is no fair one for its rival.
+    """
+    found, alone = weighed.found, weighed.alone
+    test = mismatch_test(found, level)
+    if alone is None:
+        return found, beyond_noise(found, weighed.raised.times, test)
+    other = test if alone is found else mismatch_test(alone, level)
+    if other.p_value <= test.p_value:
+        return found, test
+    if not other.detected:
+        return alone, other
+    return found, replace(test, p_value=other.p_value, lenient=True)
+
+
+def beyond_noise(found: Search, times: float, test: Mismatch) -> Mismatch:
+    """The test against nothing missing where readings scatter more than the stated noise can be meant to."""
+    from scipy.special import chdtrc
+
+    if times <= MOST:
+        return test
+    good = outlier_chance(found.none.residual) <= 0.5
+    left = float(np.sum(found.none.residual[good] ** 2)) * (times / MOST) ** 2
+    p = min(max(float(chdtrc(int(good.sum()), left)), SMALLEST), test.p_value)
+    return replace(test, p_value=p, detected=bool(p <= test.level), unfollowed=True)

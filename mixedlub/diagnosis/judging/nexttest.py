@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from itertools import product
+from typing import Any
 
 import numpy as np
 
-from mixedlub.diagnosis.judging.predict import Prediction
+from mixedlub.diagnosis.judging.posterior import Key, Posterior
+from mixedlub.diagnosis.judging.predict import Prediction, Refined, Rows, refine
 from mixedlub.diagnosis.recording.levels import roundest, set_points
+from mixedlub.diagnosis.searching.search import Search
 from mixedlub.table import Column, Table
 
 MOST = 600
@@ -17,6 +20,12 @@ MOST = 600
 SEED = 1
 LEAST = 1e-12
 """Smallest probability of an explanation: its logarithm is taken."""
+WORTH, RIVALS = 0.01, 5
+"""Probability from which an explanation is worth a test, and how many are told apart at once."""
+COUNTED = 0.05
+"""Least weight of a rival in the choice of a test: one that is nearly excluded is still to be excluded."""
+TESTS = 3
+"""Tests that are proposed."""
 NODES = 21
 """Gauss-Hermite nodes of the integral over a reading."""
 
@@ -28,6 +37,46 @@ class NextTest:
     conditions: dict[str, float | str]
     separates: tuple[str, ...]
     expected_bits: float
+
+
+def next_tests(
+    found: Search, judged: Posterior, refined: dict[Key, Refined], columns: list[Column], varied: list[str]
+) -> tuple[NextTest, ...]:
+    """The tests whose outcomes tell most, apart from one another; with one explanation left, against the runner-up."""
+    keys = [k for k in refined if judged.weights[k] > WORTH]
+    if len(keys) < 2:
+        runner = next((k for k in judged.weights if not isinstance(k, str) and k not in keys and k in found.fits), None)
+        if runner is None:
+            return ()
+        refined = {**refined, runner: refine(found, found.fits[runner])}
+        keys = [*keys, runner]
+    keys = keys[:RIVALS]
+    case = found.problem.case
+    table = candidates(found.problem.rows, columns, case.kind.limits(case.system), varied)
+    rows = Rows(found, table)
+    predictions = [rows.of_fit(refined[k]) for k in keys]
+    weights = np.array([judged.weights[k] for k in keys])
+    finite = np.isfinite(np.array([p.mean + p.variance for p in predictions])).all(axis=0)
+    # Improbable rivals count for the choice, not for what it is said to tell.
+    worth = np.where(finite, expected_bits(np.maximum(weights, COUNTED), predictions, rows.sd), 0.0)
+    bits = np.where(finite, expected_bits(weights, predictions, rows.sd), 0.0)
+    chosen: list[NextTest] = []
+    for i in np.argsort(worth)[::-1]:
+        values = {c.name: table[c.name][i] for c in columns}
+        conditions: dict[str, float | str] = {
+            name: str(x) if isinstance(x, str) else float(f"{x:.6g}") for name, x in values.items()
+        }
+        if all(_apart(conditions, t.conditions) for t in chosen):
+            names = tuple("+".join(judged.names(k)) for k in keys)
+            chosen.append(NextTest(conditions, names, float(bits[i])))
+        if len(chosen) == TESTS:
+            break
+    return tuple(chosen)
+
+
+def _apart(a: dict[str, Any], b: dict[str, Any]) -> bool:
+    """Whether two tests differ in at least two conditions."""
+    return sum(a[name] != b[name] for name in a) >= 2
 
 
 def candidates(

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.diagnosis.fitting.problem import Explanation, effects_of
-from mixedlub.diagnosis.fitting.search import PRIOR, Search, priors
 from mixedlub.diagnosis.judging.mismatch import Mismatch
+from mixedlub.diagnosis.searching.search import PRIOR, Search, priors
 from mixedlub.effect import STAGES
 
 TIE = 0.1

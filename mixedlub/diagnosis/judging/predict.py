@@ -9,9 +9,9 @@ import numpy as np
 
 from mixedlub.diagnosis.fitting.fit import Fit, linear_fit, settled
 from mixedlub.diagnosis.fitting.problem import Problem
-from mixedlub.diagnosis.fitting.search import ELASTIC, Search, elastic_columns, typical_size
 from mixedlub.diagnosis.fitting.sudden import Places, elsewhere, places, sudden_places, without
 from mixedlub.diagnosis.recording.noise import by_level, seen_noise
+from mixedlub.diagnosis.searching.search import ELASTIC, Search, elastic_columns, typical_size
 from mixedlub.diagnosis.unnamed.carriers import carrier
 from mixedlub.forward import Forward
 from mixedlub.table import Table

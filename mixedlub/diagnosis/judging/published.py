@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mixedlub.diagnosis.fitting.published import published_odds
-from mixedlub.diagnosis.fitting.search import Search
 from mixedlub.diagnosis.judging.posterior import Key
+from mixedlub.diagnosis.searching.search import Search
 
 REJECTED = -4.6
 """Log odds from which a law is said to be rejected: one to a hundred."""

@@ -9,8 +9,8 @@ import numpy as np
 
 from mixedlub.diagnosis.fitting.fit import NINETY
 from mixedlub.diagnosis.fitting.problem import Explanation, Problem, effects_of
+from mixedlub.diagnosis.labels import effect_words, number, words_of
 from mixedlub.diagnosis.recording.audit import Doubt
-from mixedlub.diagnosis.telling.labels import effect_words, number, words_of
 from mixedlub.effect import Effect
 from mixedlub.quantities import GLOSSARY
 

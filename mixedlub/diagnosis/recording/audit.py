@@ -7,7 +7,14 @@ import numpy as np
 from mixedlub.bounds import ranges
 from mixedlub.case import Case
 from mixedlub.diagnosis.recording.features import PASSING
-from mixedlub.diagnosis.recording.noise import is_stated, nearly_repeated, noise_from_repeats, pooled_sd
+from mixedlub.diagnosis.recording.noise import (
+    is_stated,
+    nearly_repeated,
+    noise,
+    noise_from_repeats,
+    pooled_sd,
+    seen_noise,
+)
 from mixedlub.forward import Forward
 from mixedlub.headers import unit_of
 from mixedlub.table import IGNORED, MEANT, Table
@@ -39,6 +46,10 @@ TOO_LARGE, ALONE = 50.0, 10.0
 """A reading so many times what the others suggest there, and so many times the largest of them, is doubted."""
 NEGATIVE_SHARE, NEGATIVE_SIGMAS, AS_LARGE = 0.02, 5.0, (0.67, 1.5)
 """So few readings, negative by so many sds, as large as what the others suggest there, are doubted."""
+UNSTATED = 0.05
+"""Share of the usual reading that one is taken to scatter by where nothing is stated."""
+CONTRADICTING = 4.0
+"""Times the stated noise from which the scatter of repeats contradicts it."""
 UNSIGNED = ("power_loss_W", "friction_coefficient", "film_thickness_nm")
 """Quantities that are positive but for their noise; friction maps carry a sign."""
 
@@ -97,24 +108,25 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
     notes += _warm(rows)
     notes += _stuck(case, rows, y, base)
     notes += _misread(case, rows, y, base)
-    stated = case.system.recording.noise
-    if is_stated(case, rows) and stated is not None:
-        group = nearly_repeated(case, rows)
-        repeats = 0.0 if group is None else pooled_sd(_without_drift(case, rows, y, base, group), group)
-        size = np.abs(y) if case.kind.logarithmic else np.ones(y.size)
-        typical = float(np.median(np.hypot(stated.relative * np.abs(y), stated.absolute) / size))
-        unit = "" if case.kind.logarithmic else f" {unit_of(case.quantity)}".rstrip()
-        if repeats > 4.0 * typical > 0:
-            unread = next((n.partition(IGNORED)[2] for n in case.notes if IGNORED in n and MEANT in n), "")
-            advice = "if they belong to several assemblies or sweeps, name these in a column setup"
-            advice = f"a condition may stand in a column that is ignored: {unread}" if unread else advice
-            notes.append(
-                Doubt(
-                    f"readings at equal conditions contradict each other: they scatter by {repeats:.3g}{unit} where "
-                    f"the stated noise is {typical:.3g}{unit}; {advice}"
-                )
-            )
+    notes += _contradicting(case, rows, y, base)
     return notes
+
+
+def _contradicting(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str]:
+    """Readings at equal conditions that scatter far more than the stated noise."""
+    group = nearly_repeated(case, rows)
+    if group is None or not is_stated(case, rows):
+        return []
+    repeats = pooled_sd(_without_drift(case, rows, y, base, group), group)
+    typical = float(np.median(seen_noise(case, rows, y)[0]))
+    if repeats <= CONTRADICTING * typical:
+        return []
+    unit = "" if case.kind.logarithmic else f" {unit_of(case.quantity)}".rstrip()
+    unread = next((n.partition(IGNORED)[2] for n in case.notes if IGNORED in n and MEANT in n), "")
+    advice = "if they belong to several assemblies or sweeps, name these in a column setup"
+    advice = f"a condition may stand in a column that is ignored: {unread}" if unread else advice
+    said = f"they scatter by {repeats:.3g}{unit} where the stated noise is {typical:.3g}{unit}; {advice}"
+    return [Doubt(f"readings at equal conditions contradict each other: {said}")]
 
 
 def _stuck(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str]:
@@ -161,12 +173,7 @@ def _misread(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[s
 
 def _sds(case: Case, rows: Table, y: np.ndarray) -> np.ndarray:
     """What a reading scatters by, as stated; else a twentieth of the usual one."""
-    stated, own = case.system.recording.noise, f"{case.quantity}_sd"
-    if own in rows:
-        return np.asarray(rows[own])
-    if stated is not None and is_stated(case, rows):
-        return np.hypot(stated.relative * np.abs(y), stated.absolute)
-    return np.full(y.size, 0.05 * float(np.median(np.abs(y))))
+    return noise(case, rows, y)[0] if is_stated(case, rows) else np.full(y.size, UNSTATED * float(np.median(np.abs(y))))
 
 
 def _warm(rows: Table) -> list[str]:

@@ -1,1 +1,1 @@
-"""The answer in words, on a page and in files."""
+"""The answer in words and numbers."""

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.labels import amount, conditions_text, explanation_words, range_text, words_of
 from mixedlub.diagnosis.recording.features import PASSING
-from mixedlub.diagnosis.telling.labels import amount, conditions_text, explanation_words, range_text, words_of
 from mixedlub.table import Table
 
 USELESS, WEAK = 0.01, 0.1

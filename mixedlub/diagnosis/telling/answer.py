@@ -12,9 +12,9 @@ import numpy as np
 from mixedlub.diagnosis.diagnose import Diagnosis, Predicted
 from mixedlub.diagnosis.fitting.fit import NINETY
 from mixedlub.diagnosis.fitting.problem import effects_of
-from mixedlub.diagnosis.judging.channel import Check, check_channel
 from mixedlub.diagnosis.judging.predict import Refined
 from mixedlub.diagnosis.telling.advice import beyond
+from mixedlub.diagnosis.telling.place import located
 from mixedlub.effect import Prior
 
 
@@ -41,7 +41,7 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
                 str(int(run)): float(z) for run, z in zip(d.recorded.table["run"], d.recorded.mismatch_z, strict=True)
             },
             "where": list(d.region.where),
-            "text": d.region.text,
+            "text": located(d),
         },
         "effects": effect_records(d),
         "calibration": calibration_record(d),
@@ -63,21 +63,8 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
             for t in d.next_tests
         ],
         "warnings": list(d.warnings),
-        **_check_record(d),
+        **({} if d.check is None else {"check": asdict(d.check)}),
     }
-
-
-def checked(d: Diagnosis) -> Check | None:
-    """The second channel of the recording against the predicted readings, where there is one."""
-    name = d.case.system.recording.check
-    if name is None or name not in d.recorded.table:
-        return None
-    return check_channel(name, d.recorded.table[name], d.recorded.predicted)
-
-
-def _check_record(d: Diagnosis) -> dict[str, Any]:
-    check = checked(d)
-    return {} if check is None else {"check": asdict(check)}
 
 
 def verdict_fit(d: Diagnosis) -> Refined:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.fitting.problem import effects_of
+from mixedlub.diagnosis.labels import STAGE_WORDS, effect_words, explanation_words
 from mixedlub.diagnosis.recording.audit import SCARCE, Doubt
-from mixedlub.diagnosis.telling.labels import STAGE_WORDS, effect_words, explanation_words
 from mixedlub.effect import Effect
 
 MOST_TIED = 5

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.telling.answer import checked
-from mixedlub.diagnosis.telling.labels import conditions_text, number, words_of
+from mixedlub.diagnosis.labels import conditions_text, number, words_of
 from mixedlub.headers import unit_of
 
 MUCH = 1.5
@@ -25,7 +24,7 @@ def reading_conditions(d: Diagnosis, row: int) -> str:
 
 def checked_channel(d: Diagnosis) -> tuple[str, ...]:
     """The channel that was kept back from every fit, in a sentence."""
-    check = checked(d)
+    check = d.check
     if check is None:
         return ()
     name = words_of(check.column)

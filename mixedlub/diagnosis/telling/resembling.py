@@ -5,7 +5,7 @@ from __future__ import annotations
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.fitting.problem import effects_of
 from mixedlub.diagnosis.judging.confusion import Confusion
-from mixedlub.diagnosis.telling.labels import effect_words
+from mixedlub.diagnosis.labels import effect_words
 
 NEAR, ALIKE = 0.8, 0.95
 """Cosine of two signatures from which they are near, and from which they have nearly the same form."""

@@ -7,9 +7,9 @@ import inspect
 import numpy as np
 
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.labels import effect_words, in_reach, number, with_names
 from mixedlub.diagnosis.telling.answer import effect_records, interval, verdict_fit
 from mixedlub.diagnosis.telling.headline import is_free
-from mixedlub.diagnosis.telling.labels import effect_words, in_reach, number, with_names
 from mixedlub.effect import Effect, Parameter
 from mixedlub.headers import unit_of
 from mixedlub.report.plain import plain_equation, with_symbol

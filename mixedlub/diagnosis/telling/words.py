@@ -9,27 +9,26 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.drawing.maps import missing, residuals
 from mixedlub.diagnosis.fitting.fit import outlier_chance
 from mixedlub.diagnosis.fitting.problem import effects_of
 from mixedlub.diagnosis.judging.confusion import confusion
+from mixedlub.diagnosis.judging.empirical import Absorbed, Unnamed
 from mixedlub.diagnosis.judging.posterior import names_effects
-from mixedlub.diagnosis.telling.advice import next_test, standing_place, wave_period
-from mixedlub.diagnosis.telling.headline import doubts, headline, lesser, p_words, probability_words, standing
-from mixedlub.diagnosis.telling.labels import (
+from mixedlub.diagnosis.labels import (
     STAGE_WORDS,
     effect_words,
     explanation_words,
     number,
-    range_text,
     with_names,
     words_of,
 )
-from mixedlub.diagnosis.telling.readings import checked_channel, outliers, reading_conditions, steadied_noise
+from mixedlub.diagnosis.telling.advice import next_test, standing_place, wave_period
+from mixedlub.diagnosis.telling.headline import doubts, headline, lesser, p_words, probability_words, standing
+from mixedlub.diagnosis.telling.place import where
+from mixedlub.diagnosis.telling.readings import checked_channel, outliers, steadied_noise
 from mixedlub.diagnosis.telling.resembling import resembling
 from mixedlub.diagnosis.telling.tables import calibration, parameters
 from mixedlub.diagnosis.unnamed.carriers import NOTHING, READING
-from mixedlub.diagnosis.unnamed.empirical import Absorbed, Unnamed
 from mixedlub.effect import Effect
 from mixedlub.report.plain import plain_equation
 
@@ -38,15 +37,6 @@ REFITTED = "Parameters were refitted without each level; what the answer is was 
 ANSWER = "Answer"
 MISMATCH = "Is there a mismatch beyond noise and calibration?"
 WHERE = "Where?"
-SPREAD = (
-    "The model without it has the answer's calibration here. “Before” in the figures is another one: the base model "
-    "calibrated as if nothing were missing. That spreads its shortfall over all conditions, so that signs there may "
-    "differ from these."
-)
-TURNED = 0.2
-"""Share of readings whose sign in the figures is another one, from which that is explained."""
-EVEN = 0.3
-"""Share that stays of a mismatch when its signs cancel, below which neither sign is told."""
 WORTH = 0.5
 """Share of an unnamed mismatch from which the effects that take it up are told."""
 SECOND = 0.1
@@ -88,7 +78,7 @@ def sections(d: Diagnosis, unnamed: Unnamed | None = None) -> list[Section]:
     found = [
         Section(ANSWER, (headline(d), *standing(d)), alarms=doubts(d)),
         Section(MISMATCH, (*_mismatch(d), *steadied_noise(d))),
-        Section(WHERE, _where(d)),
+        Section(WHERE, where(d)),
         _left_out(d),
         *([_unnamed(d, unnamed)] if unnamed is not None else []),
         Section(ALIKE, resemblance, items=separating),
@@ -139,63 +129,6 @@ def _mismatch(d: Diagnosis) -> tuple[str, ...]:
     if test.detected:
         return (f"Yes ({size}; {chi2}).", alarm)
     return (f"None that can be told from noise ({size}; {chi2}).", alarm)
-
-
-def _direction(z: np.ndarray, predicted: np.ndarray) -> str:
-    """Whether readings are more or less than expected, or larger or smaller where they have both signs.
-
-    >>> _direction(np.array([2.0, 3.0]), np.ones(2)), _direction(np.array([2.0, -3.0]), np.array([1.0, -1.0]))
-    ('more', 'more in size, either sign,')
-    """
-    whole = max(float(np.sum(np.abs(z))), 1e-300)
-    for way, how in ((float(z.sum()), ""), (float(z @ np.sign(predicted)), " in size, either sign,")):
-        if abs(way) >= EVEN * whole:
-            return f"{'more' if way > 0.0 else 'less'}{how}"
-    return "now more and now less"
-
-
-def _share(lacking: np.ndarray, predicted: np.ndarray) -> np.ndarray:
-    """What is missing over the larger of the reading and the model without it: either may be all but 0.
-
-    >>> _share(np.array([3.0, -0.09]), np.array([4.0, 0.0])).tolist()
-    [0.75, 1.0]
-    """
-    return np.abs(lacking) / np.maximum(np.maximum(np.abs(predicted), np.abs(predicted - lacking)), 1e-300)
-
-
-def _where(d: Diagnosis) -> tuple[str, ...]:
-    if d.posterior.verdict == ():
-        return ()
-    z = np.where(d.outlier_chance > 0.5, 0.0, d.recorded.mismatch_z)
-    inside = np.ones(z.size, bool)
-    for cut in d.region.where:
-        column = d.recorded.table[cut["column"]]
-        inside &= (
-            np.isin(column, cut["values"]) if "values" in cut else (column >= cut["low"]) & (column <= cut["high"])
-        )
-    place = ", ".join(range_text(cut) for cut in d.region.where) or "everywhere"
-    share = float(np.median(_share(missing(d)[1], d.recorded.predicted)[inside]))
-    size = f"{number(100 * share)} % of the larger of the two"
-    sign = _direction(z[inside], d.recorded.predicted[inside])
-    said = [
-        f"Above all at {place}: there the rig reads {sign} than the model without it, by {_rms(z[inside]):.1f} sigma "
-        f"(rms), {size} in the median."
-        if d.region.where
-        else f"Everywhere: the rig reads {sign} than the model without it, by {_rms(z):.1f} sigma (rms), "
-        f"{size} in the median."
-    ]
-    if (~inside).any():
-        said.append(f"Elsewhere {_rms(z[~inside]):.1f} sigma.")
-    most = int(np.argmax(np.abs(z)))
-    said.append(
-        f"Largest at run {int(d.recorded.table['run'][most])} ({reading_conditions(d, most)}): {z[most]:+.1f} sigma."
-    )
-    turned = np.sign(residuals(d)[0]) != np.sign(z)
-    return (*said, SPREAD) if turned.mean() > TURNED else tuple(said)
-
-
-def _rms(values: np.ndarray) -> float:
-    return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
 
 
 def _left_out(d: Diagnosis) -> Section:

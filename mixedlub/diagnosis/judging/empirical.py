@@ -11,8 +11,8 @@ import numpy as np
 
 from mixedlub.chain import Model
 from mixedlub.diagnosis.fitting.fit import linear_fit
-from mixedlub.diagnosis.fitting.search import Search
-from mixedlub.diagnosis.telling.labels import number, words_of
+from mixedlub.diagnosis.labels import number, words_of
+from mixedlub.diagnosis.searching.search import Search
 from mixedlub.diagnosis.unnamed.carriers import log_slope
 from mixedlub.diagnosis.unnamed.shapes import FACTORS, SIZES
 from mixedlub.headers import unit_of

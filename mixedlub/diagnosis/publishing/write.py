@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.fitting.search import Progress
+from mixedlub.diagnosis.judging.empirical import Unnamed, unnamed
+from mixedlub.diagnosis.searching.search import Progress
 from mixedlub.diagnosis.telling import words
 from mixedlub.diagnosis.telling.answer import as_json, predictions_csv
-from mixedlub.diagnosis.unnamed.empirical import Unnamed, unnamed
 from mixedlub.writing import writing
 
 XML = '<?xml version="1.0" encoding="utf-8" standalone="no"?>\n'
@@ -40,7 +40,7 @@ def files(d: Diagnosis) -> dict[str, str]:
     """Everything the answer consists of, by file name."""
     from mixedlub.diagnosis.drawing import figures
     from mixedlub.diagnosis.drawing.style import settled
-    from mixedlub.diagnosis.telling import page
+    from mixedlub.diagnosis.publishing import page
     from mixedlub.report.style import as_svg
 
     extra = unnamed(d.found) if any(key == "unknown" for key in d.posterior.tied) else None

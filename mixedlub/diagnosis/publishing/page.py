@@ -12,8 +12,8 @@ from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.drawing.charts import colour_of
 from mixedlub.diagnosis.drawing.style import inline
 from mixedlub.diagnosis.fitting.problem import effects_of
+from mixedlub.diagnosis.labels import number, words_of
 from mixedlub.diagnosis.telling.headline import p_words
-from mixedlub.diagnosis.telling.labels import number, words_of
 from mixedlub.diagnosis.telling.words import (
     ALIKE,
     GAIN,
@@ -92,7 +92,7 @@ def render(d: Diagnosis, parts: Iterable[Section], drawings: Mapping[str, str]) 
     from markupsafe import Markup
 
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
-    source = files("mixedlub.diagnosis.telling").joinpath("page.html").read_text(encoding="utf-8")
+    source = files("mixedlub.diagnosis.publishing").joinpath("page.html").read_text(encoding="utf-8")
     template = environment.from_string(source)
     pictures: dict[str, list[Picture]] = defaultdict(list)
     for name, (section, caption) in CAPTIONS.items():

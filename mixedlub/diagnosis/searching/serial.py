@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.search import Search
 from mixedlub.diagnosis.recording.features import SERIES, clock_of
+from mixedlub.diagnosis.searching.search import Search
 
 FEWEST = 16
 """Stretches of a series from which the variance of their sums can be told."""

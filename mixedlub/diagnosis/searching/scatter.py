@@ -8,10 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mixedlub.case import Case
-from mixedlub.diagnosis.fitting.fit import log_likelihood, outlier_chance
-from mixedlub.diagnosis.fitting.search import Search
-from mixedlub.diagnosis.judging.mismatch import Mismatch
+from mixedlub.diagnosis.fitting.fit import log_likelihood
 from mixedlub.diagnosis.recording.noise import BOTH, PARTS, medians, pooled_sd, repeated, with_noise
+from mixedlub.diagnosis.searching.search import Search
 from mixedlub.table import Table
 
 FACTORS = np.array([1.1, 1.25, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 4.0, 6.0, 10.0])
@@ -26,8 +25,6 @@ CLEAR = 8.0
 """Gain in log probability from which stated noise is not believed; under nothing but noise it stays below 3."""
 ROUNDS = 4
 """Times the noise is raised at most: fits under too little noise follow it, so one step seldom suffices."""
-SMALLEST = 1e-304
-"""Smallest p-value: what a number of the answer can still hold."""
 MOST = 4.0
 """How many times the stated noise a rig may have: what scatters more is no noise, though nothing follows it."""
 UNLIKELY = 1e-3
@@ -89,18 +86,6 @@ def _lacking(found: Search) -> tuple[float, float]:
     return gain, float(SHARES[best])
 
 
-def beyond_noise(found: Search, times: float, test: Mismatch) -> Mismatch:
-    """The test against nothing missing where readings scatter more than the stated noise can be meant to."""
-    from scipy.stats import chi2
-
-    if times <= MOST:
-        return test
-    good = outlier_chance(found.none.residual) <= 0.5
-    left = float(np.sum(found.none.residual[good] ** 2)) * (times / MOST) ** 2
-    p = min(max(float(chi2.sf(left, int(good.sum()))), SMALLEST), test.p_value)
-    return replace(test, p_value=p, detected=bool(p <= test.level), unfollowed=True)
-
-
 def repeats_allow(y: np.ndarray, sd: np.ndarray, group: np.ndarray) -> float:
     """How many times their sd readings could have whose repeats form these groups, at most.
 
@@ -109,11 +94,11 @@ def repeats_allow(y: np.ndarray, sd: np.ndarray, group: np.ndarray) -> float:
     >>> repeats_allow(y, jumping, np.repeat(np.arange(5), 4)) < 2.0
     True
     """
-    from scipy.stats import chi2
+    from scipy.special import chdtri
 
     spare = group.size - int(group.max()) - 1
     apart = (y - medians(y, group)[group]) / sd
-    return float(pooled_sd(apart, group) * np.sqrt(spare / chi2.ppf(UNLIKELY, spare)))
+    return float(pooled_sd(apart, group) * np.sqrt(spare / chdtri(spare, 1.0 - UNLIKELY)))
 
 
 def more(found: Search) -> tuple[float, float]:

@@ -1,0 +1,60 @@
+"""The verdict: probabilities, with what ties held against levels left out until nothing new ties."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mixedlub.diagnosis.fitting.fit import outlier_chance
+from mixedlub.diagnosis.fitting.sudden import sudden_places
+from mixedlub.diagnosis.judging.heldout import HeldOut, LevelsOut
+from mixedlub.diagnosis.judging.mismatch import Mismatch
+from mixedlub.diagnosis.judging.posterior import Key, Posterior, names_effects, posterior
+from mixedlub.diagnosis.searching.search import Search
+
+CANDIDATES = 6
+"""Names held against levels left out, at most: each costs as many fits as there are levels."""
+
+
+def judge(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
+    """Probabilities, with the verdict and what ties with it first held against levels left out.
+
+    When CANDIDATES names were tried, the others are taken to fail like the best of those that did. The unnamed
+    mismatch is held against the first name. Where even the best of those tried leaves more there than noise, the
+    odds between names are less sure.
+    """
+    levels = LevelsOut.of(found)
+    names = sorted(filter(names_effects, found.log_weights), key=lambda key: -found.log_weights[key])
+    tried: dict[Key, tuple[HeldOut, float]] = {}
+    unnamed: dict[Key, float] = {}
+    while True:
+        demerits = {key: demerit for key, (_, demerit) in tried.items()}
+        if len(tried) >= CANDIDATES and all(demerits.values()):
+            rest = min(demerits.values())
+            demerits = {key: demerits.get(key, rest) for key in names}
+        judged = posterior(found, test, demerits | unnamed)
+        first = judged.verdict
+        # What stands at one place is not for other levels to foretell.
+        if first in tried and not isinstance(first, str) and not sudden_places(found.problem, first):
+            inflation = min(kept.inflation for kept, _ in tried.values())
+            judged = posterior(found, test, demerits | unnamed, inflation)
+        if names and "unknown" in judged.tied and not unnamed:
+            if names[0] not in tried:
+                tried[names[0]] = _held_against(levels, found, names[0])
+            unnamed = {"unknown": _held_against(levels, found, "unknown")[0].behind(tried[names[0]][0])}
+            continue
+        fresh = [key for key in judged.tied if key not in tried and names_effects(key)]
+        if not fresh or len(tried) >= CANDIDATES:
+            key = judged.verdict
+            return judged, (tried.get(key) or _held_against(levels, found, key))[0]
+        tried[fresh[0]] = _held_against(levels, found, fresh[0])
+
+
+def _held_against(levels: LevelsOut, found: Search, key: Key) -> tuple[HeldOut, float]:
+    """How an explanation predicts levels left out, and what a name loses by it."""
+    residual = found.unknown.fit.residual if isinstance(key, str) else found.fits[key].residual
+    outliers = outlier_chance(residual) > 0.5
+    kept = levels.held(key, outliers)
+    if not names_effects(key):
+        return kept, 0.0
+    good = residual[~outliers]
+    return kept, kept.demerit(float(np.sqrt(np.mean(good**2))) if good.size else 1.0)

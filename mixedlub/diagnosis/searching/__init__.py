@@ -1,0 +1,1 @@
+"""Every explanation tried and weighed, under the noise that the readings have."""

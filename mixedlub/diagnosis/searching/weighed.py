@@ -1,0 +1,71 @@
+"""Every explanation weighed under the noise that the readings have."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from mixedlub.case import Case
+from mixedlub.diagnosis.fitting.problem import Problem
+from mixedlub.diagnosis.recording.features import coordinates
+from mixedlub.diagnosis.recording.noise import estimated, is_stated, repeated
+from mixedlub.diagnosis.searching.scatter import Raised, repeats_allow, shown, stated_or_more, under_its_own
+from mixedlub.diagnosis.searching.search import MANY, Progress, Search, search, spread_rows
+from mixedlub.diagnosis.searching.serial import lasting
+from mixedlub.forward import Forward
+from mixedlub.table import Table
+from profiles.errors import InputError
+
+
+@dataclass(frozen=True, eq=False)
+class Weighed:
+    """The search, how much more than the stated noise it took, and where none is stated another one.
+
+    That is ``alone``, under the noise that the calibrated base model would need if nothing were missing.
+    """
+
+    found: Search
+    raised: Raised
+    alone: Search | None = None
+
+
+def weighed(
+    case: Case, rows: Table, forward: Forward, y: np.ndarray, exclude: Sequence[str], progress: Progress
+) -> Weighed:
+    """Every explanation weighed under the stated noise or what readings ask for, else under the noise they show.
+
+    Where noise lasts over several readings, so many count as one, and everything is weighed again.
+    """
+    space = coordinates(case, rows, forward)
+    if not space.axes:
+        raise InputError("all readings were taken at the same conditions; vary at least one", where="recordings.csv")
+    values = space.values(case, rows, forward)
+
+    def trial(case: Case, rows: Table, together: float = 1.0) -> Search:
+        return search(Problem.of(case, rows, forward, y, together), space, values, exclude, progress)
+
+    def glance(case: Case, rows: Table) -> Search:
+        few = spread_rows(values, y.size)
+        return search(Problem.of(case, rows, forward, y).take(few), space, [v[few] for v in values], exclude, progress)
+
+    seek = trial if y.size <= MANY else glance
+    stated, raised = is_stated(case, rows), Raised()
+    if stated:
+        group, most = repeated(case, rows), np.inf
+        if group is not None:
+            whole = Problem.of(case, rows, forward, y)
+            most = repeats_allow(whole.y, whole.sd, group)
+        found, raised = stated_or_more(case, rows, seek, most)
+        case, rows = raised.of(case, rows)
+    else:
+        found = shown(estimated(case, rows, y, forward.predict(), space, values), rows, seek)
+        case = found.problem.case
+    if seek is glance:
+        found = trial(case, rows)
+    together = lasting(found)
+    if together > 1.0:
+        found = trial(case, rows, together)
+    return Weighed(found, raised, None if stated else under_its_own(found, partial(trial, together=together)))
