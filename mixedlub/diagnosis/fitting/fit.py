@@ -122,6 +122,15 @@ def linear_fit(target: np.ndarray, columns: np.ndarray, weight: np.ndarray | Non
     return Linear(evidence, coefficients, residual, w)
 
 
+def covariance(columns: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Of coordinates with standard-normal priors and these columns (slopes in sigmas), at the weights of the readings.
+
+    >>> covariance(np.ones((3, 1)), np.ones(3)).tolist()
+    [[0.25]]
+    """
+    return np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ (columns * weight[:, None]))
+
+
 def whitening(columns: np.ndarray, weight: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
     """What multiplies rows by the inverse covariance of noise, and of columns with standard-normal priors, together.
 
@@ -129,7 +138,7 @@ def whitening(columns: np.ndarray, weight: np.ndarray) -> Callable[[np.ndarray],
     [[0.333, 0.333], [1.0, -1.0]]
     """
     weighted = columns * weight[:, None]
-    inner = np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ weighted)
+    inner = covariance(columns, weight)
 
     def whitened(rows: np.ndarray) -> np.ndarray:
         scaled = rows * weight

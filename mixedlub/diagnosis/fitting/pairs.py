@@ -7,7 +7,7 @@ from itertools import combinations
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.fit import Fit, bounded, whitening
+from mixedlub.diagnosis.fitting.fit import Fit, bounded, covariance, whitening
 from mixedlub.diagnosis.fitting.problem import Explanation, Problem
 from mixedlub.diagnosis.fitting.starts import Sampled
 
@@ -61,9 +61,10 @@ def _drawn_together(
     if not sampled:
         return {}
     columns = np.hstack([none.slopes, problem.shared])
-    inner = np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ columns)
+    every = np.ones(len(columns))
+    inner = covariance(columns, every)
     changes = np.vstack([s.change for s in sampled])
-    whitened = changes - (changes @ columns) @ inner @ columns.T
+    whitened = whitening(columns, every)(changes)
     gain = whitened @ none.anchor - 0.5 * np.einsum("ij,ij->i", changes, whitened)
     gain -= 0.5 * np.concatenate([np.einsum("ij,ij->i", s.z, s.z) for s in sampled])
     ends = np.cumsum([len(s.z) for s in sampled])

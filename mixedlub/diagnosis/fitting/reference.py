@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.fit import Fit, log_likelihood
+from mixedlub.diagnosis.fitting.fit import Fit, covariance, log_likelihood
 from mixedlub.diagnosis.fitting.problem import Explanation, Problem
 from profiles.errors import InputError
 
@@ -28,9 +28,7 @@ class Evidence:
 def importance_evidence(problem: Problem, fit: Fit, draws: int = 2000, seed: int = 1) -> Evidence:
     """Evidence by importance sampling from a Student law (6 degrees) laid over the fit."""
     rng = np.random.default_rng(seed)
-    columns = fit.slopes
-    covariance = np.linalg.inv(np.eye(fit.z.size) + columns.T @ (columns * fit.weight[:, None]))
-    root = np.linalg.cholesky(covariance)
+    root = np.linalg.cholesky(covariance(fit.slopes, fit.weight))
     size = fit.z.size
     normal = rng.standard_normal((draws, size))
     stretch = np.sqrt(FREEDOM / rng.chisquare(FREEDOM, draws))

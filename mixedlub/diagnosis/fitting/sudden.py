@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.fit import NINETY, Fit, log_likelihood
+from mixedlub.diagnosis.fitting.fit import NINETY, Fit, covariance, log_likelihood
 from mixedlub.diagnosis.fitting.problem import REACH, Explanation, Problem
 
 FAR, COUNT = 3.0, 121
@@ -109,7 +109,7 @@ def places(problem: Problem, fit: Fit, beside: np.ndarray | None = None) -> tupl
     found = []
     every = fit.slopes if beside is None else np.hstack([fit.slopes, beside])
     for index in sudden_places(problem, fit.explanation):
-        open_by = np.linalg.inv(np.eye(every.shape[1]) + every.T @ (every * fit.weight[:, None]))[index, : fit.z.size]
+        open_by = covariance(every, fit.weight)[index, : fit.z.size]
         tried, log = anywhere(problem, fit, index, fit.z[index], open_by / open_by[index], beside)
         where = tried[:, index]
         chance = np.where(log > log.max() - NEVER, np.exp(log - log.max()), 0.0) * np.gradient(where)

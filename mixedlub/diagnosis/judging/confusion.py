@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mixedlub.diagnosis.fitting.fit import whitening
 from mixedlub.diagnosis.searching.search import Sampled, Search
 
 WANTED = 3.0
@@ -40,12 +41,7 @@ def confusion(found: Search) -> Confusion:
     found = found.screened
     none = found.none
     columns = np.hstack([none.slopes, found.problem.shared])
-    scaled = columns * none.weight[:, None]
-    inner = np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ scaled)
-
-    def left_over(rows: np.ndarray) -> np.ndarray:
-        weighted = rows * none.weight
-        return weighted - (weighted @ columns) @ inner @ scaled.T
+    left_over = whitening(columns, none.weight)
 
     ids, signatures, visibility, absorbed = [], [], [], []
     for sampled in (*found.sampled, *found.untestable):

@@ -10,7 +10,7 @@ from math import comb
 import numpy as np
 
 from mixedlub.chain import Model
-from mixedlub.diagnosis.fitting.fit import linear_fit
+from mixedlub.diagnosis.fitting.fit import covariance, linear_fit, whitening
 from mixedlub.diagnosis.labels import number, words_of
 from mixedlub.diagnosis.searching.search import Search
 from mixedlub.diagnosis.unnamed.carriers import log_slope
@@ -180,18 +180,16 @@ class _Search:
 
     def evidence(self, powers: np.ndarray, relative: np.ndarray) -> np.ndarray:
         """Log evidence of each form over nothing, its amplitude averaged over SIZES."""
-        weighted = self.fixed * self.weight[:, None]
-        inner = np.linalg.inv(np.eye(self.fixed.shape[1]) + self.fixed.T @ weighted)
-        left = self.weight * self.target - weighted @ (inner @ (weighted.T @ self.target))
+        whitened = whitening(self.fixed, self.weight)
         found = np.empty(len(powers))
         step = max(1, CELLS // self.target.size)
         for start in range(0, len(powers), step):
             part = slice(start, start + step)
             each = self.columns(powers[part], relative[part])
             each = each / np.sqrt(np.mean(each**2, axis=1))[:, None]
-            across = each @ weighted
-            power = (each**2) @ self.weight - np.einsum("ij,jk,ik->i", across, inner, across)
-            along = (each @ left) ** 2
+            seen = whitened(each)
+            power = np.einsum("ij,ij->i", seen, each)
+            along = (seen @ self.target) ** 2
             square = np.array(SIZES)[:, None] ** 2
             grown = 1.0 + square * np.maximum(power, 0.0)
             value = 0.5 * (square * along / grown - np.log(grown))
@@ -301,7 +299,7 @@ def _coefficient(every: _Search, own: np.ndarray) -> tuple[float, float, np.ndar
     scale = SIZES[-1] / np.sqrt(np.mean(own**2))
     columns = np.column_stack([every.fixed, own * scale])
     fit = linear_fit(every.target, columns, every.weight)
-    spread = np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ (columns * fit.weight[:, None]))
+    spread = covariance(columns, fit.weight)
     coefficients = fit.coefficients.copy()
     coefficients[-1] *= scale
     return float(coefficients[-1]), float(np.sqrt(spread[-1, -1]) * scale), coefficients

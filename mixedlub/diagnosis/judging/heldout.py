@@ -11,7 +11,7 @@ from functools import partial
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.fit import linear_fit, log_likelihood, map_fit
+from mixedlub.diagnosis.fitting.fit import covariance, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.fitting.problem import Explanation, Problem
 from mixedlub.diagnosis.fitting.sudden import elsewhere, places, without
 from mixedlub.diagnosis.recording.levels import set_points
@@ -171,8 +171,7 @@ def _open_variance(columns: np.ndarray, weight: np.ndarray, slopes: np.ndarray) 
 
     ``columns`` are the slopes of that fit; ``slopes`` has the first of them.
     """
-    inner = np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ (columns * weight[:, None]))
-    own = inner[: slopes.shape[1], : slopes.shape[1]]
+    own = covariance(columns, weight)[: slopes.shape[1], : slopes.shape[1]]
     return np.asarray(np.einsum("ij,jk,ik->i", slopes, own, slopes))
 
 

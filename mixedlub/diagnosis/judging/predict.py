@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.fit import Fit, linear_fit, settled
+from mixedlub.diagnosis.fitting.fit import Fit, covariance, linear_fit, settled
 from mixedlub.diagnosis.fitting.problem import Problem
 from mixedlub.diagnosis.fitting.sudden import Places, elsewhere, places, sudden_places, without
 from mixedlub.diagnosis.recording.noise import by_level, seen_noise
@@ -77,8 +77,8 @@ def refine(found: Search, fit: Fit) -> Refined:
         if not fit.explanation:
             break
     assert best is not None
-    covariance = np.linalg.inv(np.eye(used.shape[1]) + used.T @ (used * best.weight[:, None]))
-    covariance[sudden, sudden] = 0.0
+    spread = covariance(used, best.weight)
+    spread[sudden, sudden] = 0.0
     wanted = best.coefficients[: fit.z.size].copy()
     wanted[sudden] = fit.z[sudden]
     stand = places(problem, sloping, used[:, fixed.shape[1] :])
@@ -91,7 +91,7 @@ def refine(found: Search, fit: Fit) -> Refined:
 
     z, own = settled(problem, fit.explanation, fit.z, wanted, fit.common, bends, fit.weight)
     coefficients = np.concatenate([z, best.coefficients[z.size : fixed.shape[1]], own.coefficients])
-    return Refined(fit, z, bend, coefficients, covariance, own.residual, typical, stand)
+    return Refined(fit, z, bend, coefficients, spread, own.residual, typical, stand)
 
 
 class Rows:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.fit import Fit, Linear, linear_fit, settled
+from mixedlub.diagnosis.fitting.fit import Fit, Linear, covariance, linear_fit, settled, whitening
 from mixedlub.diagnosis.fitting.problem import Problem
 from mixedlub.diagnosis.recording.features import Coordinates
 from mixedlub.diagnosis.unnamed.carriers import NOTHING, READING, Carriers, Typical, carriers
@@ -67,7 +67,7 @@ def unknown_fit(
     best, fit = max(((each.best, each.fit) for each in weighed), key=lambda found: found[1].evidence)
     own = columns_of(best)
     every = np.hstack([fixed, own])
-    covariance = np.linalg.inv(np.eye(every.shape[1]) + every.T @ (every * fit.weight[:, None]))
+    spread = covariance(every, fit.weight)
     count = none.z.size
     errors = fit.coefficients[count : fixed.shape[1]]
     common = problem.shared @ errors
@@ -79,7 +79,7 @@ def unknown_fit(
         carriers=rides,
         typical=typical,
         fit=replace(fit, coefficients=coefficients, residual=beside.residual, weight=beside.weight),
-        covariance=covariance,
+        covariance=spread,
         z=z,
     )
 
@@ -135,14 +135,10 @@ def _evidence_by_size(
     target: np.ndarray, fixed: np.ndarray, own: np.ndarray, weight: np.ndarray, sizes: np.ndarray
 ) -> np.ndarray:
     """Gaussian log evidence for each size, relative to size zero, at fixed weights."""
-    scaled = fixed * weight[:, None]
-    inner = np.linalg.inv(np.eye(fixed.shape[1]) + fixed.T @ scaled)
-    across = scaled.T @ own
-    overlap = (own * weight[:, None]).T @ own - across.T @ inner @ across
-    pull = (own * weight[:, None]).T @ target - across.T @ (inner @ (scaled.T @ target))
-    power, turn = np.linalg.eigh(overlap)
+    seen = whitening(fixed, weight)(own.T)
+    power, turn = np.linalg.eigh(seen @ own)
     power = np.maximum(power, 0.0)
-    along = (turn.T @ pull) ** 2
+    along = (turn.T @ (seen @ target)) ** 2
     square = sizes[:, None] ** 2
     grown = 1.0 + square * power
     return 0.5 * (square * along / grown - np.log(grown)).sum(axis=1)
