@@ -175,6 +175,7 @@ class Effect:
     kinds: tuple[str, ...] = ()
     odds: float = 1.0
     contains: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    free_form: bool = False
     held: Mapping[str, float] = field(default_factory=dict)
 
     def holding(self, values: Mapping[str, float]) -> Effect:
@@ -219,6 +220,7 @@ def effect(
     kinds: tuple[str, ...] = (),
     odds: float = 1.0,
     contains: Mapping[str, Mapping[str, float]] | None = None,
+    free_form: bool = False,
 ) -> Callable[[Callable[..., object]], Callable[..., object]]:
     """Register a law as an effect; its signature must say what the declaration says.
 
@@ -226,11 +228,11 @@ def effect(
     ``fingerprint`` names conditions (load, speed, slide_roll_ratio, oil_temperature, roughness, sequence) and
     says whether the effect's share of the reading, (with - without)/without, grows (``"+"``), falls (``"-"``) or
     stays (``"0"``) as the condition grows; falling includes growing more negative. It speaks of the loss of gears and
-    the friction of discs, of what shows on neither of the first standard rig that shows it; a film, say, may have the
-    opposite sign. ``after`` names effects on
-    the same quantity that come first; ``kinds`` restricts the kinds of recording (empty: all). ``odds`` below one
-    say that it is missing less often than others are, before any reading is seen. ``contains`` names published
-    laws that it becomes at certain values of some parameters.
+    the friction of discs, of what shows on neither of the first standard rig that shows it; a film, say, may have
+    the opposite sign. ``after`` names effects on the same quantity that come first; ``kinds`` restricts the kinds of
+    recording (empty: all). ``odds`` below one say that it is missing less often than others are, before any reading
+    is seen. ``contains`` names published laws that it becomes at certain values of some parameters. A ``free_form``
+    describes, and names no cause.
     """
     targets = (acts_on,) if isinstance(acts_on, str) else acts_on
 
@@ -268,6 +270,7 @@ def effect(
             kinds=kinds,
             odds=odds,
             contains=MappingProxyType(dict(contains or {})),
+            free_form=free_form,
         )
         return law
 

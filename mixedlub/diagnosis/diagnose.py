@@ -13,7 +13,7 @@ from mixedlub.diagnosis.judging.averaged import Predicted, averaged, leaders, ou
 from mixedlub.diagnosis.judging.channel import Check, check_channel
 from mixedlub.diagnosis.judging.doubts import against, scatter_notes, unsure_odds
 from mixedlub.diagnosis.judging.heldout import HeldOut
-from mixedlub.diagnosis.judging.location import Region, region
+from mixedlub.diagnosis.judging.location import Region, passed_by, region
 from mixedlub.diagnosis.judging.mismatch import Mismatch, told_from_nothing
 from mixedlub.diagnosis.judging.nexttest import NextTest, next_tests
 from mixedlub.diagnosis.judging.posterior import Key, Posterior
@@ -121,7 +121,8 @@ def diagnose_case(
     columns = [c for c in case.kind.columns if c.name in rows]
     swept = {axis.name for axis in found.space.axes}
     varied = [c.name for c in columns if c.form == "name" or c.name in swept] or [c.name for c in columns]
-    place = region(rows, varied, np.where(chance > 0.5, 0.0, recorded.mismatch_z))
+    passing = [n for n in passed_by(found, judged.verdict) if n in rows and n not in varied]
+    place = region(rows, [*varied, *passing], np.where(chance > 0.5, 0.0, recorded.mismatch_z))
     laws = contained(found, judged.verdict)
     tests = next_tests(found, judged, refined, columns, varied)
     at_one_place = judged.verdict == "unknown" and found.unknown.best.at is not None

@@ -45,6 +45,7 @@ _LEAST = 0.1
     "Analysis, for f_1 that grows with load in ball bearings; SKF General Catalogue, 2005, for rolling torque with "
     "load^0.54; SKF, Rolling Bearings, 2018, for phi_bl and 0.12 over 0.05 in mineral oil (m = 1.4)",
     fingerprint={"load": "-", "speed": "+", "roughness": "-"},
+    contains={"Palmgren": {"load_power": 1.0, "rolling_power": 0.0, "rubbing": 0.0}},
     separated_by="the bearings alone on their rig, or their own oil supply; a change of flank finish leaves it "
     "where it was",
 )

@@ -33,6 +33,11 @@ from mixedlub.laws.drag import churning_changenet_velex
     "there to the viscous drag of R. J. Boness, Proc. Int. Symp. Gearing 1989 (n^2 nu) and ISO/TR "
     "14179-1 (n^3 nu)",
     fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "roughness": "-"},
+    contains={
+        "Changenet and Velex": {"viscous": 0.21, "surplus": 0.38},
+        "Boness": {"viscous": 1.0, "surplus": 0.0},
+        "ISO/TR 14179-1": {"viscous": 1.0, "surplus": 1.0},
+    },
     separated_by="the oil level, or a dry sump: it changes with depth, rolling resistance does not; out of mesh it "
     "stays",
 )

@@ -4,6 +4,9 @@ import numpy as np
 
 from mixedlub.effect import Between, LogNormal, Parameter, effect
 
+FRICTION, PRESSURE = 0.05, 1e9
+"""Friction coefficient and Hertz pressure (Pa) at which the slip of full sliding is given."""
+
 
 @effect(
     stage="shear",
@@ -13,9 +16,9 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
             "saturation_slip",
             "-",
             LogNormal(0.015, 1.0),
-            "slip at which the whole contact slides",
+            "slip at which the whole contact slides, at a friction coefficient of 0.05 and 1 GPa",
             null=0.0,
-            symbol="S_c",
+            symbol="S_0",
         ),
         Parameter(
             "power", "-", LogNormal(2.4, 0.6), "3 for a point contact of like bodies, 2 for a line contact", symbol="m"
@@ -24,7 +27,8 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
             "of_asperities", "-", Between(0.0, 1.0), "share of the asperities' friction that starts so too", symbol="a"
         ),
     ),
-    equation=r"\mu \leftarrow \mu - [\mu - (1 - a)\,\mu_B P_B]\,(1 - S/S_c)^m\quad (S < S_c)",
+    equation=r"\mu \leftarrow \mu - [\mu - (1 - a)\,\mu_B P_B]\,(1 - S/S_c)^m\quad (S < S_c),\quad "
+    r"S_c = S_0\,\frac{\mu}{0.05}\,\frac{p_0}{\text{1 GPa}}",
     source="P. J. Vermeulen, K. L. Johnson, J. Appl. Mech. 31 (1964) 338, m = 3; "
     "F. W. Carter, Proc. R. Soc. A 112 (1926) 151, m = 2; K. L. Johnson, J. L. Tevaarwerk, Proc. R. Soc. A 356 (1977) "
     "215, film and bodies yielding under the film's traction alone (a = 0)",
@@ -39,6 +43,7 @@ def contact_creep(
     boundary_friction: np.ndarray,
     area_ratio: np.ndarray,
     slide_roll_ratio: np.ndarray,
+    hertz_pressure: np.ndarray,
     *,
     saturation_slip: float,
     power: float,
@@ -46,14 +51,16 @@ def contact_creep(
 ) -> np.ndarray:
     """Part of a nominal slip is taken up by elastic shear of the bodies, so friction starts in proportion to slip.
 
-    That is for all friction of bodies in contact. With oil between them the film's traction may do so alone, when
-    asperities, which meet and part many times in a passage, slide from their first touch.
+    The bodies creep as far as the traction shears them, so full sliding begins at a slip in proportion to friction
+    and pressure. That is for all friction of bodies in contact. With oil between them the film's traction may do so
+    alone, when asperities, which meet and part many times in a passage, slide from their first touch.
 
     >>> S, creep = np.array([0.0, 0.01, 0.05]), dict(saturation_slip=0.02, power=3.0)
-    >>> contact_creep(0.06, 0.1, 0.2, S, **creep, of_asperities=1.0).round(4).tolist()
-    [0.0, 0.0525, 0.06]
-    >>> contact_creep(0.06, 0.1, 0.2, S, **creep, of_asperities=0.0).round(4).tolist()   # 0.1 x 0.2 stays
-    [0.02, 0.055, 0.06]
+    >>> contact_creep(0.05, 0.1, 0.2, S, 1e9, **creep, of_asperities=1.0).round(5).tolist()
+    [0.0, 0.04375, 0.05]
+    >>> contact_creep(0.05, 0.1, 0.2, S, 1e9, **creep, of_asperities=0.0).round(5).tolist()   # 0.1 x 0.2 stays
+    [0.02, 0.04625, 0.05]
     """
-    sticking = np.maximum(saturation_slip - slide_roll_ratio, 0.0) / max(saturation_slip, 1e-12)
+    slides = np.maximum(saturation_slip * (friction / FRICTION) * (hertz_pressure / PRESSURE), 1e-12)
+    sticking = np.maximum(slides - slide_roll_ratio, 0.0) / slides
     return friction - (friction - (1.0 - of_asperities) * boundary_friction * area_ratio) * sticking**power

@@ -7,32 +7,26 @@ from mixedlub.effect import LogNormal, Parameter, effect
 
 @effect(
     stage="loss",
-    acts_on="running_friction",
+    acts_on="coulomb_torque",
     parameters=(
         Parameter(
             "growth", "-", LogNormal(0.5, 1.0), "dry friction added at the largest load, over T_c", null=0.0, symbol="c"
         ),
     ),
-    equation=r"T_r \leftarrow T_r + c\,T_c\,q_F \operatorname{sgn}\omega",
+    equation=r"T_c \leftarrow T_c\,(1 + c\,q_F)",
     source="Coulomb's law for the loaded flanks; A. C. Bittencourt, S. Gunnarsson, J. Dyn. Syst. Meas. Control 134 "
     "(2012) 051013, load term",
     fingerprint={"load": "+"},
     separated_by="runs with the gears out: the friction of gears goes with them, an error of the motor's torque "
     "constant stays",
-    after=("stribeck",),
     kinds=("friction_map",),
 )
-def load_dependent_friction(
-    running_friction: np.ndarray,
-    coulomb_torque: np.ndarray,
-    load_fraction: np.ndarray,
-    drive_speed: np.ndarray,
-    *,
-    growth: float,
-) -> np.ndarray:
+def load_dependent_friction(coulomb_torque: np.ndarray, load_fraction: np.ndarray, *, growth: float) -> np.ndarray:
     """Loaded flanks and bearings add dry friction in proportion to the load.
 
-    >>> float(load_dependent_friction(2.0, 2.0, 0.5, 10.0, growth=0.2))
+    What is a share of dry friction, as the excess at low speed, grows with it.
+
+    >>> float(load_dependent_friction(2.0, 0.5, growth=0.2))
     2.2
     """
-    return running_friction + growth * coulomb_torque * load_fraction * np.sign(drive_speed)
+    return coulomb_torque * (1.0 + growth * load_fraction)

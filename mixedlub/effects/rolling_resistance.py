@@ -23,6 +23,7 @@ _PIVOT, _MATERIAL = 3e-11, 3000.0
     source="N. Biboulet, L. Houpert, Proc. IMechE J 224 (2010) 765, load-independent branch (k = 0.75); P. G. "
     "Goksem, R. A. Hargreaves, J. Lubr. Technol. 100 (1978) 346 have k = 0.658 with G^-0.342",
     fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "roughness": "-", "slide_roll_ratio": "-"},
+    contains={"Biboulet and Houpert": {"exponent": 0.75}, "Goksem and Hargreaves": {"exponent": 0.658}},
     separated_by="zero load with teeth in mesh against out of mesh; churning hardly sees viscosity, rolling grows "
     "with its power 0.7",
 )

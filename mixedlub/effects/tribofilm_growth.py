@@ -33,8 +33,13 @@ SOFTNESS = 0.2
     equation=r"\mu_B \leftarrow \mu_B\,(1 + c\,\theta),\quad \theta = 1 - e^{-(g/q_c)^n},\quad "
     r"g = w\ln\frac{1 + e^{(q - q_i)/w}}{1 + e^{-q_i/w}},\ w = 0.2\,q_i",
     source="coverage of the first order after an induction time: H. Fujita, H. A. Spikes, Proc. IMechE J 218 (2004) "
-    "265, films of zinc dithiophosphate and their friction; exponent of M. Avrami, J. Chem. Phys. 7 (1939) 1103",
+    "265, films of zinc dithiophosphate and their friction; exponent of M. Avrami, J. Chem. Phys. 7 (1939) 1103; "
+    "steady while most is bare: N. N. Gosvami et al., Science 348 (2015) 102",
     fingerprint={"sequence": "+"},
+    contains={
+        "first order": {"exponent": 1.0},
+        "steady growth": {"time_constant": 5.0, "induction": 1e-6, "exponent": 1.0},
+    },
     separated_by="an image or contact resistance of the track after each step shows coverage grow; running-in "
     "of heights shows in a profile and ends within the first per cent of the test",
 )

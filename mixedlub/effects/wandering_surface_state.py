@@ -28,6 +28,7 @@ TERMS = 12
     separated_by="images of the track at the highs and lows; a second run shows whether the swings repeat",
     kinds=("friction_history",),
     odds=0.3,
+    free_form=True,
 )
 def wandering_surface_state(
     boundary_friction: np.ndarray,

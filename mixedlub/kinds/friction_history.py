@@ -23,6 +23,8 @@ COLUMNS = (
 )
 NEEDED = tuple(c.name for c in (*disc.COLUMNS, *disc.SURFACES))
 SPREAD = 1.0
+USUAL_PRESSURE = 1e9
+"""Hertz pressure (Pa) of a ball on a disc under the loads that traction machines have."""
 
 
 def constant_friction(boundary_friction: np.ndarray) -> np.ndarray:
@@ -53,7 +55,7 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
             stacklevel=2,
         )
     return {
-        **_conditions(table),
+        **_conditions(table, recorded),
         **bookkeeping_inputs(system, table),
         **inverse_load(system, table, recorded),
         **programme(table, recorded),
@@ -62,8 +64,11 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
     }
 
 
-def _conditions(table: Table) -> Inputs:
-    """What the rows say of the operating conditions, for effects that need no more than that."""
+def _conditions(table: Table, recorded: Table) -> Inputs:
+    """What the rows say of the operating conditions, for effects that need no more than that.
+
+    The bodies are not known: at the largest load the contact has the pressure that such rigs usually have.
+    """
     found: Inputs = {}
     if "entrainment_speed_m_s" in table:
         found["entrainment_speed"] = column(table["entrainment_speed_m_s"])
@@ -71,8 +76,12 @@ def _conditions(table: Table) -> Inputs:
         found["slide_roll_ratio"] = np.abs(column(table["slide_roll_ratio"]))
     if {"entrainment_speed", "slide_roll_ratio"} <= set(found):
         found["sliding_speed"] = found["slide_roll_ratio"] * found["entrainment_speed"]
+    found["hertz_pressure"] = USUAL_PRESSURE
     if "load_N" in table:
         found["load"] = column(table["load_N"])
+        if "load_N" in recorded:
+            share = table["load_N"] / max(float(np.max(np.abs(recorded["load_N"]))), 1e-300)
+            found["hertz_pressure"] = USUAL_PRESSURE * column(np.cbrt(np.abs(share)))
     if "oil_temperature_C" in table:
         found["oil_temperature"] = column(table["oil_temperature_C"]) + ZERO_CELSIUS
     return found

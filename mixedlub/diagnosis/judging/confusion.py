@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.diagnosis.fitting.fit import whitening
+from mixedlub.diagnosis.judging.mismatch import judged_weight
 from mixedlub.diagnosis.searching.search import Sampled, Search
 
 WANTED = 3.0
@@ -41,12 +42,13 @@ def confusion(found: Search) -> Confusion:
     found = found.screened
     none = found.none
     columns = np.hstack([none.slopes, found.problem.shared])
-    left_over = whitening(columns, none.weight)
+    weight = judged_weight(found)
+    left_over = whitening(columns, weight)
 
     ids, signatures, visibility, absorbed = [], [], [], []
     for sampled in (*found.sampled, *found.untestable):
         size = np.sqrt(np.maximum(np.einsum("ij,ij->i", sampled.change, left_over(sampled.change)), 0.0))
-        raw = np.sqrt(np.einsum("ij,ij->i", sampled.change * none.weight, sampled.change))
+        raw = np.sqrt(np.einsum("ij,ij->i", sampled.change * weight, sampled.change))
         ids.append(sampled.id)
         visibility.append(float(np.median(size)))
         absorbed.append(1.0 - float(np.median(size)) / max(float(np.median(raw)), 1e-12))

@@ -7,7 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub.diagnosis.fitting.problem import effects_of
+from mixedlub.diagnosis.judging.posterior import Key
+from mixedlub.diagnosis.recording.features import PASSING
 from mixedlub.diagnosis.recording.levels import set_points
+from mixedlub.diagnosis.searching.search import CLOCKS, Search
+from mixedlub.diagnosis.unnamed.places import TURNED
 from mixedlub.table import Table
 
 NOWHERE = 1e-9
@@ -57,6 +62,14 @@ def region(table: Table, columns: list[str], size: np.ndarray) -> Region:
         chosen[name] = cut
         inside &= mask
     return Region(tuple(chosen.values()), inside)
+
+
+def passed_by(found: Search, verdict: Key) -> list[str]:
+    """What tells the time, where the answer goes with that: a place may be a stretch of the programme."""
+    if isinstance(verdict, str):
+        return [name for name in PASSING if name in found.unknown.best.axes]
+    timed = any(CLOCKS.intersection(e.reads) for e in effects_of(verdict))
+    return [name for name in PASSING if timed and name != TURNED]
 
 
 def _cuts(name: str, values: np.ndarray) -> list[tuple[dict[str, Any], np.ndarray]]:

@@ -125,13 +125,16 @@ def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch
 def told_from_nothing(weighed: Weighed, level: float) -> tuple[Search, Mismatch]:
     """Whether anything is missing, and the search that the answer goes by.
 
-    Where no noise is stated, nothing missing is tested under the noise that it would need itself as well, and where
+    Nothing missing is tested under the noise that it would need itself as well, as far as none is stated, and where
     that is the answer it has that noise: what suits an explanation best is no fair one for its rival.
     """
-    found, alone = weighed.found, weighed.alone
+    found = weighed.found
     test = mismatch_test(found, level)
-    if alone is None:
-        return found, beyond_noise(found, weighed.raised.times, test)
+    if weighed.stated:
+        test = beyond_noise(found, weighed.raised.times, test)
+        if not test.detected:
+            return found, test
+    alone = weighed.alone()
     other = test if alone is found else mismatch_test(alone, level)
     if other.p_value <= test.p_value:
         return found, test

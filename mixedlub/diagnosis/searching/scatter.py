@@ -9,7 +9,7 @@ import numpy as np
 
 from mixedlub.case import Case
 from mixedlub.diagnosis.fitting.fit import log_likelihood
-from mixedlub.diagnosis.recording.noise import BOTH, PARTS, medians, pooled_sd, repeated, with_noise
+from mixedlub.diagnosis.recording.noise import BOTH, PARTS, medians, pooled_sd, with_noise
 from mixedlub.diagnosis.searching.search import Search
 from mixedlub.table import Table
 
@@ -128,12 +128,10 @@ def _under_other_noise(found: Search, times: np.ndarray) -> tuple[float, int]:
 def shown(case: Case, rows: Table, trial: Trial) -> Search:
     """The search under the estimated noise, lowered to where the readings are most probable.
 
-    What is left over then says how much of it goes in proportion to the reading and how much is alike for all, unless
-    repeats have said so already.
+    What is left over then says how much of it goes in proportion to the reading and how much is alike for all: few
+    repeats tell that less well than all readings do.
     """
     found = _lowered(case, rows, trial)
-    if repeated(case, rows) is not None:
-        return found
     gain, other = _other_parts(found)
     if gain < BOTH:
         return found

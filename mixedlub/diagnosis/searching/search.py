@@ -259,8 +259,11 @@ def placed(problem: Problem, fit: Fit) -> Fit:
 
 
 def elastic_evidence(problem: Problem, none: Fit, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:
-    """Evidence with the effects' literature forms allowed to be a little wrong, smoothly over the conditions."""
-    if not fit.explanation:
+    """Evidence with the effects' literature forms allowed to be a little wrong, smoothly over the conditions.
+
+    A free form has none that could be wrong.
+    """
+    if all(e.free_form for e in effects_of(fit.explanation)):
         return fit.evidence
     base = np.hstack([fit.slopes, problem.shared])
     plain = linear_fit(fit.anchor, base, fit.weight).evidence

@@ -18,15 +18,25 @@ def lasting(found: Search) -> float:
 
     What the most probable name or the unnamed still follows is no noise.
     """
+    likely = max(found.fits, key=found.log_weights.__getitem__)
+    return min(_together(found, left) for left in (found.fits[likely].residual, found.unknown.fit.residual))
+
+
+def lasting_alone(found: Search) -> float:
+    """The same by what the calibrated base model leaves over: as it would be if nothing were missing."""
+    return _together(found, found.none.residual)
+
+
+def _together(found: Search, left: np.ndarray) -> float:
+    """How many readings tell as much as one under a search, by residuals in its sigmas."""
     rows = found.problem.rows
     order = clock_of(rows)
     if order is None:
         if len(rows) < SERIES:
-            return 1.0
+            return found.problem.together
         # A series without a clock was logged in the order of its rows.
         order = np.arange(len(rows))
-    likely = max(found.fits, key=found.log_weights.__getitem__)
-    return min(together(left, order) for left in (found.fits[likely].residual, found.unknown.fit.residual))
+    return max(together(found.problem.of_one(left), order), found.problem.together)
 
 
 def together(left: np.ndarray, clock: np.ndarray) -> float:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from mixedlub.diagnosis.recording.features import coordinates
 from mixedlub.diagnosis.recording.noise import estimated, is_stated, repeated
 from mixedlub.diagnosis.searching.scatter import Raised, repeats_allow, shown, stated_or_more, under_its_own
 from mixedlub.diagnosis.searching.search import MANY, Progress, Search, search, spread_rows
-from mixedlub.diagnosis.searching.serial import lasting
+from mixedlub.diagnosis.searching.serial import lasting, lasting_alone
 from mixedlub.forward import Forward
 from mixedlub.table import Table
 from profiles.errors import InputError
@@ -22,14 +21,27 @@ from profiles.errors import InputError
 
 @dataclass(frozen=True, eq=False)
 class Weighed:
-    """The search, how much more than the stated noise it took, and where none is stated another one.
+    """The search, how much more than the stated noise it took, and what weighs everything under other noise.
 
-    That is ``alone``, under the noise that the calibrated base model would need if nothing were missing.
+    That takes the case, its readings and how many of them tell as much as one.
     """
 
     found: Search
     raised: Raised
-    alone: Search | None = None
+    stated: bool
+    again: Callable[[Case, Table, float], Search]
+
+    def alone(self) -> Search:
+        """The search under the noise that the calibrated base model would need if nothing were missing.
+
+        Noise that is stated is as large as that, and may last longer.
+        """
+        kept = self.found.problem.together
+        found = self.found
+        if not self.stated:
+            found = under_its_own(found, lambda case, rows: self.again(case, rows, kept))
+        lasts = lasting_alone(found)
+        return found if lasts <= kept else self.again(found.problem.case, found.problem.rows, lasts)
 
 
 def weighed(
@@ -68,4 +80,4 @@ def weighed(
     together = lasting(found)
     if together > 1.0:
         found = trial(case, rows, together)
-    return Weighed(found, raised, None if stated else under_its_own(found, partial(trial, together=together)))
+    return Weighed(found, raised, stated, trial)

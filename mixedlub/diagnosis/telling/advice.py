@@ -68,6 +68,21 @@ def standing_place(d: Diagnosis) -> str:
     return f"{words_of(name)} {amount(at, name)}{' in both directions' if both else ''}"
 
 
+def box_place(d: Diagnosis) -> str:
+    """The ranges of conditions that an unnamed mismatch is tied to."""
+    rows, held = d.found.problem.rows, d.found.unknown.best.box
+    said = []
+    for name, low, high in held:
+        values = rows[name]
+        within = values[(values >= low) & (values < high)]
+        if np.isinf(low) or np.isinf(high):
+            side, end = ("up to", within.max()) if np.isinf(low) else ("from", within.min())
+            said.append(f"{words_of(name)} is {side} {amount(float(end), name)}{'' if np.isinf(low) else ' on'}")
+        else:
+            said.append(range_text({"column": name, "low": float(within.min()), "high": float(within.max())}))
+    return " and ".join(said)
+
+
 def beyond(conditions: Mapping[str, float | str], recorded: Table) -> tuple[str, ...]:
     """Which conditions of a test lie outside what was recorded; empty where none does.
 

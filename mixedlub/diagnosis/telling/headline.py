@@ -6,7 +6,6 @@ from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.fitting.problem import effects_of
 from mixedlub.diagnosis.labels import STAGE_WORDS, effect_words, explanation_words
 from mixedlub.diagnosis.recording.audit import SCARCE, Doubt
-from mixedlub.effect import Effect
 
 MOST_TIED = 5
 """Tied explanations that are named."""
@@ -57,9 +56,10 @@ def _verdict(d: Diagnosis) -> str:
         more = len(judged.tied) - MOST_TIED
         rest = [f"{more} less probable one{'s' if more > 1 else ''}"] if more > 0 else []
         if judged.verdict == ():
+            others = _listed([*named[1:], *rest], "or")
             return (
                 f"No mismatch beyond noise: nothing needs to be missing ({chance(judged.weights[()])}). A tie all the "
-                f"same, for these readings are too few or too coarse to exclude {_listed([*named[1:], *rest], 'or')}."
+                f"same, for beside noise and calibration these readings cannot exclude {others}."
             )
         return f"A tie: the readings cannot decide between {_listed([*named, *rest], 'and')}."
     p = chance(judged.weights[judged.verdict])
@@ -69,8 +69,8 @@ def _verdict(d: Diagnosis) -> str:
         return f"Something is missing that the catalogue does not have (probability {p})."
     assert not isinstance(judged.verdict, str)
     effects = effects_of(judged.verdict)
-    free = [effect_words(e.id) for e in effects if is_free(e)]
-    physics = [effect_words(e.id) for e in effects if e.stage != "measurement" and not is_free(e)]
+    free = [effect_words(e.id) for e in effects if e.free_form]
+    physics = [effect_words(e.id) for e in effects if e.stage != "measurement" and not e.free_form]
     faults = [effect_words(e.id) for e in effects if e.stage == "measurement"]
     if not physics and not free:
         return f"No physics is missing; the instrument is at fault: {' and '.join(faults)} (probability {p})."
@@ -80,11 +80,6 @@ def _verdict(d: Diagnosis) -> str:
     if faults:
         parts.append(f"a fault of the instrument: {' and '.join(faults)}")
     return f"{'; and '.join(parts)} (probability {p})."
-
-
-def is_free(e: Effect) -> bool:
-    """Whether an effect describes a history in a form that fits any, so that it names no cause."""
-    return e.source.startswith("empirical")
 
 
 def _listed(items: list[str], last: str) -> str:

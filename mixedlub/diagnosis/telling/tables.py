@@ -9,7 +9,6 @@ import numpy as np
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import effect_words, in_reach, number, with_names
 from mixedlub.diagnosis.telling.answer import effect_records, interval, verdict_fit
-from mixedlub.diagnosis.telling.headline import is_free
 from mixedlub.effect import Effect, Parameter
 from mixedlub.headers import unit_of
 from mixedlub.report.plain import plain_equation, with_symbol
@@ -34,7 +33,7 @@ def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Table]:
     for e, record in zip(d.found.problem.effects(d.posterior.verdict), effect_records(d), strict=True):
         own = spread[place : place + len(e.parameters)]
         place += len(e.parameters)
-        if is_free(e):
+        if e.free_form:
             continue
         vague = [p.name.replace("_", " ") for p, s in zip(e.parameters, own, strict=True) if s >= UNTOLD]
         said += _untold(e, vague)

@@ -22,7 +22,7 @@ from mixedlub.diagnosis.labels import (
     with_names,
     words_of,
 )
-from mixedlub.diagnosis.telling.advice import next_test, standing_place, wave_period
+from mixedlub.diagnosis.telling.advice import box_place, next_test, standing_place, wave_period
 from mixedlub.diagnosis.telling.headline import doubts, headline, lesser, p_words, probability_words, standing
 from mixedlub.diagnosis.telling.place import where
 from mixedlub.diagnosis.telling.readings import checked_channel, outliers, steadied_noise
@@ -183,6 +183,8 @@ def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
 def _form(d: Diagnosis, along: str) -> str:
     """The most probable form of a mismatch without a name, as a predicate."""
     shape = d.found.unknown.best
+    if shape.form == "box":
+        return f"is a shift where {box_place(d)}, as {_carried(shape.carrier)}"
     if shape.form == "smooth":
         return f"varies smoothly with {along}, as {_carried(shape.carrier)}"
     if shape.form == "wave":

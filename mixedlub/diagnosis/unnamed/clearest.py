@@ -30,9 +30,7 @@ def clearest(
     A smooth fit takes what is narrow or swings for outliers, so the first look counts all readings, none beyond a
     bound. ``near`` gives the shapes about a leader that are fitted.
     """
-    left = linear_fit(target, fixed).residual
-    bound = CLIPPED * max(1.4826 * float(np.median(np.abs(left))), 1.0)
-    clipped = np.clip(left, -bound, bound)
+    clipped = first_look(target, fixed)
     base = _directions(fixed, fixed)
     power = np.empty(len(shapes))
     for i, shape in enumerate(shapes):
@@ -45,6 +43,13 @@ def clearest(
         for shape in near(leader)
     )
     return max(tried, key=lambda found: found[1].evidence)
+
+
+def first_look(target: np.ndarray, fixed: np.ndarray) -> np.ndarray:
+    """What the fixed columns leave over in sigmas, none beyond a bound."""
+    left = linear_fit(target, fixed).residual
+    bound = CLIPPED * max(1.4826 * float(np.median(np.abs(left))), 1.0)
+    return np.clip(left, -bound, bound)
 
 
 def _directions(columns: np.ndarray, whole: np.ndarray) -> np.ndarray:

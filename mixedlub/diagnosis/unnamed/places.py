@@ -60,7 +60,7 @@ def places(space: Coordinates, values: list[np.ndarray], timeless: bool) -> list
                 near = axis.about(points, stands, width).sum(axis=1)
                 if any(goes_with(near[:, None], label, SAME) for label in stepped):
                     continue
-                if _made_of(near, width > 0.0) and not any(np.allclose(near, other, atol=0.05) for other in told):
+                if made_of(near, width > 0.0) and not any(np.allclose(near, other, atol=0.05) for other in told):
                     found.append(Place(axis.name, stands, width))
                     told.append(near)
     return found
@@ -98,7 +98,7 @@ def finer(space: Coordinates, values: list[np.ndarray], axis: int, at: float, wi
     return thinned(every[(every >= low) & (every <= high)])
 
 
-def _made_of(near: np.ndarray, peak: bool) -> bool:
+def made_of(near: np.ndarray, peak: bool) -> bool:
     """Whether a form is of enough readings to be no outliers, and, if a peak, of few enough to be no trend."""
     readings = float(near.sum() ** 2 / max((near**2).sum(), 1e-300))
     fewest = max(FEWEST, OUTLIER_SHARE * near.size)

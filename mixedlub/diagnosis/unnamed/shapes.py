@@ -9,6 +9,7 @@ from itertools import combinations
 import numpy as np
 
 from mixedlub.diagnosis.recording.features import PASSING, Coordinates
+from mixedlub.diagnosis.unnamed.boxes import Box, inside
 from mixedlub.diagnosis.unnamed.carriers import NOTHING, READING, Carriers
 from mixedlub.diagnosis.unnamed.places import Place, finer, places
 from mixedlub.diagnosis.unnamed.waves import CLOCK, FINER, frequencies
@@ -34,7 +35,8 @@ class Shape:
     """One form an unnamed mismatch may have: along which axes, how smooth, how large, and what it rides on.
 
     No axes stand for all of them; most laws depend on one or two. A wave goes through ``waves`` periods of its axis; a
-    peak or a step stands ``at`` a place of its axis, and ``length`` is the width of the peak.
+    peak or a step stands ``at`` a place of its axis, and ``length`` is the width of the peak. A ``box`` is a range of
+    each of its axes.
     """
 
     axes: tuple[str, ...]
@@ -44,15 +46,20 @@ class Shape:
     interactions: bool
     waves: float = 0.0
     at: float | None = None
+    box: Box = ()
 
     @property
     def form(self) -> str:
         """What kind of function it is."""
+        if self.box:
+            return "box"
         return "wave" if self.waves else "smooth" if self.at is None else "peak" if self.length else "step"
 
     def columns(self, space: Coordinates, values: list[np.ndarray], carriers: Carriers) -> np.ndarray:
         """The shape's columns in sigmas."""
-        if self.waves:
+        if self.box:
+            columns = inside(self.box, space, values).astype(float)[:, None]
+        elif self.waves:
             place = space.place(self.axes[0])
             columns = space.axes[place].wave(values[place], self.waves)
         elif self.at is not None:

@@ -5,7 +5,7 @@ It is a share of the reading, an addition to it, or a factor on one quantity of 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,8 +13,9 @@ import numpy as np
 from mixedlub.diagnosis.fitting.fit import Fit, Linear, covariance, linear_fit, settled, whitening
 from mixedlub.diagnosis.fitting.problem import Problem
 from mixedlub.diagnosis.recording.features import Coordinates
+from mixedlub.diagnosis.unnamed.boxes import clearest_box
 from mixedlub.diagnosis.unnamed.carriers import NOTHING, READING, Carriers, Typical, carriers
-from mixedlub.diagnosis.unnamed.clearest import clearest
+from mixedlub.diagnosis.unnamed.clearest import clearest, first_look
 from mixedlub.diagnosis.unnamed.shapes import Shape, families, rich
 
 FULL = 6
@@ -64,6 +65,9 @@ def unknown_fit(
             clear, reference = clearest(target, fixed, columns_of, family, lambda s: s.near(space, values))
             family = list(dict.fromkeys([*family, clear]))
         weighed.append(_weighed(target, fixed, columns_of, family, reference.weight))
+    for family, cost in _boxes(target, fixed, space, values, rides):
+        _, reference = clearest(target, fixed, columns_of, family, lambda s: [s])
+        weighed.append(_weighed(target, fixed, columns_of, family, reference.weight, cost))
     best, fit = max(((each.best, each.fit) for each in weighed), key=lambda found: found[1].evidence)
     own = columns_of(best)
     every = np.hstack([fixed, own])
@@ -99,8 +103,12 @@ def _weighed(
     columns_of: Callable[[Shape], np.ndarray],
     family: list[Shape],
     weight: np.ndarray,
+    cost: float = 0.0,
 ) -> _Weighed:
-    """Weigh shapes at fixed weights of the readings, and the best few again in full."""
+    """Weigh shapes at fixed weights of the readings, and the best few again in full.
+
+    The ``cost`` is the log of how many shapes each of them was picked from.
+    """
     tried: list[Shape] = []
     quick: list[float] = []
     for shape in family:
@@ -109,9 +117,21 @@ def _weighed(
     order = np.argsort(quick)[::-1]
     full = {int(i): linear_fit(target, np.hstack([fixed, columns_of(tried[i])]), weight) for i in order[:FULL]}
     offset = full[int(order[0])].evidence - quick[order[0]]
-    evidence = {shape: full[i].evidence if i in full else quick[i] + offset for i, shape in enumerate(tried)}
+    evidence = {s: (full[i].evidence if i in full else quick[i] + offset) - cost for i, s in enumerate(tried)}
     best = max(full, key=lambda i: full[i].evidence)
     return _Weighed(evidence, tried[best], full[best])
+
+
+def _boxes(
+    target: np.ndarray, fixed: np.ndarray, space: Coordinates, values: list[np.ndarray], rides: Carriers
+) -> Iterator[tuple[list[Shape], float]]:
+    """The clearest box by each carrier of the reading, as a family of its own, and the log of how many are like it."""
+    left = first_look(target, fixed)
+    for carrier in (READING, NOTHING):
+        found = clearest_box(space, values, left, rides[carrier]) if carrier in rides else None
+        if found is not None:
+            box, cost = found
+            yield [Shape(tuple(name for name, _, _ in box), 0.0, 1.0, carrier, False, box=box)], cost
 
 
 def _mean_over_shapes(tried: dict[Shape, float]) -> float:
