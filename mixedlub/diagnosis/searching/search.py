@@ -261,9 +261,9 @@ def placed(problem: Problem, fit: Fit) -> Fit:
 def elastic_evidence(problem: Problem, none: Fit, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:
     """Evidence with the effects' literature forms allowed to be a little wrong, smoothly over the conditions.
 
-    A free form has none that could be wrong.
+    One of free form has none that could be wrong.
     """
-    if all(e.free_form for e in effects_of(fit.explanation)):
+    if not fit.explanation or any(e.free_form for e in effects_of(fit.explanation)):
         return fit.evidence
     base = np.hstack([fit.slopes, problem.shared])
     plain = linear_fit(fit.anchor, base, fit.weight).evidence
