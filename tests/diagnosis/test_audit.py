@@ -189,3 +189,20 @@ def test_shares_far_from_the_whole_load_question_the_answer_and_near_ones_are_no
     (note,) = system_doubts(read_case(folder))
     assert float(note.split(" on average")[0].split()[-1]) == pytest.approx(factor, abs=0.005)
     assert isinstance(note, Doubt) == alarm
+
+
+@pytest.mark.parametrize(("column", "told"), [(0.03, False), (1e-4, True)])
+def test_repeats_are_held_against_the_sds_in_the_column(
+    make_case: Callable[..., Path], tmp_path: Path, column: float, told: bool
+) -> None:
+    """The column of standard deviations is the noise, whatever is stated beside it."""
+    case = read_case(make_case(tmp_path / "case", "disc"))
+    assert case.recordings is not None
+    twice = {name: np.tile(values, 2) for name, values in case.recordings.columns.items()}
+    twice["run"] = np.arange(1, twice["run"].size + 1)
+    twice[case.quantity] = twice[case.quantity] * (
+        1.0 + 0.2 * np.random.default_rng(1).standard_normal(twice["run"].size)
+    )
+    rows = Table({**twice, f"{case.quantity}_sd": np.full(twice["run"].size, column)}, "recordings.csv")
+    notes = doubts(case, rows, np.asarray(rows[case.quantity]), Forward(case, rows))
+    assert any("contradict each other" in note for note in notes) is told

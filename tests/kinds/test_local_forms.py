@@ -7,8 +7,8 @@ from mixedlub.diagnosis.diagnose import diagnose_case
 from mixedlub.diagnosis.judging.empirical import unnamed
 from mixedlub.diagnosis.telling.words import as_text, sections
 
-from .conftest import system
-from .test_planted import by_d341
+from .conftest import BALL, system
+from .test_planted import by_d341, film
 
 SPEED = np.concatenate([-np.geomspace(2.0, 200.0, 14)[::-1], np.geomspace(2.0, 200.0, 14)])
 AT = SPEED[SPEED > 0.0][9]
@@ -100,11 +100,14 @@ def test_a_friction_event_keeps_its_name(make):
 
 
 def test_creep_that_few_readings_show_is_found_beside_running_in(make):
-    """Every tenth reading at very low slip: under running-in alone they look like outliers."""
+    """Every tenth reading at very low slip: under running-in alone they look like outliers.
+
+    The bodies are as stiff under any friction, so what starts in proportion to slip does so by the same slope.
+    """
     time = np.linspace(100.0, 20000.0, 60)
     slip = np.where(np.arange(60) % 10 == 4, 6e-4, np.tile([3e-3, 0.01, 0.03, 0.08, 0.14], 12))
     worn = 0.1 * (1.0 + 0.8 / (1.0 + time / 1500.0))
-    friction = worn * -np.expm1(-slip / 3e-4) * (1.0 + 0.008 * np.random.default_rng(4).standard_normal(60))
+    friction = worn * -np.expm1(-330.0 * slip / worn) * (1.0 + 0.008 * np.random.default_rng(4).standard_normal(60))
     columns = {"time_s": time, "slide_roll_ratio": slip, "friction_coefficient": friction}
     found = diagnose_case(make(system("friction_history", "friction_coefficient"), columns).folder)
     assert "contact_creep" in found.posterior.verdict
@@ -140,3 +143,47 @@ def test_a_step_is_unnamed_where_its_name_is_excluded(make):
     found = diagnose_case(case.folder, exclude=["friction_event"])
     assert found.posterior.verdict == "unknown"
     assert found.found.unknown.best.form == "step"
+
+
+def films(dent=1.0, repeats=1):
+    """Isothermal films of a ball at two loads and four slips; a corner of speed, slip and load is dented."""
+    grid = np.meshgrid(np.geomspace(0.05, 3.0, 11), [0.0, 0.5, 1.0, 1.5], [20.0, 50.0])
+    speed, slip, load = (np.repeat(x.ravel(), repeats) for x in grid)
+    thickness = 380.0 * speed**0.67 * load**-0.067 * np.where((speed > 0.5) & (slip > 0.7) & (load < 30.0), dent, 1.0)
+    celsius = np.full(speed.size, 40.0)
+    return film(thickness, speed, slide_roll_ratio=slip, load_N=load, oil_temperature_C=celsius)
+
+
+@pytest.mark.parametrize("repeats", [1, 2])
+def test_a_corner_of_conditions_is_no_heap_of_outliers(make, repeats):
+    """A dimple: films are a quarter thicker under a small load and fast sliding, and repeats agree on it."""
+    found = diagnose_case(make(*films(1.25, repeats)).folder)
+    assert found.posterior.verdict == "unknown"
+    box = {name: (low, high) for name, low, high in found.found.unknown.best.box}
+    assert set(box) == {"entrainment_speed_m_s", "slide_roll_ratio", "load_N"}
+    assert box["slide_roll_ratio"] == (0.75, np.inf)
+    assert box["load_N"] == (-np.inf, 35.0)
+    assert len(found.outlier_runs) <= 1
+    assert "is a shift where " in told(found)
+    assert "slide-roll ratio is from 1 on" in told(found)
+
+
+def test_films_without_a_dent_have_no_box(make):
+    assert diagnose_case(make(*films()).folder).posterior.verdict == ()
+
+
+def test_what_the_reading_before_left_behind_is_not_noise(make):
+    """A quarter of each step of temperature is still to come when the film is read."""
+    rng = np.random.default_rng(9)
+    speed, celsius = (x.ravel() for x in np.meshgrid(np.geomspace(0.05, 2.0, 8), [30.0, 50.0, 70.0, 90.0]))
+    shuffled = rng.permutation(speed.size)
+    speed, celsius = speed[shuffled], celsius[shuffled]
+    warm = celsius - 0.25 * np.diff(celsius, prepend=celsius[0])
+    film = 1e3 * (0.1 * np.exp(-0.03 * (warm - 40.0)) * speed) ** 0.67 * (1.0 + 0.01 * rng.standard_normal(32))
+    columns = {"entrainment_speed_m_s": speed, "oil_temperature_C": celsius, "film_thickness_nm": film}
+    columns |= {"load_N": np.full(32, 20.0), "slide_roll_ratio": np.zeros(32), "sequence": np.linspace(0.0, 1.0, 32)}
+    found = diagnose_case(make(system("film", "film_thickness_nm", contact=BALL), columns).folder)
+    assert found.posterior.verdict == "unknown"
+    assert found.found.unknown.best.form == "delay"
+    assert "goes with the temperature of the reading before" in told(found)
+    assert "Wait longer after a change of temperature" in told(found)

@@ -104,8 +104,7 @@ def spread(size: int, count: int) -> np.ndarray:
 def fit_single(problem: Problem, none: Fit, sampled: Sampled) -> Fit:
     """Fit from the most promising draws that lie apart until two climbs meet, keep the best.
 
-    What had to be scanned for has many maxima, and there none is spared. A base model strained far from its prior is
-    a bad place to start from: the calibration's prior is tried too.
+    A base model strained far from its prior is a bad place to start from: the calibration's prior is tried too.
     """
     columns = np.hstack([none.slopes, problem.shared])
     scores, starts = [], []
@@ -120,17 +119,16 @@ def fit_single(problem: Problem, none: Fit, sampled: Sampled) -> Fit:
             break
         if all(np.max(np.abs(sampled.z[i] - sampled.z[k])) > APART for k in chosen):
             chosen.append(i)
-    tries = [starts[i] for i in chosen]
+    tries = [starts[i] for i in chosen[1:]]
     if none.z @ none.z > STRAINED:
         tries.append(np.concatenate([np.zeros(none.z.size), sampled.z[order[0]]]))
     # Wild readings may pull a fit away from where it starts well.
     best = map_fit(problem, (sampled.id,), starts[chosen[0]], warm=True)
-    scanned = len(sampled.z) > sampled.blind
-    for start in tries:
+    for start in (*tries, starts[chosen[0]]):
         fit = map_fit(problem, (sampled.id,), start)
         met = abs(fit.evidence - best.evidence) < MET
         if fit.evidence > best.evidence or not np.isfinite(best.evidence):
             best = fit
-        if met and not scanned:
+        if met:
             break
     return best

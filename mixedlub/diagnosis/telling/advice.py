@@ -27,6 +27,8 @@ def next_test(d: Diagnosis) -> tuple[str, ...]:
         if d.found.unknown.best.form == "step" and d.found.unknown.best.axes[0] in PASSING:
             moment = standing_place(d)
             return (f"Look up what was done to the rig or the sample at {moment}, and repeat a reading from before.",)
+        if d.found.unknown.best.form == "delay":
+            return ("Wait longer after a change of temperature, or run the same conditions in another order.",)
         if d.found.unknown.best.at is not None:
             place = standing_place(d)
         else:

@@ -183,6 +183,8 @@ def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
 def _form(d: Diagnosis, along: str) -> str:
     """The most probable form of a mismatch without a name, as a predicate."""
     shape = d.found.unknown.best
+    if shape.form == "delay":
+        return "goes with the temperature of the reading before: oil or parts had not reached the one that was told"
     if shape.form == "box":
         return f"is a shift where {box_place(d)}, as {_carried(shape.carrier)}"
     if shape.form == "smooth":

@@ -9,10 +9,15 @@ import numpy as np
 
 from mixedlub.chain import Model
 from mixedlub.diagnosis.fitting.problem import STEP, Problem
+from mixedlub.diagnosis.recording.features import clock_of
 from mixedlub.effect import Effect, Normal, Parameter
-from mixedlub.forward import Run
+from mixedlub.forward import Forward, Run
+from mixedlub.table import Table
 
 READING, NOTHING = "reading", "nothing"
+LATE = "late_temperature"
+"""What readings would be at the temperature of the one before, less what they are: nothing that rides on it varies."""
+WARMTH = ("oil_temperature_C", "temperature_C")
 QUANTITIES = ("film_thickness", "shear_stress", "area_ratio", "boundary_friction", "line_load", "running_friction")
 LEAST = 1e-9
 
@@ -38,7 +43,7 @@ def carriers(problem: Problem, base: Run, typical: Typical) -> dict[str, np.ndar
 
     ``base`` is a run of the base model. Quantities on which no reading hangs are left out.
     """
-    every = {name: carrier(problem, base, typical, name) for name in (READING, NOTHING, *QUANTITIES)}
+    every = {name: carrier(problem, base, typical, name) for name in (READING, NOTHING, LATE, *QUANTITIES)}
     return {name: each for name, each in every.items() if np.max(np.abs(each)) > LEAST}
 
 
@@ -46,10 +51,27 @@ def carrier(problem: Problem, base: Run, typical: Typical, name: str) -> np.ndar
     """One of the carriers; zero where the reading does not hang on it or has no finite answer."""
     if name == NOTHING:
         return typical.sd / problem.sd
+    if name == LATE:
+        return np.nan_to_num(late(problem, base) / problem.sd)
     if name == READING:
         return np.nan_to_num(_share(problem, base) / typical.share)
     slope = log_slope(problem, base, name)
     return np.zeros(problem.y.size) if slope is None else np.nan_to_num(slope / problem.sd, posinf=0.0, neginf=0.0)
+
+
+def late(problem: Problem, base: Run) -> np.ndarray:
+    """Change of the readings if the oil still were as warm as at the reading before; zero where no order is told."""
+    rows, order = problem.rows, clock_of(problem.rows)
+    name = next((n for n in WARMTH if n in rows and np.ptp(rows[n]) > 0.0), None)
+    if order is None or name is None:
+        return np.zeros(problem.y.size)
+    rank = np.argsort(order)
+    before = np.empty(rank.size)
+    before[rank] = rows[name][np.concatenate([rank[:1], rank[:-1]])]
+    table = Table({**rows.columns, name: before}, rows.source)
+    there = Forward(problem.case, table, float(problem.forward.inputs["reading_scale"]))
+    values = {name: move.value for name, move in base.applied.items()}
+    return problem.seen(there.predict(values)) - base.prediction
 
 
 def _share(problem: Problem, base: Run) -> np.ndarray:

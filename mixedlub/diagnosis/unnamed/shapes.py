@@ -10,7 +10,7 @@ import numpy as np
 
 from mixedlub.diagnosis.recording.features import PASSING, Coordinates
 from mixedlub.diagnosis.unnamed.boxes import Box, inside
-from mixedlub.diagnosis.unnamed.carriers import NOTHING, READING, Carriers
+from mixedlub.diagnosis.unnamed.carriers import LATE, NOTHING, READING, Carriers
 from mixedlub.diagnosis.unnamed.places import Place, finer, places
 from mixedlub.diagnosis.unnamed.waves import CLOCK, FINER, frequencies
 
@@ -51,13 +51,17 @@ class Shape:
     @property
     def form(self) -> str:
         """What kind of function it is."""
+        if self.carrier == LATE:
+            return "delay"
         if self.box:
             return "box"
         return "wave" if self.waves else "smooth" if self.at is None else "peak" if self.length else "step"
 
     def columns(self, space: Coordinates, values: list[np.ndarray], carriers: Carriers) -> np.ndarray:
         """The shape's columns in sigmas."""
-        if self.box:
+        if self.carrier == LATE:
+            columns = np.ones((values[0].size, 1))
+        elif self.box:
             columns = inside(self.box, space, values).astype(float)[:, None]
         elif self.waves:
             place = space.place(self.axes[0])
@@ -106,7 +110,8 @@ def families(
         if carrier in carriers and not (MISCOUNT in names and _is_miscount(place, carrier))
     ]
     peaks, steps = ([s for s in local if s.form == form] for form in ("peak", "step"))
-    return [family for family in (_smooth(space, carriers), waves, peaks, steps) if family]
+    delay = [Shape((), 0.0, 1.0, LATE, False)] if LATE in carriers else []
+    return [family for family in (_smooth(space, carriers), waves, peaks, steps, delay) if family]
 
 
 def _is_miscount(place: Place, carrier: str) -> bool:
@@ -117,7 +122,7 @@ def _smooth(space: Coordinates, carriers: Carriers) -> list[Shape]:
     names = [axis.name for axis in space.axes]
     found = []
     for length in LENGTHS:
-        for carrier in carriers:
+        for carrier in (name for name in carriers if name != LATE):
             found.append(Shape((), length, 1.0, carrier, False))
             if len(names) == 1 and length == LENGTHS[0]:
                 found.append(Shape((), ROUGH, 1.0, carrier, False))
