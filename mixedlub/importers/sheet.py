@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from mixedlub.headers import is_unit, split
 from mixedlub.importers.marks import Line, with_points
+from mixedlub.importers.rows import rows_of
 from profiles.errors import InputError
 
 Cells = Mapping[str, list[str]]
-SEPARATORS = "\t;,"
+COUNTED = ("nr", "nr.", "no", "no.", "#", "n", "lfd. nr.", "lfd.nr.")
+"""What stands for a unit, in small letters, where a column counts the rows."""
 
 
 @dataclass(frozen=True)
@@ -35,16 +36,14 @@ def read_sheet(text: str, name: str, decimal: str | None = None) -> Sheet:
         for number, line in enumerate(text.splitlines(), start=1)
         if line.strip() and not line.lstrip().startswith("#")
     ]
-    separator = max(SEPARATORS, key=lambda mark: _regularity([line.count(mark) for _, line in numbered]))
-    reader = csv.reader((line for _, line in numbered), delimiter=separator)
-    rows = [(numbered[reader.line_num - 1][0], [cell.strip() for cell in row]) for row in reader]
+    rows = rows_of(numbered)
     if len(rows) < 2:
         raise InputError("needs a header line and at least one row", where=name)
     rows = with_points(rows, name, decimal)
     first, last = _extent(rows, name)
     above = first - 1
     header = rows[above][1]
-    if above and len(rows[above - 1][1]) == len(header) and _are_units(header):
+    if above and _are_units(header, rows[above - 1][1]):
         above -= 1
         units = [unit.strip("()[]") for unit in header]
         header = [f"{word} ({unit})" if unit else word for word, unit in zip(rows[above][1], units, strict=True)]
@@ -52,12 +51,6 @@ def read_sheet(text: str, name: str, decimal: str | None = None) -> Sheet:
     cells = {h: [row[i] for _, row in table] for i, h in enumerate(_told_apart(header)) if h}
     parts = [part for part in (_range(rows[:above]), _range(rows[last:])) if part]
     return Sheet(name, cells, tuple(number for number, _ in table), " and ".join(parts))
-
-
-def _regularity(counts: list[int]) -> int:
-    """How many lines have the most common number of separators; where two tie, a comma may be a decimal mark."""
-    found = [n for n in counts if n]
-    return max((found.count(n) for n in set(found)), default=0)
 
 
 def _extent(rows: Sequence[Line], name: str) -> tuple[int, int]:
@@ -118,11 +111,18 @@ def is_number(cell: str) -> bool:
     return True
 
 
-def _are_units(cells: Sequence[str]) -> bool:
-    """Whether a line names units and nothing else, at least one that is known; a unit may be new if in brackets."""
-    named = [cell for cell in cells if cell]
-    known = [is_unit(cell.strip("()[]")) for cell in named]
-    return any(known) and all(k or _in_brackets(cell) for k, cell in zip(known, named, strict=True))
+def _are_units(cells: Sequence[str], words: Sequence[str]) -> bool:
+    """Whether a line names units of the words above it, at least one that is known; one cell may count the rows.
+
+    A new unit stands in brackets, or among twice as many that are known under a line that names every column.
+    """
+    if len(cells) != len(words):
+        return False
+    named = [cell for cell in cells if cell and cell.lower() not in COUNTED]
+    known = sum(is_unit(cell.strip("()[]")) for cell in named)
+    new = sum(not is_unit(cell.strip("()[]")) and not _in_brackets(cell) for cell in named)
+    every = all(word and not is_unit(word) for word, cell in zip(words, cells, strict=True) if cell)
+    return known > 2 * new and (every or new == 0)
 
 
 def _in_brackets(cell: str) -> bool:
