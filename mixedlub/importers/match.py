@@ -10,10 +10,10 @@ from typing import Any
 from mixedlub.headers import BY_NAME, TEXT_COLUMNS, UNITS, Target, change_to, split, target_of, words_of
 from mixedlub.importers.draft import Answers, Question
 from mixedlub.importers.likely import either, is_logarithm, likely_headers, likeness
-from mixedlub.importers.sheet import Cells, is_number
+from mixedlub.importers.sheet import Cells, are_numbers
 from mixedlub.importers.write import toml_value
 from mixedlub.kinds import Kind
-from mixedlub.table import BOOKKEEPING, Column
+from mixedlub.table import BOOKKEEPING, Column, is_missing
 from profiles.errors import InputError, nearest
 
 COLUMNS = "import.columns."
@@ -80,9 +80,11 @@ def match(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> Match:
     told = {c.name: _told(c.name, cells, answers) for c in columns if COLUMNS + c.name in answers}
     found = _Finding(headers=dict(told))
     reserved = set(told.values())
+    free = {h: values for h, values in cells.items() if h not in reserved}
+    held = {h: values for h, values in free.items() if not all(map(is_missing, values))}
     for column in columns:
         if column.name not in told:
-            _find(column, {h: values for h, values in cells.items() if h not in reserved}, found)
+            _find(column, free if column.required else held, found)
     _one_of(either(kind.name), set(told), found)
     _absent_check(answers.get("recording.check"), cells, found.headers)
     asked = {q.key for q in found.questions}
@@ -122,7 +124,7 @@ def _find(column: Column, cells: Cells, found: _Finding) -> None:
     if column.form != "name":
         order = {words: place for place, words in enumerate(BY_NAME[column.name].spoken)} if spoken else {}
         # A clock, or a column of remarks, may bear the words of a number.
-        numeric = [h for h in spoken if all(is_number(cell) for cell in cells[h])]
+        numeric = [h for h in spoken if are_numbers(cells[h])]
         spoken = sorted(numeric or spoken, key=lambda h: order.get(words_of(h), -1))
     if not spoken:
         return

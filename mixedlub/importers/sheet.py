@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mixedlub.headers import is_unit, split
 from mixedlub.importers.marks import Line, with_points
 from mixedlub.importers.rows import rows_of
+from mixedlub.table import is_missing
 from profiles.errors import InputError
 
 Cells = Mapping[str, list[str]]
+SHOWN = 5
+"""Lines that a note lists at most."""
 COUNTED = ("nr", "nr.", "no", "no.", "#", "n", "lfd. nr.", "lfd.nr.")
 """What stands for a unit, in small letters, where a column counts the rows."""
 
@@ -36,7 +39,7 @@ def read_sheet(text: str, name: str, decimal: str | None = None) -> Sheet:
         for number, line in enumerate(text.splitlines(), start=1)
         if line.strip() and not line.lstrip().startswith("#")
     ]
-    rows = rows_of(numbered)
+    rows = [line for line in rows_of(numbered) if any(line[1])]
     if len(rows) < 2:
         raise InputError("needs a header line and at least one row", where=name)
     rows = with_points(rows, name, decimal)
@@ -53,6 +56,44 @@ def read_sheet(text: str, name: str, decimal: str | None = None) -> Sheet:
     return Sheet(name, cells, tuple(number for number, _ in table), " and ".join(parts))
 
 
+def whole(sheet: Sheet, needed: Sequence[str]) -> tuple[Sheet, list[str]]:
+    """The rows in which no needed cell is left out, and a line for every header by which rows are lost."""
+    lost = {h: [i for i, cell in enumerate(sheet.cells[h]) if is_missing(cell)] for h in needed}
+    if not any(lost.values()):
+        return sheet, []
+    gone = {i for rows in lost.values() for i in rows}
+    if len(gone) == len(sheet.lines):
+        most = max(lost, key=lambda h: len(lost[h]))
+        raise InputError(f"no row is complete: {most!r} is missing in {len(lost[most])} of them", where=sheet.name)
+    kept = [i for i in range(len(sheet.lines)) if i not in gone]
+    cells = {h: [values[i] for i in kept] for h, values in sheet.cells.items()}
+    notes = [
+        f"{count(len(rows), 'row')} left out, as {h!r} is missing: {places([sheet.lines[i] for i in rows])}"
+        for h, rows in lost.items()
+        if rows
+    ]
+    return replace(sheet, cells=cells, lines=tuple(sheet.lines[i] for i in kept)), notes
+
+
+def count(number: int, thing: str) -> str:
+    """A number of things in words.
+
+    >>> count(1, "row"), count(3, "row")
+    ('1 row', '3 rows')
+    """
+    return f"{number} {thing}" + ("" if number == 1 else "s")
+
+
+def places(lines: Sequence[int]) -> str:
+    """Numbers of lines in words.
+
+    >>> places([14]), places([3, 9]), places(list(range(2, 20)))
+    ('line 14', 'lines 3, 9', 'lines 2, 3, 4, 5, 6 and 13 more')
+    """
+    more = f" and {len(lines) - SHOWN} more" if len(lines) > SHOWN else ""
+    return ("line " if len(lines) == 1 else "lines ") + ", ".join(map(str, lines[:SHOWN])) + more
+
+
 def _extent(rows: Sequence[Line], name: str) -> tuple[int, int]:
     """First row of data and the end of it: the longest run of rows as long as the header before them."""
     best = (0, 0)
@@ -61,7 +102,7 @@ def _extent(rows: Sequence[Line], name: str) -> tuple[int, int]:
         if len(header) != len(row) or not _are_words(header) or not _numbers(row):
             continue
         end = i
-        while end < len(rows) and len(rows[end][1]) == len(header) and not _are_words(rows[end][1]):
+        while end < len(rows) and len(rows[end][1]) == len(header) and not _is_header(rows[end][1]):
             end += 1
         if end - i > best[1] - best[0]:
             best = (i, end)
@@ -99,6 +140,10 @@ def _are_words(cells: Sequence[str]) -> bool:
     return sum(bool(cell) for cell in cells) > 1 and not _numbers(cells)
 
 
+def _is_header(cells: Sequence[str]) -> bool:
+    return _are_words(cells) and not all(is_missing(cell) for cell in cells)
+
+
 def _numbers(cells: Sequence[str]) -> int:
     return sum(is_number(cell) for cell in cells)
 
@@ -109,6 +154,16 @@ def is_number(cell: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def are_numbers(cells: Sequence[str]) -> bool:
+    """Whether a column is one of numbers, beside cells that are left out.
+
+    >>> are_numbers(["1", "n/a", "2"]), are_numbers(["1", "stuck"]), are_numbers(["", ""])
+    (True, False, False)
+    """
+    present = [cell for cell in cells if not is_missing(cell)]
+    return all(map(is_number, present)) and (bool(present) or not cells)
 
 
 def _are_units(cells: Sequence[str], words: Sequence[str]) -> bool:

@@ -130,8 +130,8 @@ def test_a_rheometer_column_without_a_unit_is_refused(file, tmp_path):
 
 
 def test_a_bad_cell_of_a_rheometer_is_named_with_its_line(file, tmp_path):
-    with pytest.raises(InputError, match=r"data\.txt: line 7, Viscosity: '--': Viscosity must be a number"):
-        import_files([file(TRIOS.replace("0.0365", "--"))], tmp_path / "case")
+    with pytest.raises(InputError, match=r"data\.txt: line 7, Viscosity: 'high': Viscosity must be a number"):
+        import_files([file(TRIOS.replace("0.0365", "high"))], tmp_path / "case")
 
 
 def test_every_nth_reading_can_be_kept(file, tmp_path):
@@ -225,8 +225,9 @@ def test_a_folder_that_is_no_case_is_not_overwritten(file, tmp_path):
     ],
 )
 def test_files_that_hold_nothing_are_refused_with_their_name(file, tmp_path, text, message):
+    told = {} if text.startswith("Step") else {"kind": "viscosity"}
     with pytest.raises(InputError, match=message) as caught:
-        import_files([file(text)], tmp_path / "case", kind="viscosity")
+        import_files([file(text)], tmp_path / "case", **told)
     assert "data.txt" in str(caught.value)
 
 
