@@ -67,7 +67,7 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     taken = [*(["run"] if runs is not None else []), *columns]
     left = [h for h in sheet.cells if h not in found.headers.values() and h != header]
     notes = [
-        *(f"{WARNING}{name}: {note}" for note in lost),
+        *(f"{WARNING}{name}: {note}" for note in (*lost, *found.warned)),
         f"{name}: {len(taken)} of {len(sheet.cells)} columns taken: {', '.join(taken)}",
         *([f"{name}: not taken: {', '.join(left)}"] if left else []),
         *([f"{name}: {sheet.left_out} left out: no part of the table"] if sheet.left_out else []),
