@@ -7,11 +7,10 @@ from collections.abc import Sequence, Set
 
 import numpy as np
 
-from mixedlub.config import KINDS
 from mixedlub.headers import BY_NAME, convert, rounded, split
-from mixedlub.importers.draft import WARNING, Answers, Draft, Question, questions_of, refuse_unknown
+from mixedlub.importers.draft import WARNING, Answers, Draft, Question, kind_told, questions_of, refuse_unknown
 from mixedlub.importers.steps import STEP, Step, steps_of, without_gaps
-from profiles.errors import InputError, nearest
+from profiles.errors import InputError
 
 SAID = re.compile(r"^Number of steps (completed|in profile):\t(\d+)", re.MULTILINE)
 FILM_TYPES = ("FILM",)
@@ -129,14 +128,9 @@ def _kind(held: Sequence[Step], answers: Answers) -> tuple[str, tuple[Question, 
 
     With a contact that is described, friction at swept speeds is that of a ball on a disc.
     """
-    told = answers.get("kind")
+    told = kind_told(answers, TAKEN)
     if told is not None:
-        if told not in KINDS:
-            raise InputError(f"no such kind; {nearest(str(told), KINDS)}", where="kind", value=told)
-        if told not in TAKEN:
-            rule = f"is no kind that files of this rig make; they make {', '.join(TAKEN)}"
-            raise InputError(rule, where="kind", value=told)
-        return str(told), ()
+        return told, ()
     if _chosen(held, "film"):
         return "film", ()
     if not any(s.varies(w) for s in _chosen(held, "friction_history") for w in SWEPT):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.headers import BY_NAME, convert, rounded, target_of
-from mixedlub.importers.draft import WARNING, Answers, Draft, questions_of, refuse_unknown
+from mixedlub.importers.draft import WARNING, Answers, Draft, kind_told, questions_of, refuse_unknown
 from mixedlub.importers.sheet import count, places
 from mixedlub.table import Column
 from profiles.errors import InputError
@@ -21,6 +21,7 @@ def matches(text: str) -> bool:
 def draft(text: str, name: str, answers: Answers) -> Draft:
     """Viscosity against temperature and time; the steps follow each other."""
     refuse_unknown(answers, ())
+    kind_told(answers, ("viscosity",))
     parts: dict[str, list[np.ndarray]] = {w: [] for w in WANTED}
     elapsed, taken, left = 0.0, 0, 0
     lost: list[int] = []

@@ -124,6 +124,11 @@ def test_rheometer_steps_follow_each_other_in_their_own_units(file, tmp_path):
     assert table["time_s"].tolist() == pytest.approx([1.0, 2.0, 32.0, 62.0])
 
 
+def test_a_rheometer_makes_no_other_kind_of_case(file, tmp_path):
+    with pytest.raises(InputError, match="kind: 'film': is no kind that files of this rig make; they make viscosity"):
+        import_files([file(TRIOS)], tmp_path / "case", kind="film")
+
+
 def test_a_rheometer_column_without_a_unit_is_refused(file, tmp_path):
     with pytest.raises(InputError, match="no unit is given"):
         import_files([file(TRIOS.replace("dyne/cm²\tPa.s", "dyne/cm²\t"))], tmp_path / "case")
