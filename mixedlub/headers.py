@@ -206,18 +206,27 @@ def tidy(unit: str) -> str:
 def change_to(unit: str, wanted: str) -> tuple[float, float] | None:
     """Factor and what is added, from a unit as written to a unit of UNITS; None where it is not one that is read.
 
-    Capitals are overlooked where they tell nothing, so never those of milli and mega.
+    Capitals are overlooked where they tell nothing: not where milli and mega, or two of the units, differ by them
+    only, nor in a single letter.
 
-    >>> change_to("N mm", "Nm"), change_to("RPM", "rpm"), change_to("mPa", "MPa"), change_to("MN", "N")
+    >>> change_to("N mm", "Nm"), change_to("RPM", "rpm"), change_to("mPa", "MPa"), change_to("nm", "Nm")
     ((0.001, 0.0), (1.0, 0.0), None, None)
     """
-    written = tidy(unit)
-    for known, change in UNITS[wanted].items():
-        for form in (tidy(known), tidy(known).replace(".", "")):
-            same_prefix = written[:1] == form[:1] or form[:1] not in "mM"
-            if written == form or (written.lower() == form.lower() and same_prefix):
-                return change
-    return None
+    written, forms = tidy(unit), FORMS[wanted]
+    if written in forms or len(written) == 1:
+        return forms.get(written)
+    alike = {form for known in FORMS.values() for form in known if form.lower() == written.lower()}
+    if len(alike) != 1:
+        return None
+    form = alike.pop()
+    return forms.get(form) if written[:1] == form[:1] or form[:1] not in "mM" else None
+
+
+FORMS = {
+    wanted: {form: change for known, change in units.items() for form in (tidy(known), tidy(known).replace(".", ""))}
+    for wanted, units in UNITS.items()
+}
+"""By the unit of a column: what stands for a unit that it may be given in, with and without the dot of a product."""
 
 
 def is_unit(text: str) -> bool:

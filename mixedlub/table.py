@@ -50,7 +50,7 @@ class Column:
             if self.names and text not in self.names:
                 raise InputError(f"no such name in system.toml; {nearest(text, self.names)}", where=where, value=text)
             return text
-        if self.blank and text.lower() in BLANK:
+        if self.blank and is_missing(text):
             return float("nan")
         try:
             value = float(text)
@@ -71,8 +71,8 @@ class Column:
 
 
 PRINTED_MINUS = re.compile(r"(?:(?<=\d[eE])|(?<![\w)]))\u2212(?=[\d.,])")
-BLANK = ("", "nan", "na", "n/a")
-"""What an empty cell of a table may read."""
+BLANK = ("", "-", "--", "---", "\u2013", "\u2014", "nan", "na", "n/a", "n.a.", "#n/a", "#nv", "null", "none")
+"""What an empty cell of a table may read, in small letters."""
 RUN = Column("run", "whole")
 BOOKKEEPING = (
     Column("rig", "name", required=False),
@@ -100,6 +100,15 @@ class Table:
     def take(self, rows: np.ndarray) -> Table:
         """The rows of a mask or index."""
         return Table({name: column[rows] for name, column in self.columns.items()}, self.source)
+
+
+def is_missing(cell: str) -> bool:
+    """Whether a cell says that there is no value.
+
+    >>> [is_missing(cell) for cell in ("", "n/a", " - ", "NaN", "0", "-1", "abc")]
+    [True, True, True, True, False, False, False]
+    """
+    return cell.strip().lower() in BLANK
 
 
 def with_hyphens(text: str) -> str:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 import shlex
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from mixedlub.config import KINDS
 from mixedlub.importers.keys import WORDS
 from mixedlub.kinds import kind as kind_of
 from profiles.errors import InputError, nearest
@@ -134,6 +135,22 @@ def refuse_unknown(answers: Answers, known: Sequence[str]) -> None:
     for key in answers:
         if PART.findall(key)[:1] == ["import"] and key not in keys:
             raise InputError(f"key is not known for this file; {nearest(key, keys)}", where=key)
+
+
+def kind_told(answers: Answers, made: Collection[str]) -> str | None:
+    """The kind that is told; an error where the file's reader makes no such case.
+
+    >>> kind_told({"kind": "disc"}, ["viscosity"])
+    Traceback (most recent call last):
+    ...
+    profiles.errors.InputError: kind: 'disc': is no kind that files of this rig make; they make viscosity
+    """
+    kind = answers.get("kind")
+    if kind is None or kind in made:
+        return kind
+    known = kind in KINDS
+    rule = f"is no kind that files of this rig make; they make {', '.join(made)}"
+    raise InputError(rule if known else f"no such kind; {nearest(str(kind), KINDS)}", where="kind", value=kind)
 
 
 def nested(answers: Answers) -> dict[str, Any]:

@@ -1,45 +1,79 @@
-"""Whether the speeds of a table agree: where both surfaces' speeds stand in it, entrainment is their mean."""
+"""Speeds of a table that agree: where both surfaces' speeds stand in it, neither is the entrainment or the sliding."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from mixedlub.headers import split, words_of
+from mixedlub.headers import change_to, split, words_of
 from mixedlub.importers.sheet import Cells, is_number
 from profiles.errors import InputError
 
-PAIRS = (("disc speed", "ball speed"), ("disk speed", "ball speed"), ("lower speed", "upper speed"))
+SIDES = (("1", "2"), ("a", "b"), ("disc", "ball"), ("disk", "ball"), ("lower", "upper"), ("scheibe", "kugel"))
+"""Words by which the speeds of two surfaces differ."""
+SPEED = re.compile(r"speed|velocity|geschwindigkeit|^[uv]\W?(?:\d|\b)")
 WITHIN = 0.02
 """Share by which a speed may differ from the mean of the two surfaces'."""
+MADE = {
+    "entrainment_speed_m_s": "entrainment is the mean with that of",
+    "sliding_speed_m_s": "sliding is the difference to that of",
+}
+
+
+def other_surface(header: str, cells: Cells) -> str | None:
+    """The header over the speed of the other surface, where both stand in the table and differ.
+
+    >>> other_surface("v1 (m/s)", {"v1 (m/s)": ["2.0", "4.0"], "v2 (m/s)": ["1.0", "2.0"], "mu": ["0.1", "0.2"]})
+    'v2 (m/s)'
+    >>> other_surface("v1 (m/s)", {"v1 (m/s)": ["2.0", "4.0"], "v2 (m/s)": ["2.0", "4.0"]})
+    """
+    unit, words = split(header)[1], words_of(header)
+    if not (SPEED.search(words) if unit is None else change_to(unit, "m_s")):
+        return None
+    alike = {words_of(h): h for h in cells if split(h)[1] == unit}
+    for other in (alike[w] for w in _opposite(words) if w in alike):
+        both = [row for row in zip(cells[header], cells[other], strict=True) if all(map(is_number, row))]
+        if not both:
+            continue
+        first, second = np.abs(np.array(both, dtype=float)).T
+        if np.max(np.abs(first - second)) > 2.0 * WITHIN * np.max(np.abs(first)):
+            return other
+    return None
+
+
+def _opposite(words: str) -> Iterator[str]:
+    for pair in SIDES:
+        for one, other in (pair, pair[::-1]):
+            edge = "0-9" if one.isdigit() else "a-z0-9"
+            changed = re.sub(rf"(?<![{edge}]){one}(?![{edge}])", other, words)
+            if changed != words:
+                yield changed
 
 
 def refuse_one_surface(headers: Mapping[str, str], cells: Cells, name: str) -> None:
-    """An error where the speed of one surface was taken for entrainment although the other's speed stands there too.
+    """An error where the speed of one surface was taken for that of both although the other's stands there too.
+
+    Beside a surface at rest the speed of the other is the sliding speed.
 
     >>> cells = {"Disc Speed (m/s)": ["1.0", "2.0"], "Ball Speed (m/s)": ["0", "0"]}
     >>> refuse_one_surface({"entrainment_speed_m_s": "Ball Speed (m/s)"}, {"Ball Speed (m/s)": ["1.0"]}, "a.txt")
+    >>> refuse_one_surface({"sliding_speed_m_s": "Disc Speed (m/s)"}, cells, "a.txt")
     >>> refuse_one_surface({"entrainment_speed_m_s": "Disc Speed (m/s)"}, cells, "a.txt")
     Traceback (most recent call last):
     ...
     profiles.errors.InputError: a.txt: entrainment_speed_m_s: 'Disc Speed (m/s)': is the speed of one surface; \
 entrainment is the mean with that of 'Ball Speed (m/s)': add a column of it to the file
     """
-    taken = headers.get("entrainment_speed_m_s")
-    if taken is None:
-        return
-    by_words = {words_of(header): header for header in cells}
-    for pair in PAIRS:
-        if words_of(taken) not in pair or not all(words in by_words for words in pair):
+    for column, made in MADE.items():
+        taken = headers.get(column)
+        other = None if taken is None else other_surface(taken, cells)
+        if other is None or (column == "sliding_speed_m_s" and _at_rest(cells[other])):
             continue
-        one, other = (by_words[words] for words in sorted(pair, key=lambda words: words != words_of(taken)))
-        if split(one)[1] != split(other)[1]:
-            continue
-        both = [row for row in zip(cells[one], cells[other], strict=True) if all(map(is_number, row))]
-        if not both:
-            continue
-        first, second = np.abs(np.array(both, dtype=float)).T
-        if np.max(np.abs(first - second)) > 2.0 * WITHIN * np.max(np.abs(first)):
-            rule = f"is the speed of one surface; entrainment is the mean with that of {other!r}: add a column of it"
-            raise InputError(f"{rule} to the file", where=f"{name}: entrainment_speed_m_s", value=taken)
+        rule = f"is the speed of one surface; {made} {other!r}: add a column of it to the file"
+        raise InputError(rule, where=f"{name}: {column}", value=taken)
+
+
+def _at_rest(cells: list[str]) -> bool:
+    return all(float(cell) == 0.0 for cell in cells if is_number(cell))

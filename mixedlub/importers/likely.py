@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from mixedlub.config import KINDS
 from mixedlub.headers import BY_NAME, TEXT_COLUMNS, change_to, is_unit, split, target_of
-from mixedlub.importers.sheet import Cells, is_number
+from mixedlub.importers.sheet import Cells, are_numbers
 from mixedlub.kinds import friction_map
 from mixedlub.kinds import kind as kind_of
 
@@ -73,7 +73,7 @@ def is_logarithm(header: str) -> bool:
     return logged is not None and (unit is None or not is_unit(unit))
 
 
-def likeness(column: str, header: str, cells: Iterable[str] = ()) -> float:
+def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
     """How near a header comes to a column, by its words and its unit; 0 where unit or cells speak against it.
 
     >>> likeness("speed_rpm", "Pinion speed [1/min]") > likeness("speed_rpm", "Pinion torque [Nm]")
@@ -85,7 +85,7 @@ def likeness(column: str, header: str, cells: Iterable[str] = ()) -> float:
     words, unit = split(header)
     if is_logarithm(header) or (column == "viscosity_mPa_s" and "kinematic" in words.split()):
         return 0.0
-    numbers = all(is_number(cell) for cell in cells)
+    numbers = are_numbers(cells)
     if column in TEXT_COLUMNS:
         dated = any(DATED.match(cell) for cell in cells)
         return 0.0 if unit is not None or numbers or dated else TEXT_FITS + _overlap(words, column.replace("_", " "))

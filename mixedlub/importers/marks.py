@@ -62,10 +62,11 @@ def with_points(rows: Sequence[Line], name: str, told: str | None = None) -> lis
 
 def _holds_numbers(cells: Sequence[str]) -> bool:
     """Whether a column is one of numbers: most of its cells, beside the header and gaps; labels prove no mark."""
-    return 2 * sum(_is_number(cell) for cell in cells) >= sum(bool(cell) for cell in cells) - 1
+    return 2 * sum(is_written_number(cell) for cell in cells) >= sum(bool(cell) for cell in cells) - 1
 
 
-def _is_number(cell: str) -> bool:
+def is_written_number(cell: str) -> bool:
+    """Whether a cell is a number under one mark or the other."""
     forms = (form for mark in MARKS for form in (GROUPED[mark], WITH_BOTH[mark], WITH_ONE[mark]))
     return bool(PLAIN.fullmatch(cell)) or any(form.fullmatch(cell) for form in forms)
 

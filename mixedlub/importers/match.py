@@ -9,11 +9,13 @@ from typing import Any
 
 from mixedlub.headers import BY_NAME, TEXT_COLUMNS, UNITS, Target, change_to, split, target_of, words_of
 from mixedlub.importers.draft import Answers, Question
+from mixedlub.importers.kinematics import MADE, other_surface
 from mixedlub.importers.likely import either, is_logarithm, likely_headers, likeness
-from mixedlub.importers.sheet import Cells, is_number
+from mixedlub.importers.sheet import Cells, are_numbers
+from mixedlub.importers.spare import spare_headers, spare_notes, spare_questions
 from mixedlub.importers.write import toml_value
 from mixedlub.kinds import Kind
-from mixedlub.table import BOOKKEEPING, Column
+from mixedlub.table import BOOKKEEPING, Column, is_missing
 from profiles.errors import InputError, nearest
 
 COLUMNS = "import.columns."
@@ -28,12 +30,13 @@ ALIKE = 0.1
 
 @dataclass(frozen=True)
 class Match:
-    """Headers by column, units by column where they are to be converted, open questions, and choices made."""
+    """Headers and units (where they are to be converted) by column, open questions, choices made, what may be lost."""
 
     headers: Mapping[str, str]
     units: Mapping[str, str]
     questions: tuple[Question, ...]
     notes: tuple[str, ...]
+    warned: tuple[str, ...]
 
 
 @dataclass
@@ -80,23 +83,27 @@ def match(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> Match:
     told = {c.name: _told(c.name, cells, answers) for c in columns if COLUMNS + c.name in answers}
     found = _Finding(headers=dict(told))
     reserved = set(told.values())
+    free = {h: values for h, values in cells.items() if h not in reserved}
+    held = {h: values for h, values in free.items() if not all(map(is_missing, values))}
     for column in columns:
         if column.name not in told:
-            _find(column, {h: values for h, values in cells.items() if h not in reserved}, found)
+            _find(column, free if column.required else held, found)
     _one_of(either(kind.name), set(told), found)
     _absent_check(answers.get("recording.check"), cells, found.headers)
     asked = {q.key for q in found.questions}
     missing = [c.name for c in columns if c.required and c.name not in found.headers and COLUMNS + c.name not in asked]
     group = either(kind.name)
     if group and not any(c in found.headers or COLUMNS + c in asked for c in group):
-        free = {h: v for h, v in cells.items() if h not in found.headers.values()}
-        missing.append(next(iter(likely_headers(group, free)), group[0]))
+        missing.append(next(iter(likely_headers(group, _offered(cells, found.headers))), group[0]))
     found.questions.extend(_missing(missing, cells, found.headers, answers))
+    spare = _spare(kind, cells, found)
+    found.questions.extend(spare_questions(spare, COLUMNS))
     open_ones = {q.key.removeprefix(COLUMNS) for q in found.questions}
     _refuse_idle_units({*found.headers, *open_ones}, answers)
     units, questions, notes = _units(found.headers, answers)
     ordered = {c.name: found.headers[c.name] for c in columns if c.name in found.headers}
-    return Match(ordered, units, (*found.questions, *questions), (*found.notes, *notes))
+    warned = tuple(spare_notes(spare, COLUMNS))
+    return Match(ordered, units, (*found.questions, *questions), (*found.notes, *notes), warned)
 
 
 def _told(column: str, cells: Cells, answers: Answers) -> str:
@@ -122,7 +129,7 @@ def _find(column: Column, cells: Cells, found: _Finding) -> None:
     if column.form != "name":
         order = {words: place for place, words in enumerate(BY_NAME[column.name].spoken)} if spoken else {}
         # A clock, or a column of remarks, may bear the words of a number.
-        numeric = [h for h in spoken if all(is_number(cell) for cell in cells[h])]
+        numeric = [h for h in spoken if are_numbers(cells[h])]
         spoken = sorted(numeric or spoken, key=lambda h: order.get(words_of(h), -1))
     if not spoken:
         return
@@ -163,7 +170,7 @@ def _absent_check(check: Any, cells: Cells, headers: Mapping[str, str]) -> None:
 
 
 def _missing(missing: Sequence[str], cells: Cells, headers: Mapping[str, str], answers: Answers) -> list[Question]:
-    free = {h: values for h, values in cells.items() if h not in headers.values()}
+    free = _offered(cells, headers)
     near = likely_headers(missing, free)
     logarithms = [h for h in free if is_logarithm(h)]
     refused = (
@@ -173,7 +180,7 @@ def _missing(missing: Sequence[str], cells: Cells, headers: Mapping[str, str], a
     for column in missing:
         header = near.get(column)
         alike = _as_near(column, header, free)
-        text = f"Header of the column that holds {column}{alike}{refused}"
+        text = f"Header of the column that holds {column}{alike}{_two_speeds(column, cells)}{refused}"
         example = toml_value(header or "HEADER")
         questions.append(Question(COLUMNS + column, text, example, among=tuple(cells), of="the file has"))
         target = target_for(column)
@@ -181,6 +188,29 @@ def _missing(missing: Sequence[str], cells: Cells, headers: Mapping[str, str], a
         if header is not None and target is not None and bare and UNIT_KEYS + column not in answers:
             questions.append(_unit_question(column, header, target))
     return questions
+
+
+def _offered(cells: Cells, headers: Mapping[str, str]) -> Cells:
+    """Headers that nothing is taken from, but for the speeds of single surfaces."""
+    free = {h: values for h, values in cells.items() if h not in headers.values()}
+    return {h: values for h, values in free.items() if other_surface(h, cells) is None}
+
+
+def _two_speeds(column: str, cells: Cells) -> str:
+    """Why the speeds of two surfaces are not offered."""
+    single = [h for h in cells if other_surface(h, cells) is not None] if column in MADE else []
+    made = MADE.get(column, "").removesuffix(" with that of").removesuffix(" to that of")
+    return f"; {', '.join(single)}: speeds of single surfaces, {made}, add a column of it" if single else ""
+
+
+def _spare(kind: Kind, cells: Cells, found: _Finding) -> dict[str, str]:
+    """Headers that are near to columns which are not needed, and not found."""
+    asked = {q.key.removeprefix(COLUMNS) for q in found.questions}
+    own = (*kind.columns, *kind.channels)
+    absent = [c for c in own if not c.required and c.name not in {*found.headers, *asked, *either(kind.name)}]
+    offered = {question.example for question in found.questions}
+    free = {h: v for h, v in _offered(cells, found.headers).items() if toml_value(h) not in offered}
+    return spare_headers(absent, free)
 
 
 def _as_near(column: str, header: str | None, free: Cells) -> str:

@@ -3,57 +3,48 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
-from datetime import datetime
+from collections.abc import Sequence, Set
 
 import numpy as np
 
-from mixedlub.headers import BY_NAME, convert, rounded, split, target_of
-from mixedlub.importers.draft import WARNING, Answers, Draft, Question, questions_of, refuse_unknown
+from mixedlub.headers import BY_NAME, convert, rounded, split
+from mixedlub.importers.draft import WARNING, Answers, Draft, Question, kind_told, questions_of, refuse_unknown
+from mixedlub.importers.steps import STEP, Step, steps_of, without_gaps
 from profiles.errors import InputError
 
-STEP = re.compile(r'^Step (\d+)(?: "[^"]*")? started at (\d\d/\d\d/\d{4} \d\d:\d\d(?::\d\d)?)')
 SAID = re.compile(r"^Number of steps (completed|in profile):\t(\d+)", re.MULTILINE)
-TYPE = re.compile(r"^Step type\t([^\t]*)(?:\tStep description\t([^\t]*))?")
 FILM_TYPES = ("FILM",)
 PROBES = {"lube": ("lube temp", "lube rtd temp"), "pot": ("pot temp", "pot rtd temp")}
 DISAGREE_K = 10.0
-
-
-@dataclass(frozen=True)
-class Step:
-    """One step with readings: its type, its start, its columns by header."""
-
-    number: int
-    form: str
-    start: datetime
-    columns: dict[str, np.ndarray]
+CONDITIONS = ("load_N", "entrainment_speed_m_s", "slide_roll_ratio")
+TAKEN = {
+    "film": (*CONDITIONS, "film_thickness_nm"),
+    "friction_history": (*CONDITIONS, "friction_coefficient"),
+    "disc": (*CONDITIONS, "friction_coefficient"),
+    "friction_map": ("load_N", "friction_coefficient"),
+}
+"""Columns of each kind that these rigs record, the reading last."""
+SWEPT, SLIDING = ("entrainment_speed_m_s", "slide_roll_ratio"), "sliding_speed_m_s"
+SWEPT_NOTE = (
+    "{name}: speeds are swept within the steps, and taken as friction in time; --set 'kind=\"disc\"' takes the film "
+    "at each into account, --set 'kind=\"friction_map\"' makes it friction against sliding speed"
+)
+SWEPT_KIND = Question(
+    "kind",
+    "Speeds are swept within the steps: kind of recording, friction_history where left open",
+    '"disc"',
+    needed=False,
+    among=("disc", "friction_map", "friction_history"),
+)
+SURFACES = (
+    Question("import.surface_1", "Name of the surface of the ball, as in [surfaces.NAME]", '"ball"'),
+    Question("import.surface_2", "Name of the surface of the disc, as in [surfaces.NAME]", '"disc"'),
+)
 
 
 def matches(text: str) -> bool:
     """Whether the text is a file of these rigs: steps with a start and a type."""
     return any(STEP.match(line) for line in text.splitlines()[:200]) and "Step type\t" in text
-
-
-def steps(text: str, name: str) -> tuple[Step, ...]:
-    """The steps that hold readings."""
-    found: list[Step] = []
-    number, start, form = 0, None, ""
-    lines = iter(enumerate(text.splitlines(), start=1))
-    for place, line in lines:
-        if begun := STEP.match(line):
-            number, start = int(begun.group(1)), _moment(begun.group(2))
-        elif typed := TYPE.match(line):
-            form = typed.group(1).strip().upper()
-        elif start is not None and _is_header(line):
-            rows = []
-            for _, row in lines:
-                if not row.strip():
-                    break
-                rows.append(row.split("\t"))
-            if rows:
-                found.append(Step(number, form, start, _columns(line, rows, f"{name}: line {place}")))
-    return tuple(found)
 
 
 def without_cut_line(text: str) -> tuple[str, int | None]:
@@ -86,98 +77,111 @@ def _lost(text: str, name: str, cut: int | None) -> tuple[str, ...]:
     return tuple(notes)
 
 
-def _moment(text: str) -> datetime:
-    return datetime.strptime(text, "%d/%m/%Y %H:%M:%S" if text.count(":") == 2 else "%d/%m/%Y %H:%M")
-
-
-def _is_header(line: str) -> bool:
-    cells = line.split("\t")
-    return len(cells) > 5 and sum("(" in cell for cell in cells) > 5
-
-
-def _columns(header: str, rows: list[list[str]], where: str) -> dict[str, np.ndarray]:
-    """Columns that hold numbers; of a header that comes twice the later, more precise one."""
-    found: dict[str, np.ndarray] = {}
-    for i, name in enumerate(header.split("\t")):
-        cells = [row[i].strip() if i < len(row) else "" for row in rows]
-        if not name.strip() or not any(cells):
-            continue
-        try:
-            values = np.array([float(cell) if cell else np.nan for cell in cells])
-        except ValueError:
-            continue
-        if np.isfinite(values).all():
-            found[name.strip()] = values
-    if not found:
-        raise InputError("a table without a complete column of numbers", where=where)
-    return found
-
-
 def draft(text: str, name: str, answers: Answers) -> Draft:
-    """The case that a file makes: a film against speed, or friction against time."""
-    refuse_unknown(answers, ("import.temperature",))
+    """The case that a file makes: a film against speed, or friction against time, conditions or sliding speed."""
     text, cut = without_cut_line(text)
     lost = _lost(text, name, cut)
-    held = steps(text, name)
-    films = tuple(s for s in held if s.form in FILM_TYPES and _has(s, "film_thickness_nm"))
-    frictions = tuple(s for s in held if _has(s, "friction_coefficient") and _has(s, "time_s"))
-    kind = "film" if films else "friction_history"
-    chosen = films or _most_common(frictions)
+    held = steps_of(text, name)
+    kind, offered = _kind(held, answers)
+    refuse_unknown(answers, ("import.temperature", *(q.key for q in SURFACES if kind == "disc")))
+    quantity = TAKEN[kind][-1]
+    if answers.get("recording.quantity", quantity) != quantity:
+        rule = f"a case of kind {kind!r} from this rig records {quantity}"
+        raise InputError(rule, where="recording.quantity", value=answers["recording.quantity"])
+    chosen = _chosen(held, kind)
     if not chosen:
-        rule = "no step with films or friction coefficients"
+        rule = f"no step with {'films' if kind == 'film' else 'films or friction coefficients'}"
         raise InputError("; ".join([rule, *(note.removeprefix(WARNING) for note in lost)]), where=name)
-    quantity = "film_thickness_nm" if kind == "film" else "friction_coefficient"
-    wanted = ["load_N", "entrainment_speed_m_s", "slide_roll_ratio", quantity]
-    if kind == "film":
-        wanted.append("fringe_order")
-    columns = {
-        w: np.concatenate([_read(s, w, name) for s in chosen]) for w in wanted if all(_has(s, w) for s in chosen)
-    }
-    notes = [f"{name}: {len(chosen)} of {len(held)} steps with readings taken, of type {chosen[0].form}"]
+    types = " and ".join(dict.fromkeys(s.form for s in chosen))
+    notes = [f"{name}: {len(chosen)} of {len(held)} steps with readings taken, of type {types}"]
+    first = min(s.start for s in chosen)
+    chosen, gaps = without_gaps(chosen, [*TAKEN[kind], *_beside(chosen, kind)], name)
+    columns = {w: _together(chosen, w, name) for w in TAKEN[kind] if all(s.has(w) for s in chosen)}
+    if kind == "film" and all(s.whole("fringe_order") for s in chosen):
+        columns["fringe_order"] = _together(chosen, "fringe_order", name)
     if kind == "friction_history":
-        first = min(s.start for s in chosen)
-        columns = {
-            "time_s": np.concatenate([_since(first, s, name) for s in chosen]),
-            **columns,
-        }
+        columns = {"time_s": np.concatenate([s.since(first, name) for s in chosen]), **columns}
+    if kind == "friction_map":
+        columns = {"sliding_speed_m_s": _sliding_speed(chosen, name), **columns}
     temperature, questions, said = _temperature(chosen, name, answers)
     columns.update(temperature)
-    system = {"contact": {"geometry": "point"}} if kind == "film" else {}
-    told = (*lost, *notes, *said, *_odd(columns, quantity))
-    return Draft(kind, quantity, columns, system, (*questions, *questions_of(kind)), told)
+    if kind == "disc":
+        _refuse_absent({*columns, *(["oil_temperature_C"] if questions else [])}, name)
+        columns.update(
+            {
+                q.key.removeprefix("import."): np.full(len(columns[quantity]), str(answers[q.key]))
+                for q in SURFACES
+                if q.key in answers
+            }
+        )
+        questions = (*SURFACES, *questions)
+    notes += [SWEPT_NOTE.format(name=name)] if offered else []
+    described = kind in ("film", "disc") or any(key.startswith("contact.") for key in answers)
+    system = {"contact": {"geometry": "point"}} if described else {}
+    warned = [f"{WARNING}{name}: {gap}" for gap in gaps]
+    every = (*lost, *warned, *notes, *said, *_odd(columns, quantity))
+    return Draft(kind, quantity, columns, system, (*questions, *questions_of(kind), *offered), every)
 
 
-def _since(first: datetime, step: Step, name: str) -> np.ndarray:
-    """Seconds of a step's readings since the start of the first step."""
-    before = (step.start - first).total_seconds()
-    return rounded(before + _read(step, "time_s", name), before)
+def _kind(held: Sequence[Step], answers: Answers) -> tuple[str, tuple[Question, ...]]:
+    """The kind that is told, or that the steps make; where their speeds are swept, other kinds are offered.
+
+    With a contact that is described, friction at swept speeds is that of a ball on a disc.
+    """
+    told = kind_told(answers, TAKEN)
+    if told is not None:
+        return told, ()
+    if _chosen(held, "film"):
+        return "film", ()
+    if not any(s.varies(w) for s in _chosen(held, "friction_history") for w in SWEPT):
+        return "friction_history", ()
+    return ("disc", ()) if "contact.radius_mm" in answers else ("friction_history", (SWEPT_KIND,))
+
+
+def _chosen(held: Sequence[Step], kind: str) -> tuple[Step, ...]:
+    """The steps that a kind is made of; against conditions, those that sweep them."""
+    if kind == "film":
+        return tuple(s for s in held if s.form in FILM_TYPES and s.has("film_thickness_nm"))
+    frictions = tuple(s for s in held if s.has("friction_coefficient"))
+    if kind == "friction_history":
+        return _most_common(tuple(s for s in frictions if s.has("time_s")))
+    return tuple(s for s in frictions if any(s.varies(w) for w in SWEPT)) or _most_common(frictions)
+
+
+def _beside(chosen: Sequence[Step], kind: str) -> tuple[str, ...]:
+    """What a kind reads beside the columns that it takes as they stand."""
+    if kind == "friction_map":
+        return (SLIDING,) if all(s.has(SLIDING) for s in chosen) else SWEPT
+    return ("time_s",) if kind == "friction_history" else ()
 
 
 def _most_common(found: tuple[Step, ...]) -> tuple[Step, ...]:
     """The steps of the type that holds most readings: what the test was run for."""
     if not found:
         return ()
-    forms = [s.form for s in found for _ in s.columns[next(iter(s.columns))]]
+    forms = [s.form for s in found for _ in s.lines]
     main = max(sorted(set(forms)), key=forms.count)
     return tuple(s for s in found if s.form == main)
 
 
-def _header(step: Step, target: str) -> str | None:
-    exact = [h for h in step.columns if (t := target_of(h)) is not None and t.name == target]
-    return exact[-1] if exact else None
+def _together(chosen: Sequence[Step], target: str, name: str) -> np.ndarray:
+    return np.concatenate([s.read(target, name) for s in chosen])
 
 
-def _has(step: Step, target: str) -> bool:
-    return _header(step, target) is not None
+def _sliding_speed(chosen: Sequence[Step], name: str) -> np.ndarray:
+    """As recorded, else the slide-roll ratio times the mean speed."""
+    if all(s.has(SLIDING) for s in chosen):
+        return _together(chosen, SLIDING, name)
+    if not all(s.has(w) for s in chosen for w in SWEPT):
+        raise InputError("the steps hold no sliding speed, which a case of kind 'friction_map' needs", where=name)
+    mean, ratio = (_together(chosen, w, name) for w in SWEPT)
+    return rounded(mean * ratio)
 
 
-def _read(step: Step, target: str, name: str) -> np.ndarray:
-    header = _header(step, target)
-    assert header is not None
-    unit = split(header)[1] or ("-" if BY_NAME[target].unit == "ratio" else None)
-    if unit is None:
-        raise InputError("header without a unit", where=f"{name}: step {step.number}", value=header)
-    return convert(step.columns[header], unit, BY_NAME[target], f"{name}: {header}")
+def _refuse_absent(columns: Set[str], name: str) -> None:
+    absent = [w for w in (*CONDITIONS, "oil_temperature_C") if w not in columns]
+    if absent:
+        raise InputError(f"the steps hold no {', '.join(absent)}, which a case of kind 'disc' needs", where=name)
 
 
 def _temperature(
@@ -186,7 +190,7 @@ def _temperature(
     """Oil temperature by the probe in the oil; a question where the two probes tell different stories."""
     probes: dict[str, np.ndarray] = {}
     for probe, words in PROBES.items():
-        headers = [[h for h in s.columns if split(h)[0] in words] for s in chosen]
+        headers = [[h for h, v in s.columns.items() if split(h)[0] in words and np.isfinite(v).all()] for s in chosen]
         if all(headers):
             probes[probe] = np.concatenate(
                 [

@@ -6,14 +6,14 @@ import numpy as np
 
 from mixedlub.config import KINDS
 from mixedlub.headers import convert
-from mixedlub.importers.draft import Answers, Draft, Question, contact_form, questions_of, refuse_unknown
+from mixedlub.importers.draft import WARNING, Answers, Draft, Question, contact_form, questions_of, refuse_unknown
 from mixedlub.importers.kinematics import refuse_one_surface
 from mixedlub.importers.likely import likely_kind, likeness
 from mixedlub.importers.marks import KEY as DECIMAL
 from mixedlub.importers.marks import MARKS
 from mixedlub.importers.match import import_keys, match, target_for, wanted
 from mixedlub.importers.runs import header_of_runs, runs_of
-from mixedlub.importers.sheet import Cells, Sheet, read_sheet
+from mixedlub.importers.sheet import Cells, Sheet, read_sheet, whole
 from mixedlub.importers.write import toml_value
 from mixedlub.kinds import Kind
 from mixedlub.kinds import kind as kind_of
@@ -52,8 +52,10 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     rest = (*found.questions, *contact_form(likely.name, answers), *questions_of(likely.name))
     if questions:
         return Draft(kind, None, {}, {}, (*questions, *rest))
-    refuse_one_surface(found.headers, sheet.cells, name)
     rules = {column.name: column for column in wanted(likely, str(quantity), answers)}
+    needed = [h for c, h in found.headers.items() if rules[c].form != "name" and not rules[c].blank]
+    sheet, lost = whole(sheet, needed)
+    refuse_one_surface(found.headers, sheet.cells, name)
     asked = {question.key.rpartition(".")[2] for question in found.questions}
     columns = {
         column: _values(rules[column], header, sheet, found.units.get(column))
@@ -65,6 +67,7 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     taken = [*(["run"] if runs is not None else []), *columns]
     left = [h for h in sheet.cells if h not in found.headers.values() and h != header]
     notes = [
+        *(f"{WARNING}{name}: {note}" for note in (*lost, *found.warned)),
         f"{name}: {len(taken)} of {len(sheet.cells)} columns taken: {', '.join(taken)}",
         *([f"{name}: not taken: {', '.join(left)}"] if left else []),
         *([f"{name}: {sheet.left_out} left out: no part of the table"] if sheet.left_out else []),

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mixedlub.headers import is_unit, split
 from mixedlub.importers.marks import Line, with_points
+from mixedlub.importers.rows import rows_of
+from mixedlub.table import is_missing
 from profiles.errors import InputError
 
 Cells = Mapping[str, list[str]]
-SEPARATORS = "\t;,"
+SHOWN = 5
+"""Lines that a note lists at most."""
+COUNTED = ("nr", "nr.", "no", "no.", "#", "n", "lfd. nr.", "lfd.nr.")
+"""What stands for a unit, in small letters, where a column counts the rows."""
 
 
 @dataclass(frozen=True)
@@ -35,16 +39,14 @@ def read_sheet(text: str, name: str, decimal: str | None = None) -> Sheet:
         for number, line in enumerate(text.splitlines(), start=1)
         if line.strip() and not line.lstrip().startswith("#")
     ]
-    separator = max(SEPARATORS, key=lambda mark: _regularity([line.count(mark) for _, line in numbered]))
-    reader = csv.reader((line for _, line in numbered), delimiter=separator)
-    rows = [(numbered[reader.line_num - 1][0], [cell.strip() for cell in row]) for row in reader]
+    rows = [line for line in rows_of(numbered) if any(line[1])]
     if len(rows) < 2:
         raise InputError("needs a header line and at least one row", where=name)
     rows = with_points(rows, name, decimal)
     first, last = _extent(rows, name)
     above = first - 1
     header = rows[above][1]
-    if above and len(rows[above - 1][1]) == len(header) and _are_units(header):
+    if above and _are_units(header, rows[above - 1][1]):
         above -= 1
         units = [unit.strip("()[]") for unit in header]
         header = [f"{word} ({unit})" if unit else word for word, unit in zip(rows[above][1], units, strict=True)]
@@ -54,10 +56,42 @@ def read_sheet(text: str, name: str, decimal: str | None = None) -> Sheet:
     return Sheet(name, cells, tuple(number for number, _ in table), " and ".join(parts))
 
 
-def _regularity(counts: list[int]) -> int:
-    """How many lines have the most common number of separators; where two tie, a comma may be a decimal mark."""
-    found = [n for n in counts if n]
-    return max((found.count(n) for n in set(found)), default=0)
+def whole(sheet: Sheet, needed: Sequence[str]) -> tuple[Sheet, list[str]]:
+    """The rows in which no needed cell is left out, and a line for every header by which rows are lost."""
+    lost = {h: [i for i, cell in enumerate(sheet.cells[h]) if is_missing(cell)] for h in needed}
+    if not any(lost.values()):
+        return sheet, []
+    gone = {i for rows in lost.values() for i in rows}
+    if len(gone) == len(sheet.lines):
+        most = max(lost, key=lambda h: len(lost[h]))
+        raise InputError(f"no row is complete: {most!r} is missing in {len(lost[most])} of them", where=sheet.name)
+    kept = [i for i in range(len(sheet.lines)) if i not in gone]
+    cells = {h: [values[i] for i in kept] for h, values in sheet.cells.items()}
+    notes = [
+        f"{count(len(rows), 'row')} left out, as {h!r} is missing: {places([sheet.lines[i] for i in rows])}"
+        for h, rows in lost.items()
+        if rows
+    ]
+    return replace(sheet, cells=cells, lines=tuple(sheet.lines[i] for i in kept)), notes
+
+
+def count(number: int, thing: str) -> str:
+    """A number of things in words.
+
+    >>> count(1, "row"), count(3, "row")
+    ('1 row', '3 rows')
+    """
+    return f"{number} {thing}" + ("" if number == 1 else "s")
+
+
+def places(lines: Sequence[int]) -> str:
+    """Numbers of lines in words.
+
+    >>> places([14]), places([3, 9]), places(list(range(2, 20)))
+    ('line 14', 'lines 3, 9', 'lines 2, 3, 4, 5, 6 and 13 more')
+    """
+    more = f" and {len(lines) - SHOWN} more" if len(lines) > SHOWN else ""
+    return ("line " if len(lines) == 1 else "lines ") + ", ".join(map(str, lines[:SHOWN])) + more
 
 
 def _extent(rows: Sequence[Line], name: str) -> tuple[int, int]:
@@ -68,7 +102,7 @@ def _extent(rows: Sequence[Line], name: str) -> tuple[int, int]:
         if len(header) != len(row) or not _are_words(header) or not _numbers(row):
             continue
         end = i
-        while end < len(rows) and len(rows[end][1]) == len(header) and not _are_words(rows[end][1]):
+        while end < len(rows) and len(rows[end][1]) == len(header) and not _is_header(rows[end][1]):
             end += 1
         if end - i > best[1] - best[0]:
             best = (i, end)
@@ -106,6 +140,10 @@ def _are_words(cells: Sequence[str]) -> bool:
     return sum(bool(cell) for cell in cells) > 1 and not _numbers(cells)
 
 
+def _is_header(cells: Sequence[str]) -> bool:
+    return _are_words(cells) and not all(is_missing(cell) for cell in cells)
+
+
 def _numbers(cells: Sequence[str]) -> int:
     return sum(is_number(cell) for cell in cells)
 
@@ -118,11 +156,28 @@ def is_number(cell: str) -> bool:
     return True
 
 
-def _are_units(cells: Sequence[str]) -> bool:
-    """Whether a line names units and nothing else, at least one that is known; a unit may be new if in brackets."""
-    named = [cell for cell in cells if cell]
-    known = [is_unit(cell.strip("()[]")) for cell in named]
-    return any(known) and all(k or _in_brackets(cell) for k, cell in zip(known, named, strict=True))
+def are_numbers(cells: Sequence[str]) -> bool:
+    """Whether a column is one of numbers, beside cells that are left out.
+
+    >>> are_numbers(["1", "n/a", "2"]), are_numbers(["1", "stuck"]), are_numbers(["", ""])
+    (True, False, False)
+    """
+    present = [cell for cell in cells if not is_missing(cell)]
+    return all(map(is_number, present)) and (bool(present) or not cells)
+
+
+def _are_units(cells: Sequence[str], words: Sequence[str]) -> bool:
+    """Whether a line names units of the words above it, at least one that is known; one cell may count the rows.
+
+    A new unit stands in brackets, or among twice as many that are known under a line that names every column.
+    """
+    if len(cells) != len(words):
+        return False
+    named = [cell for cell in cells if cell and cell.lower() not in COUNTED]
+    known = sum(is_unit(cell.strip("()[]")) for cell in named)
+    new = sum(not is_unit(cell.strip("()[]")) and not _in_brackets(cell) for cell in named)
+    every = all(word and not is_unit(word) for word, cell in zip(words, cells, strict=True) if cell)
+    return known > 2 * new and (every or new == 0)
 
 
 def _in_brackets(cell: str) -> bool:

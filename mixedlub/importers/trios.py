@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.headers import BY_NAME, convert, rounded, target_of
-from mixedlub.importers.draft import Answers, Draft, questions_of, refuse_unknown
+from mixedlub.importers.draft import WARNING, Answers, Draft, kind_told, questions_of, refuse_unknown
+from mixedlub.importers.sheet import count, places
 from mixedlub.table import Column
 from profiles.errors import InputError
 
@@ -20,16 +21,21 @@ def matches(text: str) -> bool:
 def draft(text: str, name: str, answers: Answers) -> Draft:
     """Viscosity against temperature and time; the steps follow each other."""
     refuse_unknown(answers, ())
+    kind_told(answers, ("viscosity",))
     parts: dict[str, list[np.ndarray]] = {w: [] for w in WANTED}
     elapsed, taken, left = 0.0, 0, 0
+    lost: list[int] = []
     for step in _steps(text):
-        found = _read(step, name)
+        found, gone = _read(step, name)
         if "viscosity_mPa_s" not in found or "temperature_C" not in found:
             left += 1
             continue
         if "time_s" not in found:
             title = next(iter(step.values()))
             raise InputError("a step without a time cannot be put after the one before", where=f"{name}: {title}")
+        lost += gone
+        if not found["time_s"].size:
+            continue
         duration = float(found["time_s"][-1])
         found["time_s"] = rounded(found["time_s"] + elapsed, elapsed)
         elapsed += duration
@@ -39,8 +45,11 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     if not taken:
         raise InputError("no step with viscosity and temperature", where=name)
     columns = {w: np.concatenate(v) for w, v in parts.items()}
-    notes = (f"{name}: {taken} steps taken, {left} left; time runs on from step to step without the pauses between",)
-    return Draft("viscosity", "viscosity_mPa_s", columns, {}, questions_of("viscosity"), notes)
+    notes = [
+        *([f"{WARNING}{name}: {count(len(lost), 'row')} left out, as a value is missing: {places(lost)}"] * bool(lost)),
+        f"{name}: {taken} steps taken, {left} left; time runs on from step to step without the pauses between",
+    ]
+    return Draft("viscosity", "viscosity_mPa_s", columns, {}, questions_of("viscosity"), tuple(notes))
 
 
 def _steps(text: str) -> list[dict[int, str]]:
@@ -54,8 +63,8 @@ def _steps(text: str) -> list[dict[int, str]]:
     return [lines for lines in found if len(lines) > 3]
 
 
-def _read(step: dict[int, str], name: str) -> dict[str, np.ndarray]:
-    """Columns of one step in the units of a case: title, headers, units, rows."""
+def _read(step: dict[int, str], name: str) -> tuple[dict[str, np.ndarray], list[int]]:
+    """Columns of one step in the units of a case (title, headers, units, rows); rows that lack a value are left out."""
     lines = list(step.values())
     headers, units = (line.split("\t") for line in lines[1:3])
     rows = {number: line.split("\t") for number, line in list(step.items())[3:]}
@@ -65,7 +74,7 @@ def _read(step: dict[int, str], name: str) -> dict[str, np.ndarray]:
         if target is None or target.name not in WANTED:
             continue
         where = f"{name}: {lines[0]}, {header}"
-        number = Column(header)
+        number = Column(header, blank=True)
         values = np.array(
             [
                 number.parse(row[i] if i < len(row) else "", f"{name}: line {line}, {header}")
@@ -75,4 +84,6 @@ def _read(step: dict[int, str], name: str) -> dict[str, np.ndarray]:
         if i >= len(units) or not units[i].strip():
             raise InputError("no unit is given", where=where)
         found[target.name] = convert(values, units[i], BY_NAME[target.name], where)
-    return found
+    whole = np.all([np.isfinite(values) for values in found.values()], axis=0) if found else np.ones(len(rows), bool)
+    lost = [line for line, kept in zip(rows, whole, strict=True) if not kept]
+    return {column: values[whole] for column, values in found.items()}, lost

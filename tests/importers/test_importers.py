@@ -124,14 +124,19 @@ def test_rheometer_steps_follow_each_other_in_their_own_units(file, tmp_path):
     assert table["time_s"].tolist() == pytest.approx([1.0, 2.0, 32.0, 62.0])
 
 
+def test_a_rheometer_makes_no_other_kind_of_case(file, tmp_path):
+    with pytest.raises(InputError, match="kind: 'film': is no kind that files of this rig make; they make viscosity"):
+        import_files([file(TRIOS)], tmp_path / "case", kind="film")
+
+
 def test_a_rheometer_column_without_a_unit_is_refused(file, tmp_path):
     with pytest.raises(InputError, match="no unit is given"):
         import_files([file(TRIOS.replace("dyne/cm²\tPa.s", "dyne/cm²\t"))], tmp_path / "case")
 
 
 def test_a_bad_cell_of_a_rheometer_is_named_with_its_line(file, tmp_path):
-    with pytest.raises(InputError, match=r"data\.txt: line 7, Viscosity: '--': Viscosity must be a number"):
-        import_files([file(TRIOS.replace("0.0365", "--"))], tmp_path / "case")
+    with pytest.raises(InputError, match=r"data\.txt: line 7, Viscosity: 'high': Viscosity must be a number"):
+        import_files([file(TRIOS.replace("0.0365", "high"))], tmp_path / "case")
 
 
 def test_every_nth_reading_can_be_kept(file, tmp_path):
@@ -225,8 +230,9 @@ def test_a_folder_that_is_no_case_is_not_overwritten(file, tmp_path):
     ],
 )
 def test_files_that_hold_nothing_are_refused_with_their_name(file, tmp_path, text, message):
+    told = {} if text.startswith("Step") else {"kind": "viscosity"}
     with pytest.raises(InputError, match=message) as caught:
-        import_files([file(text)], tmp_path / "case", kind="viscosity")
+        import_files([file(text)], tmp_path / "case", **told)
     assert "data.txt" in str(caught.value)
 
 

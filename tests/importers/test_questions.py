@@ -130,7 +130,7 @@ def test_a_disc_is_asked_whether_line_or_point(tmp_path):
     import_files([path], tmp_path / "line", kind="disc", contact={**contact, "width_mm": 6.0})
 
 
-@pytest.mark.parametrize(("cell", "rule"), [("abc", "must be a number"), ("", "must be a number"), ("nan", "finite")])
+@pytest.mark.parametrize(("cell", "rule"), [("abc", "must be a number"), ("inf", "finite")])
 def test_a_bad_cell_is_named_with_its_line(rig8, cell, rule):
     rig8.write_text(RIG8.replace("0,0275;", f"{cell};"), encoding="utf-8")
     columns = {"speed_rpm": "Pinion speed [1/min]", "oil_temperature_C": "Oil sump temp [°C]"}

@@ -96,3 +96,74 @@ def test_milli_is_not_mega(header, column):
 def test_a_table_without_a_header_is_refused():
     with pytest.raises(InputError, match="no header: the first line holds numbers only"):
         read_sheet("0.02\t44.1\n0.04\t58.8\n0.08\t79.7\n", "film.txt")
+
+
+DRIVE = """Prüfstand;GP-04;Bediener;Müller
+Datum;12.03.2020;;
+
+Messung;Drehzahl;Reibmoment;Öltemperatur;;Bemerkung
+Nr.;1/min;Nm;°C;;
+1;5,0;1,5291;35,0;;
+2;10,0;1,4596;35,1;;
+3;-5,0;-1,5359;35,3;;Wiederholung
+"""
+
+
+def test_a_line_of_units_may_number_the_rows():
+    headers = ["Messung (Nr.)", "Drehzahl (1/min)", "Reibmoment (Nm)", "Öltemperatur (°C)", "Bemerkung"]
+    assert list(read_sheet(DRIVE, "drive.csv").cells) == headers
+
+
+def test_a_line_of_units_may_hold_one_that_is_new():
+    text = "Zeit;Drehzahl;Moment;Frequenz\ns;1/min;Nm;Hz\n1;300;5;50\n2;310;6;50\n"
+    headers = ["Zeit (s)", "Drehzahl (1/min)", "Moment (Nm)", "Frequenz (Hz)"]
+    assert list(read_sheet(text, "t.csv").cells) == headers
+    few = "Lauf;Drehzahl;Moment\nNr.;1/min;Nm\n1;300;5\n2;310;6\n"
+    assert list(read_sheet(few, "t.csv").cells) == ["Lauf (Nr.)", "Drehzahl (1/min)", "Moment (Nm)"]
+
+
+def test_a_header_of_short_names_under_a_title_is_no_line_of_units():
+    text = "Test 12;steel;oil B\nN;K;T\n1;300;5\n2;310;6\n"
+    assert list(read_sheet(text, "t.csv").cells) == ["N", "K", "T"]
+
+
+DISCS = """Twin-disc rig  test 0415   oil: FVA3
+   Zeit    Fn     v1      v2     Toel    mu
+    [s]   [kN]   [m/s]   [m/s]   [C]     [-]
+     30   1.50   2.020   1.980   60.3  0.02531
+     60   1.50   2.050   1.950   59.7  0.03082
+     90   1.50   2.100   1.900   59.8  0.03468
+"""
+
+
+def test_columns_may_stand_between_blanks():
+    sheet = read_sheet(DISCS, "discs.dat")
+    assert list(sheet.cells) == ["Zeit (s)", "Fn (kN)", "v1 (m/s)", "v2 (m/s)", "Toel (C)", "mu (-)"]
+    assert sheet.cells["mu (-)"] == ["0.02531", "0.03082", "0.03468"]
+    assert sheet.lines == (4, 5, 6)
+    assert sheet.left_out == "line 1"
+
+
+@pytest.mark.parametrize(
+    "header",
+    ["Time Load mu", "Time (s) Load (N) mu (-)", "Test time (s)   Ball load (N)   Friction  ", "Time(s)\tLoad\t mu"],
+)
+@pytest.mark.parametrize("row", ["1 20 0.05", "  1.5   20.25   0.05", "1,5  20,25\t0,05"])
+def test_headers_between_blanks_may_have_units_and_several_words(header, row):
+    sheet = read_sheet(f"rig 4, oil B\n\n{header}\n{row}\n{row.replace('20', '40')}\n", "t.txt")
+    assert len(sheet.cells) == 3
+    assert [float(cell) for cell in list(sheet.cells.values())[2]] == [0.05, 0.05]
+    assert len(sheet.lines) == 2
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "speed, torque, note\n1, 2, a b\n2, 3, c d\n",
+        "recorded\tspeed\ttorque\n2020-07-08 21:10:11\t1\t2\n2020-07-08 21:10:12\t2\t3\n",
+        "speed;torque;remark\n1,5;2,5;1 2 3 4\n2,5;3,5;5 6 7 8\n",
+        '"a","b","c"\n"1,5","2,5","3"\n"2,5","3,5","4"\n',
+    ],
+)
+def test_blanks_within_cells_part_nothing_where_a_mark_does(text):
+    assert len(read_sheet(text, "t.txt").cells) == 3

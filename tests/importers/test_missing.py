@@ -1,0 +1,126 @@
+"""Readings that a rig did not take: their rows are left out and said, in instrument files and in a case."""
+
+import pytest
+
+from mixedlub.case import read_case
+from mixedlub.cli import main
+from mixedlub.importers import import_files
+from mixedlub.importers.wizard import run
+from mixedlub.table import CaseWarning
+from profiles.errors import InputError
+
+FALLING_BODY = """# falling-body viscometer, sinker 6.30 mm
+T (degC),pressure (bar),viscosity (Pa s),fall,remark
+40,1,0.0078811,6.62,
+40,500,0.022324,18.75,
+75,1,@,2.71,stuck
+75,500,0.0072074,6.05,
+100,1,0.0020734,1.74,
+"""
+TOLD = {"kind": "viscosity", "import.columns.temperature_C": "T (degC)"}
+DRIVE = "schema = 'mixedlub-case/1'\nkind = 'friction_map'\n[recording]\nquantity = 'friction_torque_Nm'\n"
+ABSENT = ["", "n/a", "-", "NaN", "#N/A", "--"]
+
+
+@pytest.fixture
+def file(tmp_path):
+    def write(text, name="t.csv"):
+        path = tmp_path / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write
+
+
+def said_of(path, out, told=TOLD):
+    lines = []
+    run([path], out, [f"{key}={value}" for key, value in told.items()], say=lines.append)
+    return lines
+
+
+@pytest.mark.parametrize("cell", ABSENT)
+def test_a_row_without_its_reading_is_left_out_and_named(file, tmp_path, cell):
+    said = said_of(file(FALLING_BODY.replace("@", cell)), tmp_path / "case")
+    assert "warning: t.csv: 1 row left out, as 'viscosity (Pa s)' is missing: line 5" in said
+    table = read_case(tmp_path / "case").recordings
+    assert table["viscosity_mPa_s"].tolist() == [7.8811, 22.324, 7.2074, 2.0734]
+    assert table["temperature_C"].tolist() == [40.0, 40.0, 75.0, 100.0]
+
+
+def test_a_row_without_a_condition_is_left_out_too(file, tmp_path):
+    text = FALLING_BODY.replace("@", "0.0032").replace("\n40,500,", "\n40,,").replace("\n100,1,", "\nn/a,1,")
+    said = said_of(file(text), tmp_path / "case")
+    assert "warning: t.csv: 1 row left out, as 'T (degC)' is missing: line 7" in said
+    assert "warning: t.csv: 1 row left out, as 'pressure (bar)' is missing: line 4" in said
+    assert len(read_case(tmp_path / "case").recordings) == 3
+
+
+def test_from_python_rows_that_are_left_out_are_a_warning(file, tmp_path):
+    with pytest.warns(CaseWarning, match="1 row left out, as 'viscosity"):
+        import_files([file(FALLING_BODY.replace("@", "n/a"))], tmp_path / "case", **TOLD)
+
+
+def test_run_numbers_stay_with_their_readings(file, tmp_path):
+    text = "run,temperature_C,viscosity_mPa_s\n17,40,30\n4,60,-\n99,100,5\n"
+    said_of(file(text), tmp_path / "case", {"kind": "viscosity"})
+    assert read_case(tmp_path / "case").recordings["run"].tolist() == [17, 99]
+
+
+def test_rows_of_separators_only_are_nothing(file, tmp_path):
+    text = "temperature_C;viscosity_mPa_s\n40;30\n;\n100;5\n;\n;\n"
+    said = said_of(file(text), tmp_path / "case", {"kind": "viscosity"})
+    assert not any("left out" in line for line in said)
+
+
+def test_a_column_that_holds_nothing_is_not_taken(file, tmp_path):
+    text = "temperature_C,time_s,viscosity_mPa_s\n40,,30\n60,,12\n100,,5\n"
+    said = said_of(file(text), tmp_path / "case", {"kind": "viscosity"})
+    assert "t.csv: not taken: time_s" in said
+    assert len(read_case(tmp_path / "case").recordings) == 3
+
+
+def test_a_table_without_a_whole_row_is_refused(file, tmp_path):
+    text = "temperature_C,viscosity_mPa_s\n40,n/a\n60,n/a\n,5\n"
+    with pytest.raises(InputError, match="no row is complete: 'viscosity_mPa_s' is missing in 2 of them"):
+        import_files([file(text)], tmp_path / "case", kind="viscosity")
+
+
+def test_a_row_of_a_rheometer_without_its_reading_is_left_out(file, tmp_path):
+    text = "[step]\nHold\nViscosity\tStep time\tTemperature\nPa.s\ts\tdegC\n1\t1\t20\n--\t2\t20\n3\t3\t20\n"
+    said = said_of(file(text, "r.txt"), tmp_path / "case", {})
+    assert "warning: r.txt: 1 row left out, as a value is missing: line 6" in said
+    assert read_case(tmp_path / "case").recordings["time_s"].tolist() == [1.0, 3.0]
+
+
+HEAD = "Step Time (s)\tBall Load (N)\tRolling Speed (mm/s)\tSRR (%)\tLube RTD Temp (degC)\tTraction Coeff (-)\tECR (%)"
+
+
+def test_a_row_of_a_traction_rig_without_its_reading_is_left_out(file, tmp_path):
+    rows = "".join(f"{i}\t30.1\t200\t50\t60.0\t{'' if i == 3 else f'0.0{i}'}\t\n" for i in range(1, 8))
+    text = f"Step 1 started at 03/04/2021 09:20:00\nStep type\tBOD_TIMED\tStep description\trub\n{HEAD}\n{rows}\n"
+    said = said_of(file(text, "m.txt"), tmp_path / "case", {})
+    assert "warning: m.txt: 1 row left out, as 'Traction Coeff (-)' is missing: line 6" in said
+    table = read_case(tmp_path / "case").recordings
+    assert table["friction_coefficient"].tolist() == [0.01, 0.02, 0.04, 0.05, 0.06, 0.07]
+    assert table["time_s"].tolist() == [1.0, 2.0, 4.0, 5.0, 6.0, 7.0]
+
+
+@pytest.mark.parametrize("cell", ABSENT)
+def test_a_recording_that_lacks_a_reading_goes_on_without_it(tmp_path, monkeypatch, capsys, cell):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "rig").mkdir()
+    (tmp_path / "rig/system.toml").write_text(DRIVE, encoding="utf-8")
+    rows = "".join(f"{i},{100 * i},{cell if i == 4 else 1 + 0.1 * i}\n" for i in range(1, 13))
+    (tmp_path / "rig/recordings.csv").write_text(f"run,speed_rpm,friction_torque_Nm\n{rows}", encoding="utf-8")
+    case = read_case(tmp_path / "rig")
+    assert 4 not in case.recordings["run"]
+    assert case.notes == ("recordings.csv: friction_torque_Nm is missing at run 4: left out",)
+    assert main(["check", "rig"]) == 0
+    assert "friction_torque_Nm is missing at run 4" in capsys.readouterr().out
+
+
+def test_a_recording_without_any_reading_is_refused(tmp_path):
+    (tmp_path / "system.toml").write_text(DRIVE, encoding="utf-8")
+    (tmp_path / "recordings.csv").write_text("run,speed_rpm,friction_torque_Nm\n1,5,\n2,6,n/a\n", encoding="utf-8")
+    with pytest.raises(InputError, match="friction_torque_Nm: has no reading in any row"):
+        read_case(tmp_path)

@@ -1,0 +1,83 @@
+"""Columns that a kind would take into account and nothing is taken from: asked about, and warned of."""
+
+import pytest
+
+from mixedlub.case import read_case
+from mixedlub.importers import import_files
+from mixedlub.importers.plain import draft
+from mixedlub.importers.wizard import run
+from mixedlub.table import CaseWarning
+
+FALLING_BODY = """# falling-body viscometer
+T (degC),p (bar),density (kg/m3),viscosity (Pa s),remark
+40,1,850,0.0078811,
+40,500,870,0.022324,
+75,1,830,0.0032238,slow
+75,500,850,0.0072074,
+"""
+TOLD = {"kind": "viscosity", "import.columns.temperature_C": "T (degC)"}
+HISTORY = {"kind": "friction_history", "import.units.friction_coefficient": "-"}
+
+
+@pytest.fixture
+def path(tmp_path):
+    (tmp_path / "t.csv").write_text(FALLING_BODY, encoding="utf-8")
+    return tmp_path / "t.csv"
+
+
+def test_a_pressure_that_is_not_taken_is_warned_of_with_the_setting_that_takes_it(path, tmp_path):
+    setting = 'import.columns.pressure_MPa="p (bar)"'
+    with pytest.warns(CaseWarning, match="'p .bar.' is not taken; if it is pressure_MPa, say --set") as caught:
+        import_files([path], tmp_path / "case", **TOLD)
+    assert setting in str(caught[0].message)
+    assert len(caught) == 1
+    told = {**TOLD, "import.columns.pressure_MPa": "p (bar)"}
+    assert read_case(import_files([path], tmp_path / "all", **told)).recordings["pressure_MPa"].tolist() == [
+        0.1,
+        50.0,
+        0.1,
+        50.0,
+    ]
+
+
+@pytest.mark.parametrize(("reply", "taken"), [('"p (bar)"', True), ("", False)])
+def test_the_wizard_asks_whether_to_take_it(path, tmp_path, reply, taken):
+    asked = []
+
+    def ask(text):
+        asked.append(text)
+        return reply if "pressure_MPa" in text else ""
+
+    said = []
+    run([path], tmp_path / "case", [f"{k}={v}" for k, v in TOLD.items()], ask=ask, say=said.append)
+    (question,) = (text for text in asked if "pressure_MPa" in text)
+    assert 'for example "p (bar)"; empty if not known' in question
+    assert ("pressure_MPa" in read_case(tmp_path / "case").recordings) == taken
+    assert any("'p (bar)' is not taken" in line for line in said) != taken
+
+
+@pytest.mark.parametrize(
+    ("header", "column"),
+    [
+        ("Fn (kN)", "load_N"),
+        ("Schlupf (%)", "slide_roll_ratio"),
+        ("u (m/s)", "entrainment_speed_m_s"),
+        ("Toel (°C)", "oil_temperature_C"),
+    ],
+)
+def test_conditions_of_a_history_are_warned_of_by_their_units(header, column):
+    text = f"time_s,cof,{header}\n1,0.1,1\n2,0.2,2\n3,0.15,3\n"
+    (warned,) = (note for note in draft(text, "t.csv", HISTORY).notes if note.startswith("warning"))
+    assert f"'{header}' is not taken; if it is {column}, say" in warned
+
+
+@pytest.mark.parametrize("header", ["Shear stress (Pa)", "Schubspannung (Pa)"])
+def test_a_stress_is_no_pressure(header):
+    text = f"temperature_C,viscosity_mPa_s,{header}\n40,30,3\n60,12,1.2\n"
+    assert not any(note.startswith("warning") for note in draft(text, "t.csv", {"kind": "viscosity"}).notes)
+
+
+@pytest.mark.parametrize("header", ["density (kg/m3)", "remark", "wear (um)", "voltage"])
+def test_what_no_column_is_like_is_no_warning(header):
+    text = f"time_s,cof,{header}\n1,0.1,1\n2,0.2,2\n3,0.15,3\n"
+    assert not any(note.startswith("warning") for note in draft(text, "t.csv", HISTORY).notes)
