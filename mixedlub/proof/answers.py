@@ -18,7 +18,10 @@ IDENTIFIABLE = 9.0
 
 @dataclass(frozen=True)
 class Truth:
-    """The sealed answer to a case; arrays run over all its readings, visible and withheld."""
+    """The sealed answer to a case; arrays run over all its readings, visible and withheld.
+
+    ``within`` is whether the catalogue's laws can become those that are hidden; None where nothing is or none says.
+    """
 
     case: str
     group: str
@@ -34,6 +37,7 @@ class Truth:
     values: np.ndarray
     base: np.ndarray
     sd: np.ndarray
+    within: bool | None = None
 
     @property
     def off(self) -> np.ndarray:
@@ -82,6 +86,7 @@ def read_truth(folder: Path) -> Truth:
         single = "measurement" if label <= MEASUREMENT else "single"
         group = "none" if label == {"none"} else "unknown" if label == {"unknown"} else single
         group = "pair" if len(label) > 1 else group
+    forms = [one["within"] for one in told.get("info", ()) if "within" in one]
     least = min(told["alternatives"].values(), default=np.inf) - told.get("own", 0.0)
     return Truth(
         case=folder.name,
@@ -98,6 +103,7 @@ def read_truth(folder: Path) -> Truth:
         values=rows["truth"],
         base=rows["base"],
         sd=rows["sd"],
+        within=all(forms) if forms else None,
     )
 
 

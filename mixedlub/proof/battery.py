@@ -13,7 +13,7 @@ import numpy as np
 
 from mixedlub.proof.answers import IDENTIFIABLE
 from mixedlub.proof.build import PRIORS, QUANTITY, chosen, rig_of
-from mixedlub.proof.concealed import MIMICS, NAMED, OUTSIDE, Concealed
+from mixedlub.proof.concealed import FORMS, MIMICS, NAMED, OUTSIDE, Concealed
 from mixedlub.proof.deal import COARSE, Hand, Order, deal, values_of
 from mixedlub.proof.explain import Target, calibrated, explain
 from mixedlub.proof.rig import readings
@@ -77,10 +77,11 @@ def _alternatives(hand: Hand, visible: np.ndarray) -> tuple[dict[str, float], fl
     names = {effect.id for effect in hand.effects}
     single = names if len(names) == 1 else set()
     rivals = {"none": round(none.chi_square, 4)} if names else {}
-    for name, effect in NAMED.items():
-        if name not in single and effect.occurs_on(part):
-            found = explain(target, (effect,), begin=none.calibration)
-            rivals[name] = round(min(found.chi_square, none.chi_square), 4)
+    for name, forms in FORMS.items():
+        tried = [form for form in forms if name not in single and form.occurs_on(part)]
+        found = [explain(target, (form,), begin=none.calibration).chi_square for form in tried]
+        if found:
+            rivals[name] = round(min(*found, none.chi_square), 4)
     if not names:
         return {"none": round(none.chi_square, 4), **rivals}, round(none.chi_square, 4)
     own = float(hand.z @ hand.z)
@@ -122,6 +123,9 @@ def make(seed: int, index: int, order: Order, folder: Path) -> str:
         "info": [
             {
                 "id": effect.id,
+                "form": effect.source,
+                "law": effect.law.__name__,
+                "within": effect.within,
                 "strength": values["strength"],
                 "snr": round(hand.seen, 4),
                 "params": {k: v for k, v in values.items() if k != "strength"},

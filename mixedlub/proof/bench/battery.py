@@ -263,7 +263,14 @@ def make(seed: int, index: int, order: Order, folder: Path) -> str:
         "effects": list(order.effects),
         "label": "none" if not order.effects else ["unknown"] if outside else list(order.effects),
         "info": [
-            {"id": form.id, "form": form.source, "law": form.law.__name__, "snr": round(hand.seen, 4), **values}
+            {
+                "id": form.id,
+                "form": form.source,
+                "law": form.law.__name__,
+                "within": form.within,
+                "snr": round(hand.seen, 4),
+                **values,
+            }
             for form, values in zip(hand.forms, hand.knobs)
         ],
         "level": order.level if order.effects else "none",

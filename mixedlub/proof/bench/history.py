@@ -24,7 +24,7 @@ from mixedlub.proof.bench.stage import (
     rounded,
 )
 from mixedlub.proof.build import PRIORS
-from mixedlub.proof.concealed import NAMED, OUTSIDE
+from mixedlub.proof.concealed import FORMS, OUTSIDE
 from mixedlub.proof.concealed.kinds import Knob, strength
 from mixedlub.proof.design import UNCERTAINTY, draw_oil, draw_surfaces
 from mixedlub.proof.explain import calibrated
@@ -143,20 +143,18 @@ def histories(time: np.ndarray) -> dict[str, tuple[Form, ...]]:
     quick = Knob("quick", 0.01, 0.12, (0.02, 0.06))
     steep = Knob("exponent", 1.2, 4.0, (1.6, 3.0))
     run_in = (
-        Form("friction_run_in", "boundary", hyperbolic, (fall, pace), "second-order wear-in"),
-        Form(
-            "friction_run_in", "boundary", power_law, (fall, pace, Knob("exponent", 0.3, 2.0, (0.5, 1.5))), "power law"
-        ),
-        Form(
-            "friction_run_in", "boundary", stretched, (fall, pace, Knob("exponent", 0.5, 1.2, (0.6, 0.9))), "stretched"
-        ),
+        Form("friction_run_in", "boundary", hyperbolic, (fall, pace), "second-order wear-in", within=True),
+        Form("friction_run_in", "boundary", power_law,
+             (fall, pace, Knob("exponent", 0.3, 2.0, (0.5, 1.5))), "power law", within=True),
+        Form("friction_run_in", "boundary", stretched,
+             (fall, pace, Knob("exponent", 0.5, 1.2, (0.6, 0.9))), "stretched"),
         Form("friction_run_in", "boundary", worn_in, (fall, pace), "logarithmic wear-in"),
-    )
+    )  # fmt: skip
     growth = (
         Form("tribofilm_growth", "boundary", logistic,
              (either, Knob("middle", 0.05, 0.8, (0.15, 0.5)), Knob("width", 0.1, 0.5, (0.15, 0.35))), "autocatalytic"),
         Form("tribofilm_growth", "boundary", avrami,
-             (either, Knob("pace", 0.05, 1.0, (0.15, 0.5)), steep), "Avrami 1939"),
+             (either, Knob("pace", 0.05, 1.0, (0.15, 0.5)), steep), "Avrami 1939", within=True),
         Form("tribofilm_growth", "boundary", parabolic, (either, Knob("pace", 0.05, 2.0, (0.1, 0.6))), "diffusion"),
     )  # fmt: skip
     two = (
@@ -169,11 +167,11 @@ def histories(time: np.ndarray) -> dict[str, tuple[Form, ...]]:
         Form("wandering_surface_state", "boundary", torn, (either, waves), "growth and tearing", 2),
         Form("wandering_surface_state", "boundary", cosines,
              (strength(-20.0, 20.0), *(Knob(f"term_{k}", -20.0, 20.0, (0.0, 0.0)) for k in range(2, 13))),
-             "cosine series", 2, rarity=0.0),
+             "cosine series", 2, rarity=0.0, within=True),
     )  # fmt: skip
     when = (strength(-5.0, 8.0), Knob("when", 0.2, 0.8, (0.3, 0.75)))
     event = (
-        Form("friction_event", "boundary", dosed, when, "sudden", 1),
+        Form("friction_event", "boundary", dosed, when, "sudden", 1, within=True),
         Form("friction_event", "boundary", renewed, when, "over a while", 1),
         Form("friction_event", "boundary", scuffing,
              (strength(0.0, 8.0), Knob("reach", 0.02, 0.12, (0.04, 0.09))), "running away", 1),
@@ -209,7 +207,7 @@ def creeps(slip: np.ndarray) -> tuple[Form, ...]:
 
     size = (strength(0.0, 12.0, (0.4, 2.0)),)
     return tuple(
-        Form("contact_creep", "loss", law, size, source)
+        Form("contact_creep", "loss", law, size, source, within=law is gradual)
         for law, source in ((tangent, "hyperbolic tangent"), (polach, "Polach 2005"), (gradual, "exponential"))
     )
 
@@ -353,7 +351,8 @@ def draw_stribeck(rng: np.random.Generator) -> Bench:
         return np.asarray(play(BALL_FRICTION, start(rig, fixed(z)), acts).recorded)
 
     found = histories(time)
-    usable = [borrowed(NAMED[name], 0.6) for name in ALSO_IN_CONTACT if len(baths) > 1 or "temperature" not in name]
+    shown = [name for name in ALSO_IN_CONTACT if len(baths) > 1 or "temperature" not in name]
+    usable = [borrowed(form, 0.6) for name in shown for form in FORMS[name]]
     forms = (*found["friction_run_in"], *found["tribofilm_growth"], *FILM_FORMS, *usable)
     broken = [borrowed(OUTSIDE[name]) for name in ("speed_band", "speed_ripple")]
     return Bench(

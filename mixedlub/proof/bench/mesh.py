@@ -12,7 +12,7 @@ import numpy as np
 from mixedlub.proof.bench.point import FILM_FORMS, TOOTH_FRICTION
 from mixedlub.proof.bench.stage import Act, Bench, Form, borrowed, channel, play, progress, repeated, rounded
 from mixedlub.proof.build import PRIORS, Case, gears_of, rig_of
-from mixedlub.proof.concealed import NAMED, OUTSIDE
+from mixedlub.proof.concealed import FORMS, OUTSIDE
 from mixedlub.proof.concealed.kinds import Knob, strength
 from mixedlub.proof.design import draw_gear
 from mixedlub.proof.explain import calibrated
@@ -145,7 +145,8 @@ def draw(rng: np.random.Generator) -> Bench:
     def model(z: np.ndarray, acts: Sequence[Act]) -> np.ndarray:
         return np.asarray(play(TOOTH_FRICTION, start(rig, fixed(z)), acts).recorded)
 
-    usable = tuple(borrowed(NAMED[name]) for name in LOCAL if layers or name != "coating_insulation")
+    shown = [name for name in LOCAL if layers or name != "coating_insulation"]
+    usable = tuple(borrowed(form) for name in shown for form in FORMS[name])
     return Bench(
         kind="mesh_friction",
         settings={**settings, "kind": "mesh_friction"},

@@ -132,7 +132,7 @@ def _pressure_forms() -> tuple[Form, ...]:
         Form("pressure_viscosity_law", "rise", mcewen_paluch,
              (near_one, Knob("power", 2.0, 15.0, (3.0, 7.0)), Knob("glass", 0.5, 2.5, (0.8, 1.6))), "Bair's hybrid"),
         Form("pressure_viscosity_law", "rise", bode,
-             (near_one, Knob("stiffening", 0.1, 2.5, (0.4, 1.5))), "Bode 1989"),
+             (near_one, Knob("stiffening", 0.1, 2.5, (0.4, 1.5))), "Bode 1989", within=True),
         Form("pressure_viscosity_law", "rise", doolittle,
              (near_one, Knob("occupied", 0.5, 0.75, (0.6, 0.7))), "Doolittle 1951 with Tait's volume"),
     )  # fmt: skip
