@@ -78,7 +78,7 @@ def _names(label: Any) -> frozenset[str]:
 
 def read_truth(folder: Path) -> Truth:
     """The truth beside a case; a battery without classes or identifiability has them worked out."""
-    told = json.loads((folder / "truth.json").read_text())
+    told = json.loads((folder / "truth.json").read_text(encoding="utf-8"))
     rows = {name: np.array(values) for name, values in told["rows"].items()}
     label = _names(told["label"])
     group = told.get("class")
@@ -112,7 +112,7 @@ def read_answer(folder: Path) -> Answer:
     for name in ("diagnosis.json", "predictions.csv"):
         if not (folder / name).exists():
             raise InputError(f"{name} is missing: the case was not answered", where=str(folder))
-    said = json.loads((folder / "diagnosis.json").read_text())
+    said = json.loads((folder / "diagnosis.json").read_text(encoding="utf-8"))
     table = read_columns(folder / "predictions.csv")
     timed = folder / "seconds.json"
     return Answer(
@@ -131,5 +131,5 @@ def read_answer(folder: Path) -> Answer:
         predicted=table["predicted"],
         low=table["low90"],
         high=table["high90"],
-        seconds=float(json.loads(timed.read_text())) if timed.exists() else float("nan"),
+        seconds=float(json.loads(timed.read_text(encoding="utf-8"))) if timed.exists() else float("nan"),
     )

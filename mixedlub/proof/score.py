@@ -97,7 +97,7 @@ class Score:
     def save(self, file: Path) -> None:
         rows = [{**asdict(row), "met": row.met} for row in self.rows]
         told = {**asdict(self), "rows": rows}
-        file.write_text(json.dumps(_finite(told), indent=1, allow_nan=False))
+        file.write_text(json.dumps(_finite(told), indent=1, allow_nan=False), encoding="utf-8")
 
 
 def _finite(value: object) -> object:

@@ -9,11 +9,12 @@ import pandas as pd
 import pytest
 
 from mixedlub.proof.answers import read_truth
-from mixedlub.proof.battery import generate, make, plan, toml
+from mixedlub.proof.battery import generate, make, plan
 from mixedlub.proof.build import QUANTITY, SURFACE_COLUMNS, chosen, read_case, rig_of
 from mixedlub.proof.concealed import FORMS, NAMED, OUTSIDE
 from mixedlub.proof.explain import Target, explain, sensitivity, visibility
 from mixedlub.proof.rig import Calibration, readings
+from mixedlub.proof.sealed import toml
 from profiles.errors import InputError
 
 

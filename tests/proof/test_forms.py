@@ -17,6 +17,7 @@ from scipy.optimize import least_squares
 from mixedlub.effect import Between, BetweenLog, Effect, LogNormal, catalogue
 from mixedlub.proof.bench import drive, film, history, mesh, viscosity
 from mixedlub.proof.bench.stage import Act, Bench, progress
+from mixedlub.proof.bench.states import Track
 from mixedlub.proof.build import chosen, rig_of
 from mixedlub.proof.concealed import FORMS
 from mixedlub.proof.design import draw_disc, draw_gear
@@ -143,7 +144,7 @@ def of_drive(d: drive.Drive, columns: Values) -> Values:
     }
 
 
-def of_track(t: history.Track, columns: Values) -> Values:
+def of_track(t: Track, columns: Values) -> Values:
     place, whole = progress(len(t.level)), np.ones(len(t.level))
     return {
         "boundary_friction": t.level,
@@ -171,7 +172,7 @@ def of_sample(s: viscosity.Sample, columns: Values) -> Values:
     }
 
 
-READERS = {Contact: of_contact, drive.Drive: of_drive, history.Track: of_track, viscosity.Sample: of_sample}
+READERS = {Contact: of_contact, drive.Drive: of_drive, Track: of_track, viscosity.Sample: of_sample}
 LOGARITHMIC = {"viscosity", "contact_viscosity", "m0", "m2", "m4", "film_thickness"}
 
 
