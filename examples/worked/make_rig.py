@@ -16,11 +16,11 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub.proof.battery import toml
 from mixedlub.proof.build import Case, rig_of
 from mixedlub.proof.concealed import NAMED
 from mixedlub.proof.explain import calibrated
 from mixedlub.proof.rig import readings
+from mixedlub.proof.sealed import toml
 
 HERE = Path(__file__).resolve().parent
 SECRET = {"churning": {"strength": 0.55, "speed_power": 1.9, "viscosity_power": 0.25}}

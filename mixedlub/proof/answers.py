@@ -18,7 +18,10 @@ IDENTIFIABLE = 9.0
 
 @dataclass(frozen=True)
 class Truth:
-    """The sealed answer to a case; arrays run over all its readings, visible and withheld."""
+    """The sealed answer to a case; arrays run over all its readings, visible and withheld.
+
+    ``within`` is whether the catalogue's laws can become those that are hidden; None where nothing is or none says.
+    """
 
     case: str
     group: str
@@ -34,6 +37,7 @@ class Truth:
     values: np.ndarray
     base: np.ndarray
     sd: np.ndarray
+    within: bool | None = None
 
     @property
     def off(self) -> np.ndarray:
@@ -74,7 +78,7 @@ def _names(label: Any) -> frozenset[str]:
 
 def read_truth(folder: Path) -> Truth:
     """The truth beside a case; a battery without classes or identifiability has them worked out."""
-    told = json.loads((folder / "truth.json").read_text())
+    told = json.loads((folder / "truth.json").read_text(encoding="utf-8"))
     rows = {name: np.array(values) for name, values in told["rows"].items()}
     label = _names(told["label"])
     group = told.get("class")
@@ -82,6 +86,7 @@ def read_truth(folder: Path) -> Truth:
         single = "measurement" if label <= MEASUREMENT else "single"
         group = "none" if label == {"none"} else "unknown" if label == {"unknown"} else single
         group = "pair" if len(label) > 1 else group
+    forms = [one["within"] for one in told.get("info", ()) if "within" in one]
     least = min(told["alternatives"].values(), default=np.inf) - told.get("own", 0.0)
     return Truth(
         case=folder.name,
@@ -98,6 +103,7 @@ def read_truth(folder: Path) -> Truth:
         values=rows["truth"],
         base=rows["base"],
         sd=rows["sd"],
+        within=all(forms) if forms else None,
     )
 
 
@@ -106,7 +112,7 @@ def read_answer(folder: Path) -> Answer:
     for name in ("diagnosis.json", "predictions.csv"):
         if not (folder / name).exists():
             raise InputError(f"{name} is missing: the case was not answered", where=str(folder))
-    said = json.loads((folder / "diagnosis.json").read_text())
+    said = json.loads((folder / "diagnosis.json").read_text(encoding="utf-8"))
     table = read_columns(folder / "predictions.csv")
     timed = folder / "seconds.json"
     return Answer(
@@ -125,5 +131,5 @@ def read_answer(folder: Path) -> Answer:
         predicted=table["predicted"],
         low=table["low90"],
         high=table["high90"],
-        seconds=float(json.loads(timed.read_text())) if timed.exists() else float("nan"),
+        seconds=float(json.loads(timed.read_text(encoding="utf-8"))) if timed.exists() else float("nan"),
     )

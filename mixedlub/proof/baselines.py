@@ -163,7 +163,7 @@ def write_answer(
         "mismatch_z": mismatch,
     }
     pd.DataFrame(table).to_csv(out / "predictions.csv", index=False)
-    (out / "diagnosis.json").write_text(json.dumps(told, indent=1))
+    (out / "diagnosis.json").write_text(json.dumps(told, indent=1), encoding="utf-8")
 
 
 def _nameless(fitted: Fitted, out: Path, nats: float, predicted: np.ndarray, extra_sd: np.ndarray) -> None:

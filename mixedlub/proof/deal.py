@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.proof.build import PRIORS, Case, rig_of
-from mixedlub.proof.concealed import NAMED, OUTSIDE, Concealed
+from mixedlub.proof.concealed import FORMS, OUTSIDE, Concealed
 from mixedlub.proof.design import draw_disc, draw_gear, withhold
 from mixedlub.proof.explain import calibrated, sensitivity, visibility
 from mixedlub.proof.rig import Rig, readings
@@ -32,8 +32,10 @@ class Order:
     outliers: bool = False
 
 
-def known(effect: str) -> Concealed:
-    return NAMED[effect] if effect in NAMED else OUTSIDE[effect]
+def form_of(rng: np.random.Generator, effect: str) -> Concealed:
+    """One of the forms of an effect."""
+    forms = FORMS.get(effect) or (OUTSIDE[effect],)
+    return forms[int(rng.integers(len(forms)))]
 
 
 @dataclass(frozen=True)
@@ -90,7 +92,7 @@ def _noised(rng: np.random.Generator, order: Order, case: Case, goal: float) -> 
     hidden = withhold(rng, case, order.small)
     coarse, fine = rig_of(case, COARSE), rig_of(case, FINE)
     z = rng.standard_normal(len(PRIORS))
-    effects = tuple(known(name) for name in order.effects)
+    effects = tuple(form_of(rng, name) for name in order.effects)
     knobs = tuple(_draw_knobs(rng, effect) for effect in effects)
     base = values_of(coarse, case, z, (), ())
     slopes = sensitivity(coarse, case.nominal, case.priors, z)[~hidden]

@@ -7,14 +7,14 @@ weighs better can do better.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from mixedlub.proof.baselines import Fitted, recalibrate, write_answer
 from mixedlub.proof.build import chosen, rig_of
-from mixedlub.proof.concealed import NAMED, Concealed
+from mixedlub.proof.concealed import FORMS, NAMED, Concealed
 from mixedlub.proof.deal import COARSE
 from mixedlub.proof.explain import Explained, Target, calibrated, explain
 from mixedlub.proof.rig import readings
@@ -37,27 +37,41 @@ def _target(fitted: Fitted) -> Target:
     return Target(rig_of(case, COARSE), fitted.recorded[rows], fitted.sd[rows], case.nominal, case.priors)
 
 
-def _searched(fitted: Fitted) -> tuple[dict[Names, Explained], dict[Names, float]]:
-    """Fits and evidences of none, each single effect, and pairs with the leaders where none of these fits."""
+@dataclass(frozen=True)
+class Suspect:
+    """Some effects in the forms that fit best, their fit and its evidence."""
+
+    forms: tuple[Concealed, ...]
+    fit: Explained
+    nats: float
+
+
+def _searched(fitted: Fitted) -> dict[Names, Suspect]:
+    """None, each single effect, and pairs with the leaders where none of these fits."""
     target, count = _target(fitted), len(fitted.good)
-    none = explain(target, begin=fitted.z)
-    fits: dict[Names, Explained] = {(): none}
-    for name, effect in NAMED.items():
-        if effect.occurs_on(fitted.rig):
-            fits[(name,)] = explain(target, (effect,), none.calibration)
-    nats = {key: _evidence(fit, [NAMED[name] for name in key], count) for key, fit in fits.items()}
+
+    def tried(forms: tuple[Concealed, ...], begin: np.ndarray, starts: list[np.ndarray] | None = None) -> Suspect:
+        fit = explain(target, forms, begin, starts)
+        return Suspect(forms, fit, _evidence(fit, forms, count))
+
+    none = tried((), fitted.z)
+    found: dict[Names, Suspect] = {(): none}
+    for name, forms in FORMS.items():
+        own = [tried((form,), none.fit.calibration) for form in forms if form.occurs_on(fitted.rig)]
+        if own:
+            found[(name,)] = max(own, key=lambda one: one.nats)
     enough = count + 2.3 * np.sqrt(2 * count)
-    if min(fit.chi_square for fit in fits.values()) > enough:
-        singles = sorted((key for key in fits if key), key=lambda key: -nats[key])
+    if min(one.fit.chi_square for one in found.values()) > enough:
+        singles = sorted((key for key in found if key), key=lambda key: -found[key].nats)
         for lead in singles[:LEADERS]:
             for other in singles:
                 pair = tuple(sorted({*lead, *other}))
-                if len(pair) == 2 and pair not in fits:
-                    effects = tuple(NAMED[name] for name in pair)
-                    begin = np.array([v for name in pair for v in fits[(name,)].knobs[0].values()])
-                    fits[pair] = explain(target, effects, fits[lead].calibration, [begin])
-                    nats[pair] = _evidence(fits[pair], effects, count)
-    return fits, nats
+                if len(pair) == 2 and pair not in found:
+                    parts = [found[(name,)] for name in pair]
+                    begin = np.array([v for part in parts for v in part.fit.knobs[0].values()])
+                    both = tuple(part.forms[0] for part in parts)
+                    found[pair] = tried(both, found[lead].fit.calibration, [begin])
+    return found
 
 
 def _unknown_nats(count: int) -> float:
@@ -69,17 +83,17 @@ def oracle(folder: Path, out: Path) -> None:
     """Answers a case with the generator's laws; drops the outliers of the best fit and searches again."""
     fitted = recalibrate(folder)
     for last in (False, True):
-        fits, nats = _searched(fitted)
-        best = max(nats, key=lambda key: nats[key])
-        found = fits[best]
-        hidden = [NAMED[name].hide(values) for name, values in zip(best, found.knobs)]
-        at = calibrated(fitted.case.nominal, fitted.case.priors, found.calibration)
+        found = _searched(fitted)
+        best = max(found.values(), key=lambda one: one.nats)
+        hidden = [form.hide(values) for form, values in zip(best.forms, best.fit.knobs)]
+        at = calibrated(fitted.case.nominal, fitted.case.priors, best.fit.calibration)
         predicted = readings(fitted.rig, at, hidden)
         left = np.abs(fitted.recorded - predicted[: fitted.seen]) / fitted.sd[: fitted.seen]
         spoiled = left > 4.5
         if last or spoiled.mean() > 0.1 or np.array_equal(spoiled, fitted.spoiled):
             break
         fitted = replace(fitted, spoiled=spoiled)
+    nats = {key: one.nats for key, one in found.items()}
     nats[("unknown",)] = _unknown_nats(len(fitted.good))
     top = max(nats.values())
     weights = {key: float(np.exp(value - top)) for key, value in nats.items()}

@@ -46,7 +46,7 @@ def answer(diagnose: Diagnose, case: Path, out: Path) -> str:
     aside.mkdir(parents=True)
     begun = time.perf_counter()
     diagnose(case, aside)
-    (aside / "seconds.json").write_text(json.dumps(round(time.perf_counter() - begun, 3)))
+    (aside / "seconds.json").write_text(json.dumps(round(time.perf_counter() - begun, 3)), encoding="utf-8")
     aside.rename(out)
     return case.name
 
@@ -64,6 +64,15 @@ def answer_all(diagnose: Diagnose, cases: Sequence[Path], out: Path, jobs: int, 
         for done, future in enumerate(as_completed(work)):
             future.result()
             progress(name, done + 1, len(cases))
+
+
+def have_answered(out: Path, sealed: Sequence[Path], diagnose: Diagnose, jobs: int, progress: Progress) -> list[Path]:
+    """Have sealed cases answered into ``out/answers``; returns their copies without the truth."""
+    opened = out / "cases"
+    opened.mkdir(parents=True, exist_ok=True)
+    given = [unsealed(case, opened) for case in sealed]
+    answer_all(diagnose, given, out / "answers", jobs, "diagnose", progress)
+    return given
 
 
 def scored(truths: Sequence[Truth], answers: Path, tool: str) -> Score:
@@ -86,11 +95,8 @@ def prove(
     ``score.json``, ``score.txt``, one ``score_NAME.json`` a baseline and the figures as SVG.
     """
     sealed = generate(out / "sealed", seed, cases, jobs, lambda done, total: progress("deal", done, total))
-    opened = out / "cases"
-    opened.mkdir(parents=True, exist_ok=True)
-    given = [unsealed(case, opened) for case in sealed]
+    given = have_answered(out, sealed, diagnose, jobs, progress)
     truths = [read_truth(case) for case in sealed]
-    answer_all(diagnose, given, out / "answers", jobs, "diagnose", progress)
     scores = [scored(truths, out / "answers", TOOL)]
     for name, method in {**BASELINES, CEILING: oracle}.items() if baselines else ():
         place = out / "baselines" / name.replace(" ", "_")
@@ -107,7 +113,7 @@ def write(out: Path, scores: Sequence[Score]) -> None:
     from mixedlub.proof import figures
 
     scores[0].save(out / "score.json")
-    (out / "score.txt").write_text("\n".join(one.text() for one in scores))
+    (out / "score.txt").write_text("\n".join(one.text() for one in scores), encoding="utf-8")
     for one in scores[1:]:
         one.save(out / f"score_{one.tool.replace(' ', '_')}.json")
     pictures = out / "figures"

@@ -97,7 +97,7 @@ class Score:
     def save(self, file: Path) -> None:
         rows = [{**asdict(row), "met": row.met} for row in self.rows]
         told = {**asdict(self), "rows": rows}
-        file.write_text(json.dumps(_finite(told), indent=1, allow_nan=False))
+        file.write_text(json.dumps(_finite(told), indent=1, allow_nan=False), encoding="utf-8")
 
 
 def _finite(value: object) -> object:
@@ -159,6 +159,13 @@ def _clear(*groups: str) -> Callable[[Truth, Answer], bool]:
     return lambda truth, answer: truth.group in groups and truth.identifiable
 
 
+def _formed(within: bool, clear: bool) -> Callable[[Truth, Answer], bool]:
+    """Single physical effects by whether the catalogue's laws can become the hidden ones."""
+    return lambda truth, answer: (
+        truth.group == "single" and truth.within is within and (truth.identifiable or not clear)
+    )
+
+
 def _named_unknown(truth: Truth, answer: Answer) -> float:
     return float("unknown" in answer.verdict)
 
@@ -192,8 +199,14 @@ HIDDEN = (*SOME, "unknown")
 FIGURES: tuple[Figure, ...] = (
     Figure("right", "right verdict, one effect, identifiable", _clear(*ONE), right, at_least(0.95), how="share"),
     Figure("right_physics", "  of these physics", _clear("single"), right, how="share"),
+    Figure("right_within", "    their law one that the catalogue can become", _formed(True, True), right, how="share"),
+    Figure("right_beyond", "    their law another", _formed(False, True), right, how="share"),
     Figure("right_fault", "  of these instrument faults", _clear("measurement"), right, how="share"),
     Figure("tied", "right or honestly tied, one effect, all", _in(*ONE), tied, at_least(0.98), how="share"),
+    Figure(
+        "tied_within", "  physics, their law one that the catalogue can become", _formed(True, False), tied, how="share"
+    ),
+    Figure("tied_beyond", "  physics, their law another", _formed(False, False), tied, how="share"),
     Figure("ties", "explanations named where one effect is hidden", _in(*ONE), _explanations),
     Figure("pair_both", "both effects of a pair named", _in("pair"), _both, at_least(0.85), how="share"),
     Figure("pair_exact", "pair named exactly", _in("pair"), right, how="share"),
@@ -241,6 +254,8 @@ FIGURES: tuple[Figure, ...] = (
     Figure("seconds", "seconds a case, median", _any, _seconds, at_most(10.0), "median"),
     Figure("slowest", "seconds a case, worst", _any, _seconds, at_most(30.0), "max"),
 )
+HALVES = (("right_within", "right_beyond"), ("tied_within", "tied_beyond"))
+"""Figures that are told where both halves count something."""
 
 
 def _once(truth: Truth) -> int:
@@ -313,6 +328,8 @@ def score(pairs: Sequence[Pair], tool: str = "mixedlub diagnose", ids: Sequence[
         values, weights = values[known], weights[known]
         value, span = _reduce(values, weights, figure.how), _interval(values, weights, figure.how)
         rows.append(Row(figure.key, figure.text, value, int(weights.sum()), *span, figure.goal))
+    alone = {name for halves in HALVES for name in halves if not all(r.count for r in rows if r.key in halves)}
+    rows = [row for row in rows if row.key not in alone]
     rows += _probability_rows(pairs, ids)
     return Score(tool, tuple(rows), _reliability(pairs), _identification(pairs), _confusion(pairs))
 

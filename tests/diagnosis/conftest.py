@@ -108,9 +108,7 @@ def unchanged(conditions: dict[str, np.ndarray], base: np.ndarray) -> np.ndarray
     return base
 
 
-def write_case(
-    folder: Path, kind: str, change: Change = unchanged, outliers: tuple[int, ...] = (), seed: int = 1
-) -> Path:
+def write_case(folder: Path, kind: str, change: Change = unchanged, outliers: tuple[int, ...] = ()) -> Path:
     """A case folder whose readings are the base model's, changed by hand, with noise and outliers (run numbers)."""
     section, quantity, relative, absolute = RIGS[kind]
     folder.mkdir(parents=True, exist_ok=True)

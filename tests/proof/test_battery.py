@@ -9,11 +9,12 @@ import pandas as pd
 import pytest
 
 from mixedlub.proof.answers import read_truth
-from mixedlub.proof.battery import generate, make, plan, toml
+from mixedlub.proof.battery import generate, make, plan
 from mixedlub.proof.build import QUANTITY, SURFACE_COLUMNS, chosen, read_case, rig_of
-from mixedlub.proof.concealed import NAMED, OUTSIDE
+from mixedlub.proof.concealed import FORMS, NAMED, OUTSIDE
 from mixedlub.proof.explain import Target, explain, sensitivity, visibility
 from mixedlub.proof.rig import Calibration, readings
+from mixedlub.proof.sealed import toml
 from profiles.errors import InputError
 
 
@@ -141,6 +142,14 @@ def test_truth_and_base_rows_follow_from_what_is_told(battery):
         np.testing.assert_allclose(base, [rows[run][1] for run in case.columns["run"]], rtol=1e-7)
         if not told["effects"]:
             np.testing.assert_allclose(base, [rows[run][0] for run in case.columns["run"]], rtol=1e-7)
+
+
+def test_the_truth_says_whether_the_catalogue_has_the_forms_that_are_hidden(battery):
+    declared = {form.law.__name__: form.within for forms in FORMS.values() for form in forms}
+    for folder in battery:
+        info = _truth(folder)["info"]
+        assert all(one["within"] == declared.get(one["law"], False) for one in info)
+        assert read_truth(folder).within == (all(one["within"] for one in info) if info else None)
 
 
 def test_no_rival_beats_the_none_it_contains(battery):

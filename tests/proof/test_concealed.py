@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from mixedlub.proof.build import rig_of
-from mixedlub.proof.concealed import MEASUREMENT, NAMED, OUTSIDE
-from mixedlub.proof.concealed.contact import HEIGHTS, _overlap_table
+from mixedlub.proof.concealed import FORMS, MEASUREMENT, NAMED, OUTSIDE
+from mixedlub.proof.concealed.contact import HARDNESS, HEIGHTS, _overlap_table, asperity_elastoplasticity
 from mixedlub.proof.concealed.shear import film_heating, flash
-from mixedlub.proof.rig import lubricate, press, readings, run, shear, start, thick, touch
+from mixedlub.proof.rig import lubricate, press, readings, run, shear, start, summits, thick, touch
 
-EVERY = {**NAMED, **OUTSIDE}
+EVERY = {form.law.__name__: form for forms in FORMS.values() for form in forms} | OUTSIDE
 ON = [(name, kind) for name, effect in EVERY.items() for kind in effect.kinds]
 GEAR_IDS = {
     *("inlet_shear_heating", "starvation", "inlet_shear_thinning", "roughness_lay", "film_heating"),
@@ -39,6 +39,28 @@ def test_at_least_six_effects_lie_outside_any_catalogue():
     assert not set(OUTSIDE) & set(NAMED)
 
 
+def test_forms_of_one_effect_act_at_one_stage_on_the_same_rigs():
+    for forms in FORMS.values():
+        assert len({(form.stage, form.hook, form.kinds, form.rarity, form.sign) for form in forms}) == 1
+
+
+def test_yielding_summits_have_the_area_of_the_law_whatever_the_quadrature(rigs):
+    """Against a sum over a hundred times as many heights."""
+    rig, nominal = rigs["disc"]
+    contact = touch(lubricate(press(start(rig, nominal))))
+    s = summits(contact)
+    t = (contact.film - s.offset) / s.spread
+    first = (0.6 * np.pi * HARDNESS / 2.0 / rig.solid.reduced) ** 2 * s.radius / s.spread
+    height = np.linspace(-8.0, 8.0, 200_001)
+    density = np.exp(-0.5 * height**2) / np.sqrt(2 * np.pi)
+    place = int(np.argmin(contact.film[:, 0]))
+    pressed = height - t[place]
+    x = np.clip((pressed / first[place] - 1) / 53, 0.0, 1.0)
+    more = np.trapezoid(pressed * (3 * x**2 - 2 * x**3) * density, height)
+    expected = contact.area[place] + np.pi * s.density[place] * s.radius[place] * s.spread[place] * more
+    assert asperity_elastoplasticity(contact, 2.0).area[place] == pytest.approx(expected, rel=2e-4)
+
+
 @pytest.mark.parametrize(("name", "kind"), ON)
 def test_zero_strength_is_the_base_model(rigs, name, kind):
     rig, nominal = rigs[kind]
@@ -62,7 +84,7 @@ def test_sign_where_physics_gives_one(rigs, name, kind):
     assert np.sum(change) > 0
 
 
-@pytest.mark.parametrize("name", ["inlet_shear_heating", "starvation", "inlet_shear_thinning"])
+@pytest.mark.parametrize("name", ["inlet_shear_heating", "starvation", "starved_by_meniscus", "inlet_shear_thinning"])
 @pytest.mark.parametrize("kind", ["gear_pair", "disc"])
 def test_thinner_films_raise_the_loss_of_mixed_contacts(rigs, name, kind):
     assert np.sum(_change(rigs, name, kind)) > 0
@@ -87,9 +109,12 @@ def _power(rigs, name, column):
     ("name", "torque", "speed"),
     [
         ("windage", (0.0, 0.0), (2.7, 3.0)),
+        ("windage_in_mist", (0.0, 0.0), (2.8, 2.8)),
         ("churning", (0.0, 0.0), (1.3, 2.1)),
+        ("churning_of_rim_and_faces", (0.0, 0.0), (2.0, 2.86)),
         ("rolling_resistance", (-0.05, 0.1), (1.5, 1.8)),
         ("elastic_hysteresis", (1.4, 1.6), (0.95, 1.05)),
+        ("elastic_damping", (1.65, 2.0), (0.95, 1.05)),
         ("bearing_drag", (0.3, 1.3), (0.8, 1.7)),
         ("torque_offset", (0.0, 0.0), (1.0, 1.0)),
         ("seal_drag", (0.0, 0.0), (1.0, 1.0)),
@@ -163,10 +188,10 @@ def test_skewed_heights_have_the_skewness_asked_for():
     assert np.sum(height**3 * density) * step == pytest.approx(-0.7, abs=2e-3)
 
 
-@pytest.mark.parametrize("name", sorted(MEASUREMENT & set(NAMED)))
+@pytest.mark.parametrize("name", [name for name, form in EVERY.items() if form.id in MEASUREMENT])
 def test_faults_act_on_the_record_alone(rigs, name):
     rig, nominal = rigs["gear_pair"]
-    effect = NAMED[name]
+    effect = EVERY[name]
     values = {knob.name: knob.typical[1] for knob in effect.knobs}
     faulty, sound = run(rig, nominal, [effect.hide(values)]), run(rig, nominal)
     np.testing.assert_array_equal(faulty.friction, sound.friction)

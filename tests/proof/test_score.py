@@ -69,6 +69,19 @@ def test_right_counts_identifiable_single_effects_only():
     assert score([good, wrong, hidden])["right"].count == 2
 
 
+def test_forms_of_the_catalogue_and_others_are_told_apart_where_there_are_both():
+    own, other = truth_of(within=True), truth_of(within=False, identifiable=False)
+    good, wrong = (own, answer_of()), (own, answer_of("windage"))
+    tie = (other, answer_of("windage", tied=(frozenset({"starvation"}),)))
+    both = score([good, wrong, tie])
+    assert [both[key].value for key in ("tied_within", "tied_beyond")] == [0.5, 1.0]
+    keys = {row.key for row in both.rows}
+    assert not keys & {"right_within", "right_beyond"}
+    assert not {"tied_within", "tied_beyond"} & {row.key for row in score([good, wrong]).rows}
+    seen = score([good, wrong, (replace(other, identifiable=True), answer_of())])
+    assert [seen[key].value for key in ("right_within", "right_beyond")] == [0.5, 1.0]
+
+
 def test_more_than_the_truth_is_not_right():
     assert value("right", (truth_of(), answer_of("starvation+windage"))) == 0.0
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -11,13 +10,13 @@ from typing import Any
 import numpy as np
 
 from mixedlub.proof.answers import IDENTIFIABLE
-from mixedlub.proof.battery import toml, written
 from mixedlub.proof.bench import drive, film, history, mesh, viscosity
 from mixedlub.proof.bench.fit import Aim, best, rivals, slopes
 from mixedlub.proof.bench.stage import Act, Bench, Form
 from mixedlub.proof.concealed import MEASUREMENT
 from mixedlub.proof.deal import CLEAR, FAINT, PAIR, refactored, solve
 from mixedlub.proof.explain import visibility
+from mixedlub.proof.sealed import deck, plain, record, rows, spread, write, written
 from profiles.errors import InputError
 
 ROOMS = {
@@ -63,7 +62,7 @@ class Hand:
         return [form.hide(values) for form, values in zip(self.forms, self.knobs)]
 
     def sd(self, values: np.ndarray) -> np.ndarray:
-        return np.asarray(np.sqrt((self.relative * values) ** 2 + self.absolute**2))
+        return spread(values, self.relative, self.absolute)
 
 
 def _surveyed(kind: str, seed: int) -> tuple[dict[str, float], dict[str, float]]:
@@ -78,18 +77,6 @@ def _surveyed(kind: str, seed: int) -> tuple[dict[str, float], dict[str, float]]
     return dict(sorted(named.items())), dict(sorted(strange.items()))
 
 
-def _cards(rng: np.random.Generator, pool: dict[str, float], count: int) -> list[tuple[str, ...]]:
-    """Every effect in turn, as often as its rarity says, the rest by chance."""
-    weight = np.array(list(pool.values()))
-    due = count * weight / weight.sum()
-    times = np.floor(due).astype(int)
-    rest = rng.random(len(pool)) + (due - times) * 4
-    for place in np.argsort(-rest)[: count - times.sum()]:
-        times[place] += 1
-    cards = [(name,) for name, n in zip(pool, times) for _ in range(n)]
-    return [cards[i] for i in rng.permutation(len(cards))]
-
-
 def _of_kind(rng: np.random.Generator, kind: str, seed: int, cases: int) -> list[Order]:
     counts = {label: max(1, int(share * cases)) for label, share in SHARES.items()}
     counts["single"] += cases - sum(counts.values())
@@ -98,9 +85,8 @@ def _of_kind(rng: np.random.Generator, kind: str, seed: int, cases: int) -> list
     physics = {name: weight for name, weight in named.items() if name not in MEASUREMENT}
     pairs = ROOMS[kind].PAIRS
     drawn: list[tuple[str, tuple[str, ...]]] = [("none", ())] * counts["none"]
-    drawn += [("single", card) for card in _cards(rng, physics, counts["single"])]
-    drawn += [("measurement", card) for card in _cards(rng, faults, counts["measurement"])]
-    drawn += [("unknown", card) for card in _cards(rng, strange, counts["unknown"])]
+    for label, pool in (("single", physics), ("measurement", faults), ("unknown", strange)):
+        drawn += [(label, (name,)) for name in deck(rng, list(pool), list(pool.values()), counts[label])]
     drawn += [("pair", pairs[i]) for i in rng.permutation(np.arange(counts["pair"]) % len(pairs))]
     levels = ["clear" if place % 2 == 0 or label == "pair" else "faint" for place, (label, _) in enumerate(drawn)]
     return [
@@ -228,6 +214,18 @@ def _told(rng: np.random.Generator, hand: Hand, truth: np.ndarray) -> tuple[dict
     return {"noise": {"relative": hand.relative, "absolute": hand.absolute}}, {}
 
 
+def _matched(hand: Hand, order: Order, aim: Aim) -> tuple[dict[str, float], float]:
+    """Least chi-square of every other explanation, and of the truth itself."""
+    rank = 2 if order.label == "unknown" else max((form.rank for form in hand.forms), default=0)
+    other = rivals(aim, hand.forms, hand.knobs, hand.z, rank)
+    own = float(hand.z @ hand.z)
+    if order.label == "none":
+        own = other["none"]
+    elif order.label != "unknown":
+        own = min(own, best(aim, hand.forms, hand.z, hand.knobs)[0])
+    return other, own
+
+
 def make(seed: int, index: int, order: Order, folder: Path) -> str:
     """Deal one case and write its folder, the truth beside it; a finished folder is left as it is."""
     place = folder / order.name
@@ -238,22 +236,11 @@ def make(seed: int, index: int, order: Order, folder: Path) -> str:
     bench, z = hand.bench, hand.z
     truth = bench.model(z, hand.acts)
     sd = hand.sd(truth)
-    recorded = truth + sd * rng.standard_normal(len(truth))
     visible = np.flatnonzero(~hand.hidden)
-    spoiled = np.array([], dtype=int)
-    if order.outliers:
-        spoiled = rng.choice(visible, max(1, round(0.025 * len(visible))), replace=False)
-        recorded[spoiled] += rng.uniform(8, 25, len(spoiled)) * rng.choice([-1.0, 1.0], len(spoiled)) * sd[spoiled]
+    recorded, spoiled = record(rng, truth, sd, visible, order.outliers)
     if order.kind == "viscosity":
         recorded = np.maximum(recorded, 0.02 * truth)
-    aim = Aim(bench, visible, truth[visible], sd[visible])
-    rank = 2 if order.label == "unknown" else max((form.rank for form in hand.forms), default=0)
-    other = rivals(aim, hand.forms, hand.knobs, z, rank)
-    own = float(z @ z)
-    if order.label == "none":
-        own = other["none"]
-    elif order.label != "unknown":
-        own = min(own, best(aim, hand.forms, z, hand.knobs)[0])
+    other, own = _matched(hand, order, Aim(bench, visible, truth[visible], sd[visible]))
     outside = order.label == "unknown"
     runs = bench.columns["run"]
     answer = {
@@ -263,62 +250,39 @@ def make(seed: int, index: int, order: Order, folder: Path) -> str:
         "effects": list(order.effects),
         "label": "none" if not order.effects else ["unknown"] if outside else list(order.effects),
         "info": [
-            {"id": form.id, "form": form.source, "law": form.law.__name__, "snr": round(hand.seen, 4), **values}
+            {
+                "id": form.id,
+                "form": form.source,
+                "law": form.law.__name__,
+                "within": form.within,
+                "snr": round(hand.seen, 4),
+                **values,
+            }
             for form, values in zip(hand.forms, hand.knobs)
         ],
         "level": order.level if order.effects else "none",
         "theta": bench.theta(z),
-        "z": dict(zip(bench.names, _plain(z))),
+        "z": dict(zip(bench.names, plain(z))),
         "noise": {"relative": hand.relative, "absolute": hand.absolute},
         "outliers": sorted(int(runs[i]) for i in spoiled),
         "alternatives": other,
         "own": round(own, 4),
         "identifiable": bool(not order.effects or min(other.values()) - own > IDENTIFIABLE),
-        "rows": {
-            "run": [int(run) for run in runs],
-            "withheld": [bool(flag) for flag in hand.hidden],
-            "truth": _plain(truth),
-            "base": _plain(bench.model(z, ())),
-            "nominal": _plain(bench.model(np.zeros(len(z)), ())),
-            "sd": _plain(sd),
-        },
+        "rows": rows(
+            runs,
+            hand.hidden,
+            truth=truth,
+            base=bench.model(z, ()),
+            nominal=bench.model(np.zeros(len(z)), ()),
+            sd=sd,
+        ),
     }
     noise, more = _told(rng, hand, truth)
     counted = bench.settle(bench.model(z, [act for act in hand.acts if act.stage != "sensor"]))
     settings = {**bench.settings, "recording": {**bench.settings["recording"], **noise}}
-    write(place, settings, {**bench.columns, **counted}, more, recorded, hand.hidden, bench.share, answer)
+    readings = {settings["recording"]["quantity"]: recorded, **more}
+    write(place, settings, {**bench.columns, **counted}, readings, hand.hidden, bench.share, answer)
     return order.name
-
-
-def _plain(values: np.ndarray) -> list[float]:
-    return [float(f"{value:.9g}") for value in values]
-
-
-def write(
-    place: Path,
-    settings: dict[str, Any],
-    columns: dict[str, np.ndarray],
-    more: dict[str, np.ndarray],
-    recorded: np.ndarray,
-    hidden: np.ndarray,
-    share: np.ndarray | None,
-    answer: dict[str, Any],
-) -> None:
-    """The case folder as an engineer would hand it in; ``truth.json`` comes last and marks it done."""
-    import pandas as pd
-
-    place.mkdir(parents=True, exist_ok=True)
-    (place / "system.toml").write_text(toml(settings).replace("Infinity", "inf"))
-    quantity = settings["recording"]["quantity"]
-    readings = {quantity: _plain(recorded), **{name: _plain(column) for name, column in more.items()}}
-    frame = pd.DataFrame({**columns, **readings})
-    frame[~hidden].to_csv(place / "recordings.csv", index=False)
-    frame[hidden].drop(columns=list(readings)).to_csv(place / "conditions.csv", index=False)
-    if share is not None:
-        pd.DataFrame(share, columns=["torque_Nm", "roll_angle_deg", "load_share"]).to_csv(
-            place / "load_share.csv", index=False
-        )
-    (place / "truth.json").write_text(json.dumps(answer, indent=1))
 
 
 def generate(

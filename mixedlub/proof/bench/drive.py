@@ -103,10 +103,15 @@ def _speed_forms() -> tuple[Form, ...]:
     width = Knob("width", 0.01, 0.5, (0.04, 0.2))
     shear = strength(0.0, 20.0, (0.5, 2.0))
     return (
-        Form("stribeck", "running", gaussian, (rise, width), "Gaussian"),
+        Form("stribeck", "running", gaussian, (rise, width), "Gaussian", within=True),
         Form("stribeck", "running", lorentzian, (rise, width), "Hess and Soom 1990"),
         Form(
-            "stribeck", "running", bo_pavelescu, (rise, width, Knob("exponent", 0.4, 3.0, (0.6, 2.0))), "Bo, Pavelescu"
+            "stribeck",
+            "running",
+            bo_pavelescu,
+            (rise, width, Knob("exponent", 0.4, 3.0, (0.6, 2.0))),
+            "Bo, Pavelescu",
+            within=True,
         ),
         Form("stribeck", "running", makkar, (rise, width), "Makkar et al. 2005"),
         Form(
@@ -115,6 +120,7 @@ def _speed_forms() -> tuple[Form, ...]:
             unlike_flanks,
             (strength(-6.0, 6.0), Knob("viscous", 0.6, 1.6, (0.8, 1.3))),
             "two flanks",
+            within=True,
         ),
         Form(
             "grease_shear_thinning", "parts", carreau_grease, (shear, Knob("index", 0.2, 0.9, (0.35, 0.75))), "Carreau"

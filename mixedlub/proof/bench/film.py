@@ -64,7 +64,7 @@ def _oil_forms() -> tuple[Form, ...]:
     gain = Knob("gain", 1.2, 8.0, (1.5, 4.0))
     drift = (strength(-4.0, 4.0),)
     return (
-        Form("boundary_film", "film", joined_by_cubes, layer, "cubes joined"),
+        Form("boundary_film", "film", joined_by_cubes, layer, "cubes joined", within=True),
         Form("boundary_film", "film", squeezed_out, layer, "layer that is squeezed out"),
         Form("boundary_film", "film", thickened_near_the_wall, (*layer, gain), "Smeeth, Spikes and Gunsel 1996"),
         Form("viscosity_drift", "oil", even_growth, drift, "evaporation at an even pace", rarity=0.5),
@@ -99,10 +99,11 @@ def _fringe_forms(spacer: float, period: float, onset: tuple[float, float], coun
             (strength(-1.0, 2.0, (1.0, 1.0)), Knob("onset", 0.5 * onset[0], onset[1], onset)),
             "one order miscounted",
             rigid=True,
+            within=True,
         )
     ]
     if counted:
-        forms.append(Form("fringe_step", "sensor", each_order, (step,), "even steps"))
+        forms.append(Form("fringe_step", "sensor", each_order, (step,), "even steps", within=True))
         forms.append(
             Form("fringe_step", "sensor", growing, (step, Knob("growth", 0.0, 0.3, (0.05, 0.2))), "steps that grow")
         )

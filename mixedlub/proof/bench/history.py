@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -23,8 +23,9 @@ from mixedlub.proof.bench.stage import (
     repeated,
     rounded,
 )
+from mixedlub.proof.bench.states import Track, creeps, histories
 from mixedlub.proof.build import PRIORS
-from mixedlub.proof.concealed import NAMED, OUTSIDE
+from mixedlub.proof.concealed import FORMS, OUTSIDE
 from mixedlub.proof.concealed.kinds import Knob, strength
 from mixedlub.proof.design import UNCERTAINTY, draw_oil, draw_surfaces
 from mixedlub.proof.explain import calibrated
@@ -50,168 +51,7 @@ ALSO_IN_CONTACT = (
 )
 
 
-@dataclass(frozen=True)
-class Track:
-    """Friction of a track whose conditions are held: its level, and the share of it that is reached."""
-
-    level: np.ndarray
-    recorded: np.ndarray
-
-
 BARE: Chain = (("boundary", None), ("loss", lambda t: replace(t, recorded=t.level)), ("sensor", None))
-
-
-def _swings(place: np.ndarray, waves: float) -> np.ndarray:
-    """A film that grows and is torn off: rises with a root, falls at once, smoothed over a quarter of a swing."""
-    fine = np.linspace(-0.2, 1.2, 2801)
-    phase = (fine * waves) % 1.0
-    shape = np.sqrt(phase) - 2 / 3
-    width = max(int(0.25 / waves / (fine[1] - fine[0])), 1)
-    return np.asarray(np.interp(place, fine, np.convolve(shape, np.hanning(width) / np.hanning(width).sum(), "same")))
-
-
-def histories(time: np.ndarray) -> dict[str, tuple[Form, ...]]:
-    """Forms a surface state may take over the programme (0 to 1), by id; they scale friction that touches."""
-
-    def scaled(state: Any, factor: np.ndarray) -> Any:
-        if isinstance(state, Track):
-            return replace(state, level=state.level * factor)
-        return replace(state, boundary_friction=state.boundary_friction * factor[:, None])
-
-    def hyperbolic(state: Any, strength: float, pace: float) -> Any:
-        return scaled(state, 1 + 0.3 * strength / (1 + time / pace))
-
-    def power_law(state: Any, strength: float, pace: float, exponent: float) -> Any:
-        return scaled(state, 1 + 0.3 * strength * (1 + time / pace) ** -exponent)
-
-    def stretched(state: Any, strength: float, pace: float, exponent: float) -> Any:
-        return scaled(state, 1 + 0.3 * strength * np.exp(-((time / pace) ** exponent)))
-
-    def logistic(state: Any, strength: float, middle: float, width: float) -> Any:
-        at_start = 1 / (1 + np.exp(middle / (width * middle)))
-        return scaled(state, 1 + 0.4 * strength * (1 / (1 + np.exp(-(time - middle) / (width * middle))) - at_start))
-
-    def avrami(state: Any, strength: float, pace: float, exponent: float) -> Any:
-        return scaled(state, 1 + 0.4 * strength * -np.expm1(-((time / pace) ** exponent)))
-
-    def parabolic(state: Any, strength: float, pace: float) -> Any:
-        return scaled(state, 1 + 0.4 * strength * np.sqrt(time / (time + pace)))
-
-    def difference(state: Any, strength: float, quick: float, lasting: float) -> Any:
-        """A film that forms and passes, on a track that wears evenly."""
-        passing = np.exp(-time / (4 * quick)) - np.exp(-time / quick)
-        return scaled(state, 1 + strength * (0.5 * passing - 0.3 * lasting * time))
-
-    def chained(state: Any, strength: float, quick: float, lasting: float) -> Any:
-        """Reactions in a row: bare to film to worn track, A to B to C of chemical kinetics."""
-        slow = 0.35
-        film = slow / (slow - quick) * (np.exp(-time / slow) - np.exp(-time / quick))
-        worn = 1 - (slow * np.exp(-time / slow) - quick * np.exp(-time / quick)) / (slow - quick)
-        return scaled(state, 1 + strength * (0.15 * film - 0.35 * lasting * worn))
-
-    def sines(state: Any, strength: float, waves: float, phase: float) -> Any:
-        swing = np.sin(2 * np.pi * (waves * time + phase)) + 0.6 * np.sin(2 * np.pi * (1.63 * waves * time + 0.3))
-        return scaled(state, 1 + 0.1 * strength * swing)
-
-    def torn(state: Any, strength: float, waves: float) -> Any:
-        return scaled(state, 1 + 0.25 * strength * _swings(time, waves))
-
-    def cosines(state: Any, strength: float, **more: float) -> Any:
-        """Any slow history: a cosine series of twelve terms."""
-        terms = [0.1 * strength, *(0.1 * value for value in more.values())]
-        return scaled(state, np.exp(sum(a * np.cos((k + 1) * np.pi * time) for k, a in enumerate(terms))))
-
-    def worn_in(state: Any, strength: float, pace: float) -> Any:
-        return scaled(state, 1 + 0.3 * strength * (1 - np.log1p(time / pace) / np.log1p(1 / pace)))
-
-    def dosed(state: Any, strength: float, when: float) -> Any:
-        """An additive is dosed: friction steps from one reading to the next."""
-        return scaled(state, 1 + 0.1 * strength * (time > when))
-
-    def renewed(state: Any, strength: float, when: float) -> Any:
-        """Oil is renewed: friction goes over to another level within three hundredths of the programme."""
-        return scaled(state, 1 + 0.1 * strength * np.clip((time - when) / 0.03, 0.0, 1.0))
-
-    def scuffing(state: Any, strength: float, reach: float) -> Any:
-        """The film breaks down: friction runs away at the end."""
-        return scaled(state, 1 + 0.3 * strength * (reach / (1 - time + reach)) ** 2)
-
-    fall, either = strength(0.0, 6.0), strength(-2.2, 5.0)
-    pace = Knob("pace", 0.01, 1.0, (0.03, 0.25))
-    waves = Knob("waves", 0.8, 3.2, (1.2, 2.4))
-    lasting = Knob("lasting", -2.0, 2.0, (0.5, 1.2))
-    quick = Knob("quick", 0.01, 0.12, (0.02, 0.06))
-    steep = Knob("exponent", 1.2, 4.0, (1.6, 3.0))
-    run_in = (
-        Form("friction_run_in", "boundary", hyperbolic, (fall, pace), "second-order wear-in"),
-        Form(
-            "friction_run_in", "boundary", power_law, (fall, pace, Knob("exponent", 0.3, 2.0, (0.5, 1.5))), "power law"
-        ),
-        Form(
-            "friction_run_in", "boundary", stretched, (fall, pace, Knob("exponent", 0.5, 1.2, (0.6, 0.9))), "stretched"
-        ),
-        Form("friction_run_in", "boundary", worn_in, (fall, pace), "logarithmic wear-in"),
-    )
-    growth = (
-        Form("tribofilm_growth", "boundary", logistic,
-             (either, Knob("middle", 0.05, 0.8, (0.15, 0.5)), Knob("width", 0.1, 0.5, (0.15, 0.35))), "autocatalytic"),
-        Form("tribofilm_growth", "boundary", avrami,
-             (either, Knob("pace", 0.05, 1.0, (0.15, 0.5)), steep), "Avrami 1939"),
-        Form("tribofilm_growth", "boundary", parabolic, (either, Knob("pace", 0.05, 2.0, (0.1, 0.6))), "diffusion"),
-    )  # fmt: skip
-    two = (
-        Form("two_time_scales", "boundary", difference, (either, quick, lasting), "two exponentials", 1),
-        Form("two_time_scales", "boundary", chained, (either, quick, lasting), "consecutive reactions", 1),
-    )
-    free = (
-        Form("wandering_surface_state", "boundary", sines,
-             (either, waves, Knob("phase", 0.0, 1.0, (0.0, 1.0))), "two swings", 2),
-        Form("wandering_surface_state", "boundary", torn, (either, waves), "growth and tearing", 2),
-        Form("wandering_surface_state", "boundary", cosines,
-             (strength(-20.0, 20.0), *(Knob(f"term_{k}", -20.0, 20.0, (0.0, 0.0)) for k in range(2, 13))),
-             "cosine series", 2, rarity=0.0),
-    )  # fmt: skip
-    when = (strength(-5.0, 8.0), Knob("when", 0.2, 0.8, (0.3, 0.75)))
-    event = (
-        Form("friction_event", "boundary", dosed, when, "sudden", 1),
-        Form("friction_event", "boundary", renewed, when, "over a while", 1),
-        Form("friction_event", "boundary", scuffing,
-             (strength(0.0, 8.0), Knob("reach", 0.02, 0.12, (0.04, 0.09))), "running away", 1),
-    )  # fmt: skip
-    return {
-        "friction_run_in": run_in,
-        "tribofilm_growth": growth,
-        "two_time_scales": two,
-        "friction_event": event,
-        "wandering": free,
-    }
-
-
-def creeps(slip: np.ndarray) -> tuple[Form, ...]:
-    """Elastic give of the bodies at small slip: share of friction that is reached."""
-
-    def reached(state: Any, share: np.ndarray) -> Any:
-        if isinstance(state, Track):
-            return replace(state, recorded=state.recorded * share)
-        return replace(state, friction=state.friction * share[:, None])
-
-    def tangent(state: Any, strength: float) -> Any:
-        return reached(state, np.tanh(slip / (0.008 * strength))) if strength > 0 else state
-
-    def polach(state: Any, strength: float) -> Any:
-        if strength <= 0:
-            return state
-        grip = slip / (0.006 * strength)
-        return reached(state, 2 / np.pi * (grip / (1 + grip**2) + np.arctan(grip)))
-
-    def gradual(state: Any, strength: float) -> Any:
-        return reached(state, -np.expm1(-slip / (0.008 * strength))) if strength > 0 else state
-
-    size = (strength(0.0, 12.0, (0.4, 2.0)),)
-    return tuple(
-        Form("contact_creep", "loss", law, size, source)
-        for law, source in ((tangent, "hyperbolic tangent"), (polach, "Polach 2005"), (gradual, "exponential"))
-    )
 
 
 def _breaks(time: np.ndarray) -> tuple[Form, ...]:
@@ -306,14 +146,18 @@ def draw_traction(rng: np.random.Generator) -> Bench:
     return _held(rng, _settings(), columns, progress(slips.size * cycles))
 
 
-def draw_stribeck(rng: np.random.Generator) -> Bench:
-    """Stribeck curves of a ball on a disc between rubbing steps, with oil and surfaces told."""
+def _curves(rng: np.random.Generator) -> np.ndarray:
+    """Bath, slip and falling speed of every reading: one Stribeck curve after the other, over and over."""
     speeds = np.array([rounded(u, 3) for u in np.geomspace(between(rng, 0.01, 0.03), 3.0, int(rng.integers(8, 14)))])
     baths = pick(rng, ([60.0], [100.0], [60.0, 100.0], [40.0, 70.0, 100.0]))
     slips = pick(rng, ([0.5], [0.5], [0.1, 0.5], [0.05, 0.3, 1.0]))
     again = max(int(rng.uniform(60, 180) / (len(speeds) * len(baths) * len(slips))), 2)
-    block = np.array([(t, s, u) for t in baths for s in slips for u in speeds[::-1]])
-    grid = np.tile(block, (again, 1))
+    return np.tile(np.array([(t, s, u) for t in baths for s in slips for u in speeds[::-1]]), (again, 1))
+
+
+def draw_stribeck(rng: np.random.Generator) -> Bench:
+    """Stribeck curves of a ball on a disc between rubbing steps, with oil and surfaces told."""
+    grid = _curves(rng)
     surfaces = draw_surfaces(rng, False)
     names = list(surfaces)
     first, second = str(rng.choice(names[:2])), str(rng.choice(names))
@@ -353,7 +197,9 @@ def draw_stribeck(rng: np.random.Generator) -> Bench:
         return np.asarray(play(BALL_FRICTION, start(rig, fixed(z)), acts).recorded)
 
     found = histories(time)
-    usable = [borrowed(NAMED[name], 0.6) for name in ALSO_IN_CONTACT if len(baths) > 1 or "temperature" not in name]
+    several = np.ptp(grid[:, 0]) > 0
+    shown = [name for name in ALSO_IN_CONTACT if several or "temperature" not in name]
+    usable = [borrowed(form, 0.6) for name in shown for form in FORMS[name]]
     forms = (*found["friction_run_in"], *found["tribofilm_growth"], *FILM_FORMS, *usable)
     broken = [borrowed(OUTSIDE[name]) for name in ("speed_band", "speed_ripple")]
     return Bench(

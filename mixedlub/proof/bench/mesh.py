@@ -12,7 +12,7 @@ import numpy as np
 from mixedlub.proof.bench.point import FILM_FORMS, TOOTH_FRICTION
 from mixedlub.proof.bench.stage import Act, Bench, Form, borrowed, channel, play, progress, repeated, rounded
 from mixedlub.proof.build import PRIORS, Case, gears_of, rig_of
-from mixedlub.proof.concealed import NAMED, OUTSIDE
+from mixedlub.proof.concealed import FORMS, OUTSIDE
 from mixedlub.proof.concealed.kinds import Knob, strength
 from mixedlub.proof.design import draw_gear
 from mixedlub.proof.explain import calibrated
@@ -92,15 +92,9 @@ def _outside(rig: Rig, angles: np.ndarray) -> tuple[Form, ...]:
     return (*forms, *(borrowed(OUTSIDE[name]) for name in chosen))
 
 
-def draw(rng: np.random.Generator) -> Bench:
-    """A gear pair, a few pairings, torques, speeds and temperatures, 8 to 16 roll angles."""
-    coated = rng.random() < 0.2
-    case = draw_gear(rng, coated)
-    path = path_of_contact(gears_of(case.settings))
-    ends = np.degrees(np.array([path.start, path.end]) / path.base_radius[0])
-    inside = 0.02 * np.ptp(ends)
-    angles = np.round(np.linspace(ends[0] + inside, ends[1] - inside, int(rng.integers(8, 17))), 3)
-    many = {"pairs": 2, "torque_Nm": 2, "speed_rpm": 4, "oil_temperature_C": 2}
+def _programme(rng: np.random.Generator, case: Case, angles: np.ndarray) -> dict[str, np.ndarray]:
+    """Some of the pairings, torques, speeds and temperatures of a gear case, over all roll angles."""
+    many = {"torque_Nm": 2, "speed_rpm": 4, "oil_temperature_C": 2}
 
     def some(name: str) -> list[float]:
         levels = np.unique(case.columns[name])
@@ -112,22 +106,26 @@ def draw(rng: np.random.Generator) -> Bench:
     grid = list(itertools.product(chosen, some("torque_Nm"), some("speed_rpm"), some("oil_temperature_C")))
     most = max(int(200 / len(angles)), 1)
     grid = [grid[i] for i in rng.permutation(len(grid))[:most]]
-    rows = [(*row, angle) for row in grid for angle in angles]
+    rows = [(*pair, *row, angle) for pair, *row in grid for angle in angles]
     if len(rows) < 40:
         rows = rows * 2
-    columns = repeated(
-        {
-            "pinion_surface": np.array([row[0][0] for row in rows], dtype=object),
-            "gear_surface": np.array([row[0][1] for row in rows], dtype=object),
-            "torque_Nm": np.array([row[1] for row in rows]),
-            "speed_rpm": np.array([row[2] for row in rows]),
-            "oil_temperature_C": np.array([row[3] for row in rows]),
-            "roll_angle_deg": np.array([row[4] for row in rows]),
-        },
-        1,
-    )
-    columns["sequence"] = progress(len(rows))
-    used = {name for pair in chosen for name in pair}
+    names = ("pinion_surface", "gear_surface", "torque_Nm", "speed_rpm", "oil_temperature_C", "roll_angle_deg")
+    table = {
+        name: np.array(column, dtype=object if "surface" in name else float) for name, column in zip(names, zip(*rows))
+    }
+    return {**repeated(table, 1), "sequence": progress(len(rows))}
+
+
+def draw(rng: np.random.Generator) -> Bench:
+    """A gear pair, a few pairings, torques, speeds and temperatures, 8 to 16 roll angles."""
+    coated = rng.random() < 0.2
+    case = draw_gear(rng, coated)
+    path = path_of_contact(gears_of(case.settings))
+    ends = np.degrees(np.array([path.start, path.end]) / path.base_radius[0])
+    inside = 0.02 * np.ptp(ends)
+    angles = np.round(np.linspace(ends[0] + inside, ends[1] - inside, int(rng.integers(8, 17))), 3)
+    columns = _programme(rng, case, angles)
+    used = {*columns["pinion_surface"], *columns["gear_surface"]}
     settings: dict[str, Any] = {
         **case.settings,
         "surfaces": {name: table for name, table in case.settings["surfaces"].items() if name in used},
@@ -145,7 +143,8 @@ def draw(rng: np.random.Generator) -> Bench:
     def model(z: np.ndarray, acts: Sequence[Act]) -> np.ndarray:
         return np.asarray(play(TOOTH_FRICTION, start(rig, fixed(z)), acts).recorded)
 
-    usable = tuple(borrowed(NAMED[name]) for name in LOCAL if layers or name != "coating_insulation")
+    shown = [name for name in LOCAL if layers or name != "coating_insulation"]
+    usable = tuple(borrowed(form) for name in shown for form in FORMS[name])
     return Bench(
         kind="mesh_friction",
         settings={**settings, "kind": "mesh_friction"},

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.proof.bench.stage import Chain, Form
+from mixedlub.proof.bench.stage import Chain, Form, borrowed
 from mixedlub.proof.build import oil_of
 from mixedlub.proof.concealed import film as film_room
 from mixedlub.proof.concealed.kinds import Knob, strength
@@ -121,13 +121,6 @@ def heated_by_hsu_lee(c: Contact, strength: float) -> Contact:
     return replace(c, film=c.film / (1 + 0.0766 * loading * np.exp(0.875 * np.minimum(_slip(c), 2.0))))
 
 
-def starved_by_meniscus(c: Contact, strength: float, distance: float) -> Contact:
-    """Hamrock-Dowson meniscus: h (m/m*)^0.29 below m* = 3.06 [(R/b)^2 H]^0.58, m in contact half widths."""
-    flooded = 3.06 * ((c.rig.radius / c.half_width) ** 2 * c.film / c.rig.radius) ** 0.58
-    share = (1 + distance) / np.maximum(strength, 1e-6) / (1 + flooded)
-    return replace(c, film=c.film * np.minimum(share, 1.0) ** 0.29)
-
-
 def starved_by_layer(c: Contact, strength: float, sharpness: float) -> Contact:
     """Chevalier: a layer of oil on the track feeds the contact, h = r h/(1 + r^g)^(1/g), r = layer over h."""
     if strength <= 0:
@@ -148,19 +141,11 @@ def thinned_by_eyring(c: Contact, strength: float) -> Contact:
     return replace(c, film=c.film * (np.arcsinh(rate) / rate) ** 0.67)
 
 
-LAW_OF = {effect.id: effect for effect in film_room.EFFECTS}
+SHARED = ("inlet_shear_heating", "starvation", "inlet_shear_thinning")
 FILM_FORMS = (
-    Form("inlet_shear_heating", "film", film_room.inlet_shear_heating, (strength(0.0, 12.0),), "Murch and Wilson 1975"),
+    *(borrowed(effect) for effect in film_room.EFFECTS if effect.id in SHARED),
     Form("inlet_shear_heating", "film", heated_at_rolling_sum, (strength(0.0, 6.0, (0.2, 0.8)),), "rolling-sum form"),
     Form("inlet_shear_heating", "film", heated_by_hsu_lee, (strength(0.0, 12.0),), "Hsu and Lee 1994"),
-    Form("starvation", "film", film_room.starvation, LAW_OF["starvation"].knobs, "Cann et al. 2004"),
-    Form(
-        "starvation",
-        "film",
-        starved_by_meniscus,
-        (strength(0.0, 12.0, (0.8, 2.0)), Knob("distance", 0.05, 3.0, (0.3, 1.5))),
-        "Hamrock and Dowson 1977",
-    ),
     Form(
         "starvation",
         "film",
@@ -171,16 +156,10 @@ FILM_FORMS = (
     Form(
         "inlet_shear_thinning",
         "film",
-        film_room.inlet_shear_thinning,
-        LAW_OF["inlet_shear_thinning"].knobs,
-        "Cross with a second plateau",
-    ),
-    Form(
-        "inlet_shear_thinning",
-        "film",
         thinned_by_carreau,
         (strength(0.0, 60.0, (0.5, 3.0)), Knob("index", 0.4, 0.95, (0.6, 0.85))),
         "Carreau 1972",
+        within=True,
     ),
     Form("inlet_shear_thinning", "film", thinned_by_eyring, (strength(0.0, 60.0, (0.5, 2.0)),), "Eyring 1936"),
 )

@@ -11,7 +11,7 @@ from pathlib import Path
 from mixedlub.proof.answers import Answer, Truth, read_answer, read_truth, silent
 from mixedlub.proof.bench.battery import ROOMS, generate
 from mixedlub.proof.measures import crossed, outliers_false, outliers_found, right, tied
-from mixedlub.proof.prove import TOOL, Diagnose, Progress, answer_all, quiet, unsealed
+from mixedlub.proof.prove import TOOL, Diagnose, Progress, have_answered, quiet
 from mixedlub.proof.score import Score, score
 from profiles.errors import InputError
 
@@ -29,10 +29,7 @@ def prove_rigs(
     wrong answers.
     """
     sealed = generate(out / "sealed", seed, cases, jobs, lambda done, total: progress("deal", done, total))
-    opened = out / "cases"
-    opened.mkdir(parents=True, exist_ok=True)
-    given = [unsealed(case, opened) for case in sealed]
-    answer_all(Steady(diagnose), given, out / "answers", jobs, "diagnose", progress)
+    have_answered(out, sealed, Steady(diagnose), jobs, progress)
     return judge(out, sealed)
 
 
@@ -46,10 +43,10 @@ class Steady:
         try:
             self.diagnose(case, out)
         except InputError as refusal:
-            (out / REFUSED).write_text(str(refusal))
+            (out / REFUSED).write_text(str(refusal), encoding="utf-8")
         # Whatever goes wrong in the tool on trial is its failure on this case and no end of the trial.
         except Exception:
-            (out / BROKEN).write_text(traceback.format_exc())
+            (out / BROKEN).write_text(traceback.format_exc(), encoding="utf-8")
 
 
 def judge(out: Path, sealed: Sequence[Path]) -> dict[str, Score]:
@@ -59,13 +56,13 @@ def judge(out: Path, sealed: Sequence[Path]) -> dict[str, Score]:
     broken: list[str] = []
     refused: list[str] = []
     for case in sealed:
-        told = json.loads((case / "truth.json").read_text())
+        told = json.loads((case / "truth.json").read_text(encoding="utf-8"))
         asked |= {name for name in told["alternatives"] if name != "none" and "+" not in name}
         asked |= set(told["effects"]) if told["class"] != "unknown" else set()
         answered = out / "answers" / case.name
         for name, those in ((BROKEN, broken), (REFUSED, refused)):
             if (answered / name).exists():
-                last = (answered / name).read_text().strip().splitlines()[-1].replace(f"{out}/", "")
+                last = (answered / name).read_text(encoding="utf-8").strip().splitlines()[-1].replace(f"{out}/", "")
                 those.append(
                     f"{case.name} {told['rig']:16s} {told['class']:11s}  {'+'.join(told['effects'])} -> {last}"
                 )
@@ -84,7 +81,7 @@ def judge(out: Path, sealed: Sequence[Path]) -> dict[str, Score]:
     text = [scores["all"].text(), by_kind(pairs), wrong(pairs)]
     text += ["broke down without an answer, counted as wrong above", *broken, ""] if broken else []
     text += ["refused as bad input, counted nowhere above", *refused, ""] if refused else []
-    (out / "score.txt").write_text("\n".join(text))
+    (out / "score.txt").write_text("\n".join(text), encoding="utf-8")
     return scores
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from mixedlub.proof.concealed.kinds import Concealed, Knob, strength
+from mixedlub.proof.concealed.measurement import warmed_up
 
 Chain = Sequence[tuple[str, Callable[[Any], Any] | None]]
 
@@ -27,7 +28,8 @@ class Form:
 
     ``rank`` is how general a form is: a form that holds simpler effects as special cases is no rival to them.
     ``rigid`` forms come in one size, as a miscounted fringe does. ``rarity`` weighs the effect when drawn; a form
-    of rarity 0 is only a rival.
+    of rarity 0 is only a rival. ``within`` says that the catalogue's law of the same effect can become this one, at
+    some values of its parameters or in their limit.
     """
 
     id: str
@@ -38,6 +40,7 @@ class Form:
     rank: int = 0
     rigid: bool = False
     rarity: float = 1.0
+    within: bool = False
 
     def hide(self, values: Mapping[str, float]) -> Act:
         return Act(self.hook, lambda state: self.law(state, **values))
@@ -90,6 +93,7 @@ def borrowed(effect: Concealed, rarity: float | None = None) -> Form:
         effect.knobs,
         effect.source,
         rarity=effect.rarity if rarity is None else rarity,
+        within=effect.within,
     )
 
 
@@ -136,23 +140,26 @@ def channel(sequence: np.ndarray, zero: bool, gain: bool, drifting_zero: bool) -
         return replace(state, recorded=state.recorded * (1 + 0.1 * strength * sequence))
 
     def settling(state: Any, strength: float, pace: float) -> Any:
-        """An amplifier that warms up: most of the change comes early."""
-        crept = -np.expm1(-sequence / pace) / -np.expm1(-1 / pace)
-        return replace(state, recorded=state.recorded * (1 + 0.1 * strength * crept))
+        return replace(state, recorded=state.recorded * (1 + 0.1 * strength * warmed_up(sequence, pace)))
 
     def zero_drift(state: Any, strength: float) -> Any:
         return replace(state, recorded=state.recorded + 0.1 * strength * _usual(state.recorded) * sequence)
 
+    def zero_settling(state: Any, strength: float, pace: float) -> Any:
+        more = 0.1 * strength * _usual(state.recorded) * warmed_up(sequence, pace)
+        return replace(state, recorded=state.recorded + more)
+
     either, share = strength(-8.0, 8.0), strength(-4.0, 4.0)
     found = []
     if zero:
-        found.append(Form("sensor_offset", "sensor", sensor_offset, (either,), "instrument zero"))
+        found.append(Form("sensor_offset", "sensor", sensor_offset, (either,), "instrument zero", within=True))
     if gain:
-        found.append(Form("sensor_gain", "sensor", sensor_gain, (share,), "instrument span", rarity=0.5))
+        found.append(Form("sensor_gain", "sensor", sensor_gain, (share,), "instrument span", rarity=0.5, within=True))
     if len(np.unique(sequence)) > 1:
         slow = Knob("pace", 0.7, 5.0, (1.0, 3.0))
-        found.append(Form("sensor_drift", "sensor", steady, (share,), "linear drift"))
+        found.append(Form("sensor_drift", "sensor", steady, (share,), "linear drift", within=True))
         found.append(Form("sensor_drift", "sensor", settling, (share, slow), "warming amplifier"))
         if drifting_zero:
-            found.append(Form("zero_drift", "sensor", zero_drift, (share,), "linear drift of the zero"))
+            found.append(Form("zero_drift", "sensor", zero_drift, (share,), "linear drift of the zero", within=True))
+            found.append(Form("zero_drift", "sensor", zero_settling, (share, slow), "warming amplifier"))
     return tuple(found)

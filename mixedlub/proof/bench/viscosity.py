@@ -24,6 +24,7 @@ from mixedlub.proof.bench.stage import (
 from mixedlub.proof.build import oil_of
 from mixedlub.proof.concealed.kinds import Knob, strength
 from mixedlub.proof.design import draw_oil
+from mixedlub.proof.rig import Oil
 
 PAIRS = (
     ("viscosity_drift", "sensor_offset"),
@@ -132,7 +133,7 @@ def _pressure_forms() -> tuple[Form, ...]:
         Form("pressure_viscosity_law", "rise", mcewen_paluch,
              (near_one, Knob("power", 2.0, 15.0, (3.0, 7.0)), Knob("glass", 0.5, 2.5, (0.8, 1.6))), "Bair's hybrid"),
         Form("pressure_viscosity_law", "rise", bode,
-             (near_one, Knob("stiffening", 0.1, 2.5, (0.4, 1.5))), "Bode 1989"),
+             (near_one, Knob("stiffening", 0.1, 2.5, (0.4, 1.5))), "Bode 1989", within=True),
         Form("pressure_viscosity_law", "rise", doolittle,
              (near_one, Knob("occupied", 0.5, 0.75, (0.6, 0.7))), "Doolittle 1951 with Tait's volume"),
     )  # fmt: skip
@@ -205,6 +206,46 @@ def _cycle(rng: np.random.Generator) -> dict[str, np.ndarray]:
     return columns
 
 
+@dataclass(frozen=True)
+class Fluid:
+    """The oil of a sample at the temperatures of its programme, and what is known of it; unnamed, it moves freely."""
+
+    oil: Oil
+    celsius: np.ndarray
+    priors: dict[str, float]
+    named: bool
+    pressed: bool
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        if self.named:
+            return ("viscosity", "pressure_viscosity") if self.pressed else ("viscosity",)
+        return ("viscosity", "steepness", *(("pressure_viscosity", "warmth") if self.pressed else ()))
+
+    def resting(self, z: np.ndarray) -> np.ndarray:
+        """ASTM D341; an unnamed sample has a level and a steepness of its own."""
+        by = dict(zip(self.names, z))
+        if self.named:
+            return np.asarray(self.oil.viscosity_at(self.celsius) * np.exp(self.priors["viscosity"] * by["viscosity"]))
+        walther = np.log10(np.log10(1e6 * self.oil.kinematic_at(self.celsius) + 0.7))
+        middle = float(walther.mean())
+        line = middle + 0.05 * by["viscosity"] + (1 + 0.08 * by["steepness"]) * (walther - middle)
+        return np.asarray(1e-6 * (10**10**line - 0.7) * self.oil.density_at(self.celsius))
+
+    def slope(self, z: np.ndarray) -> np.ndarray:
+        """Barus coefficient, a straight line in temperature; an unnamed sample has a level and a tilt of its own."""
+        by = dict(zip(self.names, z))
+        given = self.oil.pressure_viscosity_at(self.celsius)
+        width = self.priors["pressure_viscosity"] if self.named else 0.3
+        tilt = 0.2 * by.get("warmth", 0.0) * given.mean() * (self.celsius - self.celsius.mean()) / 100
+        return np.asarray((given + tilt) * np.exp(width * by.get("pressure_viscosity", 0.0)))
+
+    def theta(self, z: np.ndarray) -> dict[str, float]:
+        if not self.named:
+            return {}
+        return {f"{name}_scale": float(np.exp(self.priors[name] * value)) for name, value in zip(self.names, z)}
+
+
 def draw(rng: np.random.Generator) -> Bench:
     """A viscometer, its sample named or not, its programme."""
     moving = rng.random() < 0.4
@@ -218,54 +259,24 @@ def draw(rng: np.random.Generator) -> Bench:
         **({"lubricant": table, "uncertainty": priors} if named else {}),
         "recording": {"quantity": "viscosity_mPa_s"},
     }
-    oil = oil_of({"lubricant": table})
     celsius = columns["temperature_C"]
     pressure = 1e6 * columns.get("pressure_MPa", np.full(len(celsius), 0.1))
     time = columns.get("sequence", progress(len(celsius)))
-    pressed = "pressure_MPa" in columns
-    names = (("viscosity", "pressure_viscosity") if pressed else ("viscosity",)) if named else (
-        ("viscosity", "steepness", "pressure_viscosity", "warmth") if pressed else ("viscosity", "steepness")
-    )  # fmt: skip
-    walther = np.log10(np.log10(1e6 * oil.kinematic_at(celsius) + 0.7))
-    middle = float(walther.mean())
-    given = oil.pressure_viscosity_at(celsius)
-
-    def moved(z: np.ndarray) -> dict[str, float]:
-        return dict(zip(names, z))
-
-    def resting(z: np.ndarray) -> np.ndarray:
-        """ASTM D341; an unnamed sample has a level and a steepness of its own."""
-        by = moved(z)
-        if named:
-            return np.asarray(oil.viscosity_at(celsius) * np.exp(priors["viscosity"] * by["viscosity"]))
-        line = middle + 0.05 * by["viscosity"] + (1 + 0.08 * by["steepness"]) * (walther - middle)
-        return np.asarray(1e-6 * (10**10**line - 0.7) * oil.density_at(celsius))
-
-    def slope(z: np.ndarray) -> np.ndarray:
-        """Barus coefficient, a straight line in temperature; an unnamed sample has a level and a tilt of its own."""
-        by = moved(z)
-        width = priors["pressure_viscosity"] if named else 0.3
-        tilt = 0.2 * by.get("warmth", 0.0) * given.mean() * (celsius - celsius.mean()) / 100
-        return np.asarray((given + tilt) * np.exp(width * by.get("pressure_viscosity", 0.0)))
+    fluid = Fluid(oil_of({"lubricant": table}), celsius, priors, named, "pressure_MPa" in columns)
 
     def model(z: np.ndarray, acts: Sequence[Act]) -> np.ndarray:
-        still = resting(z)
-        state = Sample(celsius, pressure, still, slope(z), np.zeros_like(still), still)
+        still = fluid.resting(z)
+        state = Sample(celsius, pressure, still, fluid.slope(z), np.zeros_like(still), still)
         return np.asarray(play(CHAIN, state, acts).recorded)
 
-    def theta(z: np.ndarray) -> dict[str, float]:
-        if not named:
-            return {}
-        return {f"{name}_scale": float(np.exp(priors[name] * value)) for name, value in zip(names, z)}
-
-    forms = _drifts(time) + (_pressure_forms() if pressed else ()) + channel(time, True, named, False)
+    forms = _drifts(time) + (_pressure_forms() if fluid.pressed else ()) + channel(time, True, named, False)
     return Bench(
         kind="viscosity",
         settings=settings,
         columns=columns,
-        names=names,
+        names=fluid.names,
         model=model,
-        theta=theta,
+        theta=fluid.theta,
         forms=forms,
         outside=_outside(columns, time),
         quantile=0.1,

@@ -27,6 +27,15 @@ def boundary_speed_dependence(c: Contact, strength: float) -> Contact:
     return replace(c, boundary_friction=c.boundary_friction * ratio ** (0.1 * strength))
 
 
+def boundary_speed_logarithm(c: Contact, strength: float) -> Contact:
+    """Layers shear at a stress linear in the logarithm of speed: mu_B (1 + 0.05 strength ln(v_s/1 m/s)), 0.1 at least.
+
+    From 1 mm/s on.
+    """
+    grown = 1 + 0.05 * strength * np.log(np.maximum(c.sliding, 1e-3))
+    return replace(c, boundary_friction=c.boundary_friction * np.maximum(grown, 0.1))
+
+
 def tribofilm_growth(c: Contact, strength: float, pace: float) -> Contact:
     """A reaction film grows with the root of the time run: mu_B (1 + 0.3 strength sqrt(s)/sqrt(s + pace))."""
     grown = np.sqrt(c.rig.sequence / (c.rig.sequence + pace))[:, None]
@@ -54,6 +63,16 @@ EFFECTS = (
         boundary_speed_dependence,
         (strength(-4.0, 4.0, (0.8, 1.8)),),
         "power law in sliding speed",
+        0,
+        within=True,
+    ),
+    Concealed(
+        "boundary_speed_dependence",
+        "boundary",
+        "boundary",
+        boundary_speed_logarithm,
+        (strength(-4.0, 4.0, (0.8, 1.8)),),
+        "Briscoe and Evans 1982",
         0,
     ),
     Concealed(

@@ -66,6 +66,31 @@ def asperity_plasticity(c: Contact, strength: float) -> Contact:
     return replace(c, area=np.clip(c.area + extra, 0.0, 1.0))
 
 
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(48)
+HIGHEST = 8.0
+
+
+def asperity_elastoplasticity(c: Contact, strength: float) -> Contact:
+    """Between first yield and full flow the area goes over smoothly from once to twice that of elastic summits.
+
+    Zhao, Maietta and Chang: pi R w [1 + 3 x^2 - 2 x^3], x = (w - w_1)/(w_2 - w_1) from 0 to 1, w_2 = 54 w_1 and
+    w_1 = (3 pi k H/(4 E*))^2 R with k = 0.4, H = 7 GPa over the strength. Summits up to 8 spreads high.
+    """
+    if strength <= 0:
+        return c
+    s = summits(c)
+    t = (c.film - s.offset) / s.spread
+    first = (0.6 * np.pi * HARDNESS / strength / c.rig.solid.reduced) ** 2 * s.radius / s.spread
+    low = np.minimum(np.maximum(t + first, -HIGHEST), HIGHEST)
+    half = 0.5 * (HIGHEST - low)[..., None]
+    height = low[..., None] + half * (1 + NODES)
+    pressed = height - t[..., None]
+    flown = np.minimum((pressed / first[..., None] - 1) / 53, 1.0)
+    more = pressed * flown**2 * (3 - 2 * flown) * np.exp(-0.5 * height**2) / np.sqrt(2 * np.pi)
+    extra = np.pi * s.density * s.radius * s.spread * ((half * more) @ WEIGHTS)
+    return replace(c, area=np.clip(c.area + extra, 0.0, 1.0))
+
+
 def micro_ehl(c: Contact, strength: float) -> Contact:
     """Long waves are pressed flat: amplitude 1/(1 + 0.125 q + 0.04 q^2), q = strength (60 um/b) p0^1.5, GPa.
 
@@ -93,6 +118,15 @@ def surface_defects(c: Contact, strength: float) -> Contact:
     return replace(c, area=always + (1 - always) * c.area)
 
 
+def surface_burrs(c: Contact, strength: float, height: float) -> Contact:
+    """Burrs of exponentially distributed heights: P_B becomes a + (1 - a) P_B, a = 0.02 strength exp(-h/height).
+
+    The contact of exponential heights of Greenwood and Williamson; mean height in micrometres.
+    """
+    touching = np.minimum(0.02 * strength * np.exp(-c.film / (1e-6 * height)), 1.0)
+    return replace(c, area=touching + (1 - touching) * c.area)
+
+
 EFFECTS = (
     Concealed(
         "skewed_heights",
@@ -110,6 +144,16 @@ EFFECTS = (
         asperity_plasticity,
         (strength(0.0, 12.0, (0.6, 1.6)),),
         "Chang, Etsion and Bogy 1987",
+        1,
+        within=True,
+    ),
+    Concealed(
+        "asperity_plasticity",
+        "contact",
+        "contact",
+        asperity_elastoplasticity,
+        (strength(0.0, 20.0, (1.5, 4.0)),),
+        "Zhao, Maietta and Chang 2000",
         1,
     ),
     Concealed(
@@ -137,6 +181,17 @@ EFFECTS = (
         surface_defects,
         (strength(0.0, 20.0, (0.8, 2.5)),),
         "constant raised area",
+        1,
+        rarity=0.6,
+        within=True,
+    ),
+    Concealed(
+        "surface_defects",
+        "contact",
+        "contact",
+        surface_burrs,
+        (strength(0.0, 20.0, (0.8, 2.5)), Knob("height", 0.3, 10.0, (0.6, 3.0))),
+        "exponential heights of Greenwood and Williamson 1966",
         1,
         rarity=0.6,
     ),

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from mixedlub.proof.concealed.kinds import Concealed, Knob, strength
 from mixedlub.proof.rig import Contact
 
@@ -24,6 +26,13 @@ def starvation(c: Contact, strength: float, steepness: float) -> Contact:
     """
     over = strength * c.viscosity * c.entrainment / SUPPLY_LIMIT
     return replace(c, film=c.film * (1 + over**4) ** (-0.25 * steepness))
+
+
+def starved_by_meniscus(c: Contact, strength: float, distance: float) -> Contact:
+    """Hamrock-Dowson meniscus: h (m/m*)^0.29 below m* = 3.06 [(R/b)^2 H]^0.58, m in contact half widths."""
+    flooded = 3.06 * ((c.rig.radius / c.half_width) ** 2 * c.film / c.rig.radius) ** 0.58
+    share = (1 + distance) / np.maximum(strength, 1e-6) / (1 + flooded)
+    return replace(c, film=c.film * np.minimum(share, 1.0) ** 0.29)
 
 
 def inlet_shear_thinning(c: Contact, strength: float, plateau: float) -> Contact:
@@ -62,6 +71,16 @@ EFFECTS = (
         starvation,
         (strength(0.0, 30.0, (0.7, 2.5)), Knob("steepness", 0.25, 0.9, (0.35, 0.8))),
         "Cann, Damiens and Lubrecht 2004, replenishment group",
+        0,
+        within=True,
+    ),
+    Concealed(
+        "starvation",
+        "film",
+        "film",
+        starved_by_meniscus,
+        (strength(0.0, 12.0, (0.8, 2.0)), Knob("distance", 0.05, 3.0, (0.3, 1.5))),
+        "Hamrock and Dowson 1977",
         0,
     ),
     Concealed(

@@ -27,7 +27,8 @@ class Concealed:
     """A law that can be slipped in after ``hook``; its first knob is the strength, absent at zero.
 
     ``sign`` is what it does to the recorded quantity overall: +1, -1, or 0 where it may do both.
-    ``rarity`` is its weight when effects are drawn.
+    ``rarity`` is its weight when effects are drawn. ``within`` says that the catalogue's law of the same effect can
+    become this one, at some values of its parameters or in their limit.
     """
 
     id: str
@@ -40,6 +41,7 @@ class Concealed:
     kinds: tuple[str, ...] = BOTH
     rarity: float = 1.0
     possible: Callable[[Rig], bool] = lambda rig: True
+    within: bool = False
 
     def occurs_on(self, rig: Rig) -> bool:
         return rig.kind in self.kinds and self.possible(rig)

@@ -45,6 +45,12 @@ def elastic_hysteresis(c: Contact, strength: float) -> Contact:
     return _resisted(c, 0.01 * strength * c.half_width * c.line_load / (3 * np.pi * c.rig.radius))
 
 
+def elastic_damping(c: Contact, strength: float, power: float) -> Contact:
+    """Lazan: metals damp with a power n of stress between 2 and 3: the share lost is 0.01 s (p0/1 GPa)^(n - 2)."""
+    share = 0.01 * strength * (c.pressure / 1e9) ** (power - 2)
+    return _resisted(c, share * c.half_width * c.line_load / (3 * np.pi * c.rig.radius))
+
+
 def windage(c: Contact, strength: float) -> Contact:
     """Dawson: n^2.9 (0.16 D^3.9 + D^2.9 F^0.75 m^1.15) 1e-20 kW, both wheels (rpm, mm), mist of 5 x air."""
     width, module = 1e3 * c.rig.width, 1e3 * c.rig.extras["module"]
@@ -56,10 +62,30 @@ def windage(c: Contact, strength: float) -> Contact:
     return _added(c, 5 * strength * total)
 
 
+def windage_in_mist(c: Contact, strength: float) -> Contact:
+    """Anderson and Loewenthal, in kW, m, rpm, mPa s: 2.82e-7 (1 + 2.3 F/R) n^2.8 R^4.6 (0.028 eta + 0.019)^0.2."""
+    thickened = (28.0 * c.viscosity[:, 0] + 0.019) ** 0.2
+    total = np.zeros(len(c.recorded))
+    for key, ratio in (("pitch_diameter", 1.0), ("wheel_diameter", c.rig.extras["ratio"])):
+        radius = 0.5 * c.rig.extras[key]
+        total = total + (1 + 2.3 * c.rig.width / radius) * (_rpm(c) * ratio) ** 2.8 * radius**4.6
+    return _added(c, 5 * strength * 2.82e-4 * total * thickened)
+
+
 def churning(c: Contact, strength: float, speed_power: float, viscosity_power: float) -> Contact:
     """Dip loss as dip tests are fitted: P = 12 W strength (n/1500 rpm)^a (nu/15 mm2/s)^q."""
     power = (_rpm(c) / 1500) ** speed_power * (_viscosity_mm2_s(c) / 15) ** viscosity_power
     return _added(c, 12 * strength * power)
+
+
+def churning_of_rim_and_faces(c: Contact, strength: float, rim: float) -> Contact:
+    """Seetharaman and Kahraman: a film at the rim, n^2 nu, and turbulent layers at the faces, n^2.86 nu^0.14.
+
+    12 W strength at 1500 rpm and 15 mm2/s, ``rim`` of it at the rim; both go with the density.
+    """
+    n, nu = _rpm(c) / 1500, _viscosity_mm2_s(c) / 15
+    heavy = c.rig.oil.density_at(c.temperature)[:, 0] / c.rig.oil.density_15
+    return _added(c, 12 * strength * heavy * (rim * n**2 * nu + (1 - rim) * n**2.86 * nu**0.14))
 
 
 def bearing_drag(c: Contact, strength: float, sliding_share: float) -> Contact:
@@ -96,7 +122,17 @@ EFFECTS = (
         1,
         BOTH,
     ),
-    Concealed("windage", "loss", "loss", windage, (strength(0.0, 200.0),), "Dawson 1984", 1, GEAR),
+    Concealed("windage", "loss", "loss", windage, (strength(0.0, 200.0),), "Dawson 1984", 1, GEAR, within=True),
+    Concealed(
+        "windage",
+        "loss",
+        "loss",
+        windage_in_mist,
+        (strength(0.0, 200.0),),
+        "Anderson and Loewenthal 1980",
+        1,
+        GEAR,
+    ),
     Concealed(
         "churning",
         "loss",
@@ -108,6 +144,17 @@ EFFECTS = (
             Knob("viscosity_power", 0.05, 0.4, (0.08, 0.3)),
         ),
         "power-law fit of dip tests",
+        1,
+        GEAR,
+        within=True,
+    ),
+    Concealed(
+        "churning",
+        "loss",
+        "loss",
+        churning_of_rim_and_faces,
+        (strength(0.0, 20.0), Knob("rim", 0.0, 1.0, (0.15, 0.5))),
+        "Seetharaman and Kahraman 2009",
         1,
         GEAR,
     ),
@@ -129,6 +176,18 @@ EFFECTS = (
         elastic_hysteresis,
         (strength(0.0, 40.0, (0.8, 2.0)),),
         "elastic energy share",
+        1,
+        BOTH,
+        0.4,
+        within=True,
+    ),
+    Concealed(
+        "elastic_hysteresis",
+        "loss",
+        "loss",
+        elastic_damping,
+        (strength(0.0, 40.0, (0.8, 2.0)), Knob("power", 2.0, 3.0, (2.3, 3.0))),
+        "Lazan 1968",
         1,
         BOTH,
         0.4,

@@ -21,6 +21,12 @@ def heat_leak(c: Contact, strength: float, conductance: float) -> Contact:
     return replace(c, recorded=c.recorded * (1 - 0.05 * strength) - strength * conductance * over)
 
 
+def heat_leak_by_convection(c: Contact, strength: float, conductance: float) -> Contact:
+    """Walls cooled by free convection, whose film coefficient goes with the 0.25th power: G 40 K (T/40 K)^1.25."""
+    over = np.clip(c.temperature[:, 0] - c.rig.extras["ambient"], 0.0, None) / 40.0
+    return replace(c, recorded=c.recorded * (1 - 0.05 * strength) - strength * conductance * 40.0 * over**1.25)
+
+
 def sensor_offset(c: Contact, strength: float) -> Contact:
     return replace(c, recorded=c.recorded + strength * _scale(c))
 
@@ -31,6 +37,15 @@ def sensor_gain(c: Contact, strength: float) -> Contact:
 
 def sensor_drift(c: Contact, strength: float) -> Contact:
     return replace(c, recorded=c.recorded * (1 + 0.1 * strength * c.rig.sequence))
+
+
+def warmed_up(sequence: np.ndarray, pace: float) -> np.ndarray:
+    """An amplifier that warms up, from 0 to 1 over the programme: most of the change comes early."""
+    return np.asarray(np.expm1(-sequence / pace) / np.expm1(-1 / pace))
+
+
+def sensor_warming(c: Contact, strength: float, pace: float) -> Contact:
+    return replace(c, recorded=c.recorded * (1 + 0.1 * strength * warmed_up(c.rig.sequence, pace)))
 
 
 def torque_offset(c: Contact, strength: float) -> Contact:
@@ -49,6 +64,17 @@ EFFECTS = (
         "calorimetric balance",
         -1,
         GEAR,
+        within=True,
+    ),
+    Concealed(
+        "heat_leak",
+        "measurement",
+        "sensor",
+        heat_leak_by_convection,
+        (strength(0.0, 8.0), Knob("conductance", 0.0, 0.6, (0.02, 0.15))),
+        "calorimetric balance, free convection after McAdams 1954",
+        -1,
+        GEAR,
     ),
     Concealed(
         "sensor_offset",
@@ -58,9 +84,30 @@ EFFECTS = (
         (strength(-8.0, 8.0),),
         "instrument zero",
         0,
+        within=True,
     ),
-    Concealed("sensor_gain", "measurement", "sensor", sensor_gain, (strength(-4.0, 6.0),), "instrument span", 0),
-    Concealed("sensor_drift", "measurement", "sensor", sensor_drift, (strength(-6.0, 8.0),), "instrument drift", 0),
+    Concealed(
+        "sensor_gain", "measurement", "sensor", sensor_gain, (strength(-4.0, 6.0),), "instrument span", 0, within=True
+    ),
+    Concealed(
+        "sensor_drift",
+        "measurement",
+        "sensor",
+        sensor_drift,
+        (strength(-6.0, 8.0),),
+        "instrument drift",
+        0,
+        within=True,
+    ),
+    Concealed(
+        "sensor_drift",
+        "measurement",
+        "sensor",
+        sensor_warming,
+        (strength(-6.0, 8.0), Knob("pace", 0.7, 5.0, (1.0, 3.0))),
+        "warming amplifier",
+        0,
+    ),
     Concealed(
         "torque_offset",
         "measurement",
@@ -71,5 +118,6 @@ EFFECTS = (
         0,
         GEAR,
         0.7,
+        within=True,
     ),
 )

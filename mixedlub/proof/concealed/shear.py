@@ -77,6 +77,14 @@ def contact_creep(c: Contact, strength: float) -> Contact:
     return replace(c, stress=c.stress * -np.expm1(-slip / (0.004 * strength)))
 
 
+def contact_creep_polach(c: Contact, strength: float) -> Contact:
+    """Polach: tau (2/pi) [g/(1 + g^2) + arctan g], g = slip/(0.004 strength)."""
+    if strength <= 0:
+        return c
+    grip = c.sliding / c.entrainment / (0.004 * strength)
+    return replace(c, stress=c.stress * 2 / np.pi * (grip / (1 + grip**2) + np.arctan(grip)))
+
+
 EFFECTS = (
     Concealed(
         "film_heating",
@@ -114,6 +122,18 @@ EFFECTS = (
         contact_creep,
         (strength(0.0, 12.0, (1.0, 4.0)),),
         "exponential creep law of rolling contact",
+        -1,
+        DISC,
+        rarity=0.5,
+        within=True,
+    ),
+    Concealed(
+        "contact_creep",
+        "shear",
+        "shear",
+        contact_creep_polach,
+        (strength(0.0, 12.0, (1.0, 4.0)),),
+        "Polach 2005",
         -1,
         DISC,
         rarity=0.5,
