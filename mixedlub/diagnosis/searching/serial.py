@@ -9,6 +9,8 @@ from mixedlub.diagnosis.searching.search import Search
 
 FEWEST = 16
 """Stretches of a series from which the variance of their sums can be told."""
+SLOW = 2
+"""Half swings over a recording that are a drift."""
 WILD = 3.0
 """Sigmas to which a residual counts: wild readings do not last."""
 
@@ -23,12 +25,15 @@ def lasting(found: Search) -> float:
 
 
 def lasting_alone(found: Search) -> float:
-    """The same by what the calibrated base model leaves over: as it would be if nothing were missing."""
-    return _together(found, found.none.residual)
+    """The same by what the calibrated base model leaves over: as it would be if nothing were missing.
+
+    What drifts over the whole recording is no noise that lasts.
+    """
+    return _together(found, found.none.residual, SLOW)
 
 
-def _together(found: Search, left: np.ndarray) -> float:
-    """How many readings tell as much as one under a search, by residuals in its sigmas."""
+def _together(found: Search, left: np.ndarray, slow: int = 0) -> float:
+    """How many readings tell as much as one under a search, by residuals in its sigmas less so many ``slow`` swings."""
     rows = found.problem.rows
     order = clock_of(rows)
     if order is None:
@@ -36,7 +41,12 @@ def _together(found: Search, left: np.ndarray) -> float:
             return found.problem.together
         # A series without a clock was logged in the order of its rows.
         order = np.arange(len(rows))
-    return max(together(found.problem.of_one(left), order), found.problem.together)
+    left = found.problem.of_one(left)
+    if slow:
+        phase = np.pi * np.argsort(np.argsort(order)) / order.size
+        trend = np.cos(np.outer(phase, np.arange(slow + 1)))
+        left = left - trend @ np.linalg.lstsq(trend, np.clip(left, -WILD, WILD), rcond=None)[0]
+    return max(together(left, order), found.problem.together)
 
 
 def together(left: np.ndarray, clock: np.ndarray) -> float:
