@@ -99,8 +99,6 @@ def _read(path: Path, found: Kind, quantity: str | None, system: config.System, 
     if not path.exists() and not needed:
         return None
     table = read_table(path, _columns(found, system, quantity is not None))
-    if quantity is not None:
-        table = _with_readings(table, quantity, path)
     if quantity is not None and np.ptp(table[quantity]) == 0 and len(table) > 2:
         raise InputError(
             "all readings are the same number; a stuck channel cannot be diagnosed",
@@ -108,18 +106,6 @@ def _read(path: Path, found: Kind, quantity: str | None, system: config.System, 
             value=float(table[quantity][0]),
         )
     return _sds_told(table, f"{system.recording.quantity}_sd", path)
-
-
-def _with_readings(table: Table, quantity: str, path: Path) -> Table:
-    """The rows that have a reading."""
-    there = np.isfinite(table[quantity])
-    if there.all():
-        return table
-    if not there.any():
-        raise InputError("has no reading in any row", where=f"{path}: {quantity}")
-    note = f"{path.name}: {quantity} is missing at run {_listed(table['run'][~there])}: left out"
-    warnings.warn(note, CaseWarning, stacklevel=2)
-    return table.take(there)
 
 
 def _listed(runs: np.ndarray) -> str:
@@ -163,10 +149,7 @@ def _rounded(column: Column, low: float, high: float) -> Column:
 def _measured(system: config.System, required: bool) -> tuple[Column, ...]:
     """The recorded quantity, its standard deviation, and the check channel."""
     quantity = system.recording.quantity
-    columns = [
-        Column(quantity, required=required, blank=True),
-        Column(f"{quantity}_sd", at_least=0.0, required=False, blank=True),
-    ]
+    columns = [Column(quantity, required=required), Column(f"{quantity}_sd", at_least=0.0, required=False, blank=True)]
     if system.recording.check is not None:
         columns.append(Column(system.recording.check, required=False, blank=True))
     return tuple(columns)

@@ -15,7 +15,7 @@ import numpy as np
 from mixedlub.case import read_case
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.judging.confusion import confusion
-from mixedlub.diagnosis.telling.answer import as_json, checked
+from mixedlub.diagnosis.telling.answer import as_json
 from mixedlub.diagnosis.telling.resembling import unshown
 from profiles.errors import InputError
 
@@ -62,7 +62,7 @@ def said(d: Diagnosis) -> list[tuple[str, str]]:
     if answer["verdict"] != ["none"] and hidden:
         rows.append(("Too weak to show", ", ".join(hidden)))
     rows += [("Reading", text) for text in faults(d)]
-    check = checked(d)
+    check = d.check
     if check is None or check.correlation is None:
         return rows
     text = f"predicted reading against {check.column.replace('_', ' ')}, never fitted: r = {check.correlation:.3f}"

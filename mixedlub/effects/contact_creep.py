@@ -53,7 +53,8 @@ def contact_creep(
 
     The bodies creep as far as the traction shears them, so full sliding begins at a slip in proportion to friction
     and pressure. That is for all friction of bodies in contact. With oil between them the film's traction may do so
-    alone, when asperities, which meet and part many times in a passage, slide from their first touch.
+    alone, when asperities, which meet and part many times in a passage, slide from their first touch. The pressure of
+    1 GPa at which S_0 is told makes the form belong to Pa.
 
     >>> S, creep = np.array([0.0, 0.01, 0.05]), dict(saturation_slip=0.02, power=3.0)
     >>> contact_creep(0.05, 0.1, 0.2, S, 1e9, **creep, of_asperities=1.0).round(5).tolist()
@@ -61,6 +62,6 @@ def contact_creep(
     >>> contact_creep(0.05, 0.1, 0.2, S, 1e9, **creep, of_asperities=0.0).round(5).tolist()   # 0.1 x 0.2 stays
     [0.02, 0.04625, 0.05]
     """
-    slides = np.maximum(saturation_slip * (friction / FRICTION) * (hertz_pressure / PRESSURE), 1e-12)
-    sticking = np.maximum(slides - slide_roll_ratio, 0.0) / slides
+    slides = saturation_slip * (friction / FRICTION) * (hertz_pressure / PRESSURE)
+    sticking = np.maximum(slides - slide_roll_ratio, 0.0) / np.maximum(slides, 1e-12)
     return friction - (friction - (1.0 - of_asperities) * boundary_friction * area_ratio) * sticking**power

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import BetweenLog, Normal, Parameter, effect
+from mixedlub.effect import Between, BetweenLog, Normal, Parameter, effect
 
 
 @effect(
@@ -14,26 +14,20 @@ from mixedlub.effect import BetweenLog, Normal, Parameter, effect
         ),
         Parameter("sine", "-", Normal(0.0, 0.3), "amplitude a quarter period later, over T_c", null=0.0, symbol="b"),
         Parameter(
-            "turning_cosine",
+            "turning",
             "-",
-            Normal(0.0, 0.3),
-            "the same of what turns its sign with the direction, over T_c",
-            null=0.0,
-            symbol="c",
+            Between(0.0, 1.0),
+            "share that turns its sign with the direction: 0 for a torque of the position, 1 for friction",
+            symbol="r",
         ),
-        Parameter("turning_sine", "-", Normal(0.0, 0.3), "a quarter period later, over T_c", null=0.0, symbol="d"),
         Parameter("order", "-", BetweenLog(0.8, 60.0), "pulsations a turn", scan=400, symbol="N"),
     ),
-    equation=r"T_f \leftarrow T_f + T_c\,[a\cos N\phi + b\sin N\phi + (c\cos N\phi + d\sin N\phi)"
-    r"\operatorname{sgn}\omega]",
+    equation=r"T_f \leftarrow T_f + T_c\,(a\cos N\phi + b\sin N\phi)\,(1 - r + r\operatorname{sgn}\omega)",
     source="mesh-stiffness and eccentricity ripple, e.g. H. N. Ozguven, D. R. Houser, J. Sound Vib. 121 (1988) 383",
     fingerprint={"drive_angle": "0"},
     separated_by="readings against position at one speed: the ripple keeps its place on the wheel at any speed",
     kinds=("friction_map",),
-    contains={
-        "ripple of position": {"turning_cosine": 0.0, "turning_sine": 0.0},
-        "ripple of friction": {"cosine": 0.0, "sine": 0.0},
-    },
+    contains={"ripple of position": {"turning": 0.0}, "ripple of friction": {"turning": 1.0}},
 )
 def periodic_mesh(
     friction_torque: np.ndarray,
@@ -43,21 +37,18 @@ def periodic_mesh(
     *,
     cosine: float,
     sine: float,
-    turning_cosine: float,
-    turning_sine: float,
+    turning: float,
     order: float,
 ) -> np.ndarray:
     """Teeth in mesh and eccentric wheels make the torque pulsate with position.
 
     A torque of the position keeps its sign in either direction; pulsating friction turns it.
 
-    >>> ripple = dict(cosine=0.5, sine=0.0, turning_cosine=0.2, turning_sine=0.0, order=4.0)
-    >>> periodic_mesh(2.0, 1.0, np.array([0.0, np.pi / 4]), 10.0, **ripple).round(3).tolist()
-    [2.7, 1.3]
-    >>> periodic_mesh(-2.0, 1.0, np.array([0.0, np.pi / 4]), -10.0, **ripple).round(3).tolist()
-    [-1.7, -2.3]
+    >>> ripple, angle = dict(cosine=0.5, sine=0.0, order=4.0), np.array([0.0, np.pi / 4])
+    >>> periodic_mesh(2.0, 1.0, angle, 10.0, **ripple, turning=1.0).round(3).tolist()
+    [2.5, 1.5]
+    >>> [periodic_mesh(-2.0, 1.0, angle, -10.0, **ripple, turning=r).round(3).tolist() for r in (0.0, 1.0)]
+    [[-1.5, -2.5], [-2.5, -1.5]]
     """
-    way = np.sign(drive_speed)
-    ripple = (cosine + turning_cosine * way) * np.cos(order * drive_angle)
-    ripple = ripple + (sine + turning_sine * way) * np.sin(order * drive_angle)
-    return friction_torque + coulomb_torque * ripple
+    ripple = cosine * np.cos(order * drive_angle) + sine * np.sin(order * drive_angle)
+    return friction_torque + coulomb_torque * ripple * (1.0 - turning + turning * np.sign(drive_speed))

@@ -90,7 +90,7 @@ def test_every_letter_of_the_equation_is_explained(effect: Effect) -> None:
 def test_an_equation_that_lacks_a_parameter_or_explains_a_letter_nowhere_is_found() -> None:
     creep = catalogue()["contact_creep"]
     assert missing(replace(creep, equation=creep.equation.replace("^m", "^3"))) == ["power"]
-    assert unexplained(replace(creep, equation=creep.equation.replace("S_c", "S_0"))) == {"S_0"}
+    assert unexplained(replace(creep, equation=creep.equation.replace("S_0", "S_1"))) == {"S_1"}
     nameless = tuple(replace(p, symbol="") for p in creep.parameters)
     assert missing(replace(creep, parameters=nameless)) == [p.name for p in creep.parameters]
 

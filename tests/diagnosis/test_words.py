@@ -216,7 +216,7 @@ def test_temperature_of_an_answer_is_in_celsius(offset: Diagnosis, monkeypatch: 
 
 @pytest.mark.parametrize("p", [1e-304, 3e-7, 0.004, 0.3])
 def test_page_and_text_have_the_same_p_value(offset: Diagnosis, p: float) -> None:
-    d = replace(offset, test=replace(offset.test, p_value=p))
+    d = replace(offset, test=replace(offset.test, p_value=p, lenient=False))
     card = page._cards(d)[0][0]
     assert f"(p {'' if 'below' in card else '= '}{card}; " in told(d)[words.MISMATCH]
 

@@ -3,7 +3,6 @@
 import pytest
 
 from mixedlub.case import read_case
-from mixedlub.cli import main
 from mixedlub.importers import import_files
 from mixedlub.importers.wizard import run
 from mixedlub.table import CaseWarning
@@ -103,24 +102,3 @@ def test_a_row_of_a_traction_rig_without_its_reading_is_left_out(file, tmp_path)
     table = read_case(tmp_path / "case").recordings
     assert table["friction_coefficient"].tolist() == [0.01, 0.02, 0.04, 0.05, 0.06, 0.07]
     assert table["time_s"].tolist() == [1.0, 2.0, 4.0, 5.0, 6.0, 7.0]
-
-
-@pytest.mark.parametrize("cell", ABSENT)
-def test_a_recording_that_lacks_a_reading_goes_on_without_it(tmp_path, monkeypatch, capsys, cell):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "rig").mkdir()
-    (tmp_path / "rig/system.toml").write_text(DRIVE, encoding="utf-8")
-    rows = "".join(f"{i},{100 * i},{cell if i == 4 else 1 + 0.1 * i}\n" for i in range(1, 13))
-    (tmp_path / "rig/recordings.csv").write_text(f"run,speed_rpm,friction_torque_Nm\n{rows}", encoding="utf-8")
-    case = read_case(tmp_path / "rig")
-    assert 4 not in case.recordings["run"]
-    assert case.notes == ("recordings.csv: friction_torque_Nm is missing at run 4: left out",)
-    assert main(["check", "rig"]) == 0
-    assert "friction_torque_Nm is missing at run 4" in capsys.readouterr().out
-
-
-def test_a_recording_without_any_reading_is_refused(tmp_path):
-    (tmp_path / "system.toml").write_text(DRIVE, encoding="utf-8")
-    (tmp_path / "recordings.csv").write_text("run,speed_rpm,friction_torque_Nm\n1,5,\n2,6,n/a\n", encoding="utf-8")
-    with pytest.raises(InputError, match="friction_torque_Nm: has no reading in any row"):
-        read_case(tmp_path)

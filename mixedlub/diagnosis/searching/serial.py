@@ -27,13 +27,27 @@ def lasting(found: Search) -> float:
 def lasting_alone(found: Search) -> float:
     """The same by what the calibrated base model leaves over: as it would be if nothing were missing.
 
-    What drifts over the whole recording is no noise that lasts.
+    That is of a series at held conditions, or of very many readings: elsewhere what follows one another was run
+    alike. What drifts over the whole of it is no noise that lasts, and how large noise is has been said.
     """
-    return _together(found, found.none.residual, SLOW)
+    still = np.ptp(found.none.prediction) <= np.median(found.problem.sd)
+    if not still and len(found.problem.rows) < SERIES:
+        return found.problem.together
+    return _together(found, _undrifted(found))
 
 
-def _together(found: Search, left: np.ndarray, slow: int = 0) -> float:
-    """How many readings tell as much as one under a search, by residuals in its sigmas less so many ``slow`` swings."""
+def _undrifted(found: Search) -> np.ndarray:
+    """What the calibrated base model leaves over, less slow swings, no larger in the mean than noise."""
+    left = np.clip(found.problem.of_one(found.none.residual), -WILD, WILD)
+    clock = clock_of(found.problem.rows)
+    order = np.arange(left.size) if clock is None else np.argsort(np.argsort(clock))
+    swings = np.cos(np.pi * np.outer(order, np.arange(SLOW + 1)) / left.size)
+    left = left - swings @ np.linalg.lstsq(swings, left, rcond=None)[0]
+    return left / max(float(np.sqrt(np.mean(left**2))), 1.0) / np.sqrt(found.problem.together)
+
+
+def _together(found: Search, left: np.ndarray) -> float:
+    """How many readings tell as much as one under a search, by residuals in its sigmas."""
     rows = found.problem.rows
     order = clock_of(rows)
     if order is None:
@@ -41,12 +55,7 @@ def _together(found: Search, left: np.ndarray, slow: int = 0) -> float:
             return found.problem.together
         # A series without a clock was logged in the order of its rows.
         order = np.arange(len(rows))
-    left = found.problem.of_one(left)
-    if slow:
-        phase = np.pi * np.argsort(np.argsort(order)) / order.size
-        trend = np.cos(np.outer(phase, np.arange(slow + 1)))
-        left = left - trend @ np.linalg.lstsq(trend, np.clip(left, -WILD, WILD), rcond=None)[0]
-    return max(together(left, order), found.problem.together)
+    return max(together(found.problem.of_one(left), order), found.problem.together)
 
 
 def together(left: np.ndarray, clock: np.ndarray) -> float:
