@@ -48,3 +48,32 @@ def test_linked_files_exist(name):
 def test_version_is_in_the_changelog():
     version = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
     assert f"## {version}" in (ROOT / "CHANGELOG.md").read_text()
+
+
+ROWS = {
+    "right verdict, one effect, identifiable": "right verdict, one effect, identifiable",
+    "right or honestly tied, one effect": "right or honestly tied, one effect, all",
+    "both effects of a pair": "both effects of a pair named",
+    "none where nothing is missing": "none where nothing is missing",
+    "unknown where ": "unknown where so and identifiable",
+    "instrument fault called physics or the reverse": "fault called physics or physics fault",
+}
+
+
+@pytest.mark.parametrize(("scores", "column"), [("score.txt", 2), ("score_rigs.txt", 7)])
+@pytest.mark.parametrize("row", ROWS)
+def test_figures_of_the_proof_are_those_of_its_table(row, scores, column):
+    """The README has two tables of figures: value first, or value behind those of the kinds."""
+    table = (ROOT / "examples/proof" / scores).read_text(encoding="utf-8")
+    (found, *_) = re.findall(rf"^{re.escape(ROWS[row])} +([-.0-9e]+)", table, re.MULTILINE)
+    lines = [line.split("|") for line in README.splitlines() if line.startswith(f"| {row}")]
+    told = [float(cells[column]) for cells in lines if (len(cells) > 7) == (column == 7)]
+    assert told == [pytest.approx(float(found), abs=5e-3)]
+
+
+@pytest.mark.parametrize("scores", ["score.txt", "score_rigs.txt"])
+def test_every_goal_that_is_missed_is_told(scores):
+    table = (ROOT / "examples/proof" / scores).read_text(encoding="utf-8").split("\n\n")[0]
+    missed = len(re.findall("NOT met", table))
+    words = ("No goal is", "One goal is", "Two goals are", "Three goals are", "Four goals are", "Five goals are")
+    assert f"{words[missed]} missed" in README

@@ -6,13 +6,16 @@ import numpy as np
 import pytest
 
 from mixedlub.case import Case
-from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.judging.doubts import against, in_a_row, levels_off
 from mixedlub.diagnosis.recording.features import jitters
 from mixedlub.diagnosis.recording.noise import nearly_repeated
 from mixedlub.table import Table
 
+from ..kinds.conftest import make, system
 from .test_inference import problem
+
+__all__ = ["make"]
 
 
 def told(offset: Diagnosis, wrong: np.ndarray) -> list[str]:
@@ -90,3 +93,16 @@ def test_the_level_is_a_doubt_of_the_answer(offset: Diagnosis) -> None:
     wrong = offset.recorded.table["speed_rpm"] == 1500.0
     (note,) = [note for note in told(offset, wrong) if "speed 1500 rpm" in note]
     assert note.endswith("count as wrong on one side: that is no chance, and the answer leaves it out")
+
+
+def test_a_channel_that_was_kept_back_is_no_condition(make) -> None:
+    """Readings are wrong where the track is covered: the channel is compared with the answer, and nothing else."""
+    time = np.arange(1.0, 61.0) * 100.0
+    wrong = np.isin(np.arange(60), [3, 14, 25, 36, 47, 58])
+    friction = 0.1 * (1.0 + 0.01 * np.random.default_rng(1).standard_normal(60)) * np.where(wrong, 1.3, 1.0)
+    about = system("friction_history", "friction_coefficient")
+    about["recording"]["check"] = "coverage_percent"
+    columns = {"time_s": time, "friction_coefficient": friction, "coverage_percent": np.where(wrong, 100.0, 50.0)}
+    d = diagnose_case(make(about, columns).folder)
+    assert (d.outlier_chance[wrong] > 0.5).all()
+    assert not any("coverage" in text for text in d.warnings)

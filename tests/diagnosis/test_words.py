@@ -18,7 +18,7 @@ from mixedlub.diagnosis.labels import effect_words, number, with_names
 from mixedlub.diagnosis.publishing import page
 from mixedlub.diagnosis.recording.audit import SCARCE, Doubt, audit
 from mixedlub.diagnosis.telling import place, tables, words
-from mixedlub.diagnosis.telling.answer import effect_records
+from mixedlub.diagnosis.telling.answer import as_json, effect_records
 from mixedlub.effect import Normal, Parameter, catalogue
 from mixedlub.report.equations import equation
 from mixedlub.report.plain import plain_equation
@@ -193,6 +193,10 @@ def test_sensor_offset_has_the_size_that_it_is_a_share_of(offset: Diagnosis) -> 
     rows = section(judged(offset, {("sensor_offset",): 0.97}, 1), words.LEFT_OUT).table
     size = float(np.median(np.abs(offset.found.problem.forward.predict())))
     assert rows[1][-1].startswith(f"added to every reading, over its typical size ({number(size)} W)")
+
+
+def test_the_place_is_told_in_the_same_words_everywhere(offset: Diagnosis) -> None:
+    assert section(offset, words.WHERE).sentences[0] == as_json(offset)["location"]["text"]
 
 
 def test_where_says_which_base_model_is_meant(offset: Diagnosis) -> None:

@@ -140,3 +140,8 @@ def test_cluster_gives_the_same_bits(plan):
         there = collected(plan, todo, scheduler=cluster.scheduler_address)
     for name in ALL:
         assert np.array_equal(here[name], there[name]), name
+
+
+def test_a_system_that_tells_no_affinity_has_its_processors(monkeypatch):
+    monkeypatch.delattr("os.sched_getaffinity", raising=False)
+    assert batch.processors() >= 1
