@@ -54,7 +54,7 @@ class Forward:
             self.table = table = case.kind.completed(table, recorded)
             self.inputs: dict[str, Any] = case.kind.inputs(case.system, case.folder, table, recorded)
             if "sequence" in self.inputs:
-                self.inputs["ageing"] = ageing(table, recorded, self.inputs["sequence"])
+                self.inputs["ageing"] = ageing(recorded, self.inputs["sequence"])
             extra = case.kind.extra_calibration(case.system, recorded)
         self.notes = tuple(notes)
         self.scale = SCALE[case.quantity]

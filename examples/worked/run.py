@@ -151,17 +151,20 @@ def main() -> None:
             assert figure is not None
             figure.savefig(pictures / f"{name}.png", dpi=110, metadata={"Software": None})
     text = Template((HERE / "story.md").read_text(encoding="utf-8")).substitute(story(first, second, truth))
-    text = "\n".join(wrapped(line) for line in text.splitlines()) + "\n"
+    text = "\n\n".join(wrapped(block) for block in text.strip().split("\n\n")) + "\n"
     (HERE / "README.md").write_text(text, encoding="utf-8")
     print(text)
 
 
-def wrapped(line: str) -> str:
-    """A line of prose folded; tables, pictures and headings as they are."""
-    if len(line) <= 120 or line.startswith(("|", "!", "#", "    ")):
-        return line
-    quote = "> " if line.startswith("> ") else ""
-    return textwrap.fill(line, 116, subsequent_indent=quote, break_long_words=False, break_on_hyphens=False)
+def wrapped(block: str) -> str:
+    """A paragraph folded; tables, pictures, code and headings as they are."""
+    if block.startswith(("|", "!", "#", "    ")):
+        return block
+    quote = "> " if block.startswith("> ") else ""
+    words = " ".join(line.removeprefix(quote) for line in block.splitlines())
+    return textwrap.fill(
+        words, 116, initial_indent=quote, subsequent_indent=quote, break_long_words=False, break_on_hyphens=False
+    )
 
 
 if __name__ == "__main__":

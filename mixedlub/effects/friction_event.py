@@ -29,7 +29,7 @@ TENTHS = 2.0 * np.log(9.0)
 def friction_event(
     boundary_friction: np.ndarray, sequence: np.ndarray, *, change: float, place: float, width: float
 ) -> np.ndarray:
-    """Within a short time the surfaces change, as when a film breaks or oil is renewed, and friction stays another.
+    """Within a short time the surfaces change, as when a film breaks or oil is renewed; friction stays another one.
 
     >>> friction_event(0.1, np.array([0.2, 0.6]), change=0.2, place=0.5, width=0.05).round(3).tolist()
     [0.1, 0.122]

@@ -98,15 +98,15 @@ def bookkeeping_inputs(system: config.System, table: Table) -> Inputs:
     return inputs
 
 
-def ageing(table: Table, recorded: Table, sequence: np.ndarray) -> np.ndarray:
+def ageing(recorded: Table, sequence: np.ndarray) -> np.ndarray:
     """Share of the programme's ageing that is done at each row, at a rate that doubles every 10 K.
 
     That is the rule of thumb of van 't Hoff for reactions, oxidation among them. Where no temperature is recorded it
-    goes with the programme. ``sequence`` has the rows of ``table``, (rows, 1).
+    goes with the programme. ``sequence`` has a row a reading, (rows, 1).
 
     >>> place = np.linspace(0.0, 1.0, 5)
     >>> run = Table({"sequence": place, "temperature_C": np.array([20.0, 20.0, 20.0, 80.0, 80.0])}, "run")
-    >>> ageing(run, run, column(place))[:, 0].round(3).tolist()   # an hour at 20 degC is a minute at 80
+    >>> ageing(run, column(place))[:, 0].round(3).tolist()   # an hour at 20 degC is a minute at 80
     [0.0, 0.01, 0.02, 0.35, 1.0]
     """
     name = next((n for n in ("oil_temperature_C", "temperature_C") if n in recorded), None)

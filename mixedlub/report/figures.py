@@ -129,11 +129,6 @@ def _some_by_roughness(results: Results, chosen: np.ndarray) -> np.ndarray:
     return ordered[some(ordered.size, MOST_PANELS)] if ordered.size else ordered
 
 
-def name_of(results: Results, pairing: int) -> str:
-    """A pairing in words."""
-    return " / ".join(results.study.pairings[pairing])
-
-
 def _titled(results: Results, pairing: int, more: str = "") -> str:
     """A pairing above a panel, a line a surface where both do not fit into one."""
     pinion, gear = (s if len(s) <= LONGEST else f"{s[: LONGEST - 1]}…" for s in results.study.pairings[pairing])

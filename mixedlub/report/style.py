@@ -32,6 +32,8 @@ SETTINGS: dict[Any, Any] = {
     "svg.fonttype": "path",
     "svg.hashsalt": "mixedlub",
 }
+WIDTH = 7.2
+"""Inches of a figure across a page."""
 
 
 @contextmanager
@@ -50,16 +52,14 @@ def shades(count: int) -> np.ndarray:
     return matplotlib.colormaps["viridis_r"](np.linspace(0.12, 0.95, max(count, 2)))[:count]
 
 
-def panels(
-    count: int, columns: int, *, width: float = 7.2, height: float = 2.2, sharex: bool = True
-) -> tuple[Figure, list[Axes]]:
+def panels(count: int, columns: int, *, height: float = 2.2) -> tuple[Figure, list[Axes]]:
     """A figure of equal panels with common axes; surplus places stay empty."""
     from matplotlib.figure import Figure
 
     columns = min(columns, count)
     rows = -(-count // columns)
-    figure = Figure(figsize=(width, height * rows + 0.5), layout="constrained")
-    axes = figure.subplots(rows, columns, sharex=sharex, sharey=True, squeeze=False)
+    figure = Figure(figsize=(WIDTH, height * rows + 0.5), layout="constrained")
+    axes = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
     for empty in axes.flat[count:]:
         empty.set_visible(False)
     for column in range(columns):

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 SHOWN = 10
 FAINT = 1e-4
+FOLD = 58
+"""Letters of a line beside a bar."""
 
 
 def colour_of(key: Key) -> str:
@@ -189,7 +191,7 @@ def next_test(d: Diagnosis) -> Figure | None:
     return figure
 
 
-def _folded(text: str, width: int = 58) -> str:
+def _folded(text: str) -> str:
     import textwrap
 
-    return "\n".join(textwrap.wrap(text, width))
+    return "\n".join(textwrap.wrap(text, FOLD))

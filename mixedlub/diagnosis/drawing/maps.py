@@ -10,7 +10,7 @@ import numpy as np
 
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.drawing.style import DIVERGING, INK, MUTED, OUTLIER, PAPER, blank
-from mixedlub.diagnosis.judging.confusion import Confusion
+from mixedlub.diagnosis.judging.confusion import VISIBLE, Confusion
 from mixedlub.diagnosis.labels import amount, axis_label, effect_words, number, words_of
 from mixedlub.diagnosis.recording.levels import set_points
 
@@ -26,6 +26,9 @@ MOST_LEVELS = 14
 MOST_PANELS = 4
 MOST_TILES = 2000
 MOST_ROWS = 40
+MOST_EFFECTS = 26
+BLOCK = 0.92
+"""Side of the tiles of one place together, where 1 is the distance to the next."""
 LIMIT = 5.0
 DRIFT = 0.05
 
@@ -152,8 +155,9 @@ def _tiles(
         axes.spines[side].set_visible(False)
 
 
-def _block(count: int, side: float = 0.92) -> list[tuple[float, float, float, float]]:
+def _block(count: int) -> list[tuple[float, float, float, float]]:
     """A block around the origin cut into ``count`` tiles (left, bottom, width, height), rows as even as they go."""
+    side = BLOCK
     rows = max(1, round(float(np.sqrt(count / 1.8))))
     tiles, start = [], -0.5 * side
     for row in range(rows):
@@ -248,11 +252,11 @@ def _short(name: str, value: float | str) -> str:
     return str(value) if isinstance(value, str) else amount(float(value), name)
 
 
-def confusability(alike: Confusion, emphasised: tuple[str, ...], most: int = 26) -> Figure | None:
+def confusability(alike: Confusion, emphasised: tuple[str, ...]) -> Figure | None:
     """Cosines between the effects' signatures, and how visible each is at its usual strength."""
     if len(alike.ids) < 2:
         return None
-    chosen = _chosen(alike, emphasised, most)
+    chosen = _chosen(alike, emphasised, MOST_EFFECTS)
     order = chosen[_alike_together(alike.cosine[np.ix_(chosen, chosen)])]
     cosine = alike.cosine[np.ix_(order, order)]
     names = [effect_words(alike.ids[i]) for i in order]
@@ -284,11 +288,11 @@ def confusability(alike: Confusion, emphasised: tuple[str, ...], most: int = 26)
     bar.outline.set_visible(False)
     bar.set_label("cosine between signatures (1: cannot be told apart)")
     side.barh(np.arange(count) + 0.5, np.maximum(alike.visibility[order], 0.05), height=0.62, color=MUTED)
-    side.axvline(3.0, color=INK, lw=0.8, ls="--")
+    side.axvline(VISIBLE, color=INK, lw=0.8, ls="--")
     side.set_xscale("log")
     side.set_ylim(axes.get_ylim())
     side.set_yticks([])
-    side.set_xlabel("size left after\ncalibration (sigma);\nbelow 3: not testable")
+    side.set_xlabel(f"size left after\ncalibration (sigma);\nbelow {VISIBLE:g}: not testable")
     side.grid(axis="y", visible=False)
     return figure
 

@@ -12,6 +12,8 @@ from mixedlub.diagnosis.searching.search import Sampled, Search
 
 WANTED = 3.0
 """Gain in log evidence from which an effect's fitted form is used rather than the middle of its prior."""
+VISIBLE = 3.0
+"""Sigmas from which an effect shows."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,9 +30,9 @@ class Confusion:
     visibility: np.ndarray
     absorbed: np.ndarray
 
-    def unseen(self, limit: float = 3.0) -> tuple[str, ...]:
+    def unseen(self) -> tuple[str, ...]:
         """Effects that these readings would not show at their usual strength."""
-        return tuple(name for name, size in zip(self.ids, self.visibility, strict=True) if size < limit)
+        return tuple(name for name, size in zip(self.ids, self.visibility, strict=True) if size < VISIBLE)
 
 
 def confusion(found: Search) -> Confusion:

@@ -307,7 +307,7 @@ def _coefficient(every: _Search, own: np.ndarray) -> tuple[float, float, np.ndar
 
 def _held_out(found: Search, every: _Search, thin: np.ndarray) -> tuple[float, float, bool]:
     """Rms error in sigmas on levels left out, without a law and with one chosen on the others; do most splits win."""
-    squares: list[tuple[float, float, float]] = []
+    squares: list[tuple[float, float]] = []
     for axis, values in zip(found.space.axes, found.values, strict=True):
         levels, label = np.unique(values[thin], return_inverse=True)
         if levels.size < 3 or axis.name == "sequence":
@@ -324,11 +324,11 @@ def _held_out(found: Search, every: _Search, thin: np.ndarray) -> tuple[float, f
             _, _, c = _coefficient(train, train.columns(powers[None], flag)[0])
             left[1, out] = test.target - np.column_stack([test.fixed, test.columns(powers[None], flag)[0]]) @ c
         mean = (every.weight * left**2).sum(axis=1) / every.weight.sum()
-        squares.append((float(mean[0]), float(mean[1]), 1.0))
+        squares.append((float(mean[0]), float(mean[1])))
     if not squares:
         return 0.0, 0.0, False
     total = np.mean(np.array(squares), axis=0)
-    wins = sum(after < before for before, after, _ in squares)
+    wins = sum(after < before for before, after in squares)
     return float(np.sqrt(total[0])), float(np.sqrt(total[1])), wins >= 0.75 * len(squares)
 
 

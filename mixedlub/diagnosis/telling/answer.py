@@ -58,7 +58,7 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
                 "conditions": t.conditions,
                 "separates": list(t.separates),
                 "expected_bits": t.expected_bits,
-                "text": "; ".join((*beyond(t.conditions, d.recorded.table), separating_text(d, t.separates))),
+                "text": "; ".join((*beyond(t.conditions, d.recorded.table), separating_text(t.separates))),
             }
             for t in d.next_tests
         ],
@@ -130,7 +130,7 @@ def _told(refined: Refined, prior: Prior, index: int, spread: float) -> tuple[fl
     return interval(prior, refined.z[index], spread)
 
 
-def separating_text(d: Diagnosis, names: tuple[str, ...]) -> str:
+def separating_text(names: tuple[str, ...]) -> str:
     """What the catalogue says about telling the named effects apart."""
     ids = [part for name in names for part in name.split("+") if part not in ("none", "unknown")]
     return "; ".join(dict.fromkeys(f"{e.id}: {e.separated_by}" for e in effects_of(tuple(ids))))

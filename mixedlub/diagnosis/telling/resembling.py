@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.fitting.problem import effects_of
-from mixedlub.diagnosis.judging.confusion import Confusion
+from mixedlub.diagnosis.judging.confusion import VISIBLE, Confusion
 from mixedlub.diagnosis.labels import effect_words
 
 NEAR, ALIKE = 0.8, 0.95
@@ -54,8 +54,8 @@ def _resemblance(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
         )
     if unseen:
         said.append(
-            "Not testable here (below 3 sigma at usual strength once calibration adapts), so neither named nor "
-            f"excluded: {', '.join(effect_words(name) for name in unseen)}."
+            f"Not testable here (below {VISIBLE:g} sigma at usual strength once calibration adapts), so neither "
+            f"named nor excluded: {', '.join(effect_words(name) for name in unseen)}."
         )
     return tuple(said)
 
