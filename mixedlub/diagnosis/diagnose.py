@@ -22,7 +22,6 @@ from mixedlub.diagnosis.judging.published import Contained, contained
 from mixedlub.diagnosis.judging.validity import beyond_range, unpublished
 from mixedlub.diagnosis.judging.verdict import judge
 from mixedlub.diagnosis.recording.audit import audit
-from mixedlub.diagnosis.recording.noise import is_stated
 from mixedlub.diagnosis.searching.search import Progress, Search
 from mixedlub.diagnosis.searching.weighed import weighed
 from mixedlub.effect import find
@@ -104,12 +103,11 @@ def diagnose_case(
         there = Forward(case, wanted)
         there.nominal()
         warnings += [note for note in there.notes if note not in forward.notes]
-    stated = is_stated(case, rows)
     tried = weighed(case, rows, forward, y, exclude, progress)
     progress("testing against nothing missing")
     found, test = told_from_nothing(tried, level)
     case, rows = found.problem.case, found.problem.rows
-    warnings += scatter_notes(found, stated, tried.raised)
+    warnings += scatter_notes(found, tried.stated, tried.raised)
     progress("leaving levels out")
     judged, kept = judge(found, test)
     kept = kept.of_one(found.screened.problem.together)
@@ -125,19 +123,33 @@ def diagnose_case(
     place = region(rows, [*varied, *passing], np.where(chance > 0.5, 0.0, recorded.mismatch_z))
     laws = contained(found, judged.verdict)
     tests = next_tests(found, judged, refined, columns, varied)
-    at_one_place = judged.verdict == "unknown" and found.unknown.best.at is not None
-    warnings += unsure_odds(judged)
-    read = (case.quantity, f"{case.quantity}_sd", case.system.recording.check)
-    taken_at = Table({n: v for n, v in rows.columns.items() if n not in read}, rows.source)
-    warnings += against(judged.verdict, kept, taken_at, y, recorded.predicted, chance > 0.5, at_one_place)
-    if not isinstance(judged.verdict, str):
-        named = refined[judged.verdict]
-        warnings += beyond_range(found.problem, judged.verdict, named.z)
-        own = slice(found.problem.calibration_size, None)
-        warnings += unpublished(found.problem.effects(judged.verdict), named.z[own], named.spread[own])
+    warnings += _cautions(found, judged, kept, refined, recorded.predicted, chance > 0.5)
     return Diagnosis(
         case, found, test, judged, refined, recorded, other, chance, place, kept, laws, tests, tuple(warnings)
     )
+
+
+def _cautions(
+    found: Search,
+    judged: Posterior,
+    kept: HeldOut,
+    refined: dict[Key, Refined],
+    predicted: np.ndarray,
+    wrong: np.ndarray,
+) -> list[str]:
+    """What speaks against the answer: its odds, what it writes off, ranges and parameters that no law has."""
+    problem = found.problem
+    case, rows = problem.case, problem.rows
+    read = (case.quantity, f"{case.quantity}_sd", case.system.recording.check)
+    taken_at = Table({n: v for n, v in rows.columns.items() if n not in read}, rows.source)
+    at_one_place = judged.verdict == "unknown" and found.unknown.best.at is not None
+    said = unsure_odds(judged)
+    said += against(judged.verdict, kept, taken_at, problem.level(problem.y), predicted, wrong, at_one_place)
+    if isinstance(judged.verdict, str):
+        return said
+    named, own = refined[judged.verdict], slice(problem.calibration_size, None)
+    said += beyond_range(problem, judged.verdict, named.z)
+    return said + unpublished(problem.effects(judged.verdict), named.z[own], named.spread[own])
 
 
 def _completed(wanted: Table | None, rows: Table) -> tuple[Table | None, list[str]]:

@@ -1,6 +1,8 @@
-"""Forms tied to a box of conditions: what is there only where two or three of them are in a range each."""
+"""Forms tied to a box of conditions: what is there only where two or more of them are in a range each."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -21,37 +23,22 @@ def clearest_box(
 ) -> tuple[Box, float] | None:
     """The box whose readings are most together on one side, and the log of how many there are like it.
 
-    ``left`` are residuals in sigmas, ``scale`` is what a mismatch there goes by. A box of one condition has a
-    name already, as a step or a peak; none is of so few readings that they may be outliers.
+    ``left`` are residuals in sigmas, ``scale`` is what a mismatch there goes by. A box of one condition is a step or
+    a peak, and none is of so few readings that they may be outliers.
     """
-    axes = [
-        (axis.name, *_cells(v))
-        for axis, v in zip(space.axes, values, strict=True)
-        if not axis.named and axis.name not in (*PASSING, DERIVED, TURNED)
-    ]
-    axes = [(name, at, cell) for name, at, cell in axes if at.size > 2]
-    if len(axes) < 2:
+    grid = _Grid.of(space, values)
+    if len(grid.names) < 2:
         return None
-    cells = np.array([cell for _, _, cell in axes])
-    counts = [at.size - 1 for _, at, _ in axes]
-    costs = np.array([np.log(n * (n + 1) / 2.0) for n in counts])
-    found: tuple[float, np.ndarray] | None = None
-    for seed in np.argsort(np.abs(left * scale))[::-1][:SEEDS]:
-        worth, box = _grown(cells, counts, costs, cells[:, seed], left * scale, scale**2)
-        inside = _inside(cells, box)
-        cut = (box[:, 0] > 0) | (box[:, 1] < np.array(counts) - 1)
-        if cut.sum() > 1 and made_of(inside.astype(float), True) and (found is None or worth > found[0]):
-            found = worth, box
-    if found is None:
-        return None
-    box = found[1]
-    cut = (box[:, 0] > 0) | (box[:, 1] < np.array(counts) - 1)
-    ranges = tuple(
-        (name, float(at[low]), float(at[high + 1]))
-        for (name, at, _), (low, high), own in zip(axes, box, cut, strict=True)
-        if own
+    grown = (
+        grid.grown(seed, left * scale, scale**2) for seed in np.argsort(np.abs(left * scale))[::-1][:SEEDS].tolist()
     )
-    return ranges, float(costs[cut].sum())
+    usable = [
+        (worth, box) for worth, box in grown if grid.cut(box).sum() > 1 and made_of(grid.holds(box).astype(float), True)
+    ]
+    if not usable:
+        return None
+    _, best = max(usable, key=lambda found: found[0])
+    return grid.named(best), grid.cost(best)
 
 
 def inside(box: Box, space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
@@ -63,41 +50,81 @@ def inside(box: Box, space: Coordinates, values: list[np.ndarray]) -> np.ndarray
     return held
 
 
-def _cells(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Edges between the levels of a condition, open at both ends, and the level of each reading."""
-    points = set_points(values)
-    between = thinned(edges(np.unique(points))[1:])
-    at = np.concatenate([[-np.inf], between, [np.inf]])
-    return at, np.searchsorted(between, points, side="right")
+@dataclass(frozen=True, eq=False)
+class _Grid:
+    """Conditions, the edges between their levels, and the cell of each reading, shape (conditions, readings).
 
-
-def _grown(
-    cells: np.ndarray, counts: list[int], costs: np.ndarray, seed: np.ndarray, pull: np.ndarray, power: np.ndarray
-) -> tuple[float, np.ndarray]:
-    """Log likelihood gained by a box about a reading, less the log of the boxes like it, and its ranges of levels.
-
-    Each range in turn is the best one with the others as they are.
+    A box is the first and last cell along each condition, shape (conditions, 2).
     """
-    box = np.column_stack([seed, seed])
-    worth = -np.inf
-    for _ in range(ROUNDS):
-        before = worth
-        for k, count in enumerate(counts):
-            others = np.delete(np.arange(len(counts)), k)
-            held = _inside(cells[others], box[others])
-            sums, squares = (np.bincount(cells[k][held], weights=x[held], minlength=count) for x in (pull, power))
-            low, high = np.triu_indices(count)
-            sums, squares = (np.concatenate([[0.0], np.cumsum(x)]) for x in (sums, squares))
-            pulled, size = sums[high + 1] - sums[low], squares[high + 1] - squares[low]
-            gain = 0.5 * pulled**2 / np.maximum(size, 1e-300) - costs[k] * ((low > 0) | (high < count - 1))
-            best = int(np.argmax(gain))
-            box[k] = low[best], high[best]
-            uncut = [(box[i, 0] == 0) & (box[i, 1] == counts[i] - 1) for i in others]
-            worth = float(gain[best] - costs[others][~np.array(uncut, bool)].sum())
-        if worth <= before + 1e-9:
-            break
-    return worth, box
 
+    names: tuple[str, ...]
+    edges: tuple[np.ndarray, ...]
+    cells: np.ndarray
 
-def _inside(cells: np.ndarray, box: np.ndarray) -> np.ndarray:
-    return np.asarray(((cells >= box[:, :1]) & (cells <= box[:, 1:])).all(axis=0))
+    @classmethod
+    def of(cls, space: Coordinates, values: list[np.ndarray]) -> _Grid:
+        """The grid of what was set and has a measure; open at all ends."""
+        found = []
+        for axis, v in zip(space.axes, values, strict=True):
+            if axis.named or axis.name in (*PASSING, DERIVED, TURNED):
+                continue
+            points = set_points(v)
+            between = thinned(edges(np.unique(points))[1:])
+            if between.size:
+                every = np.concatenate([[-np.inf], between, [np.inf]])
+                found.append((axis.name, every, np.searchsorted(between, points, side="right")))
+        return cls(
+            tuple(name for name, _, _ in found),
+            tuple(at for _, at, _ in found),
+            np.array([cell for _, _, cell in found]),
+        )
+
+    @property
+    def counts(self) -> np.ndarray:
+        """Cells along each condition."""
+        return np.array([at.size - 1 for at in self.edges])
+
+    def cut(self, box: np.ndarray) -> np.ndarray:
+        """Along which conditions a box does not reach from end to end."""
+        return np.asarray((box[:, 0] > 0) | (box[:, 1] < self.counts - 1))
+
+    def cost(self, box: np.ndarray) -> float:
+        """Log of how many boxes there are with ranges of the same conditions."""
+        return float(np.log(self.counts * (self.counts + 1) / 2.0)[self.cut(box)].sum())
+
+    def holds(self, box: np.ndarray) -> np.ndarray:
+        """Which readings a box holds."""
+        return np.asarray(((self.cells >= box[:, :1]) & (self.cells <= box[:, 1:])).all(axis=0))
+
+    def named(self, box: np.ndarray) -> Box:
+        """The ranges of a box by the names of the conditions that it cuts."""
+        ranges = zip(self.names, self.edges, box.tolist(), self.cut(box), strict=True)
+        return tuple((name, float(at[low]), float(at[high + 1])) for name, at, (low, high), own in ranges if own)
+
+    def grown(self, seed: int, pull: np.ndarray, power: np.ndarray) -> tuple[float, np.ndarray]:
+        """Log likelihood gained by the box about a reading, less the log of the boxes like it, and the box.
+
+        Each range in turn is made the best one with the others as they are.
+        """
+        box = np.column_stack([self.cells[:, seed]] * 2)
+        worth = -np.inf
+        for _ in range(ROUNDS):
+            before = worth
+            for k, count in enumerate(self.counts):
+                box[k] = 0, count - 1
+                held = self.holds(box)
+                sums, squares = (
+                    np.concatenate(
+                        [[0.0], np.cumsum(np.bincount(self.cells[k][held], weights=x[held], minlength=count))]
+                    )
+                    for x in (pull, power)
+                )
+                low, high = np.triu_indices(count)
+                gain = 0.5 * (sums[high + 1] - sums[low]) ** 2 / np.maximum(squares[high + 1] - squares[low], 1e-300)
+                gain -= np.log(count * (count + 1) / 2.0) * ((low > 0) | (high < count - 1))
+                gain -= self.cost(box)
+                best = int(np.argmax(gain))
+                box[k], worth = (low[best], high[best]), float(gain[best])
+            if worth <= before + 1e-9:
+                break
+        return worth, box
