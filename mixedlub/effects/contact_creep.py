@@ -24,15 +24,23 @@ FRICTION, PRESSURE = 0.05, 1e9
             "power", "-", LogNormal(2.4, 0.6), "3 for a point contact of like bodies, 2 for a line contact", symbol="m"
         ),
         Parameter(
+            "elastic",
+            "-",
+            Between(0.0, 1.0),
+            "power of friction times pressure in that slip: 1 where the bodies alone give way",
+            symbol="k",
+        ),
+        Parameter(
             "of_asperities", "-", Between(0.0, 1.0), "share of the asperities' friction that starts so too", symbol="a"
         ),
     ),
     equation=r"\mu \leftarrow \mu - [\mu - (1 - a)\,\mu_B P_B]\,(1 - S/S_c)^m\quad (S < S_c),\quad "
-    r"S_c = S_0\,\frac{\mu}{0.05}\,\frac{p_0}{\text{1 GPa}}",
+    r"S_c = S_0\left(\frac{\mu}{0.05}\,\frac{p_0}{\text{1 GPa}}\right)^k",
     source="P. J. Vermeulen, K. L. Johnson, J. Appl. Mech. 31 (1964) 338, m = 3; "
     "F. W. Carter, Proc. R. Soc. A 112 (1926) 151, m = 2; K. L. Johnson, J. L. Tevaarwerk, Proc. R. Soc. A 356 (1977) "
     "215, film and bodies yielding under the film's traction alone (a = 0)",
     fingerprint={"slide_roll_ratio": "+"},
+    contains={"bodies alone": {"elastic": 1.0}, "one slip": {"elastic": 0.0}},
     separated_by="a sweep of slip below one per cent at constant speed: the rise is proportional to slip and does "
     "not depend on viscosity or speed as a fluid film does",
     valid={"slide_roll_ratio": (0.0, 0.5)},
@@ -47,21 +55,22 @@ def contact_creep(
     *,
     saturation_slip: float,
     power: float,
+    elastic: float,
     of_asperities: float,
 ) -> np.ndarray:
     """Part of a nominal slip is taken up by elastic shear of the bodies, so friction starts in proportion to slip.
 
     The bodies creep as far as the traction shears them, so full sliding begins at a slip in proportion to friction
-    and pressure. That is for all friction of bodies in contact. With oil between them the film's traction may do so
-    alone, when asperities, which meet and part many times in a passage, slide from their first touch. The pressure of
-    1 GPa at which S_0 is told makes the form belong to Pa.
+    and pressure; laws for wheel and rail often have one slip for all. That is for all friction of bodies in contact.
+    With oil between them the film's traction may do so alone, when asperities, which meet and part many times in a
+    passage, slide from their first touch. The pressure of 1 GPa at which S_0 is told makes the form belong to Pa.
 
-    >>> S, creep = np.array([0.0, 0.01, 0.05]), dict(saturation_slip=0.02, power=3.0)
+    >>> S, creep = np.array([0.0, 0.01, 0.05]), dict(saturation_slip=0.02, power=3.0, elastic=1.0)
     >>> contact_creep(0.05, 0.1, 0.2, S, 1e9, **creep, of_asperities=1.0).round(5).tolist()
     [0.0, 0.04375, 0.05]
     >>> contact_creep(0.05, 0.1, 0.2, S, 1e9, **creep, of_asperities=0.0).round(5).tolist()   # 0.1 x 0.2 stays
     [0.02, 0.04625, 0.05]
     """
-    slides = saturation_slip * (friction / FRICTION) * (hertz_pressure / PRESSURE)
+    slides = saturation_slip * ((friction / FRICTION) * (hertz_pressure / PRESSURE)) ** elastic
     sticking = np.maximum(slides - slide_roll_ratio, 0.0) / np.maximum(slides, 1e-12)
     return friction - (friction - (1.0 - of_asperities) * boundary_friction * area_ratio) * sticking**power

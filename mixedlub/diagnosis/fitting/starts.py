@@ -13,8 +13,8 @@ SAMPLES = (12, 24, 40, 56)
 """Draws of the prior by the number of parameters: a space of more takes more to be covered."""
 NEAR, APART, STARTS = 25.0, 1.2, 3
 """A single effect is fitted from this many draws: not far behind the best one, and that far apart."""
-MET = 0.3
-"""Log evidences nearer than that are of one maximum."""
+WILD = 0.5
+"""Weight below which a reading counts for little."""
 SCANNED_TO = 3.0
 """Farthest that a scan takes the parameters it fits linearly."""
 STRAINED = 25.0
@@ -102,7 +102,7 @@ def spread(size: int, count: int) -> np.ndarray:
 
 
 def fit_single(problem: Problem, none: Fit, sampled: Sampled) -> Fit:
-    """Fit from the most promising draws that lie apart until two climbs meet, keep the best.
+    """Fit from the most promising draws that lie apart, keep the best.
 
     A base model strained far from its prior is a bad place to start from: the calibration's prior is tried too.
     """
@@ -119,16 +119,11 @@ def fit_single(problem: Problem, none: Fit, sampled: Sampled) -> Fit:
             break
         if all(np.max(np.abs(sampled.z[i] - sampled.z[k])) > APART for k in chosen):
             chosen.append(i)
-    tries = [starts[i] for i in chosen[1:]]
+    tries = [starts[i] for i in chosen]
     if none.z @ none.z > STRAINED:
         tries.append(np.concatenate([np.zeros(none.z.size), sampled.z[order[0]]]))
-    # Wild readings may pull a fit away from where it starts well.
-    best = map_fit(problem, (sampled.id,), starts[chosen[0]], warm=True)
-    for start in (*tries, starts[chosen[0]]):
-        fit = map_fit(problem, (sampled.id,), start)
-        met = abs(fit.evidence - best.evidence) < MET
-        if fit.evidence > best.evidence or not np.isfinite(best.evidence):
-            best = fit
-        if met:
-            break
-    return best
+    found = [map_fit(problem, (sampled.id,), start) for start in tries]
+    if none.weight.min() < WILD:
+        # Wild readings may pull a fit away from where it starts well.
+        found.append(map_fit(problem, (sampled.id,), tries[0], warm=True))
+    return max(found, key=lambda fit: fit.evidence if np.isfinite(fit.evidence) else -np.inf)

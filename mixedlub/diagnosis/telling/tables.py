@@ -91,6 +91,8 @@ def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Table]:
         "1 sd is the uncertainty of the input, stated by the case or assumed where it states none: within 2 sd it was "
         "moved no further than expected."
     )
+    if len(d.posterior.tied) > 1:
+        said.append("That is with the first of the tied answers; another one moves inputs elsewhere.")
     return tuple(said), tuple(table)
 
 

@@ -116,7 +116,10 @@ def _wrapped(text: str, start: str) -> list[str]:
 
 def _mismatch(d: Diagnosis) -> tuple[str, ...]:
     test = d.test
-    alarm = f"This test is wrong in {100 * test.level:g} % of the cases in which nothing is missing."
+    alarm = (
+        "The test asks whether what is left goes with conditions or as an effect would, not for its chi-square alone. "
+        f"It is wrong in {100 * test.level:g} % of the cases in which nothing is missing."
+    )
     kept = d.outlier_chance <= 0.5
     squares = d.found.problem.of_one(d.found.none.residual) ** 2
     strain = float(d.found.none.z @ d.found.none.z)
