@@ -13,6 +13,8 @@ SAMPLES = (12, 24, 40, 56)
 """Draws of the prior by the number of parameters: a space of more takes more to be covered."""
 NEAR, APART, STARTS = 25.0, 1.2, 3
 """A single effect is fitted from this many draws: not far behind the best one, and that far apart."""
+MOVES = 1.0
+"""Squared sigmas by which a draw moves the readings in all, from which they tell of it."""
 WILD = 0.5
 """Weight below which a reading counts for little."""
 SCANNED_TO = 3.0
@@ -36,7 +38,7 @@ class Sampled:
     @property
     def testable(self) -> bool:
         """Whether any draw moves the readings, by a sigma in all: an effect that does not explains none."""
-        return bool(np.einsum("ij,ij->i", self.change, self.change).max() > 1.0)
+        return bool(np.einsum("ij,ij->i", self.change, self.change).max() > MOVES)
 
 
 def sample(problem: Problem, name: str, none: Fit) -> Sampled:
@@ -113,6 +115,9 @@ def fit_single(problem: Problem, none: Fit, sampled: Sampled) -> Fit:
         scores.append(linear.evidence - 0.5 * z @ z)
         starts.append(np.concatenate([linear.coefficients[: none.z.size], z]))
     order = np.argsort(scores)[::-1]
+    # Where an effect moves nothing it has no slope to climb.
+    moves = np.einsum("ij,ij->i", sampled.change, sampled.change) > MOVES
+    order = order[moves[order]] if moves.any() else order
     chosen = [order[0]]
     for i in order[1:]:
         if scores[i] < scores[order[0]] - NEAR or len(chosen) == STARTS:
