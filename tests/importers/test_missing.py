@@ -21,16 +21,6 @@ DRIVE = "schema = 'mixedlub-case/1'\nkind = 'friction_map'\n[recording]\nquantit
 ABSENT = ["", "n/a", "-", "NaN", "#N/A", "--"]
 
 
-@pytest.fixture
-def file(tmp_path):
-    def write(text, name="t.csv"):
-        path = tmp_path / name
-        path.write_text(text, encoding="utf-8")
-        return path
-
-    return write
-
-
 def said_of(path, out, told=TOLD):
     lines = []
     run([path], out, [f"{key}={value}" for key, value in told.items()], say=lines.append)

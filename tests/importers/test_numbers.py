@@ -11,16 +11,6 @@ from mixedlub.importers.wizard import run
 HISTORY = {"kind": "friction_history"}
 
 
-@pytest.fixture
-def file(tmp_path):
-    def write(text, name="t.csv"):
-        path = tmp_path / name
-        path.write_text(text, encoding="utf-8")
-        return path
-
-    return write
-
-
 def said_of(files, out, kind="viscosity"):
     lines = []
     run(files, out, [f"kind={kind}"], say=lines.append)

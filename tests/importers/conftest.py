@@ -1,0 +1,13 @@
+"""A file with a text, as an instrument or a lab leaves it."""
+
+import pytest
+
+
+@pytest.fixture
+def file(tmp_path):
+    def write(text, name="t.csv"):
+        path = tmp_path / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write
