@@ -8,7 +8,7 @@ import numpy as np
 
 from mixedlub.diagnosis.recording.features import PASSING, Coordinates
 from mixedlub.diagnosis.recording.levels import set_points
-from mixedlub.diagnosis.unnamed.places import DERIVED, TURNED, edges, made_of, thinned
+from mixedlub.diagnosis.unnamed.places import DERIVED, edges, made_of, thinned
 
 SEEDS = 12
 """Readings, those farthest off, from whose own conditions a box is grown."""
@@ -66,7 +66,7 @@ class _Grid:
         """The grid of what was set and has a measure; open at all ends."""
         found = []
         for axis, v in zip(space.axes, values, strict=True):
-            if axis.named or axis.name in (*PASSING, DERIVED, TURNED):
+            if axis.named or axis.name in (*PASSING, DERIVED):
                 continue
             points = set_points(v)
             between = thinned(edges(np.unique(points))[1:])
@@ -84,13 +84,18 @@ class _Grid:
         """Cells along each condition."""
         return np.array([at.size - 1 for at in self.edges])
 
+    @property
+    def ranges(self) -> np.ndarray:
+        """Log of how many ranges each condition has."""
+        return np.log(self.counts * (self.counts + 1) / 2.0)
+
     def cut(self, box: np.ndarray) -> np.ndarray:
         """Along which conditions a box does not reach from end to end."""
         return np.asarray((box[:, 0] > 0) | (box[:, 1] < self.counts - 1))
 
     def cost(self, box: np.ndarray) -> float:
         """Log of how many boxes there are with ranges of the same conditions."""
-        return float(np.log(self.counts * (self.counts + 1) / 2.0)[self.cut(box)].sum())
+        return float(self.ranges[self.cut(box)].sum())
 
     def holds(self, box: np.ndarray) -> np.ndarray:
         """Which readings a box holds."""
@@ -121,7 +126,7 @@ class _Grid:
                 )
                 low, high = np.triu_indices(count)
                 gain = 0.5 * (sums[high + 1] - sums[low]) ** 2 / np.maximum(squares[high + 1] - squares[low], 1e-300)
-                gain -= np.log(count * (count + 1) / 2.0) * ((low > 0) | (high < count - 1))
+                gain -= self.ranges[k] * ((low > 0) | (high < count - 1))
                 gain -= self.cost(box)
                 best = int(np.argmax(gain))
                 box[k], worth = (low[best], high[best]), float(gain[best])

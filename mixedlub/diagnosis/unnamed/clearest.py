@@ -21,16 +21,16 @@ CLIPPED = 3.0
 def clearest(
     target: np.ndarray,
     fixed: np.ndarray,
+    clipped: np.ndarray,
     columns_of: Callable[[Shape], np.ndarray],
     shapes: list[Shape],
     near: Callable[[Shape], list[Shape]],
 ) -> tuple[Shape, Linear]:
     """The shape with most evidence beside the ``fixed`` columns, of size one, and the fit with it.
 
-    A smooth fit takes what is narrow or swings for outliers, so the first look counts all readings, none beyond a
-    bound. ``near`` gives the shapes about a leader that are fitted.
+    A smooth fit takes what is narrow or swings for outliers, so the first look, at ``clipped`` residuals, counts all
+    readings. ``near`` gives the shapes about a leader that are fitted.
     """
-    clipped = first_look(target, fixed)
     base = _directions(fixed, fixed)
     power = np.empty(len(shapes))
     for i, shape in enumerate(shapes):

@@ -57,16 +57,16 @@ def unknown_fit(
     def columns_of(shape: Shape) -> np.ndarray:
         return shape.columns(space, values, rides)
 
-    weighed = []
+    weighed, clipped = [], first_look(target, fixed)
     for family in families(space, values, rides, names):
         if family[0].form == "smooth":
             reference = linear_fit(target, np.hstack([fixed, columns_of(rich(space))]))
         else:
-            clear, reference = clearest(target, fixed, columns_of, family, lambda s: s.near(space, values))
+            clear, reference = clearest(target, fixed, clipped, columns_of, family, lambda s: s.near(space, values))
             family = list(dict.fromkeys([*family, clear]))
         weighed.append(_weighed(target, fixed, columns_of, family, reference.weight))
-    for family, cost in _boxes(target, fixed, space, values, rides):
-        _, reference = clearest(target, fixed, columns_of, family, lambda s: [s])
+    for family, cost in _boxes(clipped, space, values, rides):
+        _, reference = clearest(target, fixed, clipped, columns_of, family, lambda s: [s])
         weighed.append(_weighed(target, fixed, columns_of, family, reference.weight, cost))
     best, fit = max(((each.best, each.fit) for each in weighed), key=lambda found: found[1].evidence)
     own = columns_of(best)
@@ -123,10 +123,9 @@ def _weighed(
 
 
 def _boxes(
-    target: np.ndarray, fixed: np.ndarray, space: Coordinates, values: list[np.ndarray], rides: Carriers
+    left: np.ndarray, space: Coordinates, values: list[np.ndarray], rides: Carriers
 ) -> Iterator[tuple[list[Shape], float]]:
     """The clearest box by each carrier of the reading, as a family of its own, and the log of how many are like it."""
-    left = first_look(target, fixed)
     for carrier in (READING, NOTHING):
         found = clearest_box(space, values, left, rides[carrier]) if carrier in rides else None
         if found is not None:
