@@ -151,6 +151,7 @@ def of_track(t: Track, columns: Values) -> Values:
         "friction": t.recorded,
         "area_ratio": whole,
         "slide_roll_ratio": columns.get("slide_roll_ratio", whole),
+        "hertz_pressure": 1e9,
         "sequence": place,
         "reading": t.recorded,
         "reading_scale": 1.0,
