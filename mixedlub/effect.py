@@ -184,6 +184,16 @@ class Effect:
         return replace(self, parameters=free, held={**self.held, **values})
 
     @property
+    def published(self) -> dict[str, dict[str, float]]:
+        """Published laws that are within reach of the free parameters, with the values these take there."""
+        free = {p.name for p in self.parameters}
+        left = {
+            law: {name: value for name, value in values.items() if self.held.get(name) != value}
+            for law, values in self.contains.items()
+        }
+        return {law: values for law, values in left.items() if values and values.keys() <= free}
+
+    @property
     def summary(self) -> str:
         """The first line of the law's docstring."""
         return (inspect.getdoc(self.law) or "").split("\n")[0]

@@ -9,6 +9,7 @@ WARM = 313.15
 KELVIN = 100.0
 GLASS = 1e8
 SAMPLE = ("viscosity",)
+CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
 LOW = 0.15e9
 """Pressure up to which an inlet makes the film (Pa): what is measured there says little of the contact."""
 
@@ -36,6 +37,24 @@ LOW = 0.15e9
         ),
         Parameter("slope", "-", LogNormal(1.0, 0.25), "slope above 0.15 GPa over that below", null=1.0, symbol="s"),
         Parameter(
+            "slope_with_temperature",
+            "-",
+            Normal(0.0, 0.3),
+            "log change of that slope over 100 K, in 1/T",
+            null=0.0,
+            symbol="d",
+            kinds=CONTACT,
+        ),
+        Parameter(
+            "slope_bow",
+            "-",
+            Normal(0.0, 0.3),
+            "part of that change in the square of 1/T",
+            null=0.0,
+            symbol="w",
+            kinds=CONTACT,
+        ),
+        Parameter(
             "bend_down",
             "1/Pa",
             LogNormal(5e-10, 1.2),
@@ -62,9 +81,9 @@ LOW = 0.15e9
     r"\ell = (1 - r)\ln\frac{\eta_p}{\eta_0} + r\,\ell_R,\ "
     r"\ell_R = (\ln\eta_0 + 9.67)\left[\left(1 + \frac{p_0}{p_r}\right)^Z - 1\right],\ "
     r"p_r = 0.196\,\text{GPa},\quad "
-    r"f = \left[1 + (s - 1)(1 - e^{-p_0/p_s})\right]\frac{e^{B'p_0} - e^{-C'p_0}}{(B' + C')\,p_0},\ "
+    r"f = \left[1 + (s' - 1)(1 - e^{-p_0/p_s})\right]\frac{e^{B'p_0} - e^{-C'p_0}}{(B' + C')\,p_0},\ "
     r"p_s = 0.15\,\text{GPa},\quad "
-    r"B' = B e^{b z},\ C' = C e^{c z},\ "
+    r"s' = s e^{d z + w z^2},\ B' = B e^{b z},\ C' = C e^{c z},\ "
     r"z = \frac{\theta_{oil} - \theta_r}{100\,\text{K}}\,\frac{\theta_r}{\theta_{oil}},\ "
     r"\theta_r = 313.15\,\text{K},\quad "
     r"G(x) = \frac{x}{[1 + (x/g)^8]^{1/8}},\ g = \ln\frac{10^8\,\text{Pa s}}{\eta_0}",
@@ -74,7 +93,16 @@ LOW = 0.15e9
     separated_by="a high-pressure viscometer at two temperatures: an exponential is straight in a log plot, Roelands "
     "only bends down, a liquid near its glass bends up again",
     odds=0.5,
-    contains={"Roelands": {"roelands": 1.0, "slope": 1.0, "bend_down": 0.0, "bend_up": 0.0}},
+    contains={
+        "Roelands": {
+            "roelands": 1.0,
+            "slope": 1.0,
+            "slope_with_temperature": 0.0,
+            "slope_bow": 0.0,
+            "bend_down": 0.0,
+            "bend_up": 0.0,
+        }
+    },
 )
 def pressure_viscosity_law(
     contact_viscosity: np.ndarray,
@@ -85,6 +113,8 @@ def pressure_viscosity_law(
     roelands: float,
     exponent: float,
     slope: float,
+    slope_with_temperature: float,
+    slope_bow: float,
     bend_down: float,
     bend_up: float,
     down_with_temperature: float,
@@ -94,10 +124,12 @@ def pressure_viscosity_law(
 
     At contact pressures Roelands' law, the base of gears and discs, has most of the bend already; a sample in a
     viscometer starts from the exponential of Barus. The coefficient that makes the film belongs to low pressure,
-    and the slope in the contact need not be its. Both bends change exponentially with 1/T.
+    and the slope in the contact need not be its, nor run straight between the temperatures at which it is known.
+    Both bends change exponentially with 1/T.
     It levels off at a glass. The glass's 1e8 Pa s, the 0.15 GPa, 9.67 and p_r make the form belong to Pa s and Pa.
 
-    >>> rest = dict(down_with_temperature=0.0, up_with_temperature=0.0, bend_up=0.0, slope=1.0, exponent=0.53135)
+    >>> rest = dict(down_with_temperature=0.0, up_with_temperature=0.0, bend_up=0.0, exponent=0.53135)
+    >>> rest |= dict(slope=1.0, slope_with_temperature=0.0, slope_bow=0.0)
     >>> x = pressure_viscosity_law(np.exp(10.0), 1.0, 0.5e9, 313.15, roelands=0.0, bend_down=2e-9, **rest)
     >>> round(float(np.log(x)), 1)   # 10 (1 - exp(-1))/1 = 6.32
     6.3
@@ -108,7 +140,8 @@ def pressure_viscosity_law(
     warmer = (oil_temperature - WARM) / KELVIN * (WARM / oil_temperature)
     down = bend_down * np.exp(down_with_temperature * warmer) * hertz_pressure
     up = bend_up * np.exp(up_with_temperature * warmer) * hertz_pressure
-    steeper = 1.0 - (slope - 1.0) * np.expm1(-hertz_pressure / LOW)
+    changed = slope * np.exp((slope_with_temperature + slope_bow * warmer) * warmer)
+    steeper = 1.0 - (changed - 1.0) * np.expm1(-hertz_pressure / LOW)
     log = np.log(contact_viscosity / viscosity)
     power = np.log(roelands_viscosity(viscosity, roelands_coefficient(viscosity, exponent), hertz_pressure) / viscosity)
     half = np.minimum(0.5 * (down + up), 50.0)

@@ -2,30 +2,46 @@
 
 import numpy as np
 
-from mixedlub.effect import LogNormal, Parameter, effect
+from mixedlub.effect import Between, LogNormal, Parameter, effect
 
 
 @effect(
     stage="contact",
     acts_on="area_ratio",
     parameters=(
-        Parameter("share", "-", LogNormal(0.01, 0.8), "share of the contact that always touches", null=0.0, symbol="c"),
+        Parameter(
+            "share",
+            "-",
+            LogNormal(0.01, 0.8),
+            "share of the contact that touches without a film",
+            null=0.0,
+            symbol="c",
+        ),
+        Parameter(
+            "inverse_height", "1/m", Between(0.0, 2e6), "one over the mean height of the defects", symbol=r"\kappa"
+        ),
     ),
-    equation=r"P_B \leftarrow P_B + c\,(1 - P_B)",
-    source="geometry: defects that stand proud of the film touch whatever the film; size as of scratches and "
-    "burrs of 1 %",
-    fingerprint={"load": "-", "speed": "+", "roughness": "-", "slide_roll_ratio": "-"},
+    equation=r"P_B \leftarrow P_B + c\,e^{-\kappa h}\,(1 - P_B)",
+    source="exponential heights, as J. A. Greenwood, J. B. P. Williamson, Proc. R. Soc. A 295 (1966) 300; those that "
+    "stand proud of any film touch always; size as of scratches and burrs of 1 %",
+    fingerprint={"load": "-", "roughness": "-", "slide_roll_ratio": "-"},
     separated_by="thick films: contact that does not vanish above a film ratio of 3; outliers on the normal "
     "probability plot of the profile; a signal once a revolution",
     after=("asperity_plasticity", "skewed_heights"),
     odds=0.3,
+    contains={"proud of any film": {"inverse_height": 0.0}},
 )
-def surface_defects(area_ratio: np.ndarray, *, share: float) -> np.ndarray:
+def surface_defects(
+    area_ratio: np.ndarray, film_thickness: np.ndarray, *, share: float, inverse_height: float
+) -> np.ndarray:
     """Scratches and burrs keep touching where the film is thick enough for the rest.
 
-    It is rare that all surfaces of a test carry the same share of them.
+    It is rare that all surfaces of a test carry the same share of them. Their heights, half a micrometre and more,
+    are their own and not those of the finish; a film of such a thickness buries the lower ones.
 
-    >>> round(surface_defects(0.2, share=0.01), 3)
+    >>> round(float(surface_defects(0.2, 1e-6, share=0.01, inverse_height=0.0)), 3)
     0.208
+    >>> surface_defects(0.0, np.array([0.0, 2e-6]), share=0.01, inverse_height=0.5e6).round(4).tolist()   # 1/e of them
+    [0.01, 0.0037]
     """
-    return area_ratio + share * (1.0 - area_ratio)
+    return area_ratio + share * np.exp(-inverse_height * film_thickness) * (1.0 - area_ratio)

@@ -12,7 +12,7 @@ import pytest
 
 from mixedlub.catalogue import effects_text, fingerprint, lookalikes
 from mixedlub.chain import Model
-from mixedlub.effect import Effect, catalogue
+from mixedlub.effect import Effect, catalogue, known_in
 from mixedlub.quantities import GLOSSARY, dimension
 from mixedlub.report.plain import plain_equation
 from profiles.errors import InputError
@@ -242,6 +242,15 @@ def test_page_shows_the_fingerprint_on_every_rig_where_it_shows(name: str, effec
 def test_table_lists_every_effect() -> None:
     table = effects_text(None)
     assert all(e.id in table for e in EFFECTS)
+
+
+def test_a_published_law_is_within_reach_where_what_is_held_is_already_its_own() -> None:
+    """A viscometer knows no slope that changes with temperature, nor does Roelands; discs start from his law."""
+    law = catalogue()["pressure_viscosity_law"].contains["Roelands"]
+    sample = known_in("viscosity")["pressure_viscosity_law"]
+    assert set(law) - set(sample.published["Roelands"]) == {"slope_with_temperature", "slope_bow"}
+    assert known_in("disc")["pressure_viscosity_law"].published == {}
+    assert sample.holding(sample.published["Roelands"]).published == {}
 
 
 def test_unknown_effect_names_the_nearest() -> None:

@@ -15,6 +15,8 @@ from mixedlub.laws.oil import roelands_viscosity
 STRAIGHT = {
     "roelands": 0.0,
     "exponent": 0.6,
+    "slope_with_temperature": 0.0,
+    "slope_bow": 0.0,
     "bend_down": 0.0,
     "bend_up": 0.0,
     "down_with_temperature": 0.0,
@@ -35,6 +37,20 @@ def test_another_slope_in_the_contact_leaves_the_coefficient_of_low_pressure() -
     assert exponent(1e-4 * LOW, 1.3) == pytest.approx(1.0, abs=1e-4)
     assert exponent(0.8e9, 1.3) == pytest.approx(1.3, abs=8e-3)
     assert exponent(0.8e9, 1.0) == pytest.approx(1.0, abs=1e-12)
+
+
+def test_a_coefficient_of_pressure_may_bow_between_the_temperatures_at_which_it_is_known() -> None:
+    """One over a line in temperature, as of a modulus equation, where the base draws a straight line."""
+    known, celsius = (50.0, 110.0), np.array([50.0, 80.0, 110.0])
+    modulus = 1.0 / (0.033 + 0.00033 * celsius)
+    straight = np.interp(celsius, known, modulus[[0, 2]])
+    z = (celsius - 40.0) / 100.0 * (313.15 / (celsius + 273.15))
+    slope = np.polyfit(z, np.log(modulus / straight), 2)
+    form = {**STRAIGHT, "slope": np.exp(slope[2]), "slope_bow": slope[0], "slope_with_temperature": slope[1]}
+    thin, pressure = 0.02, 0.6e9
+    found = pressure_viscosity_law(thin * np.exp(1e-9 * straight * pressure), thin, pressure, celsius + 273.15, **form)
+    assert straight[1] / modulus[1] == pytest.approx(1.03, abs=0.003)
+    assert np.log(found / thin) == pytest.approx(1e-9 * modulus * pressure, rel=2e-3)
 
 
 @pytest.mark.parametrize(("speed", "rise"), [(0.05, 1.4), (2000.0, 0.0)])

@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
+from scipy.special import ndtr
 
 from mixedlub.proof.concealed.kinds import Concealed, Knob, strength
 from mixedlub.proof.rig import Contact, overlap, summits
@@ -26,8 +27,6 @@ HEIGHTS = np.linspace(-8.0, 8.0, 1601)
 @lru_cache(maxsize=4096)
 def _overlap_table(skewness: float) -> np.ndarray:
     """F_1 of a standardised skew-normal density at HEIGHTS: twice cumulated by the trapezoid from the top."""
-    from scipy.special import ndtr
-
     shape = _shape_of(skewness)
     delta = shape / np.sqrt(1 + shape**2)
     mean, spread = delta * np.sqrt(2 / np.pi), np.sqrt(1 - 2 * delta**2 / np.pi)
@@ -127,6 +126,15 @@ def surface_burrs(c: Contact, strength: float, height: float) -> Contact:
     return replace(c, area=touching + (1 - touching) * c.area)
 
 
+def surface_ridges(c: Contact, strength: float, height: float) -> Contact:
+    """Ridges that one tool left: P_B becomes a + (1 - a) P_B, a = 0.02 strength of those above the film.
+
+    Their heights, in micrometres, are normal about the mean with a scatter of 40 %, unlike exponential ones.
+    """
+    touching = np.minimum(0.02 * strength * ndtr((1 - c.film / (1e-6 * height)) / 0.4), 1.0)
+    return replace(c, area=touching + (1 - touching) * c.area)
+
+
 EFFECTS = (
     Concealed(
         "skewed_heights",
@@ -192,6 +200,17 @@ EFFECTS = (
         surface_burrs,
         (strength(0.0, 20.0, (0.8, 2.5)), Knob("height", 0.3, 10.0, (0.6, 3.0))),
         "exponential heights of Greenwood and Williamson 1966",
+        1,
+        rarity=0.6,
+        within=True,
+    ),
+    Concealed(
+        "surface_defects",
+        "contact",
+        "contact",
+        surface_ridges,
+        (strength(0.0, 20.0, (0.8, 2.5)), Knob("height", 0.3, 10.0, (0.6, 3.0))),
+        "ridges of normal heights",
         1,
         rarity=0.6,
     ),
