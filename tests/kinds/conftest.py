@@ -26,7 +26,7 @@ OIL = {
     "thermal_conductivity_W_mK": 0.14,
     "specific_heat_J_kgK": 2000.0,
 }
-
+TIME = np.linspace(60.0, 7200.0, 60)
 
 SCRIPT = Path(__file__).resolve().parents[2] / "examples" / "real" / "build.py"
 
@@ -102,3 +102,13 @@ def least_squares(
     best = min(found, key=lambda f: f.cost)
     prediction, values = predicted(best.x)
     return 2.0 * float(best.cost), values, prediction
+
+
+def noisy(clean: Any, relative: float = 0.01, seed: int = 3) -> np.ndarray:
+    """Readings with normal scatter in proportion."""
+    return clean * (1.0 + relative * np.random.default_rng(seed).standard_normal(np.size(clean)))
+
+
+def drive(friction: Any, **columns: Any) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Sections and columns of a drive whose friction scatters by a hundredth."""
+    return system("friction_map", "friction_torque_Nm"), {"friction_torque_Nm": noisy(friction), **columns}

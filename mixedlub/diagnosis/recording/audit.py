@@ -72,7 +72,22 @@ def system_doubts(case: Case) -> list[str]:
 
 def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]:
     """What speaks against the recording; an error where it cannot be diagnosed."""
-    notes: list[str] = []
+    _readable(case, y)
+    base = forward.nominal()
+    return [
+        *_parts(case, rows),
+        *([f"only {y.size} readings: expect ties and wide intervals"] if y.size < SCARCE else []),
+        *_of_another_unit(case, y, base),
+        *_sliding(rows),
+        *_warm(rows),
+        *_stuck(case, rows, y, base),
+        *_misread(case, rows, y, base),
+        *_contradicting(case, rows, y, base),
+    ]
+
+
+def _readable(case: Case, y: np.ndarray) -> None:
+    """An error where no model can answer: too few readings, or such as the quantity never has."""
     where = f"{case.folder / 'recordings.csv'}: {case.quantity}"
     if y.size < FEWEST:
         raise InputError(f"needs at least {FEWEST} readings to say anything", where=where, value=y.size)
@@ -82,34 +97,43 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
     if case.quantity == "viscosity_mPa_s" and np.median(y) < THINNEST_OIL:
         said = f"are below the {THINNEST_OIL} mPa s of the thinnest liquid that the model holds for; check the unit"
         raise InputError(f"readings {said}", where=where, value=float(np.median(y)))
-    base = forward.nominal()
+
+
+def _parts(case: Case, rows: Table) -> list[str]:
+    """Rigs of a part that are compared with the whole model."""
     whole = np.setdiff1d(rows["rig"], case.kind.part_rigs) if "rig" in rows else np.array([])
-    if whole.size > 1:
-        known = f"only as {' or '.join(case.kind.part_rigs)}" if case.kind.part_rigs else "for no case of this kind"
-        notes.append(
-            f"readings of the rigs {', '.join(whole.tolist())} are all compared with the whole base model: a part "
-            f"rig is modelled {known}"
-        )
-    if y.size < SCARCE:
-        notes.append(f"only {y.size} readings: expect ties and wide intervals")
-    positive = (np.abs(base) > 0) & (np.abs(y) > 0)
-    if positive.sum() >= FEWEST:
-        ratio = float(np.median(np.abs(y[positive] / base[positive])))
-        for slip, words in UNIT_SLIPS.items():
-            if slip / SLIP_WITHIN < ratio < slip * SLIP_WITHIN:
-                said = f"readings are about {words} what the base model gives: check the unit of {case.quantity}"
-                notes.append(Doubt(said))
-        if np.mean(base[positive] * y[positive] < 0) > 0.5:
-            notes.append(Doubt("most readings have the other sign than the base model: check the sign"))
-    sliding = np.abs(rows["slide_roll_ratio"]).max() if "slide_roll_ratio" in rows else 0.0
-    if sliding > MOST_SLIDING:
-        said = f"slide_roll_ratio reaches {sliding:g} where 2 is pure sliding: check that it is not in percent"
-        notes.append(Doubt(said))
-    notes += _warm(rows)
-    notes += _stuck(case, rows, y, base)
-    notes += _misread(case, rows, y, base)
-    notes += _contradicting(case, rows, y, base)
-    return notes
+    if whole.size < 2:
+        return []
+    known = f"only as {' or '.join(case.kind.part_rigs)}" if case.kind.part_rigs else "for no case of this kind"
+    return [
+        f"readings of the rigs {', '.join(whole.tolist())} are all compared with the whole base model: a part rig is "
+        f"modelled {known}"
+    ]
+
+
+def _of_another_unit(case: Case, y: np.ndarray, base: np.ndarray) -> list[str]:
+    """Readings that are a power of ten off the base model, or of the other sign."""
+    both = (np.abs(base) > 0) & (np.abs(y) > 0)
+    if both.sum() < FEWEST:
+        return []
+    ratio = float(np.median(np.abs(y[both] / base[both])))
+    found = [
+        Doubt(f"readings are about {words} what the base model gives: check the unit of {case.quantity}")
+        for slip, words in UNIT_SLIPS.items()
+        if slip / SLIP_WITHIN < ratio < slip * SLIP_WITHIN
+    ]
+    if np.mean(base[both] * y[both] < 0) > 0.5:
+        found.append(Doubt("most readings have the other sign than the base model: check the sign"))
+    return list(found)
+
+
+def _sliding(rows: Table) -> list[str]:
+    """Slide-roll ratios that look like percent."""
+    most = np.abs(rows["slide_roll_ratio"]).max() if "slide_roll_ratio" in rows else 0.0
+    if most <= MOST_SLIDING:
+        return []
+    said = f"slide_roll_ratio reaches {most:g} where 2 is pure sliding: check that it is not in percent"
+    return [Doubt(said)]
 
 
 def _contradicting(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str]:
