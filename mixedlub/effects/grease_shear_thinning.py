@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import LogNormal, Parameter, effect
+from mixedlub.effect import Between, LogNormal, Parameter, effect
 
 
 @effect(
@@ -10,22 +10,29 @@ from mixedlub.effect import LogNormal, Parameter, effect
     acts_on="viscous_torque",
     parameters=(
         Parameter("deficit", "-", LogNormal(0.35, 0.35), "one less the flow index of the grease", null=0.0, symbol="d"),
+        Parameter("knee", "-", Between(0.0, 1.0), "share of the reference speed at which thinning sets in", symbol="k"),
     ),
-    equation=r"T_v \leftarrow T_v\,\max(|\omega/\omega_0|,\ 10^{-6})^{-d}",
-    source="W. H. Herschel, R. Bulkley, Kolloid-Z. 39 (1926) 291, power-law part",
+    equation=r"T_v \leftarrow T_v\left[\frac{x^2 + k^2}{1 + k^2}\right]^{-d/2},\quad "
+    r"x = \max(|\omega/\omega_0|,\ 10^{-6})",
+    source="P. J. Carreau, Trans. Soc. Rheol. 16 (1972) 99, with one time constant; k = 0 is the power law of "
+    "W. H. Herschel, R. Bulkley, Kolloid-Z. 39 (1926) 291",
+    contains={"Herschel and Bulkley": {"knee": 0.0}},
     fingerprint={"speed": "-"},
     separated_by="speeds over two decades: the drag bends in a log-log plot, and has no minimum as Stribeck friction",
     kinds=("friction_map",),
 )
 def grease_shear_thinning(
-    viscous_torque: np.ndarray, drive_speed: np.ndarray, reference_speed: np.ndarray, *, deficit: float
+    viscous_torque: np.ndarray, drive_speed: np.ndarray, reference_speed: np.ndarray, *, deficit: float, knee: float
 ) -> np.ndarray:
     """Grease thins as it is sheared; its drag grows with a power of speed below one.
 
-    Drag that hardly grows with speed, with a deficit near one, is Coulomb's and not that of a grease.
+    Below the knee it is a liquid of constant viscosity. Drag that hardly grows with speed, with a deficit near one,
+    is Coulomb's and not that of a grease.
 
-    >>> round(float(grease_shear_thinning(1.0, 25.0, 100.0, deficit=0.5)), 3)
+    >>> round(float(grease_shear_thinning(1.0, 25.0, 100.0, deficit=0.5, knee=0.0)), 3)
     2.0
+    >>> round(float(grease_shear_thinning(1.0, 0.0, 100.0, deficit=0.5, knee=0.25)), 3)   # (1 + 16)^(1/4)
+    2.031
     """
     share = np.maximum(np.abs(drive_speed) / reference_speed, 1e-6)
-    return viscous_torque * share ** (-deficit)
+    return viscous_torque * ((share**2 + knee**2) / (1.0 + knee**2)) ** (-0.5 * deficit)

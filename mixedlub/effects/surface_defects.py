@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import Between, LogNormal, Parameter, effect
+from mixedlub.effect import Between, BetweenLog, LogNormal, Parameter, effect
 
 
 @effect(
@@ -17,31 +17,41 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
             null=0.0,
             symbol="c",
         ),
+        Parameter("inverse_height", "1/m", Between(0.0, 2e6), "one over the height of the defects", symbol=r"\kappa"),
         Parameter(
-            "inverse_height", "1/m", Between(0.0, 2e6), "one over the mean height of the defects", symbol=r"\kappa"
+            "evenness",
+            "-",
+            BetweenLog(1.0, 5.0),
+            "1: heights are exponential, 3.6: nearly normal with a scatter of 30 %",
+            symbol="m",
         ),
     ),
-    equation=r"P_B \leftarrow P_B + c\,e^{-\kappa h}\,(1 - P_B)",
-    source="exponential heights, as J. A. Greenwood, J. B. P. Williamson, Proc. R. Soc. A 295 (1966) 300; those that "
-    "stand proud of any film touch always; size as of scratches and burrs of 1 %",
+    equation=r"P_B \leftarrow P_B + c\,\exp[-(\kappa h)^m]\,(1 - P_B)",
+    source="exponential heights, as J. A. Greenwood, J. B. P. Williamson, Proc. R. Soc. A 295 (1966) 300, widened to "
+    "W. Weibull, J. Appl. Mech. 18 (1951) 293; those that stand proud of any film touch always; size as of scratches "
+    "and burrs of 1 %",
     fingerprint={"load": "-", "roughness": "-", "slide_roll_ratio": "-"},
     separated_by="thick films: contact that does not vanish above a film ratio of 3; outliers on the normal "
     "probability plot of the profile; a signal once a revolution",
     after=("asperity_plasticity", "skewed_heights"),
     odds=0.3,
-    contains={"proud of any film": {"inverse_height": 0.0}},
+    contains={"proud of any film": {"inverse_height": 0.0, "evenness": 1.0}, "exponential heights": {"evenness": 1.0}},
 )
 def surface_defects(
-    area_ratio: np.ndarray, film_thickness: np.ndarray, *, share: float, inverse_height: float
+    area_ratio: np.ndarray, film_thickness: np.ndarray, *, share: float, inverse_height: float, evenness: float
 ) -> np.ndarray:
     """Scratches and burrs keep touching where the film is thick enough for the rest.
 
     It is rare that all surfaces of a test carry the same share of them. Their heights, half a micrometre and more,
     are their own and not those of the finish; a film of such a thickness buries the lower ones.
 
-    >>> round(float(surface_defects(0.2, 1e-6, share=0.01, inverse_height=0.0)), 3)
+    >>> round(float(surface_defects(0.2, 1e-6, share=0.01, inverse_height=0.0, evenness=1.0)), 3)
     0.208
-    >>> surface_defects(0.0, np.array([0.0, 2e-6]), share=0.01, inverse_height=0.5e6).round(4).tolist()   # 1/e of them
+    >>> burrs = dict(share=0.01, inverse_height=0.5e6)
+    >>> surface_defects(0.0, np.array([0.0, 2e-6]), **burrs, evenness=1.0).round(4).tolist()   # 1/e of them
     [0.01, 0.0037]
+    >>> surface_defects(0.0, np.array([1e-6, 3e-6]), **burrs, evenness=3.6).round(4).tolist()   # most, hardly any
+    [0.0092, 0.0001]
     """
-    return area_ratio + share * np.exp(-inverse_height * film_thickness) * (1.0 - area_ratio)
+    touching = share * np.exp(-((inverse_height * film_thickness) ** evenness))
+    return area_ratio + touching * (1.0 - area_ratio)
