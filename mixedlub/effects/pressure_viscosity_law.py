@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import LogNormal, Normal, Parameter, effect
+from mixedlub.effect import BetweenLog, LogNormal, Normal, Parameter, effect
 from mixedlub.laws.oil import roelands_coefficient, roelands_viscosity
 
 WARM = 313.15
@@ -10,8 +10,6 @@ KELVIN = 100.0
 GLASS = 1e8
 SAMPLE = ("viscosity",)
 CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
-LOW = 0.15e9
-"""Pressure up to which an inlet makes the film (Pa): what is measured there says little of the contact."""
 
 
 @effect(
@@ -35,7 +33,17 @@ LOW = 0.15e9
             symbol="Z",
             kinds=SAMPLE,
         ),
-        Parameter("slope", "-", LogNormal(1.0, 0.25), "slope above 0.15 GPa over that below", null=1.0, symbol="s"),
+        Parameter(
+            "slope", "-", LogNormal(1.0, 0.25), "slope far above the onset over that below", null=1.0, symbol="s"
+        ),
+        Parameter(
+            "onset",
+            "Pa",
+            BetweenLog(0.1e9, 0.6e9),
+            "pressure about which the slope changes",
+            symbol="p_s",
+            kinds=CONTACT,
+        ),
         Parameter(
             "slope_with_temperature",
             "-",
@@ -82,7 +90,6 @@ LOW = 0.15e9
     r"\ell_R = (\ln\eta_0 + 9.67)\left[\left(1 + \frac{p_0}{p_r}\right)^Z - 1\right],\ "
     r"p_r = 0.196\,\text{GPa},\quad "
     r"f = \left[1 + (s' - 1)(1 - e^{-p_0/p_s})\right]\frac{e^{B'p_0} - e^{-C'p_0}}{(B' + C')\,p_0},\ "
-    r"p_s = 0.15\,\text{GPa},\quad "
     r"s' = s e^{d z + w z^2},\ B' = B e^{b z},\ C' = C e^{c z},\ "
     r"z = \frac{\theta_{oil} - \theta_r}{100\,\text{K}}\,\frac{\theta_r}{\theta_{oil}},\ "
     r"\theta_r = 313.15\,\text{K},\quad "
@@ -113,6 +120,7 @@ def pressure_viscosity_law(
     roelands: float,
     exponent: float,
     slope: float,
+    onset: float,
     slope_with_temperature: float,
     slope_bow: float,
     bend_down: float,
@@ -123,13 +131,13 @@ def pressure_viscosity_law(
     """The logarithm of viscosity rises more slowly with pressure at first and faster again near the glass.
 
     At contact pressures Roelands' law, the base of gears and discs, has most of the bend already; a sample in a
-    viscometer starts from the exponential of Barus. The coefficient that makes the film belongs to low pressure,
-    and the slope in the contact need not be its, nor run straight between the temperatures at which it is known.
-    Both bends change exponentially with 1/T.
-    It levels off at a glass. The glass's 1e8 Pa s, the 0.15 GPa, 9.67 and p_r make the form belong to Pa s and Pa.
+    viscometer starts from the exponential of Barus. The coefficient that makes the film belongs to the inlet, to
+    0.1 GPa or so: the slope in the contact need not be its, nor run straight between the temperatures at which it is
+    known. Both bends change exponentially with 1/T.
+    It levels off at a glass. The glass's 1e8 Pa s, 9.67 and p_r make the form belong to Pa s and Pa.
 
     >>> rest = dict(down_with_temperature=0.0, up_with_temperature=0.0, bend_up=0.0, exponent=0.53135)
-    >>> rest |= dict(slope=1.0, slope_with_temperature=0.0, slope_bow=0.0)
+    >>> rest |= dict(slope=1.0, onset=0.15e9, slope_with_temperature=0.0, slope_bow=0.0)
     >>> x = pressure_viscosity_law(np.exp(10.0), 1.0, 0.5e9, 313.15, roelands=0.0, bend_down=2e-9, **rest)
     >>> round(float(np.log(x)), 1)   # 10 (1 - exp(-1))/1 = 6.32
     6.3
@@ -141,7 +149,7 @@ def pressure_viscosity_law(
     down = bend_down * np.exp(down_with_temperature * warmer) * hertz_pressure
     up = bend_up * np.exp(up_with_temperature * warmer) * hertz_pressure
     changed = slope * np.exp((slope_with_temperature + slope_bow * warmer) * warmer)
-    steeper = 1.0 - (changed - 1.0) * np.expm1(-hertz_pressure / LOW)
+    steeper = 1.0 - (changed - 1.0) * np.expm1(-hertz_pressure / onset)
     log = np.log(contact_viscosity / viscosity)
     power = np.log(roelands_viscosity(viscosity, roelands_coefficient(viscosity, exponent), hertz_pressure) / viscosity)
     half = np.minimum(0.5 * (down + up), 50.0)

@@ -6,13 +6,15 @@ import numpy as np
 import pytest
 
 from mixedlub.effects.bearing_drag import bearing_drag
-from mixedlub.effects.pressure_viscosity_law import LOW, pressure_viscosity_law
+from mixedlub.effects.pressure_viscosity_law import pressure_viscosity_law
 from mixedlub.effects.starvation import starvation
 from mixedlub.effects.stribeck import stribeck
 from mixedlub.effects.viscosity_drift import viscosity_drift
 from mixedlub.laws.oil import roelands_viscosity
 
+LOW = 0.15e9
 STRAIGHT = {
+    "onset": LOW,
     "roelands": 0.0,
     "exponent": 0.6,
     "slope_with_temperature": 0.0,

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from mixedlub.effect import Between, BetweenLog, Effect, LogNormal, catalogue
+from mixedlub.effect import Between, BetweenLog, Effect, LogNormal, known_in
 from mixedlub.proof.bench import drive, film, history, mesh, viscosity
 from mixedlub.proof.bench.stage import Act, Bench, progress
 from mixedlub.proof.bench.states import Track
@@ -272,7 +272,7 @@ def misfit(sign: Signature, enough: float = EXACT) -> float:
     def error(x: np.ndarray) -> np.ndarray:
         values = {p.name: value(p.prior, float(v)) for p, v in zip(parameters, x)}
         with np.errstate(all="ignore"):
-            made = sign.shaped(sign.effect.law(*given, **values))
+            made = sign.shaped(sign.effect.law(*given, **sign.effect.held, **values))
         return np.nan_to_num(np.clip((made - sign.change) / size, -1e3, 1e3), nan=1e3)
 
     even = np.array([isinstance(p.prior, Between) for p in parameters])
@@ -342,7 +342,8 @@ def planted() -> dict[tuple[str, str], list[tuple[Any, Any]]]:
 
 
 def signatures(form: Any, place: Any) -> Iterator[Signature]:
-    effect = catalogue()[form.id]
+    kind = place.kind if isinstance(place, Bench) else "gear_pair" if place[0].extras else "disc"
+    effect = known_in(kind)[form.id]
     for values in knob_sets(form):
         seen: list[Any] = []
 
