@@ -184,8 +184,8 @@ class Effect:
         return replace(self, parameters=free, held={**self.held, **values})
 
     @property
-    def published(self) -> dict[str, dict[str, float]]:
-        """Published laws that are within reach of the free parameters, with the values these take there."""
+    def laws_within_reach(self) -> dict[str, dict[str, float]]:
+        """Laws it contains that are within reach of the free parameters, with the values these take there."""
         free = {p.name for p in self.parameters}
         left = {
             law: {name: value for name, value in values.items() if self.held.get(name) != value}
@@ -241,8 +241,8 @@ def effect(
     the friction of discs, of what shows on neither of the first standard rig that shows it; a film, say, may have
     the opposite sign. ``after`` names effects on the same quantity that come first; ``kinds`` restricts the kinds of
     recording (empty: all). ``odds`` below one say that it is missing less often than others are, before any reading
-    is seen. ``contains`` names published laws that it becomes at certain values of some parameters. A ``free_form``
-    describes, and names no cause.
+    is seen. ``contains`` names laws, published or limits, that it becomes at certain values of some parameters. A
+    ``free_form`` describes, and names no cause.
     """
     targets = (acts_on,) if isinstance(acts_on, str) else acts_on
 
@@ -262,6 +262,9 @@ def effect(
                 raise TypeError(f"{where}: {name!r} is not in the glossary; {nearest(name, GLOSSARY)}")
         if not 0.0 < odds <= 1.0:
             raise TypeError(f"{where}: odds {odds!r} must lie above 0 and not above 1")
+        for held, values in (contains or {}).items():
+            if not values.keys() <= set(keywords):
+                raise TypeError(f"{where}: {held!r} fixes {sorted(values)}, not all of them parameters")
         if law.__name__ in _registry and _registry[law.__name__].law.__module__ != law.__module__:
             raise TypeError(f"{where}: already defined in {_registry[law.__name__].law.__module__}")
         _registry[law.__name__] = Effect(

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import Between, LogNormal, Parameter, effect
+from mixedlub.effect import BetweenLog, LogNormal, Parameter, effect
 
 
 @effect(
@@ -10,7 +10,9 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
     acts_on="viscous_torque",
     parameters=(
         Parameter("deficit", "-", LogNormal(0.35, 0.35), "one less the flow index of the grease", null=0.0, symbol="d"),
-        Parameter("knee", "-", Between(0.0, 1.0), "share of the reference speed at which thinning sets in", symbol="k"),
+        Parameter(
+            "knee", "-", BetweenLog(1e-3, 1.0), "share of the reference speed at which thinning sets in", symbol="k"
+        ),
     ),
     equation=r"T_v \leftarrow T_v\left[\frac{x^2 + k^2}{1 + k^2}\right]^{-d/2},\quad "
     r"x = \max(|\omega/\omega_0|,\ 10^{-6})",
@@ -18,7 +20,8 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
     "W. H. Herschel, R. Bulkley, Kolloid-Z. 39 (1926) 291",
     contains={"Herschel and Bulkley": {"knee": 0.0}},
     fingerprint={"speed": "-"},
-    separated_by="speeds over two decades: the drag bends in a log-log plot, and has no minimum as Stribeck friction",
+    separated_by="speeds over two decades: the drag grows with a power below one and has no minimum as "
+    "Stribeck friction",
     kinds=("friction_map",),
 )
 def grease_shear_thinning(
@@ -26,8 +29,8 @@ def grease_shear_thinning(
 ) -> np.ndarray:
     """Grease thins as it is sheared; its drag grows with a power of speed below one.
 
-    Below the knee it is a liquid of constant viscosity. Drag that hardly grows with speed, with a deficit near one,
-    is Coulomb's and not that of a grease.
+    Below the knee it is a liquid of constant viscosity, as Eyring's is. Drag that hardly grows with speed, with a
+    deficit near one, is Coulomb's and not that of a grease.
 
     >>> round(float(grease_shear_thinning(1.0, 25.0, 100.0, deficit=0.5, knee=0.0)), 3)
     2.0

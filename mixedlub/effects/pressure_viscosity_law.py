@@ -34,13 +34,19 @@ CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
             kinds=SAMPLE,
         ),
         Parameter(
-            "slope", "-", LogNormal(1.0, 0.25), "slope far above the onset over that below", null=1.0, symbol="s"
+            "slope",
+            "-",
+            LogNormal(1.0, 0.25),
+            "slope far above the onset over that below, at 40 degC",
+            null=1.0,
+            symbol="s",
         ),
         Parameter(
             "onset",
             "Pa",
             BetweenLog(0.1e9, 0.6e9),
             "pressure about which the slope changes",
+            null=0.15e9,
             symbol="p_s",
             kinds=CONTACT,
         ),
@@ -48,7 +54,7 @@ CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
             "slope_with_temperature",
             "-",
             Normal(0.0, 0.3),
-            "log change of that slope over 100 K, in 1/T",
+            "log change of that slope per 100 K at 40 degC, in 1/T",
             null=0.0,
             symbol="d",
             kinds=CONTACT,
@@ -57,7 +63,7 @@ CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
             "slope_bow",
             "-",
             Normal(0.0, 0.3),
-            "part of that change in the square of 1/T",
+            "coefficient of the square of that change in 1/T",
             null=0.0,
             symbol="w",
             kinds=CONTACT,
@@ -79,10 +85,18 @@ CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
             symbol="B",
         ),
         Parameter(
-            "down_with_temperature", "-", Normal(0.0, 0.5), "log change of the fall over 100 K, in 1/T", symbol="c"
+            "down_with_temperature",
+            "-",
+            Normal(0.0, 0.5),
+            "log change of the fall per 100 K at 40 degC, in 1/T",
+            symbol="c",
         ),
         Parameter(
-            "up_with_temperature", "-", Normal(-0.8, 1.0), "log change of the rise over 100 K, in 1/T", symbol="b"
+            "up_with_temperature",
+            "-",
+            Normal(-0.8, 1.0),
+            "log change of the rise per 100 K at 40 degC, in 1/T",
+            symbol="b",
         ),
     ),
     equation=r"\ln\eta_p \leftarrow \ln\eta_p + G(f\ell) - G(\ell),\quad "
@@ -132,9 +146,10 @@ def pressure_viscosity_law(
 
     At contact pressures Roelands' law, the base of gears and discs, has most of the bend already; a sample in a
     viscometer starts from the exponential of Barus. The coefficient that makes the film belongs to the inlet, to
-    0.1 GPa or so: the slope in the contact need not be its, nor run straight between the temperatures at which it is
-    known. Both bends change exponentially with 1/T.
-    It levels off at a glass. The glass's 1e8 Pa s, 9.67 and p_r make the form belong to Pa s and Pa.
+    0.1 GPa or so: the slope in the contact may differ, and neither need run straight between the temperatures at which
+    the coefficient was measured; how the slope changes is an interpolation of this catalogue. Both bends change
+    exponentially with 1/T. It levels off at a glass. The glass's 1e8 Pa s, 9.67 and p_r make the form belong to Pa s
+    and Pa.
 
     >>> rest = dict(down_with_temperature=0.0, up_with_temperature=0.0, bend_up=0.0, exponent=0.53135)
     >>> rest |= dict(slope=1.0, onset=0.15e9, slope_with_temperature=0.0, slope_bow=0.0)

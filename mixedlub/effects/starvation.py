@@ -30,6 +30,10 @@ LEAST, MOST = 1e-300, 60.0
     source="F. Chevalier, A. A. Lubrecht, P. M. E. Cann, F. Colin, G. Dalmaz, J. Tribol. 120 (1998) 126, with the "
     "supply taken as fixed; the onset follows P. M. E. Cann, B. Damiens, A. A. Lubrecht, Tribol. Int. 37 (2004) 859",
     fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "slide_roll_ratio": "-"},
+    contains={
+        "a meniscus at a multiple of the contact's width": {"strength": 0.113, "width_power": 3.3},
+        "a meniscus at a distance": {"strength": 0.113, "width_power": 0.7},
+    },
     separated_by="an oil flow or jet position sweep: more oil lifts the onset to higher speed, whereas inlet heating "
     "does not change",
 )
@@ -50,9 +54,10 @@ def starvation(
     flooded film; here r = (c/(eta u))^s. Power s is 0.1 for a meniscus at fixed distance (Hamrock and Dowson)
     and 0.7 for a film that cannot grow any more.
 
-    A wide contact takes longer to refill, w = -1 (Cann and others); a meniscus that stays at a multiple of its
-    width starves a narrow one first, w = 3 (Hamrock and Dowson). Width goes with the Hertz pressure; its usual 1 GPa
-    makes the form belong to Pa.
+    A wide contact takes longer to refill, w = -1 (Cann and others). By Hamrock and Dowson h/h_ff = (f/m*)^0.29 with
+    m* = 3.06 [(R/b)^2 h_ff/R]^0.58 and f the distance of the meniscus in half-widths b: with h_ff after (eta u)^0.67
+    and p0^-0.2, s = 0.113, and w = 3.3 where f stays and 0.7 where the distance does. Width goes with the Hertz
+    pressure; its usual 1 GPa makes the form belong to Pa.
 
     >>> law = dict(strength=1.0, onset=0.1, steepness=1.0, width_power=0.0)   # r = 1, gamma = 1
     >>> round(float(starvation(1.0, 0.1, 1.0, 1e9, **law)), 12)

@@ -13,11 +13,17 @@ from mixedlub.effect import Between, BetweenLog, LogNormal, Parameter, effect
             "share",
             "-",
             LogNormal(0.01, 0.8),
-            "share of the contact that touches without a film",
+            "share of the contact that touches at no film",
             null=0.0,
             symbol="c",
         ),
-        Parameter("inverse_height", "1/m", Between(0.0, 2e6), "one over the height of the defects", symbol=r"\kappa"),
+        Parameter(
+            "inverse_height",
+            "1/m",
+            Between(0.0, 1e6),
+            "one over the height that 37 % of the defects exceed",
+            symbol=r"\kappa",
+        ),
         Parameter(
             "evenness",
             "-",
@@ -31,26 +37,30 @@ from mixedlub.effect import Between, BetweenLog, LogNormal, Parameter, effect
     "W. Weibull, J. Appl. Mech. 18 (1951) 293; those that stand proud of any film touch always; size as of scratches "
     "and burrs of 1 %",
     fingerprint={"load": "-", "roughness": "-", "slide_roll_ratio": "-"},
-    separated_by="thick films: contact that does not vanish above a film ratio of 3; outliers on the normal "
-    "probability plot of the profile; a signal once a revolution",
+    separated_by="thick films: contact that fades far slower than the finish's above a film ratio of 3; outliers on "
+    "the normal probability plot of the profile; a signal once a revolution",
     after=("asperity_plasticity", "skewed_heights"),
     odds=0.3,
-    contains={"proud of any film": {"inverse_height": 0.0, "evenness": 1.0}, "exponential heights": {"evenness": 1.0}},
+    contains={
+        "defects above any film": {"inverse_height": 0.0, "evenness": 1.0},
+        "exponential heights, after Greenwood and Williamson": {"evenness": 1.0},
+    },
 )
 def surface_defects(
     area_ratio: np.ndarray, film_thickness: np.ndarray, *, share: float, inverse_height: float, evenness: float
 ) -> np.ndarray:
     """Scratches and burrs keep touching where the film is thick enough for the rest.
 
-    It is rare that all surfaces of a test carry the same share of them. Their heights, half a micrometre and more,
-    are their own and not those of the finish; a film of such a thickness buries the lower ones.
+    It is rare that all surfaces of a test carry the same share of them. Their heights, a micrometre and more,
+    are their own and not those of the finish; a film of such a thickness buries the lower ones. Each that is higher
+    than the film touches with the same area.
 
     >>> round(float(surface_defects(0.2, 1e-6, share=0.01, inverse_height=0.0, evenness=1.0)), 3)
     0.208
     >>> burrs = dict(share=0.01, inverse_height=0.5e6)
     >>> surface_defects(0.0, np.array([0.0, 2e-6]), **burrs, evenness=1.0).round(4).tolist()   # 1/e of them
     [0.01, 0.0037]
-    >>> surface_defects(0.0, np.array([1e-6, 3e-6]), **burrs, evenness=3.6).round(4).tolist()   # most, hardly any
+    >>> surface_defects(0.0, np.array([1e-6, 3e-6]), **burrs, evenness=3.6).round(4).tolist()   # most, few touch
     [0.0092, 0.0001]
     """
     touching = share * np.exp(-((inverse_height * film_thickness) ** evenness))

@@ -218,7 +218,7 @@ def _effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, 
                     f"no such parameter of {e.id}; {nearest(name, values)}", where=f"effects.{e.id}", value=name
                 )
             prior = next(p.prior for p in e.parameters if p.name == name)
-            if value < 0 and isinstance(prior, LogNormal | BetweenLog):
+            if value < 0 and (isinstance(prior, LogNormal | BetweenLog) or getattr(prior, "low", -1.0) >= 0.0):
                 raise InputError("must not be negative", where=f"effects.{e.id}.{name}", value=value)
             values[name] = value
         parameters[e.id] = values

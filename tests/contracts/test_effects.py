@@ -248,9 +248,9 @@ def test_a_published_law_is_within_reach_where_what_is_held_is_already_its_own()
     """A viscometer knows no slope that changes with temperature, nor does Roelands; discs start from his law."""
     law = catalogue()["pressure_viscosity_law"].contains["Roelands"]
     sample = known_in("viscosity")["pressure_viscosity_law"]
-    assert set(law) - set(sample.published["Roelands"]) == {"slope_with_temperature", "slope_bow"}
-    assert known_in("disc")["pressure_viscosity_law"].published == {}
-    assert sample.holding(sample.published["Roelands"]).published == {}
+    assert set(law) - set(sample.laws_within_reach["Roelands"]) == {"slope_with_temperature", "slope_bow"}
+    assert known_in("disc")["pressure_viscosity_law"].laws_within_reach == {}
+    assert sample.holding(sample.laws_within_reach["Roelands"]).laws_within_reach == {}
 
 
 def test_unknown_effect_names_the_nearest() -> None:

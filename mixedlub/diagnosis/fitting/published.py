@@ -22,9 +22,9 @@ def published_odds(problem: Problem, free: Fit) -> Iterator[tuple[str, str, floa
     place = problem.calibration_size
     for e in problem.effects(free.explanation):
         names = [p.name for p in e.parameters]
-        for law, values in e.published.items():
+        for law, values in e.laws_within_reach.items():
             drop = [place + names.index(name) for name in values]
-            held = replace(problem, held={e.id: values})
+            held = replace(problem, held={**problem.held, e.id: {**problem.held.get(e.id, {}), **values}})
             fit = map_fit(held, free.explanation, np.delete(free.z, drop), warm=True)
             yield e.id, law, fit.evidence - free.evidence
         place += len(names)

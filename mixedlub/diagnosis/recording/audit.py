@@ -76,7 +76,7 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
     base = forward.nominal()
     return [
         *_parts(case, rows),
-        *([f"only {y.size} readings: expect ties and wide intervals"] if y.size < SCARCE else []),
+        *_scarce(y),
         *_of_another_unit(case, y, base),
         *_sliding(rows),
         *_warm(rows),
@@ -111,20 +111,25 @@ def _parts(case: Case, rows: Table) -> list[str]:
     ]
 
 
+def _scarce(y: np.ndarray) -> list[str]:
+    """Readings too few for a name."""
+    return [f"only {y.size} readings: expect ties and wide intervals"] if y.size < SCARCE else []
+
+
 def _of_another_unit(case: Case, y: np.ndarray, base: np.ndarray) -> list[str]:
     """Readings that are a power of ten off the base model, or of the other sign."""
     both = (np.abs(base) > 0) & (np.abs(y) > 0)
     if both.sum() < FEWEST:
         return []
     ratio = float(np.median(np.abs(y[both] / base[both])))
-    found = [
+    found: list[str] = [
         Doubt(f"readings are about {words} what the base model gives: check the unit of {case.quantity}")
         for slip, words in UNIT_SLIPS.items()
         if slip / SLIP_WITHIN < ratio < slip * SLIP_WITHIN
     ]
     if np.mean(base[both] * y[both] < 0) > 0.5:
         found.append(Doubt("most readings have the other sign than the base model: check the sign"))
-    return list(found)
+    return found
 
 
 def _sliding(rows: Table) -> list[str]:

@@ -202,7 +202,6 @@ EFFECTS = (
         "exponential heights of Greenwood and Williamson 1966",
         1,
         rarity=0.6,
-        within=True,
     ),
     Concealed(
         "surface_defects",
