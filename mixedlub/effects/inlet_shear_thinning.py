@@ -40,10 +40,6 @@ REFERENCE = 0.01
     separated_by="film thickness of the same base oil without polymer, or a viscometer at high shear rate: thinning "
     "follows shear stress in the inlet, heating follows viscosity times speed squared",
     valid={"slide_roll_ratio": (0.0, 2.0)},
-    contains={
-        "Bair": {"plateau": 0.0, "stress_rule": 1.0, "onset": 1.0, "sliding": 1.0},
-        "a fluid of Carreau or Eyring": {"plateau": 0.0, "stress_rule": 1.0, "onset": 2.0, "sliding": 1.0},
-    },
     after=("inlet_shear_heating", "starvation"),
 )
 def inlet_shear_thinning(

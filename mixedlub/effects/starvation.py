@@ -30,10 +30,6 @@ LEAST, MOST = 1e-300, 60.0
     source="F. Chevalier, A. A. Lubrecht, P. M. E. Cann, F. Colin, G. Dalmaz, J. Tribol. 120 (1998) 126, with the "
     "supply taken as fixed; the onset follows P. M. E. Cann, B. Damiens, A. A. Lubrecht, Tribol. Int. 37 (2004) 859",
     fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "slide_roll_ratio": "-"},
-    contains={
-        "a meniscus at a multiple of the contact's width": {"strength": 0.113, "width_power": 3.3},
-        "a meniscus at a distance": {"strength": 0.113, "width_power": 0.7},
-    },
     separated_by="an oil flow or jet position sweep: more oil lifts the onset to higher speed, whereas inlet heating "
     "does not change",
 )
