@@ -32,8 +32,8 @@ SOFTNESS = 0.2
     ),
     equation=r"\mu_B \leftarrow \mu_B\,(1 + c\,\theta),\quad \theta = 1 - e^{-(g/q_c)^n},\quad "
     r"g = w\ln\frac{1 + e^{(q - q_i)/w}}{1 + e^{-q_i/w}},\ w = 0.2\,q_i",
-    source="coverage of the first order after an induction time: H. Fujita, H. A. Spikes, Proc. IMechE J 218 (2004) "
-    "265, films of zinc dithiophosphate and their friction; exponent of M. Avrami, J. Chem. Phys. 7 (1939) 1103; "
+    source="coverage of the first order after an induction time: H. Fujita, H. A. Spikes, Tribol. Trans. 48 (2005) "
+    "567, films of zinc dithiophosphate; exponent of M. Avrami, J. Chem. Phys. 7 (1939) 1103; "
     "steady while most is bare: N. N. Gosvami et al., Science 348 (2015) 102",
     fingerprint={"sequence": "+"},
     contains={
