@@ -176,7 +176,8 @@ def _page(effect: Effect) -> str:
         off += f"; free in recordings of {', '.join(p.kinds)}" if p.kinds else ""
         parts.append(_entry(label, f"{p.meaning}; {p.prior}{_unit(p.unit)}{off}", indent))
     for law, values in effect.contains.items():
-        parts.append(_entry(f"  is {law}", "at " + ", ".join(f"{name} {value:g}" for name, value in values.items())))
+        at = ", ".join(f"{name} {value:g}" for name, value in values.items())
+        parts.append(_entry("contains", f"the law of {law}, at {at}"))
     parts += ["", *_on_rigs(effect), "", _entry("separated by", effect.separated_by)]
     return "\n".join(parts)
 

@@ -43,7 +43,7 @@ from mixedlub.effect import Between, BetweenLog, LogNormal, Parameter, effect
     odds=0.3,
     contains={
         "defects above any film": {"inverse_height": 0.0, "evenness": 1.0},
-        "exponential heights, after Greenwood and Williamson": {"evenness": 1.0},
+        "Greenwood and Williamson with exponential heights": {"evenness": 1.0},
     },
 )
 def surface_defects(

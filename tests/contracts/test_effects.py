@@ -253,6 +253,12 @@ def test_a_published_law_is_within_reach_where_what_is_held_is_already_its_own()
     assert sample.holding(sample.laws_within_reach["Roelands"]).laws_within_reach == {}
 
 
+@each
+def test_page_names_the_laws_that_an_effect_contains(effect: Effect) -> None:
+    page = " ".join(effects_text(effect.id).split())
+    assert all(f"contains the law of {law}, at " in page for law in effect.contains)
+
+
 def test_unknown_effect_names_the_nearest() -> None:
     with pytest.raises(InputError, match="windage"):
         effects_text("windag")
