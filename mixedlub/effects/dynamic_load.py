@@ -56,10 +56,10 @@ def dynamic_load(
     Which of the two is a matter of phase between vibration and roll angle: the amplitude has either sign and most of
     it averages out over the mesh. The vibration turns by half a period as speed passes the resonance, and the force
     where sliding is largest may turn from more to less with it.
-    Damping of gear pairs is 0.05 to 0.10 of critical. The rise is linear in speed far below resonance, as in the
-    standard, between the responses to a varying stiffness and to a transmission error. Steel discs of 70 and 110 mm
-    meshing at 20 N/(mm um) resonate at 6.4 kHz by ISO 6336-1, two standard deviations above the middle of the prior;
-    shafts and what turns with them bring that down.
+    Damping of gear pairs is 0.05 to 0.10 of critical. Far below resonance the rise is linear in speed, as in the
+    standard, and at phase 0 quadratic: between the responses to a varying stiffness and to a transmission error. Steel
+    discs of 70 and 110 mm meshing at 20 N/(mm um) resonate at 6.4 kHz by ISO 6336-1, two standard deviations above the
+    middle of the prior; shafts and what turns with them bring that down.
 
     >>> at_resonance = 2 * np.pi * 850.0 / 17   # 3000 rpm at 17 teeth
     >>> pair = dict(amplitude=0.05, resonance=850.0, damping=0.1)
