@@ -14,7 +14,7 @@ import numpy as np
 from mixedlub import bodies, config
 from mixedlub.case import noted
 from mixedlub.chain import Model, available
-from mixedlub.effect import BetweenLog, Effect, LogNormal, find, known_in
+from mixedlub.effect import Effect, find, known_in
 from mixedlub.gear import GearPair, Mesh, mesh
 from mixedlub.kinds.gear_pair import motion_inputs
 from mixedlub.laws.load import LEAST_SHARE
@@ -218,7 +218,7 @@ def _effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, 
                     f"no such parameter of {e.id}; {nearest(name, values)}", where=f"effects.{e.id}", value=name
                 )
             prior = next(p.prior for p in e.parameters if p.name == name)
-            if value < 0 and (isinstance(prior, LogNormal | BetweenLog) or getattr(prior, "low", -1.0) >= 0.0):
+            if value < 0 <= prior.value(-np.inf):
                 raise InputError("must not be negative", where=f"effects.{e.id}.{name}", value=value)
             values[name] = value
         parameters[e.id] = values

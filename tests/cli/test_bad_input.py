@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from mixedlub.cli import main
 from tests.cli.test_commands import STUDY
 
+CASE = Path(__file__).parents[2] / "examples" / "case"
 CONVERTED = "units are not converted here; `mixedlub import` does"
 
 QUIET = settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
@@ -25,6 +26,15 @@ def refused(capsys, *arguments):
     assert "mixedlub: unexpected" not in said, said
     assert status in (0, 2)
     return status, said
+
+
+def spoilt(tmp_path, file, old, new, times=-1):
+    """A copy of the sound case with another text in one of its files."""
+    case = shutil.copytree(CASE, tmp_path / "case")
+    text = (case / file).read_text(encoding="utf-8")
+    assert old in text
+    (case / file).write_text(text.replace(old, new, times), encoding="utf-8")
+    return case
 
 
 @pytest.mark.parametrize(
@@ -61,12 +71,15 @@ def test_message_names_place_and_value(old, new, named, tmp_path, capsys):
     assert said.count("\n") == 1
 
 
-def test_negative_strength_of_a_positive_effect_is_refused(tmp_path, capsys):
+@pytest.mark.parametrize(
+    ("effect", "parameter"), [("inlet_shear_heating", "strength"), ("surface_defects", "inverse_height")]
+)
+def test_negative_value_of_a_positive_parameter_is_refused(effect, parameter, tmp_path, capsys):
     path = tmp_path / "trial.toml"
-    path.write_text(STUDY + "[effects]\ninlet_shear_heating = { strength = -5 }\n")
+    path.write_text(STUDY + f"[effects]\n{effect} = {{ {parameter} = -5 }}\n")
     status, said = refused(capsys, "study", str(path), "--no-figures", "--out", str(tmp_path / "o"))
     assert status == 2
-    assert "effects.inlet_shear_heating.strength: -5" in said
+    assert f"effects.{effect}.{parameter}: -5" in said
 
 
 @pytest.mark.parametrize("command", ["simulate", "check", "diagnose"])
@@ -141,9 +154,6 @@ def test_mangled_study_never_gives_a_traceback(capsys, seed):
         refused(capsys, "study", str(path), "--no-figures", "--out", str(Path(folder) / "o"))
 
 
-CASE = Path(__file__).parents[2] / "examples" / "case"
-
-
 @QUIET
 @given(st.integers(0, 2**32 - 1), st.sampled_from(["check", "simulate"]))
 def test_mangled_case_never_gives_a_traceback(capsys, seed, command):
@@ -198,9 +208,7 @@ MISSING = {
 @pytest.mark.parametrize("name", MISSING)
 def test_what_the_file_has_in_place_of_a_column_is_said(name, tmp_path, capsys):
     header, said = MISSING[name]
-    case = shutil.copytree(CASE, tmp_path / "case")
-    text = (case / "recordings.csv").read_text(encoding="utf-8")
-    (case / "recordings.csv").write_text(text.replace("oil_temperature_C", header), encoding="utf-8")
+    case = spoilt(tmp_path, "recordings.csv", "oil_temperature_C", header)
     message = refused(capsys, "check", str(case))[1]
     assert said in message
     assert "known:" not in message
@@ -210,9 +218,7 @@ def test_what_the_file_has_in_place_of_a_column_is_said(name, tmp_path, capsys):
     ("column", "other"), [("speed_rpm", "speed_rad_s"), ("power_loss_W", "power_loss_kW"), ("torque_Nm", "torque_mNm")]
 )
 def test_a_column_in_another_unit_is_said_to_be_one(column, other, tmp_path, capsys):
-    case = shutil.copytree(CASE, tmp_path / "case")
-    text = (case / "recordings.csv").read_text(encoding="utf-8")
-    (case / "recordings.csv").write_text(text.replace(column, other), encoding="utf-8")
+    case = spoilt(tmp_path, "recordings.csv", column, other)
     assert (
         f"column {column!r} is missing; the file has {other!r}: {CONVERTED}" in refused(capsys, "check", str(case))[1]
     )
@@ -233,9 +239,7 @@ def test_an_optional_column_in_another_unit_is_said_to_be_one(tmp_path, capsys):
 
 
 def test_simulate_writes_no_number_that_is_not_finite(tmp_path, capsys):
-    case = shutil.copytree(CASE, tmp_path / "case")
-    text = (case / "system.toml").read_text(encoding="utf-8")
-    (case / "system.toml").write_text(text.replace("[100.0, 11.2]", "[1e8, 0.31]"), encoding="utf-8")
+    case = spoilt(tmp_path, "system.toml", "[100.0, 11.2]", "[1e8, 0.31]")
     at = tmp_path / "cold.csv"
     at.write_text("run,torque_Nm,speed_rpm,oil_temperature_C,pinion_surface,gear_surface\n8,50,500,-60,ground,ground\n")
     status, said = refused(capsys, "simulate", str(case), "--at", str(at), "--out", str(tmp_path / "o"))
@@ -245,9 +249,7 @@ def test_simulate_writes_no_number_that_is_not_finite(tmp_path, capsys):
 
 
 def test_a_doubtful_number_is_told_by_check_and_simulate(tmp_path, capsys):
-    case = shutil.copytree(CASE, tmp_path / "case")
-    text = (case / "system.toml").read_text(encoding="utf-8")
-    (case / "system.toml").write_text(text.replace("face_width_mm = 14.0", "face_width_mm = 0.014"), encoding="utf-8")
+    case = spoilt(tmp_path, "system.toml", "face_width_mm = 14.0", "face_width_mm = 0.014")
     doubt = "gears.face_width_mm is 0.014, where rigs have 0.1 to 2000 mm: 0.014 m would be 14 mm"
     assert main(["check", str(case)]) == 0
     assert f"Doubtful:\n  {doubt}." in capsys.readouterr().out

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mixedlub.gear import GearPair, RigidSharing, at_roll_angle
-from tests.cli.test_bad_input import CASE, refused
+from tests.cli.test_bad_input import CASE, refused, spoilt
 from tests.cli.test_commands import STUDY
 
 SPOILT = {
@@ -35,10 +35,7 @@ SPOILT = {
 @pytest.mark.parametrize("name", SPOILT)
 def test_what_is_wrong_with_a_case_is_said_in_its_own_words(name, tmp_path, capsys):
     file, old, new, said = SPOILT[name]
-    case = shutil.copytree(CASE, tmp_path / "case")
-    text = (case / file).read_text(encoding="utf-8")
-    assert old in text
-    (case / file).write_text(text.replace(old, new, -1 if name == "semicolons" else 1), encoding="utf-8")
+    case = spoilt(tmp_path, file, old, new, -1 if name == "semicolons" else 1)
     for command in ("simulate", "diagnose", "check"):
         out = [] if command == "check" else ["--out", str(tmp_path / "o")]
         status, message = refused(capsys, command, str(case), *out)
@@ -61,10 +58,7 @@ UNIT_SLIPS = {
 @pytest.mark.parametrize("name", UNIT_SLIPS)
 def test_a_slip_of_the_unit_is_refused_by_every_command(name, tmp_path, capsys):
     old, new, key = UNIT_SLIPS[name]
-    case = shutil.copytree(CASE, tmp_path / "case")
-    text = (case / "system.toml").read_text(encoding="utf-8")
-    assert old in text
-    (case / "system.toml").write_text(text.replace(old, new, 1), encoding="utf-8")
+    case = spoilt(tmp_path, "system.toml", old, new, 1)
     for command in ("simulate", "diagnose", "check"):
         status, said = refused(
             capsys, command, str(case), *([] if command == "check" else ["--out", str(tmp_path / "o")])
@@ -97,12 +91,10 @@ def test_a_table_of_load_shares_that_cannot_be_is_told(name, tmp_path, capsys):
     pair = GearPair((17, 26), 4.2333333e-3, np.radians(22.5), 14e-3)
     angles = np.degrees(np.linspace(pair.path_start, pair.path_end, 61) / pair.base_radius[0])
     shares = at_roll_angle(pair, RigidSharing(), np.radians(angles)).load_share(50.0)
-    case = shutil.copytree(CASE, tmp_path / "case")
+    case = spoilt(tmp_path, "system.toml", '{ model = "rigid" }', '{ table = "share.csv" }')
     rows = change(list(zip([50.0] * 61, angles.tolist(), shares.tolist(), strict=True)))
     lines = ["torque_Nm,roll_angle_deg,load_share", *(",".join(map(repr, row)) for row in rows)]
     (case / "share.csv").write_text("\n".join(lines) + "\n")
-    text = (case / "system.toml").read_text(encoding="utf-8")
-    (case / "system.toml").write_text(text.replace('{ model = "rigid" }', '{ table = "share.csv" }'), encoding="utf-8")
     status, said = refused(capsys, "simulate", str(case), "--out", str(tmp_path / "o"))
     assert status == expected
     assert told in said

@@ -5,9 +5,9 @@ import pytest
 
 @pytest.fixture
 def file(tmp_path):
-    def write(text, name="t.csv"):
+    def write(text, name="t.csv", encoding="utf-8"):
         path = tmp_path / name
-        path.write_text(text, encoding="utf-8")
+        path.write_text(text, encoding=encoding)
         return path
 
     return write

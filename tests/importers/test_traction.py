@@ -1,5 +1,7 @@
 """Steps of a traction rig that sweep the speed or the slip: the kinds of case that they make."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -35,13 +37,9 @@ NAMES = {"import.surface_1": "ball", "import.surface_2": "disc"}
 
 
 @pytest.fixture
-def file(tmp_path):
-    def write(text, name="mtm.txt"):
-        path = tmp_path / name
-        path.write_text(text, encoding="latin-1")
-        return path
-
-    return write
+def file(file):
+    """Traction rigs write Latin-1."""
+    return partial(file, name="mtm.txt", encoding="latin-1")
 
 
 def said_of(path, out, settings=(), ask=None):

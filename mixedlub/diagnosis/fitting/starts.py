@@ -36,9 +36,14 @@ class Sampled:
     blind: int
 
     @property
+    def moves(self) -> np.ndarray:
+        """Which draws move the readings, by a sigma in all."""
+        return np.asarray(np.einsum("ij,ij->i", self.change, self.change) > MOVES)
+
+    @property
     def testable(self) -> bool:
-        """Whether any draw moves the readings, by a sigma in all: an effect that does not explains none."""
-        return bool(np.einsum("ij,ij->i", self.change, self.change).max() > MOVES)
+        """Whether any draw moves the readings: an effect that does not explains none."""
+        return bool(self.moves.any())
 
 
 def sample(problem: Problem, name: str, none: Fit) -> Sampled:
@@ -116,8 +121,7 @@ def fit_single(problem: Problem, none: Fit, sampled: Sampled) -> Fit:
         starts.append(np.concatenate([linear.coefficients[: none.z.size], z]))
     order = np.argsort(scores)[::-1]
     # Where an effect moves nothing it has no slope to climb.
-    moves = np.einsum("ij,ij->i", sampled.change, sampled.change) > MOVES
-    order = order[moves[order]] if moves.any() else order
+    order = order[sampled.moves[order]] if sampled.testable else order
     chosen = [order[0]]
     for i in order[1:]:
         if scores[i] < scores[order[0]] - NEAR or len(chosen) == STARTS:

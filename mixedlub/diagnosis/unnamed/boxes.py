@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -79,12 +80,12 @@ class _Grid:
             np.array([cell for _, _, cell in found]),
         )
 
-    @property
+    @cached_property
     def counts(self) -> np.ndarray:
         """Cells along each condition."""
         return np.array([at.size - 1 for at in self.edges])
 
-    @property
+    @cached_property
     def ranges(self) -> np.ndarray:
         """Log of how many ranges each condition has."""
         return np.log(self.counts * (self.counts + 1) / 2.0)
