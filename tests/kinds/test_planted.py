@@ -171,6 +171,15 @@ def planted_pressure_law():
     }
 
 
+def planted_other_cooling():
+    """Slotte's power of a temperature through the two known points: the catalogue carries Vogel's exponential."""
+    celsius = np.tile([-10.0, 0.0, 10.0, 25.0, 40.0, 55.0, 70.0, 85.0, 100.0, 120.0], 3)
+    known = np.array(OIL["kinematic_viscosity_mm2_s"]) * (0.87 - 7e-4 * (np.array([40.0, 100.0]) - 15.0))
+    power = np.log(known[0] / known[1]) / np.log((100.0 + 50.0) / (40.0 + 50.0))
+    cooled = known[0] * ((40.0 + 50.0) / (celsius + 50.0)) ** power
+    return system("viscosity", "viscosity_mPa_s"), {"temperature_C": celsius, "viscosity_mPa_s": noisy(cooled)}
+
+
 def planted_sample_drift():
     """Linear growth of viscosity: the catalogue carries an exponential."""
     celsius = np.concatenate([np.linspace(25.0, 70.0, 20), np.linspace(70.0, 10.0, 25)])
@@ -202,6 +211,7 @@ CASES = {
     "fringe_step": (planted_fringe_step, ("fringe_order", "inlet_shear_heating", "boundary_film")),
     "zero_drift": (planted_zero_drift, ("inlet_shear_heating", "boundary_film")),
     "pressure_viscosity_law": (planted_pressure_law, ()),
+    "viscosity_temperature_law": (planted_other_cooling, ("sensor_gain", "sensor_offset")),
     "viscosity_drift": (planted_sample_drift, ()),
 }
 
