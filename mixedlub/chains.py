@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mixedlub.chain import Chain
-from mixedlub.laws import contact, film, load, loss, mixture, oil, shear
+from mixedlub.laws import contact, film, heating, load, loss, mixture, oil, shear
 from roughness.mccool import plane_offset, summit_density, summit_radius, summit_sigma
 
 ASPERITIES: Chain = (
@@ -18,6 +18,7 @@ ASPERITIES: Chain = (
 )
 
 FRICTION: Chain = (
+    ("flash_per_friction", heating.flash_per_friction),
     ("contact_viscosity", oil.roelands_viscosity),
     ("shear_stress", shear.ree_eyring),
     ("fluid_friction", mixture.fluid_friction),

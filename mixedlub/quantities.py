@@ -112,6 +112,7 @@ film_thickness          | h          | m       | central film thickness
 separation              | t          | -       | gap to the summits' mean plane over summit sigma
 area_ratio              | P_B        | -       | real over nominal contact area, the share of boundary friction
 asperity_pressure       | p_a        | Pa      | mean pressure that elastic asperities would carry at this gap
+flash_per_friction      | theta_mu   | K       | rise of the surfaces by sliding per unit of friction coefficient
 contact_viscosity       | eta_p      | Pa s    | viscosity of the film in the contact, of a sample under pressure
 shear_stress            | tau        | Pa      | shear stress of the film
 fluid_friction          | mu_E       | -       | friction coefficient of the film

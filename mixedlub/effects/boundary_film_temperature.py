@@ -3,6 +3,7 @@
 import numpy as np
 
 from mixedlub.effect import Between, LogNormal, Normal, Parameter, effect
+from mixedlub.laws.mixture import tallian_friction
 
 
 @effect(
@@ -16,20 +17,54 @@ from mixedlub.effect import Between, LogNormal, Normal, Parameter, effect
             "activation", "K", Between(318.0, 413.0), "temperature at which half the film is there", symbol=r"\theta_f"
         ),
         Parameter("width", "K", LogNormal(8.0, 0.5), "temperature over which the film forms", symbol="w"),
+        Parameter(
+            "flash",
+            "-",
+            Between(0.0, 1.0),
+            "share of the contact's flash temperature that the film feels",
+            null=0.0,
+            symbol="s",
+            kinds=("gear_pair", "disc", "mesh_friction"),
+        ),
     ),
-    equation=r"\mu_B \leftarrow \mu_B \exp\left[-\frac{d}{1 + e^{-(\theta_{oil} - \theta_f)/w}}\right]",
+    equation=r"\mu_B \leftarrow \mu_B \exp\left[-\frac{d}{1 + e^{-(\theta - \theta_f)/w}}\right],\quad "
+    r"\theta = \theta_{oil} + s\,\theta_\mu\,[\mu_E + (\mu_B - \mu_E)\,P_B]",
     source="H. Spikes, Tribol. Lett. 60 (2015) 5 (friction modifiers); the sigmoid is the usual description "
     "of activation, its coefficients are not from a table",
-    fingerprint={"speed": "+", "oil_temperature": "-", "roughness": "-", "slide_roll_ratio": "+"},
+    fingerprint={"oil_temperature": "-", "roughness": "-", "slide_roll_ratio": "+"},
     separated_by="oil without the additive, or film ratios above 3, where it vanishes; it sits between two "
     "temperatures, whereas everything viscous changes steadily",
+    after=(
+        "boundary_speed_dependence",
+        "friction_event",
+        "friction_run_in",
+        "tribofilm_growth",
+        "two_time_scales",
+        "wandering_surface_state",
+    ),
 )
 def boundary_film_temperature(
-    boundary_friction: np.ndarray, oil_temperature: np.ndarray, *, drop: float, activation: float, width: float
+    boundary_friction: np.ndarray,
+    oil_temperature: np.ndarray,
+    fluid_friction: np.ndarray,
+    area_ratio: np.ndarray,
+    flash_per_friction: np.ndarray,
+    *,
+    drop: float,
+    activation: float,
+    width: float,
+    flash: float,
 ) -> np.ndarray:
     """Additives cover the asperities above a certain temperature and change their friction; a negative drop raises it.
 
-    >>> round(float(boundary_film_temperature(0.1, 353.15, drop=0.7, activation=353.15, width=8.0)), 3)
+    The surfaces meet warmer than the oil by the flash temperature of their friction before the film changed it; where
+    sliding is not known that is left out.
+
+    >>> film = dict(drop=0.7, activation=353.15, width=8.0)
+    >>> round(float(boundary_film_temperature(0.1, 353.15, 0.0, 0.0, 0.0, **film, flash=0.0)), 3)
+    0.07
+    >>> round(float(boundary_film_temperature(0.1, 333.15, 0.05, 0.2, 1000.0, **film, flash=1 / 3)), 3)   # 20 K
     0.07
     """
-    return boundary_friction * np.exp(-drop / (1.0 + np.exp(-(oil_temperature - activation) / width)))
+    rise = flash * flash_per_friction * tallian_friction(fluid_friction, boundary_friction, area_ratio)
+    return boundary_friction * np.exp(-drop / (1.0 + np.exp(-(oil_temperature + rise - activation) / width)))

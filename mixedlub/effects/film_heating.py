@@ -21,8 +21,7 @@ from mixedlub.laws import heating
     equation=r"\tau \leftarrow \tau' = "
     r"\tau_0 \operatorname{asinh}\left(\sinh\frac{\tau}{\tau_0}\,e^{-\beta_p\Delta T}\right),\quad "
     r"\Delta T = 2c\left[(1-d)\,\frac{\tau' v_s h}{12 k_f} + "
-    r"d\,\frac{1.084\,q_m\sqrt{b_H}}{\sqrt{k_s\rho_s c_s}\,(\sqrt{u_1}+\sqrt{u_2})}\right],\quad "
-    r"q_m = \frac{\pi}{4} v_s\,[(1 - P_B)\,\tau' + P_B\,\mu_B p_0],\ u_{1,2} = |u \pm \tfrac12 v_s|,\quad "
+    r"d\,\theta_\mu\left((1 - P_B)\,\frac{\tau'}{p_0} + P_B\,\mu_B\right)\right],\quad "
     r"\beta_p = \beta\left[1 + \frac{\ln(\eta_p/\eta_0)}{\ln\eta_0 + 9.67}\right]^k",
     source="J. F. Archard, Wear 2 (1959) 438 (film); H. Blok, Proc. Gen. Disc. Lubrication, IMechE 2 (1937) "
     "222 (flash)",
@@ -40,12 +39,8 @@ def film_heating(
     contact_viscosity: np.ndarray,
     temperature_viscosity: np.ndarray,
     oil_conductivity: np.ndarray,
-    entrainment_speed: np.ndarray,
-    hertz_half_width: np.ndarray,
+    flash_per_friction: np.ndarray,
     hertz_pressure: np.ndarray,
-    solid_conductivity: np.ndarray,
-    solid_density: np.ndarray,
-    solid_heat_capacity: np.ndarray,
     boundary_friction: np.ndarray,
     area_ratio: np.ndarray,
     *,
@@ -59,31 +54,19 @@ def film_heating(
     surfaces too; temperatures are means over the contact. The literature takes beta at ambient pressure (Nahme,
     Crook) or under that of the contact. Roelands' slope makes the form belong to Pa s.
 
-    >>> steel = dict(solid_conductivity=46.0, solid_density=7800.0, solid_heat_capacity=470.0)
+    >>> flash = heating.flash_per_friction(0.9437e9, 0.148e-3, 2.2417, 0.7518, 46.0, 7800.0, 470.0)   # steel
     >>> oil = dict(viscosity=0.01489, contact_viscosity=70.2, temperature_viscosity=0.026, oil_conductivity=0.14)
-    >>> motion = dict(sliding_speed=0.7518, entrainment_speed=2.2417, film_thickness=0.231e-6)
-    >>> load = dict(hertz_half_width=0.148e-3, hertz_pressure=0.9437e9, boundary_friction=0.1, area_ratio=0.163)
+    >>> motion = dict(sliding_speed=0.7518, film_thickness=0.231e-6, flash_per_friction=flash)
+    >>> load = dict(hertz_pressure=0.9437e9, boundary_friction=0.1, area_ratio=0.163)
     >>> full = dict(strength=1.0, flash=0.5, pressure=1.0)
-    >>> tau = film_heating(22.58e6, 5e6, **steel, **oil, **motion, **load, **full)
+    >>> tau = film_heating(22.58e6, 5e6, **oil, **motion, **load, **full)
     >>> round(float(tau) / 1e6, 1)   # isothermal 22.6 MPa
     19.8
     """
     steeper = heating.contact_softening(temperature_viscosity, viscosity, contact_viscosity) / temperature_viscosity
     softening = strength * temperature_viscosity * steeper**pressure
-    bodies = (
-        2.0
-        * flash
-        * heating.flash_temperature(
-            0.25 * np.pi * sliding_speed,
-            hertz_half_width,
-            entrainment_speed,
-            sliding_speed,
-            solid_conductivity,
-            solid_density,
-            solid_heat_capacity,
-        )
-    )
     film = 2.0 * (1.0 - flash) * sliding_speed * film_thickness / (12.0 * oil_conductivity)
-    by_asperities = softening * bodies * boundary_friction * hertz_pressure * area_ratio
-    by_film = softening * (film + bodies * (1.0 - area_ratio))
+    bodies = 2.0 * flash * flash_per_friction
+    by_asperities = softening * bodies * boundary_friction * area_ratio
+    by_film = softening * (film + bodies * (1.0 - area_ratio) / hertz_pressure)
     return heating.softened_stress(shear_stress, eyring_stress, by_asperities, by_film)

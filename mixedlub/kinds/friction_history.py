@@ -61,6 +61,8 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
         **programme(table, recorded),
         "boundary_friction": _level(system, recorded),
         "area_ratio": 0.0,
+        "fluid_friction": 0.0,
+        "flash_per_friction": 0.0,
     }
 
 

@@ -30,9 +30,10 @@ PROTOTYPE = {
     "roughness_lay": {"lay": 1.0, "onset": 0.15, "decay": 1.0, "saturation": 0.0},
     "micro_ehl": {"viscous": 1.0, "texture": 1.0},
     "bearing_drag": {"strength": 1.0, "load_power": 1.0, "rolling_power": 0.0, "rubbing": 0.0},
+    "boundary_film_temperature": {"flash": 0.0},
 }
 """Parameters of the prototype where they are not the middle of the priors: h + 0.15 sigma, all moments
-alike, Palmgren's bearings."""
+alike, Palmgren's bearings, a film as warm as the oil."""
 
 
 def goksem(radius: float, modulus: float, viscosity: float, speed: float, alpha: float) -> float:
@@ -274,11 +275,10 @@ class TestIntegrals:
     def test_film_rise_is_that_of_a_sheared_sheet(self) -> None:
         """Uniform shear between walls at one temperature warms the film by tau v_s h / (12 k) on average."""
         tau, eyring, slip, film, conductivity = 20e6, 5e6, 3.0, 0.4e-6, 0.14
-        steel = {"solid_conductivity": 46.0, "solid_density": 7800.0, "solid_heat_capacity": 470.0}
         oil = {"viscosity": 0.0149, "contact_viscosity": 70.0, "temperature_viscosity": 0.026}
-        contact = {"hertz_half_width": 1.5e-4, "hertz_pressure": 1e9, "boundary_friction": 0.1, "area_ratio": 0.0}
+        contact = {"flash_per_friction": 700.0, "hertz_pressure": 1e9, "boundary_friction": 0.1, "area_ratio": 0.0}
         found = film_heating(
-            tau, eyring, slip, film, oil_conductivity=conductivity, entrainment_speed=5.0, **steel, **oil, **contact,
+            tau, eyring, slip, film, oil_conductivity=conductivity, **oil, **contact,
             strength=0.5, flash=0.0, pressure=1.0,
         )  # fmt: skip
         softening = heating.contact_softening(

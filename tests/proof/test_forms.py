@@ -15,6 +15,7 @@ import pytest
 from scipy.optimize import least_squares
 
 from mixedlub.effect import Between, BetweenLog, Effect, LogNormal, known_in
+from mixedlub.laws import heating
 from mixedlub.proof.bench import drive, film, history, mesh, viscosity
 from mixedlub.proof.bench.stage import Act, Bench, progress
 from mixedlub.proof.bench.states import Track
@@ -44,7 +45,7 @@ def _column(values: np.ndarray) -> np.ndarray:
 
 def of_contact(c: Contact, columns: Values) -> Values:
     """State of a contact under the names of the glossary; readings of films in metres."""
-    rig, warm, s = c.rig, c.temperature, summits(c)
+    rig, solid, warm, s = c.rig, c.rig.solid, c.temperature, summits(c)
     found: Values = {
         "film_thickness": c.film,
         "viscosity": c.viscosity,
@@ -64,9 +65,10 @@ def of_contact(c: Contact, columns: Values) -> Values:
         "shear_stress": c.stress,
         "eyring_stress": c.eyring_stress,
         "contact_viscosity": np.sinh(c.stress / c.eyring_stress) * c.eyring_stress * c.film / c.sliding,
-        "solid_conductivity": rig.solid.conductivity,
-        "solid_density": rig.solid.density,
-        "solid_heat_capacity": rig.solid.specific_heat,
+        "flash_per_friction": heating.flash_per_friction(
+            c.pressure, c.half_width, c.entrainment, c.sliding, solid.conductivity, solid.density, solid.specific_heat
+        ),
+        "fluid_friction": c.stress / c.pressure,
         "coating_thickness": rig.coating_resistance * (0.0 * warm if rig.coated is None else rig.coated),
         "coating_conductivity": 1.0,
         "boundary_friction": c.boundary_friction,
