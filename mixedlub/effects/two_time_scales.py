@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import LogNormal, Parameter, Wide, effect
+from mixedlub.effect import EitherSign, LogNormal, Parameter, Wide, effect
 
 
 @effect(
@@ -12,7 +12,7 @@ from mixedlub.effect import LogNormal, Parameter, Wide, effect
         Parameter(
             "passing",
             "-",
-            Wide(0.13),
+            EitherSign(0.13, 0.7),
             "relative change at the height of the passing state",
             null=0.0,
             symbol="a",
@@ -42,6 +42,7 @@ from mixedlub.effect import LogNormal, Parameter, Wide, effect
     fingerprint={"sequence": "+"},
     separated_by="contact resistance and a wear scar measured at times: a film takes minutes, wear goes on",
     kinds=("friction_history",),
+    odds=0.5,
 )
 def two_time_scales(
     boundary_friction: np.ndarray,
