@@ -24,7 +24,7 @@ from mixedlub.effect import LogNormal, Parameter, effect
     fingerprint={"speed": "+"},
     separated_by="longer travel at the lowest speeds: friction reaches its sliding value once the contacts have given "
     "way; a film, or a loss that grows with speed, does not change with the travel",
-    after=("stribeck", "load_dependent_friction", "direction_dependence"),
+    after=("stribeck", "load_dependent_friction", "fluid_drag", "direction_dependence"),
     kinds=("friction_map",),
 )
 def presliding(

@@ -78,7 +78,7 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
         found["additive_fraction"] = column(table["additive_percent"] / np.max(recorded["additive_percent"]))
     if "oil_temperature_C" in table:
         found["oil_temperature"] = column(table["oil_temperature_C"]) + ZERO_CELSIUS
-    found.update(_motor_torque(table, recorded, size))
+    found.update(_motor_torque(table, recorded))
     if "position_deg" in table:
         found["drive_angle"] = np.radians(column(table["position_deg"]))
     return found
@@ -92,12 +92,12 @@ def _warmer(table: Table, recorded: Table) -> np.ndarray:
     return column(table[name] - np.mean(recorded[name]))
 
 
-def _motor_torque(table: Table, recorded: Table, size: float) -> Inputs:
+def _motor_torque(table: Table, recorded: Table) -> Inputs:
     """Torque of the motor where a load asks for one, and the largest recorded one for comparison."""
-    motor = _motor_column(recorded)
-    found: Inputs = {"reference_torque": size if motor is None else float(np.max(np.abs(recorded[motor])))}
-    own = _motor_column(table)
-    return found if own is None else {**found, "motor_torque": column(table[own])}
+    motor, own = _motor_column(recorded), _motor_column(table)
+    if motor is None or own is None:
+        return {}
+    return {"reference_torque": float(np.max(np.abs(recorded[motor]))), "motor_torque": column(table[own])}
 
 
 def completed(table: Table, recorded: Table) -> Table:
@@ -171,11 +171,12 @@ def _bare_share(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
 
 
 def chain(system: config.System, table: Table) -> Chain:
-    """Coulomb and viscous friction, and a payload; without a load the motor feels nothing else."""
-    laws: Chain = (("running_friction", drive.coulomb_viscous), ("friction_torque", drive.motor_friction))
-    if _motor_column(table) is None:
-        laws = (*laws, ("motor_torque", drive.unloaded_motor))
-    return (*laws, ("reading", reading))
+    """Coulomb and viscous friction, and a payload."""
+    return (
+        ("running_friction", drive.coulomb_viscous),
+        ("friction_torque", drive.motor_friction),
+        ("reading", reading),
+    )
 
 
 KIND = Kind(

@@ -27,12 +27,3 @@ def motor_friction(running_friction: np.ndarray, payload_torque: np.ndarray, gea
     [3.0, 0.5]
     """
     return running_friction * gears_fitted + payload_torque
-
-
-def unloaded_motor(friction_torque: np.ndarray) -> np.ndarray:
-    """Torque of a motor that drives no load (N m): the friction itself.
-
-    >>> float(unloaded_motor(3.0))
-    3.0
-    """
-    return friction_torque

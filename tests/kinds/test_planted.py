@@ -68,6 +68,13 @@ def planted_grease_thinning():
     return drive(friction, speed_rpm=SPEED)
 
 
+def planted_drag():
+    """A disc in air, laminar below half of the largest speed and turbulent above: the catalogue has one power."""
+    share = np.abs(SPEED) / 200.0
+    disc = np.where(share < 0.5, 0.5**1.8 * (share / 0.5) ** 1.5, share**1.8)
+    return drive(np.sign(SPEED) * (1.0 + 3.0 * disc), speed_rpm=SPEED)
+
+
 def planted_ripple(order=9.0):
     angle = np.linspace(0.0, 360.0, 80, endpoint=False)
     friction = 2.0 + 0.4 * np.sin(np.radians(order * angle) + 0.6)
@@ -192,14 +199,15 @@ def planted_sample_drift():
 
 
 CASES = {
-    "stribeck": (planted_stribeck, ("grease_shear_thinning", "direction_dependence", "torque_constant")),
+    "stribeck": (planted_stribeck, ("grease_shear_thinning", "direction_dependence", "fluid_drag")),
     "presliding": (planted_presliding, ("stribeck", "grease_shear_thinning", "direction_dependence")),
     "friction_modifier_film": (planted_modifier, ("stribeck", "direction_dependence", "grease_shear_thinning")),
-    "direction_dependence": (planted_direction, ("stribeck", "grease_shear_thinning", "torque_constant")),
+    "direction_dependence": (planted_direction, ("stribeck", "grease_shear_thinning", "fluid_drag")),
     "torque_constant": (planted_torque_constant, ("stribeck", "load_dependent_friction", "direction_dependence")),
     "load_dependent_friction": (planted_load, ("stribeck", "direction_dependence")),
     "grease_temperature": (planted_grease, ("stribeck", "grease_shear_thinning", "direction_dependence")),
-    "grease_shear_thinning": (planted_grease_thinning, ("direction_dependence", "torque_constant")),
+    "grease_shear_thinning": (planted_grease_thinning, ("direction_dependence", "fluid_drag")),
+    "fluid_drag": (planted_drag, ("direction_dependence", "presliding")),
     "friction_event": (planted_event, ("tribofilm_growth", "friction_run_in", "sensor_drift")),
     "tribofilm_growth": (planted_tribofilm, ("friction_run_in", "sensor_drift")),
     "friction_run_in": (planted_run_in, ("sensor_drift",)),

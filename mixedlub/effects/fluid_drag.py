@@ -1,0 +1,46 @@
+"""Drag of the air or oil that a drive sets in motion."""
+
+import numpy as np
+
+from mixedlub.effect import Between, LogNormal, Parameter, effect
+
+
+@effect(
+    stage="loss",
+    acts_on="running_friction",
+    parameters=(
+        Parameter(
+            "strength",
+            "-",
+            LogNormal(0.5, 1.2),
+            "drag at the largest speed of the recording over Coulomb friction",
+            null=0.0,
+            symbol="c",
+        ),
+        Parameter("exponent", "-", Between(1.5, 2.0), "power of speed", symbol="k", published=(1.5, 2.0)),
+    ),
+    equation=r"T_r \leftarrow T_r + c\,T_c\,|\omega/\omega_0|^k\operatorname{sgn}\omega",
+    source="H. Schlichting, Boundary-Layer Theory, 7th ed., 1979, chapters 5 and 21: a rotating disc has k = 1.5 in "
+    "laminar and 1.8 in turbulent flow; 2 for what is thrown about, as by a fan or by teeth in oil",
+    contains={"laminar disc": {"exponent": 1.5}, "turbulent disc": {"exponent": 1.8}, "fan": {"exponent": 2.0}},
+    fingerprint={"speed": "+"},
+    separated_by="a coast-down with covers off or in another gas, or another oil level: drag of grease grows no "
+    "faster than speed, and friction of surfaces falls with it",
+    kinds=("friction_map",),
+)
+def fluid_drag(
+    running_friction: np.ndarray,
+    coulomb_torque: np.ndarray,
+    drive_speed: np.ndarray,
+    reference_speed: np.ndarray,
+    *,
+    strength: float,
+    exponent: float,
+) -> np.ndarray:
+    """Air or oil is thrown about, so friction grows faster than in proportion to speed.
+
+    >>> fluid_drag(2.0, 2.0, np.array([50.0, 100.0]), 100.0, strength=0.5, exponent=2.0).tolist()
+    [2.25, 3.0]
+    """
+    share = np.abs(drive_speed) / reference_speed
+    return running_friction + strength * coulomb_torque * share**exponent * np.sign(drive_speed)
