@@ -90,12 +90,30 @@ def of_contact(c: Contact, columns: Values) -> Values:
         "gears_fitted": 1.0,
     }
     found["power_loss"] = found["reading"]
+    first, second = rig.oil.viscosity_at(np.array(rig.oil.temperature))
+    found |= _of_oil(rig.oil.temperature, (first, second), c.viscosity)
+    if "load_N" in rig.conditions:
+        found["inverse_load"] = _inverse(rig.conditions["load_N"])
     if rig.extras:
         found |= _of_gears(c)
     if "fringe_order" in columns:
         found["fringe_order"] = _column(columns["fringe_order"])
         found["first_fringe_order"] = np.min(columns["fringe_order"])
     return found
+
+
+def _of_oil(celsius: tuple[float, float], known: tuple[float, float], viscosity: np.ndarray) -> Values:
+    """What is known of an oil, beside a viscosity at hand."""
+    return {
+        "first_known_temperature": celsius[0] + KELVIN,
+        "second_known_temperature": celsius[1] + KELVIN,
+        "known_fall": np.log(known[0] / known[1]),
+        "fall_from_first": np.log(known[0] / viscosity),
+    }
+
+
+def _inverse(load: Any) -> np.ndarray:
+    return _column(np.min(load) / load)
 
 
 def _of_gears(c: Contact) -> Values:
@@ -134,6 +152,7 @@ def of_drive(d: drive.Drive, columns: Values) -> Values:
         "temperature_difference": celsius - np.mean(celsius),
         "oil_temperature": celsius + KELVIN,
         "load_fraction": load / load.max(),
+        "inverse_load": load.min() / load,
         "additive_fraction": content / content.max(),
         "drive_angle": np.radians(columns.get("position_deg", 0.0)),
         "motor_torque": motor,
@@ -151,6 +170,7 @@ def of_track(t: Track, columns: Values) -> Values:
         "friction": t.recorded,
         "area_ratio": whole,
         "slide_roll_ratio": columns.get("slide_roll_ratio", whole),
+        "inverse_load": _inverse(columns.get("load_N", whole))[:, 0],
         "hertz_pressure": 1e9,
         "sequence": place,
         "reading": t.recorded,
@@ -166,6 +186,7 @@ def of_sample(s: viscosity.Sample, columns: Values) -> Values:
         "contact_viscosity": s.resting * np.exp(s.rise),
         "hertz_pressure": s.pressure,
         "oil_temperature": s.celsius + KELVIN,
+        **_of_oil(*s.known, s.resting),
         "sequence": place,
         "ageing": done / done[-1],
         "reading": s.recorded,
@@ -246,7 +267,7 @@ LIMITS: dict[str, tuple[dict[str, float], ...]] = {
     "boundary_film": ({"gain": 1e7},),
     "friction_event": ({"width": 1e-7},),
     "tribofilm_growth": ({"induction": 1e-9},),
-    "stribeck": ({"exponent": 1.0, "speed_share": 0.1}, {"exponent": 2.0, "speed_share": 0.1}),
+    "stribeck": tuple({"exponent": n, "speed_share": v} for n in (1.0, 2.0) for v in (0.03, 0.1)),
     "starvation": ({"onset": 0.05, "steepness": 4.0},),
 }
 """Values from which the fit also starts: far out, where a form may be the limit of the catalogue's."""
@@ -325,7 +346,7 @@ def _benches() -> list[Bench]:
     rng = np.random.default_rng(8)
     return [
         *(room.draw(rng) for room in (film, drive, viscosity) for _ in range(14)),
-        *(draw(rng) for draw in (history.draw_steady, history.draw_traction) for _ in range(2)),
+        *(draw(rng) for draw in (history.draw_steady, history.draw_loads, history.draw_traction) for _ in range(2)),
     ]
 
 
@@ -393,6 +414,7 @@ def test_no_effect_is_planted_in_forms_of_the_catalogue_alone_where_others_are_c
         "sensor_offset",
         "sensor_gain",
         "torque_offset",
+        "force_offset",
         "fringe_order",
         "direction_dependence",
     }
