@@ -35,7 +35,7 @@ ORDERS = (
     Order("case_008", "mesh_friction", "single", ("film_heating",), "clear"),
     Order("case_009", "friction_history", "measurement", ("sensor_gain",), "clear"),
 )
-SEED = 5
+SEED = 10
 
 
 @pytest.fixture(scope="module")
@@ -126,7 +126,7 @@ def test_pairs_have_rivals_with_one_of_the_two_exchanged(cases):
 def test_every_form_is_absent_at_zero_and_finite_at_its_usual_size(kind):
     rng = np.random.default_rng(8)
     seen = set()
-    for _ in range(20):
+    for _ in range(40):
         bench = ROOMS[kind].draw(rng)
         z = np.zeros(len(bench.names))
         base = bench.model(z, ())

@@ -87,7 +87,7 @@ def _of_kind(rng: np.random.Generator, kind: str, seed: int, cases: int) -> list
     drawn: list[tuple[str, tuple[str, ...]]] = [("none", ())] * counts["none"]
     for label, pool in (("single", physics), ("measurement", faults), ("unknown", strange)):
         drawn += [(label, (name,)) for name in deck(rng, list(pool), list(pool.values()), counts[label])]
-    drawn += [("pair", pairs[i]) for i in rng.permutation(np.arange(counts["pair"]) % len(pairs))]
+    drawn += [("pair", pair) for pair in deck(rng, pairs, [1.0] * len(pairs), counts["pair"])]
     levels = ["clear" if place % 2 == 0 or label == "pair" else "faint" for place, (label, _) in enumerate(drawn)]
     return [
         Order("", kind, label, effects, level, bool(rng.random() < SPOILED[label]))

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mixedlub.proof.bench.presliding import presliding
 from mixedlub.proof.bench.stage import (
     Act,
     Bench,
@@ -14,6 +15,7 @@ from mixedlub.proof.bench.stage import (
     Form,
     between,
     channel,
+    force_cell,
     pick,
     play,
     progress,
@@ -28,8 +30,13 @@ PAIRS = (
     ("grease_temperature", "stribeck"),
     ("periodic_mesh", "zero_drift"),
     ("friction_modifier_film", "stribeck"),
+    ("stribeck", "presliding"),
+    ("load_dependent_friction", "force_offset"),
 )
 BROAD = 0.5
+OF_TORQUE = ("plain", "plain", "slow", "temperature", "load", "additive", "position", "current")
+OF_FORCE = ("plain", "slow", "temperature", "load", "load", "load", "additive", "position")
+"""Programmes of a drive and of a tribometer, each as often as it is named."""
 
 
 @dataclass(frozen=True)
@@ -259,10 +266,12 @@ def _outside(columns: dict[str, np.ndarray], time: np.ndarray) -> tuple[Form, ..
     )  # fmt: skip
 
 
-def _speeds(rng: np.random.Generator, top: float) -> np.ndarray:
-    """Speeds of both directions, evenly spaced or geometric."""
-    count = int(rng.integers(8, 17))
-    if rng.random() < 0.6:
+def _speeds(rng: np.random.Generator, top: float, creep: bool) -> np.ndarray:
+    """Speeds of both directions, evenly spaced or geometric; from a creep on, over three to four decades."""
+    count = int(rng.integers(14, 25) if creep else rng.integers(8, 17))
+    if creep:
+        half = np.geomspace(top / between(rng, 1000, 20000), top, count)
+    elif rng.random() < 0.6:
         half = np.geomspace(top / between(rng, 30, 120), top, count)
     else:
         half = np.linspace(top / (2 * count), top, count)
@@ -274,9 +283,9 @@ def _grid(rng: np.random.Generator, speeds: np.ndarray, name: str, levels: Seque
     return {"speed": np.tile(speeds, len(levels)), name: np.repeat(np.array(levels, dtype=float), len(speeds))}
 
 
-def _programme(rng: np.random.Generator, top: float, torque: float) -> dict[str, np.ndarray]:
-    speeds = _speeds(rng, top)
-    style = str(pick(rng, ("plain", "plain", "temperature", "load", "additive", "position", "current")))
+def _programme(rng: np.random.Generator, styles: Sequence[str], top: float, torque: float) -> dict[str, np.ndarray]:
+    style = str(pick(rng, styles))
+    speeds = _speeds(rng, top, style == "slow")
     if style == "temperature":
         return _grid(
             rng, speeds, "oil_temperature_C", pick(rng, ([10.0, 30.0, 60.0], [20.0, 50.0], [-10.0, 20.0, 45.0, 70.0]))
@@ -301,18 +310,16 @@ def _programme(rng: np.random.Generator, top: float, torque: float) -> dict[str,
 
 def draw(rng: np.random.Generator) -> Bench:
     """A drive, in newton metres against rpm or as a coefficient against sliding speed."""
-    as_torque = rng.random() < 0.8
+    as_torque = rng.random() < 0.75
     top = between(rng, 60, 3000, 2) if as_torque else between(rng, 0.1, 2.0, 2)
     level = between(rng, 0.005, 5.0) if as_torque else between(rng, 0.04, 0.2)
-    columns = _programme(rng, top, level)
+    columns = _programme(rng, OF_TORQUE if as_torque else OF_FORCE, top, level)
     count = len(columns["speed"])
     shuffled = "position_deg" not in columns and rng.random() < 0.7
     places = rng.permutation(count) if shuffled else np.arange(count)
     again = count <= 50 and rng.random() < 0.25
     columns = repeated({name: column[places] for name, column in columns.items()}, 3 if again else 1)
     time = progress(len(columns["run"]))
-    if not as_torque:
-        columns.pop("motor_torque_Nm", None)
     speed = columns.pop("speed")
     columns["speed_rpm" if as_torque else "sliding_speed_m_s"] = speed
     columns["sequence"] = time
@@ -329,7 +336,9 @@ def draw(rng: np.random.Generator) -> Bench:
         state = Drive(dry * flat, viscous * share, constant * flat, np.sign(share), share, dry, flat, flat)
         return np.asarray(play(CHAIN, state, acts).recorded)
 
-    forms = _speed_forms() + channel(time, False, False, True)
+    forms = _speed_forms() + presliding(share) + channel(time, False, False, True)
+    if "load_N" in columns and not as_torque:
+        forms += force_cell(columns["load_N"], time)
     if as_torque and "motor_torque_Nm" not in columns and "position_deg" not in columns:
         forms += _current_forms(None)
     made = {

@@ -8,8 +8,20 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub.proof.bench import cooling
 from mixedlub.proof.bench.point import BALL_FILM, FILM_FORMS, ball_rig
-from mixedlub.proof.bench.stage import Act, Bench, Form, between, channel, pick, play, progress, repeated, rounded
+from mixedlub.proof.bench.stage import (
+    Act,
+    Bench,
+    Form,
+    between,
+    channel,
+    pick,
+    play,
+    progress,
+    repeated,
+    rounded,
+)
 from mixedlub.proof.build import PRIORS
 from mixedlub.proof.concealed.kinds import Knob, strength
 from mixedlub.proof.design import draw_oil
@@ -22,6 +34,7 @@ PAIRS = (
     ("inlet_shear_thinning", "sensor_offset"),
     ("inlet_shear_heating", "fringe_order"),
     ("starvation", "zero_drift"),
+    ("viscosity_temperature_law", "zero_drift"),
 )
 
 
@@ -167,7 +180,10 @@ def _outside(columns: dict[str, np.ndarray]) -> tuple[Form, ...]:
 def _programme(rng: np.random.Generator) -> tuple[dict[str, np.ndarray], bool]:
     speeds = np.geomspace(between(rng, 0.002, 0.03), between(rng, 1.0, 4.0), int(rng.integers(15, 31)))
     speeds = np.array([rounded(u) for u in speeds])
-    baths = pick(rng, ([between(rng, 25, 60, 2)], [40.0, 100.0], [40.0, 80.0, 120.0], [30.0, 60.0, 90.0]))
+    baths = pick(
+        rng,
+        ([between(rng, 25, 60, 2)], [40.0, 100.0], [40.0, 80.0, 120.0], [30.0, 60.0, 90.0], [20.0, 60.0, 100.0, 140.0]),
+    )
     loads = [rounded(x) for x in pick(rng, ([between(rng, 20, 50, 2)], [20.0, 50.0], [10.0, 25.0, 60.0]))]
     slips = pick(rng, ([0.0], [0.0], [0.0, 0.5], [0.0, 0.25, 0.5, 1.0]))
     if len(baths) * len(loads) * len(slips) > 6:
@@ -232,6 +248,7 @@ def draw(rng: np.random.Generator) -> Bench:
     forms = (
         FILM_FORMS
         + _oil_forms()
+        + cooling.of_contacts(rig)
         + _fringe_forms(spacer, period, onset, counted)
         + channel(columns["sequence"], True, True, True)
     )

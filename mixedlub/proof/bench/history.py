@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub.proof.bench import cooling
 from mixedlub.proof.bench.point import BALL_FRICTION, FILM_FORMS, ball_rig
 from mixedlub.proof.bench.stage import (
     Act,
@@ -17,6 +18,7 @@ from mixedlub.proof.bench.stage import (
     between,
     borrowed,
     channel,
+    force_cell,
     pick,
     play,
     progress,
@@ -37,6 +39,8 @@ PAIRS = (
     ("tribofilm_growth", "film_heating"),
     ("running_in", "limiting_shear_stress"),
     ("tribofilm_growth", "inlet_shear_heating"),
+    ("friction_run_in", "force_offset"),
+    ("tribofilm_growth", "force_drift"),
 )
 BROAD = 0.6
 ALSO_IN_CONTACT = (
@@ -108,6 +112,8 @@ def _held(
 
     curves = len(np.unique(slip)) > 4
     forms = _all(histories(time)) + (creeps(slip) if curves else ()) + channel(time, curves, False, False)
+    if "load_N" in columns:
+        forms += force_cell(columns["load_N"], time)
     return Bench(
         kind="friction_history",
         settings=settings,
@@ -137,6 +143,17 @@ def draw_steady(rng: np.random.Generator) -> Bench:
     return _held(rng, _settings(), columns, progress(count))
 
 
+def draw_loads(rng: np.random.Generator) -> Bench:
+    """Friction at one speed under a few loads, step by step up, or up and down, again and again."""
+    least = between(rng, 2, 20, 2)
+    loads = [rounded(w, 3) for w in np.geomspace(least, between(rng, 4, 15) * least, int(rng.integers(3, 6)))]
+    steps = np.repeat(loads if rng.random() < 0.5 else [*loads, *loads[-2:0:-1]], int(rng.integers(1, 4)))
+    again = max(int(rng.uniform(40, 120) / len(steps)), 2)
+    columns = _numbered({"load_N": np.tile(steps, again)}, between(rng, 1200, 1e5))
+    columns["entrainment_speed_m_s"] = np.full(len(steps) * again, between(rng, 0.01, 0.5, 2))
+    return _held(rng, _settings(), columns, progress(len(steps) * again))
+
+
 def draw_traction(rng: np.random.Generator) -> Bench:
     """Traction curves on one track again and again, slips from below one per mille on."""
     slips = np.array([rounded(s, 3) for s in np.geomspace(0.0006, between(rng, 0.1, 0.3), int(rng.integers(10, 19)))])
@@ -147,12 +164,16 @@ def draw_traction(rng: np.random.Generator) -> Bench:
 
 
 def _curves(rng: np.random.Generator) -> np.ndarray:
-    """Bath, slip and falling speed of every reading: one Stribeck curve after the other, over and over."""
+    """Bath, load, slip and falling speed of every reading: one Stribeck curve after the other, over and over."""
     speeds = np.array([rounded(u, 3) for u in np.geomspace(between(rng, 0.01, 0.03), 3.0, int(rng.integers(8, 14)))])
-    baths = pick(rng, ([60.0], [100.0], [60.0, 100.0], [40.0, 70.0, 100.0]))
+    baths = pick(rng, ([60.0], [100.0], [60.0, 100.0], [40.0, 70.0, 100.0], [25.0, 60.0, 95.0, 130.0]))
     slips = pick(rng, ([0.5], [0.5], [0.1, 0.5], [0.05, 0.3, 1.0]))
-    again = max(int(rng.uniform(60, 180) / (len(speeds) * len(baths) * len(slips))), 2)
-    return np.tile(np.array([(t, s, u) for t in baths for s in slips for u in speeds[::-1]]), (again, 1))
+    loads = pick(rng, ([between(rng, 20, 60, 2)], [between(rng, 20, 60, 2)], [5.0, 20.0, 60.0], [10.0, 40.0]))
+    if len(baths) * len(slips) * len(loads) > 9:
+        slips = slips[:1]
+    again = max(int(rng.uniform(60, 180) / (len(speeds) * len(baths) * len(slips) * len(loads))), 2)
+    curve = [(t, w, s, u) for t in baths for w in loads for s in slips for u in speeds[::-1]]
+    return np.tile(np.array(curve), (again, 1))
 
 
 def draw_stribeck(rng: np.random.Generator) -> Bench:
@@ -163,9 +184,9 @@ def draw_stribeck(rng: np.random.Generator) -> Bench:
     first, second = str(rng.choice(names[:2])), str(rng.choice(names))
     columns = _numbered(
         {
-            "load_N": np.full(len(grid), between(rng, 20, 60, 2)),
-            "entrainment_speed_m_s": grid[:, 2],
-            "slide_roll_ratio": grid[:, 1],
+            "load_N": grid[:, 1],
+            "entrainment_speed_m_s": grid[:, 3],
+            "slide_roll_ratio": grid[:, 2],
             "oil_temperature_C": grid[:, 0],
             "surface_1": np.full(len(grid), first, dtype=object),
             "surface_2": np.full(len(grid), second, dtype=object),
@@ -200,7 +221,7 @@ def draw_stribeck(rng: np.random.Generator) -> Bench:
     several = np.ptp(grid[:, 0]) > 0
     shown = [name for name in ALSO_IN_CONTACT if several or "temperature" not in name]
     usable = [borrowed(form, 0.6) for name in shown for form in FORMS[name]]
-    forms = (*found["friction_run_in"], *found["tribofilm_growth"], *FILM_FORMS, *usable)
+    forms = (*found["friction_run_in"], *found["tribofilm_growth"], *FILM_FORMS, *usable, *cooling.of_contacts(rig))
     broken = [borrowed(OUTSIDE[name]) for name in ("speed_band", "speed_ripple")]
     return Bench(
         kind="friction_history",
@@ -212,11 +233,11 @@ def draw_stribeck(rng: np.random.Generator) -> Bench:
             "boundary_friction": fixed(z).boundary_friction,
             **{f"{name}_scale": getattr(fixed(z), name) for name in PRIORS[1:]},
         },
-        forms=forms + channel(time, True, True, False),
+        forms=forms + channel(time, True, True, False) + force_cell(grid[:, 1], time),
         outside=(*broken, *_breaks(time)[:1]),
     )
 
 
 def draw(rng: np.random.Generator) -> Bench:
-    """One of the three programmes."""
-    return pick(rng, (draw_steady, draw_steady, draw_traction, draw_stribeck))(rng)
+    """One of the four programmes."""
+    return pick(rng, (draw_steady, draw_steady, draw_loads, draw_traction, draw_stribeck))(rng)

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub.proof.bench import cooling
 from mixedlub.proof.bench.point import FILM_FORMS, TOOTH_FRICTION
 from mixedlub.proof.bench.stage import Act, Bench, Form, borrowed, channel, play, progress, repeated, rounded
 from mixedlub.proof.build import PRIORS, Case, gears_of, rig_of
@@ -155,7 +156,7 @@ def draw(rng: np.random.Generator) -> Bench:
             "boundary_friction": fixed(z).boundary_friction,
             **{f"{name}_scale": getattr(fixed(z), name) for name in PRIORS[1:]},
         },
-        forms=FILM_FORMS + usable + channel(columns["sequence"], True, True, False),
+        forms=FILM_FORMS + usable + cooling.of_contacts(rig) + channel(columns["sequence"], True, True, False),
         outside=_outside(rig, columns["roll_angle_deg"]),
         share=case.share,
     )

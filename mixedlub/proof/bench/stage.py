@@ -163,3 +163,38 @@ def channel(sequence: np.ndarray, zero: bool, gain: bool, drifting_zero: bool) -
             found.append(Form("zero_drift", "sensor", zero_drift, (share,), "linear drift of the zero", within=True))
             found.append(Form("zero_drift", "sensor", zero_settling, (share, slow), "warming amplifier"))
     return tuple(found)
+
+
+def zero_of_force(recorded: np.ndarray, load: np.ndarray) -> np.ndarray:
+    """Error of a friction coefficient whose force is off by 0.5 % of the largest friction force, over the load."""
+    return np.asarray(0.005 * _usual(recorded) * np.max(np.abs(load)) / np.abs(load))
+
+
+def force_cell(load: np.ndarray, sequence: np.ndarray) -> tuple[Form, ...]:
+    """Faults of the cell that reads a friction force, where a friction coefficient is that force over a load.
+
+    A residual zero and a zero that moves from before the test to after it are what ISO 376 asks for; a zero that goes
+    with the temperature of the cell, which takes on that of the rig, is in OIML R 60.
+    """
+    if np.ptp(load) == 0:
+        return ()
+
+    def off(state: Any, share: np.ndarray | float) -> Any:
+        return replace(state, recorded=state.recorded + share * zero_of_force(state.recorded, load))
+
+    def unzeroed(state: Any, strength: float) -> Any:
+        return off(state, strength)
+
+    def creeping(state: Any, strength: float) -> Any:
+        return off(state, 2 * strength * sequence)
+
+    def warming(state: Any, strength: float, pace: float) -> Any:
+        return off(state, 2 * strength * warmed_up(sequence, pace))
+
+    either = strength(-8.0, 8.0)
+    pace = Knob("pace", 0.1, 5.0, (0.15, 2.0))
+    return (
+        Form("force_offset", "sensor", unzeroed, (either,), "zero of a force cell, ISO 376", within=True),
+        Form("force_drift", "sensor", creeping, (either,), "linear drift of a force cell, ISO 376", within=True),
+        Form("force_drift", "sensor", warming, (either, pace), "warming force cell, OIML R 60"),
+    )

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 
+from mixedlub.proof.bench import cooling
 from mixedlub.proof.bench.stage import (
     Act,
     Bench,
@@ -30,13 +32,19 @@ PAIRS = (
     ("viscosity_drift", "sensor_offset"),
     ("pressure_viscosity_law", "sensor_offset"),
     ("pressure_viscosity_law", "sensor_drift"),
+    ("viscosity_temperature_law", "sensor_drift"),
+    ("pressure_viscosity_law", "viscosity_temperature_law"),
 )
 KELVIN = 273.15
 
 
 @dataclass(frozen=True)
 class Sample:
-    """Viscosity at rest (Pa s), slope against pressure (1/Pa), log rise with pressure, what is shown (mPa s)."""
+    """Viscosity at rest (Pa s), slope against pressure (1/Pa), log rise with pressure, what is shown (mPa s).
+
+    ``by_walther`` is what ASTM D341 gives at rest, ``known`` the temperatures of the data sheet (C) and the viscosities
+    of the sample there (Pa s).
+    """
 
     celsius: np.ndarray
     pressure: np.ndarray
@@ -44,6 +52,8 @@ class Sample:
     slope: np.ndarray
     rise: np.ndarray
     recorded: np.ndarray
+    by_walther: np.ndarray
+    known: tuple[cooling.Pair, cooling.Pair]
 
 
 CHAIN: Chain = (
@@ -120,6 +130,34 @@ def _drifts(time: np.ndarray) -> tuple[Form, ...]:
         Form("viscosity_drift", "oil", even, size, "even pace"),
         Form("viscosity_drift", "oil", gathering, size, "evaporation"),
         Form("viscosity_drift", "oil", hot, size, "oxidation that doubles every 12 K"),
+    )
+
+
+def _cooled(s: Sample, strength: float, law: cooling.Law) -> Sample:
+    """The sample keeps its two known viscosities and follows another law than ASTM D341, ``strength`` of the way."""
+    return replace(s, resting=s.resting * (law(s.celsius, *s.known) / s.by_walther) ** strength)
+
+
+def vogel(s: Sample, strength: float, divergence: float) -> Sample:
+    """Vogel, Fulcher and Tammann; T0 in kelvin."""
+    return _cooled(s, strength, partial(cooling.vogel, divergence=divergence))
+
+
+def slotte(s: Sample, strength: float, above: float) -> Sample:
+    """Slotte's power of the temperature over ``above`` C below the freezing point."""
+    return _cooled(s, strength, partial(cooling.slotte, above=above))
+
+
+def andrade(s: Sample, strength: float) -> Sample:
+    return _cooled(s, strength, cooling.andrade)
+
+
+def _temperature_forms() -> tuple[Form, ...]:
+    whole, pole, above = cooling.WHOLE, cooling.DIVERGENCE, cooling.ABOVE
+    return (
+        Form("viscosity_temperature_law", "oil", vogel, (whole, pole), cooling.VOGEL, within=True),
+        Form("viscosity_temperature_law", "oil", slotte, (whole, above), cooling.SLOTTE),
+        Form("viscosity_temperature_law", "oil", andrade, (whole,), cooling.ANDRADE),
     )
 
 
@@ -222,15 +260,30 @@ class Fluid:
             return ("viscosity", "pressure_viscosity") if self.pressed else ("viscosity",)
         return ("viscosity", "steepness", *(("pressure_viscosity", "warmth") if self.pressed else ()))
 
-    def resting(self, z: np.ndarray) -> np.ndarray:
+    def resting(self, z: np.ndarray, celsius: np.ndarray) -> np.ndarray:
         """ASTM D341; an unnamed sample has a level and a steepness of its own."""
         by = dict(zip(self.names, z))
         if self.named:
-            return np.asarray(self.oil.viscosity_at(self.celsius) * np.exp(self.priors["viscosity"] * by["viscosity"]))
-        walther = np.log10(np.log10(1e6 * self.oil.kinematic_at(self.celsius) + 0.7))
-        middle = float(walther.mean())
-        line = middle + 0.05 * by["viscosity"] + (1 + 0.08 * by["steepness"]) * (walther - middle)
-        return np.asarray(1e-6 * (10**10**line - 0.7) * self.oil.density_at(self.celsius))
+            return np.asarray(self.oil.viscosity_at(celsius) * np.exp(self.priors["viscosity"] * by["viscosity"]))
+        middle = float(self._walther(self.celsius).mean())
+        line = middle + 0.05 * by["viscosity"] + (1 + 0.08 * by["steepness"]) * (self._walther(celsius) - middle)
+        return np.asarray(1e-6 * (10**10**line - 0.7) * self.oil.density_at(celsius))
+
+    def _walther(self, celsius: np.ndarray) -> np.ndarray:
+        return np.asarray(np.log10(np.log10(1e6 * self.oil.kinematic_at(celsius) + 0.7)))
+
+    def sample(self, z: np.ndarray, pressure: np.ndarray) -> Sample:
+        still, known = self.resting(z, self.celsius), self.oil.temperature
+        first, second = self.resting(z, np.array(known))
+        flat = np.zeros_like(still)
+        return Sample(self.celsius, pressure, still, self.slope(z), flat, still, still, (known, (first, second)))
+
+    @property
+    def beyond_the_data_sheet(self) -> bool:
+        """Whether laws of cooling can be told apart: a named sample away from its known points, a free one at four."""
+        if self.named:
+            return cooling.tells_laws_apart(self.celsius, self.oil.temperature)
+        return len(np.unique(self.celsius)) > 3
 
     def slope(self, z: np.ndarray) -> np.ndarray:
         """Barus coefficient, a straight line in temperature; an unnamed sample has a level and a tilt of its own."""
@@ -265,11 +318,11 @@ def draw(rng: np.random.Generator) -> Bench:
     fluid = Fluid(oil_of({"lubricant": table}), celsius, priors, named, "pressure_MPa" in columns)
 
     def model(z: np.ndarray, acts: Sequence[Act]) -> np.ndarray:
-        still = fluid.resting(z)
-        state = Sample(celsius, pressure, still, fluid.slope(z), np.zeros_like(still), still)
-        return np.asarray(play(CHAIN, state, acts).recorded)
+        return np.asarray(play(CHAIN, fluid.sample(z, pressure), acts).recorded)
 
     forms = _drifts(time) + (_pressure_forms() if fluid.pressed else ()) + channel(time, True, named, False)
+    if fluid.beyond_the_data_sheet:
+        forms += _temperature_forms()
     return Bench(
         kind="viscosity",
         settings=settings,

@@ -19,6 +19,8 @@ NAMED: dict[str, Concealed] = {name: forms[0] for name, forms in FORMS.items()}
 OUTSIDE: dict[str, Concealed] = {effect.id: effect for effect in outside.EFFECTS}
 MIMICS = outside.MIMICS
 MEASUREMENT = frozenset(effect.id for effect in measurement.EFFECTS) | {
+    "force_drift",
+    "force_offset",
     "fringe_order",
     "fringe_step",
     "torque_constant",
