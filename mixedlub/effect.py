@@ -176,6 +176,7 @@ class Effect:
     odds: float = 1.0
     contains: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     free_form: bool = False
+    exact: bool = False
     held: Mapping[str, float] = field(default_factory=dict)
 
     def holding(self, values: Mapping[str, float]) -> Effect:
@@ -231,6 +232,7 @@ def effect(
     odds: float = 1.0,
     contains: Mapping[str, Mapping[str, float]] | None = None,
     free_form: bool = False,
+    exact: bool = False,
 ) -> Callable[[Callable[..., object]], Callable[..., object]]:
     """Register a law as an effect; its signature must say what the declaration says.
 
@@ -242,7 +244,8 @@ def effect(
     the opposite sign. ``after`` names effects on the same quantity that come first; ``kinds`` restricts the kinds of
     recording (empty: all). ``odds`` below one say that it is missing less often than others are, before any reading
     is seen. ``contains`` names laws, published or limits, that it becomes at certain values of some parameters. A
-    ``free_form`` describes, and names no cause.
+    ``free_form`` describes, and names no cause. The form of an ``exact`` one is its definition and cannot be a little
+    wrong.
     """
     targets = (acts_on,) if isinstance(acts_on, str) else acts_on
 
@@ -284,6 +287,7 @@ def effect(
             odds=odds,
             contains=MappingProxyType(dict(contains or {})),
             free_form=free_form,
+            exact=exact,
         )
         return law
 

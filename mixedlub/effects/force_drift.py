@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import Normal, Parameter, effect
+from mixedlub.effect import Parameter, Wide, effect
 
 
 @effect(
@@ -12,7 +12,7 @@ from mixedlub.effect import Normal, Parameter, effect
         Parameter(
             "drift",
             "-",
-            Normal(0.0, 0.1),
+            Wide(0.05),
             "change of the force's zero over the programme at the smallest load, over the typical reading",
             null=0.0,
             symbol="d",

@@ -23,6 +23,7 @@ from mixedlub.effect import Parameter, Wide, effect
     fingerprint={"load": "-", "roughness": "-"},
     separated_by="a reading of the friction force with the contact open; both directions of sliding, whose mean is it",
     after=("heat_leak", "sensor_drift", "sensor_gain"),
+    exact=True,
 )
 def force_offset(
     reading: np.ndarray, reading_scale: np.ndarray, inverse_load: np.ndarray, *, offset: float

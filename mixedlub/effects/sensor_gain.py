@@ -15,6 +15,7 @@ from mixedlub.effect import Parameter, Wide, effect
     separated_by="another instrument on the same quantity, or power circulation in both directions: the same share of "
     "every reading, whatever the surfaces",
     after=("fringe_order", "fringe_step", "heat_leak", "torque_constant", "torque_offset", "zero_drift"),
+    exact=True,
 )
 def sensor_gain(reading: np.ndarray, *, gain: float) -> np.ndarray:
     """The channel reads the same share too much everywhere.

@@ -16,6 +16,7 @@ from mixedlub.effect import Parameter, Wide, effect
     fingerprint={"load": "-", "roughness": "-", "slide_roll_ratio": "-"},
     separated_by="a reading with the rig at rest: the same number everywhere",
     after=("fringe_order", "heat_leak", "sensor_drift", "sensor_gain", "torque_constant", "torque_offset"),
+    exact=True,
 )
 def sensor_offset(reading: np.ndarray, reading_scale: np.ndarray, *, offset: float) -> np.ndarray:
     """The channel does not read zero at zero.

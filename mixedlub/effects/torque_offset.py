@@ -25,6 +25,7 @@ from mixedlub.effect import Parameter, Wide, effect
     separated_by="zero load in both senses of rotation, or drive and brake swapped: its sign changes",
     kinds=("gear_pair",),
     after=("heat_leak",),
+    exact=True,
 )
 def torque_offset(
     reading: np.ndarray, pinion_speed: np.ndarray, largest_torque: np.ndarray, *, offset: float

@@ -15,7 +15,7 @@ NEAREST, MOST = 5.0, 30.0
         Parameter(
             "share",
             "-",
-            LogNormal(1.0, 0.3),
+            LogNormal(1.0, 0.5),
             "share of the way from ASTM D341 to Vogel's law",
             null=0.0,
             symbol="r",
@@ -23,7 +23,7 @@ NEAREST, MOST = 5.0, 30.0
         Parameter(
             "divergence",
             "K",
-            Between(150.0, 200.0),
+            Between(0.0, 220.0),
             "temperature at which Vogel's viscosity grows without bound",
             symbol=r"\theta_c",
         ),
@@ -31,11 +31,12 @@ NEAREST, MOST = 5.0, 30.0
     equation=r"\eta_0 \leftarrow \eta_0\,\exp\left\{r\left[f_1 - f_{12}\,"
     r"\frac{\theta_{oil} - \theta_1}{\theta_2 - \theta_1}\,"
     r"\frac{\theta_2 - \theta_c}{\theta_{oil} - \theta_c}\right]\right\}",
-    source="H. Vogel, Phys. Z. 22 (1921) 645, on ASTM D341",
-    fingerprint={"oil_temperature": "-"},
+    source="H. Vogel, Phys. Z. 22 (1921) 645, on ASTM D341; E. N. da C. Andrade, Nature 125 (1930) 309, with "
+    "theta_c = 0",
+    fingerprint={"oil_temperature": "+"},
     separated_by="a third point of viscosity, between the two given ones or beyond them",
     odds=0.5,
-    contains={"Vogel": {"share": 1.0}},
+    contains={"Vogel": {"share": 1.0}, "Andrade": {"share": 1.0, "divergence": 0.0}},
 )
 def viscosity_temperature_law(
     viscosity: np.ndarray,
@@ -52,6 +53,7 @@ def viscosity_temperature_law(
 
     Vogel's ln eta = A + B/(theta - theta_c) through both points, with theta_c 73 to 123 K below 0 degC as fits of
     oils have it, lies 5 % below to 3 % above D341 between 40 and 100 degC, and a fifth below to twice D341 at 0 degC.
+    Thin liquids have it lower; with Andrade's 0 K there is a barrier alone and no divergence.
 
     >>> known = (313.15, 373.15, np.log(10.0))   # a tenth of the viscosity at 100 degC
     >>> oil, fall = np.array([313.15, 333.15, 373.15]), np.log(10.0) * np.array([0.0, 0.43, 1.0])

@@ -109,6 +109,7 @@ LIMITS: dict[str, tuple[dict[str, float], ...]] = {
     "tribofilm_growth": ({"induction": 1e-9},),
     "stribeck": tuple({"exponent": n, "speed_share": v} for n in (1.0, 2.0) for v in (0.03, 0.1)),
     "starvation": ({"onset": 0.05, "steepness": 4.0},),
+    "viscosity_temperature_law": ({"share": 1.0},),
 }
 """Values from which the fit also starts: far out, where a form may be the limit of the catalogue's."""
 
@@ -143,7 +144,7 @@ def misfit(sign: Signature, enough: float = EXACT) -> float:
 
     def start(known: dict[str, float]) -> np.ndarray:
         x = np.where(logs & (rng.random(len(even)) < 0.3), rng.uniform(-6, 6, len(even)), rng.normal(0, 1.5, len(even)))
-        x = np.where(even, rng.choice([0.0, 1.0, 0.5], len(even)), x)
+        x = np.where(even, rng.choice([0.0, 1.0, 0.5, 0.8], len(even)), x)
         for i, p in enumerate(parameters):
             if p.name in known:
                 x[i] = np.log(known[p.name] / _median(p.prior))

@@ -86,5 +86,5 @@ def of_contacts(rig: Rig) -> tuple[Form, ...]:
     return (
         Form("viscosity_temperature_law", "oil", cooled_by_vogel, (WHOLE, DIVERGENCE), VOGEL, within=True),
         Form("viscosity_temperature_law", "oil", cooled_by_slotte, (WHOLE, ABOVE), SLOTTE),
-        Form("viscosity_temperature_law", "oil", cooled_by_andrade, (WHOLE,), ANDRADE),
+        Form("viscosity_temperature_law", "oil", cooled_by_andrade, (WHOLE,), ANDRADE, within=True),
     )

@@ -157,7 +157,7 @@ def _temperature_forms() -> tuple[Form, ...]:
     return (
         Form("viscosity_temperature_law", "oil", vogel, (whole, pole), cooling.VOGEL, within=True),
         Form("viscosity_temperature_law", "oil", slotte, (whole, above), cooling.SLOTTE),
-        Form("viscosity_temperature_law", "oil", andrade, (whole,), cooling.ANDRADE),
+        Form("viscosity_temperature_law", "oil", andrade, (whole,), cooling.ANDRADE, within=True),
     )
 
 
