@@ -27,6 +27,7 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
     separated_by="a coast-down with covers off or in another gas, or another oil level: drag of grease grows no "
     "faster than speed, and friction of surfaces falls with it",
     kinds=("friction_map",),
+    odds=0.5,
 )
 def fluid_drag(
     running_friction: np.ndarray,

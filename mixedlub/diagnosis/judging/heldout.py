@@ -27,6 +27,10 @@ LEAST = 0.3
 """Smallest mismatch, in squared sigmas, of which a share left over is told."""
 CHANCE = 5.0
 """How much better than the unnamed mismatch a name may predict levels left out by chance, in log probability."""
+FORETOLD = 0.8
+"""Share of the mismatch on levels left out that a name must foretell so that no unnamed form may rule it out."""
+LESS = 0.5
+"""Share of what an unnamed form leaves there, above noise, from which down a name clearly leaves less."""
 
 
 @dataclass(frozen=True)
@@ -88,6 +92,18 @@ class HeldOut:
         """
         told = min(name.score - self.score, name.score - name.score_before)
         return float(np.clip(told - CHANCE, 0.0, DEMERIT))
+
+    def outdone(self, name: HeldOut) -> bool:
+        """Whether a name foretells nearly all of the mismatch on levels left out and this, the unnamed, clearly less.
+
+        What follows the readings that closely that it foretells no others cannot rule a name out.
+
+        >>> ripple, stribeck = (HeldOut(3.9, rms, "", 8, 144, rms, 0.0, 0.0) for rms in (3.7, 1.7))
+        >>> ripple.outdone(stribeck), stribeck.outdone(ripple)
+        (True, False)
+        """
+        missing, left = name.before**2 - 1.0, name.after**2 - 1.0
+        return left < (1.0 - FORETOLD) * missing and left < LESS * (self.after**2 - 1.0)
 
 
 @dataclass(frozen=True, eq=False)

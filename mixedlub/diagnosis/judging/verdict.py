@@ -19,7 +19,7 @@ def judge(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
     """Probabilities, with the verdict and what ties with it first held against levels left out.
 
     When CANDIDATES names were tried, the others are taken to fail like the best of those that did. The unnamed
-    mismatch is held against the first name. Where even the best of those tried leaves more there than noise, the
+    mismatch is held against the first name, and is no more probable where that clearly outdoes it. Where even the best of those tried leaves more there than noise, the
     odds between names are less sure.
     """
     levels = LevelsOut.of(found)
@@ -40,7 +40,9 @@ def judge(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
         if names and "unknown" in judged.tied and not unnamed:
             if names[0] not in tried:
                 tried[names[0]] = _held_against(levels, found, names[0])
-            unnamed = {"unknown": _held_against(levels, found, "unknown")[0].behind(tried[names[0]][0])}
+            free, named = _held_against(levels, found, "unknown")[0], tried[names[0]][0]
+            lead = found.log_weights["unknown"] - found.log_weights[names[0]]
+            unnamed = {"unknown": max(free.behind(named), lead if free.outdone(named) else 0.0)}
             continue
         fresh = [key for key in judged.tied if key not in tried and names_effects(key)]
         if not fresh or len(tried) >= CANDIDATES:
