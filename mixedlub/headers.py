@@ -19,7 +19,12 @@ UNITS: dict[str, dict[str, tuple[float, float]]] = {
         "degF": (5.0 / 9.0, -160.0 / 9.0),
         "F": (5.0 / 9.0, -160.0 / 9.0),
     },
-    "rpm": {"rpm": (1.0, 0.0), "1/min": (1.0, 0.0), "rad/s": (30.0 / np.pi, 0.0), "1/s": (60.0, 0.0)},
+    "rpm": {
+        **dict.fromkeys(("rpm", "1/min", "r/min", "U/min", "rev/min"), (1.0, 0.0)),
+        "rad/s": (30.0 / np.pi, 0.0),
+        "deg/s": (1.0 / 6.0, 0.0),
+        **dict.fromkeys(("rev/s", "rps", "U/s"), (60.0, 0.0)),
+    },
     "Nm": {
         "N.m": (1.0, 0.0),
         "mN.m": (1e-3, 0.0),
@@ -33,8 +38,9 @@ UNITS: dict[str, dict[str, tuple[float, float]]] = {
     "mPa_s": {"mPa.s": (1.0, 0.0), "cP": (1.0, 0.0), "Pa.s": (1e3, 0.0)},
     "MPa": {
         "MPa": (1.0, 0.0),
-        "GPa": (1e3, 0.0),
         "Pa": (1e-6, 0.0),
+        "kPa": (1e-3, 0.0),
+        "GPa": (1e3, 0.0),
         "bar": (0.1, 0.0),
         "atm": (0.101325, 0.0),
         "psi": (6.894757293168361e-3, 0.0),
@@ -46,8 +52,13 @@ UNITS: dict[str, dict[str, tuple[float, float]]] = {
     "percent": {"%": (1.0, 0.0), "-": (100.0, 0.0), "1": (100.0, 0.0)},
 }
 """What each unit of a case's columns may be given in: factor and what is added."""
-KINEMATIC = ("mm2/s", "mm²/s", "mm^2/s", "mm².s⁻¹", "mm2.s-1", "cst", "st", "m2/s", "m²/s", "m^2/s")
+UNSURE: dict[str, dict[str, tuple[str, ...]]] = {"rpm": {"1/s": ("rev/s", "rad/s")}}
+"""By the unit of a column: what is written for more than one unit, and those."""
+KINEMATIC = ("mm2/s", "cst", "st", "m2/s", "cm2/s")
 """Units, in small letters, in which viscosity is divided by density."""
+SIGNS = str.maketrans({**dict.fromkeys("µμ", "u"), **dict.fromkeys("·⋅*", "."), **dict.fromkeys("⁻−", "-")})
+SIGNS |= str.maketrans({"°": "deg", "¹": "1", "²": "2", "³": "3", "^": ""})
+"""Signs of units as the table writes them."""
 
 
 ENDINGS = {
@@ -60,6 +71,7 @@ ENDINGS = {
     "Pa_s": "Pa s",
     "mm_s": "mm/s",
     "rad_s": "rad/s",
+    "deg_s": "°/s",
     "m_s": "m/s",
     "W_mK": "W/(m K)",
     "J_kgK": "J/(kg K)",
@@ -82,6 +94,7 @@ ENDINGS = {
             "psi",
             "MPa",
             "GPa",
+            "kPa",
             "bar",
             "atm",
             "nm",
@@ -198,9 +211,12 @@ def tidy(unit: str) -> str:
 
     >>> tidy("µm"), tidy("°C"), tidy("N·m"), tidy("N m"), tidy("Pa s"), tidy("ft-lb")
     ('um', 'degC', 'N.m', 'N.m', 'Pa.s', 'ft.lb')
+    >>> tidy("min⁻¹"), tidy("rad s^-1"), tidy("° / s"), tidy("mm².s⁻¹")
+    ('1/min', 'rad/s', 'deg/s', 'mm2/s')
     """
-    plain = unit.strip().replace("µ", "u").replace("μ", "u").replace("°", "deg").replace("·", ".")
-    return re.sub(r"(?<=[a-z])-(?=[a-z])|\s+", ".", plain)
+    plain = re.sub(r"\s*/\s*", "/", unit.strip().translate(SIGNS))
+    plain = re.sub(r"(?<=[a-z])-(?=[a-z])|\s+", ".", plain)
+    return re.sub(r"(?:(.+)\.)?(s|min|h)-1", lambda found: f"{found[1] or 1}/{found[2]}", plain)
 
 
 def change_to(unit: str, wanted: str) -> tuple[float, float] | None:
@@ -229,9 +245,45 @@ FORMS = {
 """By the unit of a column: what stands for a unit that it may be given in, with and without the dot of a product."""
 
 
+def open_units(unit: str, wanted: str) -> tuple[str, ...]:
+    """The units between which one as written leaves open; none where it is sure.
+
+    >>> open_units("s⁻¹", "rpm"), open_units("1/min", "rpm")
+    (('rev/s', 'rad/s'), ())
+    """
+    return UNSURE.get(wanted, {}).get(tidy(unit), ())
+
+
+def fits(unit: str, wanted: str) -> bool:
+    """Whether what is written may be a unit of a column."""
+    return change_to(unit, wanted) is not None or bool(open_units(unit, wanted))
+
+
+def units_of(wanted: str) -> tuple[str, ...]:
+    """The units that a column may be given in, each in one way of writing it.
+
+    >>> units_of("rpm"), units_of("ratio")
+    (('rpm', 'rad/s', 'deg/s', 'rev/s'), ('-', '%'))
+    """
+    known = UNITS[wanted]
+    return tuple(unit for unit, change in known.items() if unit == next(u for u, c in known.items() if c == change))
+
+
 def is_unit(text: str) -> bool:
     """Whether a text is one of the units that are read."""
-    return any(change_to(text, wanted) is not None for wanted in UNITS)
+    return any(fits(text, wanted) for wanted in UNITS)
+
+
+def unknown_unit(unit: str, target: Target) -> str:
+    """Why a unit is not taken as that of a column, and what could be."""
+    meant = open_units(unit, target.unit)
+    if meant:
+        return f"as unit of {target.name} leaves open which is meant; say {' or '.join(meant)}"
+    if target.unit == "mPa_s" and tidy(unit).lower() in KINEMATIC:
+        hint = "this is a kinematic viscosity: in mm²/s, times the density in g/cm³, it is in mPa s"
+    else:
+        hint = f"it could be {', '.join(units_of(target.unit))}"
+    return f"unit of {target.name} is not known; {hint}"
 
 
 def convert(values: np.ndarray, unit: str, target: Target, where: str) -> np.ndarray:
@@ -244,10 +296,7 @@ def convert(values: np.ndarray, unit: str, target: Target, where: str) -> np.nda
     """
     change = change_to(unit, target.unit)
     if change is None:
-        hint = f"it could be {', '.join(UNITS[target.unit])}"
-        if target.unit == "mPa_s" and tidy(unit).lower() in KINEMATIC:
-            hint = "this is a kinematic viscosity: in mm²/s, times the density in g/cm³, it is in mPa s"
-        raise InputError(f"unit of {target.name} is not known; {hint}", where=where, value=unit)
+        raise InputError(unknown_unit(unit, target), where=where, value=unit)
     factor, added = change
     return values if change == (1.0, 0.0) else rounded(values * factor + added, abs(added))
 

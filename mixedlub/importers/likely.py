@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 from mixedlub.config import KINDS
-from mixedlub.headers import BY_NAME, TEXT_COLUMNS, change_to, is_unit, split, target_of
+from mixedlub.headers import BY_NAME, TEXT_COLUMNS, fits, is_unit, split, target_of
 from mixedlub.importers.sheet import Cells, are_numbers
 from mixedlub.kinds import friction_map
 from mixedlub.kinds import kind as kind_of
@@ -94,13 +94,13 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
     target = BY_NAME.get(column)
     if target is None:
         return _overlap(words, column.replace("_", " "))
-    fits = unit is not None and change_to(unit, target.unit) is not None
-    if unit is not None and not fits:
+    known = unit is not None and fits(unit, target.unit)
+    if unit is not None and not known:
         return 0.0
     own = split(column)[0]
     share = max(_overlap(words, spoken) for spoken in (own, *target.spoken))
     # A share in percent may be of anything.
-    tells = fits and (share > 0.0 or target.unit not in ("ratio", "percent"))
+    tells = known and (share > 0.0 or target.unit not in ("ratio", "percent"))
     bare = unit is None and target.unit == "ratio" and share > 0.0
     return share + (UNIT_FITS if tells else 0.0) + (NO_UNIT_FITS if bare else 0.0)
 

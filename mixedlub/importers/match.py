@@ -7,7 +7,18 @@ from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from mixedlub.headers import BY_NAME, TEXT_COLUMNS, UNITS, Target, change_to, split, target_of, words_of
+from mixedlub.headers import (
+    BY_NAME,
+    TEXT_COLUMNS,
+    Target,
+    change_to,
+    open_units,
+    split,
+    target_of,
+    units_of,
+    unknown_unit,
+    words_of,
+)
 from mixedlub.importers.draft import Answers, Question
 from mixedlub.importers.kinematics import MADE, other_surface
 from mixedlub.importers.likely import either, is_logarithm, likely_headers, likeness
@@ -184,8 +195,10 @@ def _missing(missing: Sequence[str], cells: Cells, headers: Mapping[str, str], a
         example = toml_value(header or "HEADER")
         questions.append(Question(COLUMNS + column, text, example, among=tuple(cells), of="the file has"))
         target = target_for(column)
-        bare = header is not None and target is not None and header != column and split(header)[1] is None
-        if header is not None and target is not None and bare and UNIT_KEYS + column not in answers:
+        if header is None or target is None or header == column or UNIT_KEYS + column in answers:
+            continue
+        unit = split(header)[1]
+        if unit is None or open_units(unit, target.unit):
             questions.append(_unit_question(column, header, target))
     return questions
 
@@ -230,8 +243,7 @@ def _refuse_idle_units(columns: Set[str], answers: Answers) -> None:
         if not key.startswith(UNIT_KEYS) or target is None:
             continue
         if change_to(str(unit), target.unit) is None:
-            could = ", ".join(UNITS[target.unit])
-            raise InputError(f"unit of {column} is not known; it could be {could}", where=key, value=unit)
+            raise InputError(unknown_unit(str(unit), target), where=key, value=unit)
         if "kind" in answers and column not in columns:
             raise InputError(f"no column is taken as {column}; name its header by {COLUMNS}{column}", where=key)
 
@@ -253,7 +265,7 @@ def _units(headers: Mapping[str, str], answers: Answers) -> tuple[dict[str, str]
             units[column] = str(unit)
             if (native and change_to(str(unit), target.unit) != (1.0, 0.0)) or own not in (None, str(unit)):
                 notes.append(f"{header!r} is taken to be in {unit}, as told, whatever its header says")
-        elif own is not None:
+        elif own is not None and not open_units(own, target.unit):
             units[column] = own
         elif not native:
             questions.append(_unit_question(column, header, target))
@@ -261,12 +273,15 @@ def _units(headers: Mapping[str, str], answers: Answers) -> tuple[dict[str, str]
 
 
 def _unit_question(column: str, header: str, target: Target) -> Question:
-    """The unit is offered where the header is all words; another last word may be a unit that is not known here."""
-    known = tuple(UNITS[target.unit])
+    """A unit is offered where the header is all words; another last word may be a unit that is not known here."""
+    text = f"Unit of the column {header!r}, taken as {column}"
+    meant = open_units(split(header)[1] or "", target.unit)
+    if meant:
+        return Question(UNIT_KEYS + column, f"{text}, which leaves it open", toml_value("UNIT"), among=meant)
+    known = units_of(target.unit)
     words = words_of(header).split()
     spoken = {
         w for form in (*BY_NAME[column.removesuffix("_sd")].spoken, column.replace("_", " ")) for w in form.split()
     }
     sure = len(words) == 1 or words[-1] in (*spoken, *OF_READINGS) or bool(re.fullmatch(r"[#\d]+", words[-1]))
-    text = f"Unit of the column {header!r}, taken as {column}"
     return Question(UNIT_KEYS + column, text, toml_value(known[0] if sure else "UNIT"), among=known)
