@@ -164,7 +164,20 @@ TARGETS = (
     Target("torque_Nm", "Nm", ("torque", "load torque", "pinion torque")),
     Target("motor_torque_Nm", "Nm", ("motor torque",)),
     Target("friction_torque_Nm", "Nm", ("friction torque",)),
-    Target("friction_coefficient", "ratio", ("traction coeff", "friction coefficient", "cof", "friction coeff")),
+    Target(
+        "friction_coefficient",
+        "ratio",
+        (
+            "traction coeff",
+            "friction coefficient",
+            "cof",
+            "friction coeff",
+            "traction coefficient",
+            "coefficient of friction",
+            "coeff. of friction",
+            *("mu", "µ", "μ"),
+        ),
+    ),
     Target("film_thickness_nm", "nm", ("average film", "film thickness", "film", "central film thickness")),
     Target("viscosity_mPa_s", "mPa_s", ("viscosity", "dynamic viscosity")),
     Target("power_loss_W", "W", ("power loss", "loss")),
@@ -190,12 +203,12 @@ def split(header: str) -> tuple[str, str | None]:
 
 
 def words_of(header: str) -> str:
-    """The words of a header without its unit and the name of a channel before a dot.
+    """The words of a header without its unit, the name of a channel before a dot and a dot at the end.
 
-    >>> words_of("DAQ.COF ()"), words_of("Test Time (s)")
-    ('cof', 'test time')
+    >>> words_of("DAQ.COF ()"), words_of("Test Time (s)"), words_of("friction coeff.")
+    ('cof', 'test time', 'friction coeff')
     """
-    return re.sub(r"^[a-z]+\.(?=\S)", "", split(header)[0])
+    return re.sub(r"^[a-z]+\.(?=\S)", "", split(header)[0]).rstrip(".")
 
 
 def target_of(header: str) -> Target | None:

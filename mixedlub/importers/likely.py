@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 from mixedlub.config import KINDS
-from mixedlub.headers import BY_NAME, TEXT_COLUMNS, fits, is_unit, split, target_of
+from mixedlub.headers import BY_NAME, TEXT_COLUMNS, fits, is_unit, split, target_of, words_of
 from mixedlub.importers.sheet import Cells, are_numbers
 from mixedlub.kinds import friction_map
 from mixedlub.kinds import kind as kind_of
@@ -79,10 +79,11 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
     >>> likeness("speed_rpm", "Pinion speed [1/min]") > likeness("speed_rpm", "Pinion torque [Nm]")
     True
     """
-    exact = target_of(header)
-    if header == column or (exact is not None and exact.name == column):
+    exact, unit = target_of(header), split(header)[1]
+    own = exact is not None and exact.name == column and (unit is None or fits(unit, exact.unit))
+    if header == column or own:
         return 2.0
-    words, unit = split(header)
+    words = words_of(header)
     if is_logarithm(header) or (column == "viscosity_mPa_s" and "kinematic" in words.split()):
         return 0.0
     numbers = are_numbers(cells)
@@ -97,8 +98,7 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
     known = unit is not None and fits(unit, target.unit)
     if unit is not None and not known:
         return 0.0
-    own = split(column)[0]
-    share = max(_overlap(words, spoken) for spoken in (own, *target.spoken))
+    share = max(_overlap(words, spoken) for spoken in (split(column)[0], *target.spoken))
     # A share in percent may be of anything.
     tells = known and (share > 0.0 or target.unit not in ("ratio", "percent"))
     bare = unit is None and target.unit == "ratio" and share > 0.0
