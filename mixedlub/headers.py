@@ -11,7 +11,15 @@ from profiles.errors import InputError
 
 UNITS: dict[str, dict[str, tuple[float, float]]] = {
     "m_s": {"m/s": (1.0, 0.0), "mm/s": (1e-3, 0.0), "um/s": (1e-6, 0.0)},
-    "N": {"N": (1.0, 0.0), "uN": (1e-6, 0.0), "mN": (1e-3, 0.0), "kN": (1e3, 0.0), "lbf": (4.4482216152605, 0.0)},
+    "N": {
+        "N": (1.0, 0.0),
+        "uN": (1e-6, 0.0),
+        "mN": (1e-3, 0.0),
+        "kN": (1e3, 0.0),
+        "lbf": (4.4482216152605, 0.0),
+        **dict.fromkeys(("gf", "g"), (9.80665e-3, 0.0)),
+        **dict.fromkeys(("kgf", "kg"), (9.80665, 0.0)),
+    },
     "C": {
         "degC": (1.0, 0.0),
         "C": (1.0, 0.0),
@@ -54,6 +62,8 @@ UNITS: dict[str, dict[str, tuple[float, float]]] = {
 """What each unit of a case's columns may be given in: factor and what is added."""
 UNSURE: dict[str, dict[str, tuple[str, ...]]] = {"rpm": {"1/s": ("rev/s", "rad/s")}}
 """By the unit of a column: what is written for more than one unit, and those."""
+WEIGHED = {"g": "grams-force of 9.80665 mN", "kg": "kilograms-force of 9.80665 N"}
+"""Units of mass that a load is given in, and what they then are."""
 KINEMATIC = ("mm2/s", "cst", "st", "m2/s", "cm2/s")
 """Units, in small letters, in which viscosity is divided by density."""
 SIGNS = str.maketrans({**dict.fromkeys("µμ", "u"), **dict.fromkeys("·⋅*", "."), **dict.fromkeys("⁻−", "-")})
@@ -91,6 +101,9 @@ ENDINGS = {
         unit: unit
         for unit in (
             "lbf",
+            "kgf",
+            "kg",
+            "g",
             "psi",
             "MPa",
             "GPa",
@@ -138,15 +151,16 @@ def _ending(name: str) -> str:
 
 @dataclass(frozen=True)
 class Target:
-    """A column of a case, its unit, and the headers under which instruments write it."""
+    """A column of a case, its unit, the headers under which instruments write it, and others that may mean it."""
 
     name: str
     unit: str
     spoken: tuple[str, ...]
+    offered: tuple[str, ...] = ()
 
 
 TARGETS = (
-    Target("load_N", "N", ("load", "ball load", "pin load", "normal load", "normal force")),
+    Target("load_N", "N", ("load", "ball load", "pin load", "normal load", "normal force"), ("fn", "fz")),
     Target("entrainment_speed_m_s", "m_s", ("rolling speed", "entrainment speed", "mean speed")),
     Target("sliding_speed_m_s", "m_s", ("sliding speed",)),
     Target(

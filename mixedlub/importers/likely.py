@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 from mixedlub.config import KINDS
-from mixedlub.headers import BY_NAME, TEXT_COLUMNS, fits, is_unit, split, target_of, words_of
+from mixedlub.headers import BY_NAME, TEXT_COLUMNS, WEIGHED, fits, is_unit, split, target_of, words_of
 from mixedlub.importers.sheet import Cells, are_numbers
 from mixedlub.kinds import friction_map
 from mixedlub.kinds import kind as kind_of
@@ -98,9 +98,9 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
     known = unit is not None and fits(unit, target.unit)
     if unit is not None and not known:
         return 0.0
-    share = max(_overlap(words, spoken) for spoken in (split(column)[0], *target.spoken))
-    # A share in percent may be of anything.
-    tells = known and (share > 0.0 or target.unit not in ("ratio", "percent"))
+    share = max(_overlap(words, spoken) for spoken in (split(column)[0], *target.spoken, *target.offered))
+    # A share in percent may be of anything, and most of what is weighed is no load.
+    tells = known and (share > 0.0 or not (target.unit in ("ratio", "percent") or (unit or "").lower() in WEIGHED))
     bare = unit is None and target.unit == "ratio" and share > 0.0
     return share + (UNIT_FITS if tells else 0.0) + (NO_UNIT_FITS if bare else 0.0)
 

@@ -10,11 +10,13 @@ from typing import Any
 from mixedlub.headers import (
     BY_NAME,
     TEXT_COLUMNS,
+    WEIGHED,
     Target,
     change_to,
     open_units,
     split,
     target_of,
+    tidy,
     units_of,
     unknown_unit,
     words_of,
@@ -269,6 +271,9 @@ def _units(headers: Mapping[str, str], answers: Answers) -> tuple[dict[str, str]
             units[column] = own
         elif not native:
             questions.append(_unit_question(column, header, target))
+        weight = WEIGHED.get(tidy(units.get(column, "")).lower())
+        if weight is not None:
+            notes.append(f"{header!r} is taken to be a load in {weight}")
     return units, questions, notes
 
 
