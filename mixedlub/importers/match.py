@@ -108,7 +108,11 @@ def match(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> Match:
     group = either(kind.name)
     if group and not any(c in found.headers or COLUMNS + c in asked for c in group):
         missing.append(next(iter(likely_headers(group, _offered(cells, found.headers))), group[0]))
-    found.questions.extend(_missing(missing, cells, found.headers, answers))
+    needed = {*told, *(c.name for c in columns if c.required)}
+    kept = {c: h for c, h in found.headers.items() if c in needed}
+    near = _near(missing, cells, found.headers, kept)
+    found.headers = {c: h for c, h in found.headers.items() if c in kept or h not in near.values()}
+    found.questions.extend(_missing(missing, near, cells, found.headers, answers))
     spare = _spare(kind, cells, found)
     found.questions.extend(spare_questions(spare, COLUMNS))
     open_ones = {q.key.removeprefix(COLUMNS) for q in found.questions}
@@ -182,9 +186,17 @@ def _absent_check(check: Any, cells: Cells, headers: Mapping[str, str]) -> None:
         raise InputError(f"no such header; {nearest(str(check), cells)}", where="recording.check", value=check)
 
 
-def _missing(missing: Sequence[str], cells: Cells, headers: Mapping[str, str], answers: Answers) -> list[Question]:
+def _near(missing: Sequence[str], cells: Cells, headers: Mapping[str, str], kept: Mapping[str, str]) -> dict[str, str]:
+    """Headers near to columns that are needed: free ones, else one that was taken for a column that is not needed."""
+    near = likely_headers(missing, _offered(cells, headers))
+    lent = {h: values for h, values in _offered(cells, kept).items() if h not in near.values()}
+    return {**likely_headers([c for c in missing if c not in near], lent), **near}
+
+
+def _missing(
+    missing: Sequence[str], near: Mapping[str, str], cells: Cells, headers: Mapping[str, str], answers: Answers
+) -> list[Question]:
     free = _offered(cells, headers)
-    near = likely_headers(missing, free)
     logarithms = [h for h in free if is_logarithm(h)]
     refused = (
         f"; {', '.join(logarithms)}: a logarithm cannot be taken, add a column of the quantity" if logarithms else ""
