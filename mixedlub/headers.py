@@ -54,12 +54,14 @@ UNITS: dict[str, dict[str, tuple[float, float]]] = {
         "psi": (6.894757293168361e-3, 0.0),
     },
     "s": {"s": (1.0, 0.0), "min": (60.0, 0.0), "h": (3600.0, 0.0)},
+    "m": {"m": (1.0, 0.0), "mm": (1e-3, 0.0), "km": (1e3, 0.0)},
+    "cycle": {"cycle": (1.0, 0.0), "cycles": (1.0, 0.0)},
     "W": {"W": (1.0, 0.0), "kW": (1e3, 0.0)},
     "deg": {"deg": (1.0, 0.0), "rad": (180.0 / np.pi, 0.0)},
     "ratio": {"-": (1.0, 0.0), "1": (1.0, 0.0), "%": (0.01, 0.0)},
     "percent": {"%": (1.0, 0.0), "-": (100.0, 0.0), "1": (100.0, 0.0)},
 }
-"""What each unit of a case's columns may be given in: factor and what is added."""
+"""What each unit of a case's columns may be given in, and of what is counted for time: factor and what is added."""
 UNSURE: dict[str, dict[str, tuple[str, ...]]] = {"rpm": {"1/s": ("rev/s", "rad/s")}}
 """By the unit of a column: what is written for more than one unit, and those."""
 WEIGHED = {"g": "grams-force of 9.80665 mN", "kg": "kilograms-force of 9.80665 N"}
@@ -119,6 +121,8 @@ ENDINGS = {
             "K",
             "N",
             "W",
+            "km",
+            "m",
             "s",
             "h",
         )

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 
 from mixedlub.config import KINDS
 from mixedlub.headers import BY_NAME, TEXT_COLUMNS, WEIGHED, fits, is_unit, split, target_of, words_of
+from mixedlub.importers.pace import TIME, counted
 from mixedlub.importers.sheet import Cells, are_numbers
 from mixedlub.kinds import friction_map
 from mixedlub.kinds import kind as kind_of
@@ -19,6 +20,8 @@ NO_UNIT_FITS = 0.01
 """A number without a unit is rather one that has none than one whose unit is not said."""
 ABSENT = 0.5
 """What a needed column that no header is near takes away."""
+COUNTS = 1.0
+"""Likeness of a time to what counts cycles or a distance instead."""
 TEXT_FITS = 0.4
 DATED = re.compile(r"\d+[-/.:]\d+")
 """How a date or a clock begins, which names no surface."""
@@ -83,6 +86,8 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
     own = exact is not None and exact.name == column and (unit is None or fits(unit, exact.unit))
     if header == column or own:
         return 2.0
+    if column == TIME and counted(header) is not None and are_numbers(cells):
+        return COUNTS
     words = words_of(header)
     if is_logarithm(header) or (column == "viscosity_mPa_s" and "kinematic" in words.split()):
         return 0.0

@@ -21,6 +21,7 @@ from mixedlub.headers import (
     unknown_unit,
     words_of,
 )
+from mixedlub.importers import pace
 from mixedlub.importers.draft import Answers, Question
 from mixedlub.importers.kinematics import MADE, other_surface
 from mixedlub.importers.likely import either, is_logarithm, likely_headers, likeness
@@ -87,6 +88,7 @@ def import_keys(columns: Sequence[Column]) -> tuple[str, ...]:
         f"{COLUMNS}run",
         *(COLUMNS + c.name for c in columns),
         *(UNIT_KEYS + c.name for c in columns if target_for(c.name) is not None),
+        *pace.KEYS,
     )
 
 
@@ -101,6 +103,8 @@ def match(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> Match:
     for column in columns:
         if column.name not in told:
             _find(column, free if column.required else held, found)
+        if column.name == pace.TIME and column.required and column.name not in found.headers:
+            _find_count(held, found)
     _one_of(either(kind.name), set(told), found)
     _absent_check(answers.get("recording.check"), cells, found.headers)
     asked = {q.key for q in found.questions}
@@ -119,6 +123,7 @@ def match(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> Match:
     _refuse_idle_units({*found.headers, *open_ones}, answers)
     units, questions, notes = _units(found.headers, answers)
     ordered = {c.name: found.headers[c.name] for c in columns if c.name in found.headers}
+    questions += pace.pace_questions(found.headers, units, answers)
     warned = tuple(spare_notes(spare, COLUMNS))
     return Match(ordered, units, (*found.questions, *questions), (*found.notes, *notes), warned)
 
@@ -160,6 +165,13 @@ def _find(column: Column, cells: Cells, found: _Finding) -> None:
     if differing:
         others = ", ".join(map(repr, differing))
         found.notes.append(f"{spoken[0]!r} taken as {column.name}, not {others}; {COLUMNS}{column.name} says otherwise")
+
+
+def _find_count(cells: Cells, found: _Finding) -> None:
+    """The header that counts cycles or a distance, where nothing holds the time."""
+    header = pace.header_of_count(cells)
+    if header is not None and COLUMNS + pace.TIME not in {question.key for question in found.questions}:
+        found.headers[pace.TIME] = header
 
 
 def _is_named(header: str, column: str) -> bool:
@@ -206,12 +218,13 @@ def _missing(
         header = near.get(column)
         alike = _as_near(column, header, free)
         text = f"Header of the column that holds {column}{alike}{_two_speeds(column, cells)}{refused}"
+        text += "; one that counts cycles or a distance will do" if column == pace.TIME else ""
         example = toml_value(header or "HEADER")
         questions.append(Question(COLUMNS + column, text, example, among=tuple(cells), of="the file has"))
         target = target_for(column)
         if header is None or target is None or header == column or UNIT_KEYS + column in answers:
             continue
-        unit = split(header)[1]
+        unit = _own_unit(column, header)
         if unit is None or open_units(unit, target.unit):
             questions.append(_unit_question(column, header, target))
     return questions
@@ -256,6 +269,7 @@ def _refuse_idle_units(columns: Set[str], answers: Answers) -> None:
         target = target_for(column)
         if not key.startswith(UNIT_KEYS) or target is None:
             continue
+        target = pace.target_in(target, str(unit))
         if change_to(str(unit), target.unit) is None:
             raise InputError(unknown_unit(str(unit), target), where=key, value=unit)
         if "kind" in answers and column not in columns:
@@ -272,7 +286,7 @@ def _units(headers: Mapping[str, str], answers: Answers) -> tuple[dict[str, str]
         if target is None or column in TEXT_COLUMNS:
             continue
         named = _is_named(header, column)
-        own = None if named else split(header)[1]
+        own = None if named else _own_unit(column, header)
         native = named or column in COUNTS
         unit = answers.get(UNIT_KEYS + column)
         if unit is not None:
@@ -289,6 +303,10 @@ def _units(headers: Mapping[str, str], answers: Answers) -> tuple[dict[str, str]
     return units, questions, notes
 
 
+def _own_unit(column: str, header: str) -> str | None:
+    return pace.unit_of_count(header) if column == pace.TIME else split(header)[1]
+
+
 def _unit_question(column: str, header: str, target: Target) -> Question:
     """A unit is offered where the header is all words; another last word may be a unit that is not known here."""
     text = f"Unit of the column {header!r}, taken as {column}"
@@ -296,9 +314,17 @@ def _unit_question(column: str, header: str, target: Target) -> Question:
     if meant:
         return Question(UNIT_KEYS + column, f"{text}, which leaves it open", toml_value("UNIT"), among=meant)
     known = units_of(target.unit)
+    if column == pace.TIME:
+        first = pace.counted(header)
+        known = tuple(u for f in sorted((target.unit, *pace.PACES), key=lambda f: f != first) for u in units_of(f))
     words = words_of(header).split()
     spoken = {
         w for form in (*BY_NAME[column.removesuffix("_sd")].spoken, column.replace("_", " ")) for w in form.split()
     }
-    sure = len(words) == 1 or words[-1] in (*spoken, *OF_READINGS) or bool(re.fullmatch(r"[#\d]+", words[-1]))
+    sure = (
+        len(words) == 1
+        or pace.counted(header) is not None
+        or words[-1] in (*spoken, *OF_READINGS)
+        or bool(re.fullmatch(r"[#\d]+", words[-1]))
+    )
     return Question(UNIT_KEYS + column, text, toml_value(known[0] if sure else "UNIT"), among=known)
