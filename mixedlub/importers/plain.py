@@ -15,7 +15,7 @@ from mixedlub.importers.match import import_keys, match, target_for, wanted
 from mixedlub.importers.pace import KEYS as PACED
 from mixedlub.importers.pace import TIME, in_seconds, target_in
 from mixedlub.importers.runs import header_of_runs, runs_of
-from mixedlub.importers.sheet import Cells, Sheet, read_sheet, whole
+from mixedlub.importers.sheet import Cells, Sheet, not_above_zero, read_sheet, whole
 from mixedlub.importers.write import toml_value
 from mixedlub.kinds import Kind
 from mixedlub.kinds import kind as kind_of
@@ -67,6 +67,8 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     paced = ""
     if TIME in columns and TIME in found.units:
         columns[TIME], paced = in_seconds(columns[TIME], found.headers[TIME], found.units[TIME], answers)
+    readings = columns.get(str(quantity)) if likely.is_unsigned(str(quantity)) else None
+    low = [] if readings is None else not_above_zero(str(quantity), readings.tolist(), sheet.lines)
     header = header_of_runs(sheet, answers)
     runs, anew = (None, None) if header is None else runs_of(sheet, header)
     taken = [*(["run"] if runs is not None else []), *columns]
@@ -78,6 +80,7 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
         *([f"{name}: {sheet.left_out} left out: no part of the table"] if sheet.left_out else []),
         *(f"{name}: {note}" for note in found.notes),
         *([f"{name}: {paced}"] if paced else []),
+        *(f"{name}: {note}" for note in low),
         *([anew] if anew else []),
     ]
     return Draft(kind, quantity, columns, {}, rest, tuple(notes), runs)
