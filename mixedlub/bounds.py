@@ -18,7 +18,7 @@ from mixedlub.headers import UNITS, unit_of, without_unit
 OTHER_UNITS: Mapping[str, Mapping[str, tuple[float, float]]] = {
     **{ending: UNITS[ending] for ending in ("C", "deg")},
     "": {"%": (0.01, 0.0)},
-    "MPa": {"Pa": (1e-6, 0.0), "kPa": (1e-3, 0.0), "GPa": (1e3, 0.0)},
+    "MPa": {unit: UNITS["MPa"][unit] for unit in ("Pa", "kPa", "GPa")},
     "GPa": {"Pa": (1e-9, 0.0), "MPa": (1e-3, 0.0), "TPa": (1e3, 0.0)},
     "per_GPa": {"1/Pa": (1e9, 0.0), "1/MPa": (1e3, 0.0)},
     "mm2_s": {"m2/s": (1e6, 0.0), "cm2/s": (1e2, 0.0)},

@@ -48,7 +48,7 @@ position_deg             | angle the drive has turned
 temperature_C            | temperature of the sample
 pressure_MPa             | pressure on the sample; ambient where there is no such column
 power_loss_W             | power lost
-friction_coefficient     | friction over load, positive
+friction_coefficient     | friction over load, positive but for noise
 friction_map.friction_coefficient | friction over load, signed with the speed
 film_thickness_nm        | central film thickness
 friction_torque_Nm       | friction torque of the drive

@@ -11,7 +11,15 @@ from profiles.errors import InputError
 
 UNITS: dict[str, dict[str, tuple[float, float]]] = {
     "m_s": {"m/s": (1.0, 0.0), "mm/s": (1e-3, 0.0), "um/s": (1e-6, 0.0)},
-    "N": {"N": (1.0, 0.0), "uN": (1e-6, 0.0), "mN": (1e-3, 0.0), "kN": (1e3, 0.0), "lbf": (4.4482216152605, 0.0)},
+    "N": {
+        "N": (1.0, 0.0),
+        "uN": (1e-6, 0.0),
+        "mN": (1e-3, 0.0),
+        "kN": (1e3, 0.0),
+        "lbf": (4.4482216152605, 0.0),
+        **dict.fromkeys(("gf", "g"), (9.80665e-3, 0.0)),
+        **dict.fromkeys(("kgf", "kg"), (9.80665, 0.0)),
+    },
     "C": {
         "degC": (1.0, 0.0),
         "C": (1.0, 0.0),
@@ -19,7 +27,12 @@ UNITS: dict[str, dict[str, tuple[float, float]]] = {
         "degF": (5.0 / 9.0, -160.0 / 9.0),
         "F": (5.0 / 9.0, -160.0 / 9.0),
     },
-    "rpm": {"rpm": (1.0, 0.0), "1/min": (1.0, 0.0), "rad/s": (30.0 / np.pi, 0.0), "1/s": (60.0, 0.0)},
+    "rpm": {
+        **dict.fromkeys(("rpm", "1/min", "r/min", "U/min", "rev/min"), (1.0, 0.0)),
+        "rad/s": (30.0 / np.pi, 0.0),
+        "deg/s": (1.0 / 6.0, 0.0),
+        **dict.fromkeys(("rev/s", "rps", "U/s"), (60.0, 0.0)),
+    },
     "Nm": {
         "N.m": (1.0, 0.0),
         "mN.m": (1e-3, 0.0),
@@ -33,21 +46,31 @@ UNITS: dict[str, dict[str, tuple[float, float]]] = {
     "mPa_s": {"mPa.s": (1.0, 0.0), "cP": (1.0, 0.0), "Pa.s": (1e3, 0.0)},
     "MPa": {
         "MPa": (1.0, 0.0),
-        "GPa": (1e3, 0.0),
         "Pa": (1e-6, 0.0),
+        "kPa": (1e-3, 0.0),
+        "GPa": (1e3, 0.0),
         "bar": (0.1, 0.0),
         "atm": (0.101325, 0.0),
         "psi": (6.894757293168361e-3, 0.0),
     },
     "s": {"s": (1.0, 0.0), "min": (60.0, 0.0), "h": (3600.0, 0.0)},
+    "m": {"m": (1.0, 0.0), "mm": (1e-3, 0.0), "km": (1e3, 0.0)},
+    "cycle": {"cycle": (1.0, 0.0), "cycles": (1.0, 0.0)},
     "W": {"W": (1.0, 0.0), "kW": (1e3, 0.0)},
     "deg": {"deg": (1.0, 0.0), "rad": (180.0 / np.pi, 0.0)},
     "ratio": {"-": (1.0, 0.0), "1": (1.0, 0.0), "%": (0.01, 0.0)},
     "percent": {"%": (1.0, 0.0), "-": (100.0, 0.0), "1": (100.0, 0.0)},
 }
-"""What each unit of a case's columns may be given in: factor and what is added."""
-KINEMATIC = ("mm2/s", "mm²/s", "mm^2/s", "mm².s⁻¹", "mm2.s-1", "cst", "st", "m2/s", "m²/s", "m^2/s")
+"""What each unit of a case's columns may be given in, and of what is counted for time: factor and what is added."""
+UNSURE: dict[str, dict[str, tuple[str, ...]]] = {"rpm": {"1/s": ("rev/s", "rad/s")}}
+"""By the unit of a column: what is written for more than one unit, and those."""
+WEIGHED = {"g": "grams-force of 9.80665 mN", "kg": "kilograms-force of 9.80665 N"}
+"""Units of mass that a load is given in, and what they then are."""
+KINEMATIC = ("mm2/s", "cst", "st", "m2/s", "cm2/s")
 """Units, in small letters, in which viscosity is divided by density."""
+SIGNS = str.maketrans({**dict.fromkeys("µμ", "u"), **dict.fromkeys("·⋅*", "."), **dict.fromkeys("⁻−", "-")})
+SIGNS |= str.maketrans({"°": "deg", "¹": "1", "²": "2", "³": "3", "^": ""})
+"""Signs of units as the table writes them."""
 
 
 ENDINGS = {
@@ -60,6 +83,7 @@ ENDINGS = {
     "Pa_s": "Pa s",
     "mm_s": "mm/s",
     "rad_s": "rad/s",
+    "deg_s": "°/s",
     "m_s": "m/s",
     "W_mK": "W/(m K)",
     "J_kgK": "J/(kg K)",
@@ -79,9 +103,13 @@ ENDINGS = {
         unit: unit
         for unit in (
             "lbf",
+            "kgf",
+            "kg",
+            "g",
             "psi",
             "MPa",
             "GPa",
+            "kPa",
             "bar",
             "atm",
             "nm",
@@ -93,6 +121,8 @@ ENDINGS = {
             "K",
             "N",
             "W",
+            "km",
+            "m",
             "s",
             "h",
         )
@@ -125,15 +155,16 @@ def _ending(name: str) -> str:
 
 @dataclass(frozen=True)
 class Target:
-    """A column of a case, its unit, and the headers under which instruments write it."""
+    """A column of a case, its unit, the headers under which instruments write it, and others that may mean it."""
 
     name: str
     unit: str
     spoken: tuple[str, ...]
+    offered: tuple[str, ...] = ()
 
 
 TARGETS = (
-    Target("load_N", "N", ("load", "ball load", "pin load", "normal load", "normal force")),
+    Target("load_N", "N", ("load", "ball load", "pin load", "normal load", "normal force"), ("fn", "fz")),
     Target("entrainment_speed_m_s", "m_s", ("rolling speed", "entrainment speed", "mean speed")),
     Target("sliding_speed_m_s", "m_s", ("sliding speed",)),
     Target(
@@ -151,7 +182,20 @@ TARGETS = (
     Target("torque_Nm", "Nm", ("torque", "load torque", "pinion torque")),
     Target("motor_torque_Nm", "Nm", ("motor torque",)),
     Target("friction_torque_Nm", "Nm", ("friction torque",)),
-    Target("friction_coefficient", "ratio", ("traction coeff", "friction coefficient", "cof", "friction coeff")),
+    Target(
+        "friction_coefficient",
+        "ratio",
+        (
+            "traction coeff",
+            "friction coefficient",
+            "cof",
+            "friction coeff",
+            "traction coefficient",
+            "coefficient of friction",
+            "coeff. of friction",
+            *("mu", "µ", "μ"),
+        ),
+    ),
     Target("film_thickness_nm", "nm", ("average film", "film thickness", "film", "central film thickness")),
     Target("viscosity_mPa_s", "mPa_s", ("viscosity", "dynamic viscosity")),
     Target("power_loss_W", "W", ("power loss", "loss")),
@@ -177,12 +221,12 @@ def split(header: str) -> tuple[str, str | None]:
 
 
 def words_of(header: str) -> str:
-    """The words of a header without its unit and the name of a channel before a dot.
+    """The words of a header without its unit, the name of a channel before a dot and a dot at the end.
 
-    >>> words_of("DAQ.COF ()"), words_of("Test Time (s)")
-    ('cof', 'test time')
+    >>> words_of("DAQ.COF ()"), words_of("Test Time (s)"), words_of("friction coeff.")
+    ('cof', 'test time', 'friction coeff')
     """
-    return re.sub(r"^[a-z]+\.(?=\S)", "", split(header)[0])
+    return re.sub(r"^[a-z]+\.(?=\S)", "", split(header)[0]).rstrip(".")
 
 
 def target_of(header: str) -> Target | None:
@@ -198,9 +242,12 @@ def tidy(unit: str) -> str:
 
     >>> tidy("µm"), tidy("°C"), tidy("N·m"), tidy("N m"), tidy("Pa s"), tidy("ft-lb")
     ('um', 'degC', 'N.m', 'N.m', 'Pa.s', 'ft.lb')
+    >>> tidy("min⁻¹"), tidy("rad s^-1"), tidy("° / s"), tidy("mm².s⁻¹")
+    ('1/min', 'rad/s', 'deg/s', 'mm2/s')
     """
-    plain = unit.strip().replace("µ", "u").replace("μ", "u").replace("°", "deg").replace("·", ".")
-    return re.sub(r"(?<=[a-z])-(?=[a-z])|\s+", ".", plain)
+    plain = re.sub(r"\s*/\s*", "/", unit.strip().translate(SIGNS))
+    plain = re.sub(r"(?<=[a-z])-(?=[a-z])|\s+", ".", plain)
+    return re.sub(r"(?:(.+)\.)?(s|min|h)-1", lambda found: f"{found[1] or 1}/{found[2]}", plain)
 
 
 def change_to(unit: str, wanted: str) -> tuple[float, float] | None:
@@ -229,9 +276,45 @@ FORMS = {
 """By the unit of a column: what stands for a unit that it may be given in, with and without the dot of a product."""
 
 
+def open_units(unit: str, wanted: str) -> tuple[str, ...]:
+    """The units between which one as written leaves open; none where it is sure.
+
+    >>> open_units("s⁻¹", "rpm"), open_units("1/min", "rpm")
+    (('rev/s', 'rad/s'), ())
+    """
+    return UNSURE.get(wanted, {}).get(tidy(unit), ())
+
+
+def fits(unit: str, wanted: str) -> bool:
+    """Whether what is written may be a unit of a column."""
+    return change_to(unit, wanted) is not None or bool(open_units(unit, wanted))
+
+
+def units_of(wanted: str) -> tuple[str, ...]:
+    """The units that a column may be given in, each in one way of writing it.
+
+    >>> units_of("rpm"), units_of("ratio")
+    (('rpm', 'rad/s', 'deg/s', 'rev/s'), ('-', '%'))
+    """
+    known = UNITS[wanted]
+    return tuple(unit for unit, change in known.items() if unit == next(u for u, c in known.items() if c == change))
+
+
 def is_unit(text: str) -> bool:
     """Whether a text is one of the units that are read."""
-    return any(change_to(text, wanted) is not None for wanted in UNITS)
+    return any(fits(text, wanted) for wanted in UNITS)
+
+
+def unknown_unit(unit: str, target: Target) -> str:
+    """Why a unit is not taken as that of a column, and what could be."""
+    meant = open_units(unit, target.unit)
+    if meant:
+        return f"as unit of {target.name} leaves open which is meant; say {' or '.join(meant)}"
+    if target.unit == "mPa_s" and tidy(unit).lower() in KINEMATIC:
+        hint = "this is a kinematic viscosity: in mm²/s, times the density in g/cm³, it is in mPa s"
+    else:
+        hint = f"it could be {', '.join(units_of(target.unit))}"
+    return f"unit of {target.name} is not known; {hint}"
 
 
 def convert(values: np.ndarray, unit: str, target: Target, where: str) -> np.ndarray:
@@ -244,10 +327,7 @@ def convert(values: np.ndarray, unit: str, target: Target, where: str) -> np.nda
     """
     change = change_to(unit, target.unit)
     if change is None:
-        hint = f"it could be {', '.join(UNITS[target.unit])}"
-        if target.unit == "mPa_s" and tidy(unit).lower() in KINEMATIC:
-            hint = "this is a kinematic viscosity: in mm²/s, times the density in g/cm³, it is in mPa s"
-        raise InputError(f"unit of {target.name} is not known; {hint}", where=where, value=unit)
+        raise InputError(unknown_unit(unit, target), where=where, value=unit)
     factor, added = change
     return values if change == (1.0, 0.0) else rounded(values * factor + added, abs(added))
 

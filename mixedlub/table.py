@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from mixedlub.bounds import meant
-from mixedlub.headers import change_to, split, target_of, unit_of
+from mixedlub.headers import fits, split, target_of, unit_of
 from profiles.errors import InputError, nearest
 
 
@@ -216,7 +216,7 @@ def _other_unit(column: Column, unknown: list[str]) -> str | None:
     """The header that is the column in another unit, one that the import converts."""
     for name in unknown:
         unit, target = split(name)[1], target_of(name)
-        if target is not None and target.name == column.name and unit and change_to(unit, target.unit):
+        if target is not None and target.name == column.name and unit and fits(unit, target.unit):
             return name
     return None
 

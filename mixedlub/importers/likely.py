@@ -7,7 +7,8 @@ import re
 from collections.abc import Iterable, Sequence
 
 from mixedlub.config import KINDS
-from mixedlub.headers import BY_NAME, TEXT_COLUMNS, change_to, is_unit, split, target_of
+from mixedlub.headers import BY_NAME, TEXT_COLUMNS, WEIGHED, fits, is_unit, split, target_of, words_of
+from mixedlub.importers.pace import TIME, counted
 from mixedlub.importers.sheet import Cells, are_numbers
 from mixedlub.kinds import friction_map
 from mixedlub.kinds import kind as kind_of
@@ -19,6 +20,8 @@ NO_UNIT_FITS = 0.01
 """A number without a unit is rather one that has none than one whose unit is not said."""
 ABSENT = 0.5
 """What a needed column that no header is near takes away."""
+COUNTS = 1.0
+"""Likeness of a time to what counts cycles or a distance instead."""
 TEXT_FITS = 0.4
 DATED = re.compile(r"\d+[-/.:]\d+")
 """How a date or a clock begins, which names no surface."""
@@ -79,10 +82,13 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
     >>> likeness("speed_rpm", "Pinion speed [1/min]") > likeness("speed_rpm", "Pinion torque [Nm]")
     True
     """
-    exact = target_of(header)
-    if header == column or (exact is not None and exact.name == column):
+    exact, unit = target_of(header), split(header)[1]
+    own = exact is not None and exact.name == column and (unit is None or fits(unit, exact.unit))
+    if header == column or own:
         return 2.0
-    words, unit = split(header)
+    if column == TIME and counted(header) is not None and are_numbers(cells):
+        return COUNTS
+    words = words_of(header)
     if is_logarithm(header) or (column == "viscosity_mPa_s" and "kinematic" in words.split()):
         return 0.0
     numbers = are_numbers(cells)
@@ -94,13 +100,12 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
     target = BY_NAME.get(column)
     if target is None:
         return _overlap(words, column.replace("_", " "))
-    fits = unit is not None and change_to(unit, target.unit) is not None
-    if unit is not None and not fits:
+    known = unit is not None and fits(unit, target.unit)
+    if unit is not None and not known:
         return 0.0
-    own = split(column)[0]
-    share = max(_overlap(words, spoken) for spoken in (own, *target.spoken))
-    # A share in percent may be of anything.
-    tells = fits and (share > 0.0 or target.unit not in ("ratio", "percent"))
+    share = max(_overlap(words, spoken) for spoken in (split(column)[0], *target.spoken, *target.offered))
+    # A share in percent may be of anything, and most of what is weighed is no load.
+    tells = known and (share > 0.0 or not (target.unit in ("ratio", "percent") or (unit or "").lower() in WEIGHED))
     bare = unit is None and target.unit == "ratio" and share > 0.0
     return share + (UNIT_FITS if tells else 0.0) + (NO_UNIT_FITS if bare else 0.0)
 

@@ -7,7 +7,21 @@ from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from mixedlub.headers import BY_NAME, TEXT_COLUMNS, UNITS, Target, change_to, split, target_of, words_of
+from mixedlub.headers import (
+    BY_NAME,
+    TEXT_COLUMNS,
+    WEIGHED,
+    Target,
+    change_to,
+    open_units,
+    split,
+    target_of,
+    tidy,
+    units_of,
+    unknown_unit,
+    words_of,
+)
+from mixedlub.importers import pace
 from mixedlub.importers.draft import Answers, Question
 from mixedlub.importers.kinematics import MADE, other_surface
 from mixedlub.importers.likely import either, is_logarithm, likely_headers, likeness
@@ -74,6 +88,7 @@ def import_keys(columns: Sequence[Column]) -> tuple[str, ...]:
         f"{COLUMNS}run",
         *(COLUMNS + c.name for c in columns),
         *(UNIT_KEYS + c.name for c in columns if target_for(c.name) is not None),
+        *pace.KEYS,
     )
 
 
@@ -88,6 +103,8 @@ def match(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> Match:
     for column in columns:
         if column.name not in told:
             _find(column, free if column.required else held, found)
+        if column.name == pace.TIME and column.required and column.name not in found.headers:
+            _find_count(held, found)
     _one_of(either(kind.name), set(told), found)
     _absent_check(answers.get("recording.check"), cells, found.headers)
     asked = {q.key for q in found.questions}
@@ -95,13 +112,18 @@ def match(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> Match:
     group = either(kind.name)
     if group and not any(c in found.headers or COLUMNS + c in asked for c in group):
         missing.append(next(iter(likely_headers(group, _offered(cells, found.headers))), group[0]))
-    found.questions.extend(_missing(missing, cells, found.headers, answers))
+    needed = {*told, *(c.name for c in columns if c.required)}
+    kept = {c: h for c, h in found.headers.items() if c in needed}
+    near = _near(missing, cells, found.headers, kept)
+    found.headers = {c: h for c, h in found.headers.items() if c in kept or h not in near.values()}
+    found.questions.extend(_missing(missing, near, cells, found.headers, answers))
     spare = _spare(kind, cells, found)
     found.questions.extend(spare_questions(spare, COLUMNS))
     open_ones = {q.key.removeprefix(COLUMNS) for q in found.questions}
     _refuse_idle_units({*found.headers, *open_ones}, answers)
     units, questions, notes = _units(found.headers, answers)
     ordered = {c.name: found.headers[c.name] for c in columns if c.name in found.headers}
+    questions += pace.pace_questions(found.headers, units, answers)
     warned = tuple(spare_notes(spare, COLUMNS))
     return Match(ordered, units, (*found.questions, *questions), (*found.notes, *notes), warned)
 
@@ -145,6 +167,13 @@ def _find(column: Column, cells: Cells, found: _Finding) -> None:
         found.notes.append(f"{spoken[0]!r} taken as {column.name}, not {others}; {COLUMNS}{column.name} says otherwise")
 
 
+def _find_count(cells: Cells, found: _Finding) -> None:
+    """The header that counts cycles or a distance, where nothing holds the time."""
+    header = pace.header_of_count(cells)
+    if header is not None and COLUMNS + pace.TIME not in {question.key for question in found.questions}:
+        found.headers[pace.TIME] = header
+
+
 def _is_named(header: str, column: str) -> bool:
     """Whether a header is the column's own name; capitals tell milli from mega where there is a unit."""
     return header == column or (target_for(column) is None and header.lower() == column.lower())
@@ -169,9 +198,17 @@ def _absent_check(check: Any, cells: Cells, headers: Mapping[str, str]) -> None:
         raise InputError(f"no such header; {nearest(str(check), cells)}", where="recording.check", value=check)
 
 
-def _missing(missing: Sequence[str], cells: Cells, headers: Mapping[str, str], answers: Answers) -> list[Question]:
+def _near(missing: Sequence[str], cells: Cells, headers: Mapping[str, str], kept: Mapping[str, str]) -> dict[str, str]:
+    """Headers near to columns that are needed: free ones, else one that was taken for a column that is not needed."""
+    near = likely_headers(missing, _offered(cells, headers))
+    lent = {h: values for h, values in _offered(cells, kept).items() if h not in near.values()}
+    return {**likely_headers([c for c in missing if c not in near], lent), **near}
+
+
+def _missing(
+    missing: Sequence[str], near: Mapping[str, str], cells: Cells, headers: Mapping[str, str], answers: Answers
+) -> list[Question]:
     free = _offered(cells, headers)
-    near = likely_headers(missing, free)
     logarithms = [h for h in free if is_logarithm(h)]
     refused = (
         f"; {', '.join(logarithms)}: a logarithm cannot be taken, add a column of the quantity" if logarithms else ""
@@ -181,11 +218,14 @@ def _missing(missing: Sequence[str], cells: Cells, headers: Mapping[str, str], a
         header = near.get(column)
         alike = _as_near(column, header, free)
         text = f"Header of the column that holds {column}{alike}{_two_speeds(column, cells)}{refused}"
+        text += "; one that counts cycles or a distance will do" if column == pace.TIME else ""
         example = toml_value(header or "HEADER")
         questions.append(Question(COLUMNS + column, text, example, among=tuple(cells), of="the file has"))
         target = target_for(column)
-        bare = header is not None and target is not None and header != column and split(header)[1] is None
-        if header is not None and target is not None and bare and UNIT_KEYS + column not in answers:
+        if header is None or target is None or header == column or UNIT_KEYS + column in answers:
+            continue
+        unit = _own_unit(column, header)
+        if unit is None or open_units(unit, target.unit):
             questions.append(_unit_question(column, header, target))
     return questions
 
@@ -229,9 +269,9 @@ def _refuse_idle_units(columns: Set[str], answers: Answers) -> None:
         target = target_for(column)
         if not key.startswith(UNIT_KEYS) or target is None:
             continue
+        target = pace.target_in(target, str(unit))
         if change_to(str(unit), target.unit) is None:
-            could = ", ".join(UNITS[target.unit])
-            raise InputError(f"unit of {column} is not known; it could be {could}", where=key, value=unit)
+            raise InputError(unknown_unit(str(unit), target), where=key, value=unit)
         if "kind" in answers and column not in columns:
             raise InputError(f"no column is taken as {column}; name its header by {COLUMNS}{column}", where=key)
 
@@ -246,27 +286,45 @@ def _units(headers: Mapping[str, str], answers: Answers) -> tuple[dict[str, str]
         if target is None or column in TEXT_COLUMNS:
             continue
         named = _is_named(header, column)
-        own = None if named else split(header)[1]
+        own = None if named else _own_unit(column, header)
         native = named or column in COUNTS
         unit = answers.get(UNIT_KEYS + column)
         if unit is not None:
             units[column] = str(unit)
             if (native and change_to(str(unit), target.unit) != (1.0, 0.0)) or own not in (None, str(unit)):
                 notes.append(f"{header!r} is taken to be in {unit}, as told, whatever its header says")
-        elif own is not None:
+        elif own is not None and not open_units(own, target.unit):
             units[column] = own
         elif not native:
             questions.append(_unit_question(column, header, target))
+        weight = WEIGHED.get(tidy(units.get(column, "")).lower())
+        if weight is not None:
+            notes.append(f"{header!r} is taken to be a load in {weight}")
     return units, questions, notes
 
 
+def _own_unit(column: str, header: str) -> str | None:
+    return pace.unit_of_count(header) if column == pace.TIME else split(header)[1]
+
+
 def _unit_question(column: str, header: str, target: Target) -> Question:
-    """The unit is offered where the header is all words; another last word may be a unit that is not known here."""
-    known = tuple(UNITS[target.unit])
+    """A unit is offered where the header is all words; another last word may be a unit that is not known here."""
+    text = f"Unit of the column {header!r}, taken as {column}"
+    meant = open_units(split(header)[1] or "", target.unit)
+    if meant:
+        return Question(UNIT_KEYS + column, f"{text}, which leaves it open", toml_value("UNIT"), among=meant)
+    known = units_of(target.unit)
+    if column == pace.TIME:
+        first = pace.counted(header)
+        known = tuple(u for f in sorted((target.unit, *pace.PACES), key=lambda f: f != first) for u in units_of(f))
     words = words_of(header).split()
     spoken = {
         w for form in (*BY_NAME[column.removesuffix("_sd")].spoken, column.replace("_", " ")) for w in form.split()
     }
-    sure = len(words) == 1 or words[-1] in (*spoken, *OF_READINGS) or bool(re.fullmatch(r"[#\d]+", words[-1]))
-    text = f"Unit of the column {header!r}, taken as {column}"
+    sure = (
+        len(words) == 1
+        or pace.counted(header) is not None
+        or words[-1] in (*spoken, *OF_READINGS)
+        or bool(re.fullmatch(r"[#\d]+", words[-1]))
+    )
     return Question(UNIT_KEYS + column, text, toml_value(known[0] if sure else "UNIT"), among=known)

@@ -9,7 +9,9 @@ import numpy as np
 
 from mixedlub.headers import BY_NAME, convert, rounded, split
 from mixedlub.importers.draft import WARNING, Answers, Draft, Question, kind_told, questions_of, refuse_unknown
+from mixedlub.importers.sheet import not_above_zero
 from mixedlub.importers.steps import STEP, Step, steps_of, without_gaps
+from mixedlub.kinds import kind as kind_of
 from profiles.errors import InputError
 
 SAID = re.compile(r"^Number of steps (completed|in profile):\t(\d+)", re.MULTILINE)
@@ -119,7 +121,10 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     described = kind in ("film", "disc") or any(key.startswith("contact.") for key in answers)
     system = {"contact": {"geometry": "point"}} if described else {}
     warned = [f"{WARNING}{name}: {gap}" for gap in gaps]
-    every = (*lost, *warned, *notes, *said, *_odd(columns, quantity))
+    lines = [line for s in chosen for line in s.lines]
+    signed = not kind_of(kind).is_unsigned(quantity)
+    low = [] if signed else not_above_zero(quantity, columns[quantity].tolist(), lines)
+    every = (*lost, *warned, *notes, *said, *(f"{name}: {note}" for note in low))
     return Draft(kind, quantity, columns, system, (*questions, *questions_of(kind), *offered), every)
 
 
@@ -214,9 +219,3 @@ def _temperature(
         return {}, (Question("import.temperature", text, '"pot"'),), ()
     probe = "lube" if "lube" in probes else "pot"
     return {"oil_temperature_C": probes[probe]}, (), (f"{name}: temperature of the {probe} probe taken",)
-
-
-def _odd(columns: dict[str, np.ndarray], quantity: str) -> tuple[str, ...]:
-    """Readings that the instrument itself cannot mean."""
-    bad = int((columns[quantity] <= 0).sum())
-    return (f"{bad} readings of {quantity} are zero or below",) if bad else ()

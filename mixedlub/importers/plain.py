@@ -12,8 +12,10 @@ from mixedlub.importers.likely import likely_kind, likeness
 from mixedlub.importers.marks import KEY as DECIMAL
 from mixedlub.importers.marks import MARKS
 from mixedlub.importers.match import import_keys, match, target_for, wanted
+from mixedlub.importers.pace import KEYS as PACED
+from mixedlub.importers.pace import TIME, in_seconds, target_in
 from mixedlub.importers.runs import header_of_runs, runs_of
-from mixedlub.importers.sheet import Cells, Sheet, read_sheet, whole
+from mixedlub.importers.sheet import Cells, Sheet, not_above_zero, read_sheet, whole
 from mixedlub.importers.write import toml_value
 from mixedlub.kinds import Kind
 from mixedlub.kinds import kind as kind_of
@@ -56,12 +58,17 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     needed = [h for c, h in found.headers.items() if rules[c].form != "name" and not rules[c].blank]
     sheet, lost = whole(sheet, needed)
     refuse_one_surface(found.headers, sheet.cells, name)
-    asked = {question.key.rpartition(".")[2] for question in found.questions}
+    asked = {TIME if question.key in PACED else question.key.rpartition(".")[2] for question in found.questions}
     columns = {
         column: _values(rules[column], header, sheet, found.units.get(column))
         for column, header in found.headers.items()
         if column not in asked
     }
+    paced = ""
+    if TIME in columns and TIME in found.units:
+        columns[TIME], paced = in_seconds(columns[TIME], found.headers[TIME], found.units[TIME], answers)
+    readings = columns.get(str(quantity)) if likely.is_unsigned(str(quantity)) else None
+    low = [] if readings is None else not_above_zero(str(quantity), readings.tolist(), sheet.lines)
     header = header_of_runs(sheet, answers)
     runs, anew = (None, None) if header is None else runs_of(sheet, header)
     taken = [*(["run"] if runs is not None else []), *columns]
@@ -72,6 +79,8 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
         *([f"{name}: not taken: {', '.join(left)}"] if left else []),
         *([f"{name}: {sheet.left_out} left out: no part of the table"] if sheet.left_out else []),
         *(f"{name}: {note}" for note in found.notes),
+        *([f"{name}: {paced}"] if paced else []),
+        *(f"{name}: {note}" for note in low),
         *([anew] if anew else []),
     ]
     return Draft(kind, quantity, columns, {}, rest, tuple(notes), runs)
@@ -105,7 +114,7 @@ def _values(rule: Column, header: str, sheet: Sheet, unit: str | None) -> np.nda
     values = np.array([number.parse(cell, place) for cell, place in zip(cells, places, strict=True)], dtype=float)
     target = target_for(rule.name)
     if unit is not None and target is not None:
-        values = convert(values, unit, target, f"{sheet.name}: {header}")
+        values = convert(values, unit, target_in(target, unit), f"{sheet.name}: {header}")
     for value, place in zip(values.tolist(), places, strict=True):
         if value == value and not rule.allows(value):
             rule.parse(repr(value), place)

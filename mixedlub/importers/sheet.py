@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from mixedlub.headers import is_unit, split
@@ -92,6 +92,17 @@ def places(lines: Sequence[int]) -> str:
     """
     more = f" and {len(lines) - SHOWN} more" if len(lines) > SHOWN else ""
     return ("line " if len(lines) == 1 else "lines ") + ", ".join(map(str, lines[:SHOWN])) + more
+
+
+def not_above_zero(quantity: str, values: Iterable[float], lines: Iterable[int]) -> list[str]:
+    """What is said of readings that only noise, or a channel that is not on yet, can bring to zero or below.
+
+    >>> not_above_zero("friction_coefficient", [0.0, 0.1], [2, 3])
+    ['1 reading of friction_coefficient at zero or below, taken as read: line 2']
+    """
+    low = [line for line, value in zip(lines, values, strict=True) if value <= 0.0]
+    said = f"{count(len(low), 'reading')} of {quantity} at zero or below, taken as read: {places(low)}"
+    return [said] if low else []
 
 
 def _extent(rows: Sequence[Line], name: str) -> tuple[int, int]:

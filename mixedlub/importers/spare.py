@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 from collections.abc import Iterable, Mapping, Sequence
 
-from mixedlub.headers import split
+from mixedlub.headers import split, words_of
 from mixedlub.importers.draft import Question
 from mixedlub.importers.likely import likely_headers
 from mixedlub.importers.sheet import Cells, are_numbers
@@ -13,24 +14,29 @@ from mixedlub.importers.write import toml_value
 from mixedlub.table import Column
 
 SLIP = "slide_roll_ratio"
+SLIDES = re.compile(r"\b(?:slip|schlupf|slid|gleit)")
+"""Words of a share in percent that may be the slip."""
 STRESS = ("stress", "spannung")
 """What a header says that is in the unit of a pressure and is none."""
 
 
 def spare_headers(columns: Iterable[Column], cells: Cells) -> dict[str, str]:
-    """The header that may hold each of the columns, none of which is needed; a share in percent may be the slip.
+    """The header that may hold each of the columns, none of which is needed; a share of sliding may be the slip.
 
     >>> spare_headers([Column("pressure_MPa"), Column("slide_roll_ratio")], {"p (bar)": ["1", "5"], "note": ["", "x"]})
     {'pressure_MPa': 'p (bar)'}
     >>> spare_headers([Column("slide_roll_ratio")], {"Schlupf (%)": ["1", "5"]})
     {'slide_roll_ratio': 'Schlupf (%)'}
+    >>> spare_headers([Column("slide_roll_ratio")], {"Pump speed (%)": ["90", "100"]})
+    {}
     """
     names = [column.name for column in columns if column.form == "number" and not column.blank]
     cells = {h: values for h, values in cells.items() if not any(word in h.lower() for word in STRESS)}
     found = likely_headers(names, cells)
-    shares = [h for h in cells if split(h)[1] == "%" and h not in found.values() and are_numbers(cells[h])]
-    if SLIP in names and SLIP not in found and shares:
-        found[SLIP] = shares[0]
+    shares = [h for h in cells if split(h)[1] == "%" and SLIDES.search(words_of(h)) and h not in found.values()]
+    slip = next((h for h in shares if are_numbers(cells[h])), None)
+    if SLIP in names and SLIP not in found and slip is not None:
+        found[SLIP] = slip
     return found
 
 

@@ -168,16 +168,22 @@ def _value(text: str) -> Any:
 
 
 def _ask(question: Question, ask: Callable[[str], str], say: Callable[[str], None]) -> Any:
-    """One answer, asked again while it is needed and empty; None where an optional one is left open."""
+    """One answer, asked again while it is needed and empty, then with the choices by number; None if left open."""
     hint = f"for example {question.example}" + ("" if question.needed else "; empty if not known")
+    words = f"{question.text}: {question.choices}" if question.choices else question.text
+    listed: tuple[str, ...] = ()
     while True:
-        words = f"{question.text}: {question.choices}" if question.choices else question.text
         reply = ask(f"{words} ({hint}): ").strip()
+        if reply.isdecimal() and 1 <= int(reply) <= len(listed):
+            return listed[int(reply) - 1]
         if reply:
             return _value(reply)
         if not question.needed:
             return None
-        say("this is needed")
+        listed = () if any(choice.isdecimal() for choice in question.among) else question.among
+        say("this is needed" + ("; a number will do:" if listed else ""))
+        for number, choice in enumerate(listed, start=1):
+            say(f"  {number}  {choice}")
 
 
 def _folders(answers_file: Path | None, files: Sequence[Path], out: Path) -> list[Path]:

@@ -16,6 +16,7 @@ from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.table import Column, Table
 
 Inputs = dict[str, Any]
+UNSIGNED = ("power_loss_W", "friction_coefficient", "film_thickness_nm")
 
 
 @dataclass(frozen=True)
@@ -48,6 +49,10 @@ class Kind:
     channels: tuple[Column, ...] = ()
     completed: Callable[[Table, Table], Table] = lambda table, recorded: table
     limits: Callable[[config.System], Mapping[str, tuple[float, float]]] = lambda system: {}
+
+    def is_unsigned(self, quantity: str) -> bool:
+        """Whether readings are positive but for their noise; friction maps carry a sign."""
+        return quantity in UNSIGNED and self.name != "friction_map"
 
 
 SCALE = {

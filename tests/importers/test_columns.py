@@ -70,7 +70,7 @@ def test_a_unit_that_a_column_cannot_have_is_refused_with_those_it_can(header):
     with pytest.raises(InputError) as caught:
         draft(f"{header},friction_torque_Nm\n1,2\n3,4\n", "t.csv", {**DRIVE, "import.units.speed_rpm": "Hz"})
     assert str(caught.value) == (
-        "import.units.speed_rpm: 'Hz': unit of speed_rpm is not known; it could be rpm, 1/min, rad/s, 1/s"
+        "import.units.speed_rpm: 'Hz': unit of speed_rpm is not known; it could be rpm, rad/s, deg/s, rev/s"
     )
 
 
@@ -80,9 +80,9 @@ def test_a_unit_for_a_column_that_nothing_is_taken_as_is_refused():
 
 
 def test_a_unit_that_is_told_goes_before_that_of_the_header_and_is_said():
-    found = draft("speed_rpm,friction_torque_Nm\n1,2\n3,4\n", "t.csv", {**DRIVE, "import.units.speed_rpm": "1/s"})
+    found = draft("speed_rpm,friction_torque_Nm\n1,2\n3,4\n", "t.csv", {**DRIVE, "import.units.speed_rpm": "rev/s"})
     assert found.columns["speed_rpm"].tolist() == [60.0, 180.0]
-    assert "'speed_rpm' is taken to be in 1/s, as told" in " ".join(found.notes)
+    assert "'speed_rpm' is taken to be in rev/s, as told" in " ".join(found.notes)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -237,5 +237,23 @@ def test_capitals_tell_milli_from_mega():
 
 
 def test_a_unit_may_be_told_before_the_header_is():
-    found = draft("a,friction_torque_Nm\n1,2\n", "t.csv", {**DRIVE, "import.units.speed_rpm": "1/s"})
+    found = draft("a,friction_torque_Nm\n1,2\n", "t.csv", {**DRIVE, "import.units.speed_rpm": "rev/s"})
     assert "import.columns.speed_rpm" in {q.key for q in found.questions}
+
+
+@pytest.mark.parametrize(
+    "header", ["mu", "µ", "μ", "COF", "CoF", "friction coeff.", "Mu (-)", "Coefficient of friction", "DAQ.COF ()"]
+)
+def test_friction_coefficients_as_they_are_written(header):
+    cells = {"Time (s)": ["1", "2"], header: ["0.1", "0.2"]}
+    assert likely_kind(cells) == "friction_history"
+    told = {"kind": "friction_history", "import.units.friction_coefficient": "-"}
+    found = draft(f"Time (s);{header}\n1;0.1\n2;0.2\n", "t.csv", told)
+    assert found.columns["friction_coefficient"].tolist() == [0.1, 0.2]
+
+
+def test_a_mu_in_a_unit_of_viscosity_is_no_friction_coefficient():
+    cells = {"T (K)": ["300", "310"], "mu (Pa s)": ["0.1", "0.2"]}
+    assert likely_headers(["friction_coefficient"], cells) == {}
+    assert likely_headers(["viscosity_mPa_s"], cells) == {"viscosity_mPa_s": "mu (Pa s)"}
+    assert likely_kind(cells) == "viscosity"

@@ -3,6 +3,7 @@
 import pytest
 
 from mixedlub.case import read_case
+from mixedlub.case_format import kinds_text
 from mixedlub.importers import import_files
 from mixedlub.importers.wizard import run
 from mixedlub.table import CaseWarning
@@ -92,3 +93,28 @@ def test_a_row_of_a_traction_rig_without_its_reading_is_left_out(file, tmp_path)
     table = read_case(tmp_path / "case").recordings
     assert table["friction_coefficient"].tolist() == [0.01, 0.02, 0.04, 0.05, 0.06, 0.07]
     assert table["time_s"].tolist() == [1.0, 2.0, 4.0, 5.0, 6.0, 7.0]
+
+
+def test_a_friction_of_zero_is_taken_and_named(file, tmp_path):
+    """The first second of a rig may read 0; a reading near zero may be noise, so none is left out."""
+    text = "Time [s];COF\n1;0\n2;0.11\n3;0.12\n4;-0.001\n5;0.11\n6;0.10\n"
+    told = {"kind": "friction_history", "import.units.friction_coefficient": "-"}
+    said = said_of(file(text), tmp_path / "case", told)
+    assert "t.csv: 2 readings of friction_coefficient at zero or below, taken as read: lines 2, 5" in said
+    table = read_case(tmp_path / "case").recordings
+    assert table["friction_coefficient"].tolist() == [0.0, 0.11, 0.12, -0.001, 0.11, 0.1]
+    assert "friction over load, positive but for noise" in kinds_text("friction_history")
+
+
+@pytest.mark.parametrize("quantity", ["friction_coefficient", "friction_torque_Nm"])
+def test_friction_of_a_map_carries_the_sign_of_its_speed(file, tmp_path, quantity):
+    text = f"speed_rpm,{quantity}\n-2,-0.11\n-1,-0.12\n1,0.1\n2,0.11\n3,0.1\n"
+    told = {"kind": "friction_map", "recording.quantity": quantity}
+    assert not any("zero or below" in line for line in said_of(file(text), tmp_path / "case", told))
+
+
+def test_a_friction_of_a_traction_rig_that_is_zero_is_named_with_its_line(file, tmp_path):
+    rows = "".join(f"{i}\t30.1\t200\t50\t60.0\t{0.0 if i == 3 else f'0.0{i}'}\t\n" for i in range(1, 8))
+    text = f"Step 1 started at 03/04/2021 09:20:00\nStep type\tBOD_TIMED\tStep description\trub\n{HEAD}\n{rows}\n"
+    said = said_of(file(text, "m.txt"), tmp_path / "case", {})
+    assert "m.txt: 1 reading of friction_coefficient at zero or below, taken as read: line 6" in said

@@ -81,3 +81,35 @@ def test_a_stress_is_no_pressure(header):
 def test_what_no_column_is_like_is_no_warning(header):
     text = f"time_s,cof,{header}\n1,0.1,1\n2,0.2,2\n3,0.15,3\n"
     assert not any(note.startswith("warning") for note in draft(text, "t.csv", HISTORY).notes)
+
+
+@pytest.mark.parametrize("header", ["OelPump Speed (%)", "Humidity (%)", "Controller (%)"])
+def test_a_percentage_of_something_else_is_no_slip(header):
+    text = f"time_s,cof,{header}\n1,0.1,100\n2,0.2,90\n3,0.15,100\n"
+    assert not any(note.startswith("warning") for note in draft(text, "t.csv", HISTORY).notes)
+
+
+@pytest.mark.parametrize(
+    "header",
+    ["Fz (g)", "Fz [N]", "Fn (kgf)", "Fn1", "Normal force Fn (N)", "DAQ.Fz (kg)", "Fz_g", "normal load Fn [g]"],
+)
+def test_normal_forces_are_offered_as_the_load(header):
+    text = f"time_s;cof;{header};Fx (g);OelPump Speed (%)\n1;0.1;199;20;100\n2;0.2;200;21;100\n3;0.15;201;20;90\n"
+    (warned,) = (note for note in draft(text, "t.csv", HISTORY).notes if note.startswith("warning"))
+    assert f"'{header}' is not taken; if it is load_N, say" in warned
+
+
+@pytest.mark.parametrize("header", ["Wear (g)", "Mass (kg)", "weight loss [g]", "Mass (Kg)"])
+def test_what_is_weighed_is_not_offered_as_the_load(header):
+    text = f"time_s,cof,{header}\n1,0.1,1\n2,0.2,2\n3,0.15,3\n"
+    assert not any(note.startswith("warning") for note in draft(text, "t.csv", HISTORY).notes)
+
+
+@pytest.mark.parametrize(
+    ("header", "newton", "said"),
+    [("Load (g)", 9.80665e-3, "grams-force of 9.80665 mN"), ("Load [Kg]", 9.80665, "kilograms-force of 9.80665 N")],
+)
+def test_a_load_in_units_of_mass_is_one_of_force_and_that_is_said(header, newton, said):
+    found = draft(f"time_s,cof,{header}\n1,0.1,200\n2,0.2,100\n3,0.15,1\n", "t.csv", HISTORY)
+    assert found.columns["load_N"].tolist() == pytest.approx([200.0 * newton, 100.0 * newton, newton], rel=1e-14)
+    assert f"'{header}' is taken to be a load in {said}" in " ".join(found.notes)

@@ -1,10 +1,12 @@
-"""Capitals of units: what is written is never read as another unit that differs by capitals only."""
+"""Units: what is written is read as itself, never as one that differs by capitals only, and asked where it is open."""
 
+import numpy as np
 import pytest
 
-from mixedlub.headers import FORMS, UNITS, change_to
+from mixedlub.headers import BY_NAME, FORMS, UNITS, change_to, convert
 from mixedlub.importers import import_files
 from mixedlub.importers.likely import likely_headers, likely_kind
+from mixedlub.importers.plain import draft
 from profiles.errors import InputError
 
 KNOWN = sorted({form for forms in FORMS.values() for form in forms})
@@ -61,3 +63,52 @@ def test_a_film_in_nm_that_is_told_to_be_a_torque_is_refused(tmp_path):
     told["import.columns.friction_torque_Nm"] = "Filmdicke (nm)"
     with pytest.raises(InputError, match=r"'nm': unit of friction_torque_Nm is not known"):
         import_files([path], tmp_path / "case", **told)
+
+
+@pytest.mark.parametrize(("written", "megapascals"), [("kPa", 1e-3), ("KPA", 1e-3), ("MPa", 1.0), ("bar", 0.1)])
+def test_pressures(written, megapascals):
+    assert convert(np.array([2.0]), written, BY_NAME["pressure_MPa"], "t").tolist() == [2.0 * megapascals]
+
+
+RPM = {
+    **dict.fromkeys(("rpm", "RPM", "1/min", "min-1", "min^-1", "min⁻¹", "r/min", "U/min", "rev/min"), 1.0),
+    **dict.fromkeys(("rad/s", "rad s-1", "rad·s⁻¹", "rad s^-1"), 30.0 / np.pi),
+    **dict.fromkeys(("deg/s", "°/s", "° / s", "deg s⁻¹"), 1.0 / 6.0),
+    **dict.fromkeys(("rev/s", "U/s", "rps"), 60.0),
+}
+
+
+@pytest.mark.parametrize(("written", "rpm"), RPM.items())
+def test_speeds_of_a_drive(written, rpm):
+    assert convert(np.array([9.0]), written, BY_NAME["speed_rpm"], "t")[0] == pytest.approx(9.0 * rpm, rel=1e-14)
+
+
+@pytest.mark.parametrize("header", ["velocity [deg/s]", "joint_speed_deg_s"])
+def test_degrees_a_second_are_offered_as_the_speed_of_a_drive(header):
+    assert likely_headers(["speed_rpm"], {header: ["1.0"]}) == {"speed_rpm": header}
+
+
+def drive(header):
+    return f"{header},friction torque (Nm)\n1,2\n2,2.2\n"
+
+
+DRIVE = {"kind": "friction_map", "recording.quantity": "friction_torque_Nm"}
+
+
+@pytest.mark.parametrize("unit", ["1/s", "s^-1", "s⁻¹", "s-1"])
+@pytest.mark.parametrize("words", ["Speed", "Joint speed"])
+def test_one_over_a_second_is_asked_about(unit, words):
+    """It was read as revolutions a second; robots mean radians by it."""
+    header = f"{words} ({unit})"
+    questions = {q.key: q for q in draft(drive(header), "t.csv", DRIVE).questions}
+    question = questions["import.units.speed_rpm"]
+    assert (question.among, question.example) == (("rev/s", "rad/s"), '"UNIT"')
+    told = {**DRIVE, "import.columns.speed_rpm": header, "import.units.speed_rpm": "rad/s"}
+    found = draft(drive(header), "t.csv", told)
+    assert found.columns["speed_rpm"].tolist() == pytest.approx([30.0 / np.pi, 60.0 / np.pi])
+    assert "taken to be in rad/s, as told" in " ".join(found.notes)
+
+
+def test_one_over_a_second_that_is_told_is_refused_with_what_it_may_mean():
+    with pytest.raises(InputError, match=r"'1/s': as unit of speed_rpm leaves open .* say rev/s or rad/s"):
+        draft(drive("speed"), "t.csv", {**DRIVE, "import.units.speed_rpm": "1/s"})

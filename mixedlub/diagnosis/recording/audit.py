@@ -50,8 +50,6 @@ UNSTATED = 0.05
 """Share of the usual reading that one is taken to scatter by where nothing is stated."""
 CONTRADICTING = 4.0
 """Times the stated noise from which the scatter of repeats contradicts it."""
-UNSIGNED = ("power_loss_W", "friction_coefficient", "film_thickness_nm")
-"""Quantities that are positive but for their noise; friction maps carry a sign."""
 
 
 class Doubt(str):
@@ -188,7 +186,7 @@ def _misread(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[s
     large = used & (np.abs(y) > TOO_LARGE * expected)
     large &= np.abs(y) > ALONE * np.max(np.abs(y[~large]), initial=0.0)
     found = [(large, "far larger than what the others suggest there: check unit and decimal point")]
-    if case.quantity in UNSIGNED and case.kind.name != "friction_map":
+    if case.kind.is_unsigned(case.quantity):
         least, most = (share * expected for share in AS_LARGE)
         wrong = used & (y < -NEGATIVE_SIGMAS * _sds(case, rows, y)) & (-y > least) & (-y < most)
         if wrong.sum() <= max(1.0, NEGATIVE_SHARE * y.size):

@@ -1,0 +1,105 @@
+"""Histories against cycles or a distance: seconds are made of them by a pace that is asked, and that is said."""
+
+import pytest
+
+from mixedlub.case import read_case
+from mixedlub.importers import import_files
+from mixedlub.importers.likely import likely_kind
+from mixedlub.importers.plain import draft
+from mixedlub.importers.wizard import run
+from profiles.errors import InputError
+
+HISTORY = {"kind": "friction_history", "import.units.friction_coefficient": "-"}
+CYCLE, SPEED = "import.seconds_a_cycle", "import.speed_m_s"
+
+
+def history(header):
+    return f"{header};mu\n10;0.1\n20;0.2\n40;0.15\n"
+
+
+def needed(header, told=HISTORY):
+    return {q.key: q for q in draft(history(header), "t.csv", told).questions if q.needed and q.key not in told}
+
+
+@pytest.mark.parametrize("header", ["Cycle", "Cycles (-)", "No. of cycles", "cycle number", "Revolutions", "Cycle [#]"])
+def test_cycles_are_seconds_by_what_one_takes(header):
+    (question,) = needed(header).values()
+    assert (question.key, repr(header) in question.text) == (CYCLE, True)
+    found = draft(history(header), "t.csv", {**HISTORY, CYCLE: 2.5})
+    assert found.columns["time_s"].tolist() == [25.0, 50.0, 100.0]
+    assert f"t.csv: time_s is {header!r} times 2.5 s a cycle" in found.notes
+
+
+@pytest.mark.parametrize(
+    ("header", "metres"),
+    [("Distance (m)", 1.0), ("Sliding distance [km]", 1e3), ("sliding_distance_mm", 1e-3), ("distance_m", 1.0)],
+)
+def test_a_distance_is_seconds_by_the_speed(header, metres):
+    (question,) = needed(header).values()
+    assert question.key == SPEED
+    found = draft(history(header), "t.csv", {**HISTORY, SPEED: 0.5})
+    assert found.columns["time_s"].tolist() == pytest.approx([20 * metres, 40 * metres, 80 * metres], rel=1e-14)
+    assert f"t.csv: time_s is {header!r} over 0.5 m/s" in found.notes
+
+
+def test_the_unit_of_a_distance_is_asked_with_those_of_lengths_first():
+    question = needed("Distance")["import.units.time_s"]
+    assert (question.example, question.among[:3]) == ('"m"', ("m", "mm", "km"))
+    told = {**HISTORY, "import.units.time_s": "km", SPEED: 2}
+    assert draft(history("Distance"), "t.csv", told).columns["time_s"].tolist() == [5000.0, 10000.0, 20000.0]
+
+
+def test_a_header_of_another_name_is_told_and_its_unit_asked():
+    assert "counts cycles or a distance will do" in needed("N")["import.columns.time_s"].text
+    told = {**HISTORY, "import.columns.time_s": "N"}
+    assert "cycle" in needed("N", told)["import.units.time_s"].among
+    told |= {"import.units.time_s": "cycle", CYCLE: 2.0}
+    assert draft(history("N"), "t.csv", told).columns["time_s"].tolist() == [20.0, 40.0, 80.0]
+
+
+def test_a_time_goes_before_what_counts():
+    found = draft("Cycle;Time (s);mu\n1;10;0.1\n2;20;0.2\n3;40;0.15\n", "t.csv", HISTORY)
+    assert found.columns["time_s"].tolist() == [10.0, 20.0, 40.0]
+    assert not {CYCLE, SPEED} & {question.key for question in found.questions}
+
+
+@pytest.mark.parametrize("header", ["Stroke (mm)", "Wear (mm)", "Cycle time", "Stroke"])
+def test_other_lengths_and_words_count_nothing(header):
+    assert "import.columns.time_s" in needed(header)
+
+
+@pytest.mark.parametrize("header", ["Cycle", "Distance (m)"])
+def test_what_counts_beside_a_friction_is_a_history(header):
+    assert likely_kind({header: ["1", "2"], "COF (-)": ["0.1", "0.2"]}) == "friction_history"
+
+
+@pytest.mark.parametrize("pace", [0, -1.0, "fast", True, float("inf")])
+def test_a_pace_is_a_number_above_zero(pace):
+    with pytest.raises(InputError, match="must be a number above 0"):
+        draft(history("Cycle"), "t.csv", {**HISTORY, CYCLE: pace})
+
+
+@pytest.mark.parametrize(("header", "key"), [("Time (s)", CYCLE), ("time_s", SPEED), ("Cycle", SPEED)])
+def test_a_pace_without_a_use_is_refused(header, key):
+    with pytest.raises(InputError, match=f"{key}: time_s is taken from '{header[:4]}.*has no use for it"):
+        draft(history(header), "t.csv", {**HISTORY, key: 2.0})
+
+
+def test_the_case_that_is_written_is_in_seconds(file, tmp_path):
+    told = {**HISTORY, CYCLE: 0.5}
+    table = read_case(import_files([file(history("Cycle"))], tmp_path / "case", **told)).recordings
+    assert table["time_s"].tolist() == [5.0, 10.0, 20.0]
+
+
+def test_the_wizard_asks_for_the_pace(file, tmp_path):
+    said = []
+    settings = [f"{key}={value}" for key, value in HISTORY.items()]
+    run(
+        [file(history("Distance (m)"))],
+        tmp_path / "case",
+        settings,
+        ask=lambda q: "0.1" * ("m/s" in q),
+        say=said.append,
+    )
+    assert "t.csv: time_s is 'Distance (m)' over 0.1 m/s" in said
+    assert read_case(tmp_path / "case").recordings["time_s"].tolist() == [100.0, 200.0, 400.0]

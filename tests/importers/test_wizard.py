@@ -1,0 +1,79 @@
+"""The wizard at a terminal: choices by number where a line was left empty, the likely header proposed."""
+
+from mixedlub.case import read_case
+from mixedlub.importers.plain import draft
+from mixedlub.importers.wizard import run
+
+TWIN = "T1 (degC);T2 (degC);eta (mPa.s)\n40;41;30\n60;61;12\n100;99;5\n"
+DRIVE = {"kind": "friction_map", "recording.quantity": "friction_torque_Nm"}
+ROBOT = "velocity (rad/s),torque (N m)\n1,2\n2,2.2\n3,2.3\n"
+
+
+def answered(path, out, settings, replies):
+    """What was said, with replies by a word of the question; each reply is given once, then an empty line."""
+    left, said = {word: list(lines) for word, lines in replies.items()}, []
+
+    def ask(text):
+        lines = next((lines for word, lines in left.items() if word in text.split(":")[0]), [])
+        return lines.pop(0) if lines else ""
+
+    run([path], out, settings, ask=ask, say=said.append)
+    return said
+
+
+def test_an_empty_line_lists_the_headers_and_a_number_is_one_of_them(file, tmp_path):
+    replies = {"temperature_C": ["", "2"], "viscosity_mPa_s": ["eta (mPa.s)"]}
+    said = answered(file(TWIN), tmp_path / "case", ["kind=viscosity"], replies)
+    table = read_case(tmp_path / "case").recordings
+    assert table["temperature_C"].tolist() == [41.0, 61.0, 99.0]
+    assert table["viscosity_mPa_s"].tolist() == [30.0, 12.0, 5.0]
+    listed = ["this is needed; a number will do:", "  1  T1 (degC)", "  2  T2 (degC)", "  3  eta (mPa.s)"]
+    assert said[: len(listed)] == listed
+
+
+def test_a_number_that_nothing_listed_is_no_choice(file, tmp_path):
+    """The share 1 of a unit is not the first of the units."""
+    path = file("speed_rpm,friction_torque_Nm,additive\n1,2,0.02\n2,3,0.02\n3,4,0.02\n")
+    told = [f"{key}={value}" for key, value in DRIVE.items()]
+    answered(path, tmp_path / "case", told, {"Unit of the column 'additive'": ["1"]})
+    assert read_case(tmp_path / "case").recordings["additive_percent"].tolist() == [2.0, 2.0, 2.0]
+
+
+def test_a_kind_may_be_chosen_by_its_number(file, tmp_path):
+    path = file("temperature_C,viscosity_mPa_s\n40,30\n100,5\n")
+    said = answered(path, tmp_path / "case", [], {"Kind of recording": ["", "7"]})
+    assert "  7  viscosity" in said
+    assert read_case(tmp_path / "case").kind.name == "viscosity"
+
+
+def test_headers_that_are_numbers_are_meant_themselves(file, tmp_path):
+    path = file("2 (degC);1;note\n40;30;x\n60;12;y\n")
+    told = ["kind=viscosity", 'import.columns.temperature_C="2 (degC)"', "import.units.viscosity_mPa_s=cP"]
+    said = answered(path, tmp_path / "case", told, {"viscosity_mPa_s": ["", '"1"']})
+    assert "this is needed" in said
+    assert read_case(tmp_path / "case").recordings["viscosity_mPa_s"].tolist() == [30.0, 12.0]
+
+
+def test_a_torque_alone_is_proposed_as_the_friction_torque():
+    """It was taken for the load of the drive, and the question for the friction torque knew no header."""
+    found = draft(ROBOT, "t.csv", DRIVE)
+    questions = {q.key: q for q in found.questions if q.needed}
+    assert questions["import.columns.friction_torque_Nm"].example == '"torque (N m)"'
+    assert "torque_Nm" not in found.columns
+    told = {**DRIVE, "import.columns.friction_torque_Nm": "torque (N m)"}
+    told["import.columns.speed_rpm"] = "velocity (rad/s)"
+    assert list(draft(ROBOT, "t.csv", told).columns) == ["speed_rpm", "friction_torque_Nm"]
+
+
+def test_a_torque_alone_without_a_unit_is_asked_about_once():
+    questions = [q.key for q in draft(ROBOT.replace(" (N m)", ""), "t.csv", DRIVE).questions]
+    assert "import.units.friction_torque_Nm" in questions
+    assert "import.units.torque_Nm" not in questions
+
+
+def test_a_torque_beside_the_friction_torque_is_the_load():
+    text = "speed (rpm),torque (N m),drag (N m)\n1,20,2\n2,20,2.2\n3,20,2.3\n"
+    found = draft(text, "t.csv", {**DRIVE, "import.columns.friction_torque_Nm": "drag (N m)"})
+    assert found.columns["torque_Nm"].tolist() == [20.0, 20.0, 20.0]
+    (question,) = (q for q in draft(text, "t.csv", DRIVE).questions if q.key == "import.columns.friction_torque_Nm")
+    assert question.example == '"drag (N m)"'
