@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import diagnose_case
+from mixedlub.diagnosis.judging.empirical import power_law
+from mixedlub.effect import catalogue
 from mixedlub.forward import Forward
 from mixedlub.table import Table
 
@@ -298,6 +300,16 @@ def test_planted_size_of_stribeck_friction_is_found(make):
     y = case.recordings[case.quantity]
     _, values, _ = least_squares(case, ("stribeck",), 0.01 * np.abs(y))
     assert values["stribeck"]["excess"] == pytest.approx(0.35, rel=0.2)
+
+
+def test_a_power_law_turns_its_sign_with_the_direction(make):
+    speed = np.concatenate([np.linspace(-200.0, -10.0, 20), np.linspace(10.0, 200.0, 20)])
+    friction = np.sign(speed) * (1.0 + 2.0 * (speed / 200.0) ** 2)
+    law = power_law(diagnose_case(make(*drive(friction, speed_rpm=speed)).folder, exclude=tuple(catalogue())).found)
+    assert law is not None
+    assert dict(law.factors) == {"speed_rpm": 2}
+    assert law.coefficient == pytest.approx(2.0 * (law.middles[0] / 200.0) ** 2, rel=0.1)
+    assert law.text.endswith("with the sign of the reading")
 
 
 def test_planted_growth_of_friction_is_found(make):

@@ -132,7 +132,7 @@ def empirical_form(d: Diagnosis, extra: Unnamed) -> Figure | None:
     unit = unit_of(d.case.quantity) or "-"
     good = d.outlier_chance <= 0.5
     x = law.shape * abs(law.coefficient)
-    line = np.linspace(0.0, float(x[good].max()), 50)
+    line = np.linspace(min(float(x[good].min()), 0.0), float(x[good].max()), 51)
     spread = 2.0 * law.sd / abs(law.coefficient)
     sign = np.sign(law.coefficient)
     axes.fill_between(line, sign * line * (1 - spread), sign * line * (1 + spread), color=GRID, lw=0)

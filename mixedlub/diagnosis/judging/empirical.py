@@ -58,7 +58,8 @@ class Law:
 
     ``relative`` laws are a share of the calibrated base model's reading, others have its unit. ``shape`` is the
     product (times the base model's reading where relative) for each reading, ``observed`` what the recording
-    has beyond the base model at the law's calibration; their ratio is the coefficient but for noise.
+    has beyond the base model at the law's calibration; their ratio is the coefficient but for noise. Laws of readings
+    of either sign are ``odd``: they have the sign of the reading.
     """
 
     factors: tuple[tuple[str, Fraction], ...]
@@ -72,6 +73,7 @@ class Law:
     heldout_after: float
     shape: np.ndarray
     observed: np.ndarray
+    odd: bool
 
     @property
     def text(self) -> str:
@@ -82,7 +84,8 @@ class Law:
             else f"{number(self.coefficient)} × base"
         )
         parts = [f"({_words(name)}/{_middle(name, x)})^{_power(b)}" for (name, b), x in self._items]
-        return "missing part = " + " × ".join([head, *parts])
+        sign = ", with the sign of the reading" if self.odd and not self.relative else ""
+        return "missing part = " + " × ".join([head, *parts]) + sign
 
     @property
     def _items(self) -> list[tuple[tuple[str, Fraction], float]]:
@@ -263,7 +266,9 @@ def power_law(found: Search) -> Law | None:
     middles = np.array([float(f"{np.exp(np.mean(np.log(v))):.2g}") for v in values.values()])
     logs = np.log(np.array(list(values.values())).T / middles)
     one = problem.sd * problem.unit_size(found.none.prediction)
-    share = np.column_stack([np.abs(problem.level(none.prediction)) / one, 1.0 / one])
+    level = problem.level(none.prediction)
+    # Features are sizes: what is missing turns its sign with a reading that does, as friction with the direction.
+    share = np.column_stack([level, np.sign(level)]) / one[:, None]
     fixed = np.hstack([none.slopes, problem.shared])
     whole = _Search(names, logs, share, fixed, none.anchor, found.unknown.fit.weight)
     count = min(problem.y.size, MOST_READINGS)
@@ -291,6 +296,7 @@ def power_law(found: Search) -> Law | None:
         heldout_after=after,
         shape=own * one,
         observed=(whole.target - fixed @ c[:-1]) * one,
+        odd=bool(level.min() < 0.0),
     )
 
 

@@ -19,8 +19,8 @@ def judge(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
     """Probabilities, with the verdict and what ties with it first held against levels left out.
 
     When CANDIDATES names were tried, the others are taken to fail like the best of those that did. The unnamed
-    mismatch is held against the first name, and is no more probable where that clearly outdoes it. Where even the best of those tried leaves more there than noise, the
-    odds between names are less sure.
+    mismatch is held against the first name, and is no more probable where that clearly outdoes it. Where even the
+    best of those tried leaves more there than noise, the odds between names are less sure.
     """
     levels = LevelsOut.of(found)
     names = sorted(filter(names_effects, found.log_weights), key=lambda key: -found.log_weights[key])
