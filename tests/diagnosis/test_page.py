@@ -140,6 +140,12 @@ def test_what_has_no_name_is_not_drawn_as_left_out(unnamed_files: dict[str, str]
     assert f"<h2>{words.LEFT_OUT}</h2>" not in page
 
 
+def test_residuals_of_nothing_missing_stand_with_the_test_for_it(complete: Diagnosis) -> None:
+    page = render(complete, words.sections(complete), {"residual_map": '<svg id="drawn"/>'})
+    assert f"<h2>{words.WHERE}</h2>" not in page
+    assert page.index(f"<h2>{words.MISMATCH}</h2>") < page.index("drawn") < page.index(f"<h2>{words.ALIKE}</h2>")
+
+
 @pytest.mark.skipif(CHROMIUM is None, reason="no Chromium here")
 def test_browser_shows_the_page_offline(page: str, tmp_path: Path) -> None:
     assert CHROMIUM is not None

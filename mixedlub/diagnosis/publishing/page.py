@@ -72,6 +72,8 @@ CAPTIONS = {
     "next_test": (NEXT, "Where the recommended tests lie among the recorded conditions, and what each would tell."),
 }
 """Section and caption of each figure."""
+INSTEAD = {WHERE: MISMATCH, LEFT_OUT: UNNAMED}
+"""Where pictures stand whose section has nothing to say: where nothing is missing, or nothing that has a name."""
 SPREADS = (
     " Before: calibrated as if nothing were missing, which spreads the shortfall over all conditions; the text above "
     "keeps the answer's calibration instead, so that signs may differ."
@@ -94,11 +96,12 @@ def render(d: Diagnosis, parts: Iterable[Section], drawings: Mapping[str, str]) 
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
     source = files("mixedlub.diagnosis.publishing").joinpath("page.html").read_text(encoding="utf-8")
     template = environment.from_string(source)
+    parts = list(parts)
+    titles = {part.title for part in parts}
     pictures: dict[str, list[Picture]] = defaultdict(list)
     for name, (section, caption) in CAPTIONS.items():
         if name in drawings:
-            # What is missing and has no name stands where that is told: there is no answer to say what was left out.
-            section = UNNAMED if section == LEFT_OUT and d.posterior.verdict == "unknown" else section
+            section = section if section in titles else INSTEAD.get(section, section)
             more = SPREADS if name == "residual_map" and d.posterior.verdict != () else ""
             pictures[section].append(Picture(Markup(inline(drawings[name], name)), caption + more))
     return template.render(
