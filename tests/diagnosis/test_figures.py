@@ -12,11 +12,10 @@ from matplotlib.figure import Figure
 
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.drawing import charts, figures, maps
-from mixedlub.diagnosis.drawing.style import inline, look, settled
+from mixedlub.diagnosis.drawing.style import as_drawn, blank, inline, look
 from mixedlub.diagnosis.judging.confusion import confusion
 from mixedlub.diagnosis.judging.empirical import Absorbed, Unnamed
 from mixedlub.diagnosis.judging.empirical import unnamed as describe
-from mixedlub.report.style import as_svg
 from mixedlub.table import Table
 
 
@@ -177,14 +176,78 @@ def test_stages_that_absorb_the_unnamed_are_drawn_in_order(unnamed: Diagnosis) -
 def test_tick_labels_of_the_stages_lie_within_the_figure() -> None:
     names = ("boundary_friction", "area_ratio", "film_thickness", "shear_stress", "power_loss", "load_share")
     for top in np.arange(1.0, 2.0, 0.05):
-        stages = tuple(Absorbed("film", name, float(top)) for name in names)
+        stages = (*(Absorbed("film", name, float(top)) for name in names), Absorbed("shear", "shear_rate", -3.0))
         with look():
             figure = charts.absorbing_stages(Unnamed(stages, None))
         assert figure is not None
-        as_svg(settled(figure))
+        as_drawn(figure)
         drawn = figure.axes[0].get_tightbbox()
         assert drawn is not None
         assert drawn.x1 <= figure.get_window_extent().x1, top
+
+
+def test_quantities_that_could_take_it_up_alike_have_no_bars() -> None:
+    alike = (Absorbed("boundary", "boundary_friction", 90.0), Absorbed("boundary", "friction", 89.9))
+    assert charts.absorbing_stages(Unnamed(alike, None)) is None
+    assert charts.absorbing_stages(Unnamed((*alike, Absorbed("load", "load_share", 4.0)), None)) is not None
+
+
+def test_labels_have_room_beside_whatever_ticks_are_drawn() -> None:
+    for height in np.arange(2.4, 2.8, 0.05):
+        with look():
+            figure = blank(3.2, float(height))
+            axes = figure.add_subplot()
+        axes.set_ylim(-8.93, 7.83)
+        axes.set_ylabel("mean residual (sigma)")
+        as_drawn(figure)
+        label = axes.yaxis.label
+        assert label.get_position()[0] > label.get_fontsize(), height
+
+
+def overprinted(figure: Figure) -> list[str]:
+    """Labels of an x axis that lie on their neighbours."""
+    with look():
+        figure.draw_without_rendering()
+        boxes = [
+            (t.get_window_extent(), t.get_text()) for a in figure.axes for t in a.get_xticklabels() if t.get_text()
+        ]
+    return [text for (a, _), (b, text) in pairwise(boxes) if a.overlaps(b)]
+
+
+@pytest.mark.parametrize("largest", [0.0197, 0.9, 1234.5])
+def test_labels_of_the_empirical_form_do_not_overprint(teeth: Diagnosis, largest: float) -> None:
+    extra = describe(teeth.found)
+    assert extra.law is not None
+    shape = np.linspace(0.0, largest / abs(extra.law.coefficient), extra.law.shape.size)
+    with look():
+        figure = charts.empirical_form(teeth, replace(extra, law=replace(extra.law, shape=shape)))
+    assert figure is not None
+    assert not overprinted(figure)
+
+
+def test_noise_about_like_simulations_is_that_of_the_usual_reading() -> None:
+    sd = np.array([0.5, 3.0, 1.0, 0.1, 9.0])
+    line = np.linspace(0.0, 4.0, 9)
+    np.testing.assert_allclose(figures._noise_along(line, np.full(5, 2.0), sd, False), 1.0)
+
+
+@pytest.mark.parametrize("logarithmic", [False, True])
+def test_noise_in_proportion_widens_along_the_line(logarithmic: bool) -> None:
+    simulated = np.geomspace(1.0, 7.0, 101)
+    line = np.linspace(1.3, 5.5, 9)
+    np.testing.assert_allclose(
+        figures._noise_along(line, simulated, 0.1 * simulated, logarithmic), 0.1 * line, rtol=0.02
+    )
+
+
+def test_names_of_levels_differ_where_levels_do() -> None:
+    values = np.array([20.48, 25.04, 24.96, 25.06, 29.96, 49.98, 50.02, 50.06, 75.0, 20.5, 99.96])
+    label, names = maps._ticks(values)
+    assert len(set(names)) == len(names) == label.max() + 1
+    assert label[1] == label[2]
+    many = np.concatenate([values, np.linspace(20.0, 100.0, 200)])
+    for texts in (maps._ticks(many)[1], maps._levels(many, 4, "temperature_C")[1]):
+        assert len(set(texts)) == len(texts)
 
 
 def test_form_is_drawn_only_where_a_law_holds(unnamed: Diagnosis, teeth: Diagnosis) -> None:
@@ -193,7 +256,7 @@ def test_form_is_drawn_only_where_a_law_holds(unnamed: Diagnosis, teeth: Diagnos
 
 
 def test_equal_figures_are_equal_text(offset: Diagnosis) -> None:
-    first, second = (as_svg(charts.evidence(offset)) for _ in range(2))
+    first, second = (as_drawn(charts.evidence(offset)) for _ in range(2))
     assert first == second
     assert "<dc:date>" not in first
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.publishing.page import render
+from mixedlub.diagnosis.publishing.page import _cards, render
 from mixedlub.diagnosis.recording.audit import Doubt
 from mixedlub.diagnosis.telling import words
 
@@ -124,6 +124,26 @@ def test_case_text_is_escaped(offset: Diagnosis) -> None:
     system = offset.case.system.model_copy(update={"description": "<b>loss & more</b>"})
     named = replace(offset, case=replace(offset.case, system=system))
     assert "&lt;b&gt;loss &amp; more&lt;/b&gt;" in render(named, words.sections(named), {})
+
+
+def test_no_probability_is_certain(offset: Diagnosis) -> None:
+    verdict = offset.posterior.verdict
+    for weight, shown in ((0.99999, ">99 %"), (0.001, "<1 %"), (0.42, "42 %")):
+        weights = {**offset.posterior.weights, verdict: weight}
+        sure = replace(offset, posterior=replace(offset.posterior, weights=weights))
+        assert _cards(sure)[1][0] == shown
+
+
+def test_what_has_no_name_is_not_drawn_as_left_out(unnamed_files: dict[str, str]) -> None:
+    page = unnamed_files["report.html"]
+    assert 'id="missing_part-figure_1"' in page
+    assert f"<h2>{words.LEFT_OUT}</h2>" not in page
+
+
+def test_residuals_of_nothing_missing_stand_with_the_test_for_it(complete: Diagnosis) -> None:
+    page = render(complete, words.sections(complete), {"residual_map": '<svg id="drawn"/>'})
+    assert f"<h2>{words.WHERE}</h2>" not in page
+    assert page.index(f"<h2>{words.MISMATCH}</h2>") < page.index("drawn") < page.index(f"<h2>{words.ALIKE}</h2>")
 
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no Chromium here")

@@ -13,6 +13,8 @@ from mixedlub.diagnosis.fitting.problem import effects_of
 from mixedlub.diagnosis.judging.empirical import Unnamed
 from mixedlub.diagnosis.judging.posterior import TIE, Key
 from mixedlub.diagnosis.labels import axis_label, conditions_text, explanation_words, words_of
+from mixedlub.diagnosis.telling.headline import chance
+from mixedlub.diagnosis.telling.words import told_apart
 from mixedlub.headers import unit_of
 
 if TYPE_CHECKING:
@@ -51,7 +53,7 @@ def evidence(d: Diagnosis) -> Figure:
         colour = colour_of(key)
         axes.plot([FAINT, weight], [place, place], color=colour, lw=2.0, solid_capstyle="butt")
         axes.plot(weight, place, "o", color=colour, ms=5.5)
-        text = f"{weight:.2f}" if weight >= 0.01 else (f"{weight:.0e}" if weight > FAINT else "below 1e-04")
+        text = chance(weight) if weight >= 0.01 else (f"{weight:.0e}" if weight > FAINT else "below 1e-04")
         axes.annotate(text, (weight, place), xytext=(7, 0), textcoords="offset points", va="center", fontsize=7.5)
     axes.set_xscale("log")
     axes.minorticks_off()
@@ -100,10 +102,10 @@ def heldout(d: Diagnosis) -> Figure:
 
 
 def absorbing_stages(extra: Unnamed) -> Figure | None:
-    """Of an unnamed mismatch: how well each stage could take it up."""
+    """Of an unnamed mismatch: how well each stage could take it up; none where all could alike."""
     from matplotlib.ticker import MaxNLocator
 
-    if not extra.stages:
+    if not told_apart(extra.stages):
         return None
     figure = blank(5.2, 0.95 + 0.27 * len(extra.stages))
     axes = figure.add_subplot()
@@ -150,6 +152,7 @@ def empirical_form(d: Diagnosis, extra: Unnamed) -> Figure | None:
     )
     axes.set_xlabel(f"size of the empirical form ({unit})")
     axes.set_ylabel(f"recorded − base model ({unit})")
+    axes.locator_params(axis="x", nbins=5)
     axes.set_title("empirical, not physics", fontweight="normal")
     return figure
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.drawing import charts, maps
+from mixedlub.diagnosis.drawing.groups import together
 from mixedlub.diagnosis.drawing.style import (
     AFTER,
     BEFORE,
@@ -25,7 +27,6 @@ from mixedlub.diagnosis.drawing.style import (
 from mixedlub.diagnosis.judging.confusion import confusion
 from mixedlub.diagnosis.judging.empirical import Unnamed
 from mixedlub.diagnosis.labels import axis_label, words_of
-from mixedlub.diagnosis.recording.levels import set_points
 from mixedlub.headers import unit_of
 
 if TYPE_CHECKING:
@@ -33,6 +34,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MOST_POINTS = 1500
+MOST_LEVELS, BINS = 12, 10
+"""Levels that a profile shows one by one, and into how many bins it takes more."""
 
 
 def all_figures(d: Diagnosis, extra: Unnamed | None = None) -> dict[str, Figure]:
@@ -133,13 +136,21 @@ def _one_to_one(axes: Axes, every: np.ndarray, simulated: np.ndarray, sd: np.nda
     else:
         low, high = low - 0.04 * (high - low), high + 0.04 * (high - low)
     line = np.geomspace(low, high, 60) if logarithmic else np.linspace(low, high, 60)
-    order = np.argsort(simulated, kind="stable")
-    band = np.interp(line, simulated[order], sd[order])
+    band = _noise_along(line, simulated, sd, logarithmic)
     lower = line - 2 * band
     axes.fill_between(line, np.maximum(lower, 0.2 * low) if logarithmic else lower, line + 2 * band, color=GRID, lw=0)
     axes.plot(line, line, color=INK, lw=0.8)
     axes.set_xlim(low, high)
     axes.set_ylim(low, high)
+
+
+def _noise_along(line: np.ndarray, simulated: np.ndarray, sd: np.ndarray, logarithmic: bool) -> np.ndarray:
+    """The usual sd of readings along a line of simulated values: like values may be known very differently."""
+    label, places = together(simulated, BINS)
+    usual = np.array([np.median(sd[label == k]) for k in range(places.size)])
+    if logarithmic:
+        return np.asarray(np.exp(np.interp(np.log(line), np.log(places), np.log(usual))))
+    return np.asarray(np.interp(line, places, usual))
 
 
 def _legend(axes: Axes, outliers: bool, beyond: bool) -> None:
@@ -148,7 +159,7 @@ def _legend(axes: Axes, outliers: bool, beyond: bool) -> None:
 
     marks: list[Line2D | Patch] = [
         Line2D([], [], color=INK, lw=0.8, label="recorded = simulated"),
-        Patch(color=GRID, label="noise, ±2 sd of a reading"),
+        Patch(color=GRID, label="noise, ±2 sd of the usual reading"),
     ]
     if outliers:
         marks.append(Line2D([], [], ls="", marker="o", mfc="none", mec=OUTLIER, label="outlier, counted for little"))
@@ -239,24 +250,29 @@ def _condition_label(name: str, values: np.ndarray) -> str:
 
 
 def _profile(axes: Axes, values: np.ndarray, before: np.ndarray, after: np.ndarray) -> None:
-    values = set_points(values)
-    levels, label = np.unique(values, return_inverse=True)
+    label, levels = together(values, MOST_LEVELS, BINS)
     named = levels.dtype.kind in "US"
-    if levels.size > 12 and not named:
-        edges = np.unique(np.quantile(values, np.linspace(0.0, 1.0, 11)))
-        label = np.clip(np.searchsorted(edges, values, side="right") - 1, 0, edges.size - 2)
-        levels = 0.5 * (edges[1:] + edges[:-1])
-    keep = np.arange(levels.size)
-    x = keep.astype(float) if named else levels.astype(float)
+    x = np.arange(levels.size, dtype=float) if named else levels
+    count = np.bincount(label)
     axes.axhline(0.0, color=INK, lw=0.7)
+    # A line from one sign to the other would say something of speeds between them that were not run.
+    turns = [0, *(np.flatnonzero((x[:-1] < 0) & (x[1:] > 0)) + 1), x.size]
     for z, colour, name in ((before, BEFORE, "before"), (after, AFTER, "after")):
-        count = np.array([(label == k).sum() for k in keep])
-        used = count > 0
-        mean = np.array([z[label == k].mean() if (label == k).any() else 0.0 for k in keep])
-        error = 2.0 / np.sqrt(np.maximum(count, 1))
-        axes.errorbar(
-            x[used], mean[used], yerr=error[used], color=colour, marker="o", ms=3.2, lw=1.2, elinewidth=0.8, label=name
-        )
+        mean = np.bincount(label, z) / count
+        error = 2.0 / np.sqrt(count)
+        for start, stop in pairwise(turns):
+            own = slice(start, stop)
+            axes.errorbar(
+                x[own],
+                mean[own],
+                yerr=error[own],
+                color=colour,
+                marker="o",
+                ms=3.2,
+                lw=1.2,
+                elinewidth=0.8,
+                label="" if start else name,
+            )
     if named:
         axes.set_xticks(
             x, levels.tolist(), rotation=30 if levels.size > 2 else 0, ha="right" if levels.size > 2 else "center"

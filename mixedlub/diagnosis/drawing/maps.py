@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.drawing.groups import together
 from mixedlub.diagnosis.drawing.style import DIVERGING, INK, MUTED, OUTLIER, PAPER, blank
 from mixedlub.diagnosis.judging.confusion import VISIBLE, Confusion
 from mixedlub.diagnosis.labels import amount, axis_label, effect_words, number, words_of
-from mixedlub.diagnosis.recording.levels import set_points
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -99,16 +98,12 @@ def _limit(z: np.ndarray) -> float:
 
 def _levels(values: np.ndarray, most: int, name: str) -> tuple[np.ndarray, list[str]]:
     """Level of each value, and the levels' names; bins where there are too many."""
-    values = set_points(values)
-    levels, label = np.unique(values, return_inverse=True)
     if not name:
         return np.zeros(values.size, int), [""]
-    if levels.size <= most:
-        return label, [f"{words_of(name)} {amount(float(v), name)}" for v in levels]
-    edges = np.unique(np.quantile(values, np.linspace(0.0, 1.0, most + 1)))
-    label = np.clip(np.searchsorted(edges, values, side="right") - 1, 0, edges.size - 2)
-    names = [f"{words_of(name)} {low:.3g} to {amount(float(f'{high:.3g}'), name)}" for low, high in pairwise(edges)]
-    return label, names
+    label, places = together(values, most)
+    ends = [[number(float(end(values[label == k]))) for end in (np.min, np.max)] for k in range(places.size)]
+    spans = [f"{'' if low == high else f'{low} to '}{amount(float(high), name)}" for low, high in ends]
+    return label, [f"{words_of(name)} {span}" for span in spans]
 
 
 def _tiles(
@@ -168,13 +163,8 @@ def _block(count: int) -> list[tuple[float, float, float, float]]:
 
 def _ticks(values: np.ndarray) -> tuple[np.ndarray, list[str]]:
     """Level of each value and the ticks' texts; bins where there are too many levels."""
-    values = set_points(values)
-    levels, label = np.unique(values, return_inverse=True)
-    if levels.size <= MOST_LEVELS:
-        return label, [number(float(v)) for v in levels]
-    edges = np.unique(np.quantile(values, np.linspace(0.0, 1.0, MOST_LEVELS + 1)))
-    label = np.clip(np.searchsorted(edges, values, side="right") - 1, 0, edges.size - 2)
-    return label, [number(0.5 * float(a + b)) for a, b in pairwise(edges)]
+    label, places = together(values, MOST_LEVELS)
+    return label, [number(float(v)) for v in places]
 
 
 def _order(d: Diagnosis, row: int) -> tuple[str, ...]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mixedlub.report.style import styled
+from mixedlub.report.style import as_svg, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -53,14 +53,17 @@ def blank(width: float, height: float) -> Figure:
     return Figure(figsize=(width, height), layout="constrained")
 
 
-def settled(figure: Figure) -> Figure:
-    """The figure with its layout done once and for all, so that saving need not draw it twice."""
-    engine = figure.get_layout_engine()
-    if engine is not None:
-        with look():
+def as_drawn(figure: Figure) -> str:
+    """The figure as an `svg` element, its layout done once and not again by saving.
+
+    All within the look: where the size of tick labels is another one, there may be more of them than the layout saw.
+    """
+    with look():
+        engine = figure.get_layout_engine()
+        if engine is not None:
             engine.execute(figure)
-        figure.set_layout_engine(None)
-    return figure
+            figure.set_layout_engine(None)
+        return as_svg(figure)
 
 
 def inline(svg: str, prefix: str) -> str:

@@ -72,6 +72,8 @@ CAPTIONS = {
     "next_test": (NEXT, "Where the recommended tests lie among the recorded conditions, and what each would tell."),
 }
 """Section and caption of each figure."""
+INSTEAD = {WHERE: MISMATCH, LEFT_OUT: UNNAMED}
+"""Where pictures stand whose section has nothing to say: where nothing is missing, or nothing that has a name."""
 SPREADS = (
     " Before: calibrated as if nothing were missing, which spreads the shortfall over all conditions; the text above "
     "keeps the answer's calibration instead, so that signs may differ."
@@ -94,9 +96,12 @@ def render(d: Diagnosis, parts: Iterable[Section], drawings: Mapping[str, str]) 
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
     source = files("mixedlub.diagnosis.publishing").joinpath("page.html").read_text(encoding="utf-8")
     template = environment.from_string(source)
+    parts = list(parts)
+    titles = {part.title for part in parts}
     pictures: dict[str, list[Picture]] = defaultdict(list)
     for name, (section, caption) in CAPTIONS.items():
         if name in drawings:
+            section = section if section in titles else INSTEAD.get(section, section)
             more = SPREADS if name == "residual_map" and d.posterior.verdict != () else ""
             pictures[section].append(Picture(Markup(inline(drawings[name], name)), caption + more))
     return template.render(
@@ -135,12 +140,22 @@ def bare(tex: str) -> str:
     return re.sub(r"\\frac\s+(\w)\s*(\w)", r"\\frac{\1}{\2}", tex)
 
 
+def percent(p: float) -> str:
+    """A probability in percent: neither certain nor impossible.
+
+    >>> percent(0.853), percent(0.9999), percent(0.001)
+    ('85 %', '>99 %', '<1 %')
+    """
+    share = 100.0 * p
+    return ">99 %" if share >= 99.5 else "<1 %" if share < 0.5 else f"{share:.0f} %"
+
+
 def _cards(d: Diagnosis) -> list[tuple[str, str]]:
     """The few numbers a reader looks for first."""
     p = d.test.p_value
     cards = [
         (p_words(p), "chance of such a mismatch when nothing is missing (p)"),
-        (f"{100 * d.posterior.weights[d.posterior.verdict]:.0f} %", "probability of the first explanation"),
+        (percent(d.posterior.weights[d.posterior.verdict]), "probability of the first explanation"),
         (f"{d.heldout.before:.2f}", "sigma, error on left-out levels with calibration alone"),
     ]
     if d.posterior.verdict != ():

@@ -39,13 +39,12 @@ def diagnose(
 def files(d: Diagnosis) -> dict[str, str]:
     """Everything the answer consists of, by file name."""
     from mixedlub.diagnosis.drawing import figures
-    from mixedlub.diagnosis.drawing.style import settled
+    from mixedlub.diagnosis.drawing.style import as_drawn
     from mixedlub.diagnosis.publishing import page
-    from mixedlub.report.style import as_svg
 
     extra = unnamed(d.found) if any(key == "unknown" for key in d.posterior.tied) else None
     parts = words.sections(d, extra)
-    drawings = {name: as_svg(settled(figure)) for name, figure in figures.all_figures(d, extra).items()}
+    drawings = {name: as_drawn(figure) for name, figure in figures.all_figures(d, extra).items()}
     return {
         "diagnosis.json": json.dumps({**as_json(d), **_unnamed_record(extra)}, indent=1, ensure_ascii=False) + "\n",
         "predictions.csv": predictions_csv(d),

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import inspect
+from dataclasses import replace
 
 import numpy as np
 
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import effect_words, in_reach, number, with_names
 from mixedlub.diagnosis.telling.answer import effect_records, interval, verdict_fit
-from mixedlub.effect import Effect, Parameter
+from mixedlub.effect import Between, BetweenLog, Effect, Parameter, Prior
+from mixedlub.forward import Forward
 from mixedlub.headers import unit_of
 from mixedlub.report.plain import plain_equation, with_symbol
 
@@ -18,6 +20,10 @@ STRAINED = 2.0
 UNTOLD = 0.8
 """Share of the prior's 90 % interval from which a fitted one counts as no narrower, where the prior is normal."""
 AS_BEFORE = "as wide as before the readings"
+FAR = 3.0
+"""Standard deviations of its prior from which a parameter is far outside of what is usual."""
+UNMOVED = 1e-6
+"""Sigmas by which a parameter moves readings, for one standard deviation of its prior, that are none."""
 COLUMNS = ("effect", "parameter", "value", "90 % interval", "unit", "meaning")
 
 Table = tuple[tuple[str, ...], ...]
@@ -27,25 +33,65 @@ def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Table]:
     """Fitted parameters of the answer's effects, with a sentence on those that the readings hardly tell."""
     if isinstance(d.posterior.verdict, str) or d.posterior.verdict == ():
         return (), ()
-    place = d.found.problem.calibration_size
-    spread = verdict_fit(d).spread
+    refined = verdict_fit(d)
+    moved = np.max(np.abs(refined.fit.slopes), axis=0) > UNMOVED
+    moved |= np.abs(refined.z) > UNMOVED
+    start = d.found.problem.calibration_size
     table, said = [COLUMNS], []
     for e, record in zip(d.found.problem.effects(d.posterior.verdict), effect_records(d), strict=True):
-        own = spread[place : place + len(e.parameters)]
-        place += len(e.parameters)
+        places = range(start, start + len(e.parameters))
+        start += len(e.parameters)
         if e.free_form:
             continue
-        vague = [p.name.replace("_", " ") for p, s in zip(e.parameters, own, strict=True) if s >= UNTOLD]
-        said += _untold(e, vague)
-        for p, fitted, s in zip(e.parameters, record["parameters"], own, strict=True):
-            scaled, unit = in_reach(
-                (fitted["value"], fitted["low90"], fitted["high90"]), p.unit, float(p.prior.value(0.0))
-            )
+        every = list(zip(e.parameters, record["parameters"], places, strict=True))
+        told = [(p, fitted, i) for p, fitted, i in every if p.sudden or moved[i]]
+        said += _unmoved(e, [p for p, _, i in every if not (p.sudden or moved[i])])
+        vague = [p.name.replace("_", " ") for p, _, i in told if refined.spread[i] >= UNTOLD]
+        said += _untold(replace(e, parameters=tuple(p for p, _, _ in told)), vague)
+        for p, fitted, i in told:
+            usual = float(p.prior.value(0.0))
+            scaled, unit = in_reach((fitted["value"], fitted["low90"], fitted["high90"]), p.unit, usual)
             value, low, high = (number(x) for x in scaled)
             name = with_symbol(p.name, plain_equation(p.symbol))
-            mark = f"[{AS_BEFORE}] " if s >= UNTOLD else ""
+            far = _far(p.prior, p.unit) if abs(refined.z[i]) > FAR and not p.sudden else ""
+            said += _stretched(e, p, far)
+            marks = [mark for mark, holds in ((AS_BEFORE, refined.spread[i] >= UNTOLD), (far, far)) if holds]
+            mark = f"[{'; '.join(marks)}] " if marks else ""
             table.append((effect_words(e.id), name, value, f"{low} to {high}", unit, f"{mark}{_meaning(d, e, p)}"))
     return tuple(said), tuple(table) if len(table) > 1 else ()
+
+
+def _far(prior: Prior, unit: str) -> str:
+    """How a parameter stands that is far outside of what its prior holds for usual, with what that is.
+
+    >>> from mixedlub.effect import Normal
+    >>> _far(Normal(0.0, 0.1), "-"), _far(Between(0.0, 0.05), "1/K")
+    ('far outside of what is usual (-0.164 to 0.164)', 'at the end of what it may be (0 to 0.05)')
+    """
+    if isinstance(prior, Between | BetweenLog):
+        how, ends = "at the end of what it may be", (prior.low, prior.high)
+    else:
+        how, ends = "far outside of what is usual", interval(prior, 0.0, 1.0)[1:]
+    low, high = (number(x) for x in in_reach(ends, unit, float(prior.value(0.0)))[0])
+    return f"{how} ({low} to {high})"
+
+
+def _stretched(e: Effect, p: Parameter, far: str) -> list[str]:
+    """That an effect with a parameter so far off may be named for want of a better name."""
+    if not far:
+        return []
+    return [
+        f"{with_names(effect_words(e.id))}: {p.name.replace('_', ' ')} is {far}. Its name is a stretch: something else "
+        "may act alike."
+    ]
+
+
+def _unmoved(e: Effect, parameters: list[Parameter]) -> list[str]:
+    """That no reading depends on these parameters, which the table therefore leaves out."""
+    if not parameters:
+        return []
+    names = " and ".join(with_symbol(p.name, plain_equation(p.symbol)) for p in parameters)
+    return [f"{with_names(effect_words(e.id))}: no reading here depends on {names}, which the table leaves out."]
 
 
 def _untold(e: Effect, vague: list[str]) -> list[str]:
@@ -91,9 +137,23 @@ def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Table]:
         "1 sd is the uncertainty of the input, stated by the case or assumed where it states none: within 2 sd it was "
         "moved no further than expected."
     )
+    said += one_way(d.found.problem.forward)
     if len(d.posterior.tied) > 1:
         said.append("That is with the first of the tied answers; another one moves inputs elsewhere.")
     return tuple(said), tuple(table)
+
+
+def one_way(forward: Forward) -> list[str]:
+    """That a drive which turned one way only does not tell dry friction from a payload."""
+    constant = {"coulomb_torque", "payload_torque"}
+    names = [c.name.replace("_", " ") for c in forward.calibrations if constant & set(c.needs)]
+    speed, fitted = (np.asarray(forward.inputs.get(name, 0.0)) for name in ("drive_speed", "gears_fitted"))
+    if len(names) < len(constant) or speed.min() <= 0.0 <= speed.max() or np.ptp(fitted):
+        return []
+    return [
+        f"The drive turned one way only, which does not tell {' from '.join(names)}: only what they make together is "
+        "known."
+    ]
 
 
 def _calibrated(d: Diagnosis) -> tuple[np.ndarray, np.ndarray]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,9 +46,11 @@ BEST_TIED = "What was left out? Best of the tied candidates"
 UNNAMED = "If it is something unknown"
 ALIKE = "What else could it be?"
 GAIN = "How much better is it on conditions it did not fit?"
+APART = 3.0
+"""Nats from which one quantity is told from another."""
 NATS = (
-    "A nat is a factor 2.7 in the odds: below about 3 nats these readings do not tell the quantities apart, and the "
-    "two answers may name different ones."
+    f"A nat is a factor 2.7 in the odds: below about {APART:g} nats these readings do not tell the quantities apart, "
+    "and the two answers may name different ones."
 )
 CHECK = "Does a channel that was not fitted agree?"
 OUTLIERS = "Outlier readings"
@@ -162,7 +164,13 @@ def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
     along = " and ".join(words_of(name) for name in shape.axes) or "all conditions together"
     said = [f"Of all forms tried, the most probable {_form(d, along)}."]
     said += nearest_name(d)
-    if unnamed.stages:
+    if unnamed.stages and not told_apart(unnamed.stages):
+        alike = [words_of(found.quantity) for found in unnamed.stages]
+        said.append(
+            "These readings do not tell which quantity could take it up if a factor there were free to vary with every "
+            f"condition: {', '.join(alike[:-1])} and {alike[-1]} do alike."
+        )
+    elif unnamed.stages:
         best, *others = unnamed.stages
         worse = [f"{words_of(o.quantity)} {best.evidence - o.evidence:.1f} nats worse" for o in others[:3]]
         said.append(
@@ -181,6 +189,16 @@ def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
             f"the error falls from {law.heldout_before:.2f} to {law.heldout_after:.2f} sigma."
         )
     return Section(UNNAMED, tuple(said))
+
+
+def told_apart(stages: Sequence[Absorbed]) -> bool:
+    """Whether some of the quantities that could take up a mismatch are worse at it than others.
+
+    >>> told_apart([Absorbed("boundary", "boundary_friction", 90.0), Absorbed("boundary", "friction", 89.9)])
+    False
+    """
+    ranked = [found.evidence for found in stages]
+    return len(ranked) == 1 or max(ranked, default=0.0) - min(ranked, default=0.0) >= APART
 
 
 def _form(d: Diagnosis, along: str) -> str:
