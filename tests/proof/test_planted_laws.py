@@ -14,6 +14,7 @@ from mixedlub.proof.answers import read_truth
 from mixedlub.proof.bench import cooling, drive, film, history, mesh, viscosity
 from mixedlub.proof.bench.battery import ROOMS, Order, make, plan
 from mixedlub.proof.bench.presliding import SHOWN_BELOW, ball_bearing, bristles, partial_slip
+from mixedlub.proof.bench.stirring import TRANSITION, free_disc, rotor_in_gap, torque_share
 from mixedlub.proof.concealed import MEASUREMENT
 
 ORDERS = (
@@ -23,10 +24,12 @@ ORDERS = (
     Order("case_003", "viscosity", "single", ("viscosity_temperature_law",), "clear"),
     Order("case_004", "film", "single", ("viscosity_temperature_law",), "faint"),
     Order("case_005", "friction_map", "pair", ("stribeck", "presliding"), "clear"),
+    Order("case_006", "friction_map", "single", ("fluid_drag",), "clear"),
 )
 KELVIN = 273.15
 KINDS = {
     "presliding": {"friction_map"},
+    "fluid_drag": {"friction_map"},
     "force_offset": {"friction_map", "friction_history"},
     "force_drift": {"friction_map", "friction_history"},
     "viscosity_temperature_law": {"viscosity", "film", "friction_history", "mesh_friction"},
@@ -129,6 +132,46 @@ def test_only_drives_that_creep_show_what_comes_before_sliding():
         assert ("presliding" in bench.ids) == bool(
             np.abs(speed).min() <= SHOWN_BELOW * np.abs(speed).max() and "position_deg" not in bench.columns
         )
+
+
+def test_a_free_disc_drags_by_its_exact_flow_and_by_the_logarithmic_law():
+    """Slope at the disc 0.6159 (Rogers and Lance 1960), of both sides; Dorfman 1963: 0.491 (lg Re)^-2.58 a side."""
+    assert free_disc(np.array([1e4, 2e5])) == pytest.approx(2 * np.pi * 0.6159 * np.array([1e4, 2e5]) ** -0.5, rel=1e-3)
+    reynolds = np.array([1e6, 3e6, 1e7])
+    assert free_disc(reynolds) == pytest.approx(2 * 0.491 * np.log10(reynolds) ** -2.58, rel=0.11)
+    assert free_disc(np.array([TRANSITION]))[0] == pytest.approx(free_disc(np.array([0.999999 * TRANSITION]))[0])
+
+
+def test_a_rotor_in_a_gap_drags_linearly_and_then_as_the_measured_powers():
+    """Donnelly and Simon 1960: about the 1.36th power from the first vortices on, the 1.51th well beyond."""
+
+    def power(low, high):
+        torque = torque_share(np.array([low, high]) / high, high, rotor_in_gap)
+        return np.log(torque[1] / torque[0]) / np.log(high / low)
+
+    assert power(5.0, 50.0) == pytest.approx(1.0)
+    assert power(60.0, 600.0) == pytest.approx(1.36, abs=0.05)
+    assert power(1000.0, 9000.0) == pytest.approx(1.51, abs=0.02)
+
+
+def test_drag_of_every_fluid_is_odd_and_its_share_of_dry_friction_at_full_speed():
+    bench = drawn(drive.draw, lambda b: "fluid_drag" in b.ids and "speed_rpm" in b.columns)
+    share = bench.columns["speed_rpm"] / np.abs(bench.columns["speed_rpm"]).max()
+    for form in forms_of(bench, "fluid_drag"):
+        more = change(bench, form, {"strength": 1.0})
+        full = more[np.abs(share) == 1]
+        assert np.abs(full) == pytest.approx(np.full(len(full), np.abs(more).max()))
+        assert (np.sign(more) == np.sign(share)).all()
+        assert (np.abs(more) <= 1.000001 * np.abs(share) * np.abs(full[0])).all()
+        if form.law.__name__ == "fan":
+            assert more == pytest.approx(full[0] / share[np.abs(share) == 1][0] * share * np.abs(share))
+
+
+def test_no_tribometer_has_a_fan_but_its_readings_may_be_taken_for_one():
+    rng = np.random.default_rng(6)
+    for bench in (drive.draw(rng) for _ in range(60)):
+        torque = bench.settings["recording"]["quantity"] == "friction_torque_Nm"
+        assert all(form.rarity == float(torque) for form in forms_of(bench, "fluid_drag"))
 
 
 @pytest.mark.parametrize("draw", [history.draw_loads, history.draw_stribeck, drive.draw])

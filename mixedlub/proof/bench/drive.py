@@ -22,6 +22,7 @@ from mixedlub.proof.bench.stage import (
     repeated,
     rounded,
 )
+from mixedlub.proof.bench.stirring import stirring
 from mixedlub.proof.concealed.kinds import Knob, strength
 
 PAIRS = (
@@ -32,6 +33,7 @@ PAIRS = (
     ("friction_modifier_film", "stribeck"),
     ("stribeck", "presliding"),
     ("load_dependent_friction", "force_offset"),
+    ("stribeck", "fluid_drag"),
 )
 BROAD = 0.5
 OF_TORQUE = ("plain", "plain", "slow", "temperature", "load", "additive", "position", "current")
@@ -237,10 +239,6 @@ def _outside(columns: dict[str, np.ndarray], time: np.ndarray) -> tuple[Form, ..
         """Friction is higher in one band of speed, where the drive rings."""
         return _added(d, 0.2 * strength * d.level * np.exp(-0.5 * ((np.abs(d.speed) - centre) / width) ** 2) * d.sign)
 
-    def fan(d: Drive, strength: float) -> Drive:
-        """Drag with the square of speed."""
-        return _added(d, 0.4 * strength * d.level * d.speed**2 * d.sign)
-
     def lifting(d: Drive, strength: float, where: float) -> Drive:
         """Beyond a speed a seal lifts off and its friction is gone."""
         return _added(d, -0.15 * strength * d.level * (np.abs(d.speed) > where) * d.sign)
@@ -254,13 +252,12 @@ def _outside(columns: dict[str, np.ndarray], time: np.ndarray) -> tuple[Form, ..
         near = (columns["position_deg"] % 360.0 - where + 180) % 360 - 180
         return _added(d, 0.3 * strength * d.level * np.exp(-0.5 * (near / 15) ** 2) * d.sign)
 
-    either, up = strength(-5.0, 8.0), strength(0.0, 10.0)
+    either = strength(-5.0, 8.0)
     if "position_deg" in columns:
         return (Form("dented", "running", dented, (either, Knob("where", 40.0, 320.0, (60.0, 300.0))), "constructed"),)
     return (
         Form("ringing", "running", ringing,
              (either, Knob("centre", 0.3, 0.8, (0.35, 0.75)), Knob("width", 0.03, 0.12, (0.05, 0.1))), "constructed"),
-        Form("fan", "running", fan, (up,), "constructed"),
         Form("lifting", "running", lifting, (either, Knob("where", 0.3, 0.8, (0.35, 0.7))), "constructed"),
         Form("stepped", "running", stepped, (either, Knob("when", 0.2, 0.8, (0.3, 0.7))), "constructed"),
     )  # fmt: skip
@@ -336,7 +333,7 @@ def draw(rng: np.random.Generator) -> Bench:
         state = Drive(dry * flat, viscous * share, constant * flat, np.sign(share), share, dry, flat, flat)
         return np.asarray(play(CHAIN, state, acts).recorded)
 
-    forms = _speed_forms() + presliding(share) + channel(time, False, False, True)
+    forms = _speed_forms() + presliding(share) + stirring(share, as_torque) + channel(time, False, False, True)
     if "load_N" in columns and not as_torque:
         forms += force_cell(columns["load_N"], time)
     if as_torque and "motor_torque_Nm" not in columns and "position_deg" not in columns:
