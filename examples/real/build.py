@@ -166,6 +166,55 @@ def friction_modifiers() -> Iterator[Found]:
         )
 
 
+def coast_down() -> Iterator[Found]:
+    """Every second stretch of 20 revolutions below 170 rpm, where the tested wheel has long been lifted off.
+
+    The torque is the inertia that the source takes times the deceleration. The noise is the scatter about a smooth
+    curve of each direction.
+    """
+    t = table("drum_coast_down")
+    system = {
+        "kind": "friction_map",
+        "description": "a drum alone coasts down in both directions, no motor and nothing in contact with it; torque "
+        "is 6.7575 kg m2 times the deceleration",
+        "recording": {
+            "quantity": "friction_torque_Nm",
+            "includes": "bearings of the drum and the air that it moves",
+            "noise": {"relative": 0.003},
+        },
+    }
+    columns = {"speed_rpm": t["speed_rpm"], "friction_torque_Nm": 6.7575 * t["deceleration_rad_s2"]}
+    yield "drum_coast_down", system, columns
+
+
+def robot_joints() -> Iterator[Found]:
+    """Two joints of robots; neither source states a noise, which is left to be estimated."""
+    kinova, fourth = table("kinova_joint"), table("robot_joint_4")
+    yield (
+        "kinova_joint",
+        {
+            "kind": "friction_map",
+            "description": "seventh joint of a Kinova Gen3 arm at ten commanded speeds in one direction, each run in "
+            "four parts, the first third left out; friction by the source's observer",
+            "recording": {"quantity": "friction_torque_Nm", "includes": "motor and gear of the joint"},
+        },
+        {
+            "speed_rpm": kinova["speed_rad_s"] * 30.0 / np.pi,
+            "friction_torque_Nm": kinova["friction_torque_Nm"],
+        },
+    )
+    yield (
+        "robot_joint_4",
+        {
+            "kind": "friction_map",
+            "description": "fourth joint of a six-axis arm, every fourth of 72 strokes in each direction; torque less "
+            "gravity as the source has it",
+            "recording": {"quantity": "friction_torque_Nm", "includes": "motor and gear of the joint"},
+        },
+        {"speed_rpm": fourth["speed_rad_s"] * 30.0 / np.pi, "friction_torque_Nm": fourth["torque_Nm"]},
+    )
+
+
 def film_two_oils(data: Path) -> Iterator[Found]:
     """Film of two unnamed oils; oil a at two temperatures.
 
@@ -330,6 +379,8 @@ TYPED_IN: tuple[Callable[[], Iterator[Found]], ...] = (
     leadscrews,
     viscosity_pressure,
     friction_modifiers,
+    coast_down,
+    robot_joints,
 )
 FROM_FILES: tuple[Callable[[Path], Iterator[Found]], ...] = (
     film_two_oils,

@@ -90,6 +90,48 @@ def test_falling_friction_of_run_in_cannot_be_the_growing_film(typed_in):
     assert left > 0.9 * base
 
 
+def rms(case, sd, *ids):
+    """Residual in units of a standard deviation, readings of boundless ones left out, and the parameters."""
+    prediction, _, values = fit(case, *ids, sd=sd)
+    z = (case.recordings[case.quantity] - prediction) / sd
+    return float(np.sqrt(np.mean(z[sd < 1e3] ** 2))), values
+
+
+def test_drum_that_coasts_down_drags_air(typed_in):
+    """No motor turns it; one stretch at 156 rpm lies 17 % off its neighbours."""
+    case = read_case(typed_in / "drum_coast_down")
+    sd = 0.003 * np.abs(case.recordings[case.quantity])
+    sd[np.isclose(case.recordings["speed_rpm"], 155.97)] = 1e6
+    base, _ = rms(case, sd)
+    drag, values = rms(case, sd, "fluid_drag")
+    assert base > 15.0
+    assert drag < 1.7
+    assert 1.7 < values["fluid_drag"]["exponent"] < 1.95
+    assert 2.5 < values["fluid_drag"]["strength"] < 4.5
+    for other in ("stribeck", "direction_dependence", "grease_shear_thinning", "presliding"):
+        assert rms(case, sd, other)[0] > 1.3 * drag
+
+
+def test_kinova_joint_lacks_nothing_beyond_the_scatter_inside_a_run(typed_in):
+    case = read_case(typed_in / "kinova_joint")
+    sd = np.full(len(case.recordings), 0.061)
+    base, _ = rms(case, sd)
+    assert base < 1.15
+    for other in ("stribeck", "fluid_drag", "grease_shear_thinning", "presliding"):
+        assert rms(case, sd, other)[0] > 0.88 * base
+
+
+def test_robot_joint_has_a_stribeck_minimum_in_both_directions(typed_in):
+    case = read_case(typed_in / "robot_joint_4")
+    sd = np.full(len(case.recordings), 0.062)
+    base, _ = rms(case, sd)
+    stribeck, values = rms(case, sd, "stribeck")
+    assert base > 2.8
+    assert stribeck < 1.1
+    assert 0.05 < values["stribeck"]["speed_share"] < 0.2
+    assert rms(case, sd, "fluid_drag")[0] > 1.4 * stribeck
+
+
 def log_residual(case, *ids, held=None):
     prediction, _, _ = fit(case, *ids, held=held)
     return float(np.std(np.log(case.recordings[case.quantity] / prediction)))
