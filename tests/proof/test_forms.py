@@ -186,7 +186,7 @@ def _rigs() -> list[Any]:
 def _benches() -> list[Bench]:
     rng = np.random.default_rng(8)
     return [
-        *(room.draw(rng) for room in (film, drive, viscosity) for _ in range(14)),
+        *(room.draw(rng) for room in (film, drive, viscosity) for _ in range(24)),
         *(draw(rng) for draw in (history.draw_steady, history.draw_loads, history.draw_traction) for _ in range(2)),
     ]
 

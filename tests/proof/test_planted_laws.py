@@ -174,6 +174,12 @@ def test_no_tribometer_has_a_fan_but_its_readings_may_be_taken_for_one():
         assert all(form.rarity == float(torque) for form in forms_of(bench, "fluid_drag"))
 
 
+def test_only_drives_whose_motor_torque_is_recorded_can_have_a_wrong_constant():
+    rng = np.random.default_rng(4)
+    for bench in (drive.draw(rng) for _ in range(60)):
+        assert ("torque_constant" in bench.ids) == ("motor_torque_Nm" in bench.columns)
+
+
 @pytest.mark.parametrize("draw", [history.draw_loads, history.draw_stribeck, drive.draw])
 def test_a_force_that_is_off_weighs_with_one_over_the_load(draw):
     bench = drawn(draw, lambda b: "force_offset" in b.ids)

@@ -211,13 +211,12 @@ def _position_forms(angle: np.ndarray) -> tuple[Form, ...]:
     )
 
 
-def _current_forms(motor: np.ndarray | None) -> tuple[Form, ...]:
-    """The torque comes from a current; without a column of its own it is the reading itself."""
+def _current_forms(motor: np.ndarray) -> tuple[Form, ...]:
+    """The torque comes from a current, which has a column of its own."""
 
     def lost(d: Drive, strength: float, bend: float, law: Callable[[np.ndarray], np.ndarray]) -> Drive:
-        torque = d.recorded if motor is None else motor
-        ratio = np.abs(torque) / np.abs(torque).max()
-        return replace(d, recorded=d.recorded + torque * 0.06 * strength * (1 - bend + bend * law(ratio)))
+        ratio = np.abs(motor) / np.abs(motor).max()
+        return replace(d, recorded=d.recorded + motor * 0.06 * strength * (1 - bend + bend * law(ratio)))
 
     def saturating(d: Drive, strength: float, bend: float) -> Drive:
         """The constant falls as k/(1 + c T): the torque that is not there."""
@@ -336,8 +335,6 @@ def draw(rng: np.random.Generator) -> Bench:
     forms = _speed_forms() + presliding(share) + stirring(share, as_torque) + channel(time, False, False, True)
     if "load_N" in columns and not as_torque:
         forms += force_cell(columns["load_N"], time)
-    if as_torque and "motor_torque_Nm" not in columns and "position_deg" not in columns:
-        forms += _current_forms(None)
     made = {
         "oil_temperature_C": _temperature_forms,
         "load_N": _load_forms,
