@@ -207,8 +207,8 @@ def robot_joints() -> Iterator[Found]:
         "robot_joint_4",
         {
             "kind": "friction_map",
-            "description": "fourth joint of a six-axis arm, every fourth of 72 strokes in each direction; torque less "
-            "gravity as the source has it",
+            "description": "fourth joint of a six-axis arm, every fourth of 72 strokes in each direction, gear "
+            "121; the torque may hold a constant of gravity",
             "recording": {"quantity": "friction_torque_Nm", "includes": "motor and gear of the joint"},
         },
         {"speed_rpm": fourth["speed_rad_s"] * 30.0 / np.pi, "friction_torque_Nm": fourth["torque_Nm"]},
