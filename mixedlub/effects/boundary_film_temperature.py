@@ -34,6 +34,7 @@ from mixedlub.laws.mixture import tallian_friction
     fingerprint={"oil_temperature": "-", "roughness": "-", "slide_roll_ratio": "+"},
     separated_by="oil without the additive, or film ratios above 3, where it vanishes; it sits between two "
     "temperatures, whereas everything viscous changes steadily",
+    contains={"a film as warm as the oil": {"flash": 0.0}},
     after=(
         "boundary_speed_dependence",
         "friction_event",

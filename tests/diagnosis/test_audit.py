@@ -206,3 +206,24 @@ def test_repeats_are_held_against_the_sds_in_the_column(
     rows = Table({**twice, f"{case.quantity}_sd": np.full(twice["run"].size, column)}, "recordings.csv")
     notes = doubts(case, rows, np.asarray(rows[case.quantity]), Forward(case, rows))
     assert any("contradict each other" in note for note in notes) is told
+
+
+def viscosities(folder: Path, thinnest: float, **recording: object) -> list[str]:
+    """What is said of twelve viscosities of two samples down to ``thinnest``."""
+    falling = np.geomspace(20.0, thinnest, 12)
+    columns = {"temperature_C": np.linspace(20.0, 90.0, 12), "viscosity_mPa_s": falling, "setup": ["a", "b"] * 6}
+    about = {"quantity": "viscosity_mPa_s", **recording}
+    case = read_case(write_case(folder / "oil", {"kind": "viscosity", "recording": about}, columns))
+    assert case.recordings is not None
+    return doubts(case, case.recordings, falling, Forward(case, case.recordings))
+
+
+def test_readings_below_the_range_of_the_equation_are_named(tmp_path: Path) -> None:
+    assert any("2 of 12 readings are below 2 mm2/s" in note for note in viscosities(tmp_path, 1.0))
+    assert not any("D341" in note for note in viscosities(tmp_path, 5.0))
+
+
+def test_set_ups_that_nothing_tells_apart_are_asked_about(tmp_path: Path) -> None:
+    noise = {"relative": 0.01, "setup_relative": 0.02}
+    assert any(note.startswith("2 set-ups are taken to read alike") for note in viscosities(tmp_path, 5.0))
+    assert not any("set-ups" in note for note in viscosities(tmp_path, 5.0, noise=noise))

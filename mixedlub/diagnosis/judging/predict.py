@@ -11,7 +11,7 @@ from mixedlub.diagnosis.fitting.fit import Fit, covariance, linear_fit, settled
 from mixedlub.diagnosis.fitting.problem import Problem
 from mixedlub.diagnosis.fitting.sudden import Places, elsewhere, places, sudden_places, without
 from mixedlub.diagnosis.recording.noise import by_level, seen_noise
-from mixedlub.diagnosis.searching.search import ELASTIC, Search, elastic_columns, typical_size, unbending
+from mixedlub.diagnosis.searching.search import ELASTIC, Search, can_bend, elastic_columns, typical_size
 from mixedlub.diagnosis.unnamed.carriers import carrier
 from mixedlub.forward import Forward
 from mixedlub.table import Table
@@ -64,8 +64,7 @@ def refine(found: Search, fit: Fit) -> Refined:
     sudden, sloping = sudden_places(problem, fit.explanation), fit
     fit = replace(fit, slopes=without(fit.slopes, sudden))
     fixed = np.hstack([fit.slopes, problem.shared])
-    stiff = unbending(found.fits, fit.explanation)
-    net = (fit.prediction - stiff.prediction) / problem.sd
+    net = (fit.prediction - found.none.prediction) / problem.sd
     typical = typical_size(net)
     columns = elastic_columns(net, typical, found.space, found.values)
     best, best_score = None, -np.inf
@@ -75,7 +74,7 @@ def refine(found: Search, fit: Fit) -> Refined:
         score = linear.evidence + np.log(weight)
         if score > best_score:
             best, best_score, used, bend = linear, score, every, (size if size and columns.size else 0.0)
-        if not fit.explanation:
+        if not can_bend(fit.explanation):
             break
     assert best is not None
     spread = covariance(used, best.weight)
@@ -87,7 +86,7 @@ def refine(found: Search, fit: Fit) -> Refined:
     def bends(prediction: np.ndarray) -> np.ndarray:
         if not bend:
             return np.zeros((prediction.size, 0))
-        net = (prediction - stiff.prediction) / problem.sd
+        net = (prediction - found.none.prediction) / problem.sd
         return np.asarray(bend * elastic_columns(net, typical, found.space, found.values))
 
     z, own = settled(problem, fit.explanation, fit.z, wanted, fit.common, bends, fit.weight)
@@ -125,8 +124,7 @@ class Rows:
         base = self.problem.base(z)
         columns = [slopes, np.zeros((len(self.table), self.found.problem.shared.shape[1]))]
         if refined.bend:
-            stiff = unbending(self.found.fits, fit.explanation)
-            net = (mean - self.problem.predict(stiff.explanation, stiff.z)) / self.problem.sd
+            net = (mean - self.problem.predict((), self.found.none.z)) / self.problem.sd
             own = refined.bend * elastic_columns(net, refined.typical, self.found.space, self.values)
             columns.append(own)
             mean = mean + self.problem.sd * (own @ refined.coefficients[-own.shape[1] :])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.diagnosis.fitting.fit import outlier_chance
+from mixedlub.diagnosis.fitting.problem import Explanation
 from mixedlub.diagnosis.fitting.sudden import sudden_places
 from mixedlub.diagnosis.judging.heldout import HeldOut, LevelsOut
 from mixedlub.diagnosis.judging.mismatch import Mismatch
@@ -23,7 +24,7 @@ def judge(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
     best of those tried leaves more there than noise, the odds between names are less sure.
     """
     levels = LevelsOut.of(found)
-    names = sorted(filter(names_effects, found.log_weights), key=lambda key: -found.log_weights[key])
+    names = sorted(filter(None, found.scores), key=lambda key: -found.log_weights[key])
     tried: dict[Key, tuple[HeldOut, float]] = {}
     unnamed: dict[Key, float] = {}
     while True:
@@ -40,15 +41,23 @@ def judge(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
         if names and "unknown" in judged.tied and not unnamed:
             if names[0] not in tried:
                 tried[names[0]] = _held_against(levels, found, names[0])
-            free, named = _held_against(levels, found, "unknown")[0], tried[names[0]][0]
-            lead = found.log_weights["unknown"] - found.log_weights[names[0]]
-            unnamed = {"unknown": max(free.behind(named), lead if free.outdone(named) else 0.0)}
+            unnamed = {"unknown": _behind(levels, found, names[0], tried[names[0]][0])}
             continue
         fresh = [key for key in judged.tied if key not in tried and names_effects(key)]
         if not fresh or len(tried) >= CANDIDATES:
             key = judged.verdict
             return judged, (tried.get(key) or _held_against(levels, found, key))[0]
         tried[fresh[0]] = _held_against(levels, found, fresh[0])
+
+
+def _behind(levels: LevelsOut, found: Search, name: Explanation, named: HeldOut) -> float:
+    """What the unnamed mismatch loses in log odds against the first name, by what both foretell."""
+    outliers = outlier_chance(found.unknown.fit.residual) > 0.5
+    free = levels.held("unknown", outliers)
+    # Readings that only the name takes for wild are among those it has to foretell.
+    outdone = free.outdone(levels.held(name, outliers))
+    lead = found.log_weights["unknown"] - found.log_weights[name]
+    return max(free.behind(named), lead if outdone else 0.0)
 
 
 def _held_against(levels: LevelsOut, found: Search, key: Key) -> tuple[HeldOut, float]:

@@ -36,6 +36,8 @@ MOST_SLIDING = 10.0
 SLIP_WITHIN = 2.0
 """How far a slip of the unit may be off its power of ten: the base model itself is that good."""
 THINNEST_OIL = 0.4
+THINNEST_D341 = 2e-6
+"""Kinematic viscosity (m2/s) down to which log log(nu + 0.7) is all of ASTM D341."""
 STUCK_ROWS, STUCK_SHARE = 5, 0.2
 """A value that stands in so many rows, and in such a share of them, is looked at."""
 STUCK_STEPS, STUCK_SPAN = 3.0, 0.05
@@ -74,7 +76,9 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
     base = forward.nominal()
     return [
         *_parts(case, rows),
+        *_setups(case, rows),
         *_scarce(y),
+        *_thin(case, y, forward),
         *_of_another_unit(case, y, base),
         *_sliding(rows),
         *_warm(rows),
@@ -106,6 +110,34 @@ def _parts(case: Case, rows: Table) -> list[str]:
     return [
         f"readings of the rigs {', '.join(whole.tolist())} are all compared with the whole base model: a part rig is "
         f"modelled {known}"
+    ]
+
+
+def _setups(case: Case, rows: Table) -> list[str]:
+    """Set-ups of which nothing says how much they differ."""
+    stated = case.system.recording.noise
+    if "setup" not in rows or (stated is not None and (stated.setup_relative > 0 or stated.setup_absolute > 0)):
+        return []
+    count = np.unique(rows["setup"]).size
+    if count < 2:
+        return []
+    return [
+        f"{count} set-ups are taken to read alike: how much a set-up is off as a whole is for noise.setup_relative or "
+        "noise.setup_absolute to say"
+    ]
+
+
+def _thin(case: Case, y: np.ndarray, forward: Forward) -> list[str]:
+    """Viscosities so low that the equation of the base model is used beyond its range."""
+    if case.quantity != "viscosity_mPa_s":
+        return []
+    kinematic = 1e-3 * np.abs(y) / np.broadcast_to(forward.inputs["oil_density"], (y.size, 1))[:, 0]
+    low = int(np.count_nonzero(kinematic < THINNEST_D341))
+    if not low:
+        return []
+    return [
+        f"{low} of {y.size} readings are below {1e6 * THINNEST_D341:g} mm2/s, where ASTM D341 has further terms that "
+        "the base model leaves out: what is missing there may be those"
     ]
 
 

@@ -196,7 +196,7 @@ def _scores(
     problem: Problem, fits: Mapping[Explanation, Fit], space: Coordinates, values: list[np.ndarray]
 ) -> dict[Explanation, float]:
     """Evidence of every explanation with forms a little wrong, and with published laws where it is near the best."""
-    scores = {m: elastic_evidence(problem, unbending(fits, m), f, space, values) for m, f in fits.items()}
+    scores = {m: elastic_evidence(problem, fits[()], f, space, values) for m, f in fits.items()}
     best = max(scores.values())
     return {m: s + (published_gain(problem, fits[m]) if s > best - NEAR else 0.0) for m, s in scores.items()}
 
@@ -258,22 +258,19 @@ def placed(problem: Problem, fit: Fit) -> Fit:
     return replace(fit, evidence=fit.evidence + gained)
 
 
-def unbending(fits: Mapping[Explanation, Fit], explanation: Explanation) -> Fit:
-    """The fit of those effects of an explanation whose form is exact; the base model's where there are none."""
-    exact = tuple(e.id for e in effects_of(explanation) if e.exact)
-    return fits.get(exact, fits[()])
+def can_bend(explanation: Explanation) -> bool:
+    """Whether an effect has a form that could be a little wrong: none that is free and not only exact ones."""
+    effects = effects_of(explanation)
+    return not all(e.exact for e in effects) and not any(e.free_form for e in effects)
 
 
-def elastic_evidence(problem: Problem, stiff: Fit, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:
-    """Evidence with the effects' literature forms allowed to be a little wrong, smoothly over the conditions.
-
-    What they add to the ``stiff`` fit may bend. One of free form has none that could be wrong.
-    """
-    if not fit.explanation or any(e.free_form for e in effects_of(fit.explanation)):
+def elastic_evidence(problem: Problem, none: Fit, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:
+    """Evidence with the effects' literature forms allowed to be a little wrong, smoothly over the conditions."""
+    if not can_bend(fit.explanation):
         return fit.evidence
     base = np.hstack([fit.slopes, problem.shared])
     plain = linear_fit(fit.anchor, base, fit.weight).evidence
-    net = (fit.prediction - stiff.prediction) / problem.sd
+    net = (fit.prediction - none.prediction) / problem.sd
     bend = elastic_columns(net, typical_size(net), space, values)
     gains = []
     for size, weight in ELASTIC:
