@@ -21,7 +21,7 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
     ),
     equation=r"T_r \leftarrow T_r + c\,T_c\,|\omega/\omega_0|^k\operatorname{sgn}\omega",
     source="H. Schlichting, Boundary-Layer Theory, 7th ed., 1979, chapters 5 and 21: a rotating disc has k = 1.5 in "
-    "laminar and 1.8 in turbulent flow; 2 for what is thrown about, as by a fan or by teeth in oil",
+    "laminar and 1.8 in turbulent flow; 2 for what is thrown about, as by a fan",
     contains={"a laminar disc": {"exponent": 1.5}, "a turbulent disc": {"exponent": 1.8}, "a fan": {"exponent": 2.0}},
     fingerprint={"speed": "+"},
     separated_by="a coast-down with covers off or in another gas, or another oil level: drag of grease grows no "
