@@ -168,6 +168,8 @@ def _page(effect: Effect) -> str:
         parts.append(_entry("recordings", ", ".join(effect.kinds)))
     if effect.odds < 1.0:
         parts.append(_entry("prior odds", f"{effect.odds:g} of those of an effect that is missing as often as most"))
+    if effect.exact:
+        parts.append(_entry("form", "exact: it is the effect's definition and does not bend in a fit"))
     parts += ["", "parameters"]
     labels = [f"  {with_symbol(p.name, plain_equation(p.symbol))}" for p in effect.parameters]
     indent = max(_INDENT, 2 + max(map(len, labels)))

@@ -50,9 +50,10 @@ def film_heating(
 ) -> np.ndarray:
     """Sliding heats the surfaces and the film between them, and the warmer film shears more easily.
 
-    The stress sets the heat and the heat the stress; both are met at once. Heat of the asperities warms the
-    surfaces too; temperatures are means over the contact. The literature takes beta at ambient pressure (Nahme,
-    Crook) or under that of the contact. Roelands' slope makes the form belong to Pa s.
+    The stress sets the heat and the heat the stress; both are met at once. Heat of the asperities, by the friction
+    that they have without a film of additives, warms the surfaces too; temperatures are means over the contact. The
+    literature takes beta at ambient pressure (Nahme, Crook) or under that of the contact. Roelands' slope makes the
+    form belong to Pa s.
 
     >>> flash = heating.flash_per_friction(0.9437e9, 0.148e-3, 2.2417, 0.7518, 46.0, 7800.0, 470.0)   # steel
     >>> oil = dict(viscosity=0.01489, contact_viscosity=70.2, temperature_viscosity=0.026, oil_conductivity=0.14)

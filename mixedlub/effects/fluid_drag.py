@@ -13,13 +13,13 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
             "strength",
             "-",
             LogNormal(0.5, 1.2),
-            "drag at the largest speed of the recording over Coulomb friction",
+            "drag at the largest speed of the recording over the typical reading",
             null=0.0,
             symbol="c",
         ),
         Parameter("exponent", "-", Between(1.5, 2.0), "power of speed", symbol="k", published=(1.5, 2.0)),
     ),
-    equation=r"T_r \leftarrow T_r + c\,T_c\,|\omega/\omega_0|^k\operatorname{sgn}\omega",
+    equation=r"T_r \leftarrow T_r + c\,y_0\,|\omega/\omega_0|^k\operatorname{sgn}\omega",
     source="H. Schlichting, Boundary-Layer Theory, 7th ed., 1979, chapters 5 and 21: a rotating disc has k = 1.5 in "
     "laminar and 1.8 in turbulent flow; 2 for what is thrown about, as by a fan",
     contains={"a laminar disc": {"exponent": 1.5}, "a turbulent disc": {"exponent": 1.8}, "a fan": {"exponent": 2.0}},
@@ -31,17 +31,17 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
 )
 def fluid_drag(
     running_friction: np.ndarray,
-    coulomb_torque: np.ndarray,
+    reading_scale: np.ndarray,
     drive_speed: np.ndarray,
     reference_speed: np.ndarray,
     *,
     strength: float,
     exponent: float,
 ) -> np.ndarray:
-    """Air or oil is thrown about, so friction grows faster than in proportion to speed.
+    """Air or oil is thrown about, so friction grows faster than in proportion to speed, whatever the load.
 
     >>> fluid_drag(2.0, 2.0, np.array([50.0, 100.0]), 100.0, strength=0.5, exponent=2.0).tolist()
     [2.25, 3.0]
     """
     share = np.abs(drive_speed) / reference_speed
-    return running_friction + strength * coulomb_torque * share**exponent * np.sign(drive_speed)
+    return running_friction + strength * reading_scale * share**exponent * np.sign(drive_speed)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.fitting.fit import linear_fit, map_fit, outlier_chance
+from mixedlub.diagnosis.fitting.fit import Fit, linear_fit, map_fit, outlier_chance
 from mixedlub.diagnosis.fitting.problem import Explanation, Problem
 from mixedlub.diagnosis.fitting.reference import importance_evidence
 from mixedlub.diagnosis.judging.mismatch import mismatch_test
@@ -128,6 +128,21 @@ def test_bending_cannot_rescue_a_wrong_effect_without_bound() -> None:
     best = max(found.scores, key=lambda m: found.scores[m])
     assert found.unknown.evidence > found.scores[("sensor_offset",)] + searching.BEND_MOST
     assert found.scores[best] > found.scores[("sensor_offset",)] + searching.BEND_MOST
+
+
+def test_a_zero_has_no_form_to_bend_and_an_idle_partner_lends_it_none() -> None:
+    p = problem("disc", extra=0.3)
+    space = coordinates(p.case, p.rows, p.forward)
+    values = space.values(p.case, p.rows, p.forward)
+    zero, pair = ("sensor_offset",), ("contact_creep", "sensor_offset")
+    fits = {m: map_fit(p, m, np.zeros(p.size(m))) for m in ((), zero, pair)}
+
+    def gain(stiff: Fit, fit: Fit) -> float:
+        return searching.elastic_evidence(p, stiff, fit, space, values) - fit.evidence
+
+    assert gain(fits[()], fits[zero]) == 0.0
+    against_base, against_zero = (gain(stiff, fits[pair]) for stiff in searching.unbending(fits, pair))
+    assert against_zero < 1.0 < against_base
 
 
 def test_unstated_noise_is_what_repeats_or_smoothness_show() -> None:

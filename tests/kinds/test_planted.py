@@ -309,7 +309,18 @@ def test_a_power_law_turns_its_sign_with_the_direction(make):
     assert law is not None
     assert dict(law.factors) == {"speed_rpm": 2}
     assert law.coefficient == pytest.approx(2.0 * (law.middles[0] / 200.0) ** 2, rel=0.1)
-    assert law.text.endswith("with the sign of the reading")
+    assert law.text.endswith("in the direction of motion")
+
+
+def test_a_power_law_of_what_keeps_its_sign_is_found_in_both_directions(make):
+    """A payload that grows with the load, as of a vertical axis."""
+    speed, load = np.tile(SPEED, 4), np.repeat([1.0, 2.0, 4.0, 8.0], SPEED.size)
+    payload = np.sign(speed) + 0.3 * speed / 200.0 + 0.3 * load
+    found = diagnose_case(make(*drive(payload, speed_rpm=speed, load_N=load)).folder, exclude=tuple(catalogue()))
+    law = power_law(found.found)
+    assert law is not None
+    assert dict(law.factors) == {"load_N": 1}
+    assert not law.odd
 
 
 def test_planted_growth_of_friction_is_found(make):

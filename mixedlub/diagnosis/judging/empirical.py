@@ -34,6 +34,8 @@ BEAM = 12
 """Forms that are kept and made longer at each step."""
 CELLS = 4_000_000
 MOST_BLOCKS = 6
+RELATIVE, TURNING = 0, 2
+"""Places among the carriers: the base model's reading, one, and the direction of motion where there are two."""
 MOST_READINGS = 1500
 """Readings that forms are tried on."""
 SEED = 1
@@ -58,8 +60,8 @@ class Law:
 
     ``relative`` laws are a share of the calibrated base model's reading, others have its unit. ``shape`` is the
     product (times the base model's reading where relative) for each reading, ``observed`` what the recording
-    has beyond the base model at the law's calibration; their ratio is the coefficient but for noise. Laws of readings
-    of either sign are ``odd``: they have the sign of the reading.
+    has beyond the base model at the law's calibration; their ratio is the coefficient but for noise. ``odd`` laws turn
+    their sign with the direction of motion.
     """
 
     factors: tuple[tuple[str, Fraction], ...]
@@ -84,7 +86,7 @@ class Law:
             else f"{number(self.coefficient)} × base"
         )
         parts = [f"({_words(name)}/{_middle(name, x)})^{_power(b)}" for (name, b), x in self._items]
-        sign = ", with the sign of the reading" if self.odd and not self.relative else ""
+        sign = ", in the direction of motion" if self.odd else ""
         return "missing part = " + " × ".join([head, *parts]) + sign
 
     @property
@@ -176,19 +178,18 @@ class _Search:
             self.names, self.logs[rows], self.share[rows], self.fixed[rows], self.target[rows], self.weight[rows]
         )
 
-    def columns(self, powers: np.ndarray, relative: np.ndarray) -> np.ndarray:
-        """One column in sigmas a form: product of powers, times the reading where relative; shape (forms, rows)."""
-        scale = np.where(relative[:, None], self.share[:, 0], self.share[:, 1])
-        return scale * np.exp(np.clip(powers @ self.logs.T, -30.0, 30.0))
+    def columns(self, powers: np.ndarray, carrier: np.ndarray) -> np.ndarray:
+        """One column in sigmas a form: product of powers, times one of the carriers; shape (forms, rows)."""
+        return self.share.T[carrier] * np.exp(np.clip(powers @ self.logs.T, -30.0, 30.0))
 
-    def evidence(self, powers: np.ndarray, relative: np.ndarray) -> np.ndarray:
+    def evidence(self, powers: np.ndarray, carrier: np.ndarray) -> np.ndarray:
         """Log evidence of each form over nothing, its amplitude averaged over SIZES."""
         whitened = whitening(self.fixed, self.weight)
         found = np.empty(len(powers))
         step = max(1, CELLS // self.target.size)
         for start in range(0, len(powers), step):
             part = slice(start, start + step)
-            each = self.columns(powers[part], relative[part])
+            each = self.columns(powers[part], carrier[part])
             each = each / np.sqrt(np.mean(each**2, axis=1))[:, None]
             seen = whitened(each)
             power = np.einsum("ij,ij->i", seen, each)
@@ -199,10 +200,10 @@ class _Search:
             found[part] = np.logaddexp.reduce(value, axis=0) - np.log(len(SIZES))
         return found
 
-    def best(self) -> tuple[float, np.ndarray, bool]:
-        """The form with the highest posterior: two factors at once, a third added to the leaders."""
+    def best(self) -> tuple[float, np.ndarray, int]:
+        """The form with the highest posterior, and its carrier: two factors at once, a third added to the leaders."""
         count = len(self.names)
-        leaders: list[tuple[float, np.ndarray, bool]] = []
+        leaders: list[tuple[float, np.ndarray, int]] = []
         for size in range(3):
             leaders += self._weigh(_all_powers(count, size), size)
         leaders.sort(key=lambda item: -item[0])
@@ -218,16 +219,16 @@ class _Search:
             leaders += self._weigh(np.unique(np.array(thirds), axis=0), 3)
         return max(leaders, key=lambda item: item[0])
 
-    def _weigh(self, powers: np.ndarray, size: int) -> list[tuple[float, np.ndarray, bool]]:
+    def _weigh(self, powers: np.ndarray, size: int) -> list[tuple[float, np.ndarray, int]]:
         """Forms of a size with their log posterior; every further factor halves the prior of the whole size."""
         if not len(powers):
             return []
-        both = np.vstack([powers, powers])
-        relative = np.repeat([True, False], len(powers))
+        count = self.share.shape[1]
+        every, carrier = np.tile(powers, (count, 1)), np.repeat(np.arange(count), len(powers))
         forms = comb(len(self.names), size) * (2 * len(EXPONENTS)) ** size
-        score = self.evidence(both, relative) - np.log(2.0 * forms)
+        score = self.evidence(every, carrier) - np.log(count * forms)
         order = np.argsort(-score, kind="stable")[:BEAM]
-        return [(float(score[i]), both[i], bool(relative[i])) for i in order]
+        return [(float(score[i]), every[i], int(carrier[i])) for i in order]
 
 
 def _all_powers(count: int, size: int) -> np.ndarray:
@@ -267,27 +268,26 @@ def power_law(found: Search) -> Law | None:
     logs = np.log(np.array(list(values.values())).T / middles)
     one = problem.sd * problem.unit_size(found.none.prediction)
     level = problem.level(none.prediction)
-    # Features are sizes: what is missing turns its sign with a reading that does, as friction with the direction.
-    share = np.column_stack([level, np.sign(level)]) / one[:, None]
+    share = np.column_stack([level, np.ones_like(level), *_turning(found)]) / one[:, None]
     fixed = np.hstack([none.slopes, problem.shared])
     whole = _Search(names, logs, share, fixed, none.anchor, found.unknown.fit.weight)
     count = min(problem.y.size, MOST_READINGS)
     thin = np.sort(np.random.default_rng(SEED).choice(problem.y.size, count, replace=False))
     every = whole.take(thin)
-    score, powers, relative = every.best()
+    score, powers, carrier = every.best()
     if score < GAIN:
         return None
     before, after, wins = _held_out(found, every, thin)
     if after > WORTH * before or not wins:
         return None
-    own = whole.columns(powers[None], np.array([relative]))[0]
+    own = whole.columns(powers[None], np.array([carrier]))[0]
     coefficient, sd, c = _coefficient(whole, own)
     chosen = np.flatnonzero(powers)
     exponent = {float(b): b for b in EXPONENTS}
     return Law(
         factors=tuple((names[i], exponent[powers[i]]) for i in chosen),
         middles=tuple(float(middles[i]) for i in chosen),
-        relative=relative,
+        relative=carrier == RELATIVE,
         coefficient=coefficient,
         sd=sd,
         unit=unit_of(problem.case.quantity),
@@ -296,8 +296,16 @@ def power_law(found: Search) -> Law | None:
         heldout_after=after,
         shape=own * one,
         observed=(whole.target - fixed @ c[:-1]) * one,
-        odd=bool(level.min() < 0.0),
+        odd=carrier == TURNING,
     )
+
+
+def _turning(found: Search) -> list[np.ndarray]:
+    """The direction of motion of every reading as a sign, where both were run."""
+    speed = found.problem.forward.inputs.get("drive_speed")
+    if speed is None or np.ptp(np.sign(speed)) == 0.0:
+        return []
+    return [np.broadcast_to(np.sign(speed)[:, 0], found.problem.y.shape)]
 
 
 def _coefficient(every: _Search, own: np.ndarray) -> tuple[float, float, np.ndarray]:
@@ -325,10 +333,10 @@ def _held_out(found: Search, every: _Search, thin: np.ndarray) -> tuple[float, f
             train, test = every.take(~out), every.take(out)
             plain = linear_fit(train.target, train.fixed, train.weight)
             left[0, out] = test.target - test.fixed @ plain.coefficients
-            _, powers, relative = train.best()
-            flag = np.array([relative])
-            _, _, c = _coefficient(train, train.columns(powers[None], flag)[0])
-            left[1, out] = test.target - np.column_stack([test.fixed, test.columns(powers[None], flag)[0]]) @ c
+            _, powers, carrier = train.best()
+            by = np.array([carrier])
+            _, _, c = _coefficient(train, train.columns(powers[None], by)[0])
+            left[1, out] = test.target - np.column_stack([test.fixed, test.columns(powers[None], by)[0]]) @ c
         mean = (every.weight * left**2).sum(axis=1) / every.weight.sum()
         squares.append((float(mean[0]), float(mean[1])))
     if not squares:

@@ -27,8 +27,9 @@ LEAST = 0.3
 """Smallest mismatch, in squared sigmas, of which a share left over is told."""
 CHANCE = 5.0
 """How much better than the unnamed mismatch a name may predict levels left out by chance, in log probability."""
-FORETOLD = 0.8
-"""Share of the mismatch on levels left out that a name must foretell so that no unnamed form may rule it out."""
+FORETOLD, NOISY = 0.8, 2.0
+"""Share of the mismatch on inner levels that a name foretells so that no unnamed form may rule it out; and how many
+times their variance readings may lie off there."""
 LESS = 0.5
 """Share of what an unnamed form leaves there, above noise, from which down a name clearly leaves less."""
 
@@ -96,14 +97,16 @@ class HeldOut:
     def outdone(self, name: HeldOut) -> bool:
         """Whether a name foretells nearly all of the mismatch on levels left out and this, the unnamed, clearly less.
 
-        What follows the readings that closely that it foretells no others cannot rule a name out.
+        What follows the readings that closely that it foretells no others cannot rule a name out. Both are told on
+        inner levels: beyond the others any law goes on and any free form ends.
 
-        >>> ripple, stribeck = (HeldOut(3.9, rms, "", 8, 144, rms, 0.0, 0.0) for rms in (3.7, 1.7))
+        >>> ripple, stribeck = (HeldOut(3.9, left, "", 8, 144, s, 0.0, 0.0) for left, s in ((3.7, 1.0), (1.6, 1.4)))
         >>> ripple.outdone(stribeck), stribeck.outdone(ripple)
         (True, False)
         """
         missing, left = name.before**2 - 1.0, name.after**2 - 1.0
-        return left < (1.0 - FORETOLD) * missing and left < LESS * (self.after**2 - 1.0)
+        near = left < (1.0 - FORETOLD) * missing and name.inflation < NOISY
+        return missing > LEAST and near and left < LESS * (self.after**2 - 1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,12 +128,13 @@ class LevelsOut:
     name: str
     folds: tuple[_Fold, ...]
     before: np.ndarray
+    inner: np.ndarray
 
     @classmethod
     def of(cls, whole: Search) -> LevelsOut:
         """Leave out each level of the condition with the most levels (up to 8)."""
         found = whole.screened
-        name, label = _folds(found)
+        name, label, ordered = _folds(found)
         folds, before = [], np.zeros(found.problem.y.size)
         for k in range(int(label.max()) + 1):
             out = label == k
@@ -141,10 +145,11 @@ class LevelsOut:
             before[out] = (test.y - test.predict((), none.z)) / wide
             folds.append(_Fold(out, train, test, wide))
         used = np.isin(whole.problem.rows["run"], found.problem.rows["run"])
-        return cls(found, used, name, tuple(folds), before)
+        inner = (label > label.min()) & (label < label.max()) if ordered else np.ones(label.size, bool)
+        return cls(found, used, name, tuple(folds), before, inner)
 
-    def held(self, verdict: Explanation | str, outliers: np.ndarray) -> HeldOut:
-        """Refit the parameters of a verdict without each level, and predict it."""
+    def held(self, verdict: Explanation | str, outliers: np.ndarray, inner: bool = False) -> HeldOut:
+        """Refit the parameters of a verdict without each level, and predict it; ``inner``: of levels between others."""
         outliers = outliers[self.used]
         after, open_variance = np.zeros((2, self.before.size))
         forms = _unnamed_columns(self.found) if verdict == "unknown" else []
@@ -169,6 +174,7 @@ class LevelsOut:
                 columns = np.hstack([without(fit.slopes, sudden), f.train.shared])
                 open_variance[f.out] = _open_variance(columns, fit.weight, slopes) + variance / f.wide**2
         kept = ~outliers if not outliers.all() else np.ones(outliers.size, bool)
+        kept = kept & self.inner if inner and (kept & self.inner).any() else kept
         spread = np.sqrt(1.0 + open_variance)
         return HeldOut(
             float(np.sqrt(np.mean(self.before[kept] ** 2))),
@@ -217,8 +223,9 @@ def _unknown_left(found: Search, forms: list[np.ndarray], out: np.ndarray) -> tu
     return mean, chance @ (np.array(variance) + (np.array(left) - mean) ** 2)
 
 
-def _folds(found: Search) -> tuple[str, np.ndarray]:
-    best: tuple[int, str, np.ndarray] | None = None
+def _folds(found: Search) -> tuple[str, np.ndarray, bool]:
+    """The condition with the most levels, the level of every reading, and whether levels have an order."""
+    best: tuple[int, str, np.ndarray, bool] | None = None
     for axis, values in zip(found.space.axes, found.values, strict=True):
         if axis.name in ("sequence", "composite_roughness_um"):
             continue
@@ -231,7 +238,7 @@ def _folds(found: Search) -> tuple[str, np.ndarray]:
             label = label % MOST_FOLDS
         count = int(np.unique(label).size)
         if count >= 3 and (best is None or count > best[0]):
-            best = (count, axis.name, np.unique(label, return_inverse=True)[1])
+            best = (count, axis.name, np.unique(label, return_inverse=True)[1], not axis.named)
     if best is None:
-        return "", np.arange(found.problem.y.size) % min(5, found.problem.y.size)
-    return best[1], best[2]
+        return "", np.arange(found.problem.y.size) % min(5, found.problem.y.size), False
+    return best[1:]

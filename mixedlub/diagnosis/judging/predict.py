@@ -11,7 +11,7 @@ from mixedlub.diagnosis.fitting.fit import Fit, covariance, linear_fit, settled
 from mixedlub.diagnosis.fitting.problem import Problem
 from mixedlub.diagnosis.fitting.sudden import Places, elsewhere, places, sudden_places, without
 from mixedlub.diagnosis.recording.noise import by_level, seen_noise
-from mixedlub.diagnosis.searching.search import ELASTIC, Search, can_bend, elastic_columns, typical_size
+from mixedlub.diagnosis.searching.search import ELASTIC, Search, bendable, elastic_columns, typical_size
 from mixedlub.diagnosis.unnamed.carriers import carrier
 from mixedlub.forward import Forward
 from mixedlub.table import Table
@@ -74,7 +74,7 @@ def refine(found: Search, fit: Fit) -> Refined:
         score = linear.evidence + np.log(weight)
         if score > best_score:
             best, best_score, used, bend = linear, score, every, (size if size and columns.size else 0.0)
-        if not can_bend(fit.explanation):
+        if not bendable(fit.explanation):
             break
     assert best is not None
     spread = covariance(used, best.weight)

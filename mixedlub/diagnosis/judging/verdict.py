@@ -7,9 +7,9 @@ import numpy as np
 from mixedlub.diagnosis.fitting.fit import outlier_chance
 from mixedlub.diagnosis.fitting.problem import Explanation
 from mixedlub.diagnosis.fitting.sudden import sudden_places
-from mixedlub.diagnosis.judging.heldout import HeldOut, LevelsOut
+from mixedlub.diagnosis.judging.heldout import DEMERIT, HeldOut, LevelsOut
 from mixedlub.diagnosis.judging.mismatch import Mismatch
-from mixedlub.diagnosis.judging.posterior import Key, Posterior, names_effects, posterior
+from mixedlub.diagnosis.judging.posterior import MARGIN, Key, Posterior, names_effects, posterior
 from mixedlub.diagnosis.searching.search import Search
 
 CANDIDATES = 6
@@ -20,7 +20,7 @@ def judge(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
     """Probabilities, with the verdict and what ties with it first held against levels left out.
 
     When CANDIDATES names were tried, the others are taken to fail like the best of those that did. The unnamed
-    mismatch is held against the first name, and is no more probable where that clearly outdoes it. Where even the
+    mismatch is held against the first name, and hardly more probable where that clearly outdoes it. Where even the
     best of those tried leaves more there than noise, the odds between names are less sure.
     """
     levels = LevelsOut.of(found)
@@ -51,13 +51,17 @@ def judge(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
 
 
 def _behind(levels: LevelsOut, found: Search, name: Explanation, named: HeldOut) -> float:
-    """What the unnamed mismatch loses in log odds against the first name, by what both foretell."""
+    """What the unnamed mismatch loses in log odds against the first name, by what both foretell.
+
+    A name that clearly outdoes it on inner levels ties with it, and stays behind it.
+    """
     outliers = outlier_chance(found.unknown.fit.residual) > 0.5
-    free = levels.held("unknown", outliers)
+    behind = levels.held("unknown", outliers).behind(named)
     # Readings that only the name takes for wild are among those it has to foretell.
-    outdone = free.outdone(levels.held(name, outliers))
-    lead = found.log_weights["unknown"] - found.log_weights[name]
-    return max(free.behind(named), lead if outdone else 0.0)
+    if not levels.held("unknown", outliers, inner=True).outdone(levels.held(name, outliers, inner=True)):
+        return behind
+    lead = found.log_weights["unknown"] - found.log_weights[name] - np.log(MARGIN)
+    return max(behind, float(np.clip(lead, 0.0, DEMERIT)))
 
 
 def _held_against(levels: LevelsOut, found: Search, key: Key) -> tuple[HeldOut, float]:

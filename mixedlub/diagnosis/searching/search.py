@@ -196,7 +196,10 @@ def _scores(
     problem: Problem, fits: Mapping[Explanation, Fit], space: Coordinates, values: list[np.ndarray]
 ) -> dict[Explanation, float]:
     """Evidence of every explanation with forms a little wrong, and with published laws where it is near the best."""
-    scores = {m: elastic_evidence(problem, fits[()], f, space, values) for m, f in fits.items()}
+    scores = {
+        m: min(elastic_evidence(problem, stiff, f, space, values) for stiff in unbending(fits, m))
+        for m, f in fits.items()
+    }
     best = max(scores.values())
     return {m: s + (published_gain(problem, fits[m]) if s > best - NEAR else 0.0) for m, s in scores.items()}
 
@@ -258,19 +261,29 @@ def placed(problem: Problem, fit: Fit) -> Fit:
     return replace(fit, evidence=fit.evidence + gained)
 
 
-def can_bend(explanation: Explanation) -> bool:
-    """Whether an effect has a form that could be a little wrong: none that is free and not only exact ones."""
+def bendable(explanation: Explanation) -> int:
+    """How many of its effects have a form that could be a little wrong: exact ones have not; none where one is free."""
     effects = effects_of(explanation)
-    return not all(e.exact for e in effects) and not any(e.free_form for e in effects)
+    return 0 if any(e.free_form for e in effects) else sum(not e.exact for e in effects)
 
 
-def elastic_evidence(problem: Problem, none: Fit, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:
-    """Evidence with the effects' literature forms allowed to be a little wrong, smoothly over the conditions."""
-    if not can_bend(fit.explanation):
+def unbending(fits: Mapping[Explanation, Fit], explanation: Explanation) -> tuple[Fit, ...]:
+    """The fits that an explanation bends against: the base model, and its exact effects alone.
+
+    The second keeps an effect that does nothing beside an exact one from bending what that one does.
+    """
+    exact = tuple(e.id for e in effects_of(explanation) if e.exact)
+    return (fits[()], *([fits[exact]] if exact and exact in fits else []))
+
+
+def elastic_evidence(problem: Problem, stiff: Fit, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:
+    """Evidence with the effects' forms, what they add to a ``stiff`` fit, allowed to be a little wrong, smoothly."""
+    count = bendable(fit.explanation)
+    if not count:
         return fit.evidence
     base = np.hstack([fit.slopes, problem.shared])
     plain = linear_fit(fit.anchor, base, fit.weight).evidence
-    net = (fit.prediction - none.prediction) / problem.sd
+    net = (fit.prediction - stiff.prediction) / problem.sd
     bend = elastic_columns(net, typical_size(net), space, values)
     gains = []
     for size, weight in ELASTIC:
@@ -280,7 +293,7 @@ def elastic_evidence(problem: Problem, none: Fit, fit: Fit, space: Coordinates, 
         bent = linear_fit(fit.anchor, np.hstack([base, size * bend]), fit.weight).evidence
         gains.append(np.log(weight) + bent - plain)
     most = float(np.clip(BEND_SHARE * net @ (net * fit.weight), BEND_LIMIT, BEND_MOST))
-    return fit.evidence + min(float(np.logaddexp.reduce(gains)), most / len(fit.explanation))
+    return fit.evidence + min(float(np.logaddexp.reduce(gains)), most / count)
 
 
 def typical_size(net: np.ndarray) -> float:

@@ -233,12 +233,7 @@ def nearest_name(d: Diagnosis) -> list[str]:
         return ["No effect of the catalogue takes up a half of it."]
     count = int(good.sum())
     noisy = left[nearest] < count + 2.0 * np.sqrt(2.0 * count)
-    rest = (
-        "What it leaves is within the noise: it ranks behind for values or a calibration far from what is usual, or "
-        "for being two effects at once."
-        if noisy
-        else "The rest has another form."
-    )
+    rest = "What it leaves is no more than noise makes." if noisy else "The rest has another form."
     return [
         f"Nearest in the catalogue: {explanation_words(list(nearest))}, with {100 * taken:.0f} % of it taken up "
         f"(chi-square {number(left[()])} to {number(left[nearest])} for {count} readings). {rest}"
