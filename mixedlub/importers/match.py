@@ -168,9 +168,15 @@ def _find(column: Column, cells: Cells, found: _Finding) -> None:
 
 
 def _find_count(cells: Cells, found: _Finding) -> None:
-    """The header that counts cycles or a distance, where nothing holds the time."""
+    """The header that counts cycles or a distance; a question where another one may hold the time itself."""
     header = pace.header_of_count(cells)
-    if header is not None and COLUMNS + pace.TIME not in {question.key for question in found.questions}:
+    if header is None or COLUMNS + pace.TIME in {question.key for question in found.questions}:
+        return
+    times = pace.headers_in_time({h: v for h, v in cells.items() if h not in found.headers.values()})
+    if times:
+        text = f"Header of the column that holds {pace.TIME}, or counts cycles or a distance instead"
+        found.questions.append(Question(COLUMNS + pace.TIME, text, toml_value(times[0]), among=(*times, header)))
+    else:
         found.headers[pace.TIME] = header
 
 
