@@ -305,6 +305,17 @@ def is_unit(text: str) -> bool:
     return any(fits(text, wanted) for wanted in UNITS)
 
 
+def is_of_another(unit: str, target: Target) -> bool:
+    """Whether a unit is one of another quantity than a column's; a kinematic viscosity is still one of viscosity.
+
+    >>> is_of_another("mPa s", BY_NAME["friction_coefficient"]), is_of_another("mm2/s", BY_NAME["viscosity_mPa_s"])
+    (True, False)
+    """
+    if tidy(unit).lower() in KINEMATIC:
+        return target.unit != "mPa_s"
+    return is_unit(unit) and not fits(unit, target.unit)
+
+
 def unknown_unit(unit: str, target: Target) -> str:
     """Why a unit is not taken as that of a column, and what could be."""
     meant = open_units(unit, target.unit)

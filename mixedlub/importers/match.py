@@ -13,6 +13,8 @@ from mixedlub.headers import (
     WEIGHED,
     Target,
     change_to,
+    fits,
+    is_of_another,
     open_units,
     split,
     target_of,
@@ -147,7 +149,7 @@ def _find(column: Column, cells: Cells, found: _Finding) -> None:
     if own:
         found.headers[column.name] = own[0]
         return
-    spoken = [h for h in cells if (target := target_of(h)) is not None and target.name == column.name]
+    spoken = [h for h in cells if _speaks_of(h, column.name)]
     if column.form != "name":
         order = {words: place for place, words in enumerate(BY_NAME[column.name].spoken)} if spoken else {}
         # A clock, or a column of remarks, may bear the words of a number.
@@ -168,10 +170,30 @@ def _find(column: Column, cells: Cells, found: _Finding) -> None:
 
 
 def _find_count(cells: Cells, found: _Finding) -> None:
-    """The header that counts cycles or a distance, where nothing holds the time."""
+    """The header that counts cycles or a distance; a question where another one may hold the time itself."""
     header = pace.header_of_count(cells)
-    if header is not None and COLUMNS + pace.TIME not in {question.key for question in found.questions}:
+    if header is None or COLUMNS + pace.TIME in {question.key for question in found.questions}:
+        return
+    times = pace.headers_in_time({h: v for h, v in cells.items() if h not in found.headers.values()})
+    if times:
+        text = f"Header of the column that holds {pace.TIME}, or counts cycles or a distance instead"
+        found.questions.append(Question(COLUMNS + pace.TIME, text, toml_value(times[0]), among=(*times, header)))
+    else:
         found.headers[pace.TIME] = header
+
+
+def _speaks_of(header: str, column: str) -> bool:
+    """Whether a header has the words for a column, and no unit that is one of another quantity.
+
+    A unit that is not known at all may be one of this column: it is refused with those that could be.
+
+    >>> [_speaks_of(h, "friction_coefficient") for h in ("mu", "mu [%]", "mu [mPa s]", "mu [cSt]", "mu [Vs]")]
+    [True, True, False, False, True]
+    """
+    target, unit = target_of(header), split(header)[1]
+    if target is None or target.name != column:
+        return False
+    return unit is None or fits(unit, pace.target_in(target, unit).unit) or not is_of_another(unit, target)
 
 
 def _is_named(header: str, column: str) -> bool:

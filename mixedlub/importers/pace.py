@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mixedlub.headers import BY_NAME, Target, change_to, rounded, split, words_of
+from mixedlub.headers import BY_NAME, Target, change_to, fits, rounded, split, words_of
 from mixedlub.importers.draft import Answers, Question
 from mixedlub.importers.sheet import COUNTED, Cells, are_numbers
 from profiles.errors import InputError
@@ -77,6 +77,12 @@ def counted(header: str) -> str | None:
 def header_of_count(cells: Cells) -> str | None:
     """The header that counts cycles or a distance."""
     return next((h for h in cells if counted(h) is not None and are_numbers(cells[h])), None)
+
+
+def headers_in_time(cells: Cells) -> list[str]:
+    """The headers of numbers in a unit of time, whatever their words."""
+    in_time = [h for h in cells if fits(split(h)[1] or "", BY_NAME[TIME].unit)]
+    return [h for h in in_time if are_numbers(cells[h])]
 
 
 def target_in(target: Target, unit: str) -> Target:

@@ -93,9 +93,12 @@ def _warmer(table: Table, recorded: Table) -> np.ndarray:
 
 
 def _motor_torque(table: Table, recorded: Table) -> Inputs:
-    """Torque of the motor where a load asks for one, and the largest recorded one for comparison."""
+    """Torque of the motor where a load asks for one, and the largest recorded one for comparison.
+
+    A column of zeros alone says that nothing loads the drive, not what its motor gives.
+    """
     motor, own = _motor_column(recorded), _motor_column(table)
-    if motor is None or own is None:
+    if motor is None or own is None or not np.any(recorded[motor] != 0):
         return {}
     return {"reference_torque": float(np.max(np.abs(recorded[motor]))), "motor_torque": column(table[own])}
 

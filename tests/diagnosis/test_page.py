@@ -15,6 +15,7 @@ from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.publishing.page import _cards, render
 from mixedlub.diagnosis.recording.audit import Doubt
 from mixedlub.diagnosis.telling import words
+from mixedlub.diagnosis.telling.headline import chance, percent
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 
@@ -132,6 +133,13 @@ def test_no_probability_is_certain(offset: Diagnosis) -> None:
         weights = {**offset.posterior.weights, verdict: weight}
         sure = replace(offset, posterior=replace(offset.posterior, weights=weights))
         assert _cards(sure)[1][0] == shown
+
+
+@pytest.mark.parametrize("p", [0.0, 0.005, 0.0055, 0.006, 0.125, 0.285, 0.42, 0.994, 0.9945, 0.995, 0.9951, 1.0])
+def test_cards_and_text_round_a_probability_alike(p: float) -> None:
+    said, card = chance(p), percent(p)
+    ends = {"above 0.99": ">99 %", "below 0.01": "<1 %"}
+    assert card == (ends[said] if said in ends else f"{100 * float(said):.0f} %")
 
 
 def test_what_has_no_name_is_not_drawn_as_left_out(unnamed_files: dict[str, str]) -> None:

@@ -257,3 +257,35 @@ def test_a_mu_in_a_unit_of_viscosity_is_no_friction_coefficient():
     assert likely_headers(["friction_coefficient"], cells) == {}
     assert likely_headers(["viscosity_mPa_s"], cells) == {"viscosity_mPa_s": "mu (Pa s)"}
     assert likely_kind(cells) == "viscosity"
+
+
+HISTORY = {"kind": "friction_history"}
+
+
+def test_a_friction_in_the_unit_of_a_viscosity_is_none():
+    text = "Time (s);mu [mPa s];COF [-]\n1;100;.1\n2;100;.2\n3;90;.1\n"
+    found = draft(text, "t.csv", HISTORY)
+    assert found.columns["friction_coefficient"].tolist() == [0.1, 0.2, 0.1]
+    assert not [q.key for q in found.questions if q.needed and q.key not in HISTORY]
+
+
+def test_a_reading_beside_a_unit_of_another_quantity_is_asked_for():
+    text = "Time (s);mu [mPa s];Friction force ratio\n1;100;.1\n2;100;.2\n3;90;.1\n"
+    asked = {q.key: q.example for q in draft(text, "t.csv", HISTORY).questions if q.needed}
+    assert asked["import.columns.friction_coefficient"] == '"Friction force ratio"'
+
+
+def test_a_position_along_a_screw_is_no_angle():
+    text = "speed_rpm;Position [mm];friction_torque_Nm\n1;5;.1\n2;6;.2\n3;7;.1\n"
+    assert "position_deg" not in draft(text, "t.csv", DRIVE).columns
+
+
+def test_a_time_counted_in_cycles_is_still_the_time():
+    text = "Time (cycles);COF [-]\n1;.1\n2;.2\n3;.1\n"
+    found = draft(text, "t.csv", {**HISTORY, "import.seconds_a_cycle": 2.0})
+    assert found.columns["time_s"].tolist() == [2.0, 4.0, 6.0]
+
+
+def test_a_unit_that_is_not_known_is_refused_with_those_that_could_be():
+    with pytest.raises(InputError, match="'ft/min': unit of sliding_speed_m_s is not known"):
+        draft("Sliding speed (ft/min);friction_torque_Nm\n1;.1\n2;.2\n3;.1\n", "t.csv", DRIVE)

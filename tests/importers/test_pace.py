@@ -3,6 +3,7 @@
 import pytest
 
 from mixedlub.case import read_case
+from mixedlub.headers import split
 from mixedlub.importers import import_files
 from mixedlub.importers.likely import likely_kind
 from mixedlub.importers.plain import draft
@@ -61,6 +62,51 @@ def test_a_time_goes_before_what_counts():
     found = draft("Cycle;Time (s);mu\n1;10;0.1\n2;20;0.2\n3;40;0.15\n", "t.csv", HISTORY)
     assert found.columns["time_s"].tolist() == [10.0, 20.0, 40.0]
     assert not {CYCLE, SPEED} & {question.key for question in found.questions}
+
+
+RECORDED = ["t [s]", "t (h)", "Zeit [s]", "Duration [min]", "time since start (s)"]
+
+
+def beside(header, counts="Cycles", values=(7, 8, 9)):
+    """A recording against a count, with another column of numbers or words."""
+    rows = [f"{10 * (i + 1)};{value};0.{i + 1}" for i, value in enumerate(values)]
+    return "\n".join([f"{counts};{header};COF [-]", *rows]) + "\n"
+
+
+@pytest.mark.parametrize("pace", [{}, {CYCLE: 0.5}])
+@pytest.mark.parametrize("header", RECORDED)
+def test_a_count_beside_a_time_of_other_words_is_asked_about(header, pace):
+    found = draft(beside(header), "t.csv", {**HISTORY, **pace})
+    (question,) = [q for q in found.questions if q.needed and q.key not in HISTORY]
+    assert (question.key, question.among) == ("import.columns.time_s", (header, "Cycles"))
+    assert "time_s" not in found.columns
+
+
+@pytest.mark.parametrize("header", RECORDED)
+def test_either_answer_is_taken(header):
+    seconds = {"s": 1.0, "h": 3600.0, "min": 60.0}[split(header)[1]]
+    told = {**HISTORY, "import.columns.time_s": header}
+    times = draft(beside(header), "t.csv", told).columns["time_s"]
+    assert times.tolist() == [7 * seconds, 8 * seconds, 9 * seconds]
+    told |= {"import.columns.time_s": "Cycles", CYCLE: 0.5}
+    assert draft(beside(header), "t.csv", told).columns["time_s"].tolist() == [5.0, 10.0, 15.0]
+
+
+def test_a_distance_beside_a_time_of_other_words_is_asked_about_too():
+    found = draft(beside("t [s]", counts="Distance (m)"), "t.csv", HISTORY)
+    assert {q.key: q.among for q in found.questions}["import.columns.time_s"] == ("t [s]", "Distance (m)")
+
+
+def test_a_clock_is_no_time_beside_a_count():
+    clock = draft(beside("t [s]", values=("8:00", "8:01", "8:02")), "t.csv", {**HISTORY, CYCLE: 0.5})
+    assert clock.columns["time_s"].tolist() == [5.0, 10.0, 15.0]
+
+
+def test_the_wizard_offers_the_recorded_time_first(file, tmp_path):
+    settings = [f"{key}={value}" for key, value in HISTORY.items()]
+    replies = iter(["", "1"])
+    run([file(beside("t [s]"))], tmp_path / "case", settings, ask=lambda q: next(replies, ""), say=lambda s: None)
+    assert read_case(tmp_path / "case").recordings["time_s"].tolist() == [7.0, 8.0, 9.0]
 
 
 @pytest.mark.parametrize("header", ["Stroke (mm)", "Wear (mm)", "Cycle time", "Stroke"])

@@ -177,3 +177,20 @@ def test_point_contact_friction_takes_the_hertz_point_pressure(make):
     thick = eta * exp(lead * ((1 + p0 / 1.96e8) ** (20e-9 * 1.96e8 / lead) - 1))
     expected = 5e6 * asinh(thick * 0.25 / (h * 5e6)) / p0
     assert Forward(case, case.recordings).predict()[0] == pytest.approx(expected, rel=1e-6)
+
+
+ONE_WAY = np.geomspace(3.0, 3000.0, 12)
+BOTH_WAYS = np.concatenate([-ONE_WAY[::-1], ONE_WAY])
+
+
+@pytest.mark.parametrize("name", ["torque_Nm", "motor_torque_Nm"])
+@pytest.mark.parametrize("size", [0.0, 2.0])
+def test_a_torque_of_zeros_is_no_torque_of_the_motor(make, name, size):
+    friction = np.sign(BOTH_WAYS) * (1.0 + 0.3 * np.abs(BOTH_WAYS) / 3000.0)
+    columns = {"speed_rpm": BOTH_WAYS, name: np.full(BOTH_WAYS.size, size), "friction_torque_Nm": friction}
+    case = make(system("friction_map", "friction_torque_Nm"), columns)
+    forward = Forward(case, case.recordings)
+    offered = {effect.id: effect for effect in forward.effects()}
+    assert ("torque_constant" in offered) == (size > 0.0)
+    for effect in offered.values():
+        assert np.isfinite(forward.predict(None, {effect.id: effect.middle})).all(), effect.id

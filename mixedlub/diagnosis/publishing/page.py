@@ -13,7 +13,7 @@ from mixedlub.diagnosis.drawing.charts import colour_of
 from mixedlub.diagnosis.drawing.style import inline
 from mixedlub.diagnosis.fitting.problem import effects_of
 from mixedlub.diagnosis.labels import number, words_of
-from mixedlub.diagnosis.telling.headline import p_words
+from mixedlub.diagnosis.telling.headline import p_words, percent
 from mixedlub.diagnosis.telling.words import (
     ALIKE,
     GAIN,
@@ -138,16 +138,6 @@ def bare(tex: str) -> str:
     """An equation as the drawing takes it: brackets without sizes, every fraction in braces."""
     tex = re.sub(r"\\[bB]igg?[lr]?(?![a-zA-Z])", "", tex)
     return re.sub(r"\\frac\s+(\w)\s*(\w)", r"\\frac{\1}{\2}", tex)
-
-
-def percent(p: float) -> str:
-    """A probability in percent: neither certain nor impossible.
-
-    >>> percent(0.853), percent(0.9999), percent(0.001)
-    ('85 %', '>99 %', '<1 %')
-    """
-    share = 100.0 * p
-    return ">99 %" if share >= 99.5 else "<1 %" if share < 0.5 else f"{share:.0f} %"
 
 
 def _cards(d: Diagnosis) -> list[tuple[str, str]]:

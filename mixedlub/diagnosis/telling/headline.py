@@ -13,14 +13,32 @@ LEAST_P = 1e-300
 
 
 def chance(p: float) -> str:
-    """A probability as it is said.
+    """A probability as it is said: neither certain nor impossible.
 
     >>> chance(0.853), chance(0.9999), chance(0.001)
     ('0.85', 'above 0.99', 'below 0.01')
     """
-    if p > 0.994:
-        return "above 0.99"
-    return "below 0.01" if p < 0.006 else f"{p:.2f}"
+    share = hundredths(p)
+    return "above 0.99" if share > 99 else "below 0.01" if share < 1 else f"{share / 100:.2f}"
+
+
+def percent(p: float) -> str:
+    """The same in percent.
+
+    >>> percent(0.853), percent(0.9999), percent(0.001)
+    ('85 %', '>99 %', '<1 %')
+    """
+    share = hundredths(p)
+    return ">99 %" if share > 99 else "<1 %" if share < 1 else f"{share} %"
+
+
+def hundredths(p: float) -> int:
+    """A probability in hundredths, rounded once for all that say it: 0 and 100 are said as less and as more.
+
+    >>> [hundredths(p) for p in (0.0049, 0.0055, 0.9945, 0.9951)]
+    [0, 1, 99, 100]
+    """
+    return round(100.0 * p)
 
 
 def p_words(p: float) -> str:
