@@ -31,7 +31,7 @@ COLUMNS = (
 )
 MOTOR_TORQUE = Column("motor_torque_Nm", required=False)
 """No condition of the test: friction is what it has above the torque at the shaft."""
-LARGE = 0.95
+LARGE, LEAST_SHARE = 0.95, 0.3
 BARE_SHARE = 0.3
 """Friction of motor and sensor alone, over that of the whole drive, before the readings say it."""
 
@@ -127,13 +127,13 @@ def _motor_column(table: Table) -> str | None:
 
 
 def _size(system: config.System, recorded: Table) -> float:
-    """Typical size of the readings of the complete drive."""
+    """Typical size of the readings of the complete drive; in one direction a payload may make up for friction."""
     quantity = system.recording.quantity
     if quantity not in recorded:
         return 1.0
     whole = ~gears_out(recorded)
     values = np.abs(recorded[quantity][whole] if whole.any() else recorded[quantity])
-    return float(np.median(values)) or 1.0
+    return float(max(np.median(values), LEAST_SHARE * np.quantile(values, LARGE))) or 1.0
 
 
 def _largest(system: config.System, recorded: Table) -> float:

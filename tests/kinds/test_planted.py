@@ -294,6 +294,17 @@ def test_films_wanted_without_an_order_are_predicted_as_the_lowest_order_reads(m
     assert top[-1] == pytest.approx(60.0)
 
 
+def test_a_payload_as_large_as_friction_is_no_physics(make):
+    """Turning down a vertical axis hardly reads a torque."""
+    speed = np.concatenate([np.tile(SPEED[:14], 3), np.tile(SPEED[14:], 2)])
+    sections = system("friction_map", "friction_torque_Nm")
+    sections["recording"]["noise"] = {"relative": 0.01, "absolute": 0.004}
+    clean = 1.467 * np.sign(speed) + 0.16 * speed / 200.0 + 1.543
+    scatter = np.random.default_rng(3).standard_normal(speed.size) * np.hypot(0.01 * clean, 0.004)
+    found = diagnose_case(make(sections, {"friction_torque_Nm": clean + scatter, "speed_rpm": speed}).folder)
+    assert found.posterior.verdict == ()
+
+
 def test_planted_size_of_stribeck_friction_is_found(make):
     friction = coulomb() + 0.7 * np.exp(-np.abs(SPEED) / 30.0) * np.sign(SPEED)
     case = make(*drive(friction, speed_rpm=SPEED))
