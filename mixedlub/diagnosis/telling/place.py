@@ -54,13 +54,17 @@ def _mismatch(d: Diagnosis) -> np.ndarray:
 
 
 def _direction(z: np.ndarray, predicted: np.ndarray) -> str:
-    """Whether readings are more or less than expected, or larger or smaller where they have both signs.
+    """Whether readings are more or less than expected, or larger or smaller where some are negative.
 
     >>> _direction(np.array([2.0, 3.0]), np.ones(2)), _direction(np.array([2.0, -3.0]), np.array([1.0, -1.0]))
     ('more', 'more in size, either sign,')
+    >>> _direction(np.array([-2.0, -3.0]), -np.ones(2))
+    'more in size'
     """
     whole = max(float(np.sum(np.abs(z))), 1e-300)
-    for way, how in ((float(z.sum()), ""), (float(z @ np.sign(predicted)), " in size, either sign,")):
+    size = float(z @ np.sign(predicted))
+    ways = ((float(z.sum()), ""), (size, " in size, either sign,")) if predicted.max() > 0.0 else ((size, " in size"),)
+    for way, how in ways:
         if abs(way) >= EVEN * whole:
             return f"{'more' if way > 0.0 else 'less'}{how}"
     return "now more and now less"
