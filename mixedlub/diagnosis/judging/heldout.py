@@ -6,7 +6,7 @@ as all readings chose them; laws are held against the levels as published, witho
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 import numpy as np
@@ -129,6 +129,8 @@ class LevelsOut:
     folds: tuple[_Fold, ...]
     before: np.ndarray
     inner: np.ndarray
+    left: dict[Explanation | str, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
+    """What verdicts that were tried leave, each refitted once."""
 
     @classmethod
     def of(cls, whole: Search) -> LevelsOut:
@@ -149,8 +151,27 @@ class LevelsOut:
         return cls(found, used, name, tuple(folds), before, inner)
 
     def held(self, verdict: Explanation | str, outliers: np.ndarray, inner: bool = False) -> HeldOut:
-        """Refit the parameters of a verdict without each level, and predict it; ``inner``: of levels between others."""
+        """How a verdict predicts each level without it; ``inner``: of levels between others."""
         outliers = outliers[self.used]
+        if verdict not in self.left:
+            self.left[verdict] = self._left_by(verdict)
+        after, open_variance = self.left[verdict]
+        kept = ~outliers if not outliers.all() else np.ones(outliers.size, bool)
+        kept = kept & self.inner if inner and (kept & self.inner).any() else kept
+        spread = np.sqrt(1.0 + open_variance)
+        return HeldOut(
+            float(np.sqrt(np.mean(self.before[kept] ** 2))),
+            float(np.sqrt(np.mean(after[kept] ** 2))),
+            f"leave one level of {self.name} out" if self.name else "leave every fifth reading out",
+            len(self.folds),
+            int(kept.sum()),
+            float(np.sqrt(np.mean((after / spread)[kept] ** 2))),
+            float((log_likelihood(after / spread)[0] - np.log(spread)).sum()),
+            float(log_likelihood(self.before)[0].sum()),
+        )
+
+    def _left_by(self, verdict: Explanation | str) -> tuple[np.ndarray, np.ndarray]:
+        """Residual of every reading and its open variance, the parameters of a verdict refitted without its level."""
         after, open_variance = np.zeros((2, self.before.size))
         forms = _unnamed_columns(self.found) if verdict == "unknown" else []
         for f in self.folds:
@@ -173,19 +194,7 @@ class LevelsOut:
                 slopes = without(f.test.jacobian(fit.explanation, fit.z, run), sudden) * (f.test.sd / f.wide)[:, None]
                 columns = np.hstack([without(fit.slopes, sudden), f.train.shared])
                 open_variance[f.out] = _open_variance(columns, fit.weight, slopes) + variance / f.wide**2
-        kept = ~outliers if not outliers.all() else np.ones(outliers.size, bool)
-        kept = kept & self.inner if inner and (kept & self.inner).any() else kept
-        spread = np.sqrt(1.0 + open_variance)
-        return HeldOut(
-            float(np.sqrt(np.mean(self.before[kept] ** 2))),
-            float(np.sqrt(np.mean(after[kept] ** 2))),
-            f"leave one level of {self.name} out" if self.name else "leave every fifth reading out",
-            len(self.folds),
-            int(kept.sum()),
-            float(np.sqrt(np.mean((after / spread)[kept] ** 2))),
-            float((log_likelihood(after / spread)[0] - np.log(spread)).sum()),
-            float(log_likelihood(self.before)[0].sum()),
-        )
+        return after, open_variance
 
 
 def _open_variance(columns: np.ndarray, weight: np.ndarray, slopes: np.ndarray) -> np.ndarray:
