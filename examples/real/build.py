@@ -189,30 +189,24 @@ def coast_down() -> Iterator[Found]:
 
 def robot_joints() -> Iterator[Found]:
     """Two joints of robots; neither source states a noise, which is left to be estimated."""
-    kinova, fourth = table("kinova_joint"), table("robot_joint_4")
-    yield (
-        "kinova_joint",
-        {
-            "kind": "friction_map",
-            "description": "seventh joint of a Kinova Gen3 arm at ten commanded speeds in one direction, each run in "
-            "four parts, the first third left out; friction by the source's observer",
-            "recording": {"quantity": "friction_torque_Nm", "includes": "motor and gear of the joint"},
-        },
-        {
-            "speed_rpm": kinova["speed_rad_s"] * 30.0 / np.pi,
-            "friction_torque_Nm": kinova["friction_torque_Nm"],
-        },
-    )
-    yield (
-        "robot_joint_4",
-        {
-            "kind": "friction_map",
-            "description": "fourth joint of a six-axis arm, every fourth of 72 strokes in each direction, gear "
-            "121; the torque may hold a constant of gravity",
-            "recording": {"quantity": "friction_torque_Nm", "includes": "motor and gear of the joint"},
-        },
-        {"speed_rpm": fourth["speed_rad_s"] * 30.0 / np.pi, "friction_torque_Nm": fourth["torque_Nm"]},
-    )
+    for name, torque, description in (
+        (
+            "kinova_joint",
+            "friction_torque_Nm",
+            "seventh joint of a Kinova Gen3 arm at ten commanded speeds in one direction, each run in four parts, the "
+            "first third left out; friction by the source's observer",
+        ),
+        (
+            "robot_joint_4",
+            "torque_Nm",
+            "fourth joint of a six-axis arm, every fourth of 72 strokes in each direction, gear 121; the torque may "
+            "hold a constant of gravity",
+        ),
+    ):
+        t = table(name)
+        recording = {"quantity": "friction_torque_Nm", "includes": "motor and gear of the joint"}
+        system = {"kind": "friction_map", "description": description, "recording": recording}
+        yield name, system, {"speed_rpm": t["speed_rad_s"] * 30.0 / np.pi, "friction_torque_Nm": t[torque]}
 
 
 def film_two_oils(data: Path) -> Iterator[Found]:
