@@ -14,6 +14,7 @@ from mixedlub.diagnosis.recording.noise import (
     noise_from_repeats,
     pooled_sd,
     seen_noise,
+    setups_differ,
 )
 from mixedlub.forward import Forward
 from mixedlub.headers import unit_of
@@ -115,8 +116,7 @@ def _parts(case: Case, rows: Table) -> list[str]:
 
 def _setups(case: Case, rows: Table) -> list[str]:
     """Set-ups of which nothing says how much they differ."""
-    stated = case.system.recording.noise
-    if "setup" not in rows or (stated is not None and (stated.setup_relative > 0 or stated.setup_absolute > 0)):
+    if "setup" not in rows or setups_differ(case):
         return []
     count = np.unique(rows["setup"]).size
     if count < 2:

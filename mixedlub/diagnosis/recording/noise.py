@@ -40,6 +40,12 @@ def is_stated(case: Case, rows: Table) -> bool:
     return f"{case.quantity}_sd" in rows or (stated is not None and (stated.relative > 0 or stated.absolute > 0))
 
 
+def setups_differ(case: Case) -> bool:
+    """Whether the recording says how much a set-up is off as a whole."""
+    stated = case.system.recording.noise
+    return stated is not None and (stated.setup_relative > 0 or stated.setup_absolute > 0)
+
+
 def with_noise(case: Case, relative: float, absolute: float) -> Case:
     """The case with other noise of a single reading than it states."""
     noise = (case.system.recording.noise or config.Noise()).model_copy(
@@ -78,7 +84,7 @@ def noise(
         sd = np.hypot(relative * np.abs(level), absolute)
     sd = np.maximum(sd, 1e-6 * float(np.median(np.abs(level))) + 1e-300)
     shared = np.zeros((level.size, 0))
-    if stated is not None and "setup" in rows and (stated.setup_relative > 0 or stated.setup_absolute > 0):
+    if stated is not None and "setup" in rows and setups_differ(case):
         names = np.unique(rows["setup"])
         member = (rows["setup"][:, None] == names[None, :]).astype(float)
         columns = []
