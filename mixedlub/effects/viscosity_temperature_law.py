@@ -4,6 +4,8 @@ import numpy as np
 
 from mixedlub.effect import Between, LogNormal, Parameter, effect
 
+FORTY = 313.15
+"""Kelvins at which the convexity is told: 40 degC, where oils are graded."""
 NEAREST, MOST = 5.0, 30.0
 """Kelvins above the divergence, and logarithm of a change, that no liquid passes."""
 
@@ -21,22 +23,27 @@ NEAREST, MOST = 5.0, 30.0
             symbol="r",
         ),
         Parameter(
-            "divergence",
-            "K",
-            Between(0.0, 220.0),
-            "temperature at which Vogel's viscosity grows without bound",
-            symbol=r"\theta_c",
+            "convexity",
+            "-",
+            Between(0.0, 3.4),
+            "40 degC in kelvins over its distance from the temperature at which Vogel's viscosity diverges",
+            symbol="m",
         ),
     ),
     equation=r"\eta_0 \leftarrow \eta_0\,\exp\left\{r\left[f_1 - f_{12}\,"
     r"\frac{\theta_{oil} - \theta_1}{\theta_2 - \theta_1}\,"
-    r"\frac{\theta_2 - \theta_c}{\theta_{oil} - \theta_c}\right]\right\}",
+    r"\frac{\theta_{40} + m(\theta_2 - \theta_{40})}{\theta_{40} + m(\theta_{oil} - \theta_{40})}"
+    r"\right]\right\}",
     source="H. Vogel, Phys. Z. 22 (1921) 645, on ASTM D341; E. N. da C. Andrade, Nature 125 (1930) 309, with "
-    "theta_c = 0",
+    "m = 1; O. Reynolds, Phil. Trans. R. Soc. 177 (1886) 157, with m = 0",
     fingerprint={"oil_temperature": "+"},
     separated_by="a third point of viscosity, between the two given ones or beyond them",
     odds=0.5,
-    contains={"Vogel": {"share": 1.0}, "Andrade": {"share": 1.0, "divergence": 0.0}},
+    contains={
+        "Vogel": {"share": 1.0},
+        "Andrade": {"share": 1.0, "convexity": 1.0},
+        "Reynolds": {"share": 1.0, "convexity": 0.0},
+    },
 )
 def viscosity_temperature_law(
     viscosity: np.ndarray,
@@ -47,21 +54,24 @@ def viscosity_temperature_law(
     fall_from_first: np.ndarray,
     *,
     share: float,
-    divergence: float,
+    convexity: float,
 ) -> np.ndarray:
     """Between and beyond the two temperatures at which an oil is known its viscosity follows another law.
 
-    Vogel's ln eta = A + B/(theta - theta_c) through both points, with theta_c 73 to 123 K below 0 degC as fits of
-    oils have it, lies 5 % below to 3 % above D341 between 40 and 100 degC, and a fifth below to twice D341 at 0 degC.
-    Thin liquids have it lower; with Andrade's 0 K there is a barrier alone and no divergence.
+    Vogel's ln eta = A + B/(theta - theta_c) through both points, theta_c = 313.15 K (1 - 1/m). With theta_c 73 to
+    123 K below 0 degC (m of 1.8 to 2.8), as fits of oils have it, it lies 5 % below to 3 % above D341 between 40 and
+    100 degC, and a fifth below to twice D341 at 0 degC. Thin liquids have less: Andrade's barrier alone is m = 1,
+    Reynolds' exponential of the temperature m = 0; Slotte's (theta - theta_s)**-n runs as m = 313.15 K/2(313.15 K -
+    theta_s) does about 40 degC.
 
     >>> known = (313.15, 373.15, np.log(10.0))   # a tenth of the viscosity at 100 degC
     >>> oil, fall = np.array([313.15, 333.15, 373.15]), np.log(10.0) * np.array([0.0, 0.43, 1.0])
-    >>> found = viscosity_temperature_law(0.1 * np.exp(-fall), oil, *known, fall, share=1.0, divergence=178.15)
+    >>> vogel = {"share": 1.0, "convexity": 313.15 / (313.15 - 178.15)}
+    >>> found = viscosity_temperature_law(0.1 * np.exp(-fall), oil, *known, fall, **vogel)
     >>> found.round(5).tolist()   # at 60 degC (20/60)(195/155) = 0.41935 of the fall
     [0.1, 0.03808, 0.01]
     """
-    far = np.maximum(oil_temperature - divergence, NEAREST)
     place = (oil_temperature - first_known_temperature) / (second_known_temperature - first_known_temperature)
-    vogel = known_fall * place * (second_known_temperature - divergence) / far
+    far = np.maximum(FORTY + convexity * (oil_temperature - FORTY), convexity * NEAREST)
+    vogel = known_fall * place * (FORTY + convexity * (second_known_temperature - FORTY)) / far
     return viscosity * np.exp(np.clip(share * (fall_from_first - vogel), -MOST, MOST))
