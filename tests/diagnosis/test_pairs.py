@@ -11,9 +11,10 @@ from mixedlub.diagnosis.diagnose import diagnose_case
 from mixedlub.diagnosis.fitting.fit import Fit, map_fit
 from mixedlub.diagnosis.fitting.pairs import exchanged, promising_pairs
 from mixedlub.diagnosis.fitting.problem import Problem
-from mixedlub.diagnosis.fitting.published import published_gain
+from mixedlub.diagnosis.fitting.published import published_gain, published_odds
 from mixedlub.diagnosis.fitting.starts import Sampled, fit_single, sample
-from mixedlub.diagnosis.searching.search import one_in_time, placed
+from mixedlub.diagnosis.fitting.sudden import placed
+from mixedlub.diagnosis.searching.search import one_in_time
 from mixedlub.forward import Forward
 
 from ..kinds.conftest import BALL, make, system
@@ -88,6 +89,23 @@ def test_the_place_of_a_sudden_change_is_paid_for(make) -> None:
     laplace = -0.5 * fit.z[place] ** 2 - 0.5 * np.log(curvature)
     paid = placed(found.found.problem, fit).evidence - fit.evidence + laplace
     assert paid == pytest.approx(np.log(gap * density), abs=0.7)
+
+
+def test_a_law_beside_a_sudden_change_has_the_odds_that_it_has_alone(make) -> None:
+    """Whichever law thins a film, the place of a miscounted order beside it is as uncertain as before."""
+    speed = np.geomspace(0.01, 4.0, 24)
+    film = 300.0 * speed**0.67 * (1.0 + 0.01 * np.random.default_rng(7).standard_normal(speed.size))
+    film /= 1.0 + 0.05 * speed**1.28
+    sections = system("film", "film_thickness_nm", contact=BALL)
+    columns = {"load_N": 20.0, "oil_temperature_C": 40.0, "slide_roll_ratio": 0.0}
+    odds = []
+    for jump, explanation in ((0.0, ("inlet_shear_heating",)), (190.0, ("fringe_order", "inlet_shear_heating"))):
+        readings = {"film_thickness_nm": np.where(np.arange(24) > 19, film + jump, film)}
+        held = {name: np.full(24, value) for name, value in columns.items()}
+        found = diagnose_case(make(sections, {"entrainment_speed_m_s": speed, **held, **readings}).folder).found
+        (law,) = published_odds(found.problem, found.fits[explanation])
+        odds.append(law[2])
+    assert odds[1] == pytest.approx(odds[0], abs=0.3)
 
 
 @pytest.mark.parametrize("count", [60, 400])

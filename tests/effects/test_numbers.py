@@ -56,7 +56,8 @@ class TestLiterature:
         ],
     )
     def test_inlet_heating_of_gupta(self, loading: float, sliding: float, factor: float) -> None:
-        found = inlet_shear_heating(1.0, 1.0, loading, 1.0, 1.0, sliding, 0.005, 1.0, strength=1.0, sliding=1.0)
+        gupta = {"strength": 1.0, "sliding": 1.0, "loading_power": 0.64, "pressure_power": 0.0}
+        found = inlet_shear_heating(1.0, 1.0, loading, 1.0, 1.0, sliding, 0.005, 1.0, **gupta)
         assert found == pytest.approx(factor, rel=0.03)
 
     @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ import numpy as np
 
 from mixedlub.diagnosis.fitting.fit import Fit, map_fit
 from mixedlub.diagnosis.fitting.problem import Problem
+from mixedlub.diagnosis.fitting.sudden import placed
 
 SHARE = 0.5
 """Of an effect's prior, the part of its published law exactly; the rest is for laws about it."""
@@ -17,7 +18,7 @@ SHARE = 0.5
 def published_odds(problem: Problem, free: Fit) -> Iterator[tuple[str, str, float]]:
     """Effect, law and log odds of each law that an explanation's effects contain against all parameters free.
 
-    The rest of the explanation is fitted again.
+    The rest of the explanation is fitted again; the evidences are those of all places of its sudden changes.
     """
     place = problem.calibration_size
     for e in problem.effects(free.explanation):
@@ -25,7 +26,7 @@ def published_odds(problem: Problem, free: Fit) -> Iterator[tuple[str, str, floa
         for law, values in e.laws_within_reach.items():
             drop = [place + names.index(name) for name in values]
             held = replace(problem, held={**problem.held, e.id: {**problem.held.get(e.id, {}), **values}})
-            fit = map_fit(held, free.explanation, np.delete(free.z, drop), warm=True)
+            fit = placed(held, map_fit(held, free.explanation, np.delete(free.z, drop), warm=True))
             yield e.id, law, fit.evidence - free.evidence
         place += len(names)
 

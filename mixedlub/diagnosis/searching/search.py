@@ -8,12 +8,12 @@ from itertools import combinations
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.fit import OUTLIER_SHARE, Fit, linear_fit, log_likelihood, map_fit
+from mixedlub.diagnosis.fitting.fit import OUTLIER_SHARE, Fit, linear_fit, map_fit
 from mixedlub.diagnosis.fitting.pairs import ROUNDS, exchanged, promising_pairs
 from mixedlub.diagnosis.fitting.problem import Explanation, Problem, effects_of
 from mixedlub.diagnosis.fitting.published import published_gain
 from mixedlub.diagnosis.fitting.starts import Sampled, fit_single, sample
-from mixedlub.diagnosis.fitting.sudden import anywhere, sudden_places
+from mixedlub.diagnosis.fitting.sudden import placed
 from mixedlub.diagnosis.recording.features import Coordinates
 from mixedlub.diagnosis.unnamed.unknown import Unknown, unknown_fit
 
@@ -247,18 +247,6 @@ def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: 
     new = {m: map_fit(problem, m, f.z, warm=True) for m, f in singles.items() if f.evidence > best.evidence - FAR}
     shift = new[best.explanation].evidence - best.evidence
     return {m: new[m] if m in new else f.in_sigmas(scale, f.evidence + shift) for m, f in singles.items()}
-
-
-def placed(problem: Problem, fit: Fit) -> Fit:
-    """The fit with the evidence of all places where its sudden changes may stand: Laplace sees but the slope at one."""
-    gained = 0.0
-    for place in sudden_places(problem, fit.explanation):
-        curvature = 1.0 + float(fit.weight @ fit.slopes[:, place] ** 2)
-        tried, log = anywhere(problem, fit, place, fit.z[[place]])
-        here = float(log_likelihood(fit.residual)[0].sum()) - 0.5 * fit.z[place] ** 2
-        whole = np.trapezoid(np.exp(np.minimum(log - here, 50.0)), tried[:, place])
-        gained += float(np.log(max(whole, 1e-300)) - 0.5 * np.log(2.0 * np.pi / curvature))
-    return replace(fit, evidence=fit.evidence + gained)
 
 
 def bendable(explanation: Explanation) -> int:
