@@ -5,6 +5,9 @@ import numpy as np
 from mixedlub.effect import Between, LogNormal, Parameter, effect
 from mixedlub.laws.drag import churning_changenet_velex
 
+TURBULENT = -1.0 / 3.0, 8.0 / 3.0
+"""Power of viscosity and surplus of that of speed in the torque of Boness between Reynolds numbers 2000 and 1e5."""
+
 
 @effect(
     stage="loss",
@@ -13,29 +16,31 @@ from mixedlub.laws.drag import churning_changenet_velex
         Parameter(
             "strength", "-", LogNormal(1.0, 0.9), "factor: depth, case, number of wheels that dip", null=0.0, symbol="c"
         ),
-        Parameter("viscous", "-", Between(0.0, 1.0), "power of viscosity", symbol="q", published=(0.21, 1.0)),
+        Parameter("viscous", "-", Between(TURBULENT[0], 1.0), "power of viscosity", symbol="q"),
         Parameter(
             "surplus",
             "-",
             Between(0.0, 1.1),
-            "power of speed less that of viscosity less 1",
+            "power of speed less that of viscosity less 1, where the latter is not negative",
             symbol="p",
             published=(0.0, 1.0),
         ),
     ),
     equation=r"P_L \leftarrow P_L + \chi c\,\tfrac12\rho\omega_2^3 r_2^3 S_m C_m,\quad "
     r"C_m = 0.7623\,\mathrm{Fr}^{-0.6}\,\mathrm{Re}^{-0.21}(\mathrm{Fr}/70)^{0.6-f}(\mathrm{Re}/16000)^{0.21-q},\ "
-    r"f = 1 - q - \tfrac12 p,\quad "
+    r"f = 1 - q - \tfrac12 p',\quad "
+    r"p' = p + \max(-3q, 0)(\tfrac83 - p),\quad "
     r"\mathrm{Fr} = \omega_2^2 r_2/(9.81\,\text{m/s}^2),\ \mathrm{Re} = \rho\,\omega_2 r_2^2/\eta_0,\quad "
     r"S_m = \left(\frac{2\pi}{3} - \frac{\sqrt{3}}{2}\right)r_2^2 + \frac{2\pi}{3}\,r_2 b_w + "
     r"\frac{1.5\,z_2 m_n b_w}{\cos 20^\circ}",
     source="C. Changenet, P. Velex, J. Mech. Des. 129 (2007) 128 (q = 0.21, f = 0.6); other powers reach from "
-    "there to the viscous drag of R. J. Boness, Proc. Int. Symp. Gearing 1989 (n^2 nu) and ISO/TR "
-    "14179-1 (n^3 nu)",
+    "there to the viscous drag of R. J. Boness, Proc. Int. Symp. Gearing 1989 (n^2 nu), ISO/TR 14179-1 (n^3 nu), "
+    "and to Boness' turbulent branch (n^(10/3) nu^(-1/3))",
     fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "roughness": "-"},
     contains={
         "Changenet and Velex": {"viscous": 0.21, "surplus": 0.38},
-        "Boness": {"viscous": 1.0, "surplus": 0.0},
+        "Boness, laminar": {"viscous": 1.0, "surplus": 0.0},
+        "Boness, turbulent": {"viscous": TURBULENT[0]},
         "ISO/TR 14179-1": {"viscous": 1.0, "surplus": 1.0},
     },
     separated_by="the oil level, or a dry sump: it changes with depth, rolling resistance does not; out of mesh it "
@@ -59,7 +64,8 @@ def churning(
     """The wheel that dips into the oil stirs it.
 
     The wheel is taken to dip half its radius; methods differ by a factor 6 at high speed. Power goes as
-    n^(1 + q + p) nu^q, so that oil that resists by viscosity does not also rise as the cube of speed in air does.
+    n^(1 + q + p) nu^q, so that oil that resists by viscosity does not also rise as the cube of speed in air does;
+    from q = 0 to Boness' branch, where thinner oil is churned harder, speed's surplus rises to his.
     The acceleration of gravity makes the form belong to m/s^2.
 
     >>> wheel = dict(gear_radius=0.05, face_width=0.02, gear_module=4e-3, gear_teeth=25.0, gears_fitted=1.0)
@@ -68,6 +74,8 @@ def churning(
     >>> round(float(churning(0.0, gear_speed=speed, viscosity=0.017, oil_density=850.0, **wheel, **shape)), 1)
     5.5
     """
+    turbulent = max(viscous / TURBULENT[0], 0.0)
+    more = surplus + turbulent * (TURBULENT[1] - surplus)
     stirred = churning_changenet_velex(
         gear_radius,
         gear_speed,
@@ -77,6 +85,6 @@ def churning(
         viscosity,
         oil_density,
         viscosity_exponent=viscous,
-        gravity_exponent=1.0 - viscous - 0.5 * surplus,
+        gravity_exponent=1.0 - viscous - 0.5 * more,
     )
     return power_loss + strength * gears_fitted * stirred

@@ -44,7 +44,7 @@ FRICTION, PRESSURE = 0.05, 1e9
     separated_by="a sweep of slip below one per cent at constant speed: the rise is proportional to slip and does "
     "not depend on viscosity or speed as a fluid film does",
     valid={"slide_roll_ratio": (0.0, 0.5)},
-    kinds=("disc", "friction_history"),
+    kinds=("disc", "friction_history", "mesh_friction"),
 )
 def contact_creep(
     friction: np.ndarray,

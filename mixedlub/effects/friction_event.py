@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import Between, BetweenLog, Normal, Parameter, effect
+from mixedlub.effect import Between, BetweenLog, LogNormal, Normal, Parameter, effect
 
 TENTHS = 2.0 * np.log(9.0)
 """From 10 to 90 % of a logistic step."""
@@ -15,9 +15,18 @@ TENTHS = 2.0 * np.log(9.0)
         Parameter("change", "-", Normal(0.0, 0.3), "logarithm of the factor on friction", null=0.0, symbol="c"),
         Parameter("place", "-", Between(0.0, 1.0), "place in the programme", scan=120, sudden=True, symbol="q_e"),
         Parameter("width", "-", BetweenLog(0.01, 0.12), "share of the programme from 10 to 90 % of it", symbol="w"),
+        Parameter("later", "-", Between(-1.5, 1.5), "what follows over the change: -1 undoes it", symbol="l"),
+        Parameter("delay", "-", BetweenLog(0.02, 1.0), "share of the programme to 63 % of what follows", symbol="d"),
+        Parameter(
+            "abruptness",
+            "-",
+            LogNormal(1.5, 0.7),
+            "1: what follows sets in at once, above: later",
+            symbol="k",
+        ),
     ),
-    equation=r"\mu_B \leftarrow \mu_B\,e^{c\,\sigma(4.4\,(q - q_e)/w)},\quad "
-    r"\sigma(x) = \frac{1}{1 + e^{-x}}",
+    equation=r"\mu_B \leftarrow \mu_B\exp\left\{c\left[\sigma(4.4\,(q - q_e)/w) + "
+    r"l\,(1 - e^{-[\max(q - q_e,\,0)/d]^k})\right]\right\},\quad \sigma(x) = \frac{1}{1 + e^{-x}}",
     source="sudden transitions of friction in long tests, as of mild to severe wear: P. J. Blau, Friction Science and "
     "Technology, 2nd ed., CRC Press (2009), chapter 8",
     fingerprint={"sequence": "+"},
@@ -25,14 +34,28 @@ TENTHS = 2.0 * np.log(9.0)
     "the contact shows in contact resistance, noise or the track",
     after=("tribofilm_growth", "friction_run_in", "two_time_scales"),
     kinds=("friction_history",),
+    contains={"one step": {"later": 0.0}},
 )
 def friction_event(
-    boundary_friction: np.ndarray, sequence: np.ndarray, *, change: float, place: float, width: float
+    boundary_friction: np.ndarray,
+    sequence: np.ndarray,
+    *,
+    change: float,
+    place: float,
+    width: float,
+    later: float,
+    delay: float,
+    abruptness: float,
 ) -> np.ndarray:
-    """Within a short time the surfaces change, as when a film breaks or oil is renewed; friction stays another one.
+    """Within a short time the surfaces change, as when a film breaks or oil is renewed; it may pass, or go on.
 
-    >>> friction_event(0.1, np.array([0.2, 0.6]), change=0.2, place=0.5, width=0.05).round(3).tolist()
-    [0.1, 0.122]
+    >>> step = dict(change=0.2, place=0.5, width=0.05)
+    >>> place = np.array([0.2, 0.6, 0.9])
+    >>> friction_event(0.1, place, **step, later=0.0, delay=0.1, abruptness=1.0).round(3).tolist()
+    [0.1, 0.122, 0.122]
+    >>> friction_event(0.1, place, **step, later=-1.0, delay=0.1, abruptness=3.0).round(3).tolist()
+    [0.1, 0.108, 0.1]
     """
     since = np.clip(TENTHS * (sequence - place) / width, -500.0, 500.0)
-    return boundary_friction * np.exp(change / (1.0 + np.exp(-since)))
+    follows = -np.expm1(-((np.maximum(sequence - place, 0.0) / delay) ** abruptness))
+    return boundary_friction * np.exp(change * (1.0 / (1.0 + np.exp(-since)) + later * follows))

@@ -12,21 +12,26 @@ from mixedlub.effect import LogNormal, Parameter, effect
         Parameter(
             "growth", "-", LogNormal(0.5, 1.0), "dry friction added at the largest load, over T_c", null=0.0, symbol="c"
         ),
+        Parameter("power", "-", LogNormal(1.0, 0.35), "power of the load", symbol="n"),
     ),
-    equation=r"T_c \leftarrow T_c\,(1 + c\,q_F)",
+    equation=r"T_c \leftarrow T_c\,(1 + c\,q_F^n)",
     source="Coulomb's law for the loaded flanks; A. C. Bittencourt, S. Gunnarsson, J. Dyn. Syst. Meas. Control 134 "
     "(2012) 051013, load term",
     fingerprint={"load": "+"},
     separated_by="runs with the gears out: the friction of gears goes with them, an error of the motor's torque "
     "constant stays",
     kinds=("friction_map",),
+    contains={"Coulomb": {"power": 1.0}},
 )
-def load_dependent_friction(coulomb_torque: np.ndarray, load_fraction: np.ndarray, *, growth: float) -> np.ndarray:
-    """Loaded flanks and bearings add dry friction in proportion to the load.
+def load_dependent_friction(
+    coulomb_torque: np.ndarray, load_fraction: np.ndarray, *, growth: float, power: float
+) -> np.ndarray:
+    """Loaded flanks and bearings add dry friction, by Coulomb's law in proportion to the load.
 
-    What is a share of dry friction, as the excess at low speed, grows with it.
+    What is a share of dry friction, as the excess at low speed, grows with it. Rolling bearings have 1.5 where they
+    load themselves, and films, whose friction grows slower than the load, less than 1.
 
-    >>> float(load_dependent_friction(2.0, 0.5, growth=0.2))
+    >>> float(load_dependent_friction(2.0, 0.5, growth=0.2, power=1.0))
     2.2
     """
-    return coulomb_torque * (1.0 + growth * load_fraction)
+    return coulomb_torque * (1.0 + growth * load_fraction**power)

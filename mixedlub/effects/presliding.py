@@ -2,7 +2,10 @@
 
 import numpy as np
 
-from mixedlub.effect import LogNormal, Parameter, effect
+from mixedlub.effect import Between, LogNormal, Parameter, effect
+
+NEAR = 1e-6
+"""Of an exponent to one, from where the limit holds."""
 
 
 @effect(
@@ -13,14 +16,23 @@ from mixedlub.effect import LogNormal, Parameter, effect
             "speed_share",
             "-",
             LogNormal(0.003, 1.5),
-            "speed at which friction is 63 % of its sliding value, over the largest speed of the recording",
+            "speed to the sliding value at the slope of the start, over the largest speed of the recording",
             null=0.0,
             symbol="p",
         ),
+        Parameter(
+            "exponent",
+            "-",
+            Between(0.0, 2.0),
+            "0: gives until it slides, 1: Dahl's usual one, 2: long tail",
+            symbol="i",
+        ),
     ),
-    equation=r"T_r \leftarrow T_r\left(1 - e^{-|\omega|/(p\,\omega_0)}\right)",
-    source="P. R. Dahl, A solid friction model, Aerospace Corp. TOR-0158 (1968), with exponent one and a travel in "
-    "proportion to speed, as readings of equal duration have",
+    equation=r"T_r \leftarrow T_r\left\{1 - [1 + (i - 1)\,x]^{-1/(i - 1)}\right\},\quad "
+    r"x = |\omega|/(p\,\omega_0);\ i = 1:\ T_r\,(1 - e^{-x})",
+    source="P. R. Dahl, A solid friction model, Aerospace Corp. TOR-0158 (1968), with a travel in proportion to "
+    "speed, as readings of equal duration have",
+    contains={"Dahl, exponent one": {"exponent": 1.0}},
     fingerprint={"speed": "+"},
     separated_by="longer travel at the lowest speeds: friction reaches its sliding value once the contacts have given "
     "way; a film, or a loss that grows with speed, does not change with the travel",
@@ -28,14 +40,26 @@ from mixedlub.effect import LogNormal, Parameter, effect
     kinds=("friction_map",),
 )
 def presliding(
-    running_friction: np.ndarray, drive_speed: np.ndarray, reference_speed: np.ndarray, *, speed_share: float
+    running_friction: np.ndarray,
+    drive_speed: np.ndarray,
+    reference_speed: np.ndarray,
+    *,
+    speed_share: float,
+    exponent: float,
 ) -> np.ndarray:
     """Near standstill the contacts only give elastically and friction has not yet reached its sliding value.
 
-    Dahl's friction over a travel x is T (1 - exp(-k x/T)).
+    Dahl's stiffness falls as (1 - F/T)^i; with i = 1 friction over a travel x is T (1 - exp(-k x/T)).
 
-    >>> presliding(2.0, np.array([-0.1, 100.0]), 100.0, speed_share=0.001).round(3).tolist()
+    >>> presliding(2.0, np.array([-0.1, 100.0]), 100.0, speed_share=0.001, exponent=1.0).round(3).tolist()
     [1.264, 2.0]
+    >>> presliding(2.0, np.array([-0.1, 0.3]), 100.0, speed_share=0.001, exponent=2.0).round(3).tolist()
+    [1.0, 1.5]
     """
-    share = np.abs(drive_speed) / (np.maximum(speed_share, 1e-12) * reference_speed)
-    return running_friction * (1.0 - np.exp(-share))
+    travel = np.abs(drive_speed) / (np.maximum(speed_share, 1e-12) * reference_speed)
+    tail = exponent - 1.0
+    if abs(tail) < NEAR:
+        return running_friction * -np.expm1(-travel)
+    left = np.maximum(1.0 + tail * travel, 0.0)
+    with np.errstate(divide="ignore"):
+        return running_friction * (1.0 - left ** (-1.0 / tail))

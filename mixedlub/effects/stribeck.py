@@ -31,16 +31,26 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
             "fall of viscosity a kelvin, by which warm oil needs more speed; 0: the temperature is not the contact's",
             symbol="b",
         ),
+        Parameter(
+            "load_power",
+            "-",
+            Between(0.0, 1.0),
+            "power of the load by which a loaded film needs more speed; 1: one curve over speed over load",
+            symbol="k",
+        ),
     ),
     equation=r"T_r \leftarrow T_r + s\,T_c\,e^{-[|\omega|/\omega_s]^n}\operatorname{sgn}\omega,\quad "
-    r"\omega_s = q\,\omega_0\,e^{b\,\theta_d}",
+    r"\omega_s = q\,\omega_0\,e^{b\,\theta_d + k\,l_F}",
     source="B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, Automatica 30 (1994) 1083, whose exponents are "
     "0.5 to 2; one as in A. Tustin, J. IEE 94 (1947) 143; film laws hold the product of viscosity and speed",
     fingerprint={"speed": "-"},
     separated_by="points below a tenth of the largest speed, in both directions: friction falls with speed before "
     "it rises; a payload or an offset does not change sign with the direction",
     kinds=("friction_map",),
-    contains={"Tustin": {"exponent": 1.0, "thinning": 0.0}, "Gauss": {"exponent": 2.0, "thinning": 0.0}},
+    contains={
+        "Tustin": {"exponent": 1.0, "thinning": 0.0, "load_power": 0.0},
+        "Gauss": {"exponent": 2.0, "thinning": 0.0, "load_power": 0.0},
+    },
 )
 def stribeck(
     running_friction: np.ndarray,
@@ -48,25 +58,28 @@ def stribeck(
     drive_speed: np.ndarray,
     reference_speed: np.ndarray,
     temperature_difference: np.ndarray,
+    log_load: np.ndarray,
     *,
     excess: float,
     speed_share: float,
     exponent: float,
     thinning: float,
+    load_power: float,
 ) -> np.ndarray:
     """At low speed the lubricant film collapses and friction rises above its dry level at speed.
 
-    A film is as thick at half the viscosity and twice the speed; viscosity falls by 2 to 5 % a kelvin.
+    A film is as thick at half the viscosity and twice the speed; viscosity falls by 2 to 5 % a kelvin. Hersey's
+    number is viscosity times speed over load.
 
-    >>> law = dict(excess=0.5, speed_share=0.1, thinning=0.03)
-    >>> stribeck(2.0, 2.0, np.array([1e-9, 10.0, 100.0]), 100.0, 0.0, exponent=1.0, **law).round(3).tolist()
+    >>> law = dict(excess=0.5, speed_share=0.1, thinning=0.03, load_power=1.0)
+    >>> stribeck(2.0, 2.0, np.array([1e-9, 10.0, 100.0]), 100.0, 0.0, 0.0, exponent=1.0, **law).round(3).tolist()
     [3.0, 2.368, 2.0]
-    >>> stribeck(2.0, 2.0, np.array([5.0, 20.0]), 100.0, 0.0, exponent=2.0, **law).round(3).tolist()
+    >>> stribeck(2.0, 2.0, np.array([5.0, 20.0]), 100.0, 0.0, 0.0, exponent=2.0, **law).round(3).tolist()
     [2.779, 2.018]
     >>> warm = np.log(2.0) / 0.03
-    >>> float(stribeck(2.0, 2.0, 20.0, 100.0, warm, exponent=2.0, **law).round(3))   # as 10 rad/s at the mean
+    >>> float(stribeck(2.0, 2.0, 20.0, 100.0, warm, 0.0, exponent=2.0, **law).round(3))   # as 10 rad/s at the mean
     2.368
     """
-    turning = speed_share * reference_speed * np.exp(thinning * temperature_difference)
+    turning = speed_share * reference_speed * np.exp(thinning * temperature_difference + load_power * log_load)
     share = (np.abs(drive_speed) / turning) ** exponent
     return running_friction + excess * coulomb_torque * np.exp(-share) * np.sign(drive_speed)

@@ -25,7 +25,7 @@ SMALL, MOST = 1e-9, 30.0
         Parameter(
             "saturation",
             "-",
-            Wide(1.5),
+            Normal(0.0, 2.5),
             "0: steady, above: rates that fall by so many powers of e over the programme, below: that rise",
             symbol="s",
         ),

@@ -29,10 +29,17 @@ NEAREST, MOST = 5.0, 30.0
             "40 degC in kelvins over its distance from the temperature at which Vogel's viscosity diverges",
             symbol="m",
         ),
+        Parameter(
+            "fall",
+            "-",
+            LogNormal(1.0, 0.1),
+            "fall of ln viscosity between the two given ones over that told",
+            symbol="g",
+        ),
     ),
-    equation=r"\eta_0 \leftarrow \eta_0\,\exp\left\{r\left[f_1 - f_{12}\,"
+    equation=r"\eta_0 \leftarrow \eta_0\,\exp\left\{r\left[f_1 - g\,f_{12}\,"
     r"\frac{\theta_{oil} - \theta_1}{\theta_2 - \theta_1}\,"
-    r"\frac{\theta_{40} + m(\theta_2 - \theta_{40})}{\theta_{40} + m(\theta_{oil} - \theta_{40})}"
+    r"\frac{313\,\text{K} + m(\theta_2 - 40\,^\circ\text{C})}{313\,\text{K} + m(\theta_{oil} - 40\,^\circ\text{C})}"
     r"\right]\right\}",
     source="H. Vogel, Phys. Z. 22 (1921) 645, on ASTM D341; E. N. da C. Andrade, Nature 125 (1930) 309, with "
     "m = 1; O. Reynolds, Phil. Trans. R. Soc. 177 (1886) 157, with m = 0",
@@ -40,9 +47,9 @@ NEAREST, MOST = 5.0, 30.0
     separated_by="a third point of viscosity, between the two given ones or beyond them",
     odds=0.5,
     contains={
-        "Vogel": {"share": 1.0},
-        "Andrade": {"share": 1.0, "convexity": 1.0},
-        "Reynolds": {"share": 1.0, "convexity": 0.0},
+        "Vogel": {"share": 1.0, "fall": 1.0},
+        "Andrade": {"share": 1.0, "convexity": 1.0, "fall": 1.0},
+        "Reynolds": {"share": 1.0, "convexity": 0.0, "fall": 1.0},
     },
 )
 def viscosity_temperature_law(
@@ -55,6 +62,7 @@ def viscosity_temperature_law(
     *,
     share: float,
     convexity: float,
+    fall: float,
 ) -> np.ndarray:
     """Between and beyond the two temperatures at which an oil is known its viscosity follows another law.
 
@@ -62,11 +70,11 @@ def viscosity_temperature_law(
     123 K below 0 degC (m of 1.8 to 2.8), as fits of oils have it, it lies 5 % below to 3 % above D341 between 40 and
     100 degC, and a fifth below to twice D341 at 0 degC. Thin liquids have less: Andrade's barrier alone is m = 1,
     Reynolds' exponential of the temperature m = 0; Slotte's (theta - theta_s)**-n runs as m = 313.15 K/2(313.15 K -
-    theta_s) does about 40 degC.
+    theta_s) does about 40 degC. A viscosity given wrong at one of the two is another ``fall`` between them.
 
     >>> known = (313.15, 373.15, np.log(10.0))   # a tenth of the viscosity at 100 degC
     >>> oil, fall = np.array([313.15, 333.15, 373.15]), np.log(10.0) * np.array([0.0, 0.43, 1.0])
-    >>> vogel = {"share": 1.0, "convexity": 313.15 / (313.15 - 178.15)}
+    >>> vogel = {"share": 1.0, "convexity": 313.15 / (313.15 - 178.15), "fall": 1.0}
     >>> found = viscosity_temperature_law(0.1 * np.exp(-fall), oil, *known, fall, **vogel)
     >>> found.round(5).tolist()   # at 60 degC (20/60)(195/155) = 0.41935 of the fall
     [0.1, 0.03808, 0.01]
@@ -74,4 +82,4 @@ def viscosity_temperature_law(
     place = (oil_temperature - first_known_temperature) / (second_known_temperature - first_known_temperature)
     far = np.maximum(FORTY + convexity * (oil_temperature - FORTY), convexity * NEAREST)
     vogel = known_fall * place * (FORTY + convexity * (second_known_temperature - FORTY)) / far
-    return viscosity * np.exp(np.clip(share * (fall_from_first - vogel), -MOST, MOST))
+    return viscosity * np.exp(np.clip(share * (fall_from_first - fall * vogel), -MOST, MOST))

@@ -70,6 +70,7 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
         "payload_torque": 0.0,
         "gears_fitted": np.where(gears_out(table), BARE_SHARE, 1.0)[:, None],
         "temperature_difference": _warmer(table, recorded),
+        "log_load": _heavier(table, recorded),
     }
     for name in LOADS:
         if name in table and name in recorded and np.any(recorded[name] != 0):
@@ -90,6 +91,14 @@ def _warmer(table: Table, recorded: Table) -> np.ndarray:
     if name not in table or name not in recorded:
         return np.zeros((len(table), 1))
     return column(table[name] - np.mean(recorded[name]))
+
+
+def _heavier(table: Table, recorded: Table) -> np.ndarray:
+    """Logarithm of the load of the rows over the middle one recorded; zero where either tells none."""
+    name = next((name for name in LOADS if name in table and name in recorded), None)
+    if name is None or not np.all(table[name]) or not np.all(recorded[name]):
+        return np.zeros((len(table), 1))
+    return column(np.log(np.abs(table[name])) - np.mean(np.log(np.abs(recorded[name]))))
 
 
 def _motor_torque(table: Table, recorded: Table) -> Inputs:

@@ -15,6 +15,9 @@ from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.table import Column, Table
 
+LEAST_SHARE = 0.05
+"""Of a tooth pair's load, where it comes into mesh: a force over less is no friction coefficient."""
+
 
 def reading(friction: np.ndarray) -> np.ndarray:
     """The rig reads the friction coefficient as a positive number (-).
@@ -37,10 +40,12 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
         share[rows] = points.load_share(level)[rows]
     along = motion_inputs(points, table["torque_Nm"], table["speed_rpm"] * np.pi / 30.0)
     own = {name: column(value) if np.ndim(value) else value for name, value in along.items()}
+    carried = table["torque_Nm"] * np.maximum(share, LEAST_SHARE)
     temperature = column(table["oil_temperature_C"]) + ZERO_CELSIUS
     return {
         **own,
         "load_share": share[:, None],
+        "inverse_load": column(float(np.min(recorded["torque_Nm"])) / carried),
         **bodies.lubricant(system.lubricant).inputs(temperature),
         **pair_of_surfaces(system, folder, table, "pinion_surface", "gear_surface"),
         **bookkeeping_inputs(system, table),

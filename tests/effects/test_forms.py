@@ -6,7 +6,13 @@ import numpy as np
 import pytest
 
 from mixedlub.effects.bearing_drag import bearing_drag
+from mixedlub.effects.churning import churning
+from mixedlub.effects.dynamic_load import dynamic_load
+from mixedlub.effects.friction_event import friction_event
+from mixedlub.effects.inlet_shear_heating import inlet_shear_heating
+from mixedlub.effects.presliding import presliding
 from mixedlub.effects.pressure_viscosity_law import pressure_viscosity_law
+from mixedlub.effects.seal_drag import seal_drag
 from mixedlub.effects.starvation import starvation
 from mixedlub.effects.stribeck import stribeck
 from mixedlub.effects.viscosity_drift import viscosity_drift
@@ -91,9 +97,76 @@ def test_drift_passes_smoothly_through_the_steady_rate() -> None:
 
 def test_a_film_that_collapses_keeps_viscosity_times_speed() -> None:
     """Ten kelvin at 3 % each thin the oil by e^0.3: the same friction at e^0.3 times the speed."""
-    law = {"excess": 0.4, "speed_share": 0.05, "exponent": 1.6, "thinning": 0.03}
-    cold, warm = (stribeck(2.0, 2.0, v, 100.0, t, **law) for v, t in ((4.0, -5.0), (4.0 * np.exp(0.3), 5.0)))
+    law = {"excess": 0.4, "speed_share": 0.05, "exponent": 1.6, "thinning": 0.03, "load_power": 1.0}
+    cold, warm = (stribeck(2.0, 2.0, v, 100.0, t, 0.0, **law) for v, t in ((4.0, -5.0), (4.0 * np.exp(0.3), 5.0)))
     assert cold == pytest.approx(warm, rel=1e-12)
+    doubled = stribeck(2.0, 2.0, 8.0, 100.0, -5.0, np.log(2.0), **law)
+    assert doubled == pytest.approx(cold, rel=1e-12)
+
+
+def test_churning_between_reynolds_numbers_2000_and_1e5_goes_as_boness_has_it() -> None:
+    """C_m = 8.6e-4 Re^(1/3): loss as n^(10/3) nu^(-1/3)."""
+    wheel = {"gear_radius": 0.05, "face_width": 0.02, "gear_module": 4e-3, "gear_teeth": 25.0, "gears_fitted": 1.0}
+    law = {"strength": 1.0, "viscous": -1.0 / 3.0, "surplus": 0.7, "oil_density": 850.0}
+    slow, fast, thick = (
+        churning(0.0, gear_speed=speed, viscosity=viscosity, **wheel, **law)
+        for speed, viscosity in ((100.0, 0.02), (200.0, 0.02), (100.0, 0.16))
+    )
+    assert fast / slow == pytest.approx(2.0 ** (10.0 / 3.0), rel=1e-12)
+    assert thick / slow == pytest.approx(0.5, rel=1e-12)
+
+
+@pytest.mark.parametrize("exponent", [0.5, 1.0, 1.5, 2.0])
+def test_presliding_keeps_to_the_stiffness_of_dahl(exponent: float) -> None:
+    """dF/dx = k (1 - F/T)^i, P. R. Dahl (1968)."""
+    travel = np.linspace(0.01, 1.5, 400)
+    force = presliding(1.0, travel, 1.0, speed_share=1.0, exponent=exponent)
+    stiffness = np.gradient(force, travel, edge_order=2)
+    np.testing.assert_allclose(stiffness[1:-1], ((1.0 - force) ** exponent)[1:-1], rtol=2e-3, atol=1e-4)
+
+
+@pytest.mark.parametrize(("gliding", "power"), [(0.0, 1.0), (1.0, 4.0 / 3.0)])
+def test_a_lip_that_glides_on_its_film_rubs_as_the_cube_root_of_viscosity_times_speed(
+    gliding: float, power: float
+) -> None:
+    """Hirano and Ishiwata: f as (nu n)^(1/3), so that loss goes as n^(4/3)."""
+    law = {"strength": 1.0, "viscous": 1.0 / 3.0, "gliding": gliding}
+    slow, fast, thick = (
+        seal_drag(0.0, 0.04, speed, 0.5 * speed, viscosity, 850.0, **law)
+        for speed, viscosity in ((100.0, 0.01), (200.0, 0.01), (100.0, 0.08))
+    )
+    assert fast / slow == pytest.approx(2.0**power, rel=1e-12)
+    assert thick / slow == pytest.approx(2.0, rel=1e-12)
+
+
+def test_the_second_harmonic_meets_the_resonance_at_half_the_speed() -> None:
+    at = {"amplitude": 0.02, "resonance": 1.0 / (2.0 * np.pi), "damping": 0.05, "phase": 0.0}
+    ratio = np.linspace(0.3, 1.4, 1101)
+    found = dynamic_load(1.0, ratio, 1.0, **at, second=0.5) - 1.0
+    peaks = ratio[1:-1][(found[1:-1] > found[:-2]) & (found[1:-1] > found[2:])]
+    np.testing.assert_allclose(peaks, [0.5, 1.0], atol=0.01)
+
+
+def test_a_change_that_is_undone_leaves_the_friction_of_before() -> None:
+    place = np.linspace(0.0, 1.0, 11)
+    event = {"change": 0.3, "place": 0.3, "width": 0.02, "later": -1.0, "delay": 0.1, "abruptness": 3.0}
+    found = friction_event(0.1, place, **event)
+    assert found[[0, 1, 2]] == pytest.approx(0.1, rel=1e-3)
+    assert found[4] > 0.105
+    assert found[-4:] == pytest.approx(0.1, rel=1e-3)
+
+
+def test_thermal_loading_and_pressure_have_the_powers_that_are_asked_for() -> None:
+    """Hsu and Lee: loss as L^0.527 and, of a line contact, load^0.447, which is pressure^0.894."""
+    law = {"strength": 1e-6, "sliding": 0.0, "loading_power": 0.527, "pressure_power": 0.894}
+
+    def lost(loading: float, pressure: float) -> float:
+        rest = inlet_shear_heating(1.0, 1.0, loading, 1.0, 1.0, 0.0, pressure, 1.0, **law)
+        rolling = 13.2e-6 * pressure * loading**0.42
+        return float(1.0 / (rest * np.exp(rolling)) - 1.0)
+
+    assert lost(8.0, 0.004) / lost(1.0, 0.004) == pytest.approx(8.0**0.527, rel=1e-6)
+    assert lost(1.0, 0.008) / lost(1.0, 0.004) == pytest.approx(2.0**0.894, rel=1e-6)
 
 
 @pytest.mark.parametrize("steepness", [0.5, 2.5, 400.0])

@@ -7,7 +7,7 @@ import pytest
 from scipy import integrate, optimize, stats
 
 from mixedlub import standard
-from mixedlub.catalogue import lookalikes, shown, signatures
+from mixedlub.catalogue import shown
 from mixedlub.effect import catalogue
 from mixedlub.effects.asperity_plasticity import asperity_plasticity
 from mixedlub.effects.dynamic_load import dynamic_load
@@ -247,7 +247,7 @@ class TestIntegrals:
 
         moment = (np.pi / 2 - phase + 2.0 * np.pi * 30) / ratio
         steady = integrate.solve_ivp(motion, (0.0, moment), [0.0, 0.0], rtol=1e-9, atol=1e-11).y[0, -1]
-        pair = {"amplitude": 0.02, "resonance": 1.0 / (2.0 * np.pi), "damping": damping, "phase": phase}
+        pair = {"amplitude": 0.02, "resonance": 1.0 / (2.0 * np.pi), "damping": damping, "phase": phase, "second": 0.0}
         assert dynamic_load(1.0, ratio, 1.0, **pair) == pytest.approx(1.0 + 0.02 * ratio * steady, abs=1e-6)
 
     def test_flash_temperature_integrates_a_moving_source(self) -> None:
@@ -334,7 +334,7 @@ class TestIntegrals:
         kelvin = np.linspace(263.15, 423.15, 9)
         inputs = oil.inputs(kelvin)
         words = ("first_known_temperature", "second_known_temperature", "known_fall", "fall_from_first")
-        law = {"share": 1.0, "convexity": 313.15 / (313.15 - divergence)}
+        law = {"share": 1.0, "convexity": 313.15 / (313.15 - divergence), "fall": 1.0}
         found = viscosity_temperature_law(inputs["viscosity"], kelvin, *(inputs[w] for w in words), **law)
         np.testing.assert_allclose(found, vogel(kelvin), rtol=1e-10)
         departure = np.abs(np.log(inputs["viscosity"] / found))
@@ -354,7 +354,7 @@ class TestIntegrals:
         convexity = 313.15 / (2.0 * (313.15 - spot))
         oil = np.exp(-fall(kelvin))
         found = viscosity_temperature_law(
-            oil, kelvin, *known, np.log(10.0), fall(kelvin), share=1.0, convexity=convexity
+            oil, kelvin, *known, np.log(10.0), fall(kelvin), share=1.0, convexity=convexity, fall=1.0
         )
         assert np.abs(np.log(found / oil)).max() < 0.03
 
@@ -362,7 +362,15 @@ class TestIntegrals:
         kelvin = np.linspace(253.15, 423.15, 9)
         fall = 0.0384 * (kelvin - 313.15)
         found = viscosity_temperature_law(
-            0.1 * np.exp(-0.9 * fall), kelvin, 313.15, 373.15, 0.0384 * 60.0, 0.9 * fall, share=1.0, convexity=0.0
+            0.1 * np.exp(-0.9 * fall),
+            kelvin,
+            313.15,
+            373.15,
+            0.0384 * 60.0,
+            0.9 * fall,
+            share=1.0,
+            convexity=0.0,
+            fall=1.0,
         )
         np.testing.assert_allclose(found, 0.1 * np.exp(-fall), rtol=1e-12)
 
@@ -372,25 +380,6 @@ class TestIntegrals:
         inputs = oil.inputs(kelvin)
         words = ("first_known_temperature", "second_known_temperature", "known_fall", "fall_from_first")
         found = viscosity_temperature_law(
-            inputs["viscosity"], kelvin, *(inputs[w] for w in words), share=1.3, convexity=2.5
+            inputs["viscosity"], kelvin, *(inputs[w] for w in words), share=1.3, convexity=2.5, fall=1.0
         )
         np.testing.assert_allclose(found, inputs["viscosity"], rtol=1e-13)
-
-
-class TestLookalikes:
-    """What the standard rigs can and cannot tell apart."""
-
-    def test_rolling_and_churning_look_alike_on_a_gear(self) -> None:
-        assert "churning" in lookalikes("rolling_resistance", "gear_pair")
-
-    def test_windage_does_not_look_like_churning(self) -> None:
-        assert "churning" not in lookalikes("windage", "gear_pair")
-
-    def test_calibration_hides_a_gain_and_leaves_starvation(self) -> None:
-        left = {name: kept for name, (_, kept) in signatures("gear_pair").items()}
-        assert left["sensor_gain"] < 0.05 < 0.4 < left["starvation"]
-
-    def test_shown_values_are_never_null(self) -> None:
-        for effect in catalogue().values():
-            values = shown(effect)
-            assert all(values[p.name] != p.null for p in effect.parameters), effect.id
