@@ -4,8 +4,11 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import diagnose_case
+from mixedlub.diagnosis.fitting.problem import Problem
 from mixedlub.diagnosis.judging.empirical import unnamed
 from mixedlub.diagnosis.telling.words import as_text, sections
+from mixedlub.diagnosis.unnamed.carriers import late
+from mixedlub.forward import Forward
 
 from .conftest import BALL, system
 from .test_planted import by_d341, film
@@ -187,3 +190,36 @@ def test_what_the_reading_before_left_behind_is_not_noise(make):
     assert found.found.unknown.best.form == "delay"
     assert "goes with the temperature of the reading before" in told(found)
     assert "Wait longer after a change of temperature" in told(found)
+
+
+def test_a_temperature_that_lags_has_caught_up_after_a_pause(make):
+    """Whichever rows are asked for, the reading before is the recorded one; a step after a pause is a part of it."""
+    time = np.concatenate([np.arange(0.0, 300.0, 10.0), np.arange(1290.0, 1590.0, 10.0)])
+    celsius = 40.0 + 15.0 * np.sin(time / 160.0)
+    columns = {"time_s": time, "temperature_C": celsius, "viscosity_mPa_s": 50.0 - 0.5 * celsius}
+    case = make(system("viscosity", "viscosity_mPa_s"), columns)
+    rows = case.recordings
+    whole = Problem.of(case, rows, Forward(case, rows), rows["viscosity_mPa_s"])
+    moved = late(whole, whole.run((), np.zeros(whole.calibration_size)))
+    slope = np.diff(celsius)
+    per_kelvin = moved[1:30] / slope[:29]
+    assert moved[30] == pytest.approx(np.median(per_kelvin) * slope[29] / 100.0, rel=0.3)
+    asked = rows.take(np.array([5, 30, 40]))
+    few = Problem.of(case, asked, Forward(case, asked, 50.0), asked["viscosity_mPa_s"])
+    assert late(few, few.run((), np.zeros(few.calibration_size))) == pytest.approx(moved[[5, 30, 40]], rel=1e-6)
+
+
+def test_levels_left_out_are_those_of_the_condition_that_was_varied(make):
+    """Seven films over nine times the speed; the load is measured and jitters by a few per cent."""
+    rng = np.random.default_rng(2)
+    speed = np.geomspace(0.12, 1.06, 7)
+    columns = {
+        "load_N": np.array([20.305, 19.892, 20.179, 20.191, 20.381, 19.257, 19.658]),
+        "sequence": np.linspace(0.0, 1.0, 7),
+        "entrainment_speed_m_s": speed,
+        "slide_roll_ratio": np.zeros(7),
+        "oil_temperature_C": np.full(7, 38.8),
+        "film_thickness_nm": 560.0 * speed**0.6 * (1.0 + 0.01 * rng.standard_normal(7)),
+    }
+    found = diagnose_case(make(system("film", "film_thickness_nm", contact=BALL), columns).folder)
+    assert "speed" in found.heldout.split

@@ -233,8 +233,11 @@ def _unknown_left(found: Search, forms: list[np.ndarray], out: np.ndarray) -> tu
 
 
 def _folds(found: Search) -> tuple[str, np.ndarray, bool]:
-    """The condition with the most levels, the level of every reading, and whether levels have an order."""
-    best: tuple[int, str, np.ndarray, bool] | None = None
+    """The condition with the most levels, the level of every reading, and whether levels have an order.
+
+    Of conditions with as many the one that spans most of its size: what jitters about a set-point has levels too.
+    """
+    best: tuple[int, float, str, np.ndarray, bool] | None = None
     for axis, values in zip(found.space.axes, found.values, strict=True):
         if axis.name in ("sequence", "composite_roughness_um"):
             continue
@@ -246,8 +249,9 @@ def _folds(found: Search) -> tuple[str, np.ndarray, bool]:
         if levels.size > MOST_FOLDS and axis.named:
             label = label % MOST_FOLDS
         count = int(np.unique(label).size)
-        if count >= 3 and (best is None or count > best[0]):
-            best = (count, axis.name, np.unique(label, return_inverse=True)[1], not axis.named)
+        span = 1.0 if axis.named else float(np.ptp(values) / np.max(np.abs(values)))
+        if count >= 3 and (best is None or (count, span) > best[:2]):
+            best = (count, span, axis.name, np.unique(label, return_inverse=True)[1], not axis.named)
     if best is None:
         return "", np.arange(found.problem.y.size) % min(5, found.problem.y.size), False
-    return best[1:]
+    return best[2:]

@@ -16,7 +16,7 @@ from mixedlub.table import Table
 
 READING, NOTHING = "reading", "nothing"
 LATE = "late_temperature"
-"""What readings would be at the temperature of the one before, less what they are: nothing that rides on it varies."""
+"""What readings would be at the temperature of a step before, less what they are: nothing that rides on it varies."""
 WARMTH = ("oil_temperature_C", "temperature_C")
 QUANTITIES = ("film_thickness", "shear_stress", "area_ratio", "boundary_friction", "line_load", "running_friction")
 LEAST = 1e-9
@@ -60,15 +60,24 @@ def carrier(problem: Problem, base: Run, typical: Typical, name: str) -> np.ndar
 
 
 def late(problem: Problem, base: Run) -> np.ndarray:
-    """Change of the readings if the oil still were as warm as at the reading before; zero where no order is told."""
+    """Change of the readings if the oil still were as warm as one usual step before; zero where no order is told.
+
+    What was recorded tells how warm it was before a row, whichever table holds that; after a pause the step is a
+    small part of what the temperature has changed by since.
+    """
     rows, order = problem.rows, clock_of(problem.rows)
     name = next((n for n in WARMTH if n in rows and np.ptp(rows[n]) > 0.0), None)
     if order is None or name is None:
         return np.zeros(problem.y.size)
-    rank = np.argsort(order)
-    before = np.empty(rank.size)
-    before[rank] = rows[name][np.concatenate([rank[:1], rank[:-1]])]
-    table = Table({**rows.columns, name: before}, rows.source)
+    every = [rows]
+    if problem.case.recordings is not None and clock_of(problem.case.recordings) is not None:
+        every.append(problem.case.recordings)
+    clock, first = np.unique(np.concatenate([clock_of(t) for t in every]), return_index=True)
+    warmth = np.concatenate([t[name] for t in every])[first]
+    before = np.maximum(np.searchsorted(clock, order) - 1, 0)
+    gap = np.maximum(order - clock[before], np.median(np.diff(clock)))
+    step = (warmth[before] - rows[name]) * np.median(np.diff(clock)) / gap
+    table = Table({**rows.columns, name: rows[name] + step}, rows.source)
     there = Forward(problem.case, table, float(problem.forward.inputs["reading_scale"]))
     values = {name: move.value for name, move in base.applied.items()}
     return problem.seen(there.predict(values)) - base.prediction
