@@ -16,6 +16,7 @@ from mixedlub.effect import LogNormal, Parameter, effect
             "speed at which friction is 63 % of its sliding value, over the largest speed of the recording",
             null=0.0,
             symbol="p",
+            of="reference_speed",
         ),
     ),
     equation=r"T_r \leftarrow T_r\left(1 - e^{-|\omega|/(p\,\omega_0)}\right)",

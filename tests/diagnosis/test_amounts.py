@@ -49,6 +49,11 @@ def test_a_share_of_a_torque_is_told_in_newton_metres(offset: Diagnosis, drive: 
     assert tables._meaning(drive, growth, 0.5).endswith(f"({number(moved)} N m): {number(0.5 * moved)} N m")
 
 
+def test_a_share_of_the_largest_speed_is_told_in_turns(drive: Diagnosis) -> None:
+    (least,) = catalogue()["presliding"].parameters
+    assert tables._meaning(drive, least, 0.01).endswith("over the largest speed of the recording (300 rpm): 3 rpm")
+
+
 def test_what_a_parameter_is_a_share_of_is_read_by_its_law() -> None:
     for e in catalogue().values():
         assert all(not p.of or p.of in (*e.acts_on, *e.reads) for p in e.parameters), e.id

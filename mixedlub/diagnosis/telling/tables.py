@@ -27,6 +27,8 @@ FAR = 3.0
 """Standard deviations of its prior from which a parameter is far outside of what is usual."""
 UNMOVED = 1e-6
 """Sigmas by which a parameter moves readings, for one standard deviation of its prior, that are none."""
+RPM = 30.0 / np.pi
+"""Turns a minute in a radian a second."""
 SURE = 0.9
 """Probability from which an effect is sure."""
 COLUMNS = ("effect", "parameter", "value", "90 % interval", "unit", "meaning")
@@ -128,6 +130,9 @@ def _whole(d: Diagnosis, name: str) -> tuple[float, str]:
     forward = d.found.problem.forward
     if name == "reading_scale":
         return float(forward.inputs[name]) * forward.scale, unit_of(d.case.quantity)
+    if name == "reference_speed":
+        size, turning = float(forward.inputs[name]), "speed_rpm" in forward.table
+        return (size * RPM, "rpm") if turning else (size, "m/s")
     for c, z in zip(forward.calibrations, _calibrated(d)[0], strict=False):
         if name in c.needs:
             moved = c.apply(forward.inputs, c.parameter.prior.value(float(z)))
