@@ -131,6 +131,7 @@ class Parameter:
     ``sudden`` says that readings move where it passes them and hardly in between.
     ``kinds`` restricts the kinds of recording in which it is free (empty: all); in others it stays at its null.
     ``published`` is the range that the laws cited in the source have, where other values are tried as well.
+    ``of`` is the input that it is a share of, if one is.
     """
 
     name: str
@@ -143,6 +144,7 @@ class Parameter:
     sudden: bool = False
     kinds: tuple[str, ...] = ()
     published: tuple[float, float] | None = None
+    of: str = ""
 
     @property
     def off(self) -> float:

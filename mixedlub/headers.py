@@ -181,7 +181,12 @@ TARGETS = (
     Target("speed_rpm", "rpm", ("speed", "motor speed", "rotational speed")),
     Target("torque_Nm", "Nm", ("torque", "load torque", "pinion torque")),
     Target("motor_torque_Nm", "Nm", ("motor torque",)),
-    Target("friction_torque_Nm", "Nm", ("friction torque",)),
+    Target(
+        "friction_torque_Nm",
+        "Nm",
+        ("friction torque", "torque loss", "loss torque", "drag torque", "frictional torque"),
+        ("loss", "drag"),
+    ),
     Target(
         "friction_coefficient",
         "ratio",

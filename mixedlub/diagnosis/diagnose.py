@@ -21,6 +21,7 @@ from mixedlub.diagnosis.judging.predict import Refined
 from mixedlub.diagnosis.judging.published import Contained, contained
 from mixedlub.diagnosis.judging.validity import beyond_range, unpublished
 from mixedlub.diagnosis.judging.verdict import judge
+from mixedlub.diagnosis.labels import effect_words
 from mixedlub.diagnosis.recording.audit import audit
 from mixedlub.diagnosis.searching.search import Progress, Search
 from mixedlub.diagnosis.searching.weighed import weighed
@@ -46,6 +47,7 @@ class Diagnosis:
     contained: tuple[Contained, ...]
     next_tests: tuple[NextTest, ...]
     warnings: tuple[str, ...]
+    excluded: tuple[str, ...] = ()
 
     @property
     def readings(self) -> np.ndarray:
@@ -99,6 +101,10 @@ def diagnose_case(
     forward = Forward(case, rows)
     y = np.asarray(rows[case.quantity], dtype=float)
     warnings = [*case.notes, *assumed, *hidden(case, wanted), *forward.notes, *audit(case, rows, y, forward)]
+    left_out = tuple(e.id for e in forward.effects() if e.id in exclude)
+    if left_out:
+        named = ", ".join(effect_words(name) for name in left_out)
+        warnings.append(f"left out on request, so neither named nor excluded: {named}")
     if wanted is not None:
         there = Forward(case, wanted)
         there.nominal()
@@ -124,8 +130,9 @@ def diagnose_case(
     laws = contained(found, judged.verdict)
     tests = next_tests(found, judged, refined, columns, varied)
     warnings += _cautions(found, judged, kept, refined, recorded.predicted, chance > 0.5)
+    said = tuple(warnings)
     return Diagnosis(
-        case, found, test, judged, refined, recorded, other, chance, place, kept, laws, tests, tuple(warnings)
+        case, found, test, judged, refined, recorded, other, chance, place, kept, laws, tests, said, left_out
     )
 
 

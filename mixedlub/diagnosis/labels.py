@@ -100,7 +100,7 @@ def effect_words(name: str) -> str:
     """
     special = {
         "none": "nothing missing",
-        "unknown": "something outside the catalogue",
+        "unknown": "something unknown",
         "micro_ehl": "micro-EHL",
         "stribeck": "Stribeck",
     }

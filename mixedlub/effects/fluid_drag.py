@@ -16,6 +16,7 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
             "drag at the largest speed of the recording over the typical reading",
             null=0.0,
             symbol="c",
+            of="reading_scale",
         ),
         Parameter("exponent", "-", Between(1.5, 2.0), "power of speed", symbol="k", published=(1.5, 2.0)),
     ),

@@ -16,6 +16,7 @@ from mixedlub.effect import Parameter, Wide, effect
             "change of the force's zero over the programme at the smallest load, over the typical reading",
             null=0.0,
             symbol="d",
+            of="reading_scale",
         ),
     ),
     equation=r"y \leftarrow y + d\,y_0\,q_w\,q",

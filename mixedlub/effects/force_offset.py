@@ -16,6 +16,7 @@ from mixedlub.effect import Parameter, Wide, effect
             "error of the force at the smallest load, over the typical reading",
             null=0.0,
             symbol="a",
+            of="reading_scale",
         ),
     ),
     equation=r"y \leftarrow y + a\,y_0\,q_w",

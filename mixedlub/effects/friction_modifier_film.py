@@ -10,7 +10,13 @@ from mixedlub.effect import LogNormal, Parameter, effect
     acts_on="coulomb_torque",
     parameters=(
         Parameter(
-            "drop", "-", LogNormal(0.3, 0.6), "share of dry friction that a full layer takes away", null=0.0, symbol="d"
+            "drop",
+            "-",
+            LogNormal(0.3, 0.6),
+            "share of dry friction that a full layer takes away",
+            null=0.0,
+            symbol="d",
+            of="coulomb_torque",
         ),
         Parameter(
             "half_share",

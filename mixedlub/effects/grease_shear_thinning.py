@@ -11,7 +11,12 @@ from mixedlub.effect import BetweenLog, LogNormal, Parameter, effect
     parameters=(
         Parameter("deficit", "-", LogNormal(0.35, 0.35), "one less the flow index of the grease", null=0.0, symbol="d"),
         Parameter(
-            "knee", "-", BetweenLog(1e-3, 1.0), "share of the reference speed at which thinning sets in", symbol="k"
+            "knee",
+            "-",
+            BetweenLog(1e-3, 1.0),
+            "share of the reference speed at which thinning sets in",
+            symbol="k",
+            of="reference_speed",
         ),
     ),
     equation=r"T_v \leftarrow T_v\left[\frac{x^2 + k^2}{1 + k^2}\right]^{-d/2},\quad "

@@ -19,6 +19,7 @@ from mixedlub.effect import LogNormal, Parameter, effect
             "share of the typical power that leaves per kelvin",
             null=0.0,
             symbol="g",
+            of="reading_scale",
         ),
     ),
     equation=r"y \leftarrow (1 - c)\,y - G\,(\theta_{oil} - \theta_a),\quad G = g\,y_0",

@@ -10,7 +10,13 @@ from mixedlub.effect import LogNormal, Parameter, effect
     acts_on="coulomb_torque",
     parameters=(
         Parameter(
-            "growth", "-", LogNormal(0.5, 1.0), "dry friction added at the largest load, over T_c", null=0.0, symbol="c"
+            "growth",
+            "-",
+            LogNormal(0.5, 1.0),
+            "dry friction added at the largest load, over T_c",
+            null=0.0,
+            symbol="c",
+            of="coulomb_torque",
         ),
         Parameter("power", "-", LogNormal(1.0, 0.35), "power of the load", symbol="n"),
     ),

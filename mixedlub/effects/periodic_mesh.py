@@ -10,9 +10,23 @@ from mixedlub.effect import Between, BetweenLog, Normal, Parameter, effect
     acts_on="friction_torque",
     parameters=(
         Parameter(
-            "cosine", "-", Normal(0.0, 0.3), "amplitude in phase with position zero, over T_c", null=0.0, symbol="a"
+            "cosine",
+            "-",
+            Normal(0.0, 0.3),
+            "amplitude in phase with position zero, over T_c",
+            null=0.0,
+            symbol="a",
+            of="coulomb_torque",
         ),
-        Parameter("sine", "-", Normal(0.0, 0.3), "amplitude a quarter period later, over T_c", null=0.0, symbol="b"),
+        Parameter(
+            "sine",
+            "-",
+            Normal(0.0, 0.3),
+            "amplitude a quarter period later, over T_c",
+            null=0.0,
+            symbol="b",
+            of="coulomb_torque",
+        ),
         Parameter(
             "turning",
             "-",

@@ -19,6 +19,7 @@ NEAR = 1e-6
             "speed to the sliding value at the slope of the start, over the largest speed of the recording",
             null=0.0,
             symbol="p",
+            of="reference_speed",
         ),
         Parameter(
             "exponent",

@@ -14,8 +14,8 @@ from mixedlub.effect import Parameter, Wide, effect
     equation=r"y \leftarrow y\,(1 + d\,q)",
     source="measurement: scale error that grows in the course of the programme",
     fingerprint={"sequence": "+"},
-    separated_by="the first point repeated at the end, with the surfaces measured again: running-in saturates and "
-    "leaves smoother flanks, drift does neither",
+    separated_by="the first point repeated at the end, and a reference (check weight, reference oil, gauge block) read "
+    "before and after: drift shows in both, a sample or surface that changes in the first only",
     after=("fringe_order", "fringe_step", "heat_leak", "torque_constant", "torque_offset", "zero_drift"),
 )
 def sensor_drift(reading: np.ndarray, sequence: np.ndarray, *, drift: float) -> np.ndarray:

@@ -9,7 +9,15 @@ from mixedlub.effect import Parameter, Wide, effect
     stage="measurement",
     acts_on="reading",
     parameters=(
-        Parameter("offset", "-", Wide(0.05), "added to every reading, over its typical size", null=0.0, symbol="a"),
+        Parameter(
+            "offset",
+            "-",
+            Wide(0.05),
+            "added to every reading, over its typical size",
+            null=0.0,
+            symbol="a",
+            of="reading_scale",
+        ),
     ),
     equation=r"y \leftarrow y + a\,y_0",
     source="measurement: zero error of a channel",

@@ -9,13 +9,22 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
     stage="boundary",
     acts_on="running_friction",
     parameters=(
-        Parameter("excess", "-", LogNormal(0.3, 0.8), "static over Coulomb friction, less one", null=0.0, symbol="s"),
+        Parameter(
+            "excess",
+            "-",
+            LogNormal(0.3, 0.8),
+            "static over Coulomb friction, less one",
+            null=0.0,
+            symbol="s",
+            of="coulomb_torque",
+        ),
         Parameter(
             "speed_share",
             "-",
             LogNormal(0.1, 1.0),
             "Stribeck speed over the largest speed of the recording, at its mean temperature",
             symbol="q",
+            of="reference_speed",
         ),
         Parameter(
             "exponent",

@@ -12,7 +12,15 @@ from mixedlub.effect import LogNormal, Normal, Parameter, effect
         Parameter(
             "error", "-", Normal(0.0, 0.08), "share by which the assumed constant is too high", null=0.0, symbol="a"
         ),
-        Parameter("fall", "-", LogNormal(0.08, 0.8), "further share lost at the largest torque", null=0.0, symbol="f"),
+        Parameter(
+            "fall",
+            "-",
+            LogNormal(0.08, 0.8),
+            "further share lost at the largest torque",
+            null=0.0,
+            symbol="f",
+            of="reference_torque",
+        ),
     ),
     equation=r"y \leftarrow y + T_m\,(a + f\,|T_m|/T_{m0})",
     source="saturation of the iron, e.g. J. R. Hendershot, T. J. E. Miller, Design of Brushless Permanent-Magnet "

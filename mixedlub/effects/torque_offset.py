@@ -16,6 +16,7 @@ from mixedlub.effect import Parameter, Wide, effect
             "torque read at no torque, over the largest torque recorded",
             null=0.0,
             symbol="a",
+            of="largest_torque",
         ),
     ),
     equation=r"y \leftarrow y + a\,T_m\,\omega_1",

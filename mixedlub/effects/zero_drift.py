@@ -16,6 +16,7 @@ from mixedlub.effect import Normal, Parameter, effect
             "change of the zero over the programme, over the typical reading",
             null=0.0,
             symbol="d",
+            of="reading_scale",
         ),
     ),
     equation=r"y \leftarrow y + d\,y_0\,q",

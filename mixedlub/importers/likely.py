@@ -26,6 +26,9 @@ TEXT_FITS = 0.4
 DATED = re.compile(r"\d+[-/.:]\d+")
 """How a date or a clock begins, which names no surface."""
 SAME_WORD = 0.75
+TRANSMITTED = {"input", "output", "load", "applied"}
+"""Words for a torque that a drive hands on: it loads the friction that is read beside it, and is offered last."""
+LAST = 0.41
 
 
 def likely_headers(columns: Iterable[str], cells: Cells) -> dict[str, str]:
@@ -107,7 +110,8 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
     # A share in percent may be of anything, and most of what is weighed is no load.
     tells = known and (share > 0.0 or not (target.unit in ("ratio", "percent") or (unit or "").lower() in WEIGHED))
     bare = unit is None and target.unit == "ratio" and share > 0.0
-    return share + (UNIT_FITS if tells else 0.0) + (NO_UNIT_FITS if bare else 0.0)
+    score = share + (UNIT_FITS if tells else 0.0) + (NO_UNIT_FITS if bare else 0.0)
+    return min(score, LAST) if column == "friction_torque_Nm" and TRANSMITTED & set(words.split()) else score
 
 
 def _overlap(words: str, spoken: str) -> float:

@@ -252,7 +252,7 @@ def test_what_tied_explanations_share_is_said(offset: Diagnosis) -> None:
 
 def test_unknown_is_said_with_place_and_stage(unnamed: Diagnosis) -> None:
     said = told(unnamed)
-    assert "the catalogue does not have" in said[words.ANSWER]
+    assert "Something is missing that no one effect" in said[words.ANSWER]
     assert "speed 1500 rpm" in said[words.WHERE]
     assert "which quantity could take it up" in said[words.UNNAMED]
     assert words.LEFT_OUT not in said

@@ -11,6 +11,7 @@ from mixedlub.importers import import_files
 from mixedlub.importers.likely import likely_headers, likely_kind
 from mixedlub.importers.match import wanted
 from mixedlub.importers.plain import draft
+from mixedlub.importers.write import toml_value
 from mixedlub.kinds import kind as kind_of
 from profiles.errors import InputError
 
@@ -289,3 +290,18 @@ def test_a_time_counted_in_cycles_is_still_the_time():
 def test_a_unit_that_is_not_known_is_refused_with_those_that_could_be():
     with pytest.raises(InputError, match="'ft/min': unit of sliding_speed_m_s is not known"):
         draft("Sliding speed (ft/min);friction_torque_Nm\n1;.1\n2;.2\n3;.1\n", "t.csv", DRIVE)
+
+
+@pytest.mark.parametrize(
+    "loss", ["Torque Loss [Nm]", "Loss torque [Nm]", "Drag torque (Nm)", "Loss [Nm]", "Verlust [Nm]"]
+)
+def test_the_torque_that_loads_a_drive_is_not_offered_as_its_friction(loss, table, capsys):
+    table(
+        f"Input Speed [rpm],Input Torque [Nm],{loss}\n" + "".join(f"{600 + i},{200 * i},{20 + i}\n" for i in range(6))
+    )
+    cells = {"Input Torque [Nm]": ["0", "200"], loss: ["19.6", "23.5"]}
+    assert likely_headers(["friction_torque_Nm"], cells) == {"friction_torque_Nm": loss}
+    settings = [f"--set={key}={toml_value(value)}" for key, value in DRIVE.items()]
+    main(["import", "t.csv", "--out", "rig", *settings])
+    said = capsys.readouterr().err
+    assert 'friction_torque_Nm="Input Torque' not in said

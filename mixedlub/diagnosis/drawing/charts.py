@@ -63,7 +63,7 @@ def evidence(d: Diagnosis) -> Figure:
     axes.set_xlabel("probability of the explanation (shaded: tied with the most probable)")
     axes.grid(axis="y", visible=False)
     axes.tick_params(axis="y", length=0)
-    kinds = {AFTER: "physics", FAULT: "instrument", MUTED: "nothing missing", UNNAMED: "outside the catalogue"}
+    kinds = {AFTER: "physics", FAULT: "instrument", MUTED: "nothing missing", UNNAMED: "unknown"}
     shown = dict.fromkeys(colour_of(k) for k, _ in rows)
     marks = [Line2D([], [], color=c, marker="o", lw=2, ms=5, label=kinds[c]) for c in shown]
     axes.legend(handles=marks, loc="lower right")

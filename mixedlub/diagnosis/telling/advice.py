@@ -9,10 +9,15 @@ import numpy as np
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import amount, conditions_text, explanation_words, range_text, words_of
 from mixedlub.diagnosis.recording.features import PASSING
+from mixedlub.diagnosis.recording.noise import setups_differ
 from mixedlub.table import Table
 
 USELESS, WEAK = 0.01, 0.1
 """Bits below which a test is not worth naming, and below which it is not worth much."""
+SETUPS = (
+    "It goes with a name, as it does where parts were mounted anew and set-ups differ: name these in a column setup "
+    "and say in noise.setup_relative or noise.setup_absolute how far off one may be."
+)
 
 
 def next_test(d: Diagnosis) -> tuple[str, ...]:
@@ -35,7 +40,7 @@ def next_test(d: Diagnosis) -> tuple[str, ...]:
             place = ", ".join(range_text(cut) for cut in d.region.where) or "all conditions"
         if set(d.found.unknown.best.axes) <= set(PASSING) and d.found.unknown.best.axes:
             return ("It goes with time alone: run the programme again, in another order, and see whether it returns.",)
-        return (f"To learn its form, refine and repeat the levels around {place}.",)
+        return _refined(d, place)
     if not d.next_tests:
         return ("No useful test: there is no second explanation to tell the first one from.",)
     first = d.next_tests[0]
@@ -48,6 +53,19 @@ def next_test(d: Diagnosis) -> tuple[str, ...]:
         "would settle which of two equally probable ones is right)."
     )
     return (*weak, run, *(f"{text[:1].upper()}{text[1:]}." for text in beyond(first.conditions, d.recorded.table)))
+
+
+def _refined(d: Diagnosis, place: str) -> tuple[str, ...]:
+    """Where to read again for the form of an unnamed mismatch; names have no levels between them."""
+    shape, space = d.found.unknown.best, d.found.space
+    cuts = d.region.where if shape.at is None else ()
+    names = [range_text(cut) for cut in cuts if "values" in cut]
+    levels = [range_text(cut) for cut in cuts if "values" not in cut] or ([] if names else [place])
+    parts = [f"repeat readings with {', '.join(names)} and with others in its place"] if names else []
+    parts += [f"refine and repeat the levels around {', '.join(levels)}"] if levels else []
+    said = (f"To learn its form, {'; '.join(parts)}.",)
+    by_name = bool(names) or any(space.axes[space.place(name)].named for name in shape.axes)
+    return (*said, SETUPS) if by_name and not setups_differ(d.case) else said
 
 
 def wave_period(d: Diagnosis) -> str:

@@ -7,6 +7,8 @@ from mixedlub.diagnosis.fitting.problem import effects_of
 from mixedlub.diagnosis.labels import STAGE_WORDS, effect_words, explanation_words
 from mixedlub.diagnosis.recording.audit import SCARCE, Doubt
 
+CONTRADICTION = "readings at equal conditions contradict each other"
+"""How the warning begins after which an unnamed mismatch is no finding."""
 MOST_TIED = 5
 """Tied explanations that are named."""
 LEAST_P = 1e-300
@@ -64,6 +66,8 @@ def headline(d: Diagnosis) -> str:
     """The verdict in one sentence; where readings are few, after one that says so."""
     count = d.readings.size
     said = _verdict(d)
+    if d.posterior.verdict == "unknown" and any(text.startswith(CONTRADICTION) for text in d.warnings):
+        said = f"R{CONTRADICTION[1:]}: mend instrument or set-up before anything is named. {said}"
     return said if count >= SCARCE else f"Only {count} readings: take this as a hint, not as a finding. {said}"
 
 
@@ -84,7 +88,9 @@ def _verdict(d: Diagnosis) -> str:
     if judged.verdict == ():
         return f"Nothing is missing that these readings could show: the calibrated model explains them ({p})."
     if judged.verdict == "unknown":
-        return f"Something is missing that the catalogue does not have (probability {p})."
+        count = len(d.excluded)
+        which = f"of those weighed explains ({count} left out on request)" if count else "of the catalogue explains"
+        return f"Something is missing that no one effect {which}, nor any two tried together (probability {p})."
     assert not isinstance(judged.verdict, str)
     effects = effects_of(judged.verdict)
     free = [effect_words(e.id) for e in effects if e.free_form]
@@ -119,11 +125,26 @@ def standing(d: Diagnosis) -> list[str]:
     if common:
         every = " and ".join(f"{effect_words(n)} ({chance(inclusion[n])})" for n in sorted(common))
         said.append(f"In every one of them: {every}.")
+    said += _each(d, common)
     stages = {name: p for name, p in judged.stages().items() if p >= 0.05}
     if judged.verdict != () and stages:
         ranked = sorted(stages.items(), key=lambda item: -item[1])
         said.append("Where in the chain: " + ", ".join(f"{STAGE_WORDS[s]} {chance(p)}" for s, p in ranked) + ".")
     return said
+
+
+def _each(d: Diagnosis, told: set[str]) -> list[str]:
+    """How probable the effects of the answer are in any company, where that differs from the answer as a whole."""
+    judged = d.posterior
+    if isinstance(judged.verdict, str):
+        return []
+    every, own = judged.inclusion(d.found), chance(judged.weights[judged.verdict])
+    names = [name for name in judged.verdict if name not in told and chance(every[name]) != own]
+    if not names:
+        return []
+    whole = "Each probability is that of an answer" if len(judged.tied) > 1 else "The probability is that of the answer"
+    each = " and ".join(f"{effect_words(name)} has {chance(every[name])}" for name in names)
+    return [f"{whole} just as it stands; in any company {each}."]
 
 
 def probability_words(d: Diagnosis, name: str) -> str:

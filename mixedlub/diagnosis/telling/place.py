@@ -14,6 +14,10 @@ SPREAD = (
     "calibrated as if nothing were missing. That spreads its shortfall over all conditions, so that signs there may "
     "differ from these."
 )
+LEVEL = (
+    "No name holds the calibration: it may have taken up what is alike at all readings, and the mismatch may as well "
+    "lie elsewhere, with the other sign."
+)
 TURNED = 0.2
 """Share of readings whose sign in the figures is another one, from which that is explained."""
 EVEN = 0.3
@@ -27,7 +31,9 @@ def where(d: Diagnosis) -> tuple[str, ...]:
     z = _mismatch(d)
     most = int(np.argmax(np.abs(z)))
     run, conditions = int(d.recorded.table["run"][most]), reading_conditions(d, most)
-    said = (located(d), f"Largest at run {run} ({conditions}): {z[most]:+.1f} sigma.")
+    said: tuple[str, ...] = (located(d), f"Largest at run {run} ({conditions}): {z[most]:+.1f} sigma.")
+    if d.posterior.verdict == "unknown" and d.found.problem.calibration_size and not d.region.inside.all():
+        said = (*said, LEVEL)
     turned = np.sign(d.residuals[0]) != np.sign(z)
     return (*said, SPREAD) if turned.mean() > TURNED else said
 

@@ -6,6 +6,7 @@ from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.fitting.problem import effects_of
 from mixedlub.diagnosis.judging.confusion import VISIBLE, Confusion
 from mixedlub.diagnosis.labels import effect_words
+from mixedlub.diagnosis.telling.nearest import nearest
 
 NEAR, ALIKE = 0.8, 0.95
 """Cosine of two signatures from which they are near, and from which they have nearly the same form."""
@@ -29,20 +30,23 @@ def _resemblance(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
     said, twins = [], set()
     for name in verdict:
         i = alike.ids.index(name)
-        near = {
+        others = {
             other: float(alike.cosine[i, j])
             for j, other in sorted(enumerate(alike.ids), key=lambda item: -alike.cosine[i, item[0]])
             if other not in verdict and alike.cosine[i, j] > NEAR
         }
-        twins |= {other for other, cosine in near.items() if cosine > ALIKE}
-        if near:
-            listed = ", ".join(f"{effect_words(other)} ({cosine:.2f})" for other, cosine in list(near.items())[:3])
+        twins |= {other for other, cosine in others.items() if cosine > ALIKE}
+        if others:
+            listed = ", ".join(f"{effect_words(other)} ({cosine:.2f})" for other, cosine in list(others.items())[:3])
             said.append(
                 f"Its signature at these conditions is nearest to that of {listed} "
                 f"(1 would be the same; {effect_words(name)})."
             )
-    unseen = unshown(d, alike)
-    improbable = [name for name in _improbable(d) if name not in unseen]
+    # What is told as the nearest to a mismatch without a name shows here and is not simply rejected.
+    near = nearest(d)
+    told = () if near is None else near.names
+    unseen = [name for name in unshown(d, alike) if name not in told]
+    improbable = [name for name in _improbable(d) if name not in (*unshown(d, alike), *told)]
     rejected = ", ".join(effect_words(name) for name in improbable if name not in twins)
     if rejected:
         why = "Weighed and rejected" if verdict or judged.verdict == "unknown" else "Would show here, and did not"

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-import inspect
+import warnings
 from dataclasses import replace
 
 import numpy as np
 
+from mixedlub.case import Case
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import effect_words, in_reach, number, with_names
 from mixedlub.diagnosis.telling.answer import effect_records, interval, verdict_fit
 from mixedlub.effect import Between, BetweenLog, Effect, Parameter, Prior
 from mixedlub.forward import Forward
 from mixedlub.headers import unit_of
+from mixedlub.quantities import GLOSSARY
 from mixedlub.report.plain import plain_equation, with_symbol
+from mixedlub.table import CaseWarning, Table
 
 STRAINED = 2.0
 """Standard deviations from which an input counts as strained."""
@@ -24,12 +27,16 @@ FAR = 3.0
 """Standard deviations of its prior from which a parameter is far outside of what is usual."""
 UNMOVED = 1e-6
 """Sigmas by which a parameter moves readings, for one standard deviation of its prior, that are none."""
+RPM = 30.0 / np.pi
+"""Turns a minute in a radian a second."""
+SURE = 0.9
+"""Probability from which an effect is sure."""
 COLUMNS = ("effect", "parameter", "value", "90 % interval", "unit", "meaning")
 
-Table = tuple[tuple[str, ...], ...]
+Cells = tuple[tuple[str, ...], ...]
 
 
-def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Table]:
+def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
     """Fitted parameters of the answer's effects, with a sentence on those that the readings hardly tell."""
     if isinstance(d.posterior.verdict, str) or d.posterior.verdict == ():
         return (), ()
@@ -37,6 +44,7 @@ def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Table]:
     moved = np.max(np.abs(refined.fit.slopes), axis=0) > UNMOVED
     moved |= np.abs(refined.z) > UNMOVED
     start = d.found.problem.calibration_size
+    every_company = d.posterior.inclusion(d.found)
     table, said = [COLUMNS], []
     for e, record in zip(d.found.problem.effects(d.posterior.verdict), effect_records(d), strict=True):
         places = range(start, start + len(e.parameters))
@@ -47,7 +55,8 @@ def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Table]:
         told = [(p, fitted, i) for p, fitted, i in every if p.sudden or moved[i]]
         said += _unmoved(e, [p for p, _, i in every if not (p.sudden or moved[i])])
         vague = [p.name.replace("_", " ") for p, _, i in told if refined.spread[i] >= UNTOLD]
-        said += _untold(replace(e, parameters=tuple(p for p, _, _ in told)), vague)
+        alone = _untold(replace(e, parameters=tuple(p for p, _, _ in told)), vague)
+        said += alone or _cancelling(e, [(p, fitted) for p, fitted, _ in told], every_company[e.id])
         for p, fitted, i in told:
             usual = float(p.prior.value(0.0))
             scaled, unit = in_reach((fitted["value"], fitted["low90"], fitted["high90"]), p.unit, usual)
@@ -57,7 +66,9 @@ def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Table]:
             said += _stretched(e, p, far)
             marks = [mark for mark, holds in ((AS_BEFORE, refined.spread[i] >= UNTOLD), (far, far)) if holds]
             mark = f"[{'; '.join(marks)}] " if marks else ""
-            table.append((effect_words(e.id), name, value, f"{low} to {high}", unit, f"{mark}{_meaning(d, e, p)}"))
+            table.append(
+                (effect_words(e.id), name, value, f"{low} to {high}", unit, f"{mark}{_meaning(d, p, fitted['value'])}")
+            )
     return tuple(said), tuple(table) if len(table) > 1 else ()
 
 
@@ -105,21 +116,49 @@ def _untold(e: Effect, vague: list[str]) -> list[str]:
     return [f"{with_names(effect_words(e.id))}: {wide}. Only the combined effect of the parameters is known."]
 
 
-def _meaning(d: Diagnosis, e: Effect, p: Parameter) -> str:
-    """What a parameter means; the typical reading that it is a share of, as a number with its unit."""
-    if "typical" not in p.meaning or "reading_scale" not in inspect.signature(e.law).parameters:
+def _meaning(d: Diagnosis, p: Parameter, value: float) -> str:
+    """What a parameter means; with what it is a share of, and what that makes, as numbers with their unit."""
+    if not p.of:
         return p.meaning
+    size, unit = _whole(d, p.of)
+    made = f"{number(value * size)} {unit}{p.unit.removeprefix('-').removeprefix('1')}"
+    return f"{p.meaning} ({f'{number(size)} {unit}'.rstrip()}): {made.rstrip()}"
+
+
+def _whole(d: Diagnosis, name: str) -> tuple[float, str]:
+    """An input that a parameter is a share of, as calibrated, and its unit."""
     forward = d.found.problem.forward
-    size = float(forward.inputs["reading_scale"]) * forward.scale
-    return f"{p.meaning} ({number(size)} {unit_of(d.case.quantity)}".rstrip() + ")"
+    if name == "reading_scale":
+        return float(forward.inputs[name]) * forward.scale, unit_of(d.case.quantity)
+    if name == "reference_speed":
+        size, turning = float(forward.inputs[name]), "speed_rpm" in forward.table
+        return (size * RPM, "rpm") if turning else (size, "m/s")
+    for c, z in zip(forward.calibrations, _calibrated(d)[0], strict=False):
+        if name in c.needs:
+            moved = c.apply(forward.inputs, c.parameter.prior.value(float(z)))
+            return float(moved[name]), c.parameter.unit.removeprefix("-")
+    return float(forward.inputs[name]), GLOSSARY[name].unit
 
 
-def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Table]:
+def _cancelling(e: Effect, told: list[tuple[Parameter, dict[str, float]]], probability: float) -> list[str]:
+    """That an effect is sure although each of its parameters alone may be nothing."""
+    ends = [(p, p.null, f["low90"], f["high90"]) for p, f in told if p.null is not None]
+    if len(ends) < 2 or probability < SURE or not all(low < null < high for _, null, low, high in ends):
+        return []
+    names = " and ".join(p.name.replace("_", " ") for p, *_ in ends)
+    return [
+        f"{with_names(effect_words(e.id))}: each of {names} alone may be nothing, not all at once: only their combined "
+        "effect is known."
+    ]
+
+
+def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
     """What calibration was moved to under the verdict."""
     if not d.found.problem.forward.calibrations:
         return ("The case lets calibration move nothing.",), ()
     z, spread = _calibrated(d)
-    table = [("input", "stated", "moved to", "90 % interval", "off what was stated", "meaning")]
+    given = _given(d.case)
+    table = [("input", "stated", "moved to", "90 % interval", "moved by", "meaning")]
     strained = []
     for i, c in enumerate(d.found.problem.forward.calibrations):
         value, low, high = interval(c.parameter.prior, z[i], spread[i])
@@ -128,7 +167,14 @@ def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Table]:
         if not meaning.startswith("factor on "):
             meaning = f"value{'' if c.parameter.unit == '-' else f' in {c.parameter.unit}'}: {meaning}"
         table.append(
-            (name, number(c.nominal), number(value), f"{number(low)} to {number(high)}", f"{z[i]:+.1f} sd", meaning)
+            (
+                name,
+                f"{number(c.nominal)}{given.get(c.name, '')}",
+                number(value),
+                f"{number(low)} to {number(high)}",
+                f"{z[i]:+.1f} sd",
+                meaning,
+            )
         )
         if abs(z[i]) > STRAINED:
             strained.append(name)
@@ -141,6 +187,20 @@ def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Table]:
     if len(d.posterior.tied) > 1:
         said.append("That is with the first of the tied answers; another one moves inputs elsewhere.")
     return tuple(said), tuple(table)
+
+
+def _given(case: Case) -> dict[str, str]:
+    """Where inputs come from that the case does not state: those that follow the readings are taken from them."""
+    quantity, rows = case.quantity, case.recordings
+    assert rows is not None
+    doubled = Table({**rows.columns, quantity: 2.0 * rows[quantity]}, rows.source)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", CaseWarning)
+        here, there = (case.kind.extra_calibration(case.system, table) for table in (rows, doubled))
+    return {
+        c.name: " (assumed)" if c.nominal == moved.nominal else " (from the readings)"
+        for c, moved in zip(here, there, strict=True)
+    }
 
 
 def one_way(forward: Forward) -> list[str]:

@@ -6,24 +6,20 @@ import textwrap
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.fitting.fit import outlier_chance
 from mixedlub.diagnosis.fitting.problem import effects_of
 from mixedlub.diagnosis.judging.confusion import confusion
 from mixedlub.diagnosis.judging.empirical import Absorbed, Unnamed
-from mixedlub.diagnosis.judging.posterior import names_effects
 from mixedlub.diagnosis.labels import (
     STAGE_WORDS,
     effect_words,
-    explanation_words,
     number,
     with_names,
     words_of,
 )
 from mixedlub.diagnosis.telling.advice import box_place, next_test, standing_place, wave_period
 from mixedlub.diagnosis.telling.headline import doubts, headline, lesser, p_words, probability_words, standing
+from mixedlub.diagnosis.telling.nearest import nearest_name
 from mixedlub.diagnosis.telling.place import where
 from mixedlub.diagnosis.telling.readings import checked_channel, outliers, steadied_noise
 from mixedlub.diagnosis.telling.resembling import resembling
@@ -37,10 +33,6 @@ REFITTED = "Parameters were refitted without each level; what the answer is was 
 ANSWER = "Answer"
 MISMATCH = "Is there a mismatch beyond noise and calibration?"
 WHERE = "Where?"
-WORTH = 0.5
-"""Share of an unnamed mismatch from which the effects that take it up are told."""
-SECOND = 0.1
-"""Share of a mismatch that a second effect has to take up to be told."""
 LEFT_OUT = "What was left out?"
 BEST_TIED = "What was left out? Best of the tied candidates"
 UNNAMED = "If it is something unknown"
@@ -209,35 +201,12 @@ def _form(d: Diagnosis, along: str) -> str:
     if shape.form == "box":
         return f"is a shift where {box_place(d)}, as {_carried(shape.carrier)}"
     if shape.form == "smooth":
-        return f"varies smoothly with {along}, as {_carried(shape.carrier)}"
+        named = [d.found.space.axes[d.found.space.place(name)].named for name in shape.axes]
+        how = "varies smoothly with" if not any(named) else "differs between" if all(named) else "varies with"
+        return f"{how} {along}, as {_carried(shape.carrier)}"
     if shape.form == "wave":
         return f"is a wave with a period of {wave_period(d)} in {along}"
     return f"is a {shape.form} at {standing_place(d)}, as {_carried(shape.carrier)}"
-
-
-def nearest_name(d: Diagnosis) -> list[str]:
-    """Which effects of the catalogue take up most of a mismatch that has no name; nothing where some are tied."""
-    found = d.found
-    if found.unknown.best.form == "wave" or any(names_effects(key) for key in d.posterior.tied):
-        return []
-    good = outlier_chance(found.unknown.fit.residual) <= 0.5
-    left = {key: float(np.sum(fit.residual[good] ** 2)) for key, fit in found.fits.items()}
-    most = left[()] - float(np.sum(found.unknown.fit.residual[good] ** 2))
-    names = [key for key in left if key and left[key] < left[()]]
-    if most <= 0.0 or not names:
-        return []
-    # One effect is named unless a second takes up a good part of what it leaves.
-    nearest = min(names, key=lambda key: left[key] + SECOND * most * (len(key) - 1))
-    taken = min((left[()] - left[nearest]) / most, 1.0)
-    if taken < WORTH:
-        return ["No effect of the catalogue takes up a half of it."]
-    count = int(good.sum())
-    noisy = left[nearest] < count + 2.0 * np.sqrt(2.0 * count)
-    rest = "What it leaves is no more than noise makes." if noisy else "The rest has another form."
-    return [
-        f"Nearest in the catalogue: {explanation_words(list(nearest))}, with {100 * taken:.0f} % of it taken up "
-        f"(chi-square {number(left[()])} to {number(left[nearest])} for {count} readings). {rest}"
-    ]
 
 
 def _carried(carrier: str) -> str:

@@ -1,0 +1,64 @@
+"""Which effects of the catalogue come nearest to a mismatch that has no name."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.fitting.fit import outlier_chance
+from mixedlub.diagnosis.fitting.problem import Explanation
+from mixedlub.diagnosis.judging.posterior import names_effects
+from mixedlub.diagnosis.labels import explanation_words, number
+
+WORTH = 0.5
+"""Share of an unnamed mismatch from which the effects that take it up are told."""
+SECOND = 0.1
+"""Share of a mismatch that a second effect has to take up to be told."""
+
+
+@dataclass(frozen=True)
+class Nearest:
+    """Effects, the share of the mismatch that they take up, and the chi-square before and after, of so many readings.
+
+    No effects where none takes up enough of it.
+    """
+
+    names: Explanation
+    taken: float
+    before: float
+    after: float
+    count: int
+
+
+def nearest(d: Diagnosis) -> Nearest | None:
+    """What takes up most of a mismatch that has no name; None where a name is tied or there is nothing to take up."""
+    found, tied = d.found, d.posterior.tied
+    if "unknown" not in tied or found.unknown.best.form == "wave" or any(names_effects(key) for key in tied):
+        return None
+    good = outlier_chance(found.unknown.fit.residual) <= 0.5
+    left = {key: float(np.sum(fit.residual[good] ** 2)) for key, fit in found.fits.items()}
+    most = left[()] - float(np.sum(found.unknown.fit.residual[good] ** 2))
+    names = [key for key in left if key and left[key] < left[()]]
+    if most <= 0.0 or not names:
+        return None
+    # One effect is named unless a second takes up a good part of what it leaves.
+    best = min(names, key=lambda key: left[key] + SECOND * most * (len(key) - 1))
+    taken = min((left[()] - left[best]) / most, 1.0)
+    return Nearest(best if taken >= WORTH else (), taken, left[()], left[best], int(good.sum()))
+
+
+def nearest_name(d: Diagnosis) -> list[str]:
+    """The same as a sentence; nothing where some names are tied."""
+    best = nearest(d)
+    if best is None:
+        return []
+    if not best.names:
+        return ["No effect of the catalogue takes up a half of it."]
+    noisy = best.after < best.count + 2.0 * np.sqrt(2.0 * best.count)
+    rest = "What it leaves is no more than noise makes." if noisy else "The rest has another form."
+    return [
+        f"Nearest in the catalogue: {explanation_words(list(best.names))}, with {100 * best.taken:.0f} % of it taken "
+        f"up (chi-square {number(best.before)} to {number(best.after)} for {best.count} readings). {rest}"
+    ]

@@ -1,0 +1,44 @@
+"""Where an unnamed mismatch stands, and what to do next about it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.telling import advice, place, words
+from mixedlub.effect import catalogue
+
+
+def test_without_a_name_the_place_may_be_the_other_end(unnamed: Diagnosis, offset: Diagnosis) -> None:
+    assert place.LEVEL in place.where(unnamed)
+    assert place.LEVEL not in place.where(offset)
+    everywhere = replace(unnamed.region, inside=np.ones_like(unnamed.region.inside))
+    assert place.LEVEL not in place.where(replace(unnamed, region=everywhere))
+
+
+def test_a_mismatch_that_goes_with_names_has_no_levels(unnamed: Diagnosis) -> None:
+    by_name = replace(unnamed.found.unknown.best, axes=("surfaces",), at=None, waves=0.0)
+    found = replace(unnamed.found, unknown=replace(unnamed.found.unknown, best=by_name))
+    cut = {"column": "pinion_surface", "values": ["polished"]}
+    d = replace(unnamed, found=found, region=replace(unnamed.region, where=(cut,)))
+    assert words._form(d, "surfaces").startswith("differs between surfaces, as ")
+    said = " ".join(advice.next_test(d))
+    assert "repeat readings with pinion surface polished and with others in its place." in said
+    assert "levels" not in said
+    assert "a column setup" in said
+    both = replace(d, region=replace(d.region, where=(cut, {"column": "speed_rpm", "low": 1e3, "high": 2e3})))
+    assert "refine and repeat the levels around speed 1000 to 2000 rpm." in advice.next_test(both)[0]
+
+
+def test_a_mismatch_over_numbers_asks_for_levels_and_no_set_ups(unnamed: Diagnosis) -> None:
+    said = " ".join(advice.next_test(unnamed))
+    assert "speed 1500 rpm" in said
+    assert "setup" not in said
+
+
+def test_the_reference_that_tells_drift_serves_every_instrument() -> None:
+    said = catalogue()["sensor_drift"].separated_by
+    assert "reference oil" in said
+    assert "flanks" not in said

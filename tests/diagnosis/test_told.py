@@ -1,0 +1,77 @@
+"""The answer does not contradict itself, and says what its numbers are of and what it rests on."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.judging.confusion import confusion
+from mixedlub.diagnosis.judging.posterior import Key
+from mixedlub.diagnosis.recording.audit import Doubt, doubts
+from mixedlub.diagnosis.telling import words
+from mixedlub.diagnosis.telling.answer import as_json
+from mixedlub.diagnosis.telling.headline import CONTRADICTION
+from mixedlub.diagnosis.telling.nearest import nearest
+from mixedlub.diagnosis.telling.resembling import resembling
+from mixedlub.forward import Forward
+from mixedlub.table import Table
+
+from .test_words import judged, told
+
+
+def test_what_is_called_nearest_is_neither_rejected_nor_untestable(unnamed: Diagnosis) -> None:
+    best = nearest(unnamed)
+    assert best is not None
+    alike = confusion(unnamed.found)
+    every = tuple((name,) for name in alike.ids)
+    others = {name: replace(unnamed.found.fits[name], residual=0.0 * unnamed.found.none.residual) for name in every}
+    for name in alike.ids:
+        kept = {**unnamed.found.fits, (name,): others[(name,)]}
+        d = replace(unnamed, found=replace(unnamed.found, fits=kept))
+        found = nearest(d)
+        assert found is not None
+        assert found.names == (name,)
+        said = " ".join(resembling(d, alike)[0])
+        assert name.replace("_", " ") not in said
+
+
+def test_effects_left_out_on_request_are_said(unnamed: Diagnosis) -> None:
+    assert "windage" in unnamed.excluded
+    assert "grease_shear_thinning" not in unnamed.excluded, "a drive alone has grease"
+    (said,) = [text for text in as_json(unnamed)["warnings"] if text.startswith("left out on request")]
+    assert "windage" in said
+    assert said in words.as_text("", words.sections(unnamed)).replace("\n  ", " ")
+    assert f"({len(unnamed.excluded)} left out on request)" in told(unnamed)[words.ANSWER]
+
+
+def test_unknown_does_not_say_what_the_catalogue_lacks(unnamed: Diagnosis) -> None:
+    whole = told(replace(unnamed, excluded=()))[words.ANSWER]
+    assert "no one effect of the catalogue explains, nor any two tried together" in whole
+    assert "of the catalogue" not in told(unnamed)[words.ANSWER]
+
+
+def test_contradicting_readings_come_before_an_unnamed_mismatch(unnamed: Diagnosis, offset: Diagnosis) -> None:
+    doubt = (Doubt(f"{CONTRADICTION}: they scatter by 135 nm"),)
+    assert words.headline(replace(unnamed, warnings=doubt)).startswith("Readings at equal conditions contradict")
+    assert "Readings at equal" not in words.headline(unnamed)
+    assert "Readings at equal" not in words.headline(replace(offset, warnings=doubt))
+
+
+def test_the_audit_says_a_contradiction_in_these_words(offset: Diagnosis) -> None:
+    rows = offset.found.problem.rows
+    twice = {name: np.tile(values, 2) for name, values in rows.columns.items()}
+    y = np.concatenate([offset.recorded.base, 2.0 * offset.recorded.base])
+    table = Table({**twice, offset.case.quantity: y}, "recordings.csv")
+    assert any(text.startswith(CONTRADICTION) for text in doubts(offset.case, table, y, Forward(offset.case, table)))
+
+
+def test_probability_of_the_answer_and_of_its_effects_stand_side_by_side(offset: Diagnosis) -> None:
+    several: dict[Key, float] = {("sensor_offset",): 0.87, ("inlet_shear_heating", "sensor_offset"): 0.128}
+    clause = "just as it stands; in any company sensor offset has above 0.99."
+    assert f"The probability is that of the answer {clause}" in told(judged(offset, several, 1))[words.ANSWER]
+    assert "in any company" not in told(judged(offset, {("sensor_offset",): 0.97}, 1))[words.ANSWER]
+    pair: dict[Key, float] = {("sensor_offset",): 0.5, ("churning",): 0.2, ("churning", "sensor_offset"): 0.1}
+    said = told(judged(offset, pair, 2))[words.ANSWER]
+    assert "Each probability is that of an answer just as it stands; in any company sensor offset has 0.60." in said
