@@ -143,7 +143,7 @@ def run(
         say(f"{WARNING}diagnose cannot use this case as it stands: {refusal}")
     say(f"{folder}: a case of kind {draft.kind} that records {draft.quantity}")
     system = config.parse(config.System, config.read_toml(folder / "system.toml"), "system.toml")
-    for line in told(gaps(system, draft.columns), str(folder / "system.toml")):
+    for line in told(gaps(system, draft.columns), str(folder / "system.toml"), system):
         say(line)
     return folder
 
