@@ -84,6 +84,22 @@ def read_conditions(case: Case, path: Path) -> Table:
 
 def hidden(case: Case, wanted: Table | None) -> list[str]:
     """Conditions that carry the run number of a reading taken at others: each run stands once in an answer."""
+    runs = ", ".join(map(str, _used_runs(case, wanted)))
+    if wanted is None or not runs:
+        return []
+    return [f"{wanted.source}: not predicted, as readings at other conditions have the run: {runs}"]
+
+
+def refuse_used_runs(case: Case, wanted: Table | None, path: Path) -> None:
+    """An error where conditions that are asked for carry the run number of a reading taken at others."""
+    used = _used_runs(case, wanted)
+    if used and case.recordings is not None:
+        free = int(case.recordings["run"].max()) + 1
+        rule = f"the run number is that of a reading at other conditions; number them from {free} on"
+        raise InputError(rule, where=f"{path}: run", value=used[0] if len(used) == 1 else used[:SHOWN])
+
+
+def _used_runs(case: Case, wanted: Table | None) -> list[int]:
     if wanted is None or case.recordings is None:
         return []
     rows = case.recordings
@@ -91,8 +107,7 @@ def hidden(case: Case, wanted: Table | None) -> list[str]:
     told = (*(c.name for c in BOOKKEEPING), *(c.name for c in case.kind.columns))
     names = [name for name in told if name in wanted and name in rows]
     other = np.any([wanted[name][here] != rows[name][there] for name in names], axis=0)
-    runs = ", ".join(str(run) for run in wanted["run"][here][other].tolist())
-    return [f"{wanted.source}: not predicted, as readings at other conditions have the run: {runs}"] if runs else []
+    return [int(run) for run in wanted["run"][here][other]]
 
 
 def _read(path: Path, found: Kind, quantity: str | None, system: config.System, needed: bool) -> Table | None:
@@ -155,4 +170,4 @@ def _measured(system: config.System, required: bool) -> tuple[Column, ...]:
     return tuple(columns)
 
 
-__all__ = ["Case", "CaseWarning", "hidden", "noted", "read_case", "read_conditions"]
+__all__ = ["Case", "CaseWarning", "hidden", "noted", "read_case", "read_conditions", "refuse_used_runs"]
