@@ -111,6 +111,8 @@ def command(
         (aside / "profile.json").write_text(json.dumps(records, indent=1) + "\n", encoding="utf-8")
         if figures:
             _draw(aside / "figures", [file.stem for file in files], traces, [profile for profile, _ in found], records)
+    if not figures and (folder / "figures").exists():
+        note(f"{folder / 'figures'} is of an earlier run; without --no-figures it is drawn anew")
     say(f"details in {folder / 'profile.json'}" + (f", figures in {folder / 'figures'}" if figures else ""))
 
 
