@@ -14,7 +14,7 @@ from mixedlub import config
 from mixedlub.gear import ROUNDED
 from mixedlub.kinds import Kind, kind
 from mixedlub.table import BOOKKEEPING, RUN, CaseWarning, Column, Table, read_table
-from profiles.errors import InputError
+from profiles.errors import InputError, nearest
 
 SHOWN = 5
 """Runs that a note lists at most."""
@@ -70,6 +70,7 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
             where=f"{file}: recording.quantity",
             value=quantity,
         )
+    _refuse_unknown_check(system.recording.check, folder / "recordings.csv", file)
     notes: list[str] = []
     with noted(notes):
         recordings = _read(folder / "recordings.csv", found, quantity, system, need_recordings)
@@ -121,6 +122,17 @@ def _read(path: Path, found: Kind, quantity: str | None, system: config.System, 
             value=float(table[quantity][0]),
         )
     return _sds_told(table, f"{system.recording.quantity}_sd", path)
+
+
+def _refuse_unknown_check(name: str | None, recordings: Path, file: Path) -> None:
+    """An error where the second channel that a case names is no column of its recording."""
+    if name is None or not recordings.is_file():
+        return
+    with recordings.open(encoding="utf-8-sig", errors="replace") as text:
+        header = [cell.strip() for cell in text.readline().split(",")]
+    if name not in header:
+        rule = f"no such column in {recordings.name}; {nearest(name, header)}"
+        raise InputError(rule, where=f"{file}: recording.check", value=name)
 
 
 def _listed(runs: np.ndarray) -> str:
