@@ -99,8 +99,9 @@ def lubricant(section: config.Lubricant | None, unread: Collection[str] = ()) ->
     assumed = [key for key in base if key not in known and key != "source" and key not in unread]
     if assumed:
         stock = section.base or "mineral (assumed)"
+        listed = ", ".join(f"{key} = {base[key]}" for key in assumed)
         warnings.warn(
-            f"lubricant: {', '.join(assumed)} not given; taken as typical of base {stock}",
+            f"lubricant: {listed} not given; taken as typical of base {stock}",
             CaseWarning,
             stacklevel=2,
         )

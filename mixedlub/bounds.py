@@ -34,6 +34,10 @@ OTHER_UNITS: Mapping[str, Mapping[str, tuple[float, float]]] = {
 """By the ending of a name: other units that numbers are met in; factor to its own unit and what is added."""
 
 
+NO_SHARES = ("poisson_ratio", "sequence")
+"""Numbers without a unit that nobody gives in percent."""
+
+
 @dataclass(frozen=True)
 class Range:
     """Lowest and highest possible value, lowest and highest usual one; ends are within."""
@@ -79,8 +83,10 @@ def meant(name: str, value: object, low: float, high: float) -> str:
     '3e-05 m2/s would be 30 mm²/s: is it in that unit?'
     >>> meant("temperature_C", 313.15, -80, 250), meant("m2", 0.5, 1.0, 2.0)
     ('313.15 K would be 40 °C: is it in that unit?', '')
+    >>> meant("poisson_ratio", 0.5, 0.0, 0.4999), meant("sequence", 2.0, 0.0, 1.0)
+    ('', '')
     """
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not np.isfinite(value):
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not np.isfinite(value) or name in NO_SHARES:
         return ""
     ending = name.removeprefix(without_unit(name)).removeprefix("_")
     for unit, (factor, added) in OTHER_UNITS.get(ending, {}).items():

@@ -14,7 +14,7 @@ from mixedlub import config
 from mixedlub.gear import ROUNDED
 from mixedlub.kinds import Kind, kind
 from mixedlub.table import BOOKKEEPING, RUN, CaseWarning, Column, Table, read_table
-from profiles.errors import InputError
+from profiles.errors import InputError, nearest
 
 SHOWN = 5
 """Runs that a note lists at most."""
@@ -70,6 +70,7 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
             where=f"{file}: recording.quantity",
             value=quantity,
         )
+    _refuse_unknown_check(system.recording.check, folder / "recordings.csv", file)
     notes: list[str] = []
     with noted(notes):
         recordings = _read(folder / "recordings.csv", found, quantity, system, need_recordings)
@@ -84,6 +85,22 @@ def read_conditions(case: Case, path: Path) -> Table:
 
 def hidden(case: Case, wanted: Table | None) -> list[str]:
     """Conditions that carry the run number of a reading taken at others: each run stands once in an answer."""
+    runs = ", ".join(map(str, _used_runs(case, wanted)))
+    if wanted is None or not runs:
+        return []
+    return [f"{wanted.source}: not predicted, as readings at other conditions have the run: {runs}"]
+
+
+def refuse_used_runs(case: Case, wanted: Table | None, path: Path) -> None:
+    """An error where conditions that are asked for carry the run number of a reading taken at others."""
+    used = _used_runs(case, wanted)
+    if used and case.recordings is not None:
+        free = int(case.recordings["run"].max()) + 1
+        rule = f"the run number is that of a reading at other conditions; number them from {free} on"
+        raise InputError(rule, where=f"{path}: run", value=used[0] if len(used) == 1 else used[:SHOWN])
+
+
+def _used_runs(case: Case, wanted: Table | None) -> list[int]:
     if wanted is None or case.recordings is None:
         return []
     rows = case.recordings
@@ -91,8 +108,7 @@ def hidden(case: Case, wanted: Table | None) -> list[str]:
     told = (*(c.name for c in BOOKKEEPING), *(c.name for c in case.kind.columns))
     names = [name for name in told if name in wanted and name in rows]
     other = np.any([wanted[name][here] != rows[name][there] for name in names], axis=0)
-    runs = ", ".join(str(run) for run in wanted["run"][here][other].tolist())
-    return [f"{wanted.source}: not predicted, as readings at other conditions have the run: {runs}"] if runs else []
+    return [int(run) for run in wanted["run"][here][other]]
 
 
 def _read(path: Path, found: Kind, quantity: str | None, system: config.System, needed: bool) -> Table | None:
@@ -106,6 +122,17 @@ def _read(path: Path, found: Kind, quantity: str | None, system: config.System, 
             value=float(table[quantity][0]),
         )
     return _sds_told(table, f"{system.recording.quantity}_sd", path)
+
+
+def _refuse_unknown_check(name: str | None, recordings: Path, file: Path) -> None:
+    """An error where the second channel that a case names is no column of its recording."""
+    if name is None or not recordings.is_file():
+        return
+    with recordings.open(encoding="utf-8-sig", errors="replace") as text:
+        header = [cell.strip() for cell in text.readline().split(",")]
+    if name not in header:
+        rule = f"no such column in {recordings.name}; {nearest(name, header)}"
+        raise InputError(rule, where=f"{file}: recording.check", value=name)
 
 
 def _listed(runs: np.ndarray) -> str:
@@ -155,4 +182,4 @@ def _measured(system: config.System, required: bool) -> tuple[Column, ...]:
     return tuple(columns)
 
 
-__all__ = ["Case", "CaseWarning", "hidden", "noted", "read_case", "read_conditions"]
+__all__ = ["Case", "CaseWarning", "hidden", "noted", "read_case", "read_conditions", "refuse_used_runs"]

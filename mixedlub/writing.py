@@ -11,7 +11,10 @@ from pathlib import Path
 
 @contextmanager
 def writing(folder: Path) -> Iterator[Path]:
-    """A folder beside the results to write into; its entries replace theirs when all are written."""
+    """A folder beside the results to write into; its entries replace theirs when all are written.
+
+    A folder gives way to its successor, but for files in it that no earlier run wrote: those stay.
+    """
     for stale in folder.glob(".writing-*"):
         if not _alive(stale.name.rpartition("-")[2]):
             shutil.rmtree(stale, ignore_errors=True)
@@ -24,10 +27,37 @@ def writing(folder: Path) -> Iterator[Path]:
         for entry in entries:
             target = folder / entry.name
             if target.is_dir():
+                _take_along(target, entry)
                 target.rename(aside / f"{entry.name}.before")
             entry.replace(target)
     finally:
         shutil.rmtree(aside, ignore_errors=True)
+
+
+OWN, EDITED = b"<dc:title>mixedlub</dc:title>", (b"inkscape", b"sodipodi")
+"""What a drawing says that was made here, and one that was worked over since."""
+HEAD = 4096
+
+
+def is_own(path: Path) -> bool:
+    """Whether a file is a drawing as an earlier run made it."""
+    if path.suffix != ".svg" or not path.is_file():
+        return False
+    with path.open("rb") as file:
+        head = file.read(HEAD)
+    return OWN in head and not any(mark in head for mark in EDITED)
+
+
+def _take_along(before: Path, after: Path) -> None:
+    """Copy what is not of an earlier run into the folder that takes the place."""
+    for path in before.iterdir():
+        kept = after / path.name
+        if kept.exists() or is_own(path):
+            continue
+        if path.is_dir():
+            shutil.copytree(path, kept, symlinks=True)
+        else:
+            shutil.copy2(path, kept, follow_symlinks=False)
 
 
 def _alive(process: str) -> bool:

@@ -13,6 +13,8 @@ from roughness.form import circle, involute
 from roughness.robust import robust_mean_line, spline_mean_line
 
 METHODS = ("gaussian", "robust", "spline")
+HIGHEST = 20
+"""Degree of the polynomial that is taken off, at most."""
 FORMS = ("none", "mean", "line", "polynomial-N", "circle", "involute-RADIUS")
 
 
@@ -145,7 +147,7 @@ def trim(profile: Profile, start: float = 0.0, end: float = 0.0) -> Profile:
         raise InputError(
             f"no profile of {profile.length * 1e3:g} mm is left after trimming",
             where=f"profile {profile.name!r}: trimmed lengths (mm)",
-            value=(start * 1e3, end * 1e3),
+            value=(float(f"{start * 1e3:.6g}"), float(f"{end * 1e3:.6g}")),
         )
     return profile.after(
         f"trimmed {start * 1e3:.6g} mm and {end * 1e3:.6g} mm",
@@ -201,6 +203,8 @@ def _degree(form: str) -> int:
     if form in ("mean", "line"):
         return 0 if form == "mean" else 1
     head, _, tail = form.partition("-")
-    if head == "polynomial" and tail.isdigit() and int(tail) <= 20:
-        return int(tail)
+    if head == "polynomial" and tail.isdigit():
+        if int(tail) <= HIGHEST:
+            return int(tail)
+        raise InputError(f"must be polynomial-0 to polynomial-{HIGHEST}", where="form", value=form)
     raise InputError(f"must be a known form; {nearest(form, FORMS)}", where="form", value=form)

@@ -40,6 +40,7 @@ def command(case: Annotated[Path, typer.Argument(metavar="CASE", help="Case fold
 
 def understood(case: Case) -> Iterator[str]:
     """The case in plain words, line by line."""
+    from mixedlub.assumed import assumed
     from mixedlub.case import hidden, noted
 
     yield f"{case.name}: a case of kind {case.system.kind}, recording {case.quantity}."
@@ -59,6 +60,7 @@ def understood(case: Case) -> Iterator[str]:
     yield from _tables(case)
     yield from _uncertain(case, () if forward is None else forward.calibrations)
     yield from _audit(case, forward)
+    notes += assumed(case, forward)
     yield "Assumed:" if notes else "Assumed: nothing beyond what the files say."
     yield from (f"  {text}" for text in notes)
 
@@ -143,6 +145,7 @@ def _uncertain(case: Case, movable: Sequence[Calibration]) -> Iterator[str]:
 def _audit(case: Case, forward: Forward | None) -> Iterator[str]:
     """What is doubtful about system and readings, or why they cannot be diagnosed."""
     from mixedlub.diagnosis.recording.audit import doubts, system_doubts
+    from mixedlub.diagnosis.recording.reach import beyond_recorded
     from mixedlub.forward import Forward
 
     found = system_doubts(case)
@@ -157,6 +160,7 @@ def _audit(case: Case, forward: Forward | None) -> Iterator[str]:
             Forward(case, case.conditions).nominal()
         except InputError as error:
             yield f"Cannot be predicted: {error}."
+    found += beyond_recorded(case, case.conditions)
     if found:
         yield "Doubtful:"
         yield from (f"  {text}." for text in found)

@@ -18,6 +18,8 @@ _made: list[Path] = []
 def output_folder(out: Path | None, command: str, name: str) -> Path:
     """The folder to write into, made if need be; ``out/COMMAND/NAME`` where none is given."""
     folder = Path("out") / command / name if out is None else out
+    if out is None and folder.is_dir() and any(not path.name.startswith(".") for path in folder.iterdir()):
+        note(f"the result in {folder}, maybe of another input of that name, is replaced; --out names another folder")
     _made[:] = [path for path in (folder, *folder.parents) if not path.exists()]
     try:
         folder.mkdir(parents=True, exist_ok=True)

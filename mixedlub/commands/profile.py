@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -79,8 +79,8 @@ def command(
     from roughness import trace_record
     from roughness.guards import overruled
 
+    traces = each_read(files, lambda file: read(file, unit=unit, spacing=spacing))
     with named_options():
-        traces = [read(file, unit=unit, spacing=spacing) for file in files]
         told_already = {f"{file}: {text}" for file, trace in zip(files, traces) for text in overruled(trace)}
         for text in sorted(told_already):
             note(text)
@@ -111,7 +111,29 @@ def command(
         (aside / "profile.json").write_text(json.dumps(records, indent=1) + "\n", encoding="utf-8")
         if figures:
             _draw(aside / "figures", [file.stem for file in files], traces, [profile for profile, _ in found], records)
+    if not figures and (folder / "figures").exists():
+        note(f"{folder / 'figures'} is of an earlier run; without --no-figures it is drawn anew")
     say(f"details in {folder / 'profile.json'}" + (f", figures in {folder / 'figures'}" if figures else ""))
+
+
+def each_read(files: list[Path], read: Callable[[Path], Profile]) -> list[Profile]:
+    """The traces of all files; those that cannot be read are all named in one error."""
+    traces: list[Profile] = []
+    wrong: list[InputError] = []
+    for file in files:
+        try:
+            with named_options():
+                traces.append(read(file))
+        except InputError as error:
+            if error.where.removeprefix("--") in OPTIONS:
+                raise
+            wrong.append(error)
+    if len(wrong) > 1:
+        others = "; ".join(str(error) for error in wrong[1:])
+        raise InputError(f"{wrong[0].rule}; and {others}", where=wrong[0].where, value=wrong[0].value)
+    if wrong:
+        raise wrong[0]
+    return traces
 
 
 OPTIONS = ("unit", "spacing", "form", "method", "convention")

@@ -43,7 +43,8 @@ def command(
         note(text)
     say(f"{study.file.title}: {' x '.join(factors(study))} = {counted(study.conditions, 'condition')}")
     start = time.perf_counter()
-    with progress_bar("computing") as progress:
+    with progress_bar("computing") as bar:
+        progress = _resumed(bar)
         results = run_study(study, parts=store.parts_folder(folder, study.plan), scheduler=scheduler, progress=progress)
     say(f"computed in {time.perf_counter() - start:.2f} s")
     warnings = out_of_range(results)
@@ -56,7 +57,24 @@ def command(
 
             write_page(results, aside, (*study.notes, *warnings))
     store.clear(folder)
-    say(f"results in {folder / 'results.csv'} and .parquet" + (f", page {folder / 'index.html'}" if figures else ""))
+    page = folder / "index.html"
+    if not figures and page.exists() and store.fingerprint(study.plan) not in page.read_text("utf-8", "replace"):
+        note(f"{page} and the figures beside it are of another study; without --no-figures they are drawn anew")
+    say(f"results in {folder / 'results.csv'} and .parquet" + (f", page {page}" if figures else ""))
+
+
+def _resumed(progress: Callable[[int, int], None]) -> Callable[[int, int], None]:
+    """The same progress, that says first how much an earlier run has done."""
+    calls = 0
+
+    def told(done: int, of: int) -> None:
+        nonlocal calls
+        calls += 1
+        if calls == 1 and done:
+            say(f"{done} of {of} blocks are there from an earlier run")
+        progress(done, of)
+
+    return told
 
 
 @contextmanager

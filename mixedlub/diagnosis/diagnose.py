@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub.case import Case, hidden, read_case, read_conditions
+from mixedlub.case import Case, hidden, read_case, read_conditions, refuse_used_runs
 from mixedlub.diagnosis.judging.averaged import Predicted, averaged, leaders, outlier_chances
 from mixedlub.diagnosis.judging.channel import Check, check_channel
 from mixedlub.diagnosis.judging.doubts import against, scatter_notes, unsure_odds
@@ -23,6 +23,7 @@ from mixedlub.diagnosis.judging.validity import beyond_range, unpublished
 from mixedlub.diagnosis.judging.verdict import judge
 from mixedlub.diagnosis.labels import effect_words
 from mixedlub.diagnosis.recording.audit import audit
+from mixedlub.diagnosis.recording.reach import beyond_recorded
 from mixedlub.diagnosis.searching.search import Progress, Search
 from mixedlub.diagnosis.searching.weighed import weighed
 from mixedlub.effect import find
@@ -97,7 +98,10 @@ def diagnose_case(
     case = read_case(folder)
     assert case.recordings is not None
     rows = case.recordings
-    wanted, assumed = _completed(read_conditions(case, predict) if predict is not None else case.conditions, rows)
+    asked = case.conditions if predict is None else read_conditions(case, predict)
+    if predict is not None:
+        refuse_used_runs(case, asked, predict)
+    wanted, assumed = _completed(asked, rows)
     forward = Forward(case, rows)
     y = np.asarray(rows[case.quantity], dtype=float)
     warnings = [*case.notes, *assumed, *hidden(case, wanted), *forward.notes, *audit(case, rows, y, forward)]
@@ -108,7 +112,7 @@ def diagnose_case(
     if wanted is not None:
         there = Forward(case, wanted)
         there.nominal()
-        warnings += [note for note in there.notes if note not in forward.notes]
+        warnings += [note for note in there.notes if note not in forward.notes] + beyond_recorded(case, wanted)
     tried = weighed(case, rows, forward, y, exclude, progress)
     progress("testing against nothing missing")
     found, test = told_from_nothing(tried, level)

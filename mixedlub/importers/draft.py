@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import shlex
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -30,7 +30,8 @@ PART = re.compile(r'"[^"]*"|[^.]+')
 class Question:
     """Something no file says: the key that answers it, the words, an example that is valid TOML.
 
-    ``among`` are the answers there are, ``of`` the words that introduce them.
+    ``among`` are the answers there are, ``of`` the words that introduce them. Where the example is no likely answer,
+    a ``blank`` stands for it in lists that may be pasted.
     """
 
     key: str
@@ -39,6 +40,7 @@ class Question:
     needed: bool = True
     among: tuple[str, ...] = ()
     of: str = "one of"
+    blank: str = ""
 
     @property
     def choices(self) -> str:
@@ -66,7 +68,8 @@ def listed(questions: Sequence[Question]) -> Iterator[str]:
     for q in questions:
         words = q.text if not q.choices or q.choices in said else f"{q.text}: {q.choices}"
         said.add(q.choices)
-        yield f"  --set {shlex.quote(f'{q.key}={q.example}')}  ({words})"
+        words += f", for example {q.example}" if q.blank and not q.choices else ""
+        yield f"  --set {shlex.quote(f'{q.key}={q.blank or q.example}')}  ({words})"
 
 
 @dataclass(frozen=True)
@@ -88,9 +91,13 @@ def _question(section: str, key: str, needed: bool) -> Question:
     return Question(f"{section}.{key}", meaning[:1].upper() + meaning[1:], example, needed)
 
 
-CONTACT = tuple(_question("contact", key, True) for key in ("radius_mm", "youngs_modulus_GPa", "poisson_ratio"))
-FORM = _question("contact", "geometry", True)
-WIDTH = _question("contact", "width_mm", True)
+CONTACT = (
+    replace(_question("contact", "radius_mm", True), blank="[RADIUS, RADIUS]"),
+    replace(_question("contact", "youngs_modulus_GPa", True), blank="[MODULUS, MODULUS]"),
+    replace(_question("contact", "poisson_ratio", True), blank="[RATIO, RATIO]"),
+)
+FORM = replace(_question("contact", "geometry", True), among=("line", "point"), blank='"LINE OR POINT"')
+WIDTH = replace(_question("contact", "width_mm", True), blank="WIDTH")
 OIL = tuple(
     _question("lubricant", key, False)
     for key in ("name", "temperature_C", "kinematic_viscosity_mm2_s", "pressure_viscosity_per_GPa")

@@ -24,6 +24,7 @@ from mixedlub.headers import (
     words_of,
 )
 from mixedlub.importers import pace
+from mixedlub.importers.constant import VALUES, has_header, in_words, not_told
 from mixedlub.importers.draft import Answers, Question
 from mixedlub.importers.kinematics import MADE, other_surface
 from mixedlub.importers.likely import either, is_logarithm, likely_headers, likeness
@@ -96,7 +97,7 @@ def import_keys(columns: Sequence[Column]) -> tuple[str, ...]:
 
 def match(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> Match:
     """Headers and units of the columns of a case, and what to ask where a needed one has none or several."""
-    columns = wanted(kind, quantity, answers)
+    columns = not_told(wanted(kind, quantity, answers), answers)
     told = {c.name: _told(c.name, cells, answers) for c in columns if COLUMNS + c.name in answers}
     found = _Finding(headers=dict(told))
     reserved = set(told.values())
@@ -112,14 +113,14 @@ def match(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> Match:
     asked = {q.key for q in found.questions}
     missing = [c.name for c in columns if c.required and c.name not in found.headers and COLUMNS + c.name not in asked]
     group = either(kind.name)
-    if group and not any(c in found.headers or COLUMNS + c in asked for c in group):
+    if group and not any(c in found.headers or COLUMNS + c in asked or VALUES + c in answers for c in group):
         missing.append(next(iter(likely_headers(group, _offered(cells, found.headers))), group[0]))
     needed = {*told, *(c.name for c in columns if c.required)}
     kept = {c: h for c, h in found.headers.items() if c in needed}
     near = _near(missing, cells, found.headers, kept)
     found.headers = {c: h for c, h in found.headers.items() if c in kept or h not in near.values()}
     found.questions.extend(_missing(missing, near, cells, found.headers, answers))
-    spare = _spare(kind, cells, found)
+    spare = {c: h for c, h in _spare(kind, cells, found).items() if VALUES + c not in answers}
     found.questions.extend(spare_questions(spare, COLUMNS))
     open_ones = {q.key.removeprefix(COLUMNS) for q in found.questions}
     _refuse_idle_units({*found.headers, *open_ones}, answers)
@@ -198,7 +199,7 @@ def _speaks_of(header: str, column: str) -> bool:
 
 def _is_named(header: str, column: str) -> bool:
     """Whether a header is the column's own name; capitals tell milli from mega where there is a unit."""
-    return header == column or (target_for(column) is None and header.lower() == column.lower())
+    return header == column or (target_for(column) is None and has_header(header, column))
 
 
 def _one_of(group: tuple[str, ...], told: set[str], found: _Finding) -> None:
@@ -241,6 +242,7 @@ def _missing(
         alike = _as_near(column, header, free)
         text = f"Header of the column that holds {column}{alike}{_two_speeds(column, cells)}{refused}"
         text += "; one that counts cycles or a distance will do" if column == pace.TIME else ""
+        text += in_words(column) if column in TEXT_COLUMNS else ""
         example = toml_value(header or "HEADER")
         questions.append(Question(COLUMNS + column, text, example, among=tuple(cells), of="the file has"))
         target = target_for(column)

@@ -12,6 +12,7 @@ import numpy as np
 from pydantic import BaseModel, ValidationError
 
 from mixedlub import config
+from mixedlub.assumed import BROAD, broadly_fitted, gears_taken, oil_taken
 from mixedlub.calibration import calibrations
 from mixedlub.importers.keys import HEAD, MODELS, WORDS, Words
 from mixedlub.importers.write import toml_key, toml_value
@@ -50,11 +51,11 @@ class Gap:
         other = [key for key in self.assumed if self.words[key][1].startswith(INSTEAD)]
         return f"[{self.table}] with {', '.join(self.needed)}" + (f"; or with {', '.join(other)}" if other else "")
 
-    @property
-    def open(self) -> str:
-        """What is not given and need not be, in one line with the values taken."""
+    def open(self, taken: Mapping[str, str]) -> str:
+        """What is not given and need not be, in one line with the values ``taken``, else the usual ones."""
         place = f"{self.table}." if self.table else ""
-        return ", ".join(place + key + (f" ({value})" if value else "") for key, value in self.assumed.items())
+        values = {key: taken.get(key, value) for key, value in self.assumed.items()}
+        return "; ".join(place + key + (f" ({value})" if value else "") for key, value in values.items())
 
 
 def gaps(system: config.System, columns: Mapping[str, np.ndarray]) -> tuple[Gap, ...]:
@@ -64,7 +65,9 @@ def gaps(system: config.System, columns: Mapping[str, np.ndarray]) -> tuple[Gap,
     head = {k: w for k, w in HEAD.items() if k not in system.model_fields_set}
     if "boundary_friction" not in reads:
         head.pop("boundary_friction", None)
-    found = [Gap("", False, False, (), {k: _default(config.System, k) for k in head}, HEAD)]
+    broad = broadly_fitted(system, columns)
+    usual = {k: BROAD if k in broad else _default(config.System, k) for k in head}
+    found = [Gap("", False, False, (), usual, HEAD)]
     wanted = [s for s in ("gears", "contact", "lubricant") if s in rules.sections]
     if "viscosity" in reads and "lubricant" not in wanted:
         wanted.append("lubricant")
@@ -74,7 +77,7 @@ def gaps(system: config.System, columns: Mapping[str, np.ndarray]) -> tuple[Gap,
         found.append(_gap("surfaces", f"surfaces.{toml_key(name)}", None, True))
     stated = system.uncertainty.model_fields_set
     movable = {c.name for c in _movable(system) if set(c.needs) <= reads} - stated
-    uncertain = {k: "known exactly" for k in WORDS["uncertainty"] if k in movable}
+    uncertain = {k: BROAD if k in broad else "known exactly" for k in WORDS["uncertainty"] if k in movable}
     found.append(Gap("uncertainty", not stated, False, (), uncertain, WORDS["uncertainty"]))
     own_noise = {"noise"} if f"{system.recording.quantity}_sd" in columns else set()
     found.append(_gap("recording", "recording", system.recording, False, own_noise))
@@ -132,13 +135,18 @@ def _default(model: type[BaseModel], key: str) -> str:
     return "" if value is None or value == "" or isinstance(value, BaseModel) else toml_value(value)
 
 
-def told(found: tuple[Gap, ...], file: str) -> Iterator[str]:
+def told(found: tuple[Gap, ...], file: str, system: config.System) -> Iterator[str]:
     """The gaps in plain words, line by line: first those without which nothing computes."""
+    taken = {"lubricant": oil_taken(system.lubricant)}
+    if system.gears is not None:
+        taken["gears"] = gears_taken(system.gears)
     blocking = [gap for gap in found if gap.required]
     if blocking:
         yield f"needed before the case can be used ({file} has each as a comment with an example):"
         yield from (f"  {gap.blocking}" for gap in blocking)
-    assumed = [gap.open for gap in found if gap.assumed and not gap.table.startswith("surfaces.")]
+    assumed = [
+        gap.open(taken.get(gap.table, {})) for gap in found if gap.assumed and not gap.table.startswith("surfaces.")
+    ]
     if assumed:
         yield "not given, with what is taken where a value is usual:"
         yield from (f"  {text}" for text in assumed)

@@ -6,6 +6,7 @@ import numpy as np
 
 from mixedlub.config import KINDS
 from mixedlub.headers import convert
+from mixedlub.importers.constant import constants, value_keys
 from mixedlub.importers.draft import WARNING, Answers, Draft, Question, contact_form, questions_of, refuse_unknown
 from mixedlub.importers.kinematics import refuse_one_surface
 from mixedlub.importers.likely import likely_kind, likeness
@@ -67,16 +68,19 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     paced = ""
     if TIME in columns and TIME in found.units:
         columns[TIME], paced = in_seconds(columns[TIME], found.headers[TIME], found.units[TIME], answers)
+    columns |= constants(likely, answers, len(sheet.lines))
     readings = columns.get(str(quantity)) if likely.is_unsigned(str(quantity)) else None
     low = [] if readings is None else not_above_zero(str(quantity), readings.tolist(), sheet.lines)
     header = header_of_runs(sheet, answers)
     runs, anew = (None, None) if header is None else runs_of(sheet, header)
-    taken = [*(["run"] if runs is not None else []), *columns]
+    fixed = [c for c in columns if c not in found.headers]
+    taken = [*(["run"] if runs is not None else []), *(c for c in columns if c in found.headers)]
     left = [h for h in sheet.cells if h not in found.headers.values() and h != header]
     notes = [
         *(f"{WARNING}{name}: {note}" for note in (*lost, *found.warned)),
         f"{name}: {len(taken)} of {len(sheet.cells)} columns taken: {', '.join(taken)}",
         *([f"{name}: not taken: {', '.join(left)}"] if left else []),
+        *([f"{name}: the same in all rows, as told: {', '.join(fixed)}"] if fixed else []),
         *([f"{name}: {sheet.left_out} left out: no part of the table"] if sheet.left_out else []),
         *(f"{name}: {note}" for note in found.notes),
         *([f"{name}: {paced}"] if paced else []),
@@ -89,7 +93,8 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
 def _refuse_unknown(kind: str | None, answers: Answers) -> None:
     kinds = [kind_of(k) for k in ([kind] if kind else KINDS)]
     columns = {c.name: c for k in kinds for q in k.quantities for c in wanted(k, q, answers)}
-    refuse_unknown(answers, (DECIMAL, *import_keys(tuple(columns.values()))))
+    values = (key for k in kinds for key in value_keys(k))
+    refuse_unknown(answers, (DECIMAL, *import_keys(tuple(columns.values())), *values))
 
 
 def _decimal(answers: Answers) -> str | None:

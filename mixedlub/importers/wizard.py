@@ -14,6 +14,8 @@ import numpy as np
 from mixedlub import config
 from mixedlub.importers import pcs, plain, trios
 from mixedlub.importers.carried import carried, is_share, with_share
+from mixedlub.importers.checked import is_list, refuse_wrong
+from mixedlub.importers.constant import VALUES
 from mixedlub.importers.draft import EVERY, WARNING, Draft, Question, Unanswered, flat, open_questions
 from mixedlub.importers.needs import gaps, told, undescribed
 from mixedlub.importers.readable import refuse_unreadable
@@ -25,6 +27,8 @@ from profiles.readers.numbers import decoded
 
 MANY = 2000
 """Readings in time from which a recording is raw rather than averaged."""
+
+Say = Callable[[str], None]
 
 READERS: tuple[ModuleType, ...] = (pcs, trios, plain)
 """Tried in this order; plain tables last because any text matches."""
@@ -128,9 +132,7 @@ def run(
             break
         question = next((q for q in waiting if q.needed), waiting[0])
         asked.add(question.key)
-        found = _ask(question, ask, say)
-        if found is not None:
-            answers[question.key] = found
+        answers = _answered(files, answers, question, ask, say)
     missing = open_questions(draft, answers)
     if missing:
         raise Unanswered(missing)
@@ -143,7 +145,7 @@ def run(
         say(f"{WARNING}diagnose cannot use this case as it stands: {refusal}")
     say(f"{folder}: a case of kind {draft.kind} that records {draft.quantity}")
     system = config.parse(config.System, config.read_toml(folder / "system.toml"), "system.toml")
-    for line in told(gaps(system, draft.columns), str(folder / "system.toml")):
+    for line in told(gaps(system, draft.columns), str(folder / "system.toml"), system):
         say(line)
     return folder
 
@@ -167,17 +169,43 @@ def _value(text: str) -> Any:
         return text.strip()
 
 
-def _ask(question: Question, ask: Callable[[str], str], say: Callable[[str], None]) -> Any:
-    """One answer, asked again while it is needed and empty, then with the choices by number; None if left open."""
+def _answered(
+    files: Sequence[Path], answers: Mapping[str, Any], question: Question, ask: Callable[[str], str], say: Say
+) -> dict[str, Any]:
+    """The answers with one more, unless it is left open; a wrong one is told and asked again."""
+    while True:
+        found = _ask(question, ask, say)
+        if found is None:
+            return dict(answers)
+        more = {**answers, **found}
+        try:
+            for key, value in found.items():
+                refuse_wrong(key, value)
+            read(files, more)
+        except InputError as error:
+            if not question.key.startswith("import.") and error.where != question.key:
+                raise
+            say(str(error))
+        else:
+            return more
+
+
+def _ask(question: Question, ask: Callable[[str], str], say: Say) -> dict[str, Any] | None:
+    """One answer with its key, asked again while it is needed and empty, then with the choices by number.
+
+    None if left open; a reply that tells what all rows have has a key of its own.
+    """
     hint = f"for example {question.example}" + ("" if question.needed else "; empty if not known")
     words = f"{question.text}: {question.choices}" if question.choices else question.text
     listed: tuple[str, ...] = ()
     while True:
         reply = ask(f"{words} ({hint}): ").strip()
         if reply.isdecimal() and 1 <= int(reply) <= len(listed):
-            return listed[int(reply) - 1]
+            return {question.key: listed[int(reply) - 1]}
+        if reply.startswith(VALUES):
+            return dict([parse_setting(reply)])
         if reply:
-            return _value(reply)
+            return {question.key: _value(f"[{reply}]" if is_list(question.example, reply) else reply)}
         if not question.needed:
             return None
         listed = () if any(choice.isdecimal() for choice in question.among) else question.among
@@ -213,8 +241,7 @@ def _write(
     system["recording"] = {"quantity": draft.quantity, **system.get("recording", {})}
     checked = config.parse(config.System, {"schema": SCHEMA, **system}, "answers")
     every = answers.get(EVERY.key, 1)
-    if not isinstance(every, int) or isinstance(every, bool) or every < 1:
-        raise InputError("must be a whole number of at least 1", where=EVERY.key, value=every)
+    refuse_wrong(EVERY.key, every)
     columns = {name: values[::every] for name, values in draft.columns.items()}
     check = checked.recording.check
     if check is not None and check not in columns:

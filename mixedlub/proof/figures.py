@@ -74,7 +74,7 @@ def _cases(score: Score) -> int:
 
 def reliability(scores: Sequence[Score]) -> Figure:
     """How often what was given a probability was so; the count beside each point of the first tool."""
-    figure = _blank(5.2, 5.0)
+    figure = _blank(5.2, 5.4)
     axes = figure.add_subplot()
     axes.plot([0, 1], [0, 1], color="#999999", lw=1, ls="--", label="honest")
     for place, one in enumerate(scores):
@@ -86,7 +86,7 @@ def reliability(scores: Sequence[Score]) -> Figure:
         axes.annotate(str(count), (given_mean, so_mean), textcoords="offset points", fontsize=7.5, **beside)
     axes.set(xlabel="probability given (-)", ylabel="share that was so (-)", xlim=(-0.12, 1.1), ylim=(-0.06, 1.06))
     axes.set_title("Reliability of the probabilities", fontsize=11)
-    axes.legend(frameon=False, fontsize=8.5)
+    figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=8.5)
     return figure
 
 
@@ -132,7 +132,7 @@ def confusion(score: Score) -> Figure:
     axes.set_xticks(range(len(said)), [name.replace("_", " ") for name in said], rotation=90, fontsize=7)
     axes.set_yticks(range(len(truths)), [name.replace("_", " ") for name in truths], fontsize=7)
     axes.set(xlabel="verdict", ylabel="hidden")
-    axes.set_title(f"Hidden against named, cases ({score.tool})", fontsize=10)
+    figure.suptitle(f"Hidden against named, cases\n({score.tool})", fontsize=10)
     return figure
 
 

@@ -91,7 +91,8 @@ class Score:
             goal = "" if row.goal is None else _goal(row.goal)
             mark = {True: "met", False: "NOT met", None: ""}[row.met]
             span = f"[{row.low:.3g}, {row.high:.3g}]" if np.isfinite(row.low) else ""
-            lines.append(f"{row.text:58s} {row.value:8.3g} {span:>17s} {row.count:5d}  {goal:12s} {mark}")
+            value = f"{row.value:.3g}" if np.isfinite(row.value) else "-"
+            lines.append(f"{row.text:58s} {value:>8s} {span:>17s} {row.count:5d}  {goal:12s} {mark}")
         return "\n".join(line.rstrip() for line in lines) + "\n"
 
     def save(self, file: Path) -> None:

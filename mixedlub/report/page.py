@@ -13,7 +13,15 @@ import numpy as np
 from mixedlub.report.figures import Drawn, figures
 from mixedlub.report.laws import laws_used
 from mixedlub.report.style import as_svg
-from mixedlub.report.surfaces import judgement, not_gaussian, provenance, surface_figures, surface_rows, traced
+from mixedlub.report.surfaces import (
+    height_notes,
+    judgement,
+    not_gaussian,
+    provenance,
+    surface_figures,
+    surface_rows,
+    traced,
+)
 from mixedlub.study import counted, factors
 from mixedlub.study.results import COLUMNS, DEFINITIONS, Results
 from mixedlub.study.sections import Options
@@ -40,7 +48,8 @@ def write_page(results: Results, folder: Path, notes: Sequence[str]) -> None:
         shown.append({"name": drawn.name, "caption": drawn.caption, "svg": svg})
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(files("mixedlub.report").joinpath("template.html").read_text(encoding="utf-8"))
-    said = {"notes": [*notes, *not_gaussian(judged)], "provenance": provenance(study, profiles)}
+    doubtful = [*notes, *not_gaussian(judged), *height_notes(profiles, judged)]
+    said = {"notes": doubtful, "provenance": provenance(study, profiles)}
     page = template.render(**content(results), **said, figures=shown)
     (folder / "index.html").write_text(page, encoding="utf-8")
 

@@ -79,6 +79,6 @@ def as_svg(figure: Figure) -> str:
     """The figure as an `svg` element, without prologue; the same input gives the same text."""
     text = io.StringIO()
     with styled():
-        figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None})
+        figure.savefig(text, format="svg", metadata={"Date": None, "Creator": "mixedlub"})
     found = text.getvalue()
     return found[found.index("<svg") :]

@@ -79,6 +79,18 @@ def judgement(profiles: Mapping[str, Profile]) -> Judged:
     return {name: normal_probability(profile) for name, profile in profiles.items()}
 
 
+def height_notes(profiles: Mapping[str, Profile], judged: Judged) -> list[str]:
+    """What `mixedlub profile` warns of in the numbers of each trace and in its heights being Gaussian."""
+    from roughness import height_parameters, moments
+    from roughness.guards import height_warnings
+
+    return [
+        f"surfaces.{name}: {text}"
+        for name, profile in profiles.items()
+        for text in height_warnings(profile, height_parameters(profile), moments(profile), judged[name])
+    ]
+
+
 def not_gaussian(judged: Judged) -> list[str]:
     """A sentence on surfaces whose heights are not those the asperity theory is made for."""
     odd = [

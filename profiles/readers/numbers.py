@@ -144,13 +144,14 @@ def _parse(body: list[str], delimiter: str | None, comma: bool, width: int, wher
         if not line.strip():
             continue
         cells = split(line, delimiter)
-        for cell in cells:
+        for place, cell in enumerate(cells):
             try:
                 finite = math.isfinite(float(cell))
             except ValueError:
                 raise InputError("not a number", where=f"{where}: line {number}", value=cell) from None
             if not finite:
-                raise InputError("heights must be finite numbers", where=f"{where}: line {number}", value=cell)
+                what = "heights" if place == len(cells) - 1 else "positions"
+                raise InputError(f"{what} must be finite numbers", where=f"{where}: line {number}", value=cell)
         if len(cells) != width:
             raise InputError(f"expected {width} numbers", where=f"{where}: line {number}", value=line.strip())
     raise InputError("the columns cannot be read as numbers", where=where)

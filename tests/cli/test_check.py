@@ -102,3 +102,37 @@ def test_nothing_is_doubtful_about_the_practice_cases(number, shared, capsys):
     said = capsys.readouterr().out
     assert "Doubtful" not in said
     assert "Cannot be diagnosed" not in said
+
+
+def test_every_default_that_is_taken_is_listed_with_its_value(tmp_path, capsys):
+    case = shutil.copytree(EXAMPLE, tmp_path / "case")
+    file = case / "system.toml"
+    left_out = ("boundary_friction = 0.1", "pressure_angle_deg", "load_sharing", "eyring_stress_MPa")
+    lines = [line for line in file.read_text(encoding="utf-8").splitlines() if not line.startswith(left_out)]
+    file.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    assert main(["check", str(case)]) == 0
+    said = capsys.readouterr().out.partition("Assumed:")[2]
+    for default in (
+        "boundary_friction = 0.1",
+        "pressure_angle_deg = 20",
+        "load_sharing = rigid: the pairs in contact share equally",
+        "tip_diameter_mm = [80.4333, 118.533], standard addendum",
+        "centre_distance_mm = 91.0167, from the profile shift",
+        "profile_shift = [0, 0]",
+        "youngs_modulus_GPa = [206, 206]",
+        "poisson_ratio = [0.3, 0.3]",
+        "eyring_stress_MPa = 5.0 not given; taken as typical of base mineral (assumed)",
+        "surfaces.polished, surfaces.ground: thermal_conductivity_W_mK = 46",
+        "ambient_temperature_C = 25",
+    ):
+        assert default in said
+
+
+def test_a_ball_of_given_bodies_assumes_nothing_of_them(tmp_path, capsys):
+    oil = {"temperature_C": [40.0, 100.0], "kinematic_viscosity_mm2_s": [30.0, 6.2]}
+    system = {"kind": "film", "contact": BALL, "lubricant": oil, "recording": {"quantity": "film_thickness_nm"}}
+    columns = {"load_N": [20.0, 20.0], "entrainment_speed_m_s": [0.1, 1.0], "slide_roll_ratio": [0.0, 0.0]}
+    columns |= {"oil_temperature_C": [40.0, 40.0], "film_thickness_nm": [50.0, 230.0]}
+    said = understood(tmp_path, capsys, system, columns).partition("Assumed:")[2]
+    assert "pressure_viscosity_per_GPa = [18.8, 13.9]" in said
+    assert not any(key in said for key in ("boundary_friction", "youngs_modulus", "surfaces", "ambient"))

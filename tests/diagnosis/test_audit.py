@@ -15,6 +15,7 @@ from mixedlub.forward import Forward
 from mixedlub.gear import RigidSharing, at_roll_angle
 from mixedlub.importers import write_case
 from mixedlub.table import Table
+from profiles.errors import InputError
 
 Change = Callable[[np.ndarray], np.ndarray]
 
@@ -227,3 +228,39 @@ def test_set_ups_that_nothing_tells_apart_are_asked_about(tmp_path: Path) -> Non
     noise = {"relative": 0.01, "setup_relative": 0.02}
     assert any(note.startswith("2 set-ups are taken to read alike") for note in viscosities(tmp_path, 5.0))
     assert not any("set-ups" in note for note in viscosities(tmp_path, 5.0, noise=noise))
+
+
+def entered_again(case: Case, count: int, change: Change = lambda y: y) -> list[str]:
+    """What is said where the first rows stand in the table again, under new run numbers and a later place."""
+    assert case.recordings is not None
+    again = case.recordings.take(np.array([*range(72), *range(count)]))
+    order = np.arange(72 + count)
+    later = Table({**again.columns, "run": order + 1, "sequence": order / order[-1]}, again.source)
+    y = change(np.array(later[case.quantity], dtype=float))
+    rows = Table({**later.columns, case.quantity: y}, later.source)
+    return doubts(case, rows, y, Forward(case, rows))
+
+
+def test_rows_that_were_entered_twice_are_counted(case: Case) -> None:
+    (note,) = entered_again(case, 72)
+    assert isinstance(note, Doubt)
+    assert note.startswith("72 readings repeat others to the last digit, with their conditions")
+
+
+def test_few_rows_again_or_coarse_readings_are_not_taken_for_a_table_entered_twice(case: Case) -> None:
+    assert entered_again(case, 3) == []
+    assert not any("last digit" in text for text in entered_again(case, 72, lambda y: np.round(y, 2)))
+
+
+def test_readings_at_one_condition_are_refused_with_their_file(make_case: Callable[..., Path], tmp_path: Path) -> None:
+    folder = make_case(tmp_path / "one", "disc")
+    head, first, *rest = (folder / "recordings.csv").read_text(encoding="utf-8").splitlines()
+    _, _, *conditions, _ = first.split(",")
+    same = [",".join([str(i), "0.5", *conditions, row.split(",")[-1]]) for i, row in enumerate([first, *rest])]
+    (folder / "recordings.csv").write_text("\n".join([head, *same]) + "\n", encoding="utf-8")
+    found = read_case(folder)
+    assert found.recordings is not None
+    y = np.array(found.recordings[found.quantity], dtype=float)
+    with pytest.raises(InputError, match="all readings were taken at the same conditions") as error:
+        doubts(found, found.recordings, y, Forward(found, found.recordings))
+    assert error.value.where == str(folder / "recordings.csv")

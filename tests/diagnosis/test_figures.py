@@ -264,3 +264,32 @@ def test_equal_figures_are_equal_text(offset: Diagnosis) -> None:
 def test_ids_are_prefixed_where_defined_and_where_used() -> None:
     svg = '<svg><g id="a"/><use xlink:href="#a"/><path clip-path="url(#a)"/></svg>'
     assert inline(svg, "x") == '<svg><g id="x-a"/><use xlink:href="#x-a"/><path clip-path="url(#x-a)"/></svg>'
+
+
+@pytest.mark.parametrize("name", ["evidence", "confusability", "intervals", "heldout"])
+def test_nothing_of_a_figure_is_cut_at_its_edge(offset: Diagnosis, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Long names of explanations pushed the label of the axis beyond the right edge."""
+    monkeypatch.setattr(
+        charts, "explanation_words", lambda names: "boundary speed dependence and limiting shear stress"
+    )
+    figure = figures.all_figures(offset)[name]
+    as_drawn(figure)
+    inside, frame = figure.get_tightbbox(), figure.bbox_inches
+    assert inside.x0 >= 0.0
+    assert inside.y0 >= 0.0
+    assert inside.x1 <= frame.x1
+    assert inside.y1 <= frame.y1
+
+
+def test_intervals_keep_outliers_within_the_axes_and_count_them(offset: Diagnosis) -> None:
+    count = len(offset.outlier_runs)
+    assert count
+    with look():
+        axes = figures.intervals(offset).axes[0]
+    low, high = axes.get_ylim()
+    places = np.vstack([c.get_offsets() for c in axes.collections if 26.0 in c.get_sizes()])
+    assert len(places) == count
+    assert np.all((places[:, 1] > 0.95 * low) & (places[:, 1] < 0.95 * high))
+    assert f"{count} outlier" in axes.get_title(loc="left")
+    ticks = axes.get_xticks()
+    assert np.array_equal(ticks, np.round(ticks))

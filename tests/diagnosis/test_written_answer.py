@@ -188,10 +188,25 @@ def test_a_failed_write_leaves_the_old_answer(tmp_path: Path) -> None:
 
 
 def test_drawings_of_an_earlier_answer_go(tmp_path: Path) -> None:
-    write({"figures/old.svg": "x", "figures/kept.svg": "x"}, tmp_path)
+    drawn = "<dc:title>mixedlub</dc:title>"
+    write({"figures/old.svg": drawn, "figures/kept.svg": drawn}, tmp_path)
     write({"figures/kept.svg": "y"}, tmp_path)
     assert [p.name for p in (tmp_path / "figures").iterdir()] == ["kept.svg"]
     assert (tmp_path / "figures" / "kept.svg").read_text() == "y"
+
+
+def test_files_of_the_user_among_the_drawings_stay(tmp_path: Path) -> None:
+    drawn = "<dc:title>mixedlub</dc:title>"
+    write({"figures/evidence.svg": drawn}, tmp_path)
+    own = {"notes.txt": "mine", "photo.svg": "<svg/>", "evidence_marked.svg": f"<svg xmlns:inkscape=''>{drawn}"}
+    for name, text in own.items():
+        (tmp_path / "figures" / name).write_text(text, encoding="utf-8")
+    (tmp_path / "figures" / "talk").mkdir()
+    (tmp_path / "figures" / "talk" / "slide.svg").write_text("x", encoding="utf-8")
+    write({"figures/evidence.svg": "new"}, tmp_path)
+    for name, text in {**own, "evidence.svg": "new", "talk/slide.svg": "x"}.items():
+        assert (tmp_path / "figures" / name).read_text(encoding="utf-8") == text
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["figures"]
 
 
 def test_conditions_hidden_by_the_run_of_a_reading_are_named(

@@ -75,7 +75,8 @@ def test_every_needed_line_is_needed(tmp_path, kind):
 @pytest.mark.parametrize("kind", TABLES)
 def test_every_example_is_valid(tmp_path, kind):
     folder = imported(tmp_path, kind, lubricant={"name": "ours"})
-    uncommented(folder, lambda line: "instead of" not in line and "a trace" not in line)
+    others = ("instead of", "a trace", "second channel")
+    uncommented(folder, lambda line: not any(words in line for words in others))
     system = read_case(folder).system
     assert system.lubricant.name == "ours"
     assert system.uncertainty.roughness == 0.04
@@ -151,3 +152,22 @@ def test_units_stand_beside_the_examples():
             if unit and not meaning.startswith("two temperatures"):
                 word = {**written, "mm2_s": "mm2/s"}.get(unit[1], unit[1])
                 assert word in meaning or "1/" in meaning, f"{section}.{key}"
+
+
+def test_what_is_derived_is_told_with_its_value(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    folder = imported(tmp_path, "gear_pair")
+    uncommented(folder, lambda line: "# needed" in line)
+    main(["import", "table.csv", "--out", "case", "--answers", "case/system.toml", "--overwrite"])
+    rest = capsys.readouterr().out.split("not given")[1]
+    assert "gears.tip_diameter_mm ([80.4333, 118.533], standard addendum)" in rest
+    assert "gears.load_sharing (rigid: the pairs in contact share equally)" in rest
+    assert "lubricant.kinematic_viscosity_mm2_s ([100, 11.2])" in rest
+    assert "uncertainty.viscosity (known exactly)" in rest
+
+
+def test_an_oil_of_which_nothing_is_said_is_fitted_and_not_known():
+    columns = {"load_N": [20.0], "entrainment_speed_m_s": [1.0], "slide_roll_ratio": [0.0], "oil_temperature_C": [40.0]}
+    ball = {"geometry": "point", "radius_mm": [9.5, 20.0]}
+    found = recorded({"kind": "film", "contact": ball, "recording": {"quantity": "film_thickness_nm"}}, **columns)
+    assert set(found["uncertainty"].assumed.values()) == {"fitted with a broad prior"}

@@ -144,3 +144,60 @@ def test_a_row_with_other_cells_is_named_with_its_line(rig8):
     rig8.write_text(RIG8.replace("0,05;100;", "0,05;"), encoding="utf-8")
     with pytest.raises(InputError, match=r"rig8\.csv: line 6: has not as many cells"):
         import_files([rig8], rig8.parent / "rig", kind="gear_pair")
+
+
+LOSS = "torque [Nm];speed [rpm];oil_temperature_C;power_loss_W\n50;500;40;17\n100;500;40;30\n"
+
+
+def test_surfaces_that_are_the_same_in_all_rows_are_told_once(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "t.csv").write_text(LOSS, encoding="utf-8")
+    words = ["import", "t.csv", "--out", "rig", "--set", "kind=gear_pair"]
+    assert main(words) == 2
+    assert "or import.values.pinion_surface=... if all rows have the same" in capsys.readouterr().err
+    values = [f"import.values.{side}_surface=ground" for side in ("pinion", "gear")]
+    assert main([*words, "--set", values[0], "--set", values[1]]) == 0
+    assert "t.csv: the same in all rows, as told: pinion_surface, gear_surface" in capsys.readouterr().out
+    assert (tmp_path / "rig/recordings.csv").read_text(encoding="utf-8").splitlines()[
+        1
+    ] == "1,50,500,40,17,ground,ground"
+
+
+def test_one_value_is_checked_and_needs_no_header_beside_it(tmp_path):
+    path = tmp_path / "t.csv"
+    path.write_text(LOSS.replace("oil_temperature_C", "sump"), encoding="utf-8")
+    told = {"kind": "gear_pair", "import.values.pinion_surface": "a", "import.values.gear_surface": "a"}
+    for value, header, wrong in (
+        (900, {}, "must lie between"),
+        (40, {"import.columns.oil_temperature_C": "sump"}, "too"),
+    ):
+        with pytest.raises(InputError, match=wrong) as error:
+            import_files([path], tmp_path / "c", **told, **{"import.values.oil_temperature_C": value}, **header)
+        assert error.value.where == "import.values.oil_temperature_C"
+
+
+def test_a_surface_is_found_under_its_name_with_a_blank(tmp_path):
+    path = tmp_path / "t.csv"
+    rows = LOSS.replace("power_loss_W", "power_loss_W;pinion surface;Gear-Surface").replace("17\n", "17;a;b\n")
+    path.write_text(rows.replace("30\n", "30;b;a\n"), encoding="utf-8")
+    folder = import_files([path], tmp_path / "c", kind="gear_pair")
+    assert (
+        (folder / "recordings.csv")
+        .read_text(encoding="utf-8")
+        .startswith("run,torque_Nm,speed_rpm,oil_temperature_C,p")
+    )
+
+
+def test_settings_pasted_with_their_blanks_are_refused(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    rows = "load_N,entrainment_speed_m_s,slide_roll_ratio,oil_temperature_C,film_thickness_nm\n20,1,0,40,90\n"
+    (tmp_path / "t.csv").write_text(rows, encoding="utf-8")
+    assert main(["import", "t.csv", "--out", "rig", "--set", "kind=film"]) == 2
+    suggested, _ = asked(capsys)
+    assert set(suggested) == {
+        f"contact.{key}" for key in ("geometry", "width_mm", "radius_mm", "youngs_modulus_GPa", "poisson_ratio")
+    }
+    words = [word for key, value in suggested.items() for word in ("--set", f"{key}={value}")]
+    assert main(["import", "t.csv", "--out", "rig", "--set", "kind=film", *words]) == 2
+    assert "contact.geometry: 'LINE OR POINT': must be 'line' or 'point'" in capsys.readouterr().err
+    assert not (tmp_path / "rig").exists()

@@ -11,9 +11,11 @@ ROBOT = "velocity (rad/s),torque (N m)\n1,2\n2,2.2\n3,2.3\n"
 
 def answered(path, out, settings, replies):
     """What was said, with replies by a word of the question; each reply is given once, then an empty line."""
-    left, said = {word: list(lines) for word, lines in replies.items()}, []
+    left, said, asked = {word: list(lines) for word, lines in replies.items()}, [], []
 
     def ask(text):
+        asked.append(text)
+        assert asked.count(text) < 5, text
         lines = next((lines for word, lines in left.items() if word in text.split(":")[0]), [])
         return lines.pop(0) if lines else ""
 
@@ -77,3 +79,52 @@ def test_a_torque_beside_the_friction_torque_is_the_load():
     assert found.columns["torque_Nm"].tolist() == [20.0, 20.0, 20.0]
     (question,) = (q for q in draft(text, "t.csv", DRIVE).questions if q.key == "import.columns.friction_torque_Nm")
     assert question.example == '"drag (N m)"'
+
+
+DISCS = "load (N);speed (m/s);SRR;T (degC);mu\n20;1;0.1;40;0.05\n20;2;0.1;40;0.04\n40;2;0.1;40;0.045\n"
+NAMED = [
+    'kind="disc"',
+    'import.columns.entrainment_speed_m_s="speed (m/s)"',
+    'import.columns.oil_temperature_C="T (degC)"',
+]
+BODIES = {
+    "surface_1": ["import.values.surface_1=ground"],
+    "surface_2": ['import.values.surface_2="ground"'],
+    "Unit": ["-", "-"],
+    "Line": ["line"],
+    "Width": ["6"],
+    "Radii": ["20, 25.4"],
+    "Young": ["206, 75"],
+    "Poisson": ["0.3, 0.3"],
+}
+
+
+def test_lists_may_be_typed_without_brackets_and_columns_told_as_one_value(file, tmp_path):
+    answered(file(DISCS), tmp_path / "case", NAMED, BODIES)
+    system = (tmp_path / "case" / "system.toml").read_text(encoding="utf-8")
+    assert "youngs_modulus_GPa = [206, 75]" in system
+    assert "ground,ground" in (tmp_path / "case" / "recordings.csv").read_text(encoding="utf-8")
+
+
+def test_a_wrong_answer_is_asked_again_at_once(file, tmp_path):
+    replies = {
+        **BODIES,
+        "Line": ["cube", "line"],
+        "Radii": ["20", "20, 25.4"],
+        "surface_1": ["gruond", "import.values.surface_1=ground"],
+        "Noise of a reading, one sd as a share": ["-1", "0.02"],
+    }
+    said = answered(file(DISCS), tmp_path / "case", NAMED, replies)
+    for wrong in ("contact.geometry: 'cube': must be 'line' or 'point'", "contact.radius_mm: 20: must be a list"):
+        assert any(text.startswith(wrong) for text in said)
+    assert any("'gruond': no such header" in text for text in said)
+    assert any(text.startswith("recording.noise.relative: -1") for text in said)
+    assert "relative = 0.02" in (tmp_path / "case" / "system.toml").read_text(encoding="utf-8")
+
+
+def test_a_kind_that_is_none_is_asked_again(file, tmp_path):
+    said = answered(
+        file("temperature_C,viscosity_mPa_s\n40,30\n100,5\n"), tmp_path / "c", [], {"Kind": ["viscosit", "viscosity"]}
+    )
+    assert any("no such kind; nearest known: 'viscosity'" in text for text in said)
+    assert read_case(tmp_path / "c").kind.name == "viscosity"

@@ -110,7 +110,7 @@ def test_rounded_positions_keep_the_measured_step(tmp_path):
         ("1 2\n2 2\n3 3\n4 5\n9 6\n", "positions must be equally spaced"),
         ("1 2\n2 3\n", "at least three heights"),
         ("1 2 3\n2 3 4\n3 4 5\n", "one or two columns"),
-        ("1e400 2\n2 3\n3 4\n", "heights must be finite"),
+        ("1e400 2\n2 3\n3 4\n", "positions must be finite"),
     ],
 )
 def test_bad_text_gets_a_message_that_names_place_and_rule(tmp_path, text, message):

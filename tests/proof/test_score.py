@@ -8,7 +8,7 @@ import pytest
 
 from mixedlub.proof.answers import Answer, Truth, read_answer, read_truth
 from mixedlub.proof.measures import auroc, coverage, held_out, location_auroc, log_score
-from mixedlub.proof.score import score
+from mixedlub.proof.score import Row, Score, score
 from profiles.errors import InputError
 
 RUNS = np.arange(1, 21)
@@ -277,3 +277,9 @@ def test_practice_cases_are_read_as_the_battery_is(shared):
     truths = [read_truth(shared / "cases" / f"case_{i:03d}") for i in range(8)]
     assert [truth.group for truth in truths] == ["none", "none", *["single"] * 4, "measurement", "none"]
     assert all(truth.identifiable for truth in truths)
+
+
+def test_a_figure_of_no_case_is_a_dash():
+    row = Row("right", "right verdicts", float("nan"), 0, float("nan"), float("nan"), None)
+    line = Score("a tool", (row,), (), (), {}).text().splitlines()[-1]
+    assert line.split() == ["right", "verdicts", "-", "0"]

@@ -298,3 +298,30 @@ def test_a_convention_is_recognised_without_case_and_blanks(name, tmp_path, caps
     out = str(tmp_path / "o")
     assert main(["profile", str(TRACES / "0258.txt"), "--no-figures", "--out", out, "--convention", name]) == 2
     assert "nearest known: 'ISO 4287:1997'" in capsys.readouterr().err
+
+
+def test_every_file_that_cannot_be_read_is_named_at_once(tmp_path, capsys):
+    (tmp_path / "empty.csv").write_text("")
+    rows = [f"{i * 0.5},{z:.4f}" for i, z in enumerate(np.sin(np.arange(400)))]
+    rows[200] = rows[200].replace("100.0", "NaN")
+    (tmp_path / "t.csv").write_text("x_um,z_um\n" + "\n".join(rows) + "\n")
+    files = [str(tmp_path / name) for name in ("t.csv", "empty.csv", "none.csv")]
+    assert main(["profile", *files, str(TRACES / "0258.txt"), "--no-figures", "--out", str(tmp_path / "o")]) == 2
+    said = capsys.readouterr().err
+    assert f"{files[0]}: line 202: 'NaN': positions must be finite numbers; and {files[1]}: the file is empty" in said
+    assert f"{files[2]}: no such file" in said
+
+
+def test_limits_of_form_and_trim_are_told_in_plain_numbers(tmp_path, capsys):
+    words = ["profile", str(TRACES / "0258.txt"), "--no-figures", "--out", str(tmp_path / "o")]
+    assert main([*words, "--form", "polynomial-99"]) == 2
+    assert "--form: 'polynomial-99': must be polynomial-0 to polynomial-20" in capsys.readouterr().err
+    assert main([*words, "--trim", "3"]) == 2
+    assert "trimmed lengths (mm): (2.4, 2.4)" in capsys.readouterr().err
+
+
+def test_figures_of_an_earlier_run_are_named_where_none_are_drawn(tmp_path, capsys):
+    words = ["profile", str(TRACES / "0258.txt"), "--out", str(tmp_path / "o")]
+    assert main(words) == 0
+    assert main([*words, "--no-figures"]) == 0
+    assert f"note: {tmp_path / 'o' / 'figures'} is of an earlier run" in capsys.readouterr().err

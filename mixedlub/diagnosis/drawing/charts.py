@@ -45,7 +45,7 @@ def evidence(d: Diagnosis) -> Figure:
     others: tuple[Key, ...] = ((), "unknown")
     rows += [(key, max(judged.weights[key], FAINT)) for key in others if key not in dict(rows)]
     names = [explanation_words(judged.names(k)) for k, _ in rows]
-    figure = blank(7.2, 0.95 + 0.27 * len(rows))
+    figure = blank(7.2, 1.1 + 0.27 * len(rows))
     axes = figure.add_subplot()
     top = rows[0][1]
     axes.axvspan(TIE * top, 1.0, color=GRID, lw=0, zorder=0)
@@ -60,7 +60,7 @@ def evidence(d: Diagnosis) -> Figure:
     axes.set_xlim(FAINT, 2.2)
     axes.set_yticks(range(len(rows)), names)
     axes.set_ylim(len(rows) - 0.4, -0.6)
-    axes.set_xlabel("probability of the explanation (shaded: tied with the most probable)")
+    axes.set_xlabel("probability of the explanation\n(shaded: tied with the most probable)")
     axes.grid(axis="y", visible=False)
     axes.tick_params(axis="y", length=0)
     kinds = {AFTER: "physics", FAULT: "instrument", MUTED: "nothing missing", UNNAMED: "unknown"}
@@ -75,11 +75,14 @@ def heldout(d: Diagnosis) -> Figure:
     kept = d.heldout
     values = [kept.before] if d.posterior.verdict == () else [kept.before, kept.after]
     names = ["calibration alone", "with the answer"][: len(values)]
-    figure = blank(6.2, 0.85 + 0.38 * len(values))
+    figure = blank(6.2, 1.0 + 0.38 * len(values))
     axes = figure.add_subplot()
     axes.barh(names, values, color=[BEFORE, AFTER][: len(values)], height=0.55)
     for place, value in enumerate(values):
-        axes.annotate(f"{value:.2f}", (value, place), xytext=(4, 0), textcoords="offset points", va="center")
+        # The line of the noise may pass behind the number.
+        paper = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
+        text = axes.annotate(f"{value:.2f}", (value, place), xytext=(4, 0), textcoords="offset points", va="center")
+        text.set(bbox=paper, zorder=4)
     axes.axvline(1.0, color=INK, lw=0.9, ls="--")
     axes.annotate(
         "noise",
@@ -97,7 +100,7 @@ def heldout(d: Diagnosis) -> Figure:
     split = kept.split
     for axis in d.found.space.axes:
         split = split.replace(axis.name, words_of(axis.name))
-    axes.set_xlabel(f"rms error on left-out readings (sigma); {split}, {kept.folds} folds")
+    axes.set_xlabel(f"rms error on left-out readings (sigma)\n{split}, {kept.folds} folds")
     return figure
 
 

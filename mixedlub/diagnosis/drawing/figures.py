@@ -281,6 +281,8 @@ def _profile(axes: Axes, values: np.ndarray, before: np.ndarray, after: np.ndarr
 
 def intervals(d: Diagnosis) -> Figure:
     """Recorded readings against the 90 % predictive interval, sorted by the predicted value."""
+    from matplotlib.ticker import MaxNLocator
+
     p, y = d.recorded, d.readings
     order = np.argsort(p.predicted, kind="stable")
     order = order[np.isin(order, _shown(d))]
@@ -301,16 +303,29 @@ def intervals(d: Diagnosis) -> Figure:
     axes.scatter(place[~inside & ~bad], away[~inside & ~bad], s=14, color=SERIES[5], linewidths=0, label="outside")
     reach = 1.25 * float(np.max(np.abs(np.concatenate([low, high, away[~bad], np.quantile(base, [0.02, 0.98])]))))
     if bad.any():
-        axes.scatter(
-            place[bad], np.clip(away[bad], -reach, reach), s=26, facecolors="none", edgecolors=OUTLIER, label="outlier"
-        )
+        _outliers(axes, place[bad], away[bad], reach)
     axes.set_ylim(-reach, reach)
     axes.set_xlim(-1, order.size)
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     unit = "%" if percent else unit_of(d.case.quantity) or "-"
     axes.set_ylabel(f"recorded − predicted ({unit})")
     axes.set_xlabel(f"reading, sorted by predicted {words_of(d.case.quantity)}")
     good = d.outlier_chance <= 0.5
-    drawn = f", {order.size} of them drawn" if order.size < y.size else ""
-    axes.set_title(f"{int((held & good).sum())} of {int(good.sum())} readings inside{drawn}", fontweight="normal")
+    beside = int((~good).sum())
+    drawn = [f"{beside} outlier{'s' if beside > 1 else ''} not counted"] if beside else []
+    drawn += [f"{order.size} readings drawn"] if order.size < y.size else []
+    counted = f"{int((held & good).sum())} of {int(good.sum())} readings inside"
+    axes.set_title("\n".join([counted, ", ".join(drawn)]).rstrip(), fontweight="normal")
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=5, columnspacing=1.2, handletextpad=0.4)
     return figure
+
+
+def _outliers(axes: Axes, place: np.ndarray, away: np.ndarray, reach: float) -> None:
+    """Rings, and triangles at the edge for what lies beyond the scale."""
+    edge = 0.94 * reach
+    label: str | None = "outlier"
+    for marker, there in (("o", np.abs(away) <= edge), ("^", away > edge), ("v", away < -edge)):
+        if there.any():
+            held = np.clip(away[there], -edge, edge)
+            axes.scatter(place[there], held, s=26, marker=marker, facecolors="none", edgecolors=OUTLIER, label=label)
+            label = None

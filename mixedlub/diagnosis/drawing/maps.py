@@ -252,7 +252,8 @@ def confusability(alike: Confusion, emphasised: tuple[str, ...]) -> Figure | Non
     names = [effect_words(alike.ids[i]) for i in order]
     count = len(order)
     cell = 0.235 if count > 12 else 0.33
-    figure = blank(4.3 + cell * count, 2.6 + cell * count)
+    figure = blank(4.4 + cell * count, 2.6 + cell * count)
+    figure.set_layout_engine("constrained", w_pad=0.1)
     grid = figure.add_gridspec(1, 2, width_ratios=(cell * count, 1.7))
     axes, side = figure.add_subplot(grid[0]), figure.add_subplot(grid[1])
     mesh = axes.pcolormesh(np.where(np.eye(count) > 0, np.nan, cosine), cmap=DIVERGING, vmin=-1, vmax=1, lw=0.4)

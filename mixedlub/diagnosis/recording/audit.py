@@ -6,7 +6,7 @@ import numpy as np
 
 from mixedlub.bounds import ranges
 from mixedlub.case import Case
-from mixedlub.diagnosis.recording.features import PASSING
+from mixedlub.diagnosis.recording.features import PASSING, raw_coordinates
 from mixedlub.diagnosis.recording.noise import (
     is_stated,
     nearly_repeated,
@@ -51,6 +51,10 @@ NEGATIVE_SHARE, NEGATIVE_SIGMAS, AS_LARGE = 0.02, 5.0, (0.67, 1.5)
 """So few readings, negative by so many sds, as large as what the others suggest there, are doubted."""
 UNSTATED = 0.05
 """Share of the usual reading that one is taken to scatter by where nothing is stated."""
+ORDER = ("run", "sequence", "time_s")
+"""Columns that a row has anew when it is entered again."""
+TWICE_ROWS, TWICE_SHARE = 3, 0.1
+"""So many different rows, and such a share of them, that come again to the last digit are no chance."""
 CONTRADICTING = 4.0
 """Times the stated noise from which the scatter of repeats contradicts it."""
 
@@ -74,8 +78,12 @@ def system_doubts(case: Case) -> list[str]:
 def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]:
     """What speaks against the recording; an error where it cannot be diagnosed."""
     _readable(case, y)
+    if all(np.unique(values).size == 1 for values in raw_coordinates(case, rows, forward).values()):
+        where = str(case.folder / "recordings.csv")
+        raise InputError("all readings were taken at the same conditions; vary at least one", where=where)
     base = forward.nominal()
     return [
+        *_entered_twice(rows, y),
         *_parts(case, rows),
         *_setups(case, rows),
         *_scarce(y),
@@ -100,6 +108,21 @@ def _readable(case: Case, y: np.ndarray) -> None:
     if case.quantity == "viscosity_mPa_s" and np.median(y) < THINNEST_OIL:
         said = f"are below the {THINNEST_OIL} mPa s of the thinnest liquid that the model holds for; check the unit"
         raise InputError(f"readings {said}", where=where, value=float(np.median(y)))
+
+
+def _entered_twice(rows: Table, y: np.ndarray) -> list[str]:
+    """Rows that repeat others in reading and conditions; readings so coarse that they come again anyway do not."""
+    told = [values for name, values in rows.columns.items() if name not in ORDER]
+    _, count = np.unique(np.column_stack([_numbered(values) for values in (*told, y)]), axis=0, return_counts=True)
+    repeated, coarse = int(np.count_nonzero(count > 1)), 2 * np.unique(y).size < count.size
+    if coarse or repeated < max(TWICE_ROWS, TWICE_SHARE * count.size):
+        return []
+    said = "readings repeat others to the last digit, with their conditions: check that they were not entered twice"
+    return [Doubt(f"{y.size - count.size} {said}")]
+
+
+def _numbered(values: np.ndarray) -> np.ndarray:
+    return np.unique(values, return_inverse=True)[1]
 
 
 def _parts(case: Case, rows: Table) -> list[str]:
