@@ -70,9 +70,9 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
             where=f"{file}: recording.quantity",
             value=quantity,
         )
-    _refuse_unknown_check(system.recording.check, folder / "recordings.csv", file)
     notes: list[str] = []
     with noted(notes):
+        _doubt_unknown_check(system.recording.check, folder / "recordings.csv", file)
         recordings = _read(folder / "recordings.csv", found, quantity, system, need_recordings)
         conditions = _read(folder / "conditions.csv", found, None, system, False)
     return Case(folder.resolve().name, folder, system, found, recordings, conditions, tuple(notes))
@@ -124,15 +124,15 @@ def _read(path: Path, found: Kind, quantity: str | None, system: config.System, 
     return _sds_told(table, f"{system.recording.quantity}_sd", path)
 
 
-def _refuse_unknown_check(name: str | None, recordings: Path, file: Path) -> None:
-    """An error where the second channel that a case names is no column of its recording."""
+def _doubt_unknown_check(name: str | None, recordings: Path, file: Path) -> None:
+    """A warning where the second channel that a case names is no column of its recording: it may have been left out."""
     if name is None or not recordings.is_file():
         return
     with recordings.open(encoding="utf-8-sig", errors="replace") as text:
         header = [cell.strip() for cell in text.readline().split(",")]
     if name not in header:
-        rule = f"no such column in {recordings.name}; {nearest(name, header)}"
-        raise InputError(rule, where=f"{file}: recording.check", value=name)
+        told = f"{file}: recording.check: {name!r}: no such column in {recordings.name}, so nothing is compared with it"
+        warnings.warn(f"{told}; {nearest(name, header)}", CaseWarning, stacklevel=2)
 
 
 def _listed(runs: np.ndarray) -> str:
