@@ -64,11 +64,11 @@ def test_a_second_effect_that_took_the_place_of_another_is_exchanged() -> None:
 def test_half_of_what_is_believed_of_an_effect_is_its_published_law(viscous: float, gained: tuple) -> None:
     """Seal drag after ISO/TR 14179-2 has no power of viscosity to be paid for; another one costs log 2."""
     p = problem(relative=0.002)
-    held = replace(p, held={"seal_drag": {"viscous": viscous, "gliding": 0.0}})
+    held = replace(p, held={"seal_drag": {"viscous": viscous}})
     z = np.append(np.zeros(p.calibration_size), 2.0)
     made = replace(p, y=held.predict(("seal_drag",), z))
     low, high = gained
-    free = map_fit(made, ("seal_drag",), np.append(z, [0.0, 0.0]))
+    free = map_fit(made, ("seal_drag",), np.append(z, 0.0))
     assert low <= published_gain(made, free) < high
 
 

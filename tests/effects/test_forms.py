@@ -12,7 +12,6 @@ from mixedlub.effects.friction_event import friction_event
 from mixedlub.effects.inlet_shear_heating import inlet_shear_heating
 from mixedlub.effects.presliding import presliding
 from mixedlub.effects.pressure_viscosity_law import pressure_viscosity_law
-from mixedlub.effects.seal_drag import seal_drag
 from mixedlub.effects.starvation import starvation
 from mixedlub.effects.stribeck import stribeck
 from mixedlub.effects.viscosity_drift import viscosity_drift
@@ -123,20 +122,6 @@ def test_presliding_keeps_to_the_stiffness_of_dahl(exponent: float) -> None:
     force = presliding(1.0, travel, 1.0, speed_share=1.0, exponent=exponent)
     stiffness = np.gradient(force, travel, edge_order=2)
     np.testing.assert_allclose(stiffness[1:-1], ((1.0 - force) ** exponent)[1:-1], rtol=2e-3, atol=1e-4)
-
-
-@pytest.mark.parametrize(("gliding", "power"), [(0.0, 1.0), (1.0, 4.0 / 3.0)])
-def test_a_lip_that_glides_on_its_film_rubs_as_the_cube_root_of_viscosity_times_speed(
-    gliding: float, power: float
-) -> None:
-    """Hirano and Ishiwata: f as (nu n)^(1/3), so that loss goes as n^(4/3)."""
-    law = {"strength": 1.0, "viscous": 1.0 / 3.0, "gliding": gliding}
-    slow, fast, thick = (
-        seal_drag(0.0, 0.04, speed, 0.5 * speed, viscosity, 850.0, **law)
-        for speed, viscosity in ((100.0, 0.01), (200.0, 0.01), (100.0, 0.08))
-    )
-    assert fast / slow == pytest.approx(2.0**power, rel=1e-12)
-    assert thick / slow == pytest.approx(2.0, rel=1e-12)
 
 
 def test_the_second_harmonic_meets_the_resonance_at_half_the_speed() -> None:
