@@ -144,8 +144,8 @@ def _uncertain(case: Case, movable: Sequence[Calibration]) -> Iterator[str]:
 
 def _audit(case: Case, forward: Forward | None) -> Iterator[str]:
     """What is doubtful about system and readings, or why they cannot be diagnosed."""
+    from mixedlub.diagnosis.judging.reach import beyond_recorded
     from mixedlub.diagnosis.recording.audit import doubts, system_doubts
-    from mixedlub.diagnosis.recording.reach import beyond_recorded
     from mixedlub.forward import Forward
 
     found = system_doubts(case)
@@ -160,10 +160,10 @@ def _audit(case: Case, forward: Forward | None) -> Iterator[str]:
             Forward(case, case.conditions).nominal()
         except InputError as error:
             yield f"Cannot be predicted: {error}."
-    found += beyond_recorded(case, case.conditions)
     if found:
         yield "Doubtful:"
         yield from (f"  {text}." for text in found)
+    yield from (f"To be predicted: {text}." for text in beyond_recorded(case, case.conditions))
 
 
 def _forward(case: Case) -> Forward | None:

@@ -19,11 +19,11 @@ from mixedlub.diagnosis.judging.nexttest import NextTest, next_tests
 from mixedlub.diagnosis.judging.posterior import Key, Posterior
 from mixedlub.diagnosis.judging.predict import Refined
 from mixedlub.diagnosis.judging.published import Contained, contained
+from mixedlub.diagnosis.judging.reach import beyond_recorded
 from mixedlub.diagnosis.judging.validity import beyond_range, unpublished
 from mixedlub.diagnosis.judging.verdict import judge
 from mixedlub.diagnosis.labels import effect_words
 from mixedlub.diagnosis.recording.audit import audit
-from mixedlub.diagnosis.recording.reach import beyond_recorded
 from mixedlub.diagnosis.searching.search import Progress, Search
 from mixedlub.diagnosis.searching.weighed import weighed
 from mixedlub.effect import find

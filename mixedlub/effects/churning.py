@@ -16,7 +16,7 @@ TURBULENT = -1.0 / 3.0, 8.0 / 3.0
         Parameter(
             "strength", "-", LogNormal(1.0, 0.9), "factor: depth, case, number of wheels that dip", null=0.0, symbol="c"
         ),
-        Parameter("viscous", "-", Between(TURBULENT[0], 1.0), "power of viscosity", symbol="q"),
+        Parameter("viscous", "-", Between(TURBULENT[0], 1.0), "power of viscosity", symbol="q", published=(0.21, 1.0)),
         Parameter(
             "surplus",
             "-",

@@ -127,6 +127,7 @@ def of_drive(d: drive.Drive, columns: Values) -> Values:
         "drive_speed": d.speed,
         "reference_speed": 1.0,
         "temperature_difference": celsius - np.mean(celsius),
+        "log_load": np.log(load) - np.mean(np.log(load)),
         "oil_temperature": celsius + KELVIN,
         "load_fraction": load / load.max(),
         "inverse_load": load.min() / load,

@@ -29,10 +29,12 @@ NEARLY = {
     ("churning", "churning"): 5e-3,
     ("boundary_speed_dependence", "boundary_speed_dependence"): 1e-3,
     ("pressure_viscosity_law", "bode"): 2e-3,
+    ("presliding", "mindlin"): 1e-3,
 }
 """Forms counted as the catalogue's although it has something beside them that hardly shows.
 
-That is the density of the oil, a rounded corner at 1 mm/s, and exponentials where a fraction bends alike.
+That is the density of the oil, a rounded corner at 1 mm/s, exponentials where a fraction bends alike, and drag at
+creeping speeds.
 """
 STARTS, BEST = 14, 8
 LOGARITHMIC = {"viscosity", "contact_viscosity", "m0", "m2", "m4", "film_thickness"}
@@ -105,17 +107,27 @@ DOWNSTREAM: dict[str, tuple[str, Callable[[Any, Any], np.ndarray]]] = {
 LIMITS: dict[str, tuple[dict[str, float], ...]] = {
     "contact_creep": tuple({"power": 1e8, "saturation_slip": 1e8 * s} for s in (0.002, 0.004, 0.008, 0.016, 0.03)),
     "boundary_film": ({"gain": 1e7},),
-    "friction_event": ({"width": 1e-7},),
     "tribofilm_growth": ({"induction": 1e-9},),
     "stribeck": tuple({"exponent": n, "speed_share": v} for n in (1.0, 2.0) for v in (0.03, 0.1)),
     "starvation": ({"onset": 0.05, "steepness": 4.0},),
-    "viscosity_temperature_law": ({"share": 1.0},),
+    "viscosity_temperature_law": tuple({"share": 1.0, "fall": 1.0, "convexity": m} for m in (1.0, 2.0, 2.5)),
+    "friction_event": tuple({"later": 0.0, "width": 1e-7, "place": q / 20.0} for q in range(1, 20)),
+    "presliding": tuple(
+        {"exponent": i, "speed_share": v} for i in (1.0 / 3.0, 1.0) for v in np.geomspace(1e-4, 1.0, 9)
+    ),
 }
 """Values from which the fit also starts: far out, where a form may be the limit of the catalogue's."""
 
 
 def _median(prior: LogNormal | BetweenLog) -> float:
     return prior.median if isinstance(prior, LogNormal) else float(np.sqrt(prior.low * prior.high))
+
+
+def _place(prior: Any, value: float) -> float:
+    """Where a value stands, counted as the fit counts it."""
+    if isinstance(prior, Between):
+        return (value - prior.low) / (prior.high - prior.low)
+    return float(np.log(value / _median(prior)))
 
 
 def misfit(sign: Signature, enough: float = EXACT) -> float:
@@ -147,7 +159,7 @@ def misfit(sign: Signature, enough: float = EXACT) -> float:
         x = np.where(even, rng.choice([0.0, 1.0, 0.5, 0.8], len(even)), x)
         for i, p in enumerate(parameters):
             if p.name in known:
-                x[i] = np.log(known[p.name] / _median(p.prior))
+                x[i] = _place(p.prior, known[p.name])
         return x
 
     starts = [start(known) for known in LIMITS.get(sign.effect.id, ()) for _ in range(3)]
@@ -258,4 +270,5 @@ def test_no_effect_is_planted_in_forms_of_the_catalogue_alone_where_others_are_c
         "force_offset",
         "fringe_order",
         "direction_dependence",
+        "load_dependent_friction",
     }

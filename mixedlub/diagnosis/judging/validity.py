@@ -16,6 +16,8 @@ from mixedlub.quantities import GLOSSARY
 
 SLACK = 1e-6
 """Share of a bound that rounding may go beyond it."""
+EXACTLY = 0.01
+"""Of an exponent, how near one of a law at the end of its prior counts as that."""
 
 
 def beyond_range(problem: Problem, explanation: Explanation, z: np.ndarray) -> list[str]:
@@ -39,7 +41,8 @@ def unpublished(effects: Sequence[Effect], z: np.ndarray, spread: np.ndarray) ->
             continue
         least, most = p.published
         low, value, high = (p.prior.value(float(at + k * NINETY * sd)) for k in (-1.0, 0.0, 1.0))
-        if least <= value <= most:
+        named = (x for x in (law.get(p.name, least) for law in e.contains.values()) if not least <= x <= most)
+        if least <= value <= most or any(low - EXACTLY <= exact <= high + EXACTLY for exact in named):
             continue
         cited = f"{number(least)} to {number(most)}"
         found = f"{effect_words(e.id)}: {p.meaning} is {number(value)} (90 % {number(low)} to {number(high)})"

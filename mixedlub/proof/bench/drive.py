@@ -166,7 +166,9 @@ def _load_forms(load: np.ndarray) -> tuple[Form, ...]:
         return _added(d, 0.5 * strength * d.level * share**exponent * d.sign)
 
     power = Knob("exponent", 0.8, 1.2, (0.9, 1.1))
-    return (Form("load_dependent_friction", "running", loaded, (strength(0.0, 6.0), power), "near proportion"),)
+    return (
+        Form("load_dependent_friction", "running", loaded, (strength(0.0, 6.0), power), "near proportion", within=True),
+    )
 
 
 def _additive_forms(content: np.ndarray) -> tuple[Form, ...]:

@@ -70,5 +70,5 @@ def presliding(share: np.ndarray) -> tuple[Form, ...]:
     return (
         Form("presliding", "running", lugre, (size,), "bristles, Canudas de Wit et al. 1995"),
         Form("presliding", "running", dahl, (size, exponent), "ball bearings, Dahl 1976"),
-        Form("presliding", "running", mindlin, (size,), "partial slip, Mindlin 1949"),
+        Form("presliding", "running", mindlin, (size,), "partial slip, Mindlin 1949", within=True),
     )
