@@ -72,8 +72,8 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
         )
     notes: list[str] = []
     with noted(notes):
-        _doubt_unknown_check(system.recording.check, folder / "recordings.csv", file)
         recordings = _read(folder / "recordings.csv", found, quantity, system, need_recordings)
+        _doubt_unknown_check(system.recording.check, recordings, file)
         conditions = _read(folder / "conditions.csv", found, None, system, False)
     return Case(folder.resolve().name, folder, system, found, recordings, conditions, tuple(notes))
 
@@ -124,15 +124,13 @@ def _read(path: Path, found: Kind, quantity: str | None, system: config.System, 
     return _sds_told(table, f"{system.recording.quantity}_sd", path)
 
 
-def _doubt_unknown_check(name: str | None, recordings: Path, file: Path) -> None:
+def _doubt_unknown_check(name: str | None, recordings: Table | None, file: Path) -> None:
     """A warning where the second channel that a case names is no column of its recording: it may have been left out."""
-    if name is None or not recordings.is_file():
+    if name is None or recordings is None or name in recordings:
         return
-    with recordings.open(encoding="utf-8-sig", errors="replace") as text:
-        header = [cell.strip() for cell in text.readline().split(",")]
-    if name not in header:
-        told = f"{file}: recording.check: {name!r}: no such column in {recordings.name}, so nothing is compared with it"
-        warnings.warn(f"{told}; {nearest(name, header)}", CaseWarning, stacklevel=2)
+    told = f"{file}: recording.check: {name!r}: no such column in {recordings.source}, so nothing is compared with it"
+    there = nearest(name, [*recordings.columns, *recordings.ignored])
+    warnings.warn(f"{told}; {there}", CaseWarning, stacklevel=2)
 
 
 def _listed(runs: np.ndarray) -> str:
@@ -150,12 +148,12 @@ def _sds_told(table: Table, name: str, path: Path) -> Table:
     if not told.any():
         note = f"{path.name}: {name} is 0 or left out everywhere: it says nothing of how much a reading scatters"
         warnings.warn(note, CaseWarning, stacklevel=2)
-        return Table({k: v for k, v in table.columns.items() if k != name}, table.source)
+        return replace(table, columns={k: v for k, v in table.columns.items() if k != name})
     runs = _listed(table["run"][~told])
     middle = float(np.median(table[name][told]))
     note = f"{path.name}: {name} is 0 or left out at run {runs}: taken as the median of the others, {middle:.3g}"
     warnings.warn(note, CaseWarning, stacklevel=2)
-    return Table({**table.columns, name: np.where(told, table[name], middle)}, table.source)
+    return replace(table, columns={**table.columns, name: np.where(told, table[name], middle)})
 
 
 def _columns(found: Kind, system: config.System, measured: bool) -> tuple[Column, ...]:

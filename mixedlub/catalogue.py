@@ -96,11 +96,30 @@ def fingerprint(effect: Effect, rig: str) -> dict[str, str]:
 
 @cache
 def signatures(rig: str) -> Mapping[str, tuple[np.ndarray, float]]:
-    """Each effect's change of the readings, in standard deviations, as far as calibration cannot imitate it.
+    """The `signature` of each effect at the values that are shown, of those that the rig shows at all."""
+    forward = standard.forward(rig)
+    base = forward.predict()
+    changes = {effect.id: share(effect.id, rig) for effect in forward.effects()}
+    found = {name: signature(change * base, rig) for name, change in changes.items() if change is not None}
+    return {name: (vector, left) for name, (vector, left) in found.items() if left > 0.0}
+
+
+def signature(change: np.ndarray, rig: str) -> tuple[np.ndarray, float]:
+    """A change of the readings, in standard deviations, as far as calibration cannot imitate it.
 
     A unit vector over the rows, and the share of the whole change that is left after projecting out one column
     an input that calibration may move.
     """
+    sd, inputs = _calibrated(rig)
+    whole = change / sd
+    left = whole - inputs @ (inputs.T @ whole)
+    size = float(np.linalg.norm(left))
+    return (left / size, size / float(np.linalg.norm(whole))) if size > 0.0 else (left, 0.0)
+
+
+@cache
+def _calibrated(rig: str) -> tuple[np.ndarray, np.ndarray]:
+    """Noise of the standard rig's readings, and an orthonormal basis of what calibration does to them."""
     forward = standard.forward(rig)
     base = forward.predict()
     noise = forward.case.system.recording.noise
@@ -108,15 +127,7 @@ def signatures(rig: str) -> Mapping[str, tuple[np.ndarray, float]]:
     sd = np.hypot(noise.relative * base, noise.absolute)
     moved = [forward.predict({c.name: c.parameter.prior.value(0.5)}) - base for c in forward.calibrations]
     inputs, _ = np.linalg.qr((np.array(moved) / sd).T)
-    found = {}
-    for effect in forward.effects():
-        change = share(effect.id, rig)
-        whole = np.zeros_like(base) if change is None else change * base / sd
-        left = whole - inputs @ (inputs.T @ whole)
-        size = float(np.linalg.norm(left))
-        if size > 0:
-            found[effect.id] = (left / size, size / float(np.linalg.norm(whole)))
-    return found
+    return sd, inputs
 
 
 def lookalikes(effect_id: str, rig: str) -> dict[str, float]:

@@ -83,10 +83,11 @@ BOOKKEEPING = (
 
 @dataclass(frozen=True)
 class Table:
-    """Columns of equal length by name."""
+    """Columns of equal length by name; ``ignored`` are headers of the file that are not among them."""
 
     columns: Mapping[str, np.ndarray]
     source: str = "table"
+    ignored: tuple[str, ...] = ()
 
     def __len__(self) -> int:
         return len(next(iter(self.columns.values())))
@@ -171,7 +172,7 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] 
         place = f"{where}: line {lines[again + 1][0]}, {named}"
         rule = f"{named} must be unique" + (" together" if len(key) > 1 else "")
         raise InputError(rule, where=place, value=value[0] if len(key) == 1 else value)
-    return Table(cells, path.name)
+    return Table(cells, path.name, tuple(unknown))
 
 
 IGNORED = "columns ignored because they are not known: "

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub import standard
-from mixedlub.catalogue import lookalikes, shown, signatures
+from mixedlub.catalogue import lookalikes, shown, signature, signatures
 from mixedlub.effect import catalogue
 
 
@@ -16,15 +16,9 @@ class TestLookalikes:
         """Both are drag of a film then; churning by inertia is further off."""
         forward = standard.forward("gear_pair")
         base = forward.predict()
-        assert forward.case.system.recording.noise is not None
-        sd = np.hypot(forward.case.system.recording.noise.relative * base, 1e-9)
-        moved = [forward.predict({c.name: c.parameter.prior.value(0.5)}) - base for c in forward.calibrations]
-        inputs, _ = np.linalg.qr((np.array(moved) / sd).T)
 
         def sign(name: str, values: dict[str, float]) -> np.ndarray:
-            change = (forward.predict(None, {name: values}) - base) / sd
-            change -= inputs @ (inputs.T @ change)
-            return np.asarray(change / np.linalg.norm(change))
+            return signature(forward.predict(None, {name: values}) - base, "gear_pair")[0]
 
         rolling = sign("rolling_resistance", shown(catalogue()["rolling_resistance"]))
         laws = catalogue()["churning"].contains

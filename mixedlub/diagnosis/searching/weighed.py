@@ -16,7 +16,6 @@ from mixedlub.diagnosis.searching.search import MANY, Progress, Search, search, 
 from mixedlub.diagnosis.searching.serial import lasting, lasting_alone
 from mixedlub.forward import Forward
 from mixedlub.table import Table
-from profiles.errors import InputError
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,8 +51,6 @@ def weighed(
     Where noise lasts over several readings, so many count as one, and everything is weighed again.
     """
     space = coordinates(case, rows, forward)
-    if not space.axes:
-        raise InputError("all readings were taken at the same conditions; vary at least one", where="recordings.csv")
     values = space.values(case, rows, forward)
 
     def trial(case: Case, rows: Table, together: float = 1.0) -> Search:
