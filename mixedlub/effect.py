@@ -179,6 +179,7 @@ class Effect:
     contains: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     free_form: bool = False
     exact: bool = False
+    over: str = ""
     held: Mapping[str, float] = field(default_factory=dict)
 
     def holding(self, values: Mapping[str, float]) -> Effect:
@@ -235,6 +236,7 @@ def effect(
     contains: Mapping[str, Mapping[str, float]] | None = None,
     free_form: bool = False,
     exact: bool = False,
+    over: str = "",
 ) -> Callable[[Callable[..., object]], Callable[..., object]]:
     """Register a law as an effect; its signature must say what the declaration says.
 
@@ -247,7 +249,7 @@ def effect(
     recording (empty: all). ``odds`` below one say that it is missing less often than others are, before any reading
     is seen. ``contains`` names laws, published or limits, that it becomes at certain values of some parameters. A
     ``free_form`` describes, and names no cause. The form of an ``exact`` one is its definition and cannot be a little
-    wrong.
+    wrong. One law ``over`` a quantity is no more than calibration where readings were all taken at one value of it.
     """
     targets = (acts_on,) if isinstance(acts_on, str) else acts_on
 
@@ -265,6 +267,8 @@ def effect(
         for name in names:
             if name not in GLOSSARY:
                 raise TypeError(f"{where}: {name!r} is not in the glossary; {nearest(name, GLOSSARY)}")
+        if over and over not in names:
+            raise TypeError(f"{where}: {over!r} is nothing that it reads")
         if not 0.0 < odds <= 1.0:
             raise TypeError(f"{where}: odds {odds!r} must lie above 0 and not above 1")
         for held, values in (contains or {}).items():
@@ -290,6 +294,7 @@ def effect(
             contains=MappingProxyType(dict(contains or {})),
             free_form=free_form,
             exact=exact,
+            over=over,
         )
         return law
 

@@ -17,6 +17,9 @@ from mixedlub.kinds.kind import SCALE, ageing
 from mixedlub.table import Table
 from profiles.errors import InputError
 
+WANDERS = 0.02
+"""Share of its size by which a quantity that is held may wander: of a temperature 6 K."""
+
 
 @dataclass(frozen=True, eq=False)
 class Move:
@@ -116,5 +119,12 @@ class Forward:
         return tuple(
             e
             for e in known_in(self.case.kind.name).values()
-            if e.id not in exclude and available(e, self.chain, tuple(self.inputs), "reading", self.case.kind.name)
+            if e.id not in exclude
+            and available(e, self.chain, tuple(self.inputs), "reading", self.case.kind.name)
+            and (not e.over or _varies(self.inputs[e.over]))
         )
+
+
+def _varies(values: np.ndarray) -> bool:
+    """Whether readings were taken at more than one value; what is held wanders a little."""
+    return bool(np.ptp(values) > WANDERS * np.max(np.abs(values)))

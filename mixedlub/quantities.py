@@ -132,7 +132,7 @@ running_friction        | T_r        | N m     | friction torque of the moving p
 drive_speed             | omega      | rad/s   | signed speed of a drive (m/s where a sliding speed is recorded)
 reference_speed         | omega_0    | rad/s   | largest speed of the recording, in the unit of drive_speed
 temperature_difference  | theta_d    | K       | oil temperature over the mean of the recording, 0 where unknown
-inverse_load            | q_w        | -       | smallest load (of teeth: torque) recorded over the load
+inverse_load            | q_w        | -       | smallest load recorded over the load
 log_load                | l_F        | -       | ln of the load over the middle one recorded, 0 where none is told
 load_fraction           | q_F        | -       | load on a drive over the largest load of the recording
 additive_fraction       | q_a        | -       | content of an additive over the largest content tested

@@ -22,7 +22,7 @@ from mixedlub.effect import Between, LogNormal, Parameter, effect
             "speed_share",
             "-",
             LogNormal(0.1, 1.0),
-            "Stribeck speed over the largest speed of the recording, at its mean temperature",
+            "Stribeck speed over the largest speed of the recording, at its mean temperature and middle load",
             symbol="q",
             of="reference_speed",
         ),

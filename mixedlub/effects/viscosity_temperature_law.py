@@ -46,6 +46,7 @@ NEAREST, MOST = 5.0, 30.0
     fingerprint={"oil_temperature": "+"},
     separated_by="a third point of viscosity, between the two given ones or beyond them",
     odds=0.5,
+    over="oil_temperature",
     contains={
         "Vogel": {"share": 1.0, "fall": 1.0},
         "Andrade": {"share": 1.0, "convexity": 1.0, "fall": 1.0},

@@ -173,6 +173,7 @@ def _answered(
     files: Sequence[Path], answers: Mapping[str, Any], question: Question, ask: Callable[[str], str], say: Say
 ) -> dict[str, Any]:
     """The answers with one more, unless it is left open; a wrong one is told and asked again."""
+    told: dict[str, Mapping[str, Any]] = {}
     while True:
         found = _ask(question, ask, say)
         if found is None:
@@ -183,8 +184,12 @@ def _answered(
                 refuse_wrong(key, value)
             read(files, more)
         except InputError as error:
+            # What another answer does not change is wrong in the file.
+            if told.get(str(error), found) != found:
+                raise
             if not question.key.startswith("import.") and error.where != question.key:
                 raise
+            told[str(error)] = found
             say(str(error))
         else:
             return more
@@ -203,7 +208,10 @@ def _ask(question: Question, ask: Callable[[str], str], say: Say) -> dict[str, A
         if reply.isdecimal() and 1 <= int(reply) <= len(listed):
             return {question.key: listed[int(reply) - 1]}
         if reply.startswith(VALUES):
-            return dict([parse_setting(reply)])
+            if "=" in reply:
+                return dict([parse_setting(reply)])
+            say(f"what all rows have is told as {VALUES}NAME=VALUE")
+            continue
         if reply:
             return {question.key: _value(f"[{reply}]" if is_list(question.example, reply) else reply)}
         if not question.needed:

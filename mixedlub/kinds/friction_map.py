@@ -20,7 +20,7 @@ from mixedlub.table import CaseWarning, Column, Table
 from profiles.errors import InputError
 
 SPEEDS = ("speed_rpm", "sliding_speed_m_s")
-LOADS = ("load_N", "torque_Nm")
+LOADS = ("torque_Nm", "load_N")
 COLUMNS = (
     *(Column(name, required=False) for name in SPEEDS),
     *(Column(name, required=False) for name in LOADS),
@@ -72,9 +72,9 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
         "temperature_difference": _warmer(table, recorded),
         "log_load": _heavier(table, recorded),
     }
-    for name in LOADS:
-        if name in table and name in recorded and np.any(recorded[name] != 0):
-            found["load_fraction"] = column(np.abs(table[name]) / np.max(np.abs(recorded[name])))
+    name = _load_column(table, recorded)
+    if name is not None:
+        found["load_fraction"] = column(np.abs(table[name]) / np.max(np.abs(recorded[name])))
     if "additive_percent" in table and "additive_percent" in recorded and recorded["additive_percent"].any():
         found["additive_fraction"] = column(table["additive_percent"] / np.max(recorded["additive_percent"]))
     if "oil_temperature_C" in table:
@@ -93,12 +93,25 @@ def _warmer(table: Table, recorded: Table) -> np.ndarray:
     return column(table[name] - np.mean(recorded[name]))
 
 
+def _load_column(table: Table, recorded: Table) -> str | None:
+    """The column that loads the drive: the torque where a force is told too, if it is ever more than none."""
+    there = (n for n in LOADS if n in table and n in recorded and np.any(recorded[n] != 0.0))
+    return next(there, None)
+
+
 def _heavier(table: Table, recorded: Table) -> np.ndarray:
-    """Logarithm of the load of the rows over the middle one recorded; zero where either tells none."""
-    name = next((name for name in LOADS if name in table and name in recorded), None)
-    if name is None or not np.all(table[name]) or not np.all(recorded[name]):
+    """Logarithm of the load of the rows over the middle one recorded; zero where either tells none.
+
+    A drive that runs idle carries itself: it counts as loaded by the least load recorded.
+    """
+    name = _load_column(table, recorded)
+    if name is None:
         return np.zeros((len(table), 1))
-    return column(np.log(np.abs(table[name])) - np.mean(np.log(np.abs(recorded[name]))))
+    loaded = np.abs(recorded[name][recorded[name] != 0.0])
+    least = float(loaded.min())
+    idle = (recorded[name] == 0.0, table[name] == 0.0)
+    known, asked = (np.where(out, least, np.abs(rows[name])) for out, rows in zip(idle, (recorded, table), strict=True))
+    return column(np.log(asked) - np.mean(np.log(known)))
 
 
 def _motor_torque(table: Table, recorded: Table) -> Inputs:

@@ -79,10 +79,21 @@ def inverse_load(system: config.System, table: Table, recorded: Table) -> Inputs
     """Smallest recorded load over that of each row, where readings are friction forces over loads that differ."""
     if system.recording.quantity != "friction_coefficient" or "load_N" not in table or "load_N" not in recorded:
         return {}
-    least, largest = float(np.min(np.abs(recorded["load_N"]))), float(np.max(np.abs(recorded["load_N"])))
+    return inverse_of(np.abs(table["load_N"]), np.abs(recorded["load_N"]))
+
+
+def inverse_of(load: np.ndarray, recorded: np.ndarray) -> Inputs:
+    """Smallest recorded load over the load of each row, where loads differ enough to tell a force from a share.
+
+    >>> inverse_of(np.array([10.0, 20.0]), np.array([10.0, 40.0]))["inverse_load"][:, 0].tolist()
+    [1.0, 0.5]
+    >>> inverse_of(np.array([10.0]), np.array([10.0, 11.0]))
+    {}
+    """
+    least, largest = float(np.min(recorded)), float(np.max(recorded))
     if least == 0.0 or largest < LOADS_DIFFER * least:
         return {}
-    return {"inverse_load": column(least / np.maximum(np.abs(table["load_N"]), LEAST * least))}
+    return {"inverse_load": column(least / np.maximum(load, LEAST * least))}
 
 
 def gears_out(table: Table) -> np.ndarray:

@@ -8,9 +8,9 @@ import numpy as np
 
 from mixedlub import bodies, config
 from mixedlub.chains import GEAR_CONTACT
-from mixedlub.gear import at_roll_angle
+from mixedlub.gear import GearPair, Mesh, Sharing, at_roll_angle
 from mixedlub.kinds.gear_pair import CONDITIONS, motion_inputs
-from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column
+from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, inverse_of
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.table import Column, Table
@@ -33,25 +33,36 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
     assert system.gears is not None
     pair = bodies.gear_pair(system.gears)
     sharing = bodies.sharing(system.gears.load_sharing, folder)
-    points = at_roll_angle(pair, sharing, np.radians(table["roll_angle_deg"]), slices=1)
-    share = np.empty(len(table))
-    for level in np.unique(table["torque_Nm"]):
-        rows = table["torque_Nm"] == level
-        share[rows] = points.load_share(level)[rows]
+    points, share = _contacts(pair, sharing, table)
+    known = share if recorded is table else _contacts(pair, sharing, recorded)[1]
     along = motion_inputs(points, table["torque_Nm"], table["speed_rpm"] * np.pi / 30.0)
     own = {name: column(value) if np.ndim(value) else value for name, value in along.items()}
-    carried = table["torque_Nm"] * np.maximum(share, LEAST_SHARE)
     temperature = column(table["oil_temperature_C"]) + ZERO_CELSIUS
     return {
         **own,
-        "load_share": share[:, None],
-        "inverse_load": column(float(np.min(recorded["torque_Nm"])) / carried),
+        "load_share": column(share),
+        **inverse_of(_asked_of(share, table), _asked_of(known, recorded)),
         **bodies.lubricant(system.lubricant).inputs(temperature),
         **pair_of_surfaces(system, folder, table, "pinion_surface", "gear_surface"),
         **bookkeeping_inputs(system, table),
         "oil_temperature": temperature,
         "boundary_friction": system.boundary_friction,
     }
+
+
+def _contacts(pair: GearPair, sharing: Sharing, table: Table) -> tuple[Mesh, np.ndarray]:
+    """The contact point of every row and the share of the load that it carries."""
+    points = at_roll_angle(pair, sharing, np.radians(table["roll_angle_deg"]), slices=1)
+    share = np.empty(len(table))
+    for level in np.unique(table["torque_Nm"]):
+        rows = table["torque_Nm"] == level
+        share[rows] = points.load_share(level)[rows]
+    return points, share
+
+
+def _asked_of(share: np.ndarray, table: Table) -> np.ndarray:
+    """The torque that would load the contact of every row alone as it is loaded."""
+    return np.asarray(table["torque_Nm"] * np.maximum(share, LEAST_SHARE))
 
 
 def limits(system: config.System) -> dict[str, tuple[float, float]]:

@@ -252,6 +252,20 @@ def test_few_rows_again_or_coarse_readings_are_not_taken_for_a_table_entered_twi
     assert not any("last digit" in text for text in entered_again(case, 72, lambda y: np.round(y, 2)))
 
 
+@pytest.mark.parametrize("places", [3, 9])
+def test_repeats_that_are_alike_by_rounding_are_not_taken_for_a_table_entered_twice(case: Case, places: int) -> None:
+    """Three readings a point of 1 % scatter; rounded to a few last digits of that, and to many with rows again."""
+    assert case.recordings is not None
+    rows = case.recordings.take(np.tile(np.arange(72), 3))
+    y = rows[case.quantity] * (1.0 + 0.01 * np.random.default_rng(1).standard_normal(216))
+    y = np.round(y, places)
+    pasted = np.concatenate([np.arange(216), np.arange(60 if places > 3 else 0)]).astype(int)
+    order = {"run": np.arange(1, pasted.size + 1), "sequence": np.linspace(0.0, 1.0, pasted.size)}
+    table = Table({**rows.take(pasted).columns, **order, case.quantity: y[pasted]}, "recordings.csv")
+    notes = doubts(case, table, y[pasted], Forward(case, table))
+    assert any("last digit" in note for note in notes) is (places > 3)
+
+
 def test_readings_at_one_condition_are_refused_with_their_file(make_case: Callable[..., Path], tmp_path: Path) -> None:
     folder = make_case(tmp_path / "one", "disc")
     head, first, *rest = (folder / "recordings.csv").read_text(encoding="utf-8").splitlines()

@@ -1,8 +1,11 @@
 """The wizard at a terminal: choices by number where a line was left empty, the likely header proposed."""
 
+import pytest
+
 from mixedlub.case import read_case
 from mixedlub.importers.plain import draft
 from mixedlub.importers.wizard import run
+from profiles.errors import InputError
 
 TWIN = "T1 (degC);T2 (degC);eta (mPa.s)\n40;41;30\n60;61;12\n100;99;5\n"
 DRIVE = {"kind": "friction_map", "recording.quantity": "friction_torque_Nm"}
@@ -128,3 +131,16 @@ def test_a_kind_that_is_none_is_asked_again(file, tmp_path):
     )
     assert any("no such kind; nearest known: 'viscosity'" in text for text in said)
     assert read_case(tmp_path / "c").kind.name == "viscosity"
+
+
+def test_a_value_of_all_rows_without_its_sign_is_asked_again(file, tmp_path):
+    replies = {**BODIES, "surface_1": ["import.values.surface_1", "import.values.surface_1=ground"]}
+    said = answered(file(DISCS), tmp_path / "case", NAMED, replies)
+    assert "what all rows have is told as import.values.NAME=VALUE" in said
+
+
+def test_what_no_answer_mends_is_wrong_in_the_file(file, tmp_path):
+    path = file("temperature;viscosity (cP)\n40;30\n60;abc\n100;5\n")
+    with pytest.raises(InputError, match="number") as error:
+        answered(path, tmp_path / "c", ["kind=viscosity"], {"temperature": ["degC", "degF", "K"]})
+    assert "line 3" in error.value.where

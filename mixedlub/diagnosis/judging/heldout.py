@@ -14,11 +14,14 @@ import numpy as np
 from mixedlub.diagnosis.fitting.fit import covariance, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.fitting.problem import Explanation, Problem
 from mixedlub.diagnosis.fitting.sudden import elsewhere, places, without
+from mixedlub.diagnosis.recording.features import WANDERS_K
 from mixedlub.diagnosis.recording.levels import set_points
 from mixedlub.diagnosis.searching.search import Search
 
 MOST_FOLDS = 8
 """Levels left out in turn, at most; more are joined."""
+NARROW = 0.2
+"""Share of its size within which a condition may have been held about a set-point."""
 TOLERATED = 0.3
 """Share of the mismatch on levels left out that the right law, in another literature form, may leave."""
 DEMERIT = 20.0
@@ -235,9 +238,10 @@ def _unknown_left(found: Search, forms: list[np.ndarray], out: np.ndarray) -> tu
 def _folds(found: Search) -> tuple[str, np.ndarray, bool]:
     """The condition with the most levels, the level of every reading, and whether levels have an order.
 
-    Of conditions with as many the one that spans most of its size: what jitters about a set-point has levels too.
+    One that spans little of its size comes behind all others, and of as many levels the one that spans most goes:
+    what jitters about a set-point has levels too.
     """
-    best: tuple[int, float, str, np.ndarray, bool] | None = None
+    best: tuple[bool, int, float, str, np.ndarray, bool] | None = None
     for axis, values in zip(found.space.axes, found.values, strict=True):
         if axis.name in ("sequence", "composite_roughness_um"):
             continue
@@ -250,8 +254,11 @@ def _folds(found: Search) -> tuple[str, np.ndarray, bool]:
             label = label % MOST_FOLDS
         count = int(np.unique(label).size)
         span = 1.0 if axis.named else float(np.ptp(values) / np.max(np.abs(values)))
-        if count >= 3 and (best is None or (count, span) > best[:2]):
-            best = (count, span, axis.name, np.unique(label, return_inverse=True)[1], not axis.named)
+        warm = axis.name.endswith("temperature_C")
+        swept = np.ptp(values) > WANDERS_K if warm else span > NARROW
+        rank = bool(swept), count, span
+        if count >= 3 and (best is None or rank > best[:3]):
+            best = (*rank, axis.name, np.unique(label, return_inverse=True)[1], not axis.named)
     if best is None:
         return "", np.arange(found.problem.y.size) % min(5, found.problem.y.size), False
-    return best[2:]
+    return best[3:]

@@ -55,6 +55,8 @@ ORDER = ("run", "sequence", "time_s")
 """Columns that a row has anew when it is entered again."""
 TWICE_ROWS, TWICE_SHARE = 3, 0.1
 """So many different rows, and such a share of them, that come again to the last digit are no chance."""
+CHANCE = 2.0
+"""Times as many readings that come again as rounding explains: so many are no chance."""
 CONTRADICTING = 4.0
 """Times the stated noise from which the scatter of repeats contradicts it."""
 
@@ -83,7 +85,7 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
         raise InputError("all readings were taken at the same conditions; vary at least one", where=where)
     base = forward.nominal()
     return [
-        *_entered_twice(rows, y),
+        *_entered_twice(case, rows, y),
         *_parts(case, rows),
         *_setups(case, rows),
         *_scarce(y),
@@ -110,15 +112,38 @@ def _readable(case: Case, y: np.ndarray) -> None:
         raise InputError(f"readings {said}", where=where, value=float(np.median(y)))
 
 
-def _entered_twice(rows: Table, y: np.ndarray) -> list[str]:
-    """Rows that repeat others in reading and conditions; readings so coarse that they come again anyway do not."""
-    told = [values for name, values in rows.columns.items() if name not in ORDER]
-    _, count = np.unique(np.column_stack([_numbered(values) for values in (*told, y)]), axis=0, return_counts=True)
+def _entered_twice(case: Case, rows: Table, y: np.ndarray) -> list[str]:
+    """Rows that repeat others in reading and conditions, more of them than rounding makes alike by chance."""
+    named = [_numbered(values) for name, values in rows.columns.items() if name not in (*ORDER, case.quantity)]
+    told = np.column_stack([np.zeros(y.size, dtype=int), *named])
+    point = np.unique(told, axis=0, return_inverse=True)[1].reshape(-1)
+    both = np.column_stack([point, _numbered(y)])
+    _, first, count = np.unique(both, axis=0, return_index=True, return_counts=True)
     repeated, coarse = int(np.count_nonzero(count > 1)), 2 * np.unique(y).size < count.size
     if coarse or repeated < max(TWICE_ROWS, TWICE_SHARE * count.size):
         return []
+    again = y.size - count.size
+    if again <= CHANCE * _alike_by_rounding(point, y, first):
+        return []
     said = "readings repeat others to the last digit, with their conditions: check that they were not entered twice"
-    return [Doubt(f"{y.size - count.size} {said}")]
+    return [Doubt(f"{again} {said}")]
+
+
+def _alike_by_rounding(point: np.ndarray, y: np.ndarray, different: np.ndarray) -> float:
+    """Pairs of readings at one point expected to be alike, as those that are ``different`` scatter by few last digits.
+
+    Two normal numbers of one sd lie in the same cell of a fine grid with a chance of its step over 2 sqrt(pi) sd.
+    """
+    own, values = point[different], y[different]
+    size = np.bincount(own)
+    mean = np.bincount(own, values) / np.maximum(size, 1)
+    free = int(np.sum(np.maximum(size - 1, 0)))
+    if free == 0:
+        return 0.0
+    sd = np.sqrt(np.sum((values - mean[own]) ** 2) / free)
+    step = float(np.min(np.diff(np.unique(y))))
+    n = np.bincount(point)
+    return float(np.sum(n * (n - 1) / 2.0) * min(step / (2.0 * np.sqrt(np.pi) * sd), 1.0))
 
 
 def _numbered(values: np.ndarray) -> np.ndarray:
