@@ -39,6 +39,7 @@ class Lubricant:
 
     def inputs(self, temperature: np.ndarray) -> dict[str, np.ndarray | float]:
         """What the chain wants to know of the oil at a temperature (K), by glossary name."""
+        (t1, t2), (a1, a2) = self.temperature, self.pressure_viscosity
         viscosity, known = self.viscosity(temperature), self.viscosity(np.array(self.temperature))
         return {
             "viscosity": viscosity,
@@ -46,6 +47,7 @@ class Lubricant:
             "temperature_viscosity": oil.temperature_viscosity(
                 temperature, self.temperature, self.kinematic_viscosity, self.density_change
             ),
+            "coefficient_fall": (a1 - a2) / ((t2 - t1) * self.pressure_coefficient(temperature)),
             "first_known_temperature": self.temperature[0],
             "second_known_temperature": self.temperature[1],
             "known_fall": float(np.log(known[0] / known[1])),

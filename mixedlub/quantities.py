@@ -87,6 +87,7 @@ coating_conductivity    | k_c        | W/(m K) | thermal conductivity of the coa
 oil_temperature         | theta_oil  | K       | temperature of the oil at the inlet
 viscosity               | eta_0      | Pa s    | dynamic viscosity at oil temperature and ambient pressure
 pressure_viscosity      | alpha      | 1/Pa    | pressure-viscosity coefficient at oil temperature
+coefficient_fall        | a_theta    | 1/K     | relative fall of the pressure-viscosity coefficient per kelvin
 temperature_viscosity   | beta       | 1/K     | relative fall of viscosity per kelvin
 first_known_temperature | theta_1    | K       | temperature of the first of the two given viscosities
 second_known_temperature | theta_2  | K       | temperature of the second of the two given viscosities
@@ -120,6 +121,7 @@ boundary_friction       | mu_B       | -       | friction coefficient of touchin
 friction                | mu         | -       | friction coefficient of the contact
 # what a rig reads
 power_loss              | P_L        | W       | power lost, mean over a mesh cycle
+nominal_loss            | P_n        | W       | power lost as the base model has it at its nominal calibration
 rolling_force           | f_r        | N/m     | tangential force per length on each body that resists rolling
 rolling_loss            | P_r        | W       | rolling power lost in the mesh, mean over a mesh cycle
 tangential_friction     | mu_t       | -       | tangential force on a body over the load, rolling included

@@ -77,6 +77,33 @@ def temperature_viscosity(
     return slope * (nu + 0.7) * np.log(nu + 0.7) / (nu * temperature) + density_change
 
 
+def warmed_viscosity(
+    viscosity: np.ndarray,
+    oil_density: np.ndarray,
+    temperature_viscosity: np.ndarray,
+    temperature: np.ndarray,
+    rise: np.ndarray,
+) -> np.ndarray:
+    r"""Dynamic viscosity of an oil that has become warmer by a rise (K) (Pa s).
+
+    .. math:: \ln(\nu' + 0.7) = \ln(\nu + 0.7)\,(1 + \Delta T/T)^{-B},\quad
+              B = \frac{\beta\,\nu\,T}{(\nu + 0.7)\ln(\nu + 0.7)}
+
+    The line of ASTM D341 with the fall that the oil has; what density adds to that is taken into the line. The 0.7
+    makes the form belong to mm^2/s. Source: ASTM D341.
+
+    >>> beta = temperature_viscosity(313.15, (313.15, 373.15), (34e-6, 7.2e-6))
+    >>> warm = warmed_viscosity(34e-6 * 850.0, 850.0, beta, 313.15, 60.0)
+    >>> round(float(warm) / 850.0 * 1e6, 6)
+    7.2
+    """
+    nu = viscosity / oil_density * 1e6
+    log = np.log(nu + 0.7)
+    slope = temperature_viscosity * nu * temperature / ((nu + 0.7) * log)
+    gone = log * ((1.0 + rise / temperature) ** -slope - 1.0)
+    return viscosity * (1.0 + (1.0 + 0.7 / nu) * np.expm1(gone))
+
+
 def roelands_viscosity(viscosity: np.ndarray, pressure_viscosity: np.ndarray, hertz_pressure: np.ndarray) -> np.ndarray:
     r"""Viscosity under pressure (Pa s), isothermal.
 

@@ -24,6 +24,7 @@ ODD = np.log([1.7, 0.31, 2.3])
 
 OTHER_ARGUMENTS = {
     "temperature": (340.0, "K"),
+    "rise": (20.0, "K"),
     "pressure": (2e8, "Pa"),
     "known_temperature": ((313.15, 373.15), "K"),
     "known_viscosity": ((34e-6, 7.2e-6), "m^2/s"),
