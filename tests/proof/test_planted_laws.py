@@ -13,7 +13,7 @@ from mixedlub.forward import Forward
 from mixedlub.proof.answers import read_truth
 from mixedlub.proof.bench import cooling, drive, film, history, mesh, viscosity
 from mixedlub.proof.bench.battery import ROOMS, Order, make, plan
-from mixedlub.proof.bench.presliding import SHOWN_BELOW, ball_bearing, bristles, partial_slip
+from mixedlub.proof.bench.presliding import SHOWN_BELOW, ball_bearing, bristles, hysteretic, partial_slip
 from mixedlub.proof.bench.stirring import TRANSITION, free_disc, rotor_in_gap, torque_share
 from mixedlub.proof.concealed import MEASUREMENT
 
@@ -102,6 +102,34 @@ def test_partial_slip_has_the_compliance_of_mindlin():
     assert partial_slip(1.5 * (1 - (1 - force) ** (2 / 3))) == pytest.approx(force)
     assert partial_slip(np.array([1.5, 4.0])) == pytest.approx([1.0, 1.0])
     assert partial_slip(np.array([1e-4])) == pytest.approx([1e-4], rel=1e-3)
+
+
+def test_smooth_hysteresis_follows_its_equation():
+    solved = solve_ivp(lambda x, f: 1 - f**2, (0, 4), [0.0], rtol=1e-10, atol=1e-12, dense_output=True)
+    travel = np.array([0.1, 1.0, 4.0])
+    assert hysteretic(travel) == pytest.approx(solved.sol(travel)[0], rel=1e-6)
+
+
+@pytest.mark.parametrize(("law", "knob", "bent"), [("bending", "bend", 1), ("sticking", "pull", -1)])
+def test_losses_under_load_bend_either_way_and_are_gone_without_load(law, knob, bent):
+    bench = drawn(drive.draw, lambda b: len(np.unique(b.columns.get("load_N", [1.0]))) == 4)
+    (form,) = (f for f in forms_of(bench, "load_dependent_friction") if f.law.__name__ == law)
+    load = bench.columns["load_N"] / bench.columns["load_N"].max()
+    more = np.abs(change(bench, form, {"strength": 1.0, knob: 0.2}))
+    full = more[load == 1.0][0]
+    assert more[load == 1.0] == pytest.approx(np.full(np.sum(load == 1.0), full))
+    assert (bent * (load * full - more)[(load > 0.1) & (load < 1.0)] > 0).all()
+    assert more[load < 0.01].max() < 0.05 * full
+
+
+def test_a_stribeck_curve_over_hersey_is_left_later_under_more_load():
+    bench = drawn(drive.draw, lambda b: "load_N" in b.columns)
+    (form,) = (f for f in forms_of(bench, "stribeck") if f.law.__name__ == "hersey")
+    load, name = bench.columns["load_N"], "speed_rpm" if "speed_rpm" in bench.columns else "sliding_speed_m_s"
+    share = bench.columns[name] / np.abs(bench.columns[name]).max()
+    more = np.abs(change(bench, form, {"strength": 1.0, "width": 0.1, "power": 1.0}))
+    rest = more * (1 + (share * load.max() / (0.1 * load)) ** 2)
+    assert rest == pytest.approx(np.full(len(rest), rest[0]))
 
 
 def test_a_drive_at_a_creep_has_its_drag_alone_and_at_full_speed_all_friction():
