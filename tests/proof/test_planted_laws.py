@@ -14,6 +14,7 @@ from mixedlub.proof.answers import read_truth
 from mixedlub.proof.bench import cooling, drive, film, history, mesh, viscosity
 from mixedlub.proof.bench.battery import ROOMS, Order, make, plan
 from mixedlub.proof.bench.presliding import SHOWN_BELOW, ball_bearing, bristles, hysteretic, partial_slip
+from mixedlub.proof.bench.states import hump
 from mixedlub.proof.bench.stirring import TRANSITION, free_disc, rotor_in_gap, torque_share
 from mixedlub.proof.concealed import MEASUREMENT
 
@@ -230,6 +231,30 @@ def test_a_force_that_drifts_is_right_at_the_start_and_off_the_same_at_the_end()
             assert force / force[-1] == pytest.approx(time, abs=1e-4)
         else:
             assert force[len(force) // 2] > 0.5 * force[-1]
+
+
+def test_events_come_gradually_or_pass_again():
+    """Consecutive reactions by their differential equations: what is there of the second substance, over its most."""
+    solved = solve_ivp(
+        lambda t, y: [-y[0] / 0.02, y[0] / 0.02 - y[1] / 0.1],
+        (0, 0.8),
+        [1.0, 0.0],
+        rtol=1e-10,
+        atol=1e-13,
+        dense_output=True,
+    )
+    time = np.linspace(0.0, 0.8, 2001)
+    there = solved.sol(time)[1]
+    assert hump(time, 0.02, 0.1) == pytest.approx(there / there.max(), abs=1e-4)
+    bench = drawn(history.draw_steady, lambda b: len(b.columns["run"]) == 200)
+    shapes = {}
+    for form in forms_of(bench, "friction_event"):
+        if form.law.__name__ in ("mixed_in", "passing"):
+            more = change(bench, form, {"strength": 1.0, "when": 0.5})
+            assert (more[:100] == 0.0).all()
+            shapes[form.law.__name__] = more / more.max()
+    assert (np.diff(shapes["mixed_in"]) >= 0).all()
+    assert shapes["passing"][-1] < 0.05
 
 
 def test_no_force_is_off_where_all_loads_are_one_or_the_reading_is_no_coefficient():
