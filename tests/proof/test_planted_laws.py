@@ -79,6 +79,23 @@ def test_vogel_is_the_law_of_williams_landel_and_ferry():
     assert cooling.vogel(celsius, *known, divergence) == pytest.approx(shifted, rel=1e-9)
 
 
+def test_reynolds_halves_at_even_steps_of_temperature():
+    celsius = np.array([20.0, 40.0, 60.0, 80.0])
+    assert cooling.reynolds(celsius, (20.0, 40.0), (8.0, 4.0)) == pytest.approx([8.0, 4.0, 2.0, 1.0])
+
+
+@pytest.mark.parametrize(("room", "law"), [(viscosity.draw, "mistold"), (film.draw, "cooled_as_mistold")])
+def test_only_an_oil_with_a_data_sheet_can_be_mistold(room, law):
+    rng = np.random.default_rng(2)
+    told = set()
+    for bench in (room(rng) for _ in range(40)):
+        names = {form.law.__name__ for form in forms_of(bench, "viscosity_temperature_law")}
+        if names:
+            told.add(("lubricant" in bench.settings, law in names))
+    assert told <= {(True, True), (False, False)}
+    assert (True, True) in told
+
+
 def test_bristles_are_the_mean_of_their_own_deflection():
     solved = solve_ivp(lambda x, y: [1 - y[0], y[0]], (0, 5), [0.0, 0.0], rtol=1e-10, atol=1e-12, dense_output=True)
     travel = np.array([0.1, 1.0, 5.0])
@@ -276,6 +293,10 @@ def test_an_oil_keeps_its_two_known_viscosities_whatever_its_law(named):
     base = bench.model(np.zeros(len(bench.names)), ())
     for form in forms_of(bench, "viscosity_temperature_law"):
         off = change(bench, form, {"strength": 1.0}) / base
+        if form.law.__name__ == "mistold":
+            assert off[celsius == 40.0] == pytest.approx(0.0, abs=1e-9)
+            assert off[celsius == 100.0] == pytest.approx(0.05)
+            continue
         assert off[np.isin(celsius, [40.0, 100.0])] == pytest.approx(0.0, abs=1e-9)
         assert np.abs(off[celsius == 0.0]).min() > 0.005
         if form.law.__name__ == "andrade":
