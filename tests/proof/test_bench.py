@@ -14,7 +14,7 @@ from mixedlub.case import read_case
 from mixedlub.cli import app
 from mixedlub.forward import Forward
 from mixedlub.proof.answers import read_truth
-from mixedlub.proof.bench import film, mesh, viscosity
+from mixedlub.proof.bench import battery, film, mesh, viscosity
 from mixedlub.proof.bench.battery import ROOMS, Order, deal, make, plan
 from mixedlub.proof.bench.drive import Drive, gaussian
 from mixedlub.proof.bench.fit import Aim, best, rivals
@@ -74,6 +74,30 @@ def test_base_model_is_that_of_the_contract_where_the_case_tells_everything(case
         assert simulated == pytest.approx(expected, rel=1e-4)
         compared.add(case.kind.name)
     assert {"film", "mesh_friction", "friction_history"} <= compared
+
+
+@pytest.mark.parametrize(
+    ("kind", "effects"),
+    [
+        ("viscosity", ("sensor_offset",)),
+        ("viscosity", ("pressure_viscosity_law", "sensor_offset")),
+        ("film", ("sensor_offset",)),
+        ("film", ("inlet_shear_heating", "fringe_order")),
+    ],
+)
+def test_no_fault_of_an_instrument_makes_a_quantity_negative(kind, effects):
+    """A viscosity has to be above zero; films are but for their noise."""
+    order = Order("", kind, "pair" if len(effects) == 2 else "measurement", effects, "clear")
+    for seed in range(30):
+        hand = deal(np.random.default_rng(seed), order)
+        assert hand.bench.model(hand.z, hand.acts).min() > 0
+
+
+def test_a_fault_that_always_makes_a_quantity_negative_is_refused(monkeypatch):
+    monkeypatch.setattr(battery, "_readable", lambda hand: False)
+    monkeypatch.setattr(battery, "DRAWS", 3)
+    with pytest.raises(InputError, match="can be read"):
+        deal(np.random.default_rng(1), Order("", "film", "measurement", ("sensor_offset",), "clear"))
 
 
 def test_truth_and_withheld_readings_are_not_handed_over(cases):

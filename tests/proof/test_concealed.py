@@ -8,7 +8,9 @@ import pytest
 from mixedlub.proof.build import rig_of
 from mixedlub.proof.concealed import FORMS, MEASUREMENT, NAMED, OUTSIDE
 from mixedlub.proof.concealed.contact import HARDNESS, HEIGHTS, _overlap_table, asperity_elastoplasticity
-from mixedlub.proof.concealed.shear import film_heating, flash
+from mixedlub.proof.concealed.load import dynamic_load_of_two_orders
+from mixedlub.proof.concealed.loss import churning_past_transition
+from mixedlub.proof.concealed.shear import film_heating, flash, limiting_stress_in_hot_oil
 from mixedlub.proof.rig import lubricate, press, readings, run, shear, start, summits, thick, touch
 
 EVERY = {form.law.__name__: form for forms in FORMS.values() for form in forms} | OUTSIDE
@@ -84,7 +86,10 @@ def test_sign_where_physics_gives_one(rigs, name, kind):
     assert np.sum(change) > 0
 
 
-@pytest.mark.parametrize("name", ["inlet_shear_heating", "starvation", "starved_by_meniscus", "inlet_shear_thinning"])
+@pytest.mark.parametrize(
+    "name",
+    ["inlet_shear_heating", "heated_by_hsu_lee", "starvation", "starved_by_meniscus", "inlet_shear_thinning"],
+)
 @pytest.mark.parametrize("kind", ["gear_pair", "disc"])
 def test_thinner_films_raise_the_loss_of_mixed_contacts(rigs, name, kind):
     assert np.sum(_change(rigs, name, kind)) > 0
@@ -112,6 +117,7 @@ def _power(rigs, name, column):
         ("windage_in_mist", (0.0, 0.0), (2.8, 2.8)),
         ("churning", (0.0, 0.0), (1.3, 2.1)),
         ("churning_of_rim_and_faces", (0.0, 0.0), (2.0, 2.86)),
+        ("churning_past_transition", (0.0, 0.0), (2.5, 2.8)),
         ("rolling_resistance", (-0.05, 0.1), (1.5, 1.8)),
         ("elastic_hysteresis", (1.4, 1.6), (0.95, 1.05)),
         ("elastic_damping", (1.65, 2.0), (0.95, 1.05)),
@@ -160,10 +166,49 @@ def test_limiting_stress_is_never_passed(rigs):
     assert np.all(contact.stress <= 0.045 * 0.25 * np.pi * contact.pressure)
 
 
+def test_limit_falls_as_oil_warms_and_holds_at_40_degrees(rigs):
+    rig, nominal = rigs["disc"]
+    stiff = replace(shear(touch(lubricate(press(start(rig, nominal))))), stress=np.full_like(rig.radius, 1e12))
+    per_pressure = limiting_stress_in_hot_oil(stiff, 1.0, 0.005).stress / (0.25 * np.pi * stiff.pressure)
+    expected = 0.045 * (1 - 0.005 * (stiff.temperature - 40.0))
+    np.testing.assert_allclose(per_pressure, np.broadcast_to(expected, per_pressure.shape))
+
+
+def test_churning_turns_weakly_viscous_past_the_transition(gear_case):
+    """Fully laminar layers go with nu^0.5 at fixed speed, turbulent ones with nu^0.2; both meet at the transition."""
+    rig, nominal = rig_of(gear_case, 6), gear_case.nominal
+    speed = rig.conditions["speed_rpm"].astype(float) / 1500
+    contact = start(rig, nominal)
+    nu = 1e6 * (contact.viscosity / rig.oil.density_at(contact.temperature))[:, 0] / 15
+    heavy = rig.oil.density_at(contact.temperature)[:, 0] / rig.oil.density_15
+    still = replace(contact, recorded=np.zeros(len(speed)))
+    thick_layer = churning_past_transition(still, 1.0, 1e9).recorded / (12 * heavy)
+    thin_layer = churning_past_transition(still, 1.0, 1e-9).recorded / (12 * heavy)
+    np.testing.assert_allclose(thick_layer, speed**2.5 * nu**0.5)
+    np.testing.assert_allclose(thin_layer / thin_layer[0], (speed / speed[0]) ** 2.8 * (nu / nu[0]) ** 0.2)
+    just = speed[0] / nu[0]
+    below, above = (churning_past_transition(still, 1.0, just * f).recorded[0] for f in (1 + 1e-9, 1 - 1e-9))
+    assert below == pytest.approx(above)
+
+
 @pytest.fixture(scope="module")
 def equal_sharing(gear_case):
     """The gear rig with equal sharing between the pairs in contact, on a fine path."""
     return rig_of(replace(gear_case, share=None), 480), gear_case.nominal
+
+
+@pytest.mark.parametrize(("second", "speed"), [(0.0, 1.0), (0.5, 0.5), (0.5, 1.0)])
+def test_mesh_orders_resonate_where_their_frequency_is_that_of_the_gears(equal_sharing, second, speed):
+    """At r = 1 with 7 % damping the answer is 1/0.14 as large as the error, and the mean force stays."""
+    rig, _ = equal_sharing
+    held = replace(rig, conditions={**rig.conditions, "speed_rpm": np.full(len(rig.sequence), 2000.0 * speed)})
+    contact = start(held, equal_sharing[1])
+    factor = dynamic_load_of_two_orders(contact, 0.1, 2000.0, second).force / contact.force - 1
+    turn = np.exp(-2j * np.pi * rig.phase)
+    orders = [2 * np.abs(np.mean((factor * turn**n)[:, np.ravel(rig.phase) < 1.0], axis=1)) for n in (1, 2)]
+    gain = {1.0: (1 / 0.14, 4 / np.hypot(3, 0.28)), 0.5: (0.25 / np.hypot(0.75, 0.07), 1 / 0.14)}[speed]
+    for found, size, per_error in zip(orders, (1.0, second), gain):
+        np.testing.assert_allclose(found, 0.015 * size * per_error, atol=2e-3)
 
 
 def test_tip_relief_keeps_the_sum_of_both_pairs(equal_sharing):

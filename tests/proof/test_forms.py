@@ -270,5 +270,4 @@ def test_no_effect_is_planted_in_forms_of_the_catalogue_alone_where_others_are_c
         "force_offset",
         "fringe_order",
         "direction_dependence",
-        "load_dependent_friction",
     }

@@ -13,7 +13,8 @@ from mixedlub.forward import Forward
 from mixedlub.proof.answers import read_truth
 from mixedlub.proof.bench import cooling, drive, film, history, mesh, viscosity
 from mixedlub.proof.bench.battery import ROOMS, Order, make, plan
-from mixedlub.proof.bench.presliding import SHOWN_BELOW, ball_bearing, bristles, partial_slip
+from mixedlub.proof.bench.presliding import SHOWN_BELOW, ball_bearing, bristles, hysteretic, partial_slip
+from mixedlub.proof.bench.states import hump
 from mixedlub.proof.bench.stirring import TRANSITION, free_disc, rotor_in_gap, torque_share
 from mixedlub.proof.concealed import MEASUREMENT
 
@@ -78,6 +79,23 @@ def test_vogel_is_the_law_of_williams_landel_and_ferry():
     assert cooling.vogel(celsius, *known, divergence) == pytest.approx(shifted, rel=1e-9)
 
 
+def test_reynolds_halves_at_even_steps_of_temperature():
+    celsius = np.array([20.0, 40.0, 60.0, 80.0])
+    assert cooling.reynolds(celsius, (20.0, 40.0), (8.0, 4.0)) == pytest.approx([8.0, 4.0, 2.0, 1.0])
+
+
+@pytest.mark.parametrize(("room", "law"), [(viscosity.draw, "mistold"), (film.draw, "cooled_as_mistold")])
+def test_only_an_oil_with_a_data_sheet_can_be_mistold(room, law):
+    rng = np.random.default_rng(2)
+    told = set()
+    for bench in (room(rng) for _ in range(40)):
+        names = {form.law.__name__ for form in forms_of(bench, "viscosity_temperature_law")}
+        if names:
+            told.add(("lubricant" in bench.settings, law in names))
+    assert told <= {(True, True), (False, False)}
+    assert (True, True) in told
+
+
 def test_bristles_are_the_mean_of_their_own_deflection():
     solved = solve_ivp(lambda x, y: [1 - y[0], y[0]], (0, 5), [0.0, 0.0], rtol=1e-10, atol=1e-12, dense_output=True)
     travel = np.array([0.1, 1.0, 5.0])
@@ -102,6 +120,34 @@ def test_partial_slip_has_the_compliance_of_mindlin():
     assert partial_slip(1.5 * (1 - (1 - force) ** (2 / 3))) == pytest.approx(force)
     assert partial_slip(np.array([1.5, 4.0])) == pytest.approx([1.0, 1.0])
     assert partial_slip(np.array([1e-4])) == pytest.approx([1e-4], rel=1e-3)
+
+
+def test_smooth_hysteresis_follows_its_equation():
+    solved = solve_ivp(lambda x, f: 1 - f**2, (0, 4), [0.0], rtol=1e-10, atol=1e-12, dense_output=True)
+    travel = np.array([0.1, 1.0, 4.0])
+    assert hysteretic(travel) == pytest.approx(solved.sol(travel)[0], rel=1e-6)
+
+
+@pytest.mark.parametrize(("law", "knob", "bent"), [("bending", "bend", 1), ("sticking", "pull", -1)])
+def test_losses_under_load_bend_either_way_and_are_gone_without_load(law, knob, bent):
+    bench = drawn(drive.draw, lambda b: len(np.unique(b.columns.get("load_N", [1.0]))) == 4)
+    (form,) = (f for f in forms_of(bench, "load_dependent_friction") if f.law.__name__ == law)
+    load = bench.columns["load_N"] / bench.columns["load_N"].max()
+    more = np.abs(change(bench, form, {"strength": 1.0, knob: 0.2}))
+    full = more[load == 1.0][0]
+    assert more[load == 1.0] == pytest.approx(np.full(np.sum(load == 1.0), full))
+    assert (bent * (load * full - more)[(load > 0.1) & (load < 1.0)] > 0).all()
+    assert more[load < 0.01].max() < 0.05 * full
+
+
+def test_a_stribeck_curve_over_hersey_is_left_later_under_more_load():
+    bench = drawn(drive.draw, lambda b: "load_N" in b.columns)
+    (form,) = (f for f in forms_of(bench, "stribeck") if f.law.__name__ == "hersey")
+    load, name = bench.columns["load_N"], "speed_rpm" if "speed_rpm" in bench.columns else "sliding_speed_m_s"
+    share = bench.columns[name] / np.abs(bench.columns[name]).max()
+    more = np.abs(change(bench, form, {"strength": 1.0, "width": 0.1, "power": 1.0}))
+    rest = more * (1 + (share * load.max() / (0.1 * load)) ** 2)
+    assert rest == pytest.approx(np.full(len(rest), rest[0]))
 
 
 def test_a_drive_at_a_creep_has_its_drag_alone_and_at_full_speed_all_friction():
@@ -204,6 +250,30 @@ def test_a_force_that_drifts_is_right_at_the_start_and_off_the_same_at_the_end()
             assert force[len(force) // 2] > 0.5 * force[-1]
 
 
+def test_events_come_gradually_or_pass_again():
+    """Consecutive reactions by their differential equations: what is there of the second substance, over its most."""
+    solved = solve_ivp(
+        lambda t, y: [-y[0] / 0.02, y[0] / 0.02 - y[1] / 0.1],
+        (0, 0.8),
+        [1.0, 0.0],
+        rtol=1e-10,
+        atol=1e-13,
+        dense_output=True,
+    )
+    time = np.linspace(0.0, 0.8, 2001)
+    there = solved.sol(time)[1]
+    assert hump(time, 0.02, 0.1) == pytest.approx(there / there.max(), abs=1e-4)
+    bench = drawn(history.draw_steady, lambda b: len(b.columns["run"]) == 200)
+    shapes = {}
+    for form in forms_of(bench, "friction_event"):
+        if form.law.__name__ in ("mixed_in", "passing"):
+            more = change(bench, form, {"strength": 1.0, "when": 0.5})
+            assert (more[:100] == 0.0).all()
+            shapes[form.law.__name__] = more / more.max()
+    assert (np.diff(shapes["mixed_in"]) >= 0).all()
+    assert shapes["passing"][-1] < 0.05
+
+
 def test_no_force_is_off_where_all_loads_are_one_or_the_reading_is_no_coefficient():
     rng = np.random.default_rng(5)
     for draw in (history.draw_steady, history.draw_traction, mesh.draw):
@@ -223,6 +293,10 @@ def test_an_oil_keeps_its_two_known_viscosities_whatever_its_law(named):
     base = bench.model(np.zeros(len(bench.names)), ())
     for form in forms_of(bench, "viscosity_temperature_law"):
         off = change(bench, form, {"strength": 1.0}) / base
+        if form.law.__name__ == "mistold":
+            assert off[celsius == 40.0] == pytest.approx(0.0, abs=1e-9)
+            assert off[celsius == 100.0] == pytest.approx(0.05)
+            continue
         assert off[np.isin(celsius, [40.0, 100.0])] == pytest.approx(0.0, abs=1e-9)
         assert np.abs(off[celsius == 0.0]).min() > 0.005
         if form.law.__name__ == "andrade":

@@ -154,19 +154,25 @@ def withhold(rng: np.random.Generator, bench: Bench) -> np.ndarray:
 
 
 def deal(rng: np.random.Generator, order: Order) -> Hand:
-    """The hand nearest to what was ordered; benches on which an effect cannot be seen are drawn again."""
+    """The hand nearest to what was ordered; benches that show no effect, or what nothing reads, are drawn again."""
     band = PAIR if order.label == "pair" else CLEAR if order.level == "clear" else FAINT
     goal = float(rng.uniform(*band))
     found: Hand | None = None
-    for _ in range(TRIES if order.effects else 1):
+    for place in range(DRAWS):
         bench, forms = _bench_for(rng, order)
         hand = _noised(rng, order, bench, forms, goal)
+        if not _readable(hand):
+            continue
         if found is None or abs(np.log(hand.seen / goal)) < abs(np.log(found.seen / goal)):
             found = hand
-        if not order.effects or abs(np.log(found.seen / goal)) < 0.25:
-            break
-    assert found is not None
-    return found
+        if not order.effects or abs(np.log(found.seen / goal)) < 0.25 or place + 1 >= TRIES:
+            return found
+    raise InputError("no bench with these effects can be read", where=order.kind, value=order.effects)
+
+
+def _readable(hand: Hand) -> bool:
+    """Only maps of friction have a sign: a film, a viscosity or a coefficient is above zero but for its noise."""
+    return hand.bench.kind == "friction_map" or bool(np.all(hand.bench.model(hand.z, hand.acts) > 0))
 
 
 def _noised(rng: np.random.Generator, order: Order, bench: Bench, forms: tuple[Form, ...], goal: float) -> Hand:

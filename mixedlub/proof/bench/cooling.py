@@ -10,7 +10,7 @@ import numpy as np
 
 from mixedlub.proof.bench.stage import Form
 from mixedlub.proof.concealed.kinds import Knob, strength
-from mixedlub.proof.rig import Contact, Rig
+from mixedlub.proof.rig import Contact, Oil, Rig
 
 KELVIN = 273.15
 Pair = tuple[float, float]
@@ -45,10 +45,35 @@ def andrade(celsius: np.ndarray, known: Pair, viscosity: Pair) -> np.ndarray:
     return _through(lambda t: 1 / (t + KELVIN), celsius, known, viscosity)
 
 
+def reynolds(celsius: np.ndarray, known: Pair, viscosity: Pair) -> np.ndarray:
+    """eta = A exp(-b T) (Reynolds, Phil. Trans. R. Soc. 177 (1886) 157), found with olive oil near room warmth.
+
+    Oils bend away from it: it is too thick between the known temperatures and too thin beyond them on either side.
+
+    >>> round(float(reynolds(np.array(50.0), (40.0, 60.0), (0.04, 0.01))), 6)
+    0.02
+    """
+    return _through(lambda t: -t, celsius, known, viscosity)
+
+
+def mistold(oil: Oil, celsius: np.ndarray, error: float) -> np.ndarray:
+    """Viscosity over that of the data sheet where its second viscosity is ``error`` too low, both by ASTM D341.
+
+    >>> oil = Oil((40.0, 100.0), (30e-6, 6.2e-6), (18e-9, 14e-9))
+    >>> [round(float(ratio), 6) for ratio in mistold(oil, np.array([40.0, 100.0]), 0.05)]
+    [1.0, 1.05]
+    """
+    first, second = oil.kinematic
+    meant = replace(oil, kinematic=(first, second * (1 + error)))
+    return np.asarray(meant.kinematic_at(celsius) / oil.kinematic_at(celsius))
+
+
 WHOLE = strength(0.0, 1.3, (0.9, 1.05))
 DIVERGENCE = Knob("divergence", 150.0, 200.0, (155.0, 195.0))
 ABOVE = Knob("above", 30.0, 90.0, (40.0, 60.0))
+MISTOLD_BY = strength(-4.0, 6.0, (0.6, 2.0))
 VOGEL, SLOTTE, ANDRADE = "Vogel 1921, Fulcher 1925, Tammann 1926", "Slotte 1881", "Andrade 1930"
+REYNOLDS, MISTOLD = "Reynolds 1886", "second viscosity mistold"
 
 
 def tells_laws_apart(celsius: np.ndarray, known: Pair) -> bool:
@@ -79,6 +104,15 @@ def cooled_by_andrade(c: Contact, strength: float) -> Contact:
     return _cooled(c, strength, andrade)
 
 
+def cooled_by_reynolds(c: Contact, strength: float) -> Contact:
+    return _cooled(c, strength, reynolds)
+
+
+def cooled_as_mistold(c: Contact, strength: float) -> Contact:
+    """The second viscosity of the data sheet is 5 % strength too low."""
+    return replace(c, viscosity=c.viscosity * mistold(c.rig.oil, c.temperature, 0.05 * strength))
+
+
 def of_contacts(rig: Rig) -> tuple[Form, ...]:
     """Forms for a lubricated contact, where its temperatures can tell them from a factor on the viscosity."""
     if not tells_laws_apart(rig.temperature, rig.oil.temperature):
@@ -87,4 +121,6 @@ def of_contacts(rig: Rig) -> tuple[Form, ...]:
         Form("viscosity_temperature_law", "oil", cooled_by_vogel, (WHOLE, DIVERGENCE), VOGEL, within=True),
         Form("viscosity_temperature_law", "oil", cooled_by_slotte, (WHOLE, ABOVE), SLOTTE),
         Form("viscosity_temperature_law", "oil", cooled_by_andrade, (WHOLE,), ANDRADE, within=True),
+        Form("viscosity_temperature_law", "oil", cooled_by_reynolds, (WHOLE,), REYNOLDS, within=True),
+        Form("viscosity_temperature_law", "oil", cooled_as_mistold, (MISTOLD_BY,), MISTOLD),
     )

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mixedlub.proof.bench.loaded import under_load
 from mixedlub.proof.bench.presliding import presliding
 from mixedlub.proof.bench.stage import (
     Act,
@@ -156,18 +157,6 @@ def _temperature_forms(celsius: np.ndarray) -> tuple[Form, ...]:
     return tuple(
         Form("grease_temperature", "parts", law, size, source)
         for law, source in ((vogel, "Vogel"), (arrhenius, "Arrhenius"), (power, "Slotte"))
-    )
-
-
-def _load_forms(load: np.ndarray) -> tuple[Form, ...]:
-    share = load / load.max()
-
-    def loaded(d: Drive, strength: float, exponent: float) -> Drive:
-        return _added(d, 0.5 * strength * d.level * share**exponent * d.sign)
-
-    power = Knob("exponent", 0.8, 1.2, (0.9, 1.1))
-    return (
-        Form("load_dependent_friction", "running", loaded, (strength(0.0, 6.0), power), "near proportion", within=True),
     )
 
 
@@ -339,7 +328,7 @@ def draw(rng: np.random.Generator) -> Bench:
         forms += force_cell(columns["load_N"], time)
     made = {
         "oil_temperature_C": _temperature_forms,
-        "load_N": _load_forms,
+        "load_N": under_load,
         "additive_percent": _additive_forms,
         "position_deg": _position_forms,
         "motor_torque_Nm": _current_forms,

@@ -113,14 +113,6 @@ def heated_at_rolling_sum(c: Contact, strength: float) -> Contact:
     return replace(c, film=c.film / (1 + 0.1 * (1 + 14.8 * (0.5 * _slip(c)) ** 0.83) * loading**0.64))
 
 
-def heated_by_hsu_lee(c: Contact, strength: float) -> Contact:
-    """1/(1 + 0.0766 G^0.687 W^0.447 L^0.527 e^(0.875 S)), W the load a width over E' R, L of the mean speed."""
-    modulus = c.rig.solid.reduced
-    load = c.line_load / (modulus * c.rig.radius)
-    loading = (c.pressure_viscosity * modulus) ** 0.687 * load**0.447 * (strength * _heat(c, c.entrainment)) ** 0.527
-    return replace(c, film=c.film / (1 + 0.0766 * loading * np.exp(0.875 * np.minimum(_slip(c), 2.0))))
-
-
 def starved_by_layer(c: Contact, strength: float, sharpness: float) -> Contact:
     """Chevalier: a layer of oil on the track feeds the contact, h = r h/(1 + r^g)^(1/g), r = layer over h."""
     if strength <= 0:
@@ -145,7 +137,6 @@ SHARED = ("inlet_shear_heating", "starvation", "inlet_shear_thinning")
 FILM_FORMS = (
     *(borrowed(effect) for effect in film_room.EFFECTS if effect.id in SHARED),
     Form("inlet_shear_heating", "film", heated_at_rolling_sum, (strength(0.0, 6.0, (0.2, 0.8)),), "rolling-sum form"),
-    Form("inlet_shear_heating", "film", heated_by_hsu_lee, (strength(0.0, 12.0),), "Hsu and Lee 1994"),
     Form(
         "starvation",
         "film",

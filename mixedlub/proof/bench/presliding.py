@@ -44,6 +44,18 @@ def partial_slip(travel: np.ndarray) -> np.ndarray:
     return np.asarray(1 - np.maximum(1 - travel / 1.5, 0.0) ** 1.5)
 
 
+def hysteretic(travel: np.ndarray) -> np.ndarray:
+    """At the end of a reading of dF/dx = 1 - F^2: tanh x.
+
+    Bouc 1967 and Wen, J. Eng. Mech. 102 (1976) 249, of exponent 2 on first loading; Andersson, Soderberg and Bjorklund,
+    Tribol. Int. 40 (2007) 580, take the tangent itself.
+
+    >>> [round(float(f), 6) for f in hysteretic(np.array([0.0, 1.0]))]
+    [0.0, 0.761594]
+    """
+    return np.asarray(np.tanh(travel))
+
+
 def presliding(share: np.ndarray) -> tuple[Form, ...]:
     """Forms for a drive at signed speeds over its full speed, where some are slow enough."""
     if np.abs(share).min() > SHOWN_BELOW:
@@ -62,6 +74,9 @@ def presliding(share: np.ndarray) -> tuple[Form, ...]:
     def dahl(d: Any, strength: float, exponent: float) -> Any:
         return given(d, strength, lambda travel: ball_bearing(travel, exponent))
 
+    def bouc_wen(d: Any, strength: float) -> Any:
+        return given(d, strength, hysteretic)
+
     def mindlin(d: Any, strength: float) -> Any:
         return given(d, strength, partial_slip)
 
@@ -70,5 +85,6 @@ def presliding(share: np.ndarray) -> tuple[Form, ...]:
     return (
         Form("presliding", "running", lugre, (size,), "bristles, Canudas de Wit et al. 1995"),
         Form("presliding", "running", dahl, (size, exponent), "ball bearings, Dahl 1976"),
+        Form("presliding", "running", bouc_wen, (size,), "smooth hysteresis, Bouc 1967, Wen 1976"),
         Form("presliding", "running", mindlin, (size,), "partial slip, Mindlin 1949", within=True),
     )

@@ -139,6 +139,30 @@ def _wanderings(time: np.ndarray) -> tuple[Form, ...]:
     )  # fmt: skip
 
 
+def washed_in(since: np.ndarray, mixing: float) -> np.ndarray:
+    """Share of new oil in a stirred sump, 1 - exp(-t/mixing) from a moment on (Danckwerts 1953); shares of a programme.
+
+    >>> [round(float(share), 6) for share in washed_in(np.array([-0.1, 0.0, 0.05]), 0.05)]
+    [0.0, 0.0, 0.632121]
+    """
+    return np.asarray(-np.expm1(-np.maximum(since, 0.0) / mixing))
+
+
+def hump(since: np.ndarray, coming: float, passing: float) -> np.ndarray:
+    """What enters at one pace and leaves at a slower one, A to B to C, over its own peak (Bateman 1910).
+
+    ``since`` a moment, ``coming`` and ``passing`` unlike, all in shares of a programme; the peak is at
+    ln(passing/coming)/(1/coming - 1/passing).
+
+    >>> [round(float(size), 6) for size in hump(np.array([-0.1, 0.0, 0.04 * np.log(2)]), 0.02, 0.04)]
+    [0.0, 0.0, 1.0]
+    """
+    ratio = passing / coming
+    peak = ratio ** (-1 / (ratio - 1)) * (1 - 1 / ratio)
+    late = np.maximum(since, 0.0)
+    return np.asarray((np.exp(-late / passing) - np.exp(-late / coming)) / peak)
+
+
 def _events(time: np.ndarray) -> tuple[Form, ...]:
     def dosed(state: Any, strength: float, when: float) -> Any:
         """An additive is dosed: friction steps from one reading to the next."""
@@ -148,6 +172,14 @@ def _events(time: np.ndarray) -> tuple[Form, ...]:
         """Oil is renewed: friction goes over to another level within three hundredths of the programme."""
         return _scaled(state, 1 + 0.1 * strength * np.clip((time - when) / 0.03, 0.0, 1.0))
 
+    def mixed_in(state: Any, strength: float, when: float, mixing: float) -> Any:
+        """Other oil is fed to a stirred sump: friction goes over gradually, fast at first."""
+        return _scaled(state, 1 + 0.1 * strength * washed_in(time - when, mixing))
+
+    def passing(state: Any, strength: float, when: float, lasting: float) -> Any:
+        """Water or dirt gets in and is driven out again: a hump of friction that relaxes to where it was."""
+        return _scaled(state, 1 + 0.15 * strength * hump(time - when, 0.2 * lasting, lasting))
+
     def scuffing(state: Any, strength: float, reach: float) -> Any:
         """The film breaks down: friction runs away at the end."""
         return _scaled(state, 1 + 0.3 * strength * (reach / (1 - time + reach)) ** 2)
@@ -156,6 +188,10 @@ def _events(time: np.ndarray) -> tuple[Form, ...]:
     return (
         Form("friction_event", "boundary", dosed, when, "sudden", 1, within=True),
         Form("friction_event", "boundary", renewed, when, "over a while", 1),
+        Form("friction_event", "boundary", mixed_in,
+             (*when, Knob("mixing", 0.02, 0.2, (0.04, 0.12))), "washed in, Danckwerts 1953", 1),
+        Form("friction_event", "boundary", passing,
+             (*when, Knob("lasting", 0.02, 0.3, (0.04, 0.15))), "a hump that relaxes, Bateman 1910", 1),
         Form("friction_event", "boundary", scuffing,
              (strength(0.0, 8.0), Knob("reach", 0.02, 0.12, (0.04, 0.09))), "running away", 1),
     )  # fmt: skip

@@ -152,12 +152,22 @@ def andrade(s: Sample, strength: float) -> Sample:
     return _cooled(s, strength, cooling.andrade)
 
 
-def _temperature_forms() -> tuple[Form, ...]:
-    whole, pole, above = cooling.WHOLE, cooling.DIVERGENCE, cooling.ABOVE
+def reynolds(s: Sample, strength: float) -> Sample:
+    return _cooled(s, strength, cooling.reynolds)
+
+
+def _temperature_forms(oil: Oil, named: bool) -> tuple[Form, ...]:
+    def mistold(s: Sample, strength: float) -> Sample:
+        """The second viscosity of the data sheet is 5 % strength too low."""
+        return replace(s, resting=s.resting * cooling.mistold(oil, s.celsius, 0.05 * strength))
+
+    whole, pole, above, by = cooling.WHOLE, cooling.DIVERGENCE, cooling.ABOVE, cooling.MISTOLD_BY
     return (
         Form("viscosity_temperature_law", "oil", vogel, (whole, pole), cooling.VOGEL, within=True),
         Form("viscosity_temperature_law", "oil", slotte, (whole, above), cooling.SLOTTE),
         Form("viscosity_temperature_law", "oil", andrade, (whole,), cooling.ANDRADE, within=True),
+        Form("viscosity_temperature_law", "oil", reynolds, (whole,), cooling.REYNOLDS, within=True),
+        *((Form("viscosity_temperature_law", "oil", mistold, (by,), cooling.MISTOLD),) if named else ()),
     )
 
 
@@ -322,7 +332,7 @@ def draw(rng: np.random.Generator) -> Bench:
 
     forms = _drifts(time) + (_pressure_forms() if fluid.pressed else ()) + channel(time, True, named, False)
     if fluid.beyond_the_data_sheet:
-        forms += _temperature_forms()
+        forms += _temperature_forms(fluid.oil, named)
     return Bench(
         kind="viscosity",
         settings=settings,

@@ -31,6 +31,21 @@ def dynamic_load(c: Contact, strength: float, resonance_rpm: float) -> Contact:
     return _forced(c, c.force * np.clip(waved, 0.05, None))
 
 
+def dynamic_load_of_two_orders(c: Contact, strength: float, resonance_rpm: float, second: float) -> Contact:
+    """A transmission error of two mesh orders shakes one mass on the mesh spring (Ozguven and Houser 1988).
+
+    Order n adds 0.15 strength (1, ``second``) D cos(2 pi n x/p_b - a), D exp(-i a) = r^2/(1 - r^2 + 0.14 i r) with
+    r = n q: the second order resonates at half the speed. D grows as q^2 at low speed; the mean force stays.
+    """
+    q = c.rig.conditions["speed_rpm"].astype(float)[:, None] / resonance_rpm
+    waved = np.ones(1)
+    for order, size in ((1, 1.0), (2, second)):
+        r = order * q
+        answer = r**2 / (1 - r**2 + 0.14j * r)
+        waved = waved + 0.15 * strength * size * (answer * np.exp(2j * np.pi * order * c.rig.phase)).real
+    return _forced(c, c.force * np.clip(waved, 0.05, None))
+
+
 def misalignment(c: Contact, strength: float) -> Contact:
     """Load on part of the face, less so when torque closes the gap: line load (1 + 0.3 s (150 Nm/T)^0.5)."""
     return replace(c, line_load=c.line_load * (1 + 0.3 * strength / np.sqrt(_torque_ratio(c))))
@@ -57,6 +72,21 @@ EFFECTS = (
         dynamic_load,
         (strength(0.0, 5.0, (0.7, 1.6)), Knob("resonance_rpm", 600.0, 6000.0, (1200.0, 3000.0))),
         "one-degree-of-freedom mesh resonance",
+        0,
+        GEAR,
+        0.5,
+    ),
+    Concealed(
+        "dynamic_load",
+        "load",
+        "load",
+        dynamic_load_of_two_orders,
+        (
+            strength(0.0, 5.0, (0.7, 1.6)),
+            Knob("resonance_rpm", 600.0, 6000.0, (1200.0, 4000.0)),
+            Knob("second", 0.0, 1.0, (0.3, 0.7)),
+        ),
+        "two orders of the transmission error, Ozguven and Houser 1988",
         0,
         GEAR,
         0.5,

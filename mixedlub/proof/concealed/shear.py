@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mixedlub.proof.concealed.kinds import DISC, Concealed, strength
+from mixedlub.proof.concealed.kinds import DISC, Concealed, Knob, strength
 from mixedlub.proof.rig import KELVIN, ROELANDS_PRESSURE, Contact
 
 SWEEPS = 9
@@ -57,6 +57,19 @@ def limiting_shear_stress(c: Contact, strength: float) -> Contact:
     return replace(c, stress=ceiling * -np.expm1(-c.stress / ceiling))
 
 
+def limiting_stress_in_hot_oil(c: Contact, strength: float, fall: float) -> Contact:
+    """Gecim-Winer: tau_L tanh(tau/tau_L), tau_L = (0.045/strength) (1 - fall (T - 40 C)) of the mean Hertz pressure.
+
+    Bair and Winer find limits that fall with temperature (1/K); at 40 C the coefficient is that of a mineral oil.
+    Meant for -20 to 150 C, beyond which a fifth of the limit is kept.
+    """
+    if strength <= 0:
+        return c
+    left = np.maximum(1 - fall * (c.temperature - 40.0), 0.2)
+    ceiling = 0.045 / strength * left * 0.25 * np.pi * c.pressure
+    return replace(c, stress=ceiling * np.tanh(c.stress / ceiling))
+
+
 def coating_insulation(c: Contact, strength: float) -> Contact:
     """A layer holds back its half of the heat: rise (q/2)(t/k) a coated flank, lagging in short contacts."""
     resistance = c.rig.coating_resistance
@@ -102,6 +115,15 @@ EFFECTS = (
         limiting_shear_stress,
         (strength(0.0, 3.0, (0.6, 1.3)),),
         "Bair and Winer 1979",
+        -1,
+    ),
+    Concealed(
+        "limiting_shear_stress",
+        "shear",
+        "shear",
+        limiting_stress_in_hot_oil,
+        (strength(0.0, 3.0, (0.6, 1.3)), Knob("fall", 0.0, 0.006, (0.002, 0.006))),
+        "Gecim and Winer 1980, falling with temperature",
         -1,
     ),
     Concealed(
