@@ -73,10 +73,12 @@ def headline(d: Diagnosis) -> str:
 
 def _verdict(d: Diagnosis) -> str:
     judged = d.posterior
+    common = _common(d)
+    if common:
+        return _beside(d, common)
     if len(judged.tied) > 1:
         named = [f"{explanation_words(judged.names(k))} ({chance(judged.weights[k])})" for k in judged.tied[:MOST_TIED]]
-        more = len(judged.tied) - MOST_TIED
-        rest = [f"{more} less probable one{'s' if more > 1 else ''}"] if more > 0 else []
+        rest = _rest(d)
         if judged.verdict == ():
             others = _listed([*named[1:], *rest], "or")
             return (
@@ -106,6 +108,34 @@ def _verdict(d: Diagnosis) -> str:
     return f"{'; and '.join(parts)} (probability {p})."
 
 
+def _rest(d: Diagnosis) -> list[str]:
+    """Tied explanations that are not named, as one item of the list."""
+    more = len(d.posterior.tied) - MOST_TIED
+    return [f"{more} less probable one{'s' if more > 1 else ''}"] if more > 0 else []
+
+
+def _common(d: Diagnosis) -> list[str]:
+    """Effects that are in every one of several tied explanations."""
+    named = [set(k) for k in d.posterior.tied if not isinstance(k, str)]
+    return sorted(set.intersection(*named)) if len(named) == len(d.posterior.tied) > 1 else []
+
+
+def _beside(d: Diagnosis, common: list[str]) -> str:
+    """A tie all of whose explanations share something, and the readings leave open what comes beside it."""
+    judged, inclusion = d.posterior, d.posterior.inclusion(d.found)
+    shared = " and ".join(f"{effect_words(name)} ({chance(inclusion[name])})" for name in common)
+    each = []
+    for key in judged.tied[:MOST_TIED]:
+        beside = [name for name in judged.names(key) if name not in common]
+        p = chance(judged.weights[key])
+        each.append(f"with {explanation_words(beside)} ({p})" if beside else f"alone ({p})")
+    one = len(common) == 1
+    return (
+        f"{shared[:1].upper()}{shared[1:]} {'is' if one else 'are'} in every explanation left. A tie: the readings "
+        f"cannot decide whether {'it comes' if one else 'they come'} {_listed([*each, *_rest(d)], 'or')}."
+    )
+
+
 def _listed(items: list[str], last: str) -> str:
     """Items with semicolons, the last one joined by a word.
 
@@ -116,16 +146,9 @@ def _listed(items: list[str], last: str) -> str:
 
 
 def standing(d: Diagnosis) -> list[str]:
-    """What all tied explanations share, and whether physics or instrument."""
+    """How probable the parts of the answer are by themselves, and where in the chain they act."""
     judged = d.posterior
-    said = []
-    named = [set(k) for k in judged.tied if not isinstance(k, str)]
-    common = set.intersection(*named) if len(named) == len(judged.tied) > 1 else set()
-    inclusion = judged.inclusion(d.found)
-    if common:
-        every = " and ".join(f"{effect_words(n)} ({chance(inclusion[n])})" for n in sorted(common))
-        said.append(f"In every one of them: {every}.")
-    said += _each(d, common)
+    said = _each(d, set(_common(d)))
     stages = {name: p for name, p in judged.stages().items() if p >= 0.05}
     if judged.verdict != () and stages:
         ranked = sorted(stages.items(), key=lambda item: -item[1])
