@@ -106,7 +106,8 @@ def churning_past_transition(c: Contact, strength: float, transition: float) -> 
 
     Daily and Nece 1960, enclosed discs with separate layers: 3.70 (s/a)^0.1 Re^-1/2 and 0.102 (s/a)^0.1 Re^-1/5, which
     meet at 1.6e5; a stirred bath is turbulent sooner. ``transition`` is n/1500 rpm over nu/15 mm2/s there.
-    12 W strength at 1500 rpm and 15 mm2/s in the laminar layer, with the density.
+    12 W strength at 1500 rpm and 15 mm2/s in the laminar layer, with the density. Their coefficients and exponents are
+    from memory, not checked against the paper.
 
     >>> round(DISC_TRANSITION, -3)
     158000.0
