@@ -154,6 +154,7 @@ def _gear(case: Case, common: dict[str, Any], points: int, positions: np.ndarray
             "wheel_diameter": gears.module * gears.teeth[1],
             "ratio": gears.teeth[0] / gears.teeth[1],
             "base_radius": path.base_radius[0],
+            "centre": float(np.hypot(path.tangent_length, sum(path.base_radius))),
         },
         **common,
     )

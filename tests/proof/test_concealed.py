@@ -5,12 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mixedlub.proof.build import rig_of
+from mixedlub.proof.build import gears_of, rig_of
 from mixedlub.proof.concealed import FORMS, MEASUREMENT, NAMED, OUTSIDE
 from mixedlub.proof.concealed.contact import HARDNESS, HEIGHTS, _overlap_table, asperity_elastoplasticity
 from mixedlub.proof.concealed.load import dynamic_load_of_two_orders
 from mixedlub.proof.concealed.loss import churning_past_transition
 from mixedlub.proof.concealed.shear import film_heating, flash, limiting_stress_in_hot_oil
+from mixedlub.proof.design import draw_gear
+from mixedlub.proof.involute import operating_angle
 from mixedlub.proof.rig import lubricate, press, readings, run, shear, start, summits, thick, touch
 
 EVERY = {form.law.__name__: form for forms in FORMS.values() for form in forms} | OUTSIDE
@@ -21,7 +23,8 @@ GEAR_IDS = {
     *("running_in", "surface_defects", "boundary_film_temperature", "boundary_speed_dependence"),
     *("tribofilm_growth", "dynamic_load", "misalignment", "tip_relief", "rolling_resistance", "windage"),
     *("churning", "bearing_drag", "seal_drag", "elastic_hysteresis", "pressure_viscosity_law"),
-    *("viscosity_drift", "heat_leak", "sensor_offset", "sensor_gain", "sensor_drift", "torque_offset"),
+    *("bulk_temperature", "viscosity_drift", "heat_leak", "sensor_offset", "sensor_gain", "sensor_drift"),
+    "torque_offset",
 }
 
 
@@ -147,6 +150,54 @@ def test_heated_film_is_in_balance_with_its_own_heat(rigs):
     eyring = hot.eyring_stress
     expected = eyring * np.arcsinh(thick(hot, rise) * hot.sliding / (hot.film * eyring))
     np.testing.assert_allclose(hot.stress, expected, rtol=1e-9)
+
+
+def _warmer(rig, nominal, form):
+    """The contact of teeth warmer than their oil, and by how much at each reading."""
+    contact = run(rig, nominal, [form.hide({"strength": 1.0})])
+    return contact, contact.temperature[:, 0] - rig.temperature
+
+
+@pytest.mark.parametrize("form", FORMS["bulk_temperature"], ids=lambda form: form.law.__name__)
+def test_teeth_are_as_warm_as_their_own_loss_makes_them(rigs, gear_case, form):
+    rig, nominal = rigs["gear_pair"]
+    contact, rise = _warmer(rig, nominal, form)
+    table, speed = gear_case.settings["gears"], rig.conditions["speed_rpm"] * np.pi / 30
+    loss = contact.recorded
+    if form.source == "ISO/TR 15144-1":
+        gears = gears_of(gear_case.settings)
+        spread = np.cos(gears.pressure_angle) / np.cos(operating_angle(gears))
+        centre = 0.5 * table["normal_module_mm"] * sum(gears.teeth) * spread
+        expected = 7400 * (loss / 1000 / (centre * table["face_width_mm"])) ** 0.72 / 1.2
+    else:
+        size = 1e-3 * table["normal_module_mm"] * np.array(table["teeth"])
+        area = np.pi * sum(size) * 1e-3 * table["face_width_mm"] + np.pi / 2 * sum(size**2)
+        expected = loss / (700 * area * np.sqrt(speed * size[0] / 2 / 10))
+    np.testing.assert_allclose(rise, expected, atol=0.02)
+
+
+@pytest.mark.parametrize("form", FORMS["bulk_temperature"], ids=lambda form: form.law.__name__)
+def test_usual_teeth_are_some_kelvin_warmer_and_their_oil_with_them(form):
+    for seed in range(6):
+        case = draw_gear(np.random.default_rng(seed), coated=False)
+        rig, nominal = rig_of(case, 24), case.nominal
+        contact, rise = _warmer(rig, nominal, form)
+        assert rise.min() > 0
+        assert 4 < rise.max() < 25
+        hot = start(replace(rig, temperature=rig.temperature + rise), nominal)
+        np.testing.assert_allclose(contact.viscosity, hot.viscosity)
+        np.testing.assert_allclose(contact.pressure_viscosity, hot.pressure_viscosity)
+
+
+@pytest.mark.parametrize("name", ["churning", "windage_in_mist", "bearing_drag", "seal_drag", "heat_leak"])
+def test_warm_teeth_leave_the_bath_and_the_housing_as_warm_as_recorded(rigs, name):
+    rig, nominal = rigs["gear_pair"]
+    teeth = NAMED["bulk_temperature"].hide({"strength": 1.0})
+    values = {knob.name: 0.5 * sum(knob.typical) for knob in EVERY[name].knobs}
+    mesh = readings(rig, nominal, [teeth])
+    found = readings(rig, nominal, [teeth, EVERY[name].hide(values)]) - mesh
+    told = replace(start(rig, nominal), recorded=mesh)
+    np.testing.assert_allclose(found, EVERY[name].law(told, **values).recorded - mesh)
 
 
 def test_literature_flash_rise_against_the_standard(rigs):

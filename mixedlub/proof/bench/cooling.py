@@ -49,6 +49,7 @@ def reynolds(celsius: np.ndarray, known: Pair, viscosity: Pair) -> np.ndarray:
     """eta = A exp(-b T) (Reynolds, Phil. Trans. R. Soc. 177 (1886) 157), found with olive oil near room warmth.
 
     Oils bend away from it: it is too thick between the known temperatures and too thin beyond them on either side.
+    Cited from memory; none of his constants is taken.
 
     >>> round(float(reynolds(np.array(50.0), (40.0, 60.0), (0.04, 0.01))), 6)
     0.02

@@ -31,6 +31,7 @@ def adhering(share: np.ndarray, pull: float) -> np.ndarray:
 
     Derjaguin, Muller and Toporov, J. Colloid Interface Sci. 53 (1975) 314: Hertz's area under the load and the
     ``pull`` w_a of adhesion together, over the largest load. Stiff bodies; the part without load is dry friction.
+    Cited from memory; the power is Hertz's.
 
     >>> [round(float(w), 6) for w in adhering(np.array([0.0, 1 / 8, 1.0]), 0.0)]
     [0.0, 0.25, 1.0]
@@ -43,7 +44,7 @@ def over_hersey(speed: np.ndarray, share: np.ndarray, width: float, power: float
     """Share of boundary friction left at a Hersey number, 1/(1 + H^2), H = (speed/width)/w^power.
 
     Hersey 1914 has power 1; Hess and Soom, J. Tribol. 112 (1990) 147, have this fall over speed by the root of load,
-    as far as memory serves. Speeds over full speed, of one oil at one temperature.
+    both from memory and not checked against the papers. Speeds over full speed, of one oil at one temperature.
 
     >>> [round(float(left), 3) for left in over_hersey(np.array([0.0, 0.1, 0.1]), np.array([1.0, 1.0, 0.25]), 0.1, 0.5)]
     [1.0, 0.5, 0.2]

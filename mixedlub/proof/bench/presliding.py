@@ -48,7 +48,7 @@ def hysteretic(travel: np.ndarray) -> np.ndarray:
     """At the end of a reading of dF/dx = 1 - F^2: tanh x.
 
     Bouc 1967 and Wen, J. Eng. Mech. 102 (1976) 249, of exponent 2 on first loading; Andersson, Soderberg and Bjorklund,
-    Tribol. Int. 40 (2007) 580, take the tangent itself.
+    Tribol. Int. 40 (2007) 580, take the tangent itself. Cited from memory, the exponent and the tangent unchecked.
 
     >>> [round(float(f), 6) for f in hysteretic(np.array([0.0, 1.0]))]
     [0.0, 0.761594]

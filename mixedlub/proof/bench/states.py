@@ -142,6 +142,8 @@ def _wanderings(time: np.ndarray) -> tuple[Form, ...]:
 def washed_in(since: np.ndarray, mixing: float) -> np.ndarray:
     """Share of new oil in a stirred sump, 1 - exp(-t/mixing) from a moment on (Danckwerts 1953); shares of a programme.
 
+    Cited from memory; the form is the sump's own balance and has no constants of his.
+
     >>> [round(float(share), 6) for share in washed_in(np.array([-0.1, 0.0, 0.05]), 0.05)]
     [0.0, 0.0, 0.632121]
     """
@@ -152,7 +154,7 @@ def hump(since: np.ndarray, coming: float, passing: float) -> np.ndarray:
     """What enters at one pace and leaves at a slower one, A to B to C, over its own peak (Bateman 1910).
 
     ``since`` a moment, ``coming`` and ``passing`` unlike, all in shares of a programme; the peak is at
-    ln(passing/coming)/(1/coming - 1/passing).
+    ln(passing/coming)/(1/coming - 1/passing). Cited from memory; the form solves the rates and has no constants of his.
 
     >>> [round(float(size), 6) for size in hump(np.array([-0.1, 0.0, 0.04 * np.log(2)]), 0.02, 0.04)]
     [0.0, 0.0, 1.0]

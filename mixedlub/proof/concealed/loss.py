@@ -14,9 +14,20 @@ def _rpm(c: Contact) -> np.ndarray:
     return np.asarray(c.rig.conditions["speed_rpm"].astype(float))
 
 
+def _viscosity(c: Contact) -> np.ndarray:
+    """Viscosity (Pa s) of the bath, which is as warm as recorded whatever the teeth are, one value a reading."""
+    told = (c.viscosity / c.rig.oil.viscosity_at(c.temperature))[:, 0]
+    return np.asarray(told * c.rig.oil.viscosity_at(c.rig.temperature))
+
+
 def _viscosity_mm2_s(c: Contact) -> np.ndarray:
-    """Kinematic viscosity (mm2/s) at the oil temperature, calibration included, one value a reading."""
-    return np.asarray(1e6 * (c.viscosity / c.rig.oil.density_at(c.temperature))[:, 0])
+    """Kinematic viscosity (mm2/s) of the bath, calibration included, one value a reading."""
+    return np.asarray(1e6 * _viscosity(c) / c.rig.oil.density_at(c.rig.temperature))
+
+
+def _heavy(c: Contact) -> np.ndarray:
+    """Density of the bath over that at 15 C."""
+    return np.asarray(c.rig.oil.density_at(c.rig.temperature) / c.rig.oil.density_15)
 
 
 def _added(c: Contact, more: np.ndarray) -> Contact:
@@ -64,7 +75,7 @@ def windage(c: Contact, strength: float) -> Contact:
 
 def windage_in_mist(c: Contact, strength: float) -> Contact:
     """Anderson and Loewenthal, in kW, m, rpm, mPa s: 2.82e-7 (1 + 2.3 F/R) n^2.8 R^4.6 (0.028 eta + 0.019)^0.2."""
-    thickened = (28.0 * c.viscosity[:, 0] + 0.019) ** 0.2
+    thickened = (28.0 * _viscosity(c) + 0.019) ** 0.2
     total = np.zeros(len(c.recorded))
     for key, ratio in (("pitch_diameter", 1.0), ("wheel_diameter", c.rig.extras["ratio"])):
         radius = 0.5 * c.rig.extras[key]
@@ -84,8 +95,7 @@ def churning_of_rim_and_faces(c: Contact, strength: float, rim: float) -> Contac
     12 W strength at 1500 rpm and 15 mm2/s, ``rim`` of it at the rim; both go with the density.
     """
     n, nu = _rpm(c) / 1500, _viscosity_mm2_s(c) / 15
-    heavy = c.rig.oil.density_at(c.temperature)[:, 0] / c.rig.oil.density_15
-    return _added(c, 12 * strength * heavy * (rim * n**2 * nu + (1 - rim) * n**2.86 * nu**0.14))
+    return _added(c, 12 * strength * _heavy(c) * (rim * n**2 * nu + (1 - rim) * n**2.86 * nu**0.14))
 
 
 DISC_TRANSITION = (3.70 / 0.102) ** (1 / 0.3)
@@ -96,16 +106,16 @@ def churning_past_transition(c: Contact, strength: float, transition: float) -> 
 
     Daily and Nece 1960, enclosed discs with separate layers: 3.70 (s/a)^0.1 Re^-1/2 and 0.102 (s/a)^0.1 Re^-1/5, which
     meet at 1.6e5; a stirred bath is turbulent sooner. ``transition`` is n/1500 rpm over nu/15 mm2/s there.
-    12 W strength at 1500 rpm and 15 mm2/s in the laminar layer, with the density.
+    12 W strength at 1500 rpm and 15 mm2/s in the laminar layer, with the density. Their coefficients and exponents are
+    from memory, not checked against the paper.
 
     >>> round(DISC_TRANSITION, -3)
     158000.0
     """
     n, nu = _rpm(c) / 1500, _viscosity_mm2_s(c) / 15
-    heavy = c.rig.oil.density_at(c.temperature)[:, 0] / c.rig.oil.density_15
     turning = n / nu
     moment = np.where(turning < transition, turning**-0.5, transition**-0.3 * turning**-0.2)
-    return _added(c, 12 * strength * heavy * n**3 * moment)
+    return _added(c, 12 * strength * _heavy(c) * n**3 * moment)
 
 
 def bearing_drag(c: Contact, strength: float, sliding_share: float) -> Contact:
@@ -127,7 +137,7 @@ def bearing_drag(c: Contact, strength: float, sliding_share: float) -> Contact:
 def seal_drag(c: Contact, strength: float) -> Contact:
     """Lip seals soften in heat (Linke): (145 - 1.6 T + 350 loglog(nu40 + 0.8)) d^2 n 1e-7 W, d 35 mm."""
     nu40 = 1e6 * c.rig.oil.kinematic_at(np.array(40.0))
-    warm = np.maximum(145 - 1.6 * c.temperature[:, 0] + 350 * np.log10(np.log10(nu40 + 0.8)), 5.0)
+    warm = np.maximum(145 - 1.6 * c.rig.temperature + 350 * np.log10(np.log10(nu40 + 0.8)), 5.0)
     return _added(c, strength * warm * 35.0**2 * _rpm(c) * 1e-7)
 
 

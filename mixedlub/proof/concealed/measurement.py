@@ -17,13 +17,13 @@ def _scale(c: Contact) -> float:
 
 def heat_leak(c: Contact, strength: float, conductance: float) -> Contact:
     """Heat that a calorimeter misses: P (1 - 0.05 strength) - strength G (T_oil - ambient), G in W/K."""
-    over = c.temperature[:, 0] - c.rig.extras["ambient"]
+    over = c.rig.temperature - c.rig.extras["ambient"]
     return replace(c, recorded=c.recorded * (1 - 0.05 * strength) - strength * conductance * over)
 
 
 def heat_leak_by_convection(c: Contact, strength: float, conductance: float) -> Contact:
     """Walls cooled by free convection, whose film coefficient goes with the 0.25th power: G 40 K (T/40 K)^1.25."""
-    over = np.clip(c.temperature[:, 0] - c.rig.extras["ambient"], 0.0, None) / 40.0
+    over = np.clip(c.rig.temperature - c.rig.extras["ambient"], 0.0, None) / 40.0
     return replace(c, recorded=c.recorded * (1 - 0.05 * strength) - strength * conductance * 40.0 * over**1.25)
 
 

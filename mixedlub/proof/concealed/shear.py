@@ -61,7 +61,8 @@ def limiting_stress_in_hot_oil(c: Contact, strength: float, fall: float) -> Cont
     """Gecim-Winer: tau_L tanh(tau/tau_L), tau_L = (0.045/strength) (1 - fall (T - 40 C)) of the mean Hertz pressure.
 
     Bair and Winer find limits that fall with temperature (1/K); at 40 C the coefficient is that of a mineral oil.
-    Meant for -20 to 150 C, beyond which a fifth of the limit is kept.
+    Meant for -20 to 150 C, beyond which a fifth of the limit is kept. Both are cited from memory; 0.045 and the size
+    of the fall were not checked against them.
     """
     if strength <= 0:
         return c
