@@ -20,7 +20,7 @@ from mixedlub.table import CaseWarning, Column, Table
 from profiles.errors import InputError
 
 SPEEDS = ("speed_rpm", "sliding_speed_m_s")
-LOADS = ("torque_Nm", "load_N")
+LOADS = ("load_N", "torque_Nm")
 COLUMNS = (
     *(Column(name, required=False) for name in SPEEDS),
     *(Column(name, required=False) for name in LOADS),
@@ -95,7 +95,7 @@ def _warmer(table: Table, recorded: Table) -> np.ndarray:
 
 def _load_column(table: Table, recorded: Table) -> str | None:
     """The column that loads the drive: the torque where a force is told too, if it is ever more than none."""
-    there = (n for n in LOADS if n in table and n in recorded and np.any(recorded[n] != 0.0))
+    there = (n for n in reversed(LOADS) if n in table and n in recorded and np.any(recorded[n] != 0.0))
     return next(there, None)
 
 

@@ -8,7 +8,7 @@ from mixedlub.laws import heating
 from mixedlub.proof.bench import drive, viscosity
 from mixedlub.proof.bench.stage import progress
 from mixedlub.proof.bench.states import Track
-from mixedlub.proof.rig import Contact, mix, summits
+from mixedlub.proof.rig import Calibration, Contact, mix, readings, summits
 
 KELVIN = 273.15
 Values = dict[str, Any]
@@ -35,6 +35,7 @@ def of_contact(c: Contact, columns: Values) -> Values:
         "oil_conductivity": rig.oil.conductivity,
         "oil_density": rig.oil.density_at(warm),
         "temperature_viscosity": rig.oil.thinning_at(warm),
+        "coefficient_fall": 1.0 - rig.oil.pressure_viscosity_at(warm + 1.0) / rig.oil.pressure_viscosity_at(warm),
         "composite_roughness": c.roughness,
         "oil_temperature": warm + KELVIN,
         "shear_stress": c.stress,
@@ -95,8 +96,13 @@ def _inverse(load: Any) -> np.ndarray:
 
 def _of_gears(c: Contact) -> Values:
     extras, speed = c.rig.extras, _column(c.rig.conditions["speed_rpm"]) * np.pi / 30
-    whole = _column(c.rig.conditions["torque_Nm"]) / extras["base_radius"]
+    torque = _column(c.rig.conditions["torque_Nm"])
+    whole = torque / extras["base_radius"]
+    loss = readings(c.rig, Calibration())
     return {
+        "torque": torque,
+        "nominal_loss": _column(loss),
+        "reading_scale": float(np.median(np.abs(c.recorded if c.recorded.any() else loss))),
         "pinion_speed": speed,
         "gear_speed": speed * extras["ratio"],
         "pinion_radius": extras["pitch_diameter"] / 2,

@@ -37,7 +37,7 @@ That is the density of the oil, a rounded corner at 1 mm/s, exponentials where a
 creeping speeds.
 """
 STARTS, BEST = 14, 8
-LOGARITHMIC = {"viscosity", "contact_viscosity", "m0", "m2", "m4", "film_thickness"}
+LOGARITHMIC = {"viscosity", "pressure_viscosity", "contact_viscosity", "m0", "m2", "m4", "film_thickness"}
 
 
 @dataclass(frozen=True)
