@@ -43,7 +43,7 @@ def bulk_temperature(
     oil_density: np.ndarray,
     oil_temperature: np.ndarray,
     nominal_loss: np.ndarray,
-    reading_scale: float,
+    reading_scale: np.ndarray,
     torque: np.ndarray,
     pinion_speed: np.ndarray,
     pinion_radius: float,
