@@ -224,3 +224,19 @@ def test_levels_left_out_are_those_of_the_condition_that_was_varied(make, wander
     }
     found = diagnose_case(make(system("film", "film_thickness_nm", contact=BALL), columns).folder)
     assert "speed" in found.heldout.split
+
+
+def test_a_film_that_rolls_is_not_swept_in_its_sliding(make):
+    """It is measured and jitters about zero; levels left out were those of it."""
+    rng = np.random.default_rng(2)
+    speed = np.geomspace(0.1, 2.0, 10)
+    columns = {
+        "load_N": np.full(10, 20.0),
+        "entrainment_speed_m_s": speed,
+        "slide_roll_ratio": 0.01 * rng.uniform(-1.0, 1.0, 10),
+        "oil_temperature_C": np.full(10, 38.8),
+        "film_thickness_nm": 560.0 * speed**0.6 * (1.0 + 0.01 * rng.standard_normal(10)),
+    }
+    found = diagnose_case(make(system("film", "film_thickness_nm", contact=BALL), columns).folder)
+    assert [axis.name for axis in found.found.space.axes] == ["entrainment_speed_m_s"]
+    assert "speed" in found.heldout.split

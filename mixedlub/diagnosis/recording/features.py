@@ -22,6 +22,8 @@ JITTER = 1e-6
 LEAST = 1e-300
 HELD = 0.01
 """A condition that spans less than this share of its size was held: what it wanders is no variation to learn from."""
+ROLLING = 0.02
+"""Slide-roll ratio up to which a film is one of pure rolling: it takes less than a twentieth of what heats it."""
 WANDERS, WANDERS_K, MOVES = 0.1, 6.0, 0.005
 """One that spans less than the first, or so many kelvin, was held if the base model moves by less than the last."""
 SERIES = 400
@@ -126,6 +128,11 @@ def is_held(name: str, levels: np.ndarray) -> bool:
     return float(np.ptp(size)) <= HELD * float(np.max(np.abs(size)))
 
 
+def _rolls(name: str, levels: np.ndarray, case: Case) -> bool:
+    """Whether sliding is what is left of it in pure rolling, where a film's thickness is read."""
+    return case.quantity == "film_thickness_nm" and name == "slide_roll_ratio" and bool(np.abs(levels).max() <= ROLLING)
+
+
 def jitters(name: str, values: np.ndarray) -> bool:
     """Whether values lie within a tenth of their size and hardly one comes again, as what is measured about one does.
 
@@ -209,7 +216,8 @@ def coordinates(case: Case, table: Table, forward: Forward) -> Coordinates:
     """The axes along which a recording varies; what was held counts only where nothing else varies."""
     every = {name: np.unique(values) for name, values in raw_coordinates(case, table, forward).items()}
     varied = {name: levels for name, levels in every.items() if levels.size > 1}
-    swept = {k: v for k, v in varied.items() if not is_held(k, v) and not _wanders(k, case, table, forward)}
+    held = [k for k, v in varied.items() if is_held(k, v) or _rolls(k, v, case) or _wanders(k, case, table, forward)]
+    swept = {k: v for k, v in varied.items() if k not in held}
     axes = []
     for name, levels in (swept or varied).items():
         if levels.dtype.kind in "US":

@@ -17,8 +17,8 @@ FACTORS = np.array([1.1, 1.25, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 4.0, 6.0, 10.0])
 """How many times the stated noise may be meant."""
 SHARES = np.array([0.003, 0.006, 0.01, 0.015, 0.02, 0.03, 0.05])
 """Shares of the reading by which a rig may scatter beyond the sds in a column, which are often those of one setting."""
-WEAKER = 4.0
-"""Gain from which such a share is believed: sds in a column say less than a noise that someone states."""
+USUAL, WEAKER = 2, 4.0
+"""Which of them is usual; gain from which one is believed: sds in a column say less than a noise someone states."""
 SIZES = np.geomspace(0.3, 3.0, 13)
 """Of an estimated noise, how many times as much another mixture of its parts may have."""
 CLEAR = 8.0
@@ -65,10 +65,7 @@ def stated_or_more(case: Case, rows: Table, trial: Trial, most: float) -> tuple[
     """
     found, raised = trial(case, rows), Raised()
     if f"{case.quantity}_sd" in rows and np.isinf(most):
-        gain, share = _lacking(found)
-        if gain > WEAKER + max(more(found)[0], 0.0):
-            raised = Raised(share=share)
-            found = trial(*raised.of(case, rows))
+        found, raised = _with_share(case, rows, trial, found)
     for needed in (CLEAR, *[0.0] * (ROUNDS - 1)):
         gain, factor = more(found)
         if gain <= needed or raised.times * factor > most:
@@ -78,12 +75,35 @@ def stated_or_more(case: Case, rows: Table, trial: Trial, most: float) -> tuple[
     return found, raised
 
 
-def _lacking(found: Search) -> tuple[float, float]:
-    """Gain in log probability by the share of the reading that the best explanation asks for beside the sds told."""
+def _with_share(case: Case, rows: Table, trial: Trial, found: Search) -> tuple[Search, Raised]:
+    """The search under the share of the reading, beside the sds told, that makes the readings most probable.
+
+    Looked for uphill from a usual share and from the one that residuals under the sds ask for.
+    """
+    tried = {-1: found}
+
+    def height(i: int) -> float:
+        if i not in tried:
+            tried[i] = trial(*Raised(share=SHARES[i]).of(case, rows))
+        return tried[i].log_probability
+
+    gain, asked = _lacking(found)
+    for i in (USUAL, asked) if gain > WEAKER else (USUAL,):
+        near = [j for j in (i - 1, i + 1) if 0 <= j < SHARES.size]
+        step = max(near, key=height) - i
+        while 0 <= i + step < SHARES.size and height(i + step) > height(i):
+            i += step
+    best = max(tried, key=height)
+    if best < 0 or height(best) <= height(-1) + WEAKER:
+        return found, Raised()
+    return tried[best], Raised(share=float(SHARES[best]))
+
+
+def _lacking(found: Search) -> tuple[float, int]:
+    """Gain in log probability by a share of the reading beside the sds told, and which share is the best."""
     sd = found.problem.one_sd * found.problem.unit_size(found.problem.y)
     size = np.abs(found.problem.level(found.problem.y))
-    gain, best = _under_other_noise(found, np.hypot(1.0, SHARES[:, None] * size / sd))
-    return gain, float(SHARES[best])
+    return _under_other_noise(found, np.hypot(1.0, SHARES[:, None] * size / sd))
 
 
 def repeats_allow(y: np.ndarray, sd: np.ndarray, group: np.ndarray) -> float:
