@@ -162,7 +162,7 @@ def _columns(found: Kind, system: config.System, measured: bool) -> tuple[Column
     own = (replace(c, names=names) if c.form == "name" and "surface" in c.name else c for c in found.columns)
     reach = found.limits(system)
     own = (_rounded(c, *reach[c.name]) if c.name in reach else c for c in own)
-    return (RUN, *BOOKKEEPING, *own, *found.channels, *_measured(system, measured))
+    return (RUN, *BOOKKEEPING, *own, *found.channels, *_measured(found, system, measured))
 
 
 def _rounded(column: Column, low: float, high: float) -> Column:
@@ -171,10 +171,11 @@ def _rounded(column: Column, low: float, high: float) -> Column:
     return replace(column, at_least=low - margin, at_most=high + margin)
 
 
-def _measured(system: config.System, required: bool) -> tuple[Column, ...]:
+def _measured(found: Kind, system: config.System, required: bool) -> tuple[Column, ...]:
     """The recorded quantity, its standard deviation, and the check channel."""
     quantity = system.recording.quantity
-    columns = [Column(quantity, required=required), Column(f"{quantity}_sd", at_least=0.0, required=False, blank=True)]
+    reading = Column(quantity, above=0.0 if found.logarithmic else -np.inf, required=required)
+    columns = [reading, Column(f"{quantity}_sd", at_least=0.0, required=False, blank=True)]
     if system.recording.check is not None:
         columns.append(Column(system.recording.check, required=False, blank=True))
     return tuple(columns)

@@ -278,3 +278,34 @@ def test_readings_at_one_condition_are_refused_with_their_file(make_case: Callab
     with pytest.raises(InputError, match="all readings were taken at the same conditions") as error:
         doubts(found, found.recordings, y, Forward(found, found.recordings))
     assert error.value.where == str(folder / "recordings.csv")
+
+
+def test_every_second_reading_in_kilowatts_is_told(offset_folder: Path) -> None:
+    case = read_case(offset_folder)
+    assert case.recordings is not None
+    rows, y = case.recordings, np.array(case.recordings[case.quantity], dtype=float)
+    y[::2] /= 1000.0
+    assert any("in one unit" in note for note in doubts(case, rows, y, Forward(case, rows)))
+    few = np.array(case.recordings[case.quantity], dtype=float)
+    few[3] /= 1000.0
+    assert not any("in one unit" in note for note in doubts(case, rows, few, Forward(case, rows)))
+
+
+def test_losses_above_the_power_put_in_are_told(offset_folder: Path) -> None:
+    case = read_case(offset_folder)
+    assert case.recordings is not None
+    y = np.array(case.recordings[case.quantity], dtype=float)
+    light = Table({**case.recordings.columns, "torque_Nm": case.recordings["torque_Nm"] / 1000.0}, "recordings.csv")
+    assert any("above the power put in" in note for note in doubts(case, light, y, Forward(case, light)))
+    assert not any("put in" in note for note in doubts(case, case.recordings, y, Forward(case, case.recordings)))
+
+
+@pytest.mark.parametrize(("payload", "told"), [(0.0, True), (3.0, False)])
+def test_a_friction_that_lost_its_sign_is_told(tmp_path: Path, payload: float, told: bool) -> None:
+    speed = np.concatenate([-np.geomspace(2.0, 200.0, 12), np.geomspace(2.0, 200.0, 12)])
+    friction = np.abs(payload + np.sign(speed) + speed / 200.0)
+    sections = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm"}}
+    case = read_case(write_case(tmp_path / "c", sections, {"speed_rpm": speed, "friction_torque_Nm": friction}))
+    assert case.recordings is not None
+    notes = doubts(case, case.recordings, friction, Forward(case, case.recordings))
+    assert any("sign was not lost" in note for note in notes) is told

@@ -18,6 +18,8 @@ from mixedlub.diagnosis.recording.noise import (
 )
 from mixedlub.forward import Forward
 from mixedlub.headers import unit_of
+from mixedlub.kinds.friction_map import drive_speed
+from mixedlub.kinds.kind import gears_out
 from mixedlub.table import IGNORED, MEANT, Table
 from mixedlub.usual import far_off
 from profiles.errors import InputError
@@ -36,6 +38,10 @@ MOST_SLIDING = 10.0
 """Slide-roll ratios above it are more likely percent: 2 is pure sliding, more needs surfaces that run against it."""
 SLIP_WITHIN = 2.0
 """How far a slip of the unit may be off its power of ten: the base model itself is that good."""
+TWO_UNITS = 0.1
+"""Share of the readings from which some that are off together are no wild ones."""
+ALIKE = 0.05
+"""Half the difference of two directions over their mean up to which they are as large: a payload alone holds more."""
 THINNEST_OIL = 0.4
 THINNEST_D341 = 2e-6
 """Kinematic viscosity (m2/s) down to which log log(nu + 0.7) is all of ASTM D341."""
@@ -91,6 +97,9 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
         *_scarce(y),
         *_thin(case, y, forward),
         *_of_another_unit(case, y, base),
+        *_of_two_units(case, y, base),
+        *_more_than_put_in(case, rows, y),
+        *_of_one_sign(case, rows, y),
         *_sliding(rows),
         *_warm(rows),
         *_stuck(case, rows, y, base),
@@ -104,9 +113,6 @@ def _readable(case: Case, y: np.ndarray) -> None:
     where = f"{case.folder / 'recordings.csv'}: {case.quantity}"
     if y.size < FEWEST:
         raise InputError(f"needs at least {FEWEST} readings to say anything", where=where, value=y.size)
-    if case.kind.logarithmic and np.any(y <= 0):
-        bad = float(y[y <= 0][0])
-        raise InputError(f"readings of kind {case.kind.name!r} must be above zero", where=where, value=bad)
     if case.quantity == "viscosity_mPa_s" and np.median(y) < THINNEST_OIL:
         said = f"are below the {THINNEST_OIL} mPa s of the thinnest liquid that the model holds for; check the unit"
         raise InputError(f"readings {said}", where=where, value=float(np.median(y)))
@@ -208,6 +214,50 @@ def _of_another_unit(case: Case, y: np.ndarray, base: np.ndarray) -> list[str]:
     if np.mean(base[both] * y[both] < 0) > 0.5:
         found.append(Doubt("most readings have the other sign than the base model: check the sign"))
     return found
+
+
+def _of_two_units(case: Case, y: np.ndarray, base: np.ndarray) -> list[str]:
+    """Readings of which a part is a power of ten off the others, beside the base model."""
+    used = (np.abs(base) > 0) & (np.abs(y) > 0)
+    if used.sum() < SCARCE:
+        return []
+    ratio = np.sort(np.log10(np.abs(y[used] / base[used])))
+    cut = int(np.argmax(np.diff(ratio))) + 1
+    parts = ratio[:cut], ratio[cut:]
+    apart = float(np.median(parts[1]) - np.median(parts[0]))
+    slips = [np.log10(slip) for slip in UNIT_SLIPS if slip > 1.0]
+    near = min(abs(apart - slip) for slip in slips) < np.log10(SLIP_WITHIN)
+    if not near or min(map(len, parts)) < TWO_UNITS * used.sum() or ratio[cut] - ratio[cut - 1] < 0.5 * apart:
+        return []
+    said = f"{len(parts[0])} readings are about {10**apart:.2g} times smaller, beside the base model, than the others"
+    return [Doubt(f"{said}: check that {case.quantity} is in one unit")]
+
+
+def _more_than_put_in(case: Case, rows: Table, y: np.ndarray) -> list[str]:
+    """Losses of gears above the power that the pinion takes in."""
+    if case.quantity != "power_loss_W":
+        return []
+    put_in = rows["torque_Nm"] * rows["speed_rpm"] * np.pi / 30.0
+    above = int(np.count_nonzero((y > put_in) & ~gears_out(rows)))
+    if 2 * above <= y.size:
+        return []
+    said = f"{above} of {y.size} losses are above the power put in, torque times speed"
+    return [Doubt(f"{said}: check the units of torque_Nm, speed_rpm and power_loss_W")]
+
+
+def _of_one_sign(case: Case, rows: Table, y: np.ndarray) -> list[str]:
+    """Friction of a drive that is as large and of the same sign in both directions."""
+    if case.kind.name != "friction_map":
+        return []
+    speed = drive_speed(rows)
+    forth, back = y[speed > 0.0], y[speed < 0.0]
+    if min(forth.size, back.size) < FEWEST or np.any(np.sign(y) != np.sign(y[0])):
+        return []
+    one, other = float(np.median(forth)), float(np.median(back))
+    if abs(one - other) > ALIKE * abs(one + other):
+        return []
+    said = f"{case.quantity} has one sign and size in both directions"
+    return [Doubt(f"{said}: friction turns with the speed, so check that its sign was not lost")]
 
 
 def _sliding(rows: Table) -> list[str]:
