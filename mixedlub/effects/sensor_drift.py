@@ -2,7 +2,10 @@
 
 import numpy as np
 
-from mixedlub.effect import Parameter, Wide, effect
+from mixedlub.effect import Between, Parameter, Wide, effect
+
+STEADY = 1e-9
+"""Settling below which a drift is the straight line that it becomes."""
 
 
 @effect(
@@ -10,18 +13,33 @@ from mixedlub.effect import Parameter, Wide, effect
     acts_on="reading",
     parameters=(
         Parameter("drift", "-", Wide(0.05), "relative error at the end of the programme", null=0.0, symbol="d"),
+        Parameter(
+            "settling",
+            "-",
+            Between(0.0, 8.0),
+            "length of the programme over the time in which the drift settles; 0: it goes on at one pace",
+            null=0.0,
+            symbol="s",
+            kinds=("gear_pair", "disc", "film", "friction_map", "mesh_friction"),
+        ),
     ),
-    equation=r"y \leftarrow y\,(1 + d\,q)",
-    source="measurement: scale error that grows in the course of the programme",
+    equation=r"y \leftarrow y\left(1 + d\,\frac{1 - e^{-s q}}{1 - e^{-s}}\right)",
+    source="measurement: scale error that grows in the course of the programme, steadily or as an amplifier warms up",
     fingerprint={"sequence": "+"},
     separated_by="the first point repeated at the end, and a reference (check weight, reference oil, gauge block) read "
     "before and after: drift shows in both, a sample or surface that changes in the first only",
     after=("fringe_order", "fringe_step", "heat_leak", "torque_constant", "torque_offset", "zero_drift"),
+    contains={"steady": {"settling": 0.0}},
 )
-def sensor_drift(reading: np.ndarray, sequence: np.ndarray, *, drift: float) -> np.ndarray:
+def sensor_drift(reading: np.ndarray, sequence: np.ndarray, *, drift: float, settling: float) -> np.ndarray:
     """The channel's scale creeps in the course of the programme.
 
-    >>> round(sensor_drift(100.0, 0.5, drift=0.06), 6)
+    Histories keep the steady drift: what settles there is taken for a surface.
+
+    >>> round(float(sensor_drift(100.0, 0.5, drift=0.06, settling=0.0)), 6)
     103.0
+    >>> round(float(sensor_drift(100.0, 0.5, drift=0.06, settling=2.0)), 2)   # 0.731 of it is done
+    104.39
     """
-    return reading * (1.0 + drift * sequence)
+    steep = max(settling, STEADY)
+    return reading * (1.0 + drift * np.expm1(-steep * sequence) / np.expm1(-steep))
