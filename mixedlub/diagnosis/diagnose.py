@@ -62,6 +62,12 @@ class Diagnosis:
         return None if name is None or name not in table else check_channel(name, table[name], self.recorded.predicted)
 
     @property
+    def counted(self) -> np.ndarray:
+        """Which readings are more probably right than wrong; all where none is, for something has to be told of."""
+        right = self.outlier_chance <= 0.5
+        return right if right.any() else ~right
+
+    @property
     def seen_sd(self) -> np.ndarray:
         """Standard deviation of the readings as they are compared."""
         p = self.recorded

@@ -72,7 +72,7 @@ def residual_map(d: Diagnosis) -> Figure | None:
     label, panels = _levels(table[frame.panel] if frame.panel else np.zeros(len(table)), MOST_PANELS, frame.panel)
     before, after = d.residuals
     outlier = d.outlier_chance > 0.5
-    limit = _limit(before[~outlier])
+    limit = _limit(before[d.counted])
     norm = Normalize(-limit, limit)
     figure = blank(1.4 + 2.35 * max(len(panels), 2), 4.9)
     axes = figure.subplots(2, len(panels), sharex=True, sharey=True, squeeze=False)
@@ -193,7 +193,7 @@ def roll_angle_map(d: Diagnosis) -> Figure | None:
     place = np.array([row_of[text] for text in texts.tolist()])
     before, after = d.residuals
     outlier = d.outlier_chance > 0.5
-    limit = _limit(before[~outlier])
+    limit = _limit(before[d.counted])
     norm = Normalize(-limit, limit)
     figure = blank(8.6, 1.4 + 0.24 * min(len(rows), MOST_ROWS))
     axes = figure.subplots(1, 2, sharex=True, sharey=True)

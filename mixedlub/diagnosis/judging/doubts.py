@@ -147,7 +147,12 @@ def in_a_row(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[int]:
 
 
 def levels_off(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[str]:
-    """Levels of conditions nearly all of whose readings are wrong on one side, if chance would hardly make one."""
+    """Levels of conditions nearly all of whose readings are wrong on one side, if chance would hardly make one.
+
+    None where all levels are like that.
+    """
+    if wrong.mean() >= MOST_OF_LEVEL:
+        return []
     found = []
     for name, values in _conditions(rows):
         points, label = np.unique(set_points(values), return_inverse=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from math import isnan
 
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.fitting.problem import effects_of
@@ -114,17 +115,19 @@ def _mismatch(d: Diagnosis) -> tuple[str, ...]:
         "The test asks whether what is left goes with conditions or as an effect would, not for its chi-square alone. "
         f"It is wrong in {100 * test.level:g} % of the cases in which nothing is missing."
     )
-    kept = d.outlier_chance <= 0.5
+    kept = d.counted
     squares = d.found.problem.of_one(d.found.none.residual) ** 2
     strain = float(d.found.none.z @ d.found.none.z)
     without = "" if kept.all() else ", outliers left out"
     left = number(float(squares[kept].sum()) + strain)
     chi2 = f"chi-square {left} for {int(kept.sum())} readings after calibration{without}"
     size = p_words(test.p_value)
-    size = f"p {size}" if size.startswith("below") else f"p = {size}"
+    size = f"p {size}" if size[0].isalpha() else f"p = {size}"
     size += " even with the noise that this would need" if test.lenient else ""
     if test.detected:
         return (f"Yes ({size}; {chi2}).", alarm)
+    if isnan(test.p_value):
+        return (f"Not told: every reading counts as wrong, and the test has none to go by ({chi2}).",)
     return (f"None that can be told from noise ({size}; {chi2}).", alarm)
 
 
