@@ -25,6 +25,8 @@ MOST_OF_LEVEL = 0.75
 """Share of the readings of a level that a streak has to hold to be that level."""
 WORTH_TELLING = 1.5
 """Inflation of the variance from which it is told."""
+FAR_OFF = 3.0
+"""Error on levels left out, in sigmas of a reading, from which an answer foretells none."""
 UNFOLLOWED = (
     "readings lie farther from every explanation than from their repeats: something is missing whose form none that "
     "was tried follows"
@@ -105,6 +107,11 @@ def against(
         found.append(
             f"{answer} predicts levels left out no better than calibration alone: outside the recorded conditions "
             "rely on neither"
+        )
+    elif verdict != () and not at_one_place and kept.after > FAR_OFF:
+        found.append(
+            f"the answer does not foretell levels that it has not seen: there it is off by {kept.after:.3g} sigma, "
+            "where 1 is noise; do not extrapolate it"
         )
     return [Doubt(text) for text in found]
 
