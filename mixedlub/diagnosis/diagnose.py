@@ -49,6 +49,7 @@ class Diagnosis:
     next_tests: tuple[NextTest, ...]
     warnings: tuple[str, ...]
     excluded: tuple[str, ...] = ()
+    noise_stated: bool = True
 
     @property
     def readings(self) -> np.ndarray:
@@ -142,7 +143,21 @@ def diagnose_case(
     warnings += _cautions(found, judged, kept, refined, recorded.predicted, chance > 0.5)
     said = tuple(warnings)
     return Diagnosis(
-        case, found, test, judged, refined, recorded, other, chance, place, kept, laws, tests, said, left_out
+        case,
+        found,
+        test,
+        judged,
+        refined,
+        recorded,
+        other,
+        chance,
+        place,
+        kept,
+        laws,
+        tests,
+        said,
+        left_out,
+        tried.stated,
     )
 
 
