@@ -188,8 +188,9 @@ def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
         )
     else:
         said.append(
-            f"Shortest form found, empirical (a description, not physics): {law.text}. On whole levels left out, of one "
-            f"condition after another, the error falls from {law.heldout_before:.2f} to {law.heldout_after:.2f} sigma."
+            f"Shortest form found, empirical (a description, not physics): {law.text}. On whole levels left out, of "
+            f"one condition after another, the error falls from {law.heldout_before:.2f} to {law.heldout_after:.2f} "
+            "sigma."
         )
     return Section(UNNAMED, tuple(said))
 
