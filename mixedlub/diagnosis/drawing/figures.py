@@ -193,6 +193,8 @@ def missing_part(d: Diagnosis) -> Figure | None:
         if by_decades(np.asarray(p.table[name], dtype=float)):
             panel.set_xscale("log")
             log_ticks(panel, "x")
+        else:
+            panel.locator_params(axis="x", nbins=5)
     axes[0].set_ylabel(f"missing part of the reading ({unit})")
     axes[0].errorbar([], [], yerr=[], fmt="o", ms=2.6, color=MUTED, elinewidth=0.5, label="recorded − base model")
     axes[0].scatter([], [], s=8, color=AFTER, label="the answer")
