@@ -10,6 +10,7 @@ import numpy as np
 import typer
 
 from mixedlub.commands.output import case_folder, note, say, within_range
+from mixedlub.headers import unit_of
 from profiles.errors import InputError
 
 if TYPE_CHECKING:
@@ -137,9 +138,14 @@ def _uncertain(case: Case, movable: Sequence[Calibration]) -> Iterator[str]:
     elif noise is None:
         yield "Noise of a reading: not given; it would be estimated from repeats, else from the fit."
     else:
-        yield f"Noise of a reading: {noise.relative:g} of its value and {noise.absolute:g} in its unit."
+        yield f"Noise of a reading: {_scatter(noise.relative, noise.absolute, case)}."
     if noise is not None and (noise.setup_relative > 0 or noise.setup_absolute > 0):
-        yield f"Shared within a set-up: {noise.setup_relative:g} of its value and {noise.setup_absolute:g} in its unit."
+        yield f"Shared within a set-up: {_scatter(noise.setup_relative, noise.setup_absolute, case)}."
+
+
+def _scatter(relative: float, absolute: float, case: Case) -> str:
+    """An error in both its parts, with the unit of the reading."""
+    return f"{relative:g} of its value and {f'{absolute:g} {unit_of(case.quantity)}'.rstrip()}"
 
 
 def _audit(case: Case, forward: Forward | None) -> Iterator[str]:

@@ -49,6 +49,7 @@ class Diagnosis:
     next_tests: tuple[NextTest, ...]
     warnings: tuple[str, ...]
     excluded: tuple[str, ...] = ()
+    noise_stated: bool = True
 
     @property
     def readings(self) -> np.ndarray:
@@ -60,6 +61,12 @@ class Diagnosis:
         """The second channel of the recording against the predicted readings, where there is one."""
         name, table = self.case.system.recording.check, self.recorded.table
         return None if name is None or name not in table else check_channel(name, table[name], self.recorded.predicted)
+
+    @property
+    def counted(self) -> np.ndarray:
+        """Which readings are more probably right than wrong; all where none is, for something has to be told of."""
+        right = self.outlier_chance <= 0.5
+        return right if right.any() else ~right
 
     @property
     def seen_sd(self) -> np.ndarray:
@@ -136,7 +143,21 @@ def diagnose_case(
     warnings += _cautions(found, judged, kept, refined, recorded.predicted, chance > 0.5)
     said = tuple(warnings)
     return Diagnosis(
-        case, found, test, judged, refined, recorded, other, chance, place, kept, laws, tests, said, left_out
+        case,
+        found,
+        test,
+        judged,
+        refined,
+        recorded,
+        other,
+        chance,
+        place,
+        kept,
+        laws,
+        tests,
+        said,
+        left_out,
+        tried.stated,
     )
 
 

@@ -18,8 +18,6 @@ from mixedlub.table import Column, Table
 
 FRINGE_NM = (167.0, 225.0)
 """One interference order, wavelength/(2 n): visible light of 500 to 620 nm, refractive index 1.38 to 1.5."""
-MODEL_ERROR = 0.08
-"""Error of what the other readings say at this one, over an interference order."""
 
 TIME = Column("time_s", required=False)
 FRINGE_ORDER = Column("fringe_order", at_least=0.0, required=False)
@@ -83,8 +81,7 @@ def chain(system: config.System, table: Table) -> Chain:
 def reading_fault(recorded: Table, row: int, excess: float) -> str | None:
     """A reading that is off by one or two interference orders was miscounted, whatever the oil does."""
     for orders in (1, 2):
-        low, high = orders * FRINGE_NM[0] * (1.0 - MODEL_ERROR), orders * FRINGE_NM[1] * (1.0 + MODEL_ERROR)
-        if low <= abs(excess) <= high:
+        if orders * FRINGE_NM[0] <= abs(excess) <= orders * FRINGE_NM[1]:
             count = "one interference order" if orders == 1 else "two interference orders"
             side = "above" if excess > 0 else "below"
             return (

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 MOST_PANELS = 6
 MOST_LEVELS = 6
+MOST_TORQUES = 3
 MOST_PAIRINGS = 300
 LONGEST = 22
 SIDE_BY_SIDE = 12
@@ -56,6 +57,19 @@ def spread(levels: Sequence[float], most: int) -> np.ndarray:
     return np.argsort(levels)[some(len(levels), most)]
 
 
+def _some_of(levels: Sequence[float], most: int, what: str, unit: str) -> str:
+    """Which levels are drawn, as a sentence after a caption; empty where all are.
+
+    >>> _some_of([500, 1000, 1500, 2000], 2, "speeds", "rpm"), _some_of([500], 2, "speeds", "rpm")
+    (' Drawn are 2 of 4 speeds: 500 and 2000 rpm.', '')
+    """
+    places = spread(levels, most)
+    if len(places) == len(levels):
+        return ""
+    *others, last = (f"{levels[i]:.5g}" for i in places)
+    return f" Drawn are {len(places)} of {len(levels)} {what}: {', '.join(others)} and {last} {unit}."
+
+
 def figures(results: Results) -> Iterator[Drawn]:
     """All figures of a study; at its coldest and its hottest oil where there are several temperatures."""
     levels = results.study.file.conditions.oil_temperature_C
@@ -72,33 +86,39 @@ def _at_temperature(results: Results, theta: int, several: bool) -> Iterator[Dra
     smoothest = smoothest_surface(results)
     groups.append(("smooth", f"surfaces paired with {smoothest}", pairings_with(results, smoothest)))
     whose = results.study.file.options.conditions_of
-    told = "Above each panel, pinion / gear and their composite roughness."
+    levels = results.study.file.conditions
+    some_torques = _some_of(levels.torque_Nm, MOST_LEVELS, "torques", "Nm")
+    told = "Above each panel, pinion / gear and their composite roughness." + some_torques
     for quantity, title in (("power_loss", "Power loss"), ("area_ratio", "Boundary area ratio")):
         for key, words, chosen in groups:
             if len(chosen):
                 figure = over_speed(results, quantity, chosen, theta)
                 yield Drawn(f"{quantity}_{key}{suffix}", f"{title} against {whose} speed: {words}{at}. {told}", figure)
     symbols = _markers(results)
+    drawn = _some_of(levels.torque_Nm, MOST_TORQUES, "torques", "Nm")
+    drawn += _some_of(levels.speed_rpm, MOST_LEVELS, "speeds", "rpm")
+    fitted = f"with a straight line fitted at each torque and speed{' drawn' if drawn else ''}"
     yield Drawn(
         f"loss_over_roughness{suffix}",
-        f"Power loss against composite roughness, with a straight line fitted at each torque and speed{at}. {symbols}",
+        f"Power loss against composite roughness, {fitted}{at}. {symbols}{drawn}",
         loss_over(results, "composite_roughness", theta, fitted=True),
     )
     yield Drawn(
         f"loss_over_film_parameter{suffix}",
         f"Power loss against film parameter{at}. {symbols} The dashed line marks a film as thick as the composite "
-        "roughness.",
+        f"roughness.{drawn}",
         loss_over(results, "film_parameter", theta),
     )
     yield Drawn(
         f"loss_over_area_ratio{suffix}",
-        f"Power loss against boundary area ratio, with a straight line fitted at each torque and speed{at}. {symbols}",
+        f"Power loss against boundary area ratio, {fitted}{at}. {symbols}{drawn}",
         loss_over(results, "area_ratio", theta, fitted=True),
     )
     whose_film = "the same for all pairings" if _one_film(results) else "of the smoothest pairing"
     yield Drawn(
         f"film_and_friction{suffix}",
-        f"Mean film thickness, {whose_film}, and mean friction of the smoothest and the roughest pairing{at}.",
+        f"Mean film thickness, {whose_film}, and mean friction of the smoothest and the roughest pairing{at}."
+        + some_torques,
         film_and_friction(results, theta),
     )
 
@@ -203,7 +223,7 @@ AXIS = {
 def loss_over(results: Results, quantity: str, theta: int, *, fitted: bool = False) -> Figure:
     """Power loss of the pairings over a quantity, a panel a torque, a colour a speed; lines are fitted to all."""
     levels = results.study.file.conditions
-    torques = spread(levels.torque_Nm, 3)
+    torques = spread(levels.torque_Nm, MOST_TORQUES)
     speeds = spread(levels.speed_rpm, MOST_LEVELS)
     label, scale = AXIS[quantity]
     figure, axes = panels(len(torques), 3, height=3.0)

@@ -49,6 +49,11 @@ def test_a_friction_map_names_its_unknown_torques_and_its_own_noise(tmp_path, ca
     assert "Noise of a reading: the column friction_torque_Nm_sd." in said
 
 
+def test_noise_has_the_unit_of_the_reading(capsys):
+    assert main(["check", str(EXAMPLE)]) == 0
+    assert "Noise of a reading: 0.01 of its value and 0.2 W.\n" in capsys.readouterr().out
+
+
 EXAMPLE = Path(__file__).parents[2] / "examples" / "case"
 
 

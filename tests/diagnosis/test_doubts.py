@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -106,3 +108,13 @@ def test_a_channel_that_was_kept_back_is_no_condition(make) -> None:
     d = diagnose_case(make(about, columns).folder)
     assert (d.outlier_chance[wrong] > 0.5).all()
     assert not any("coverage" in text for text in d.warnings)
+
+
+@pytest.mark.parametrize(("after", "told"), [(2.9, False), (12.93, True)])
+def test_levels_that_the_answer_does_not_foretell_are_told_of(offset: Diagnosis, after: float, told: bool) -> None:
+    rows, predicted = offset.recorded.table, offset.recorded.predicted
+    kept = replace(offset.heldout, after=after)
+    right = np.zeros(len(rows), bool)
+    said = against(offset.posterior.verdict, kept, rows, offset.readings, predicted, right)
+    assert any("does not foretell levels that it has not seen" in text for text in said) == told
+    assert not against((), kept, rows, offset.readings, predicted, right)

@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import PatchCollection
 from matplotlib.figure import Figure
 
@@ -16,6 +17,7 @@ from mixedlub.diagnosis.drawing.style import as_drawn, blank, inline, look
 from mixedlub.diagnosis.judging.confusion import confusion
 from mixedlub.diagnosis.judging.empirical import Absorbed, Unnamed
 from mixedlub.diagnosis.judging.empirical import unnamed as describe
+from mixedlub.kinds import kind
 from mixedlub.table import Table
 
 
@@ -129,6 +131,35 @@ def test_condition_that_only_drifts_has_no_axis(offset: Diagnosis) -> None:
     drifting = replace(offset, recorded=replace(offset.recorded, table=Table(columns)))
     assert "oil_temperature_C" not in (maps.frame_of(drifting).across, maps.frame_of(drifting).up)
     assert maps.frame_of(drifting).panel == ""
+
+
+def history(offset: Diagnosis, **more: np.ndarray) -> Diagnosis:
+    """The same answer as one to a history of friction whose load only jitters after its start-up."""
+    count = len(offset.recorded.table)
+    columns = dict(offset.recorded.table.columns) | {
+        "time_s": np.arange(float(count)),
+        "load_N": np.concatenate([[5.0], 50.0 + 0.01 * np.arange(count - 1)]),
+        "slide_roll_ratio": np.tile([0.01, 0.1], count)[:count],
+    }
+    case = replace(offset.case, kind=kind("friction_history"))
+    return replace(offset, case=case, recorded=replace(offset.recorded, table=Table(columns | more)))
+
+
+def test_a_history_is_drawn_over_time_and_not_over_jitter(offset: Diagnosis) -> None:
+    assert maps.frame_of(history(offset)) == maps.Frame("time_s", "slide_roll_ratio", "oil_temperature_C")
+    warm = 120.0 + 0.01 * np.arange(len(offset.recorded.table))
+    assert maps.frame_of(history(offset, oil_temperature_C=warm)).panel == ""
+
+
+def test_labels_of_many_levels_do_not_overlap(offset: Diagnosis) -> None:
+    count = len(offset.recorded.table)
+    columns = dict(offset.recorded.table.columns) | {"speed_rpm": np.geomspace(0.0202, 1.59, 14)[np.arange(count) % 14]}
+    figure = maps.residual_map(replace(offset, recorded=replace(offset.recorded, table=Table(columns))))
+    assert figure is not None
+    FigureCanvasAgg(figure).draw()
+    for axes in figure.axes[:-1]:
+        boxes = [label.get_window_extent() for label in axes.get_xticklabels() if label.get_visible()]
+        assert all(left.x1 <= right.x0 for left, right in pairwise(boxes))
 
 
 def test_outliers_are_marked(offset: Diagnosis) -> None:

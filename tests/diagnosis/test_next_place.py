@@ -42,3 +42,19 @@ def test_the_reference_that_tells_drift_serves_every_instrument() -> None:
     said = catalogue()["sensor_drift"].separated_by
     assert "reference oil" in said
     assert "flanks" not in said
+
+
+def test_only_a_narrow_range_is_read_around(unnamed: Diagnosis) -> None:
+    smooth = replace(unnamed.found.unknown.best, axes=(), at=None)
+    d = replace(unnamed, found=replace(unnamed.found, unknown=replace(unnamed.found.unknown, best=smooth)))
+    asked = {
+        ("speed_rpm", 500.0, 1000.0): "refine and repeat the levels around speed 500 to 1000 rpm.",
+        ("speed_rpm", 500.0, 2000.0): "read at more levels within speed 500 to 2000 rpm.",
+        ("sequence", 0.0, 0.2): "run the programme again, with more readings within sequence 0 to 0.2.",
+    }
+    for (name, low, high), wanted in asked.items():
+        cut = {"column": name, "low": low, "high": high}
+        said = advice.next_test(replace(d, region=replace(d.region, where=(cut,))))[0]
+        assert said == f"To learn its form, {wanted}"
+    nowhere = advice.next_test(replace(d, region=replace(d.region, where=())))[0]
+    assert nowhere == "To learn its form, refine and repeat the levels of all conditions."

@@ -45,3 +45,21 @@ def test_candidates_thinned_out_keep_every_level() -> None:
         assert set(np.unique(found[name])) >= set(column[[0, -1]].tolist()), name
     both = {*zip(found["pinion_surface"].tolist(), found["gear_surface"].tolist(), strict=True)}
     assert len(both) == 6
+
+
+def test_conditions_that_only_jitter_stay_at_their_set_point() -> None:
+    """A start-up of a few readings at other loads is no set-point, and repeats of rounded numbers are no levels."""
+    jitter = np.tile(np.linspace(-1.0, 1.0, 21), 5)
+    columns = {
+        "time_s": np.arange(107.0),
+        "load_N": np.concatenate([[4.948, 12.0], 50.0 + 0.2 * jitter]),
+        "slide_roll_ratio": np.concatenate([[0.82, 0.37], 1.0 + 0.002 * jitter]),
+        "oil_temperature_C": np.concatenate([[115.2, 118.0], 120.0 + jitter]),
+    }
+    found = candidates(Table(columns, ""), [Column(name) for name in columns])
+    assert {name: np.unique(found[name]).tolist() for name in columns if name != "time_s"} == {
+        "load_N": [50.0],
+        "slide_roll_ratio": [1.0],
+        "oil_temperature_C": [120.0],
+    }
+    assert np.unique(found["time_s"]).size > 3

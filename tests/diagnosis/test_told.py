@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.judging.confusion import confusion
@@ -75,3 +76,50 @@ def test_probability_of_the_answer_and_of_its_effects_stand_side_by_side(offset:
     pair: dict[Key, float] = {("sensor_offset",): 0.5, ("churning",): 0.2, ("churning", "sensor_offset"): 0.1}
     said = told(judged(offset, pair, 2))[words.ANSWER]
     assert "Each probability is that of an answer just as it stands; in any company sensor offset has 0.60." in said
+
+
+def test_what_the_nearest_leaves_is_never_called_noise_alone(unnamed: Diagnosis) -> None:
+    name = next(key for key in unnamed.found.fits if len(key) == 1)
+    perfect = replace(unnamed.found.fits[name], residual=0.0 * unnamed.found.none.residual)
+    fits = {**unnamed.found.fits, name: perfect}
+    said = told(replace(unnamed, found=replace(unnamed.found, fits=fits)))[words.UNNAMED]
+    assert "no more than noise" not in said
+    assert "It is not the answer (probability below 0.01): its fit alone would do" in said
+    assert "100 %" not in said
+
+
+def test_the_nearest_has_its_chi_square_in_the_noise_of_a_reading(unnamed: Diagnosis) -> None:
+    lasting = replace(unnamed.found, problem=unnamed.found.problem.with_together(9.0))
+    one, nine = nearest(unnamed), nearest(replace(unnamed, found=lasting))
+    assert one is not None
+    assert nine is not None
+    np.testing.assert_allclose(nine.before, 9.0 * one.before)
+
+
+def test_chi_square_says_which_noise_it_is_of(unnamed: Diagnosis, complete: Diagnosis) -> None:
+    assert "estimated" not in told(unnamed)[words.MISMATCH]
+    assert "noise was estimated beside what is missing" in told(replace(unnamed, noise_stated=False))[words.MISMATCH]
+    assert "noise was estimated as if nothing" in told(replace(complete, noise_stated=False))[words.MISMATCH]
+
+
+def test_what_would_show_rests_on_the_noise(complete: Diagnosis) -> None:
+    assert "Would show here" in told(complete)[words.ALIKE]
+    assert "estimated" not in told(complete)[words.ALIKE]
+    said = told(replace(complete, noise_stated=False))[words.ALIKE]
+    assert "(probability below 0.01 each; the noise was estimated as if nothing were missing" in said
+
+
+def test_what_is_less_probable_and_not_rejected_is_listed(offset: Diagnosis) -> None:
+    left: dict[Key, float] = {("sensor_offset",): 0.9, ("churning",): 0.03, "unknown": 0.02, (): 0.012}
+    said = told(judged(offset, left, 1))[words.ALIKE]
+    assert "Less probable, not excluded: churning (0.03), something unknown (0.02), nothing missing (0.01)." in said
+    sure: dict[Key, float] = {("sensor_offset",): 0.999}
+    assert "not excluded: " not in told(judged(offset, sure, 1))[words.ALIKE].replace("nor excluded: ", "")
+
+
+@pytest.mark.parametrize(("off", "strained"), [(-2.04, False), (-2.06, True)])
+def test_strained_is_what_the_table_shows_so(complete: Diagnosis, off: float, strained: bool) -> None:
+    none = complete.refined[()]
+    z = np.where(np.arange(none.z.size) == 0, off, 0.0)
+    said = told(replace(complete, refined={**complete.refined, (): replace(none, z=z)}))[words.CALIBRATION]
+    assert ("Strained" in said) == strained

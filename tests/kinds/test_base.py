@@ -61,6 +61,7 @@ def test_a_reading_one_fringe_off_is_called_a_miscount(make):
     assert "one interference order" in case.kind.reading_fault(case.recordings, 2, 203.0)
     assert "two interference orders" in case.kind.reading_fault(case.recordings, 2, -400.0)
     assert case.kind.reading_fault(case.recordings, 2, 60.0) is None
+    assert case.kind.reading_fault(case.recordings, 2, -318.0) is None
 
 
 def test_viscosity_is_d341_times_density_and_barus(make):

@@ -28,6 +28,19 @@ def test_many_levels_are_thinned_and_said(many):
     assert f"{MOST_PAIRINGS} of 351 pairings" in drawn["loss_over_roughness_40C"].caption
 
 
+def test_captions_say_which_levels_are_drawn(many, write_study):
+    drawn = {d.name: d.caption for d in figures(many)}
+    torques, speeds = "Drawn are 6 of 9 torques: 10, ", "Drawn are 6 of 9 speeds: 10, "
+    for name in ("loss_over_roughness", "loss_over_film_parameter", "loss_over_area_ratio"):
+        assert "Drawn are 3 of 9 torques: 10, 105 and 200 Nm." in drawn[f"{name}_40C"]
+        assert speeds in drawn[f"{name}_40C"]
+    assert "fitted at each torque and speed drawn" in drawn["loss_over_roughness_40C"]
+    for name in ("power_loss_equal", "film_and_friction"):
+        assert torques in drawn[f"{name}_40C"]
+        assert "speeds:" not in drawn[f"{name}_40C"]
+    assert not any("Drawn" in d.caption for d in figures(run_study(read_study(write_study()))))
+
+
 def test_axes_carry_quantity_and_unit(many):
     for drawn in figures(many):
         labels = {a.get_xlabel() for a in drawn.figure.axes} | {a.get_ylabel() for a in drawn.figure.axes}

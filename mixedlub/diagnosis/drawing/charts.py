@@ -135,7 +135,7 @@ def empirical_form(d: Diagnosis, extra: Unnamed) -> Figure | None:
     figure = blank(4.2, 2.9)
     axes = figure.add_subplot()
     unit = unit_of(d.case.quantity) or "-"
-    good = d.outlier_chance <= 0.5
+    good = d.counted
     x = law.shape * abs(law.coefficient)
     line = np.linspace(min(float(x[good].min()), 0.0), float(x[good].max()), 51)
     spread = 2.0 * law.sd / abs(law.coefficient)

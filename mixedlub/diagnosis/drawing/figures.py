@@ -81,7 +81,7 @@ def recorded_against_simulated(d: Diagnosis) -> Figure:
     feet.append(figure.add_subplot(grid[1, 1], sharex=tops[0], sharey=feet[0]))
     every = np.concatenate([y, p.calibrated, p.predicted])
     logarithmic = wide(every)
-    reach = max(4.0, float(np.quantile(np.abs(before[~bad]), 0.99)) * 1.1 if (~bad).any() else 4.0)
+    reach = max(4.0, float(np.quantile(np.abs(before[d.counted]), 0.99)) * 1.1)
     states = (
         (p.calibrated, before, BEFORE, "Before: calibrated base model"),
         (p.predicted, after, AFTER, "After: with the answer"),
@@ -94,6 +94,8 @@ def recorded_against_simulated(d: Diagnosis) -> Figure:
         top.set_title(what)
         top.tick_params(labelbottom=False)
         _left_over(foot, simulated, z, rows, bad, reach, colour)
+        rms = float(np.sqrt(np.mean(z[d.counted] ** 2)))
+        foot.set_title(f"rms {rms:.2f} sigma", fontsize=8, fontweight="normal", color=MUTED)
         if not logarithmic:
             foot.locator_params(axis="x", nbins=5)
         foot.set_xlabel(f"simulated {axis_label(d.case.quantity)}")
@@ -123,8 +125,6 @@ def _left_over(
             simulated[own], held[own], s=22, marker=marker, facecolors="none", edgecolors=OUTLIER, linewidths=1.1
         )
     axes.set_ylim(-1.08 * reach, 1.08 * reach)
-    rms = float(np.sqrt(np.mean(z[~bad] ** 2)))
-    axes.set_title(f"rms {rms:.2f} sigma", fontsize=8, fontweight="normal", color=MUTED)
 
 
 def _one_to_one(axes: Axes, every: np.ndarray, simulated: np.ndarray, sd: np.ndarray, logarithmic: bool) -> None:
@@ -178,7 +178,7 @@ def missing_part(d: Diagnosis) -> Figure | None:
     if not names:
         return None
     observed, explained = d.missing
-    good = _shown(d)[d.outlier_chance[_shown(d)] <= 0.5]
+    good = _shown(d)[d.counted[_shown(d)]]
     unit = unit_of(d.case.quantity) or "-"
     figure = blank(2.75 * len(names) + 0.6, 3.0)
     axes = figure.subplots(1, len(names), sharey=True, squeeze=False)[0]
@@ -193,6 +193,8 @@ def missing_part(d: Diagnosis) -> Figure | None:
         if by_decades(np.asarray(p.table[name], dtype=float)):
             panel.set_xscale("log")
             log_ticks(panel, "x")
+        else:
+            panel.locator_params(axis="x", nbins=5)
     axes[0].set_ylabel(f"missing part of the reading ({unit})")
     axes[0].errorbar([], [], yerr=[], fmt="o", ms=2.6, color=MUTED, elinewidth=0.5, label="recorded − base model")
     axes[0].scatter([], [], s=8, color=AFTER, label="the answer")
@@ -218,7 +220,7 @@ def _spread(x: np.ndarray, by: np.ndarray) -> np.ndarray:
 def profiles(d: Diagnosis) -> Figure | None:
     """Mean residual along each condition, calibrated base model and answer; bars are two standard errors."""
     before, after = d.residuals
-    good = d.outlier_chance <= 0.5
+    good = d.counted
     table = d.recorded.table
     names = [c.name for c in d.case.kind.columns if c.name in table and np.unique(table[c.name]).size > 1]
     names += [n for n in ("sequence",) if n in table]
@@ -310,7 +312,7 @@ def intervals(d: Diagnosis) -> Figure:
     unit = "%" if percent else unit_of(d.case.quantity) or "-"
     axes.set_ylabel(f"recorded − predicted ({unit})")
     axes.set_xlabel(f"reading, sorted by predicted {words_of(d.case.quantity)}")
-    good = d.outlier_chance <= 0.5
+    good = d.counted
     beside = int((~good).sum())
     drawn = [f"{beside} outlier{'s' if beside > 1 else ''} not counted"] if beside else []
     drawn += [f"{order.size} readings drawn"] if order.size < y.size else []

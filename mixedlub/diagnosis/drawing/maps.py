@@ -12,6 +12,7 @@ from mixedlub.diagnosis.drawing.groups import together
 from mixedlub.diagnosis.drawing.style import DIVERGING, INK, MUTED, OUTLIER, PAPER, blank
 from mixedlub.diagnosis.judging.confusion import VISIBLE, Confusion
 from mixedlub.diagnosis.labels import amount, axis_label, effect_words, number, words_of
+from mixedlub.diagnosis.recording.features import held_at
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -44,8 +45,9 @@ class Frame:
 def frame_of(d: Diagnosis) -> Frame:
     """The map's axes: the conditions that were varied, each where a reader expects it."""
     varied = _varied(d)
-    chosen: list[str] = []
-    for wanted in (ACROSS, UP, PANELS):
+    # In a history of friction it is time that tells: it comes before what was set.
+    chosen = [n for n in ("time_s",) if n in varied and d.case.kind.name == "friction_history"]
+    for wanted in (ACROSS, UP, PANELS)[len(chosen) :]:
         name = next((n for n in wanted if n in varied and n not in chosen), "")
         chosen.append(name)
     rest = [n for n in varied if n not in chosen and n != "roll_angle_deg"]
@@ -54,10 +56,11 @@ def frame_of(d: Diagnosis) -> Frame:
 
 
 def _varied(d: Diagnosis) -> list[str]:
-    """Numeric conditions that were varied, by more than they drift by themselves."""
+    """Numeric conditions that were varied, by more than they drift by themselves or jitter about a set-point."""
     table = d.recorded.table
     names = [c.name for c in d.case.kind.columns if c.form != "name" and c.name in table]
-    return [n for n in names if np.ptp(table[n]) > DRIFT * np.max(np.abs(table[n]))]
+    moved = [n for n in names if np.ptp(table[n]) > DRIFT * np.max(np.abs(table[n]))]
+    return [n for n in moved if held_at(n, table[n]) is None]
 
 
 def residual_map(d: Diagnosis) -> Figure | None:
@@ -72,7 +75,7 @@ def residual_map(d: Diagnosis) -> Figure | None:
     label, panels = _levels(table[frame.panel] if frame.panel else np.zeros(len(table)), MOST_PANELS, frame.panel)
     before, after = d.residuals
     outlier = d.outlier_chance > 0.5
-    limit = _limit(before[~outlier])
+    limit = _limit(before[d.counted])
     norm = Normalize(-limit, limit)
     figure = blank(1.4 + 2.35 * max(len(panels), 2), 4.9)
     axes = figure.subplots(2, len(panels), sharex=True, sharey=True, squeeze=False)
@@ -143,7 +146,7 @@ def _tiles(
         axes.scatter(place[:, 0], place[:, 1], marker="x", s=22, color=OUTLIER, linewidths=1.2)
     axes.set_xlim(-0.55, len(across_names) - 0.45)
     axes.set_ylim(-0.55, len(up_names) - 0.45)
-    axes.set_xticks(range(len(across_names)), across_names, rotation=45 if len(across_names) > 6 else 0)
+    axes.set_xticks(range(len(across_names)), across_names, rotation=90 if len(across_names) > 6 else 0)
     axes.set_yticks(range(len(up_names)), up_names)
     axes.tick_params(length=0)
     for side in ("left", "bottom"):
@@ -193,7 +196,7 @@ def roll_angle_map(d: Diagnosis) -> Figure | None:
     place = np.array([row_of[text] for text in texts.tolist()])
     before, after = d.residuals
     outlier = d.outlier_chance > 0.5
-    limit = _limit(before[~outlier])
+    limit = _limit(before[d.counted])
     norm = Normalize(-limit, limit)
     figure = blank(8.6, 1.4 + 0.24 * min(len(rows), MOST_ROWS))
     axes = figure.subplots(1, 2, sharex=True, sharey=True)

@@ -25,6 +25,8 @@ MOST_OF_LEVEL = 0.75
 """Share of the readings of a level that a streak has to hold to be that level."""
 WORTH_TELLING = 1.5
 """Inflation of the variance from which it is told."""
+FAR_OFF = 3.0
+"""Error on levels left out, in sigmas of a reading, from which an answer foretells none."""
 UNFOLLOWED = (
     "readings lie farther from every explanation than from their repeats: something is missing whose form none that "
     "was tried follows"
@@ -106,6 +108,11 @@ def against(
             f"{answer} predicts levels left out no better than calibration alone: outside the recorded conditions "
             "rely on neither"
         )
+    elif verdict != () and not at_one_place and kept.after > FAR_OFF:
+        found.append(
+            f"the answer does not foretell levels that it has not seen: there it is off by {kept.after:.3g} sigma, "
+            "where 1 is noise; do not extrapolate it"
+        )
     return [Doubt(text) for text in found]
 
 
@@ -147,7 +154,12 @@ def in_a_row(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[int]:
 
 
 def levels_off(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[str]:
-    """Levels of conditions nearly all of whose readings are wrong on one side, if chance would hardly make one."""
+    """Levels of conditions nearly all of whose readings are wrong on one side, if chance would hardly make one.
+
+    None where all levels are like that.
+    """
+    if wrong.mean() >= MOST_OF_LEVEL:
+        return []
     found = []
     for name, values in _conditions(rows):
         points, label = np.unique(set_points(values), return_inverse=True)

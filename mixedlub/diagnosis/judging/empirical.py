@@ -60,8 +60,8 @@ class Law:
 
     ``relative`` laws are a share of the calibrated base model's reading, others have its unit. ``shape`` is the
     product (times the base model's reading where relative) for each reading, ``observed`` what the recording
-    has beyond the base model at the law's calibration; their ratio is the coefficient but for noise. ``odd`` laws turn
-    their sign with the direction of motion.
+    has beyond the base model at the law's calibration; their ratio is the coefficient but for noise. Errors on
+    levels left out are in sigmas of a single reading. ``odd`` laws turn their sign with the direction of motion.
     """
 
     factors: tuple[tuple[str, Fraction], ...]
@@ -280,6 +280,7 @@ def power_law(found: Search) -> Law | None:
     before, after, wins = _held_out(found, every, thin)
     if after > WORTH * before or not wins:
         return None
+    in_single = float(np.sqrt(problem.together))
     own = whole.columns(powers[None], np.array([carrier]))[0]
     coefficient, sd, c = _coefficient(whole, own)
     chosen = np.flatnonzero(powers)
@@ -292,8 +293,8 @@ def power_law(found: Search) -> Law | None:
         sd=sd,
         unit=unit_of(problem.case.quantity),
         evidence=score,
-        heldout_before=before,
-        heldout_after=after,
+        heldout_before=in_single * before,
+        heldout_after=in_single * after,
         shape=own * one,
         observed=(whole.target - fixed @ c[:-1]) * one,
         odd=carrier == TURNING,

@@ -11,6 +11,7 @@ import numpy as np
 
 from mixedlub.diagnosis.judging.posterior import Key, Posterior
 from mixedlub.diagnosis.judging.predict import Prediction, Refined, Rows, refine
+from mixedlub.diagnosis.recording.features import held_at
 from mixedlub.diagnosis.recording.levels import roundest, set_points
 from mixedlub.diagnosis.searching.search import Search
 from mixedlub.table import Column, Table
@@ -88,7 +89,7 @@ def candidates(
     """A grid over the recorded levels and a little beyond them, thinned to a few hundred conditions.
 
     It keeps within the bounds of the columns, and within the ``limits`` of the rig. Conditions that are not ``varied``
-    (none given: all are) stay where they were.
+    (none given: all are) stay where they were, and those that only jitter at their set-point.
 
     >>> share = Column("slide_roll_ratio", at_least=0.0, at_most=2.0)
     >>> candidates(Table({"slide_roll_ratio": np.array([0.5, 1.9])}, ""), [share])["slide_roll_ratio"].tolist()
@@ -97,7 +98,10 @@ def candidates(
     axes: list[np.ndarray] = []
     for condition in conditions:
         levels = np.unique(set_points(table[condition.name]))
-        if varied is not None and condition.name not in varied and levels.dtype.kind not in "US":
+        at = held_at(condition.name, table[condition.name])
+        if at is not None:
+            levels = np.array([at])
+        elif varied is not None and condition.name not in varied and levels.dtype.kind not in "US":
             levels = np.array([roundest(float(levels[0]), float(levels[-1]))])
         if levels.dtype.kind not in "US" and levels.size > 1:
             low, high = float(levels[0]), float(levels[-1])

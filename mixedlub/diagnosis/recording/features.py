@@ -8,6 +8,7 @@ from itertools import combinations
 import numpy as np
 
 from mixedlub.case import Case
+from mixedlub.diagnosis.recording.levels import roundest
 from mixedlub.forward import Forward
 from mixedlub.table import Table
 
@@ -26,6 +27,8 @@ ROLLING = 0.02
 """Slide-roll ratio up to which a film is one of pure rolling: it takes less than a twentieth of what heats it."""
 WANDERS, WANDERS_K, MOVES = 0.1, 6.0, 0.005
 """One that spans less than the first, or so many kelvin, was held if the base model moves by less than the last."""
+MOSTLY = 0.9
+"""Share of the readings that lie about a set-point where the others are a start-up."""
 SERIES = 400
 """Readings from which a table is a logged series: nobody sets so many conditions by hand."""
 HEAD = 0.005
@@ -146,6 +149,27 @@ def jitters(name: str, values: np.ndarray) -> bool:
     if name.endswith("temperature_C"):
         return bool(np.ptp(values) <= WANDERS_K)
     return bool(np.ptp(values) <= WANDERS * np.max(np.abs(values)))
+
+
+def held_at(name: str, values: np.ndarray) -> float | None:
+    """The set-point about which nearly all readings of a condition only jitter; None where it was varied, or repeats.
+
+    What is rare and far from it, as a start-up, is no set-point to return to.
+
+    >>> load = np.concatenate([[4.9, 12.0], 50.0 + 0.01 * np.arange(-20, 20)])
+    >>> held_at("load_N", load), held_at("load_N", np.arange(42.0)), held_at("load_N", np.full(42, 50.0))
+    (50.0, None, None)
+    """
+    if values.dtype.kind in "US" or name in PASSING:
+        return None
+    off = np.abs(values - np.median(values))
+    near = values[
+        off <= (0.5 * WANDERS_K if name.endswith("temperature_C") else 0.5 * WANDERS * abs(np.median(values)))
+    ]
+    many = jitters(name, near) or np.unique(near).size > NODES
+    if near.size < MOSTLY * values.size or not many:
+        return None
+    return roundest(*(float(np.quantile(near, share)) for share in (0.25, 0.75)))
 
 
 def _wanders(name: str, case: Case, table: Table, forward: Forward) -> bool:

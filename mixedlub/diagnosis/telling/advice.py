@@ -8,12 +8,14 @@ import numpy as np
 
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import amount, conditions_text, explanation_words, range_text, words_of
-from mixedlub.diagnosis.recording.features import PASSING
+from mixedlub.diagnosis.recording.features import PASSING, held_at
 from mixedlub.diagnosis.recording.noise import setups_differ
 from mixedlub.table import Table
 
 USELESS, WEAK = 0.01, 0.1
 """Bits below which a test is not worth naming, and below which it is not worth much."""
+HALF = 0.5
+"""Share of what was recorded beyond which a range is no place to read around."""
 SETUPS = (
     "It goes with a name, as it does where parts were mounted anew and set-ups differ: name these in a column setup "
     "and say in noise.setup_relative or noise.setup_absolute how far off one may be."
@@ -34,13 +36,9 @@ def next_test(d: Diagnosis) -> tuple[str, ...]:
             return (f"Look up what was done to the rig or the sample at {moment}, and repeat a reading from before.",)
         if d.found.unknown.best.form == "delay":
             return ("Wait longer after a change of temperature, or run the same conditions in another order.",)
-        if d.found.unknown.best.at is not None:
-            place = standing_place(d)
-        else:
-            place = ", ".join(range_text(cut) for cut in d.region.where) or "all conditions"
         if set(d.found.unknown.best.axes) <= set(PASSING) and d.found.unknown.best.axes:
             return ("It goes with time alone: run the programme again, in another order, and see whether it returns.",)
-        return _refined(d, place)
+        return _refined(d)
     if not d.next_tests:
         return ("No useful test: there is no second explanation to tell the first one from.",)
     first = d.next_tests[0]
@@ -55,14 +53,25 @@ def next_test(d: Diagnosis) -> tuple[str, ...]:
     return (*weak, run, *(f"{text[:1].upper()}{text[1:]}." for text in beyond(first.conditions, d.recorded.table)))
 
 
-def _refined(d: Diagnosis, place: str) -> tuple[str, ...]:
+def _refined(d: Diagnosis) -> tuple[str, ...]:
     """Where to read again for the form of an unnamed mismatch; names have no levels between them."""
     shape, space = d.found.unknown.best, d.found.space
+    table = d.recorded.table
     cuts = d.region.where if shape.at is None else ()
+    cuts = tuple(cut for cut in cuts if held_at(cut["column"], table[cut["column"]]) is None)
     names = [range_text(cut) for cut in cuts if "values" in cut]
-    levels = [range_text(cut) for cut in cuts if "values" not in cut] or ([] if names else [place])
+    ranges = [cut for cut in cuts if "values" not in cut]
+    passed = [range_text(cut) for cut in ranges if cut["column"] in PASSING]
+    ranges = [cut for cut in ranges if cut["column"] not in PASSING]
+    wide = [range_text(cut) for cut in ranges if cut["high"] - cut["low"] > HALF * np.ptp(table[cut["column"]])]
+    around = [text for text in map(range_text, ranges) if text not in wide] or (
+        [standing_place(d)] if shape.at is not None else []
+    )
     parts = [f"repeat readings with {', '.join(names)} and with others in its place"] if names else []
-    parts += [f"refine and repeat the levels around {', '.join(levels)}"] if levels else []
+    parts += [f"refine and repeat the levels around {', '.join(around)}"] if around else []
+    parts += [f"read at more levels within {', '.join(wide)}"] if wide else []
+    parts += [f"run the programme again, with more readings within {', '.join(passed)}"] if passed else []
+    parts = parts or ["refine and repeat the levels of all conditions"]
     said = (f"To learn its form, {'; '.join(parts)}.",)
     by_name = bool(names) or any(space.axes[space.place(name)].named for name in shape.axes)
     return (*said, SETUPS) if by_name and not setups_differ(d.case) else said

@@ -21,13 +21,12 @@ from mixedlub.effect import Prior
 def as_json(d: Diagnosis) -> dict[str, Any]:
     """The answer by the schema mixedlub-diagnosis/1."""
     verdict = d.posterior.names(d.posterior.verdict)
-    kept = d.outlier_chance <= 0.5
     return {
         "schema": "mixedlub-diagnosis/1",
         "case": d.case.name,
         "mismatch": {
             "detected": d.test.detected,
-            "p_value": d.test.p_value,
+            "p_value": None if np.isnan(d.test.p_value) else d.test.p_value,
             "level": d.test.level,
             "chi2_before": d.test.chi2_before,
             "rows": d.test.rows,
@@ -46,7 +45,7 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
         "effects": effect_records(d),
         "calibration": calibration_record(d),
         "fit": {
-            "noise_rms": float(np.sqrt(np.mean(verdict_residual(d)[kept] ** 2))),
+            "noise_rms": float(np.sqrt(np.mean(verdict_residual(d)[d.counted] ** 2))),
             "heldout_before": d.heldout.before,
             "heldout_after": d.heldout.after,
             "split": d.heldout.split,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import isnan
+
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.fitting.problem import effects_of
 from mixedlub.diagnosis.labels import STAGE_WORDS, effect_words, explanation_words
@@ -9,6 +11,10 @@ from mixedlub.diagnosis.recording.audit import SCARCE, Doubt
 
 CONTRADICTION = "readings at equal conditions contradict each other"
 """How the warning begins after which an unnamed mismatch is no finding."""
+NO_ANSWER = (
+    "No answer: every reading counts as wrong, whatever is taken to explain it. Look first at the units and scales of "
+    "all columns; what follows tells nothing of the rig."
+)
 MOST_TIED = 5
 """Tied explanations that are named."""
 LEAST_P = 1e-300
@@ -46,9 +52,11 @@ def hundredths(p: float) -> int:
 def p_words(p: float) -> str:
     """The p-value of the mismatch test as it is said everywhere.
 
-    >>> p_words(0.0042), p_words(1e-304)
-    ('0.0042', 'below 1e-300')
+    >>> p_words(0.0042), p_words(1e-304), p_words(float("nan"))
+    ('0.0042', 'below 1e-300', 'not known')
     """
+    if isnan(p):
+        return "not known"
     return f"{p:.2g}" if p > LEAST_P else f"below {LEAST_P:.0e}"
 
 
@@ -63,12 +71,14 @@ def lesser(d: Diagnosis) -> tuple[str, ...]:
 
 
 def headline(d: Diagnosis) -> str:
-    """The verdict in one sentence; where readings are few, after one that says so."""
+    """The verdict in one sentence; where readings are few or all wrong, after one that says so."""
     count = d.readings.size
     said = _verdict(d)
     if d.posterior.verdict == "unknown" and any(text.startswith(CONTRADICTION) for text in d.warnings):
         said = f"R{CONTRADICTION[1:]}: mend instrument or set-up before anything is named. {said}"
-    return said if count >= SCARCE else f"Only {count} readings: take this as a hint, not as a finding. {said}"
+    if count < SCARCE:
+        said = f"Only {count} readings: take this as a hint, not as a finding. {said}"
+    return f"{NO_ANSWER} {said}" if (d.outlier_chance > 0.5).all() else said
 
 
 def _verdict(d: Diagnosis) -> str:

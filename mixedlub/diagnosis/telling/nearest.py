@@ -7,13 +7,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.fitting.fit import outlier_chance
 from mixedlub.diagnosis.fitting.problem import Explanation
 from mixedlub.diagnosis.judging.posterior import names_effects
 from mixedlub.diagnosis.labels import explanation_words, number
+from mixedlub.diagnosis.telling.headline import chance, percent
 
 WORTH = 0.5
 """Share of an unnamed mismatch from which the effects that take it up are told."""
+SUITS = (
+    "its fit alone would do, but the strength or the calibration that it needs is improbable, or it fails on levels "
+    "left out."
+)
 SECOND = 0.1
 """Share of a mismatch that a second effect has to take up to be told."""
 
@@ -21,6 +25,8 @@ SECOND = 0.1
 @dataclass(frozen=True)
 class Nearest:
     """Effects, the share of the mismatch that they take up, and the chi-square before and after, of so many readings.
+
+    A chi-square is that of single readings, as that of the test is.
 
     No effects where none takes up enough of it.
     """
@@ -37,9 +43,13 @@ def nearest(d: Diagnosis) -> Nearest | None:
     found, tied = d.found, d.posterior.tied
     if "unknown" not in tied or found.unknown.best.form == "wave" or any(names_effects(key) for key in tied):
         return None
-    good = outlier_chance(found.unknown.fit.residual) <= 0.5
-    left = {key: float(np.sum(fit.residual[good] ** 2)) for key, fit in found.fits.items()}
-    most = left[()] - float(np.sum(found.unknown.fit.residual[good] ** 2))
+    good = d.counted
+
+    def squares(residual: np.ndarray) -> float:
+        return float(np.sum(found.problem.of_one(residual[good]) ** 2))
+
+    left = {key: squares(fit.residual) for key, fit in found.fits.items()}
+    most = left[()] - squares(found.unknown.fit.residual)
     names = [key for key in left if key and left[key] < left[()]]
     if most <= 0.0 or not names:
         return None
@@ -57,8 +67,10 @@ def nearest_name(d: Diagnosis) -> list[str]:
     if not best.names:
         return ["No effect of the catalogue takes up a half of it."]
     noisy = best.after < best.count + 2.0 * np.sqrt(2.0 * best.count)
-    rest = "What it leaves is no more than noise makes." if noisy else "The rest has another form."
+    p = d.posterior.weights.get(best.names, 0.0)
+    why = SUITS if noisy else "what it leaves has another form."
     return [
-        f"Nearest in the catalogue: {explanation_words(list(best.names))}, with {100 * best.taken:.0f} % of it taken "
-        f"up (chi-square {number(best.before)} to {number(best.after)} for {best.count} readings). {rest}"
+        f"Nearest in the catalogue: {explanation_words(list(best.names))}, with {percent(best.taken)} of it taken up "
+        f"(chi-square {number(best.before)} to {number(best.after)} for {best.count} readings, of which noise makes "
+        f"about {best.count}). It is not the answer (probability {chance(p)}): {why}"
     ]

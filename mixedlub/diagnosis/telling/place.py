@@ -56,7 +56,7 @@ def located(d: Diagnosis) -> str:
 
 def _mismatch(d: Diagnosis) -> np.ndarray:
     """The mismatch of each reading in sigmas; what is wrong with a reading itself is none."""
-    return np.where(d.outlier_chance > 0.5, 0.0, d.recorded.mismatch_z)
+    return np.where(d.counted, d.recorded.mismatch_z, 0.0)
 
 
 def _direction(z: np.ndarray, predicted: np.ndarray) -> str:

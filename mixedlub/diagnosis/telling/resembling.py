@@ -2,16 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.fitting.problem import effects_of
 from mixedlub.diagnosis.judging.confusion import VISIBLE, Confusion
 from mixedlub.diagnosis.labels import effect_words
+from mixedlub.diagnosis.telling.headline import chance
 from mixedlub.diagnosis.telling.nearest import nearest
 
 NEAR, ALIKE = 0.8, 0.95
 """Cosine of two signatures from which they are near, and from which they have nearly the same form."""
 REJECTED = 0.01
 """Probability below which an effect counts as rejected."""
+
+
+AS_IF_NOTHING = "as if nothing were missing"
+"""How the noise is estimated, where the recording states none and nothing is told to be missing."""
+
+
+HIDDEN = f"the noise was estimated {AS_IF_NOTHING}, and what is taken for noise may hide some of them"
 
 
 def resembling(d: Diagnosis, alike: Confusion) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -47,10 +57,14 @@ def _resemblance(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
     told = () if near is None else near.names
     unseen = [name for name in unshown(d, alike) if name not in told]
     improbable = [name for name in _improbable(d) if name not in (*unshown(d, alike), *told)]
+    open_still = _open_still(d, (*unshown(d, alike), *told))
+    if open_still:
+        said.append(f"Less probable, not excluded: {', '.join(open_still)}.")
     rejected = ", ".join(effect_words(name) for name in improbable if name not in twins)
     if rejected:
         why = "Weighed and rejected" if verdict or judged.verdict == "unknown" else "Would show here, and did not"
-        said.append(f"{why} (probability below {REJECTED:g} each): {rejected}.")
+        under = "" if verdict or judged.verdict == "unknown" or d.noise_stated else f"; {HIDDEN}"
+        said.append(f"{why} (probability below {REJECTED:g} each{under}): {rejected}.")
     close = ", ".join(effect_words(name) for name in improbable if name in twins)
     if close:
         said.append(
@@ -68,6 +82,17 @@ def unshown(d: Diagnosis, alike: Confusion) -> list[str]:
     """Effects outside the tied explanations that these readings would not show at usual strength."""
     told = {name for key in d.posterior.tied if not isinstance(key, str) for name in key}
     return [name for name in alike.unseen() if name not in told]
+
+
+def _open_still(d: Diagnosis, told: Collection[str]) -> list[str]:
+    """What is neither in a tied explanation nor rejected nor told elsewhere, with its probability, most probable first.
+
+    Nothing missing and the unnamed are among it.
+    """
+    every = d.posterior.inclusion(d.found)
+    named = {name for key in d.posterior.tied for name in d.posterior.names(key)}
+    left = [name for name, p in every.items() if p >= REJECTED and name not in named and name not in told]
+    return [f"{effect_words(name)} ({chance(every[name])})" for name in sorted(left, key=lambda n: -every[n])]
 
 
 def _improbable(d: Diagnosis) -> list[str]:

@@ -176,7 +176,7 @@ def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
                 meaning,
             )
         )
-        if abs(z[i]) > STRAINED:
+        if round(abs(z[i]), 1) > STRAINED:
             strained.append(name)
     said = [f"Strained: {', '.join(strained)} more than {STRAINED:g} sd from what was stated."] if strained else []
     said.append(

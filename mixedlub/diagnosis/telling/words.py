@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from math import isnan
 
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.fitting.problem import effects_of
@@ -22,7 +23,7 @@ from mixedlub.diagnosis.telling.headline import doubts, headline, lesser, p_word
 from mixedlub.diagnosis.telling.nearest import nearest_name
 from mixedlub.diagnosis.telling.place import where
 from mixedlub.diagnosis.telling.readings import checked_channel, outliers, steadied_noise
-from mixedlub.diagnosis.telling.resembling import resembling
+from mixedlub.diagnosis.telling.resembling import AS_IF_NOTHING, resembling
 from mixedlub.diagnosis.telling.tables import calibration, parameters
 from mixedlub.diagnosis.unnamed.carriers import NOTHING, READING
 from mixedlub.effect import Effect
@@ -114,18 +115,28 @@ def _mismatch(d: Diagnosis) -> tuple[str, ...]:
         "The test asks whether what is left goes with conditions or as an effect would, not for its chi-square alone. "
         f"It is wrong in {100 * test.level:g} % of the cases in which nothing is missing."
     )
-    kept = d.outlier_chance <= 0.5
+    kept = d.counted
     squares = d.found.problem.of_one(d.found.none.residual) ** 2
     strain = float(d.found.none.z @ d.found.none.z)
     without = "" if kept.all() else ", outliers left out"
     left = number(float(squares[kept].sum()) + strain)
-    chi2 = f"chi-square {left} for {int(kept.sum())} readings after calibration{without}"
+    chi2 = f"chi-square {left} for {int(kept.sum())} readings after calibration{without}{_noise(d)}"
     size = p_words(test.p_value)
-    size = f"p {size}" if size.startswith("below") else f"p = {size}"
+    size = f"p {size}" if size[0].isalpha() else f"p = {size}"
     size += " even with the noise that this would need" if test.lenient else ""
     if test.detected:
         return (f"Yes ({size}; {chi2}).", alarm)
+    if isnan(test.p_value):
+        return (f"Not told: every reading counts as wrong, and the test has none to go by ({chi2}).",)
     return (f"None that can be told from noise ({size}; {chi2}).", alarm)
+
+
+def _noise(d: Diagnosis) -> str:
+    """Whose noise a chi-square is of, where the recording states none."""
+    if d.noise_stated:
+        return ""
+    beside = AS_IF_NOTHING if d.posterior.verdict == () else "beside what is missing"
+    return f"; the noise was estimated {beside}"
 
 
 def _left_out(d: Diagnosis) -> Section:
@@ -177,8 +188,9 @@ def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
         )
     else:
         said.append(
-            f"Shortest form found, empirical (a description, not physics): {law.text}. On whole levels left out "
-            f"the error falls from {law.heldout_before:.2f} to {law.heldout_after:.2f} sigma."
+            f"Shortest form found, empirical (a description, not physics): {law.text}. On whole levels left out, of "
+            f"one condition after another, the error falls from {law.heldout_before:.2f} to {law.heldout_after:.2f} "
+            "sigma."
         )
     return Section(UNNAMED, tuple(said))
 

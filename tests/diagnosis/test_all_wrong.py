@@ -1,0 +1,53 @@
+"""An answer that takes every reading for wrong is written all the same, and says that it says nothing."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.judging.doubts import levels_off
+from mixedlub.diagnosis.publishing.write import files
+from mixedlub.diagnosis.telling import words
+from mixedlub.diagnosis.telling.answer import as_json
+from mixedlub.table import Table
+
+from .test_words import told
+
+
+@pytest.fixture(scope="module")
+def written(teeth: Diagnosis) -> dict[str, str]:
+    """Everything written for a recording whose every reading counts as wrong."""
+    return files(replace(teeth, outlier_chance=np.ones(teeth.readings.size)))
+
+
+def test_every_figure_is_drawn(written: dict[str, str], teeth: Diagnosis) -> None:
+    assert "figures/empirical_form.svg" in written
+    assert set(written) == set(files(teeth))
+    assert "nan" not in written["figures/recorded_against_simulated.svg"]
+
+
+def test_no_number_is_told_of_no_reading(written: dict[str, str], teeth: Diagnosis) -> None:
+    assert np.isfinite(json.loads(written["diagnosis.json"])["fit"]["noise_rms"])
+    assert f"for {teeth.readings.size} readings after calibration" in written["report.txt"].replace("\n  ", " ")
+
+
+def test_a_test_without_a_reading_has_no_outcome(teeth: Diagnosis) -> None:
+    untold = replace(teeth, test=replace(teeth.test, p_value=float("nan"), detected=False))
+    assert as_json(untold)["mismatch"]["p_value"] is None
+    assert told(untold)[words.MISMATCH].startswith("Not told: every reading counts as wrong")
+
+
+def test_the_headline_begins_with_it(written: dict[str, str], teeth: Diagnosis) -> None:
+    said = words.headline(replace(teeth, outlier_chance=np.ones(teeth.readings.size)))
+    assert said.startswith("No answer: every reading counts as wrong")
+    assert "No answer" not in words.headline(teeth)
+
+
+def test_levels_are_not_told_one_by_one_where_nearly_all_is_wrong() -> None:
+    table = Table({"run": np.arange(1, 41), "speed_rpm": np.repeat([100.0, 200.0], 20)})
+    assert levels_off(table, np.arange(40) < 20, np.ones(40))
+    assert not levels_off(table, np.arange(40) < 36, np.ones(40))
