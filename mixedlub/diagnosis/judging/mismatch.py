@@ -150,6 +150,8 @@ def beyond_noise(found: Search, times: float, test: Mismatch) -> Mismatch:
     if times <= MOST:
         return test
     good = outlier_chance(found.none.residual) <= 0.5
+    if not good.any():
+        return replace(test, p_value=SMALLEST, detected=True, unfollowed=True)
     left = float(np.sum(found.none.residual[good] ** 2)) * (times / MOST) ** 2
     p = min(max(float(chdtrc(int(good.sum()), left)), SMALLEST), test.p_value)
     return replace(test, p_value=p, detected=bool(p <= test.level), unfollowed=True)
