@@ -6,6 +6,7 @@ import numpy as np
 
 from mixedlub.config import KINDS
 from mixedlub.headers import convert
+from mixedlub.importers.clock import run_on
 from mixedlub.importers.constant import constants, value_keys
 from mixedlub.importers.draft import WARNING, Answers, Draft, Question, contact_form, questions_of, refuse_unknown
 from mixedlub.importers.kinematics import refuse_one_surface
@@ -65,9 +66,11 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
         for column, header in found.headers.items()
         if column not in asked
     }
-    paced = ""
+    paced = restarted = ""
     if TIME in columns and TIME in found.units:
         columns[TIME], paced = in_seconds(columns[TIME], found.headers[TIME], found.units[TIME], answers)
+    if TIME in columns:
+        columns[TIME], restarted = run_on(columns[TIME], found.headers[TIME], sheet)
     columns |= constants(likely, answers, len(sheet.lines))
     readings = columns.get(str(quantity)) if likely.is_unsigned(str(quantity)) else None
     low = [] if readings is None else not_above_zero(str(quantity), readings.tolist(), sheet.lines)
@@ -84,6 +87,7 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
         *([f"{name}: {sheet.left_out} left out: no part of the table"] if sheet.left_out else []),
         *(f"{name}: {note}" for note in found.notes),
         *([f"{name}: {paced}"] if paced else []),
+        *([restarted] if restarted else []),
         *(f"{name}: {note}" for note in low),
         *([anew] if anew else []),
     ]
