@@ -10,7 +10,7 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 
 from mixedlub.proof.answers import Truth, read_answer, read_truth
-from mixedlub.proof.baselines import BASELINES
+from mixedlub.proof.baselines import BASELINES, refuse_without_learners
 from mixedlub.proof.battery import generate
 from mixedlub.proof.oracle import oracle
 from mixedlub.proof.score import Score, score
@@ -94,6 +94,8 @@ def prove(
     Returns the tool's score first, then one a baseline, last the oracle that knows the hidden laws. Writes
     ``score.json``, ``score.txt``, one ``score_NAME.json`` a baseline and the figures as SVG.
     """
+    if baselines:
+        refuse_without_learners()
     sealed = generate(out / "sealed", seed, cases, jobs, lambda done, total: progress("deal", done, total))
     given = have_answered(out, sealed, diagnose, jobs, progress)
     truths = [read_truth(case) for case in sealed]
