@@ -6,7 +6,7 @@ import json
 import shutil
 import time
 from collections.abc import Callable, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import as_completed
 from pathlib import Path
 
 from mixedlub.proof.answers import Truth, read_answer, read_truth
@@ -14,6 +14,7 @@ from mixedlub.proof.baselines import BASELINES, refuse_without_learners
 from mixedlub.proof.battery import generate
 from mixedlub.proof.oracle import oracle
 from mixedlub.proof.score import Score, score
+from mixedlub.proof.workers import workers
 
 Diagnose = Callable[[Path, Path], object]
 Progress = Callable[[str, int, int], None]
@@ -59,7 +60,7 @@ def answer_all(diagnose: Diagnose, cases: Sequence[Path], out: Path, jobs: int, 
             answer(diagnose, case, out / case.name)
             progress(name, done + 1, len(cases))
         return
-    with ProcessPoolExecutor(jobs) as pool:
+    with workers(jobs) as pool:
         work = [pool.submit(answer, diagnose, case, out / case.name) for case in cases]
         for done, future in enumerate(as_completed(work)):
             future.result()
