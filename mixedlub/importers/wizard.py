@@ -77,8 +77,10 @@ def _text(path: Path) -> str:
         raw = path.read_bytes()
     except FileNotFoundError:
         raise InputError("no such file", where=str(path)) from None
+    except IsADirectoryError:
+        raise InputError("is a folder; name the files in it", where=str(path)) from None
     except OSError as error:
-        raise InputError(f"cannot be read ({error})", where=str(path)) from None
+        raise InputError(f"cannot be read ({error.strerror})", where=str(path)) from None
     text = with_hyphens(decoded(raw, path.name))
     if "\0" in text[:4096]:
         raise InputError("is not a text file; export it as text first", where=path.name)
