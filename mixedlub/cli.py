@@ -14,11 +14,16 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import typer
 
 from mixedlub.commands import check, diagnose, effects, import_files, kinds, profile, prove, simulate, study
-from mixedlub.commands.output import drop_empty_folders, forget_folder, note, save_traceback, say
+from mixedlub.commands.output import drop_empty_folders, forget_folder, note, save_traceback, say, what_is_kept
 from mixedlub.refusal import of_option
 from profiles.errors import InputError, nearest
 
 COMMANDS = (profile, study, simulate, diagnose, check, import_files, kinds, effects, prove)
+
+GOING_ON = (study.NAME, prove.NAME)
+"""Commands that keep what they did when they are stopped."""
+CTRL_C = 130
+"""Status that typer gives a command which Ctrl-C stopped, instead of the interruption."""
 
 app = typer.Typer(add_completion=False, no_args_is_help=False, rich_markup_mode=None, pretty_exceptions_enable=False)
 
@@ -62,13 +67,16 @@ def _run(words: list[str]) -> int:
         if words and not words[0].startswith("-") and words[0] not in (names := [c.NAME for c in COMMANDS]):
             raise InputError(f"no such command; {nearest(words[0], names)}", where="command", value=words[0])
         status = typer.main.get_command(app).main(words, prog_name="mixedlub", standalone_mode=False)
+        if status == CTRL_C:
+            raise KeyboardInterrupt
         sys.stdout.flush()
         return int(status or 0)
     except InputError as error:
         drop_empty_folders()
         return _failed(str(error), 2)
     except (KeyboardInterrupt, typer.Abort):
-        return _failed("stopped", 1)
+        drop_empty_folders()
+        return _failed("stopped" + what_is_kept(words[0] in GOING_ON if words else False), 1)
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1

@@ -66,10 +66,14 @@ class Column:
         if self.form == "whole":
             if value != int(value):
                 raise InputError(f"{self.name} must be a whole number", where=where, value=text)
+            if abs(value) >= LARGEST:
+                raise InputError(f"{self.name} must be a whole number below {LARGEST}", where=where, value=text)
             return int(value)
         return value
 
 
+LARGEST = 2**53
+"""Whole numbers are told apart up to here."""
 PRINTED_MINUS = re.compile(r"(?:(?<=\d[eE])|(?<![\w)]))\u2212(?=[\d.,])")
 BLANK = ("", "-", "--", "---", "\u2013", "\u2014", "nan", "na", "n/a", "n.a.", "#n/a", "#nv", "null", "none")
 """What an empty cell of a table may read, in small letters."""

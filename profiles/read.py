@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
-from pathlib import Path
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path, PurePath
 
 from profiles.errors import InputError
 from profiles.profile import Profile
@@ -22,6 +24,9 @@ from profiles.readers.text import TextReader
 from profiles.readers.x3p import X3pReader
 from profiles.units import known_unit, length, metres
 
+NO_TEXTS = (".opdx", ".x3p", ".xlsx", ".zip")
+"""Endings of formats that are known by their first bytes, whatever else is in them."""
+
 
 def read(path: str | os.PathLike[str], *, unit: str | None = None, spacing: float | str | None = None) -> Profile:
     """The profile in a file, recognised by its content.
@@ -36,14 +41,30 @@ def read(path: str | os.PathLike[str], *, unit: str | None = None, spacing: floa
 def read_source(source: Source) -> Profile:
     """The profile in a file's bytes, by the first reader that recognises them."""
     if not source.data.strip(b"\x00 \t\r\n"):
-        raise InputError("the file is empty", where=source.where)
+        rule = "the file is empty" if b"\x00" not in source.data else "the file holds nothing but zero bytes"
+        raise InputError(rule, where=source.where)
     for reader in READERS:
         if reader.magic(source):
-            return reader.read(source)
+            with _as_named(source, reader):
+                return reader.read(source)
     if source.data[:4] == b"PK\x03\x04":
         raise InputError("damaged zip archive, which x3p and xlsx files are too: cut off?", where=source.where)
     formats = "; ".join(reader.format for reader in READERS)
-    raise InputError(f"no known profile format; known are {formats}", where=source.where)
+    with _as_named(source):
+        raise InputError(f"no known profile format; known are {formats}", where=source.where)
+
+
+@contextmanager
+def _as_named(source: Source, reader: Reader | None = None) -> Iterator[None]:
+    """An error about content that no reader claims, or any text, says first that it is not what the name promises."""
+    try:
+        yield
+    except InputError as error:
+        ending = PurePath(source.where).suffix.lower()
+        if ending not in NO_TEXTS or not (reader is None or isinstance(reader, TextReader)):
+            raise
+        rule = f"is no {ending} file although its name says so: {error.rule}"
+        raise InputError(rule, where=error.where, value=error.value) from None
 
 
 def open_source(path: Path, unit: tuple[str, str] | None, spacing: float | None) -> Source:

@@ -46,6 +46,16 @@ def drop_empty_folders() -> None:
             return
 
 
+def what_is_kept(goes_on: bool) -> str:
+    """What is left of a command that was stopped, and how it ``goes_on`` where it does; nothing where none writes."""
+    if not _opened:
+        return ""
+    (folder,) = _opened
+    if goes_on and any(path.is_file() for path in folder.rglob("*")):
+        return f"; what was done is kept in {folder}, and the same command goes on from there"
+    return "; no result was written, and the same command starts anew"
+
+
 def case_folder(case: Path) -> Path:
     """The case folder a user named."""
     if case.is_file():

@@ -79,6 +79,34 @@ def is_logarithm(header: str) -> bool:
     return logged is not None and (unit is None or not is_unit(unit))
 
 
+SPREAD = re.compile(r"(?:standard deviation|std\.? dev|st\.? ?dev|stddev|std|sd)\.?")
+BEFORE, AFTER = re.compile(rf"{SPREAD.pattern}\b(?: of)?"), re.compile(rf"\b{SPREAD.pattern}$")
+
+
+def spread_of(header: str) -> str | None:
+    """The words of what a header gives the standard deviation of; None where it gives none.
+
+    >>> spread_of("film_sd_nm"), spread_of("StDev of torque (Nm)"), spread_of("sd"), spread_of("film_nm")
+    ('film', 'torque', '', None)
+    """
+    words = words_of(header)
+    found = BEFORE.match(words) or AFTER.search(words)
+    return None if found is None else (words[: found.start()] + words[found.end() :]).strip()
+
+
+def likely_spread(quantity: str, header: str, cells: Cells) -> str | None:
+    """The header over the standard deviation of what was recorded, its words among those of the reading's header."""
+    have = {*words_of(header).split(), *split(quantity)[0].split()}
+    found = {}
+    for other, values in cells.items():
+        of, unit = spread_of(other), split(other)[1]
+        if of is None or not are_numbers(values) or (unit is not None and not fits(unit, BY_NAME[quantity].unit)):
+            continue
+        if set(of.split()) <= have:
+            found[other] = len(of.split())
+    return max(found, key=lambda other: found[other], default=None)
+
+
 def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
     """How near a header comes to a column, by its words and its unit; 0 where unit or cells speak against it.
 
@@ -92,7 +120,11 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
     if column == TIME and counted(header) is not None and are_numbers(cells):
         return COUNTS
     words = words_of(header)
-    if is_logarithm(header) or (column == "viscosity_mPa_s" and "kinematic" in words.split()):
+    if (
+        spread_of(header) is not None
+        or is_logarithm(header)
+        or (column == "viscosity_mPa_s" and "kinematic" in words.split())
+    ):
         return 0.0
     numbers = are_numbers(cells)
     if column in TEXT_COLUMNS:

@@ -27,7 +27,7 @@ from mixedlub.importers import pace
 from mixedlub.importers.constant import VALUES, has_header, in_words, not_told
 from mixedlub.importers.draft import Answers, Question
 from mixedlub.importers.kinematics import MADE, other_surface
-from mixedlub.importers.likely import either, is_logarithm, likely_headers, likeness
+from mixedlub.importers.likely import either, is_logarithm, likely_headers, likely_spread, likeness
 from mixedlub.importers.sheet import Cells, are_numbers
 from mixedlub.importers.spare import spare_headers, spare_notes, spare_questions
 from mixedlub.importers.write import toml_value
@@ -120,7 +120,7 @@ def match(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> Match:
     near = _near(missing, cells, found.headers, kept)
     found.headers = {c: h for c, h in found.headers.items() if c in kept or h not in near.values()}
     found.questions.extend(_missing(missing, near, cells, found.headers, answers))
-    spare = {c: h for c, h in _spare(kind, cells, found).items() if VALUES + c not in answers}
+    spare = {c: h for c, h in _spare(kind, quantity, held, found).items() if VALUES + c not in answers}
     found.questions.extend(spare_questions(spare, COLUMNS))
     open_ones = {q.key.removeprefix(COLUMNS) for q in found.questions}
     _refuse_idle_units({*found.headers, *open_ones}, answers)
@@ -267,14 +267,17 @@ def _two_speeds(column: str, cells: Cells) -> str:
     return f"; {', '.join(single)}: speeds of single surfaces, {made}, add a column of it" if single else ""
 
 
-def _spare(kind: Kind, cells: Cells, found: _Finding) -> dict[str, str]:
+def _spare(kind: Kind, quantity: str, cells: Cells, found: _Finding) -> dict[str, str]:
     """Headers that are near to columns which are not needed, and not found."""
     asked = {q.key.removeprefix(COLUMNS) for q in found.questions}
     own = (*kind.columns, *kind.channels)
     absent = [c for c in own if not c.required and c.name not in {*found.headers, *asked, *either(kind.name)}]
     offered = {question.example for question in found.questions}
     free = {h: v for h, v in _offered(cells, found.headers).items() if toml_value(h) not in offered}
-    return spare_headers(absent, free)
+    near = spare_headers(absent, free)
+    reading, sd = found.headers.get(quantity), f"{quantity}_sd"
+    spread = None if reading is None or sd in found.headers else likely_spread(quantity, reading, free)
+    return near if spread is None else {**near, sd: spread}
 
 
 def _as_near(column: str, header: str | None, free: Cells) -> str:

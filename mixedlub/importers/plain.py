@@ -6,8 +6,10 @@ import numpy as np
 
 from mixedlub.config import KINDS
 from mixedlub.headers import convert
+from mixedlub.importers.clock import run_on
 from mixedlub.importers.constant import constants, value_keys
 from mixedlub.importers.draft import WARNING, Answers, Draft, Question, contact_form, questions_of, refuse_unknown
+from mixedlub.importers.groups import kept, only_keys, pooled
 from mixedlub.importers.kinematics import refuse_one_surface
 from mixedlub.importers.likely import likely_kind, likeness
 from mixedlub.importers.marks import KEY as DECIMAL
@@ -38,7 +40,7 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     if kind is not None and kind not in KINDS:
         raise InputError(f"no such kind; {nearest(str(kind), KINDS)}", where="kind", value=kind)
     _refuse_unknown(kind, answers)
-    sheet = read_sheet(text, name, _decimal(answers))
+    sheet, chosen = kept(read_sheet(text, name, _decimal(answers)), answers)
     likely = kind_of(kind or likely_kind(sheet.cells))
     if kind is not None and quantity is not None and quantity not in likely.quantities:
         rule = f"a case of kind {kind!r} records {' or '.join(likely.quantities)}"
@@ -65,9 +67,11 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
         for column, header in found.headers.items()
         if column not in asked
     }
-    paced = ""
+    paced = restarted = ""
     if TIME in columns and TIME in found.units:
         columns[TIME], paced = in_seconds(columns[TIME], found.headers[TIME], found.units[TIME], answers)
+    if TIME in columns:
+        columns[TIME], restarted = run_on(columns[TIME], found.headers[TIME], sheet)
     columns |= constants(likely, answers, len(sheet.lines))
     readings = columns.get(str(quantity)) if likely.is_unsigned(str(quantity)) else None
     low = [] if readings is None else not_above_zero(str(quantity), readings.tolist(), sheet.lines)
@@ -76,14 +80,18 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     fixed = [c for c in columns if c not in found.headers]
     taken = [*(["run"] if runs is not None else []), *(c for c in columns if c in found.headers)]
     left = [h for h in sheet.cells if h not in found.headers.values() and h != header]
+    conditions = [v for c, v in columns.items() if c not in (quantity, f"{quantity}_sd")]
+    mixed = pooled({h: sheet.cells[h] for h in left}, conditions)
     notes = [
-        *(f"{WARNING}{name}: {note}" for note in (*lost, *found.warned)),
+        *(f"{WARNING}{name}: {note}" for note in (*lost, *found.warned, *mixed)),
+        *(f"{name}: {note}" for note in chosen),
         f"{name}: {len(taken)} of {len(sheet.cells)} columns taken: {', '.join(taken)}",
         *([f"{name}: not taken: {', '.join(left)}"] if left else []),
         *([f"{name}: the same in all rows, as told: {', '.join(fixed)}"] if fixed else []),
         *([f"{name}: {sheet.left_out} left out: no part of the table"] if sheet.left_out else []),
         *(f"{name}: {note}" for note in found.notes),
         *([f"{name}: {paced}"] if paced else []),
+        *([restarted] if restarted else []),
         *(f"{name}: {note}" for note in low),
         *([anew] if anew else []),
     ]
@@ -94,7 +102,7 @@ def _refuse_unknown(kind: str | None, answers: Answers) -> None:
     kinds = [kind_of(k) for k in ([kind] if kind else KINDS)]
     columns = {c.name: c for k in kinds for q in k.quantities for c in wanted(k, q, answers)}
     values = (key for k in kinds for key in value_keys(k))
-    refuse_unknown(answers, (DECIMAL, *import_keys(tuple(columns.values())), *values))
+    refuse_unknown(answers, (DECIMAL, *only_keys(answers), *import_keys(tuple(columns.values())), *values))
 
 
 def _decimal(answers: Answers) -> str | None:

@@ -9,12 +9,11 @@ import numpy as np
 from mixedlub.headers import words_of
 from mixedlub.importers.draft import Answers
 from mixedlub.importers.sheet import Sheet
+from mixedlub.table import LARGEST
 from profiles.errors import InputError, nearest
 
 KEY = "import.columns.run"
 SPOKEN = ("run", "run number", "run no", "run no.", "run nr", "run nr.")
-LARGEST = 2**53
-"""Whole numbers are told apart up to here."""
 ANEW = "so readings are numbered anew from 1"
 
 

@@ -16,8 +16,8 @@ from mixedlub.table import Column
 SLIP = "slide_roll_ratio"
 SLIDES = re.compile(r"\b(?:slip|schlupf|slid|gleit)")
 """Words of a share in percent that may be the slip."""
-STRESS = ("stress", "spannung")
-"""What a header says that is in the unit of a pressure and is none."""
+NO_CONDITION = ("stress", "spannung", "friction", "traction", "reib")
+"""What a header says that has the unit or the words of a condition and is none: a stress, a friction at some slip."""
 
 
 def spare_headers(columns: Iterable[Column], cells: Cells) -> dict[str, str]:
@@ -31,7 +31,7 @@ def spare_headers(columns: Iterable[Column], cells: Cells) -> dict[str, str]:
     {}
     """
     names = [column.name for column in columns if column.form == "number" and not column.blank]
-    cells = {h: values for h, values in cells.items() if not any(word in h.lower() for word in STRESS)}
+    cells = {h: values for h, values in cells.items() if not any(word in h.lower() for word in NO_CONDITION)}
     found = likely_headers(names, cells)
     shares = [h for h in cells if split(h)[1] == "%" and SLIDES.search(words_of(h)) and h not in found.values()]
     slip = next((h for h in shares if are_numbers(cells[h])), None)

@@ -15,9 +15,11 @@ from mixedlub import config
 from mixedlub.importers import pcs, plain, trios
 from mixedlub.importers.carried import carried, is_share, with_share
 from mixedlub.importers.checked import is_list, refuse_wrong
+from mixedlub.importers.clock import follow
 from mixedlub.importers.constant import VALUES
 from mixedlub.importers.draft import EVERY, WARNING, Draft, Question, Unanswered, flat, open_questions
 from mixedlub.importers.needs import gaps, told, undescribed
+from mixedlub.importers.pace import TIME
 from mixedlub.importers.readable import refuse_unreadable
 from mixedlub.importers.runs import together
 from mixedlub.importers.write import write_case
@@ -46,9 +48,12 @@ def read(files: Sequence[Path], answers: Mapping[str, Any]) -> Draft:
         if (other.kind, other.quantity, set(other.columns)) != (first.kind, first.quantity, set(first.columns)):
             raise InputError("holds other columns than the first file; import it by itself", where=path.name)
     columns = {name: np.concatenate([d.columns[name] for d in drafts]) for name in first.columns}
+    restarted: list[str] = []
+    if TIME in columns:
+        columns[TIME], restarted = follow([(path.name, d.columns[TIME]) for path, d in zip(files, drafts, strict=True)])
     questions = {q.key: q for d in drafts for q in d.questions}
     runs, anew = together([(path.name, d.runs) for path, d in zip(files, drafts, strict=True)])
-    notes = [note for d in drafts for note in d.notes] + ([anew] if anew else [])
+    notes = [*(note for d in drafts for note in d.notes), *restarted, *([anew] if anew else [])]
     return Draft(
         first.kind,
         first.quantity,
@@ -72,8 +77,10 @@ def _text(path: Path) -> str:
         raw = path.read_bytes()
     except FileNotFoundError:
         raise InputError("no such file", where=str(path)) from None
+    except IsADirectoryError:
+        raise InputError("is a folder; name the files in it", where=str(path)) from None
     except OSError as error:
-        raise InputError(f"cannot be read ({error})", where=str(path)) from None
+        raise InputError(f"cannot be read ({error.strerror})", where=str(path)) from None
     text = with_hyphens(decoded(raw, path.name))
     if "\0" in text[:4096]:
         raise InputError("is not a text file; export it as text first", where=path.name)

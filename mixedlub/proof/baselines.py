@@ -26,6 +26,11 @@ from profiles.errors import InputError
 ROUNDS = 20
 
 
+def refuse_without_learners() -> None:
+    """An error where scikit-learn is missing, without which there are no baselines."""
+    _learner("base")
+
+
 def _learner(name: str) -> ModuleType:
     """A module of scikit-learn, or what to install."""
     import importlib
@@ -33,7 +38,10 @@ def _learner(name: str) -> ModuleType:
     try:
         return importlib.import_module(f"sklearn.{name}")
     except ModuleNotFoundError as error:
-        raise InputError("the baselines need scikit-learn: pip install 'mixedlub[proof]'", where="proof") from error
+        rule = (
+            "the baselines need scikit-learn: pip install 'mixedlub[proof]'; --quick --cases N does without baselines"
+        )
+        raise InputError(rule, where="proof") from error
 
 
 @dataclass(frozen=True)

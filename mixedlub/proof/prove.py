@@ -6,14 +6,15 @@ import json
 import shutil
 import time
 from collections.abc import Callable, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import as_completed
 from pathlib import Path
 
 from mixedlub.proof.answers import Truth, read_answer, read_truth
-from mixedlub.proof.baselines import BASELINES
+from mixedlub.proof.baselines import BASELINES, refuse_without_learners
 from mixedlub.proof.battery import generate
 from mixedlub.proof.oracle import oracle
 from mixedlub.proof.score import Score, score
+from mixedlub.proof.workers import workers
 
 Diagnose = Callable[[Path, Path], object]
 Progress = Callable[[str, int, int], None]
@@ -59,7 +60,7 @@ def answer_all(diagnose: Diagnose, cases: Sequence[Path], out: Path, jobs: int, 
             answer(diagnose, case, out / case.name)
             progress(name, done + 1, len(cases))
         return
-    with ProcessPoolExecutor(jobs) as pool:
+    with workers(jobs) as pool:
         work = [pool.submit(answer, diagnose, case, out / case.name) for case in cases]
         for done, future in enumerate(as_completed(work)):
             future.result()
@@ -94,6 +95,8 @@ def prove(
     Returns the tool's score first, then one a baseline, last the oracle that knows the hidden laws. Writes
     ``score.json``, ``score.txt``, one ``score_NAME.json`` a baseline and the figures as SVG.
     """
+    if baselines:
+        refuse_without_learners()
     sealed = generate(out / "sealed", seed, cases, jobs, lambda done, total: progress("deal", done, total))
     given = have_answered(out, sealed, diagnose, jobs, progress)
     truths = [read_truth(case) for case in sealed]

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
 
+from mixedlub.proof.workers import workers
 from profiles.errors import InputError
 
 Card = TypeVar("Card")
@@ -121,7 +121,7 @@ def written(
             if progress:
                 progress(done + 1, count)
     else:
-        with ProcessPoolExecutor(jobs) as pool:
+        with workers(jobs) as pool:
             work = [pool.submit(make, seed, i, order, folder) for i, order in enumerate(orders)]
             for done, future in enumerate(work):
                 future.result()

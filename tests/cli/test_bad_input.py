@@ -82,6 +82,19 @@ def test_negative_value_of_a_positive_parameter_is_refused(effect, parameter, tm
     assert f"effects.{effect}.{parameter}: -5" in said
 
 
+@pytest.mark.parametrize("command", ["check", "simulate"])
+def test_a_run_too_large_to_count_with_is_named_with_its_line(command, tmp_path, capsys):
+    case = spoilt(tmp_path, "recordings.csv", "\n2,", "\n99999999999999999999,", 1)
+    status, said = refused(capsys, command, str(case))
+    assert status == 2
+    assert "recordings.csv: line 3, run: '99999999999999999999': run must be a whole number below" in said
+
+
+def test_a_folder_in_place_of_an_instrument_file_is_called_one(tmp_path, capsys):
+    status, said = refused(capsys, "import", str(tmp_path), "--out", str(tmp_path / "out"))
+    assert (status, said) == (2, f"mixedlub: {tmp_path}: is a folder; name the files in it\n")
+
+
 @pytest.mark.parametrize("command", ["simulate", "check", "diagnose"])
 def test_a_file_in_place_of_a_case_folder_is_called_one(command, tmp_path, capsys):
     status, said = refused(capsys, command, str(CASE / "system.toml"))

@@ -18,7 +18,7 @@ SPOILT = {
     "negative torque": ("recordings.csv", "2,50,", "2,-50,", "line 3, torque_Nm: -50.0: torque_Nm must be above 0"),
     "line behind blank ones": ("recordings.csv", "\n2,50,", "\n\n\n2,x,", "recordings.csv: line 5, torque_Nm"),
     "run twice": ("recordings.csv", "\n2,50,", "\n1,50,", "recordings.csv: line 3, run: 1: run must be unique"),
-    "surface": ("recordings.csv", "d,ground,18.71", "d,grund,18.71", "line 3, gear_surface: 'grund': no such name in "
+    "surface": ("recordings.csv", "d,ground,18.69", "d,grund,18.69", "line 3, gear_surface: 'grund': no such name in "
                 "system.toml; nearest known: 'ground'"),
     "kind": ("system.toml", '"gear_pair"', '"gear_pear"', "system.toml: kind: 'gear_pear': must be 'gear_pair', "),
     "key": ("system.toml", "face_width_mm", "facewidth_mm", "gears.facewidth_mm: key is not known; nearest known: 'f"),

@@ -309,3 +309,20 @@ def test_a_friction_that_lost_its_sign_is_told(tmp_path: Path, payload: float, t
     assert case.recordings is not None
     notes = doubts(case, case.recordings, friction, Forward(case, case.recordings))
     assert any("sign was not lost" in note for note in notes) is told
+
+
+@pytest.mark.parametrize(
+    ("times", "said"),
+    [
+        (np.arange(72.0), ""),
+        (np.arange(72) // 2.0, ""),
+        (np.arange(72.0) % 24, "time_s runs backwards in 2 places, first at run 25: "),
+        (np.r_[0.0, 2.0, 1.0, np.arange(3.0, 72.0)], "time_s runs backwards in 1 place, first at run 3: "),
+    ],
+)
+def test_a_time_that_runs_backwards_is_doubted(case: Case, times: np.ndarray, said: str) -> None:
+    assert case.recordings is not None
+    rows = Table({**case.recordings.columns, "time_s": times})
+    notes = doubts(case, rows, np.array(rows[case.quantity], dtype=float), Forward(case, rows))
+    found = [note for note in notes if "time_s" in note]
+    assert [isinstance(note, Doubt) and note.startswith(said) for note in found] == [True] * bool(said)

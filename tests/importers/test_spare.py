@@ -77,7 +77,7 @@ def test_a_stress_is_no_pressure(header):
     assert not any(note.startswith("warning") for note in draft(text, "t.csv", {"kind": "viscosity"}).notes)
 
 
-@pytest.mark.parametrize("header", ["density (kg/m3)", "remark", "wear (um)", "voltage"])
+@pytest.mark.parametrize("header", ["density (kg/m3)", "remark", "wear (um)", "voltage", "friction_srr_3_to_8pct"])
 def test_what_no_column_is_like_is_no_warning(header):
     text = f"time_s,cof,{header}\n1,0.1,1\n2,0.2,2\n3,0.15,3\n"
     assert not any(note.startswith("warning") for note in draft(text, "t.csv", HISTORY).notes)

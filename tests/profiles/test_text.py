@@ -118,6 +118,20 @@ def test_bad_text_gets_a_message_that_names_place_and_rule(tmp_path, text, messa
         read(written(tmp_path, text), unit="um")
 
 
+@pytest.mark.parametrize("ending", [".x3p", ".xlsx", ".opdx", ".ZIP"])
+@pytest.mark.parametrize("data", [b"hello world\n", bytes(range(1, 256))])
+def test_what_is_not_of_the_format_of_its_name_is_said_not_to_be(tmp_path, ending, data):
+    (tmp_path / f"trace{ending}").write_bytes(data)
+    with pytest.raises(InputError, match=f"is no {ending.lower()} file although its name says so: no "):
+        read(tmp_path / f"trace{ending}")
+
+
+def test_zero_bytes_are_not_an_empty_file(tmp_path):
+    (tmp_path / "trace.opdx").write_bytes(bytes(100))
+    with pytest.raises(InputError, match="holds nothing but zero bytes"):
+        read(tmp_path / "trace.opdx")
+
+
 def test_one_column_needs_its_step_and_unit(tmp_path):
     file = written(tmp_path, "1\n2\n1\n3\n")
     with pytest.raises(InputError, match="as spacing '"):

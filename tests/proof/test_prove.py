@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from mixedlub.cli import main
 from mixedlub.proof import baselines
 from mixedlub.proof.answers import read_answer, read_truth
 from mixedlub.proof.baselines import BASELINES, recalibrate, recalibration_only
@@ -66,6 +67,17 @@ def test_recalibration_finds_the_noise_where_nothing_is_missing(battery, tmp_pat
 def test_missing_scikit_learn_says_what_to_install(battery, tmp_path, without_learners):
     with pytest.raises(InputError, match=r"mixedlub\[proof\]"):
         baselines.gaussian_process(battery[0], tmp_path)
+
+
+def test_missing_scikit_learn_is_told_before_any_work(tmp_path, without_learners, capsys):
+    CALLS.clear()
+    with pytest.raises(InputError, match=r"pip install 'mixedlub\[proof\]'.*--quick"):
+        prove(tmp_path / "folder", counted, cases=5, seed=21, jobs=1)
+    assert CALLS == []
+    assert not (tmp_path / "folder").exists()
+    assert main(["prove", "--out", str(tmp_path / "out")]) == 2
+    assert "scikit-learn" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
 
 
 def test_the_proof_runs_scores_and_resumes(tmp_path):

@@ -102,6 +102,7 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
         *_of_one_sign(case, rows, y),
         *_sliding(rows),
         *_warm(rows),
+        *_backwards(rows),
         *_stuck(case, rows, y, base),
         *_misread(case, rows, y, base),
         *_contradicting(case, rows, y, base),
@@ -340,6 +341,16 @@ def _warm(rows: Table) -> list[str]:
         return []
     lowest = float(rows[name].min())
     return [Doubt(f"{name} is {lowest:g} or more in all rows: check that it is not in kelvin")]
+
+
+def _backwards(rows: Table) -> list[str]:
+    """A time that falls from one row to the next, as that of a clock which starts anew at every step."""
+    falls = np.flatnonzero(np.diff(rows["time_s"]) < 0.0) + 1 if "time_s" in rows else np.array([], dtype=int)
+    if not falls.size:
+        return []
+    times = "1 place" if falls.size == 1 else f"{falls.size} places"
+    first = f"time_s runs backwards in {times}, first at run {rows['run'][falls[0]]}"
+    return [Doubt(f"{first}: check that it is no clock that restarts at every step, and that rows are in order")]
 
 
 def _without_drift(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, group: np.ndarray) -> np.ndarray:
