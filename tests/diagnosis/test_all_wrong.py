@@ -10,12 +10,10 @@ import pytest
 
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.judging.doubts import levels_off
+from mixedlub.diagnosis.judging.mismatch import beyond_noise
 from mixedlub.diagnosis.publishing.write import files
 from mixedlub.diagnosis.telling import words
-from mixedlub.diagnosis.telling.answer import as_json
 from mixedlub.table import Table
-
-from .test_words import told
 
 
 @pytest.fixture(scope="module")
@@ -35,10 +33,12 @@ def test_no_number_is_told_of_no_reading(written: dict[str, str], teeth: Diagnos
     assert f"for {teeth.readings.size} readings after calibration" in written["report.txt"].replace("\n  ", " ")
 
 
-def test_a_test_without_a_reading_has_no_outcome(teeth: Diagnosis) -> None:
-    untold = replace(teeth, test=replace(teeth.test, p_value=float("nan"), detected=False))
-    assert as_json(untold)["mismatch"]["p_value"] is None
-    assert told(untold)[words.MISMATCH].startswith("Not told: every reading counts as wrong")
+def test_that_nothing_is_missing_is_not_said_where_every_reading_counts_as_wrong(teeth: Diagnosis) -> None:
+    lost = replace(teeth.found.none, residual=np.full(teeth.readings.size, 50.0))
+    found = replace(teeth.found, none=lost)
+    test = beyond_noise(found, 10.0, replace(teeth.test, p_value=0.5, detected=False))
+    assert test.detected
+    assert 0.0 < test.p_value < 1e-300
 
 
 def test_the_headline_begins_with_it(written: dict[str, str], teeth: Diagnosis) -> None:

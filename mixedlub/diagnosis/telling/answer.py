@@ -26,7 +26,7 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
         "case": d.case.name,
         "mismatch": {
             "detected": d.test.detected,
-            "p_value": None if np.isnan(d.test.p_value) else d.test.p_value,
+            "p_value": d.test.p_value,
             "level": d.test.level,
             "chi2_before": d.test.chi2_before,
             "rows": d.test.rows,

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from math import isnan
-
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.fitting.problem import effects_of
 from mixedlub.diagnosis.labels import STAGE_WORDS, effect_words, explanation_words
@@ -52,11 +50,9 @@ def hundredths(p: float) -> int:
 def p_words(p: float) -> str:
     """The p-value of the mismatch test as it is said everywhere.
 
-    >>> p_words(0.0042), p_words(1e-304), p_words(float("nan"))
-    ('0.0042', 'below 1e-300', 'not known')
+    >>> p_words(0.0042), p_words(1e-304)
+    ('0.0042', 'below 1e-300')
     """
-    if isnan(p):
-        return "not known"
     return f"{p:.2g}" if p > LEAST_P else f"below {LEAST_P:.0e}"
 
 

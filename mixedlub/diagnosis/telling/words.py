@@ -5,7 +5,6 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from math import isnan
 
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.fitting.problem import effects_of
@@ -126,8 +125,6 @@ def _mismatch(d: Diagnosis) -> tuple[str, ...]:
     size += " even with the noise that this would need" if test.lenient else ""
     if test.detected:
         return (f"Yes ({size}; {chi2}).", alarm)
-    if isnan(test.p_value):
-        return (f"Not told: every reading counts as wrong, and the test has none to go by ({chi2}).",)
     return (f"None that can be told from noise ({size}; {chi2}).", alarm)
 
 
