@@ -14,9 +14,11 @@ from mixedlub.proof.answers import read_truth
 from mixedlub.proof.bench import cooling, drive, film, history, mesh, viscosity
 from mixedlub.proof.bench.battery import ROOMS, Order, make, plan
 from mixedlub.proof.bench.presliding import SHOWN_BELOW, ball_bearing, bristles, hysteretic, partial_slip
+from mixedlub.proof.bench.stage import progress
 from mixedlub.proof.bench.states import hump
 from mixedlub.proof.bench.stirring import TRANSITION, free_disc, rotor_in_gap, torque_share
 from mixedlub.proof.concealed import MEASUREMENT
+from mixedlub.proof.concealed.measurement import crept, diffused
 
 ORDERS = (
     Order("case_000", "friction_map", "single", ("presliding",), "clear"),
@@ -248,6 +250,31 @@ def test_a_force_that_drifts_is_right_at_the_start_and_off_the_same_at_the_end()
             assert force / force[-1] == pytest.approx(time, abs=1e-4)
         else:
             assert force[len(force) // 2] > 0.5 * force[-1]
+
+
+def test_logarithmic_creep_slows_as_what_can_still_creep_is_used_up():
+    """de/dq = exp(-e)/onset of the strain over its own scale."""
+    onset, time = 0.02, np.linspace(0.0, 1.0, 21)
+    strain = solve_ivp(lambda q, e: np.exp(-e) / onset, (0.0, 1.0), [0.0], t_eval=time, rtol=1e-10, atol=1e-12).y[0]
+    assert crept(time, onset) == pytest.approx(strain / strain[-1], abs=1e-8)
+
+
+def test_a_plate_takes_up_moisture_with_the_root_of_time_until_half_full():
+    """Series of the uptake by a plate whose half thickness is 1: half of it is in at Dt = 0.196."""
+    time, odd = np.linspace(0.0, 1.0, 21), np.arange(1, 4001, 2)[:, None]
+    uptake = 1 - 8 / np.pi**2 * np.sum(np.exp(-0.196 * time * (odd * np.pi / 2) ** 2) / odd**2, axis=0)
+    assert uptake[-1] == pytest.approx(0.5, abs=2e-3)
+    assert diffused(time) == pytest.approx(uptake / uptake[-1], abs=3e-3)
+
+
+@pytest.mark.parametrize("draw", [film.draw, history.draw_loads, viscosity.draw])
+def test_a_drifting_sensor_is_right_at_the_start_and_off_by_its_strength_at_the_end(draw):
+    bench = drawn(draw, lambda bench: "sensor_drift" in bench.ids)
+    base = bench.model(np.zeros(len(bench.names)), ())
+    time = bench.columns.get("sequence", progress(len(base)))
+    for form in forms_of(bench, "sensor_drift"):
+        error = change(bench, form, {"strength": 1.0}) / base
+        assert error[[np.argmin(time), np.argmax(time)]] == pytest.approx([0.0, 0.1], abs=1e-9)
 
 
 def test_events_come_gradually_or_pass_again():

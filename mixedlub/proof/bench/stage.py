@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from mixedlub.proof.concealed.kinds import Concealed, Knob, strength
-from mixedlub.proof.concealed.measurement import warmed_up
+from mixedlub.proof.concealed.measurement import crept, diffused, warmed_up
 
 Chain = Sequence[tuple[str, Callable[[Any], Any] | None]]
 
@@ -142,6 +142,12 @@ def channel(sequence: np.ndarray, zero: bool, gain: bool, drifting_zero: bool) -
     def settling(state: Any, strength: float, pace: float) -> Any:
         return replace(state, recorded=state.recorded * (1 + 0.1 * strength * warmed_up(sequence, pace)))
 
+    def logarithmic(state: Any, strength: float, onset: float) -> Any:
+        return replace(state, recorded=state.recorded * (1 + 0.1 * strength * crept(sequence, onset)))
+
+    def soaking(state: Any, strength: float) -> Any:
+        return replace(state, recorded=state.recorded * (1 + 0.1 * strength * diffused(sequence)))
+
     def zero_drift(state: Any, strength: float) -> Any:
         return replace(state, recorded=state.recorded + 0.1 * strength * _usual(state.recorded) * sequence)
 
@@ -156,9 +162,11 @@ def channel(sequence: np.ndarray, zero: bool, gain: bool, drifting_zero: bool) -
     if gain:
         found.append(Form("sensor_gain", "sensor", sensor_gain, (share,), "instrument span", rarity=0.5, within=True))
     if len(np.unique(sequence)) > 1:
-        slow = Knob("pace", 0.7, 5.0, (1.0, 3.0))
+        slow, early = Knob("pace", 0.7, 5.0, (1.0, 3.0)), Knob("onset", 0.001, 0.2, (0.003, 0.05))
         found.append(Form("sensor_drift", "sensor", steady, (share,), "linear drift", within=True))
-        found.append(Form("sensor_drift", "sensor", settling, (share, slow), "warming amplifier"))
+        found.append(Form("sensor_drift", "sensor", settling, (share, slow), "warming amplifier", within=True))
+        found.append(Form("sensor_drift", "sensor", logarithmic, (share, early), "logarithmic creep of a load cell"))
+        found.append(Form("sensor_drift", "sensor", soaking, (share,), "heat or moisture that diffuses in"))
         if drifting_zero:
             found.append(Form("zero_drift", "sensor", zero_drift, (share,), "linear drift of the zero", within=True))
             found.append(Form("zero_drift", "sensor", zero_settling, (share, slow), "warming amplifier"))

@@ -44,8 +44,41 @@ def warmed_up(sequence: np.ndarray, pace: float) -> np.ndarray:
     return np.asarray(np.expm1(-sequence / pace) / np.expm1(-1 / pace))
 
 
+def crept(sequence: np.ndarray, onset: float) -> np.ndarray:
+    """Creep with the logarithm of time, from 0 to 1 over the programme: ln(1 + q/onset)/ln(1 + 1/onset).
+
+    Phillips, Phil. Mag. 9 (1905) 513, and Cottrell 1953 for metals under an even load, cold (below some 0.3 of their
+    melting point) and little strained; load cells and bonded strain gauges creep alike within a test. Cited from
+    memory; the ``onset``, a share of the programme, is a usual size.
+
+    >>> [round(float(done), 3) for done in crept(np.array([0.0, 0.1, 1.0]), 0.01)]
+    [0.0, 0.52, 1.0]
+    """
+    return np.asarray(np.log1p(sequence / onset) / np.log1p(1 / onset))
+
+
+def diffused(sequence: np.ndarray) -> np.ndarray:
+    """What has diffused into a half-space by a moment of the programme, over all by its end: q^0.5.
+
+    The surface warms so at an even flux of heat (Carslaw and Jaeger 1959), and a sensor takes up moisture so (Crank
+    1975) while its far side feels nothing of it, up to half of saturation. Cited from memory; no constants are taken.
+
+    >>> [round(float(done), 3) for done in diffused(np.array([0.0, 0.25, 1.0]))]
+    [0.0, 0.5, 1.0]
+    """
+    return np.sqrt(sequence)
+
+
 def sensor_warming(c: Contact, strength: float, pace: float) -> Contact:
     return replace(c, recorded=c.recorded * (1 + 0.1 * strength * warmed_up(c.rig.sequence, pace)))
+
+
+def sensor_creep(c: Contact, strength: float, onset: float) -> Contact:
+    return replace(c, recorded=c.recorded * (1 + 0.1 * strength * crept(c.rig.sequence, onset)))
+
+
+def sensor_soaking(c: Contact, strength: float) -> Contact:
+    return replace(c, recorded=c.recorded * (1 + 0.1 * strength * diffused(c.rig.sequence)))
 
 
 def torque_offset(c: Contact, strength: float) -> Contact:
@@ -106,6 +139,25 @@ EFFECTS = (
         sensor_warming,
         (strength(-6.0, 8.0), Knob("pace", 0.7, 5.0, (1.0, 3.0))),
         "warming amplifier",
+        0,
+        within=True,
+    ),
+    Concealed(
+        "sensor_drift",
+        "measurement",
+        "sensor",
+        sensor_creep,
+        (strength(-6.0, 8.0), Knob("onset", 0.001, 0.2, (0.003, 0.05))),
+        "logarithmic creep of a load cell",
+        0,
+    ),
+    Concealed(
+        "sensor_drift",
+        "measurement",
+        "sensor",
+        sensor_soaking,
+        (strength(-6.0, 8.0),),
+        "heat or moisture that diffuses in",
         0,
     ),
     Concealed(
