@@ -79,7 +79,12 @@ def chain(system: config.System, table: Table) -> Chain:
 
 
 def reading_fault(recorded: Table, row: int, excess: float) -> str | None:
-    """A reading that is off by one or two interference orders was miscounted, whatever the oil does."""
+    """A reading that is off by one or two interference orders was miscounted, whatever the oil does.
+
+    One below zero is no film, and nothing that an order explains.
+    """
+    if recorded["film_thickness_nm"][row] < 0.0:
+        return None
     for orders in (1, 2):
         if orders * FRINGE_NM[0] <= abs(excess) <= orders * FRINGE_NM[1]:
             count = "one interference order" if orders == 1 else "two interference orders"

@@ -7,6 +7,7 @@ import pytest
 
 from mixedlub.case import read_conditions
 from mixedlub.forward import Forward
+from mixedlub.table import Table
 from profiles.errors import InputError
 
 from .conftest import BALL, OIL, system
@@ -62,6 +63,8 @@ def test_a_reading_one_fringe_off_is_called_a_miscount(make):
     assert "two interference orders" in case.kind.reading_fault(case.recordings, 2, -400.0)
     assert case.kind.reading_fault(case.recordings, 2, 60.0) is None
     assert case.kind.reading_fault(case.recordings, 2, -318.0) is None
+    below = {**case.recordings.columns, "film_thickness_nm": -case.recordings["film_thickness_nm"]}
+    assert case.kind.reading_fault(Table(below), 2, -400.0) is None
 
 
 def test_viscosity_is_d341_times_density_and_barus(make):

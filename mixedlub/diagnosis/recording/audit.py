@@ -247,7 +247,7 @@ def _more_than_put_in(case: Case, rows: Table, y: np.ndarray) -> list[str]:
 
 
 def _of_one_sign(case: Case, rows: Table, y: np.ndarray) -> list[str]:
-    """Friction of a drive that is as large and of the same sign in both directions."""
+    """Friction of a drive that has the same sign in both directions."""
     if case.kind.name != "friction_map":
         return []
     speed = drive_speed(rows)
@@ -255,10 +255,10 @@ def _of_one_sign(case: Case, rows: Table, y: np.ndarray) -> list[str]:
     if min(forth.size, back.size) < FEWEST or np.any(np.sign(y) != np.sign(y[0])):
         return []
     one, other = float(np.median(forth)), float(np.median(back))
+    said = f"{case.quantity} keeps its sign when the drive turns back"
     if abs(one - other) > ALIKE * abs(one + other):
-        return []
-    said = f"{case.quantity} has one sign and size in both directions"
-    return [Doubt(f"{said}: friction turns with the speed, so check that its sign was not lost")]
+        return [f"{said}: right where a payload outweighs friction, else the sign was lost"]
+    return [Doubt(f"{said}, and its size: friction turns with the speed, so check that its sign was not lost")]
 
 
 def _sliding(rows: Table) -> list[str]:

@@ -73,7 +73,7 @@ def _resemblance(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
     if unseen:
         said.append(
             f"Not testable here (below {VISIBLE:g} sigma at usual strength once calibration adapts), so neither "
-            f"named nor excluded: {', '.join(effect_words(name) for name in unseen)}."
+            f"named nor excluded: {', '.join(_with_chance(d, name) for name in unseen)}."
         )
     return tuple(said)
 
@@ -92,7 +92,13 @@ def _open_still(d: Diagnosis, told: Collection[str]) -> list[str]:
     every = d.posterior.inclusion(d.found)
     named = {name for key in d.posterior.tied for name in d.posterior.names(key)}
     left = [name for name, p in every.items() if p >= REJECTED and name not in named and name not in told]
-    return [f"{effect_words(name)} ({chance(every[name])})" for name in sorted(left, key=lambda n: -every[n])]
+    return [_with_chance(d, name) for name in sorted(left, key=lambda n: -every[n])]
+
+
+def _with_chance(d: Diagnosis, name: str) -> str:
+    """An effect with its probability, where that is not small enough to be rejected."""
+    p = d.posterior.inclusion(d.found).get(name, 0.0)
+    return f"{effect_words(name)} ({chance(p)})" if p >= REJECTED else effect_words(name)
 
 
 def _improbable(d: Diagnosis) -> list[str]:
