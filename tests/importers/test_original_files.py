@@ -7,6 +7,7 @@ import pytest
 
 from mixedlub.case import read_case
 from mixedlub.importers import import_files
+from mixedlub.table import CaseWarning
 
 BALL = {"radius_mm": [9.525, float("inf")], "youngs_modulus_GPa": [207.0, 75.0], "poisson_ratio": [0.3, 0.22]}
 
@@ -70,7 +71,9 @@ def test_rheometer(recordings, tmp_path):
 def test_plain_table_with_units_as_suffixes(recordings, tmp_path):
     path = recordings / "ehd_film_31C_50N" / "film_vs_speed.csv"
     contact = {**BALL, "geometry": "point"}
-    table = read_case(import_files([path], tmp_path / "case", kind="film", contact=contact)).recordings
+    with pytest.warns(CaseWarning, match="'film_sd_nm' is not taken; if it is film_thickness_nm_sd"):
+        folder = import_files([path], tmp_path / "case", kind="film", contact=contact)
+    table = read_case(folder).recordings
     speed, slip = tidy(path, "rolling_speed_mm_s", "slide_roll_ratio_percent")
     assert np.allclose(table["entrainment_speed_m_s"], speed * 1e-3, rtol=1e-6)
     assert np.allclose(table["slide_roll_ratio"], slip * 0.01, rtol=1e-6)
