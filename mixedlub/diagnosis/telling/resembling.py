@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.fitting.problem import effects_of
@@ -55,9 +55,11 @@ def _resemblance(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
     # What is told as the nearest to a mismatch without a name shows here and is not simply rejected.
     near = nearest(d)
     told = () if near is None else near.names
-    unseen = [name for name in unshown(d, alike) if name not in told]
-    improbable = [name for name in _improbable(d) if name not in (*unshown(d, alike), *told)]
-    open_still = _open_still(d, (*unshown(d, alike), *told))
+    hidden = unshown(d, alike)
+    unseen = [name for name in hidden if name not in told]
+    improbable = [name for name in _improbable(d) if name not in (*hidden, *told)]
+    every = judged.inclusion(d.found)
+    open_still = _open_still(d, every, (*hidden, *told))
     if open_still:
         said.append(f"Less probable, not excluded: {', '.join(open_still)}.")
     rejected = ", ".join(effect_words(name) for name in improbable if name not in twins)
@@ -73,7 +75,7 @@ def _resemblance(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
     if unseen:
         said.append(
             f"Not testable here (below {VISIBLE:g} sigma at usual strength once calibration adapts), so neither "
-            f"named nor excluded: {', '.join(_with_chance(d, name) for name in unseen)}."
+            f"named nor excluded: {', '.join(_with_chance(name, every) for name in unseen)}."
         )
     return tuple(said)
 
@@ -84,20 +86,19 @@ def unshown(d: Diagnosis, alike: Confusion) -> list[str]:
     return [name for name in alike.unseen() if name not in told]
 
 
-def _open_still(d: Diagnosis, told: Collection[str]) -> list[str]:
+def _open_still(d: Diagnosis, every: Mapping[str, float], told: Collection[str]) -> list[str]:
     """What is neither in a tied explanation nor rejected nor told elsewhere, with its probability, most probable first.
 
     Nothing missing and the unnamed are among it.
     """
-    every = d.posterior.inclusion(d.found)
     named = {name for key in d.posterior.tied for name in d.posterior.names(key)}
     left = [name for name, p in every.items() if p >= REJECTED and name not in named and name not in told]
-    return [_with_chance(d, name) for name in sorted(left, key=lambda n: -every[n])]
+    return [_with_chance(name, every) for name in sorted(left, key=lambda n: -every[n])]
 
 
-def _with_chance(d: Diagnosis, name: str) -> str:
-    """An effect with its probability, where that is not small enough to be rejected."""
-    p = d.posterior.inclusion(d.found).get(name, 0.0)
+def _with_chance(name: str, every: Mapping[str, float]) -> str:
+    """An effect with its probability among those of all, where that is not small enough to be rejected."""
+    p = every.get(name, 0.0)
     return f"{effect_words(name)} ({chance(p)})" if p >= REJECTED else effect_words(name)
 
 
