@@ -75,7 +75,8 @@ def faults(d: Diagnosis) -> list[str]:
     table, y = d.recorded.table, d.found.problem.y
     for run in d.outlier_runs:
         row = int(np.flatnonzero(table["run"] == run)[0])
-        fault = d.case.kind.reading_fault(table, row, float(y[row] - d.recorded.predicted[row]))
+        excess, sd = float(y[row] - d.recorded.predicted[row]), float(d.recorded.sd[row])
+        fault = d.case.kind.reading_fault(table, row, excess, sd)
         found.append(f"run {run} set aside" + ("" if fault is None else f": {fault}"))
     return found[:5]
 

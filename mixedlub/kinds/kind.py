@@ -27,8 +27,9 @@ class Kind:
     one of the two of length one where a quantity does not depend on it; the chain ends in ``reading``,
     shape (rows, 1), in SI. ``recorded`` is the recording of the case, from which typical sizes (the largest
     speed, the duration) are taken, so that predictions elsewhere use the same ones; ``extra_calibration``
-    scales the priors of what is not known by it. ``reading_fault(recorded, row, excess)`` says in words what
-    an instrument of this kind does wrong when reading ``row`` is off by ``excess`` (unit of the column).
+    scales the priors of what is not known by it. ``reading_fault(recorded, row, excess, sd)`` says in words what
+    an instrument of this kind does wrong when reading ``row`` is off by ``excess``, its noise being ``sd`` (unit of
+    the column).
     ``logarithmic`` kinds span decades and are compared by the logarithm of the reading. ``part_rigs`` are the
     names in the column ``rig`` whose readings are compared with a part of the base model. ``channels`` are what
     the instrument tells of itself beside the reading: read as columns, but no condition of the test.
@@ -43,7 +44,7 @@ class Kind:
     chain: Callable[[config.System, Table], Chain]
     inputs: Callable[[config.System, Path, Table, Table], Inputs]
     extra_calibration: Callable[[config.System, Table], tuple[Calibration, ...]] = lambda system, recorded: ()
-    reading_fault: Callable[[Table, int, float], str | None] = lambda recorded, row, excess: None
+    reading_fault: Callable[[Table, int, float, float], str | None] = lambda recorded, row, excess, sd: None
     logarithmic: bool = False
     part_rigs: tuple[str, ...] = ()
     channels: tuple[Column, ...] = ()

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+LINE_EXPONENT, POINT_EXPONENT = 0.69, 0.67
+"""Of speed in the regressions of Dowson and Toyoda, and of Hamrock and Dowson."""
+
 
 def _line_groups(
     radius: np.ndarray,
@@ -39,7 +42,7 @@ def dowson_toyoda(
     0.2214
     """
     speed, load = _line_groups(radius, entrainment_speed, line_load, viscosity, reduced_modulus)
-    return 3.06 * (pressure_viscosity * reduced_modulus) ** 0.56 * radius * speed**0.69 * load**-0.10
+    return 3.06 * (pressure_viscosity * reduced_modulus) ** 0.56 * radius * speed**LINE_EXPONENT * load**-0.10
 
 
 def dowson_higginson(
@@ -88,4 +91,27 @@ def hamrock_dowson(
     ellipticity = 1.03 * (transverse_radius / radius) ** 0.64
     shape = 1.0 - 0.61 * np.exp(-0.73 * ellipticity)
     modulus = (pressure_viscosity * reduced_modulus) ** 0.53
-    return 2.69 * radius * speed**0.67 * modulus * group**-0.067 * shape
+    return 2.69 * radius * speed**POINT_EXPONENT * modulus * group**-0.067 * shape
+
+
+def with_other_exponent(
+    regression_film: np.ndarray,
+    viscosity: np.ndarray,
+    entrainment_speed: np.ndarray,
+    exponent_change: np.ndarray,
+    middle_flow: np.ndarray,
+) -> np.ndarray:
+    r"""Central film thickness where the exponent of speed is not quite that of the regression (m).
+
+    .. math:: h = h_r\,\left(\frac{\eta_0 u}{(\eta_0 u)_m}\right)^{\delta}
+
+    turned about the middle of the readings, so that their level stays. A regression gives one exponent to all
+    contacts. Solutions go from 0.6 (soft, isoviscous) to 0.75 (stiff, piezoviscous) by way of M and L of Moes, and
+    other regressions have others: 0.68 in R. J. Chittenden, D. Dowson, J. F. Dunn, C. M. Taylor, Proc. R. Soc. A 397
+    (1985) 271. Source: G. Nijenbanning, C. H. Venner, H. Moes, Wear 176 (1994) 217.
+
+    >>> h = with_other_exponent(200e-9, 0.02, 1.0, 0.02, 0.002)
+    >>> round(float(h) * 1e9)   # ten times the middle
+    209
+    """
+    return regression_film * (viscosity * entrainment_speed / middle_flow) ** exponent_change

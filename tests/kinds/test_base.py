@@ -43,13 +43,13 @@ def test_film_is_hamrock_dowson_with_unit_ellipticity_of_a_ball(make):
 def test_film_of_an_unnamed_oil_is_fitted_with_broad_priors_and_says_so(make):
     case = make(system("film", "film_thickness_nm", contact=BALL), film_columns())
     forward = Forward(case, case.recordings)
-    assert [c.name for c in forward.calibrations] == ["viscosity", "pressure_viscosity"]
+    assert [c.name for c in forward.calibrations] == ["viscosity", "pressure_viscosity", "film_exponent"]
     assert any("rests on these data" in note for note in forward.notes)
 
 
-def test_film_of_a_known_oil_has_nothing_to_calibrate(make):
+def test_film_of_a_known_oil_has_the_film_law_alone_to_calibrate(make):
     case = make(system("film", "film_thickness_nm", contact=BALL, lubricant=OIL), film_columns())
-    assert Forward(case, case.recordings).calibrations == ()
+    assert [c.name for c in Forward(case, case.recordings).calibrations] == ["film_exponent"]
 
 
 def test_film_needs_a_contact(make):
@@ -59,12 +59,12 @@ def test_film_needs_a_contact(make):
 
 def test_a_reading_one_fringe_off_is_called_a_miscount(make):
     case = make(system("film", "film_thickness_nm", contact=BALL, lubricant=OIL), film_columns())
-    assert "one interference order" in case.kind.reading_fault(case.recordings, 2, 203.0)
-    assert "two interference orders" in case.kind.reading_fault(case.recordings, 2, -400.0)
-    assert case.kind.reading_fault(case.recordings, 2, 60.0) is None
-    assert case.kind.reading_fault(case.recordings, 2, -318.0) is None
+    for excess, sd, said in ((203.0, 1.0, "one"), (-400.0, 1.0, "two"), (250.0, 20.0, "one"), (300.0, 90.0, "two")):
+        assert f"{said} interference order" in case.kind.reading_fault(case.recordings, 2, excess, sd)
+    for excess, sd in ((60.0, 1.0), (-318.0, 1.0), (250.0, 5.0), (60.0, 90.0), (280.0, 90.0)):
+        assert case.kind.reading_fault(case.recordings, 2, excess, sd) is None
     below = {**case.recordings.columns, "film_thickness_nm": -case.recordings["film_thickness_nm"]}
-    assert case.kind.reading_fault(Table(below), 2, -400.0) is None
+    assert case.kind.reading_fault(Table(below), 2, -400.0, 1.0) is None
 
 
 def test_viscosity_is_d341_times_density_and_barus(make):

@@ -8,6 +8,7 @@ import pytest
 
 from mixedlub.case import read_case
 from mixedlub.effect import catalogue
+from mixedlub.forward import Forward
 
 from .conftest import least_squares
 
@@ -27,7 +28,7 @@ def fit(case, *ids, sd=None, held=None):
 def without_last(case):
     """The film recording less its last reading, whose interference order was miscounted."""
     y = case.recordings[case.quantity]
-    sd = np.hypot(0.015 * y, 1.0)
+    sd = np.hypot(0.02 * y, 1.0)
     sd[-1] = 1e6
     return sd
 
@@ -36,10 +37,9 @@ def test_film_at_high_speed_is_over_predicted_and_heating_brings_it_within_three
     case = read_case(typed_in / "ehd_film_31C_50N")
     y = case.recordings["film_thickness_nm"]
     sd = without_last(case)
-    slow = sd.copy()
-    slow[case.recordings["entrainment_speed_m_s"] > 1.0] = 1e6
-    base, _, _ = fit(case, sd=slow)
-    assert 0.09 < base[19] / y[19] - 1.0 < 0.16
+    slow = case.recordings["entrainment_speed_m_s"] < 1.0
+    base = Forward(case, case.recordings).predict()
+    assert 0.09 < np.median(y[slow] / base[slow]) * base[19] / y[19] - 1.0 < 0.16
     after, _, values = fit(case, "inlet_shear_heating", sd=sd)
     assert abs(after[19] / y[19] - 1.0) < 0.03
     assert 0.5 < values["inlet_shear_heating"]["strength"] < 2.0
@@ -49,7 +49,7 @@ def test_last_film_is_one_fringe_off(typed_in):
     case = read_case(typed_in / "ehd_film_31C_50N")
     after, _, _ = fit(case, "inlet_shear_heating", sd=without_last(case))
     excess = float(case.recordings["film_thickness_nm"][-1] - after[-1])
-    assert "one interference order" in case.kind.reading_fault(case.recordings, 20, excess)
+    assert "one interference order" in case.kind.reading_fault(case.recordings, 20, excess, 0.02 * float(after[-1]))
 
 
 PER_CENT = 9.84e-5

@@ -74,7 +74,8 @@ def outliers(d: Diagnosis) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]
     count = "One reading is" if rows.size == 1 else f"{rows.size} readings are"
     said = [f"{count} more probably wrong than right, and counted for little.{more}"]
     for i in rows.tolist():
-        fault = d.case.kind.reading_fault(d.recorded.table, i, float(y[i] - d.recorded.predicted[i]))
+        excess, sd = float(y[i] - d.recorded.predicted[i]), float(d.recorded.sd[i])
+        fault = d.case.kind.reading_fault(d.recorded.table, i, excess, sd)
         if fault is not None:
             said.append(f"Run {int(d.recorded.table['run'][i])}: {fault}.")
     return tuple(said), tuple(table)
