@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -27,11 +27,11 @@ class Move:
 
     value: float
     on: tuple[Any, ...]
-    changes: Mapping[str, Any] = field(default_factory=dict)
+    changes: Mapping[str, Any]
 
-    def same(self, other: Move) -> bool:
-        """Whether the same value is applied to the very same inputs."""
-        return self.value == other.value and all(a is b for a, b in zip(self.on, other.on, strict=True))
+    def is_of(self, value: float, on: tuple[Any, ...]) -> bool:
+        """Whether this value was applied to these very inputs."""
+        return self.value == value and all(a is b for a, b in zip(self.on, on, strict=True))
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,12 +106,12 @@ class Forward:
         inputs, applied = dict(self.inputs), {}
         for c in self.calibrations:
             if calibration and c.name in calibration:
-                move = Move(calibration[c.name], tuple(inputs[name] for name in c.needs))
-                known = None if near is None else near.applied.get(c.name)
-                if known is None or not known.same(move):
-                    known = replace(move, changes=c.apply(inputs, move.value))
-                applied[c.name] = known
-                inputs.update(known.changes)
+                value, on = calibration[c.name], tuple(inputs[name] for name in c.needs)
+                move = None if near is None else near.applied.get(c.name)
+                if move is None or not move.is_of(value, on):
+                    move = Move(value, on, c.apply(inputs, value))
+                applied[c.name] = move
+                inputs.update(move.changes)
         model = self._model(tuple(sorted(parameters or {})))
         record = model.record(inputs, parameters, None if near is None else near.record)
         reading = np.asarray(record.wanted["reading"])
