@@ -123,4 +123,5 @@ KIND = Kind(
     chain=lambda system, table: (*GEAR_LOSS, ("reading", reading)),
     inputs=inputs,
     part_rigs=(NO_GEARS,),
+    nominal={"power_loss": "nominal_loss"},
 )

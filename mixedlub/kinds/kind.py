@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +34,7 @@ class Kind:
     names in the column ``rig`` whose readings are compared with a part of the base model. ``channels`` are what
     the instrument tells of itself beside the reading: read as columns, but no condition of the test.
     ``completed(table, recorded)`` adds to rows that were not recorded what the channels would tell there.
+    ``nominal`` are quantities that the base model has before calibration, laid out for effects under other names.
     ``limits(system)`` are the lowest and highest values that a column can have on this rig, by its name.
     """
 
@@ -50,6 +51,7 @@ class Kind:
     channels: tuple[Column, ...] = ()
     completed: Callable[[Table, Table], Table] = lambda table, recorded: table
     limits: Callable[[config.System], Mapping[str, tuple[float, float]]] = lambda system: {}
+    nominal: Mapping[str, str] = field(default_factory=dict)
 
     def is_unsigned(self, quantity: str) -> bool:
         """Whether readings are positive but for their noise; friction maps carry a sign."""
