@@ -334,7 +334,7 @@ def test_films_follow_the_viscosity_of_another_law():
     """Hamrock and Dowson: with its power 0.67, nothing at 40 and 100 C."""
     bench = drawn(film.draw, lambda b: 140.0 in b.columns["oil_temperature_C"])
     celsius = bench.columns["oil_temperature_C"]
-    base = bench.model(np.zeros(2), ())
+    base = bench.model(np.zeros(len(bench.names)), ())
     table = bench.settings["lubricant"]
     density = table["density_15C_kg_m3"] * (1 - table["density_change_per_K"] * (celsius - 15.0))
     oil = np.array(table["kinematic_viscosity_mm2_s"])

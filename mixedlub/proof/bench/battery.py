@@ -11,7 +11,7 @@ import numpy as np
 
 from mixedlub.proof.answers import IDENTIFIABLE
 from mixedlub.proof.bench import drive, film, history, mesh, viscosity
-from mixedlub.proof.bench.fit import Aim, best, rivals, slopes
+from mixedlub.proof.bench.fit import Aim, best, nearest, rivals, slopes
 from mixedlub.proof.bench.stage import Act, Bench, Form
 from mixedlub.proof.concealed import MEASUREMENT
 from mixedlub.proof.deal import CLEAR, FAINT, PAIR, refactored, solve
@@ -28,6 +28,8 @@ ROOMS = {
 }
 SHARES = {"none": 0.175, "single": 0.40, "pair": 0.10, "measurement": 0.15, "unknown": 0.175}
 SPOILED = {"none": 0.5, "single": 0.15, "measurement": 0.15, "pair": 0.0, "unknown": 0.1}
+UNNAMED = {"film": film.draw_unnamed}
+"""Kinds of which every third case has an oil that nobody names, unless no reading could then show its effects."""
 NOISE = (0.3, 5.0)
 SURVEY, TRIES, DRAWS = 60, 8, 400
 
@@ -42,6 +44,7 @@ class Order:
     effects: tuple[str, ...]
     level: str
     outliers: bool = False
+    unnamed: bool = False
 
 
 @dataclass(frozen=True)
@@ -90,9 +93,14 @@ def _of_kind(rng: np.random.Generator, kind: str, seed: int, cases: int) -> list
     drawn += [("pair", pair) for pair in deck(rng, pairs, [1.0] * len(pairs), counts["pair"])]
     levels = ["clear" if place % 2 == 0 or label == "pair" else "faint" for place, (label, _) in enumerate(drawn)]
     return [
-        Order("", kind, label, effects, level, bool(rng.random() < SPOILED[label]))
-        for (label, effects), level in zip(drawn, levels)
+        Order("", kind, label, effects, level, bool(rng.random() < SPOILED[label]), _unnamed(kind, place, effects))
+        for place, ((label, effects), level) in enumerate(zip(drawn, levels))
     ]
+
+
+def _unnamed(kind: str, place: int, effects: tuple[str, ...]) -> bool:
+    """Every third of the cases as they are drawn, class by class."""
+    return kind in UNNAMED and place % 3 == 1 and not film.NAMED_ONLY & set(effects)
 
 
 def plan(seed: int, cases: int) -> list[Order]:
@@ -108,8 +116,9 @@ def plan(seed: int, cases: int) -> list[Order]:
 
 def _bench_for(rng: np.random.Generator, order: Order) -> tuple[Bench, tuple[Form, ...]]:
     """A bench on which the ordered effects can be at work, and one form of each."""
+    draw = UNNAMED[order.kind] if order.unnamed else ROOMS[order.kind].draw
     for _ in range(DRAWS):
-        bench = ROOMS[order.kind].draw(rng)
+        bench = draw(rng)
         pool = bench.outside if order.label == "unknown" else bench.forms
         chosen = []
         for name in order.effects:
@@ -172,7 +181,7 @@ def deal(rng: np.random.Generator, order: Order) -> Hand:
 
 def _readable(hand: Hand) -> bool:
     """Only maps of friction have a sign: a film, a viscosity or a coefficient is above zero but for its noise."""
-    return hand.bench.kind == "friction_map" or bool(np.all(hand.bench.model(hand.z, hand.acts) > 0))
+    return hand.bench.kind == "friction_map" or bool(np.all(hand.bench.records(hand.z, hand.acts) > 0))
 
 
 def _noised(rng: np.random.Generator, order: Order, bench: Bench, forms: tuple[Form, ...], goal: float) -> Hand:
@@ -180,8 +189,9 @@ def _noised(rng: np.random.Generator, order: Order, bench: Bench, forms: tuple[F
     z = rng.standard_normal(len(bench.names))
     if not order.effects and rng.random() < 0.5:
         z = np.sign(z) * rng.uniform(1.0, 2.0, len(z))
+    z = z if bench.planted is None else nearest(bench)
     knobs = tuple(_knobs(rng, form) for form in forms)
-    base = bench.model(z, ())
+    base = bench.records(z, ())
     moves = slopes(bench, z)[~hidden]
     typical = float(np.quantile(np.abs(base), bench.quantile))
     share = float(np.exp(rng.uniform(*np.log(bench.floor))))
@@ -194,9 +204,9 @@ def _noised(rng: np.random.Generator, order: Order, bench: Bench, forms: tuple[F
     def each(level: float, factors: Sequence[float]) -> list[float]:
         """How visible every effect is with the others there."""
         one = hand(level, factors)
-        truth = bench.model(z, one.acts)
+        truth = bench.records(z, one.acts)
         sd = one.sd(truth)[~hidden]
-        rests = [bench.model(z, [act for j, act in enumerate(one.acts) if j != i]) for i in range(len(forms))]
+        rests = [bench.records(z, [act for j, act in enumerate(one.acts) if j != i]) for i in range(len(forms))]
         return [visibility((truth - rest)[~hidden], sd, moves) for rest in rests]
 
     level, factors = float(np.exp(rng.uniform(*np.log(NOISE)))), [1.0] * len(forms)
@@ -224,12 +234,20 @@ def _matched(hand: Hand, order: Order, aim: Aim) -> tuple[dict[str, float], floa
     """Least chi-square of every other explanation, and of the truth itself."""
     rank = 2 if order.label == "unknown" else max((form.rank for form in hand.forms), default=0)
     other = rivals(aim, hand.forms, hand.knobs, hand.z, rank)
-    own = float(hand.z @ hand.z)
     if order.label == "none":
-        own = other["none"]
-    elif order.label != "unknown":
-        own = min(own, best(aim, hand.forms, hand.z, hand.knobs)[0])
-    return other, own
+        return other, other["none"]
+    if hand.bench.planted is not None:
+        return other, min(best(aim, hand.forms, hand.z, known)[0] for known in (hand.knobs, ()))
+    own = float(hand.z @ hand.z)
+    return other, own if order.label == "unknown" else min(own, best(aim, hand.forms, hand.z, hand.knobs)[0])
+
+
+def _identifiable(hand: Hand, other: dict[str, float], own: float) -> bool:
+    """No other explanation comes near; nothing missing needs only that none be better, where it is not exact."""
+    least = min(other.values()) - own
+    if hand.forms:
+        return least > IDENTIFIABLE
+    return hand.bench.planted is None or least > -IDENTIFIABLE
 
 
 def make(seed: int, index: int, order: Order, folder: Path) -> str:
@@ -240,7 +258,7 @@ def make(seed: int, index: int, order: Order, folder: Path) -> str:
     rng = np.random.default_rng([seed, 12, index])
     hand = deal(rng, order)
     bench, z = hand.bench, hand.z
-    truth = bench.model(z, hand.acts)
+    truth = bench.records(z, hand.acts)
     sd = hand.sd(truth)
     visible = np.flatnonzero(~hand.hidden)
     recorded, spoiled = record(rng, truth, sd, visible, order.outliers)
@@ -267,24 +285,25 @@ def make(seed: int, index: int, order: Order, folder: Path) -> str:
             for form, values in zip(hand.forms, hand.knobs)
         ],
         "level": order.level if order.effects else "none",
+        "unnamed_oil": order.unnamed,
         "theta": bench.theta(z),
         "z": dict(zip(bench.names, plain(z))),
         "noise": {"relative": hand.relative, "absolute": hand.absolute},
         "outliers": sorted(int(runs[i]) for i in spoiled),
         "alternatives": other,
         "own": round(own, 4),
-        "identifiable": bool(not order.effects or min(other.values()) - own > IDENTIFIABLE),
+        "identifiable": _identifiable(hand, other, own),
         "rows": rows(
             runs,
             hand.hidden,
             truth=truth,
-            base=bench.model(z, ()),
+            base=bench.records(z, ()),
             nominal=bench.model(np.zeros(len(z)), ()),
             sd=sd,
         ),
     }
     noise, more = _told(rng, hand, truth)
-    counted = bench.settle(bench.model(z, [act for act in hand.acts if act.stage != "sensor"]))
+    counted = bench.settle(bench.records(z, [act for act in hand.acts if act.stage != "sensor"]))
     settings = {**bench.settings, "recording": {**bench.settings["recording"], **noise}}
     readings = {settings["recording"]["quantity"]: recorded, **more}
     write(place, settings, {**bench.columns, **counted}, readings, hand.hidden, bench.share, answer)

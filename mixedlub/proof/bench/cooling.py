@@ -125,3 +125,11 @@ def of_contacts(rig: Rig) -> tuple[Form, ...]:
         Form("viscosity_temperature_law", "oil", cooled_by_reynolds, (WHOLE,), REYNOLDS, within=True),
         Form("viscosity_temperature_law", "oil", cooled_as_mistold, (MISTOLD_BY,), MISTOLD),
     )
+
+
+def of_unnamed(rig: Rig, labelled: bool) -> tuple[Form, ...]:
+    """Those of an oil without a data sheet: all where two viscosities are told, else none mistold and at four baths."""
+    forms = of_contacts(rig)
+    if labelled:
+        return forms
+    return tuple(f for f in forms if f.law is not cooled_as_mistold) if len(np.unique(rig.temperature)) > 3 else ()

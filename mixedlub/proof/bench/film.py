@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from mixedlub.proof.bench import cooling
-from mixedlub.proof.bench.point import BALL_FILM, FILM_FORMS, ball_rig
+from mixedlub.proof.bench.point import FILM_FORMS, ball_film, ball_rig, lubricate_ball_in_any_regime
 from mixedlub.proof.bench.stage import (
-    Act,
     Bench,
     Form,
     between,
@@ -22,11 +20,10 @@ from mixedlub.proof.bench.stage import (
     repeated,
     rounded,
 )
-from mixedlub.proof.build import PRIORS
+from mixedlub.proof.bench.told import named, unnamed
 from mixedlub.proof.concealed.kinds import Knob, strength
 from mixedlub.proof.design import draw_oil
-from mixedlub.proof.explain import calibrated
-from mixedlub.proof.rig import Calibration, Contact, start
+from mixedlub.proof.rig import Calibration, Contact, Rig, start
 
 PAIRS = (
     ("inlet_shear_heating", "boundary_film"),
@@ -36,6 +33,8 @@ PAIRS = (
     ("starvation", "zero_drift"),
     ("viscosity_temperature_law", "zero_drift"),
 )
+NAMED_ONLY = frozenset({"sensor_gain"})
+"""What no reading can show of an unnamed oil, whose level is free."""
 
 
 def joined_by_cubes(c: Contact, strength: float) -> Contact:
@@ -206,8 +205,8 @@ def _programme(rng: np.random.Generator) -> tuple[dict[str, np.ndarray], bool]:
     return columns, again
 
 
-def draw(rng: np.random.Generator) -> Bench:
-    """An interferometer with a steel ball, its oil and its programme."""
+def _interferometer(rng: np.random.Generator) -> tuple[Rig, dict[str, Any], dict[str, np.ndarray], bool]:
+    """A steel ball on a disc, its oil and its programme: rig, case with all that is known, columns, repeats."""
     columns, again = _programme(rng)
     disc = pick(rng, ((75.0, 0.22), (81.0, 0.21), (430.0, 0.25)))
     priors = {"viscosity": pick(rng, (0.05, 0.1, 0.2)), "pressure_viscosity": pick(rng, (0.06, 0.12))}
@@ -224,19 +223,54 @@ def draw(rng: np.random.Generator) -> Bench:
         "uncertainty": priors,
         "recording": {"quantity": "film_thickness_nm"},
     }
-    rig = ball_rig(settings, columns, np.ones(3) * 1e-12)
-    sds = {name: priors.get(name, 0.0) for name in PRIORS}
-    names = ("viscosity", "pressure_viscosity")
+    return ball_rig(settings, columns, np.ones(3) * 1e-12), settings, columns, again
 
-    def fixed(z: np.ndarray) -> Calibration:
-        whole = np.zeros(len(PRIORS))
-        whole[[PRIORS.index(name) for name in names]] = z
-        return calibrated(Calibration(), sds, whole)
 
-    def model(z: np.ndarray, acts: Sequence[Act]) -> np.ndarray:
-        return np.asarray(play(BALL_FILM, start(rig, fixed(z)), acts).recorded)
+def draw(rng: np.random.Generator) -> Bench:
+    """An interferometer whose oil has a data sheet; films by the regression, its exponent within what others have."""
+    rig, settings, columns, again = _interferometer(rng)
+    priors = settings["uncertainty"]
+    told = named(rig, priors["viscosity"], priors["pressure_viscosity"])
+    bench = Bench(
+        kind="film",
+        settings=settings,
+        columns=columns,
+        names=told.names,
+        model=told.model,
+        theta=lambda z: {f"{name}_scale": value for name, value in told.factors(z).items()},
+        forms=cooling.of_contacts(rig),
+        outside=(),
+        repeats=again,
+    )
+    return _read(rng, bench, True)
 
-    nominal = model(np.zeros(2), ())
+
+def draw_unnamed(rng: np.random.Generator) -> Bench:
+    """One whose oil is unnamed, films by a law over all regimes at the oil's true properties."""
+    rig, settings, columns, again = _interferometer(rng)
+    told, sections = unnamed(rng, rig)
+    kept = {name: table for name, table in settings.items() if name not in ("lubricant", "uncertainty")}
+    start_of = start(rig, Calibration())
+    chain = ball_film(lubricate_ball_in_any_regime)
+    bench = Bench(
+        kind="film",
+        settings={**kept, **sections},
+        columns=columns,
+        names=told.names,
+        model=told.model,
+        theta=lambda z: {},
+        forms=cooling.of_unnamed(rig, "lubricant" in sections),
+        outside=(),
+        repeats=again,
+        planted=lambda acts: np.asarray(play(chain, start_of, acts).recorded),
+    )
+    return _read(rng, bench, False)
+
+
+def _read(rng: np.random.Generator, bench: Bench, sheet: bool) -> Bench:
+    """The bench with its instrument and all that can be at work; only a data ``sheet`` shows a wrong span."""
+    columns = bench.columns
+    nominal = bench.records(np.zeros(len(bench.names)), ())
     period, spacer = rounded(rng.uniform(185, 215)), rounded(rng.uniform(100, 500))
     counted = bool(np.ptp(orders(nominal, spacer, period)) >= 2 and rng.random() < 0.6)
 
@@ -248,21 +282,8 @@ def draw(rng: np.random.Generator) -> Bench:
     forms = (
         FILM_FORMS
         + _oil_forms()
-        + cooling.of_contacts(rig)
+        + bench.forms
         + _fringe_forms(spacer, period, onset, counted)
-        + channel(columns["sequence"], True, True, True)
+        + channel(columns["sequence"], True, sheet, True)
     )
-    return Bench(
-        kind="film",
-        settings=settings,
-        columns=columns,
-        names=names,
-        model=model,
-        theta=lambda z: {f"{name}_scale": getattr(fixed(z), name) for name in names},
-        forms=forms,
-        outside=_outside(columns),
-        quantile=0.1,
-        floor=(0.1, 1.0),
-        repeats=again,
-        settle=settle,
-    )
+    return replace(bench, forms=forms, outside=_outside(columns), quantile=0.1, floor=(0.1, 1.0), settle=settle)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -14,7 +14,7 @@ from mixedlub.proof.concealed import film as film_room
 from mixedlub.proof.concealed.kinds import Knob, strength
 from mixedlub.proof.rig import Contact, Rig, Solid, lubricate, mix, press, shear, touch
 
-CIRCULAR = 1.03
+CIRCULAR, SPEED_EXPONENT = 1.03, 0.67
 
 
 def ball_rig(settings: Mapping[str, Any], columns: Mapping[str, np.ndarray], moments: np.ndarray) -> Rig:
@@ -53,7 +53,34 @@ def lubricate_ball(c: Contact) -> Contact:
     speed = c.viscosity * c.entrainment / (modulus * radius)
     load = c.force / (modulus * radius**2)
     shape = 2.69 * (1 - 0.61 * np.exp(-0.73 * CIRCULAR))
-    return replace(c, film=radius * shape * speed**0.67 * (c.pressure_viscosity * modulus) ** 0.53 * load**-0.067)
+    coefficient = (c.pressure_viscosity * modulus) ** 0.53
+    return replace(c, film=radius * shape * speed**SPEED_EXPONENT * coefficient * load**-0.067)
+
+
+def turned_ball_film(c: Contact, change: float, middle: float) -> Contact:
+    """The same film with another exponent of speed, turned about a viscosity times speed (Pa m)."""
+    regression = lubricate_ball(c)
+    return replace(regression, film=regression.film * (c.viscosity * c.entrainment / middle) ** change)
+
+
+def lubricate_ball_in_any_regime(c: Contact) -> Contact:
+    """Central film of a circle, stiff or soft, isoviscous or not.
+
+    Nijenbanning, Venner and Moes, Wear 176 (1994) 217: the asymptotes rigid-isoviscous, elastic-isoviscous,
+    rigid-piezoviscous and elastic-piezoviscous in the groups of Moes (speed as the sum of both), joined by powers.
+    """
+    modulus, radius = c.rig.solid.reduced, c.rig.radius
+    speed = 2 * c.viscosity * c.entrainment / (modulus * radius)
+    m = c.force / (modulus * radius**2) * speed**-0.75
+    ell = c.pressure_viscosity * modulus * speed**0.25
+    rigid = 145 * 1.796 ** (-15 / 7) * m**-2
+    elastic = 3.18 * 1.63 ** (-14 / 25) * m ** (-2 / 15)
+    rigid_thick = 1.29 * 1.691 ** (-2 / 3) * ell ** (2 / 3)
+    elastic_thick = 1.48 * 1.63 ** (-7 / 20) * m ** (-1 / 12) * ell**0.75
+    power = 1.5 * (1 + np.exp(-1.2 * elastic / elastic_thick))
+    isoviscous = (rigid**1.5 + (elastic**-4 + 1.8**-4) ** -0.375) ** (2 / 3)
+    thick = (rigid_thick**-8 + elastic_thick**-8) ** -0.125
+    return replace(c, film=radius * np.sqrt(speed) * (isoviscous**power + thick**power) ** (1 / power))
 
 
 def _film_nm(c: Contact) -> Contact:
@@ -64,14 +91,18 @@ def _coefficient(c: Contact) -> Contact:
     return replace(c, recorded=c.friction[:, 0])
 
 
-BALL_FILM: Chain = (
-    ("oil", None),
-    ("surface", press_ball),
-    ("film", lubricate_ball),
-    ("boundary", None),
-    ("loss", _film_nm),
-    ("sensor", None),
-)
+def ball_film(law: Callable[[Contact], Contact]) -> Chain:
+    """The chain of an interferometer whose films follow a law."""
+    return (
+        ("oil", None),
+        ("surface", press_ball),
+        ("film", law),
+        ("boundary", None),
+        ("loss", _film_nm),
+        ("sensor", None),
+    )
+
+
 BALL_FRICTION: Chain = (
     ("oil", None),
     ("load", None),

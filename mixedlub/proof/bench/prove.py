@@ -52,6 +52,7 @@ class Steady:
 def judge(out: Path, sealed: Sequence[Path]) -> dict[str, Score]:
     """Scores of the answers: a case the tool broke down on is answered wrong, one it refused is no case."""
     pairs: dict[str, list[Pair]] = {kind: [] for kind in ROOMS}
+    unnamed: list[Pair] = []
     asked: set[str] = set()
     broken: list[str] = []
     refused: list[str] = []
@@ -69,7 +70,9 @@ def judge(out: Path, sealed: Sequence[Path]) -> dict[str, Score]:
         if (answered / REFUSED).exists():
             continue
         truth = read_truth(case)
-        pairs[told["rig"]].append((truth, silent(truth) if (answered / BROKEN).exists() else read_answer(answered)))
+        pair = truth, silent(truth) if (answered / BROKEN).exists() else read_answer(answered)
+        pairs[told["rig"]].append(pair)
+        unnamed += [pair] if told.get("unnamed_oil") else []
     ids = sorted(asked)
     whole = [pair for kind in pairs.values() for pair in kind]
     scores = {"all": score(whole, TOOL, ids)}
@@ -78,7 +81,8 @@ def judge(out: Path, sealed: Sequence[Path]) -> dict[str, Score]:
     for kind in pairs:
         if kind in scores:
             scores[kind].save(out / f"score_{kind}.json")
-    text = [scores["all"].text(), by_kind(pairs), wrong(pairs)]
+    columns = {**pairs, "film, unnamed": unnamed} if unnamed else pairs
+    text = [scores["all"].text(), by_kind(columns), wrong(pairs)]
     text += ["broke down without an answer, counted as wrong above", *broken, ""] if broken else []
     text += ["refused as bad input, counted nowhere above", *refused, ""] if refused else []
     (out / "score.txt").write_text("\n".join(text), encoding="utf-8")

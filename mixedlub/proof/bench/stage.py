@@ -51,7 +51,8 @@ class Bench:
     """A rig and its programme.
 
     ``model`` gives the noise-free readings at calibration ``z`` (in prior sds, one a name of ``names``) with
-    effects at work. ``quantile`` tells which of the readings the absolute part of the noise is measured by.
+    effects at work. ``planted`` gives them where nature keeps to another base law than the model's, which no
+    calibration quite becomes. ``quantile`` tells which of the readings the absolute part of the noise is measured by.
     ``settle`` completes columns that depend on the readings, such as the fringe order an instrument counts.
     """
 
@@ -68,10 +69,15 @@ class Bench:
     repeats: bool = False
     share: np.ndarray | None = None
     settle: Callable[[np.ndarray], dict[str, np.ndarray]] = field(default=lambda values: {})
+    planted: Callable[[Sequence[Act]], np.ndarray] | None = None
 
     @property
     def ids(self) -> set[str]:
         return {form.id for form in self.forms}
+
+    def records(self, z: np.ndarray, acts: Sequence[Act]) -> np.ndarray:
+        """What the rig reads without noise."""
+        return self.model(z, acts) if self.planted is None else self.planted(acts)
 
 
 def play(chain: Chain, state: Any, acts: Sequence[Act]) -> Any:

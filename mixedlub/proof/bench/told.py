@@ -1,0 +1,130 @@
+"""What a film case tells of its oil and its film law, and how far calibration may go from that."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from mixedlub.proof.bench.point import SPEED_EXPONENT, ball_film, turned_ball_film
+from mixedlub.proof.bench.stage import Act, pick, play, rounded
+from mixedlub.proof.rig import KELVIN, Calibration, Contact, Oil, Rig, start
+
+LEVEL, STEEPNESS, VISCOSITY, COEFFICIENT, WARMTH, EXPONENT = (
+    "viscosity_level",
+    "viscosity_steepness",
+    "viscosity",
+    "pressure_viscosity",
+    "pressure_viscosity_warmth",
+    "film_exponent",
+)
+REGRESSIONS_DIFFER = 0.015
+"""Relative: 0.67 of Hamrock and Dowson 1977 and 0.68 of Chittenden, Dowson, Dunn and Taylor 1985."""
+REGIMES_DIFFER = 0.035
+"""Relative: what Nijenbanning, Venner and Moes 1994 have over balls, oils and speeds in use, two of it on each side."""
+NOT_GIVEN = {LEVEL: 1.0, STEEPNESS: 0.5, COEFFICIENT: 0.35, WARMTH: 0.4}
+"""An oil that nobody describes: logarithms, but for the relative fall of the coefficient over 100 K."""
+NOMINAL = 0.3
+"""Relative, of viscosities that are those of a class of oils or of a label."""
+ACROSS = (STEEPNESS, WARMTH)
+"""What only readings at several temperatures are touched by."""
+MINERAL = Oil((40.0, 100.0), (55e-6, 6.6e-6), (19.9e-9, 14.8e-9), 865.0)
+"""The middle of the mineral oils that are drawn; only where calibration starts from."""
+THINNEST, THICKEST = 0.4e-6, 1.0
+
+
+def _ordinate(kinematic: Any) -> np.ndarray:
+    """Of ASTM D341, viscosities in m2/s between the thinnest and the thickest."""
+    return np.log10(np.log10(1e6 * np.clip(kinematic, THINNEST, THICKEST) + 0.7))
+
+
+def moved(oil: Oil, pivot: float, level: float, steepness: float) -> Oil:
+    """The oil as many times as viscous at the pivot (C) and as steep in the chart of ASTM D341.
+
+    >>> oil = moved(MINERAL, 40.0, 2.0, 1.0)
+    >>> [round(1e6 * nu, 1) for nu in oil.kinematic]
+    [110.0, 9.6]
+    """
+    at = oil.kinematic_at(np.array(pivot))
+    line = _ordinate(level * at) + steepness * (_ordinate(oil.kinematic) - _ordinate(at))
+    first, second = 1e-6 * (10**10 ** np.clip(line, _ordinate(THINNEST), _ordinate(THICKEST)) - 0.7)
+    return replace(oil, kinematic=(float(first), float(second)))
+
+
+@dataclass(frozen=True)
+class Told:
+    """A film rig with the oil that the case tells of, and the spread of each property that may be another."""
+
+    rig: Rig
+    spreads: dict[str, float]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(self.spreads)
+
+    @property
+    def pivot(self) -> float:
+        """Temperature (C) about which an oil that is not given turns."""
+        return float(np.exp(np.mean(np.log(self.rig.temperature + KELVIN))) - KELVIN)
+
+    @property
+    def flow(self) -> float:
+        """Viscosity times speed in the middle of the programme, about which the film law turns."""
+        c = start(self.rig, Calibration())
+        return float(np.exp(np.mean(np.log(c.viscosity * c.entrainment))))
+
+    def factors(self, z: np.ndarray) -> dict[str, float]:
+        """Factors on what is told, by name, ``z`` spreads off."""
+        return {name: float(np.exp(self.spreads[name] * value)) for name, value in zip(self.names, z)}
+
+    def start(self, z: np.ndarray) -> Contact:
+        """Oil and kinematics with the calibration ``z`` spreads off."""
+        by, rig = self.factors(z), self.rig
+        if LEVEL in by:
+            rig = replace(rig, oil=moved(rig.oil, self.pivot, by[LEVEL], by.get(STEEPNESS, 1.0)))
+        c = start(rig, Calibration(viscosity=by.get(VISCOSITY, 1.0), pressure_viscosity=by[COEFFICIENT]))
+        return self._tilted(c, float(np.log(by.get(WARMTH, 1.0))))
+
+    def _tilted(self, c: Contact, more: float) -> Contact:
+        """The coefficient with another fall over 100 K, linear in temperature about the pivot."""
+        low, high = c.rig.oil.pressure_viscosity_at(np.array([self.pivot, self.pivot + 100.0]))
+        usual, place = high / low - 1, (c.temperature - self.pivot) / 100
+        ratio = np.maximum(1 + (usual + more) * place, 0.05) / np.maximum(1 + usual * place, 0.05)
+        return replace(c, pressure_viscosity=c.pressure_viscosity * ratio)
+
+    def model(self, z: np.ndarray, acts: Sequence[Act]) -> np.ndarray:
+        """Films (nm) by the regression, its exponent of speed within the spread."""
+        change = SPEED_EXPONENT * (self.factors(z)[EXPONENT] - 1)
+        law = partial(turned_ball_film, change=change, middle=self.flow)
+        return np.asarray(play(ball_film(law), self.start(z), acts).recorded)
+
+
+def named(rig: Rig, viscosity: float, coefficient: float) -> Told:
+    """An oil by its data sheet."""
+    return Told(rig, {VISCOSITY: viscosity, COEFFICIENT: coefficient, EXPONENT: REGRESSIONS_DIFFER})
+
+
+def _spreads(free: Sequence[str], celsius: np.ndarray) -> dict[str, float]:
+    several = np.ptp(celsius) > 2.0
+    return {name: NOT_GIVEN[name] for name in free if several or name not in ACROSS}
+
+
+def unnamed(rng: np.random.Generator, true: Rig) -> tuple[Told, dict[str, Any]]:
+    """Of the rig's true oil nothing is told, or viscosities in name only; the sections of the case that tell it."""
+    if pick(rng, (True, False)):
+        free = _spreads((LEVEL, STEEPNESS, COEFFICIENT, WARMTH), true.temperature)
+        return Told(replace(true, oil=MINERAL), {**free, EXPONENT: REGIMES_DIFFER}), {}
+    off = float(np.exp(NOMINAL * rng.standard_normal()))
+    first, second = (rounded(1e6 * off * nu) for nu in true.oil.kinematic)
+    section = {
+        "name": "unnamed oil",
+        "temperature_C": list(true.oil.temperature),
+        "kinematic_viscosity_mm2_s": [first, second],
+    }
+    oil = replace(MINERAL, temperature=true.oil.temperature, kinematic=(1e-6 * first, 1e-6 * second))
+    free = _spreads((COEFFICIENT, WARMTH), true.temperature)
+    told = Told(replace(true, oil=oil), {VISCOSITY: NOMINAL, **free, EXPONENT: REGIMES_DIFFER})
+    return told, {"lubricant": section, "uncertainty": {"viscosity": NOMINAL}}
