@@ -2,9 +2,12 @@
 
 import numpy as np
 
-from mixedlub.effect import LogNormal, Parameter, effect
+from mixedlub.effect import Between, LogNormal, Parameter, effect
 
-REFERENCE = 313.15
+FORTY = 313.15
+"""Kelvins at which fall and convexity are told: 40 degC, where oils are graded."""
+NEAREST = 5.0
+"""Kelvins above the temperature of divergence that no grease passes."""
 
 
 @effect(
@@ -15,24 +18,39 @@ REFERENCE = 313.15
             "fall_per_kelvin",
             "1/K",
             LogNormal(0.03, 0.5),
-            "relative fall of viscous drag a kelvin",
+            "relative fall of viscous drag a kelvin at 40 degC",
             null=0.0,
             symbol="b",
         ),
+        Parameter(
+            "convexity",
+            "-",
+            Between(0.0, 3.4),
+            "40 degC in kelvins over its distance from the temperature at which Vogel's viscosity diverges",
+            symbol="m",
+        ),
     ),
-    equation=r"T_v \leftarrow T_v\,e^{-b\,(\theta_{oil} - 40\,^\circ\text{C})}",
-    source="A. C. Bittencourt, S. Gunnarsson, J. Dyn. Syst. Meas. Control 134 (2012) 051013; exponential as in "
-    "O. Reynolds, Phil. Trans. R. Soc. 177 (1886) 157",
+    equation=r"T_v \leftarrow T_v\,\exp\left[-\frac{b\,(\theta_{oil} - 40\,^\circ\text{C})}"
+    r"{1 + m\,(\theta_{oil} - 40\,^\circ\text{C})/313\,\text{K}}\right]",
+    source="A. C. Bittencourt, S. Gunnarsson, J. Dyn. Syst. Meas. Control 134 (2012) 051013; H. Vogel, Phys. Z. 22 "
+    "(1921) 645, with m = 1 after E. N. da C. Andrade, Nature 125 (1930) 309, with m = 0 after O. Reynolds, Phil. "
+    "Trans. R. Soc. 177 (1886) 157",
     fingerprint={"oil_temperature": "-"},
     separated_by="the same speeds warm and cold: the slope against speed changes, the dry level does not",
     kinds=("friction_map",),
+    contains={"Andrade": {"convexity": 1.0}, "Reynolds": {"convexity": 0.0}},
 )
 def grease_temperature(
-    viscous_torque: np.ndarray, oil_temperature: np.ndarray, *, fall_per_kelvin: float
+    viscous_torque: np.ndarray, oil_temperature: np.ndarray, *, fall_per_kelvin: float, convexity: float
 ) -> np.ndarray:
     """Warm grease shears more easily, so the part of friction that grows with speed shrinks.
 
-    >>> round(float(grease_temperature(1.0, 333.15, fall_per_kelvin=0.03)), 3)
+    >>> round(float(grease_temperature(1.0, 333.15, fall_per_kelvin=0.03, convexity=0.0)), 3)
     0.549
+    >>> vogel = {"fall_per_kelvin": 700.0 / 135.0**2, "convexity": 313.15 / 135.0}   # 700 K, diverging at -95 degC
+    >>> round(float(grease_temperature(1.0, 333.15, **vogel)), 3)   # exp(700/155 - 700/135)
+    0.512
     """
-    return viscous_torque * np.exp(-fall_per_kelvin * (oil_temperature - REFERENCE))
+    warmer = oil_temperature - FORTY
+    distance = np.maximum(FORTY + convexity * warmer, convexity * NEAREST) / FORTY
+    return viscous_torque * np.exp(-fall_per_kelvin * warmer / distance)

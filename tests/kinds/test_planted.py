@@ -59,9 +59,11 @@ def planted_load():
 
 
 def planted_grease():
-    """Vogel's form: the catalogue carries an exponential."""
-    speed, celsius = np.tile(SPEED, 3), np.repeat([10.0, 30.0, 60.0], SPEED.size)
-    drag = 1.5 * np.exp(800.0 / (celsius + 95.0) - 800.0 / 135.0)
+    """Walther's form, 100 mm2/s at 40 and 11 at 100 degC: the catalogue carries Vogel's."""
+    speed, celsius = np.tile(SPEED, 3), np.repeat([10.0, 40.0, 70.0], SPEED.size)
+    place = np.log((celsius + 273.15) / 313.15) / np.log(373.15 / 313.15)
+    ordinate = np.log(np.log(100.7)) + place * np.log(np.log(11.7) / np.log(100.7))
+    drag = 3.0 * (np.exp(np.exp(ordinate)) - 0.7) / 100.0
     return drive(2.0 * np.sign(speed) + drag * speed / 200.0, speed_rpm=speed, oil_temperature_C=celsius)
 
 
@@ -366,3 +368,7 @@ def test_a_force_at_one_load_has_no_zero_error_of_its_own(make) -> None:
     steady = {"time_s": TIME, "load_N": np.full(60, 20.0), "friction_coefficient": noisy(np.full(60, 0.1))}
     case = make(system("friction_history", "friction_coefficient"), steady)
     assert not {"force_offset", "force_drift"} & {e.id for e in Forward(case, case.recordings).effects()}
+
+
+def test_grease_that_cools_after_walther_needs_no_other_effect(make):
+    assert diagnose_case(make(*planted_grease()).folder).posterior.verdict == ("grease_temperature",)

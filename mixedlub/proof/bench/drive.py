@@ -155,8 +155,8 @@ def _temperature_forms(celsius: np.ndarray) -> tuple[Form, ...]:
 
     size = (strength(0.0, 3.0, (0.6, 1.5)),)
     return tuple(
-        Form("grease_temperature", "parts", law, size, source)
-        for law, source in ((vogel, "Vogel"), (arrhenius, "Arrhenius"), (power, "Slotte"))
+        Form("grease_temperature", "parts", law, size, source, within=within)
+        for law, source, within in ((vogel, "Vogel", True), (arrhenius, "Arrhenius", True), (power, "Slotte", False))
     )
 
 
