@@ -13,12 +13,9 @@ from mixedlub.calibration import Calibration, calibrations
 from mixedlub.case import Case, noted
 from mixedlub.chain import Model, Parameters, Record, available
 from mixedlub.effect import Effect, known_in
-from mixedlub.kinds.kind import SCALE, ageing
+from mixedlub.kinds.kind import SCALE, ageing, varies
 from mixedlub.table import Table
 from profiles.errors import InputError
-
-WANDERS = 0.02
-"""Share of its size by which a quantity that is held may wander: of a temperature 6 K."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,10 +120,5 @@ class Forward:
             for e in known_in(self.case.kind.name).values()
             if e.id not in exclude
             and available(e, self.chain, tuple(self.inputs), "reading", self.case.kind.name)
-            and (not e.over or _varies(self.inputs[e.over]))
+            and (not e.over or varies(self.inputs[e.over]))
         )
-
-
-def _varies(values: np.ndarray) -> bool:
-    """Whether readings were taken at more than one value; what is held wanders a little."""
-    return bool(np.ptp(values) > WANDERS * np.max(np.abs(values)))

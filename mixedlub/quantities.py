@@ -110,8 +110,11 @@ plane_offset            | z_s        | m       | height of the summits' mean pla
 hertz_pressure          | p_0        | Pa      | largest pressure of the smooth dry contact; pressure on a sample
 hertz_half_width        | b_H        | m       | half width (line) or radius (point) of the smooth dry contact
 regression_film         | h_r        | m       | central film thickness as the regression for smooth contacts has it
-exponent_change         | delta      | -       | what the film's exponent of speed has over that of the regression
+speed_exponent_change   | delta_u    | -       | what the film's exponent of speed has over that of the regression
+load_exponent_change    | delta_F    | -       | what the film's exponent of load has over that of the regression
+exponents_cross         | kappa      | -       | rise of the film's exponent of speed with the logarithm of load
 middle_flow             | (eta_0 u)_m | N/m    | geometric mean of viscosity times speed in the recording
+middle_load             | F_m        | N       | geometric mean of the load in the recording
 film_thickness          | h          | m       | central film thickness
 separation              | t          | -       | gap to the summits' mean plane over summit sigma
 area_ratio              | P_B        | -       | real over nominal contact area, the share of boundary friction

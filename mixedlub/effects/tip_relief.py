@@ -28,8 +28,8 @@ _TYPICAL = 2e5
     source="load divides by compliance and gap (T. F. Conry, A. Seireg, J. Eng. Ind. 95 (1973) 1115) with c' "
     "= 14 N/(mm um) (ISO 6336-1); xi' is the place of the other tooth pair in contact",
     fingerprint={"load": "+", "speed": "-", "roughness": "+"},
-    separated_by="the load share itself, from strain gauges or transmission error; the effect fades with torque, "
-    "that of a heat leak does not",
+    separated_by="the load share itself, from strain gauges or transmission error, or elastic teeth in the model where "
+    "they were taken as rigid; the effect fades with torque, that of a heat leak does not",
     odds=0.5,
 )
 def tip_relief(

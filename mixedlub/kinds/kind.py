@@ -16,6 +16,8 @@ from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.table import Column, Table
 
 Inputs = dict[str, Any]
+WANDERS = 0.02
+"""Share of its size by which a quantity that is held may wander."""
 UNSIGNED = ("power_loss_W", "friction_coefficient", "film_thickness_nm")
 
 
@@ -102,6 +104,15 @@ def inverse_of(load: np.ndarray, recorded: np.ndarray) -> Inputs:
 def gears_out(table: Table) -> np.ndarray:
     """Rows taken with the gears out."""
     return table["rig"] == NO_GEARS if "rig" in table else np.zeros(len(table), dtype=bool)
+
+
+def varies(values: np.ndarray) -> bool:
+    """Whether readings were taken at more than one value; what is held wanders a little, of a temperature 6 K.
+
+    >>> varies(np.array([20.0, 20.3])), varies(np.array([20.0, 21.0]))
+    (False, True)
+    """
+    return bool(np.ptp(values) > WANDERS * np.max(np.abs(values)))
 
 
 def column(values: np.ndarray | float) -> np.ndarray:

@@ -21,7 +21,9 @@ PRESSURE_SPREAD = 0.35
 SLOPE_SPREAD = 0.5
 DENSITY_SPREAD = 0.04
 PRESSURE_SLOPE_SPREAD = 0.4
-HUNDRED_KELVIN = 100.0
+BOW_SPREAD = 0.04
+"""Of ln viscosity, over 50 K to either side: what fits of oils after Vogel have beyond a line of ASTM D341."""
+FIFTY_KELVIN, HUNDRED_KELVIN = 50.0, 100.0
 THINNEST, THICKEST = 0.4e-6, 1.0
 """Kinematic viscosities (m^2/s) between which the ordinate of D341 is used."""
 LEVEL = "viscosity_level"
@@ -87,6 +89,13 @@ def calibrations(system: config.System, temperature: np.ndarray, *, level: float
                 "viscosity_slope", "-", LogNormal(1.0, SLOPE_SPREAD), "factor on the assumed ASTM D341 slope"
             )
             found.append(Calibration(slope, _turned(oil, pivot, level), 1.0, ("viscosity", "oil_temperature")))
+            bow = Parameter(
+                "viscosity_bow",
+                "-",
+                Normal(0.0, BOW_SPREAD),
+                "what ln viscosity has 50 K from the middle beyond the line of ASTM D341",
+            )
+            found.append(Calibration(bow, _bowed(pivot), 0.0, ("viscosity", "oil_temperature")))
             density = Parameter(
                 "density", "-", LogNormal(1.0, DENSITY_SPREAD), "factor on the density between the two viscosities"
             )
@@ -141,6 +150,27 @@ def _turned(oil: Lubricant, pivot: float, nominal: float) -> Any:
     def apply(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
         level = inputs.get(LEVEL, nominal)
         return _exchanged(inputs, moved(oil, pivot, level), moved(oil, pivot, level, value))
+
+    return apply
+
+
+def _bowed(pivot: float) -> Any:
+    """Viscosity, and its fall with temperature, of an oil whose line in ASTM D341 is a parabola."""
+
+    def bow(kelvin: Any) -> Any:
+        return ((kelvin - pivot) / FIFTY_KELVIN) ** 2
+
+    def apply(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
+        at = inputs["oil_temperature"]
+        changed = {"viscosity": inputs["viscosity"] * np.exp(value * bow(at))}
+        if "temperature_viscosity" in inputs:
+            steeper = -2.0 * value * (at - pivot) / FIFTY_KELVIN**2
+            changed["temperature_viscosity"] = inputs["temperature_viscosity"] + steeper
+        if "known_fall" in inputs:
+            first, second = (bow(inputs[f"{which}_known_temperature"]) for which in ("first", "second"))
+            changed["known_fall"] = inputs["known_fall"] + value * (first - second)
+            changed["fall_from_first"] = inputs["fall_from_first"] + value * (first - bow(at))
+        return changed
 
     return apply
 

@@ -9,7 +9,7 @@ import pytest
 from mixedlub.diagnosis.diagnose import diagnose_case
 from mixedlub.forward import Forward
 from mixedlub.kinds.film import KNOWN_OIL, UNNAMED_OIL
-from mixedlub.laws.film import POINT_EXPONENT
+from mixedlub.laws.film import POINT_EXPONENT, POINT_LOAD_EXPONENT
 
 from .conftest import BALL, OIL, noisy, system
 
@@ -31,16 +31,17 @@ def moes_film(speed, viscosity, coefficient, load, radius=RADIUS, modulus=MODULU
     return radius * np.sqrt(group) * (isoviscous + (rolled**-8 + stiff**-8) ** (-s / 8)) ** (1 / s)
 
 
-def films(oil, heated):
+def films(oil, heated, loads=(20.0,)):
     """Columns of a speed sweep, with the loss of H. Murch, W. R. D. Wilson, J. Lubr. Technol. 97 (1975) 212."""
     viscosity, coefficient = OILS[oil]
-    film = moes_film(SPEED, viscosity, coefficient, 20.0)
-    loading = 0.045 * viscosity * SPEED**2 / 0.14
+    speed, load = np.tile(SPEED, len(loads)), np.repeat(loads, SPEED.size)
+    film = moes_film(speed, viscosity, coefficient, load)
+    loading = 0.045 * viscosity * speed**2 / 0.14
     if heated:
         film = film * 3.94 / (3.94 + loading**0.62)
-    held = {"load_N": 20.0, "slide_roll_ratio": 0.0, "oil_temperature_C": 31.0}
-    columns = {name: np.full(SPEED.size, value) for name, value in held.items()}
-    return {**columns, "entrainment_speed_m_s": SPEED, "film_thickness_nm": noisy(1e9 * film, 0.015)}
+    held = {"slide_roll_ratio": 0.0, "oil_temperature_C": 31.0}
+    columns = {name: np.full(speed.size, value) for name, value in held.items()}
+    return {**columns, "load_N": load, "entrainment_speed_m_s": speed, "film_thickness_nm": noisy(1e9 * film, 0.015)}
 
 
 def unnamed():
@@ -58,8 +59,24 @@ def test_solutions_over_oils_and_rigs_in_use_lie_within_two_spreads_of_the_regre
         seen = (film > 5e-9) & (film < 1.2e-6)
         exponents.append(np.polyfit(np.log(SPEED[seen]), np.log(film[seen]), 1)[0])
     off = np.abs(np.log(np.array(exponents) / POINT_EXPONENT))
-    assert np.mean(off < 2.0 * UNNAMED_OIL) > 0.9
-    assert np.mean(off < 2.0 * KNOWN_OIL) < 0.7
+    assert np.mean(off < 2.0 * UNNAMED_OIL[0]) > 0.9
+    assert np.mean(off < 2.0 * KNOWN_OIL[0]) < 0.7
+
+
+def test_solutions_over_loads_lie_within_two_spreads_of_the_regression():
+    rng = np.random.default_rng(6)
+    load = np.geomspace(10.0, 100.0, 5)
+    flow, loaded = np.log(SPEED / 0.17)[:, None], np.log(load / 31.6)[None, :]
+    off = []
+    for _ in range(200):
+        viscosity, coefficient = np.exp(rng.uniform(np.log(0.004), np.log(0.3))), rng.uniform(10e-9, 28e-9)
+        film = moes_film(SPEED[:, None], viscosity, coefficient, load[None, :])
+        parts = np.broadcast_arrays(np.ones_like(film), flow, loaded, flow * loaded, flow**2)
+        seen = (film > 5e-9) & (film < 1.2e-6)
+        found = np.linalg.lstsq(np.array([p[seen] for p in parts]).T, np.log(film[seen]), rcond=None)[0]
+        off.append([np.log(found[2] / POINT_LOAD_EXPONENT), found[3]])
+    assert (np.mean(np.abs(off) < 2.0 * np.array(UNNAMED_OIL[1:]), axis=0) > 0.9).all()
+    assert np.mean(np.array(off)[:, 1] > KNOWN_OIL[2]) > 0.9
 
 
 @pytest.mark.parametrize("oil", OILS)
@@ -72,6 +89,14 @@ def test_films_of_another_film_law_lack_nothing(make, oil):
 def test_film_that_heating_takes_is_found_under_another_film_law(make):
     d = diagnose_case(make(unnamed(), films("cold", heated=True)).folder)
     assert d.posterior.names(d.posterior.verdict) == ["inlet_shear_heating"]
+
+
+def test_films_of_another_film_law_under_three_loads_lack_nothing_and_show_what_they_lack(make):
+    found = [
+        diagnose_case(make(unnamed(), films("cold", heated, (10.0, 30.0, 90.0))).folder) for heated in (False, True)
+    ]
+    verdicts = [d.posterior.names(d.posterior.verdict) for d in found]
+    assert verdicts == [["none"], ["inlet_shear_heating"]]
 
 
 def test_exponent_turns_films_about_the_middle_of_the_recording(make):

@@ -372,3 +372,18 @@ def test_a_force_at_one_load_has_no_zero_error_of_its_own(make) -> None:
 
 def test_grease_that_cools_after_walther_needs_no_other_effect(make):
     assert diagnose_case(make(*planted_grease()).folder).posterior.verdict == ("grease_temperature",)
+
+
+def test_an_unnamed_oil_that_cools_after_vogel_is_no_offset_of_the_viscometer(make):
+    """Divergence at -120 degC, as fits of engine oils have it; through 67 and 9.5 mm2/s at 40 and 100 degC."""
+    celsius = np.repeat(np.linspace(0.0, 100.0, 11), 2)
+    steep = np.log(67.0 / 9.5) / (1.0 / 160.0 - 1.0 / 220.0)
+    viscosity = 57.0 * np.exp(steep / (celsius + 120.0) - steep / 160.0)
+    columns = {"temperature_C": celsius, "viscosity_mPa_s": noisy(viscosity, 0.007)}
+    sections = system("viscosity", "viscosity_mPa_s")
+    sections["recording"]["noise"] = {"relative": 0.007}
+    found = diagnose_case(make(sections, columns).folder)
+    assert found.posterior.names(found.posterior.verdict) == ["none"]
+    offset = {**columns, "viscosity_mPa_s": columns["viscosity_mPa_s"] + 3.0}
+    found = diagnose_case(make(sections, offset).folder)
+    assert found.posterior.names(found.posterior.verdict) == ["sensor_offset"]

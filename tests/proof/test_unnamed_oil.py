@@ -19,7 +19,16 @@ from mixedlub.proof.bench.battery import Order, make, plan
 from mixedlub.proof.bench.fit import Aim, best, nearest, slopes
 from mixedlub.proof.bench.point import SPEED_EXPONENT, lubricate_ball_in_any_regime
 from mixedlub.proof.bench.prove import judge
-from mixedlub.proof.bench.told import MINERAL, NOT_GIVEN, Told, moved, named, unnamed
+from mixedlub.proof.bench.told import (
+    MINERAL,
+    NOT_GIVEN,
+    REGIMES_DIFFER,
+    REGRESSIONS_DIFFER,
+    Told,
+    moved,
+    named,
+    unnamed,
+)
 from mixedlub.proof.build import oil_of
 from mixedlub.proof.explain import visibility
 from mixedlub.proof.rig import Calibration, start
@@ -144,7 +153,8 @@ def test_calibration_of_the_truth_is_as_free_as_that_of_the_tool(cases):
         tool = {c.name: c.parameter.prior for c in Forward(case, case.recordings).calibrations}
         tool.pop("density", None)
         section = tomllib.loads((folder / "system.toml").read_text())
-        stated = {**NOT_GIVEN, **section.get("uncertainty", {}), "film_exponent": 0.035 if order.unnamed else 0.015}
+        law = REGIMES_DIFFER if order.unnamed else REGRESSIONS_DIFFER
+        stated = {**NOT_GIVEN, **section.get("uncertainty", {}), **law}
         free = {TOLD_AS.get(name, name): stated[name] for name in told(folder)["z"]}
         assert free == {name: prior.sd if isinstance(prior, Normal) else prior.spread for name, prior in tool.items()}
 

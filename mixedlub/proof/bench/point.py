@@ -14,7 +14,7 @@ from mixedlub.proof.concealed import film as film_room
 from mixedlub.proof.concealed.kinds import Knob, strength
 from mixedlub.proof.rig import Contact, Rig, Solid, lubricate, mix, press, shear, touch
 
-CIRCULAR, SPEED_EXPONENT = 1.03, 0.67
+CIRCULAR, SPEED_EXPONENT, LOAD_EXPONENT = 1.03, 0.67, -0.067
 
 
 def ball_rig(settings: Mapping[str, Any], columns: Mapping[str, np.ndarray], moments: np.ndarray) -> Rig:
@@ -54,13 +54,14 @@ def lubricate_ball(c: Contact) -> Contact:
     load = c.force / (modulus * radius**2)
     shape = 2.69 * (1 - 0.61 * np.exp(-0.73 * CIRCULAR))
     coefficient = (c.pressure_viscosity * modulus) ** 0.53
-    return replace(c, film=radius * shape * speed**SPEED_EXPONENT * coefficient * load**-0.067)
+    return replace(c, film=radius * shape * speed**SPEED_EXPONENT * coefficient * load**LOAD_EXPONENT)
 
 
-def turned_ball_film(c: Contact, change: float, middle: float) -> Contact:
-    """The same film with another exponent of speed, turned about a viscosity times speed (Pa m)."""
+def turned_ball_film(c: Contact, speed: float, load: float, cross: float, middle: tuple[float, float]) -> Contact:
+    """The same film with other exponents of speed and load, turned about a viscosity times speed (Pa m) and a load."""
     regression = lubricate_ball(c)
-    return replace(regression, film=regression.film * (c.viscosity * c.entrainment / middle) ** change)
+    flow, loaded = np.log(c.viscosity * c.entrainment / middle[0]), np.log(c.force / middle[1])
+    return replace(regression, film=regression.film * np.exp((speed + cross * loaded) * flow + load * loaded))
 
 
 def lubricate_ball_in_any_regime(c: Contact) -> Contact:

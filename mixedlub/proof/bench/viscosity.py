@@ -23,6 +23,7 @@ from mixedlub.proof.bench.stage import (
     repeated,
     rounded,
 )
+from mixedlub.proof.bench.told import BOW, NOT_GIVEN
 from mixedlub.proof.build import oil_of
 from mixedlub.proof.concealed.kinds import Knob, strength
 from mixedlub.proof.design import draw_oil
@@ -268,16 +269,17 @@ class Fluid:
     def names(self) -> tuple[str, ...]:
         if self.named:
             return ("viscosity", "pressure_viscosity") if self.pressed else ("viscosity",)
-        return ("viscosity", "steepness", *(("pressure_viscosity", "warmth") if self.pressed else ()))
+        return ("viscosity", "steepness", "bow", *(("pressure_viscosity", "warmth") if self.pressed else ()))
 
     def resting(self, z: np.ndarray, celsius: np.ndarray) -> np.ndarray:
-        """ASTM D341; an unnamed sample has a level and a steepness of its own."""
+        """ASTM D341; an unnamed sample has a level, a steepness and a bow of its own."""
         by = dict(zip(self.names, z))
         if self.named:
             return np.asarray(self.oil.viscosity_at(celsius) * np.exp(self.priors["viscosity"] * by["viscosity"]))
         middle = float(self._walther(self.celsius).mean())
         line = middle + 0.05 * by["viscosity"] + (1 + 0.08 * by["steepness"]) * (self._walther(celsius) - middle)
-        return np.asarray(1e-6 * (10**10**line - 0.7) * self.oil.density_at(celsius))
+        bow = NOT_GIVEN[BOW] * by["bow"] * ((celsius - self.celsius.mean()) / 50.0) ** 2
+        return np.asarray(1e-6 * (10**10**line - 0.7) * self.oil.density_at(celsius) * np.exp(bow))
 
     def _walther(self, celsius: np.ndarray) -> np.ndarray:
         return np.asarray(np.log10(np.log10(1e6 * self.oil.kinematic_at(celsius) + 0.7)))
