@@ -16,6 +16,7 @@ from mixedlub.diagnosis.recording.noise import (
     seen_noise,
     setups_differ,
 )
+from mixedlub.diagnosis.recording.signs import AS_LARGE, both_signs, of_other_sign
 from mixedlub.forward import Forward
 from mixedlub.headers import unit_of
 from mixedlub.kinds.friction_map import drive_speed
@@ -53,7 +54,7 @@ STUCK_STEPS, STUCK_SPAN = 3.0, 0.05
 
 TOO_LARGE, ALONE = 50.0, 10.0
 """A reading so many times what the others suggest there, and so many times the largest of them, is doubted."""
-NEGATIVE_SHARE, NEGATIVE_SIGMAS, AS_LARGE = 0.02, 5.0, (0.67, 1.5)
+NEGATIVE_SHARE, NEGATIVE_SIGMAS = 0.02, 5.0
 """So few readings, negative by so many sds, as large as what the others suggest there, are doubted."""
 UNSTATED = 0.05
 """Share of the usual reading that one is taken to scatter by where nothing is stated."""
@@ -90,6 +91,7 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
         where = str(case.folder / "recordings.csv")
         raise InputError("all readings were taken at the same conditions; vary at least one", where=where)
     base = forward.nominal()
+    other_sign = of_other_sign(case, rows, y, NEGATIVE_SIGMAS * _sds(case, rows, y))
     return [
         *_entered_twice(case, rows, y),
         *_parts(case, rows),
@@ -104,7 +106,8 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
         *_warm(rows),
         *_backwards(rows),
         *_stuck(case, rows, y, base),
-        *_misread(case, rows, y, base),
+        *_misread(case, rows, y, base, other_sign),
+        *map(Doubt, both_signs(case, rows, y, other_sign)),
         *_contradicting(case, rows, y, base),
     ]
 
@@ -307,8 +310,11 @@ def _stuck(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str
     return [Doubt(f"{said}: check for a channel that was stuck or filled in (runs {', '.join(runs)}{more})")]
 
 
-def _misread(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str]:
-    """Single readings that are off by a power of ten or by their sign, held against what the others suggest."""
+def _misread(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, told: np.ndarray) -> list[str]:
+    """Single readings that are off by a power of ten or by their sign, held against what the others suggest.
+
+    Those of which it is ``told`` already that their sign is wrong are left out.
+    """
     used = np.abs(base) > 0
     if used.sum() < FEWEST:
         return []
@@ -321,7 +327,7 @@ def _misread(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[s
         least, most = (share * expected for share in AS_LARGE)
         wrong = used & (y < -NEGATIVE_SIGMAS * _sds(case, rows, y)) & (-y > least) & (-y < most)
         if wrong.sum() <= max(1.0, NEGATIVE_SHARE * y.size):
-            found.append((wrong, "negative where the others suggest a positive one as large: check the sign"))
+            found.append((wrong & ~told, "negative where the others suggest a positive one as large: check the sign"))
     return [
         Doubt(f"run {rows['run'][i]} reads {y[i]:g} where the others suggest {expected[i]:.3g}: {words}")
         for which, words in found
