@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from mixedlub.headers import split, words_of
+from mixedlub.importers.dates import is_dated
 from mixedlub.importers.draft import Answers
-from mixedlub.importers.likely import DATED
 from mixedlub.importers.sheet import Cells, Sheet, are_numbers, is_number
 from mixedlub.importers.write import toml_value
 from mixedlub.table import is_missing
@@ -90,7 +90,7 @@ def _few(header: str, cells: Sequence[str]) -> bool:
     values = set(cells)
     if split(header)[1] is not None or not 1 < len(values) <= min(MOST, len(cells) // 2):
         return False
-    if any(is_missing(value) or DATED.match(value) for value in values):
+    if any(is_missing(value) or is_dated(value) for value in values):
         return False
     return not are_numbers(cells) or all(float(value).is_integer() for value in values)
 

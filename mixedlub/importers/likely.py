@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 
 from mixedlub.config import KINDS
 from mixedlub.headers import BY_NAME, TEXT_COLUMNS, WEIGHED, fits, is_unit, split, target_of, words_of
+from mixedlub.importers.dates import is_dated
 from mixedlub.importers.pace import TIME, counted
 from mixedlub.importers.sheet import Cells, are_numbers
 from mixedlub.kinds import friction_map
@@ -23,8 +24,6 @@ ABSENT = 0.5
 COUNTS = 1.0
 """Likeness of a time to what counts cycles or a distance instead."""
 TEXT_FITS = 0.4
-DATED = re.compile(r"\d+[-/.:]\d+")
-"""How a date or a clock begins, which names no surface."""
 SAME_WORD = 0.75
 TRANSMITTED = {"input", "output", "load", "applied"}
 """Words for a torque that a drive hands on: it loads the friction that is read beside it, and is offered last."""
@@ -128,7 +127,7 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
         return 0.0
     numbers = are_numbers(cells)
     if column in TEXT_COLUMNS:
-        dated = any(DATED.match(cell) for cell in cells)
+        dated = any(map(is_dated, cells))
         return 0.0 if unit is not None or numbers or dated else TEXT_FITS + _overlap(words, column.replace("_", " "))
     if not numbers:
         return 0.0
