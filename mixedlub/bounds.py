@@ -16,7 +16,8 @@ from pydantic import BaseModel
 from mixedlub.headers import UNITS, unit_of, without_unit
 
 OTHER_UNITS: Mapping[str, Mapping[str, tuple[float, float]]] = {
-    **{ending: UNITS[ending] for ending in ("C", "deg")},
+    **{ending: UNITS[ending] for ending in ("C", "deg", "m_s", "nm")},
+    "mPa_s": {"uPa s": (1e-3, 0.0)},
     "": {"%": (0.01, 0.0)},
     "MPa": {unit: UNITS["MPa"][unit] for unit in ("Pa", "kPa", "GPa")},
     "GPa": {"Pa": (1e-9, 0.0), "MPa": (1e-3, 0.0), "TPa": (1e3, 0.0)},

@@ -7,11 +7,16 @@ from pathlib import Path
 import pytest
 
 from mixedlub import bounds, config
+from mixedlub.config import KINDS
+from mixedlub.kinds import kind
 from mixedlub.study.sections import Conditions
 from profiles.errors import InputError
 
 FREE = {"gears.teeth", "recording.noise.absolute", "recording.noise.setup_absolute"}
 """Numbers without a row: whole numbers that the geometry judges, and those in the unit of the reading."""
+
+RECORDED = "recordings."
+"""Before the names of columns, which bound themselves: their rows hold what is usual."""
 
 
 def numeric_keys(model: type[config.Section], place: str = "") -> set[str]:
@@ -29,12 +34,17 @@ def numeric_keys(model: type[config.Section], place: str = "") -> set[str]:
 
 def test_every_number_of_a_case_and_of_the_conditions_of_a_study_has_its_row() -> None:
     keys = numeric_keys(config.System) | numeric_keys(Conditions, "conditions.")
-    assert keys - FREE == set(bounds.ranges())
+    assert keys - FREE == {key for key in bounds.ranges() if not key.startswith(RECORDED)}
+
+
+def test_rows_of_recordings_are_columns_of_a_kind() -> None:
+    columns = {c for k in KINDS for c in (*(column.name for column in kind(k).columns), *kind(k).quantities)}
+    assert {key.removeprefix(RECORDED) for key in bounds.ranges() if key.startswith(RECORDED)} <= columns
 
 
 def test_each_section_looks_up_its_own_rows() -> None:
     places = {s.place for s in config.Section.__subclasses__() if s.place}
-    tables = {key.rpartition(".")[0] for key in bounds.ranges()} - {""}
+    tables = {key.rpartition(".")[0] for key in bounds.ranges()} - {"", RECORDED.rstrip(".")}
     assert tables <= places
 
 

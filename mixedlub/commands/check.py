@@ -153,6 +153,7 @@ def _audit(case: Case, forward: Forward | None) -> Iterator[str]:
     from mixedlub.diagnosis.judging.reach import beyond_recorded
     from mixedlub.diagnosis.recording.audit import doubts, system_doubts
     from mixedlub.forward import Forward
+    from mixedlub.importers.groups import pooled_in
 
     found = system_doubts(case)
     if case.recordings is not None and forward is not None:
@@ -161,6 +162,8 @@ def _audit(case: Case, forward: Forward | None) -> Iterator[str]:
             found += doubts(case, case.recordings, readings, forward)
         except InputError as error:
             yield f"Cannot be diagnosed: {error}."
+    if case.recordings is not None and case.recordings.ignored:
+        found += pooled_in(case.folder / "recordings.csv", case.recordings, case.quantity)
     if case.conditions is not None:
         try:
             Forward(case, case.conditions).nominal()

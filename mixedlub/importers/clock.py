@@ -4,26 +4,35 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from datetime import datetime
 
 import numpy as np
 
 from mixedlub.headers import rounded, words_of
-from mixedlub.importers.draft import WARNING
+from mixedlub.importers.dates import KEY, ORDERS, moments, resolution
+from mixedlub.importers.draft import WARNING, Answers
 from mixedlub.importers.pace import TIME
 from mixedlub.importers.sheet import Sheet, places
+from profiles.errors import InputError
 
 STEPS = re.compile(r"\b(?:step|cycle|segment|stage|phase|interval|block|schritt|stufe|abschnitt|zyklus)s?\b")
 """Words of a column that tells one step from the next."""
-DATES = ("%d/%m/%Y", "%m/%d/%Y", "%Y-%m-%d", "%d.%m.%Y", "%Y/%m/%d")
-CLOCKS = ("%H:%M:%S", "%H:%M", "%H:%M:%S.%f")
-FORMS = tuple(f"{date}{between}{clock}" for date in DATES for between in " T" for clock in CLOCKS)
 BEGINS = 0.1
 """Share of what ran before within which a clock starts anew; one that falls less far only runs backwards."""
 
 
-def run_on(times: np.ndarray, header: str, sheet: Sheet) -> tuple[np.ndarray, str]:
-    """Seconds that run on where their clock starts anew, and what is said of it; nothing where it never falls."""
+def date_order(answers: Answers) -> str | None:
+    """What is told of the order of day and month."""
+    told = answers.get(KEY)
+    if told is not None and told not in ORDERS:
+        raise InputError(f"must be {' or '.join(map(repr, ORDERS))}", where=KEY, value=told)
+    return told
+
+
+def run_on(times: np.ndarray, header: str, sheet: Sheet, told: str | None = None) -> tuple[np.ndarray, str]:
+    """Seconds that run on where their clock starts anew, and what is said of it; nothing where it never falls.
+
+    ``told`` is which of day and month stands first in dates that leave it open.
+    """
     falls = np.flatnonzero(np.diff(times) < 0.0) + 1
     if not falls.size:
         return times, ""
@@ -31,10 +40,19 @@ def run_on(times: np.ndarray, header: str, sheet: Sheet) -> tuple[np.ndarray, st
     others = {h: cells for h, cells in sheet.cells.items() if h != header}
     step = next((h for h, cells in others.items() if STEPS.search(words_of(h)) and _tells(cells, falls)), None)
     for dated, cells in others.items():
-        for seconds in _starts(cells, falls):
-            whole = rounded(times + seconds, float(seconds[-1]))
-            if np.all(np.diff(whole) >= 0.0):
-                return whole, f"{sheet.name}: {TIME} starts anew in {where}, and runs on from the starts in {dated!r}"
+        ways = sorted(_by_dates(times, cells, falls, told), key=lambda way: float(way[1][-1]))
+        if not ways:
+            continue
+        order, whole, how = ways[0]
+        said = f"{sheet.name}: {TIME} starts anew in {where}, and runs on {how} {dated!r}"
+        if np.array_equal(whole, ways[-1][1]):
+            return whole, said
+        other = ORDERS[1 - ORDERS.index(order)]
+        first = order.removesuffix(" first")
+        return whole, (
+            f"{WARNING}{said}, read with the {first} first, as that makes the shorter test; {KEY} = {other!r} says "
+            "otherwise"
+        )
     if step is None and not _begins_anew(times, falls):
         return times, f"{WARNING}{sheet.name}: {TIME} runs backwards in {where}, and is left so: sort the rows first"
     ends = np.zeros(times.size)
@@ -77,18 +95,45 @@ def _begins_anew(times: np.ndarray, falls: np.ndarray) -> bool:
     return bool(np.all(ran > 0.0) and np.all(times[falls] - first <= BEGINS * ran))
 
 
-def _starts(cells: Sequence[str], falls: np.ndarray) -> Iterator[np.ndarray]:
-    """Seconds from the first start to that of each row, for each way to read the dates; the shortest test first."""
-    steps = np.searchsorted(falls, np.arange(len(cells)), side="right")
-    held = [cells[i] for i in (0, *falls.tolist())]
-    if any(cell != held[step] for cell, step in zip(cells, steps, strict=True)):
-        return
-    ways = []
-    for form in FORMS:
-        try:
-            moments = [datetime.strptime(cell, form) for cell in held]
-        except ValueError:
+def _by_dates(
+    times: np.ndarray, cells: Sequence[str], falls: np.ndarray, told: str | None
+) -> Iterator[tuple[str, np.ndarray, str]]:
+    """For each order of day and month the seconds that run on by the dates of a column, and by what of them."""
+    for order, found in moments(cells).items():
+        if told in ORDERS and order not in ("", told):
             continue
-        ways.append(np.array([(moment - moments[0]).total_seconds() for moment in moments]))
-    for seconds in sorted(ways, key=lambda starts: starts[-1]):
-        yield seconds[steps]
+        dates = np.array([(moment - found[0]).total_seconds() for moment in found])
+        for place, how in ((_by_clock, "by the clock in"), (_by_starts, "from the starts in")):
+            whole = place(times, dates, falls, resolution(cells))
+            if whole is not None:
+                yield order, rounded(whole, float(dates[-1])), how
+                break
+
+
+def _by_clock(times: np.ndarray, dates: np.ndarray, falls: np.ndarray, within: float) -> np.ndarray | None:
+    """Each step where a clock puts it that goes with the rows; None where it does not go with them."""
+    steps = np.split(np.arange(times.size), falls)
+    off = dates - times
+    if any(np.ptp(off[rows]) > within for rows in steps) or all(np.ptp(dates[rows]) == 0.0 for rows in steps):
+        return None
+    whole = np.concatenate([times[rows] + off[rows].max() for rows in steps]) - off[steps[0]].max()
+    return whole if np.all(np.diff(whole) >= 0.0) else None
+
+
+def _by_starts(times: np.ndarray, dates: np.ndarray, falls: np.ndarray, within: float) -> np.ndarray | None:
+    """Each step at its start; None where starts overlap by more than they tell, or are those of no steps.
+
+    A step that is no longer than the stamps tell may bear that of the one before, and runs on from it.
+    """
+    changes = np.flatnonzero(np.diff(dates) != 0.0) + 1
+    begun = np.union1d(changes, falls)
+    again = np.setdiff1d(falls, changes)
+    if 2 * again.size > falls.size or np.setdiff1d(changes, falls).size > falls.size:
+        return None
+    whole = times + dates
+    for first, rows in zip(begun, np.split(np.arange(times.size), begun)[1:], strict=True):
+        late = whole[first - 1] - whole[first]
+        if late > within and first not in again:
+            return None
+        whole[rows] += max(float(late), 0.0)
+    return whole if np.all(np.diff(whole) >= 0.0) else None

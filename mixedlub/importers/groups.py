@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+import csv
 import re
 import shlex
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from mixedlub.headers import split, words_of
+from mixedlub.importers.dates import is_dated
 from mixedlub.importers.draft import Answers
-from mixedlub.importers.likely import DATED
 from mixedlub.importers.sheet import Cells, Sheet, are_numbers, is_number
 from mixedlub.importers.write import toml_value
-from mixedlub.table import is_missing
+from mixedlub.table import Table, is_missing
 from profiles.errors import InputError, nearest
 
 ONLY = "import.only."
@@ -65,15 +67,37 @@ def pooled(free: Cells, conditions: Collection[np.ndarray]) -> Iterator[str]:
 
     ``free`` are the columns that nothing is taken from, ``conditions`` those under which the rows were read.
     """
-    found = {h: cells for h, cells in free.items() if _few(h, cells) and _tells_things(h, cells, conditions)}
-    for header, cells in found.items():
-        if any(_tells_more(other, cells) for h, other in found.items() if h != header):
-            continue
+    for header, cells in _telling_apart(free, conditions):
         value = toml_value(cells[0]) if not is_number(cells[0]) and re.search(r"[^\w-]", cells[0]) else cells[0]
         yield (
-            f"{header!r} is not taken, so rows of {len(set(cells))} different things are pooled "
-            f"({_listed(cells, SHOWN)}); to import one of them, say --set {shlex.quote(f'{ONLY}{header}={value}')}"
+            f"{header!r} is not taken, so {_pooled(cells)}; to import one of them, say --set "
+            f"{shlex.quote(f'{ONLY}{header}={value}')}"
         )
+
+
+def pooled_in(path: Path, table: Table, quantity: str) -> Iterator[str]:
+    """The same of the columns of a case's table that are not read."""
+    with path.open(encoding="utf-8-sig", newline="") as file:
+        rows = [row for row in csv.reader(file) if any(cell.strip() for cell in row)]
+    cells = {h.strip(): [cell.strip() for cell in values] for h, *values in zip(*rows, strict=True)}
+    conditions = [v for name, v in table.columns.items() if name not in ("run", "sequence", quantity, f"{quantity}_sd")]
+    for header, values in _telling_apart({h: cells[h] for h in table.ignored}, conditions):
+        yield (
+            f"{path.name}: {header!r} is not read, so {_pooled(values)}: keep the rows of one, or tell them apart in a "
+            "column setup"
+        )
+
+
+def _telling_apart(free: Cells, conditions: Collection[np.ndarray]) -> Iterator[tuple[str, Sequence[str]]]:
+    """The columns that tell things apart, less those of which another tells more."""
+    found = {h: cells for h, cells in free.items() if _few(h, cells) and _tells_things(h, cells, conditions)}
+    for header, cells in found.items():
+        if not any(_tells_more(other, cells) for h, other in found.items() if h != header):
+            yield header, cells
+
+
+def _pooled(cells: Sequence[str]) -> str:
+    return f"rows of {len(set(cells))} different things are pooled ({_listed(cells, SHOWN)})"
 
 
 def _is(cell: str, value: Any) -> bool:
@@ -90,7 +114,7 @@ def _few(header: str, cells: Sequence[str]) -> bool:
     values = set(cells)
     if split(header)[1] is not None or not 1 < len(values) <= min(MOST, len(cells) // 2):
         return False
-    if any(is_missing(value) or DATED.match(value) for value in values):
+    if any(is_missing(value) or is_dated(value) for value in values):
         return False
     return not are_numbers(cells) or all(float(value).is_integer() for value in values)
 

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 
 from mixedlub.config import KINDS
 from mixedlub.headers import BY_NAME, TEXT_COLUMNS, WEIGHED, fits, is_unit, split, target_of, words_of
+from mixedlub.importers.dates import is_dated
 from mixedlub.importers.pace import TIME, counted
 from mixedlub.importers.sheet import Cells, are_numbers
 from mixedlub.kinds import friction_map
@@ -23,9 +24,13 @@ ABSENT = 0.5
 COUNTS = 1.0
 """Likeness of a time to what counts cycles or a distance instead."""
 TEXT_FITS = 0.4
-DATED = re.compile(r"\d+[-/.:]\d+")
-"""How a date or a clock begins, which names no surface."""
 SAME_WORD = 0.75
+DERIVED = re.compile(
+    r"(?:slope|gradient|derivative|curvature|rate|damping|stiffness|duration|interval|pause|delay|constant|factor|index|"
+    r"error|limit|threshold|tolerance|uncertainty|variance|zero|offset|drift|gain|sensitivity|change|difference|rise|"
+    r"drop|wear|roughness|steigung|dämpfung|steifigkeit|dauer|fehler|grenze|verschleiß|rauheit)s?\.?"
+)
+"""Words that make another thing of what stands beside them: the slope of a friction is no friction."""
 TRANSMITTED = {"input", "output", "load", "applied"}
 """Words for a torque that a drive hands on: it loads the friction that is read beside it, and is offered last."""
 LAST = 0.41
@@ -126,9 +131,11 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
         or (column == "viscosity_mPa_s" and "kinematic" in words.split())
     ):
         return 0.0
+    if _is_derived(column, words):
+        return 0.0
     numbers = are_numbers(cells)
     if column in TEXT_COLUMNS:
-        dated = any(DATED.match(cell) for cell in cells)
+        dated = any(map(is_dated, cells))
         return 0.0 if unit is not None or numbers or dated else TEXT_FITS + _overlap(words, column.replace("_", " "))
     if not numbers:
         return 0.0
@@ -144,6 +151,21 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
     bare = unit is None and target.unit == "ratio" and share > 0.0
     score = share + (UNIT_FITS if tells else 0.0) + (NO_UNIT_FITS if bare else 0.0)
     return min(score, LAST) if column == "friction_torque_Nm" and TRANSMITTED & set(words.split()) else score
+
+
+def _is_derived(column: str, words: str) -> bool:
+    """Whether the words of a header are those of another thing than a column, though its own may stand among them.
+
+    >>> [_is_derived("load_N", words) for words in ("load damping", "ball load", "load zero")]
+    [True, False, True]
+    >>> _is_derived("position_deg", "zero position"), _is_derived("rig", "rig index")
+    (True, False)
+    """
+    target = BY_NAME.get(column)
+    if target is None:
+        return False
+    own = {word for spoken in (*target.spoken, *target.offered) for word in spoken.split()}
+    return any(DERIVED.fullmatch(word) for word in words.split() if word not in own)
 
 
 def _overlap(words: str, spoken: str) -> float:

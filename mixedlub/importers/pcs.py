@@ -9,10 +9,13 @@ import numpy as np
 
 from mixedlub.headers import BY_NAME, convert, rounded, split
 from mixedlub.importers.draft import WARNING, Answers, Draft, Question, kind_told, questions_of, refuse_unknown
+from mixedlub.importers.likely import likely_spread
+from mixedlub.importers.match import COLUMNS, target_for
 from mixedlub.importers.sheet import not_above_zero
+from mixedlub.importers.spare import spare_notes, spare_questions
 from mixedlub.importers.steps import STEP, Step, steps_of, without_gaps
 from mixedlub.kinds import kind as kind_of
-from profiles.errors import InputError
+from profiles.errors import InputError, nearest
 
 SAID = re.compile(r"^Number of steps (completed|in profile):\t(\d+)", re.MULTILINE)
 FILM_TYPES = ("FILM",)
@@ -85,8 +88,9 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     lost = _lost(text, name, cut)
     held = steps_of(text, name)
     kind, offered = _kind(held, answers)
-    refuse_unknown(answers, ("import.temperature", *(q.key for q in SURFACES if kind == "disc")))
     quantity = TAKEN[kind][-1]
+    sd_key = f"{COLUMNS}{quantity}_sd"
+    refuse_unknown(answers, ("import.temperature", sd_key, *(q.key for q in SURFACES if kind == "disc")))
     if answers.get("recording.quantity", quantity) != quantity:
         rule = f"a case of kind {kind!r} from this rig records {quantity}"
         raise InputError(rule, where="recording.quantity", value=answers["recording.quantity"])
@@ -106,7 +110,8 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     if kind == "friction_map":
         columns = {"sliding_speed_m_s": _sliding_speed(chosen, name), **columns}
     temperature, questions, said = _temperature(chosen, name, answers)
-    columns.update(temperature)
+    spread, offers, spread_said = _spread(chosen, quantity, name, answers)
+    columns.update({**temperature, **spread})
     if kind == "disc":
         _refuse_absent({*columns, *(["oil_temperature_C"] if questions else [])}, name)
         columns.update(
@@ -124,8 +129,8 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     lines = [line for s in chosen for line in s.lines]
     signed = not kind_of(kind).is_unsigned(quantity)
     low = [] if signed else not_above_zero(quantity, columns[quantity].tolist(), lines)
-    every = (*lost, *warned, *notes, *said, *(f"{name}: {note}" for note in low))
-    return Draft(kind, quantity, columns, system, (*questions, *questions_of(kind), *offered), every)
+    every = (*lost, *warned, *spread_said, *notes, *said, *(f"{name}: {note}" for note in low))
+    return Draft(kind, quantity, columns, system, (*questions, *offers, *questions_of(kind), *offered), every)
 
 
 def _kind(held: Sequence[Step], answers: Answers) -> tuple[str, tuple[Question, ...]]:
@@ -181,6 +186,29 @@ def _sliding_speed(chosen: Sequence[Step], name: str) -> np.ndarray:
         raise InputError("the steps hold no sliding speed, which a case of kind 'friction_map' needs", where=name)
     mean, ratio = (_together(chosen, w, name) for w in SWEPT)
     return rounded(mean * ratio)
+
+
+def _spread(
+    chosen: Sequence[Step], quantity: str, name: str, answers: Answers
+) -> tuple[dict[str, np.ndarray], Sequence[Question], Sequence[str]]:
+    """The standard deviation of the reading where a header is told, else the question about one that may hold it."""
+    column = f"{quantity}_sd"
+    target, told = target_for(column), answers.get(COLUMNS + column)
+    reading = chosen[0].header(quantity)
+    assert target is not None
+    assert reading is not None
+    held = [h for h in chosen[0].columns if all(h in s.columns for s in chosen)]
+    if told is None:
+        # Those of single readings are all zero.
+        scattered: dict[str, list[str]] = {h: [] for h in held if any(np.any(s.columns[h] > 0.0) for s in chosen)}
+        header = likely_spread(quantity, reading, scattered)
+        spare = {} if header is None else {column: header}
+        return {}, spare_questions(spare, COLUMNS), [f"{WARNING}{name}: {note}" for note in spare_notes(spare, COLUMNS)]
+    if told not in held:
+        raise InputError(f"no such header; {nearest(str(told), held)}", where=COLUMNS + column, value=told)
+    unit = split(str(told))[1] or ("-" if target.unit == "ratio" else "?")
+    values = convert(np.concatenate([s.columns[told] for s in chosen]), unit, target, f"{name}: {told}")
+    return {column: values}, (), [f"{name}: {told!r} taken as {column}"]
 
 
 def _refuse_absent(columns: Set[str], name: str) -> None:

@@ -6,8 +6,9 @@ import numpy as np
 
 from mixedlub.config import KINDS
 from mixedlub.headers import convert
-from mixedlub.importers.clock import run_on
+from mixedlub.importers.clock import date_order, run_on
 from mixedlub.importers.constant import constants, value_keys
+from mixedlub.importers.dates import KEY as DATES
 from mixedlub.importers.draft import WARNING, Answers, Draft, Question, contact_form, questions_of, refuse_unknown
 from mixedlub.importers.groups import kept, only_keys, pooled
 from mixedlub.importers.kinematics import refuse_one_surface
@@ -71,7 +72,7 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     if TIME in columns and TIME in found.units:
         columns[TIME], paced = in_seconds(columns[TIME], found.headers[TIME], found.units[TIME], answers)
     if TIME in columns:
-        columns[TIME], restarted = run_on(columns[TIME], found.headers[TIME], sheet)
+        columns[TIME], restarted = run_on(columns[TIME], found.headers[TIME], sheet, date_order(answers))
     columns |= constants(likely, answers, len(sheet.lines))
     readings = columns.get(str(quantity)) if likely.is_unsigned(str(quantity)) else None
     low = [] if readings is None else not_above_zero(str(quantity), readings.tolist(), sheet.lines)
@@ -102,7 +103,7 @@ def _refuse_unknown(kind: str | None, answers: Answers) -> None:
     kinds = [kind_of(k) for k in ([kind] if kind else KINDS)]
     columns = {c.name: c for k in kinds for q in k.quantities for c in wanted(k, q, answers)}
     values = (key for k in kinds for key in value_keys(k))
-    refuse_unknown(answers, (DECIMAL, *only_keys(answers), *import_keys(tuple(columns.values())), *values))
+    refuse_unknown(answers, (DECIMAL, DATES, *only_keys(answers), *import_keys(tuple(columns.values())), *values))
 
 
 def _decimal(answers: Answers) -> str | None:

@@ -141,3 +141,19 @@ def test_a_ball_of_given_bodies_assumes_nothing_of_them(tmp_path, capsys):
     said = understood(tmp_path, capsys, system, columns).partition("Assumed:")[2]
     assert "pressure_viscosity_per_GPa = [18.8, 13.9]" in said
     assert not any(key in said for key in ("boundary_friction", "youngs_modulus", "surfaces", "ambient"))
+
+
+@pytest.mark.parametrize(("header", "things", "told"), [("drive", ["A", "B"], True), ("remark", ["", "slow"], False)])
+def test_things_that_an_unread_column_tells_apart_are_told(header, things, told, tmp_path, capsys):
+    speed = np.tile(np.arange(1.0, 11.0), 2)
+    columns = {"speed_rpm": speed, "friction_torque_Nm": 1.0 + speed + np.repeat([0.0, 0.5], 10)}
+    columns[header] = np.repeat(things, 10)
+    said = understood(
+        tmp_path, capsys, {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm"}}, columns
+    )
+    line = (
+        f"  recordings.csv: {header!r} is not read, so rows of 2 different things are pooled (A, B): keep the rows of "
+        "one, or tell them apart in a column setup.\n"
+    )
+    assert (line in said) == told
+    assert ("pooled" in said) == told

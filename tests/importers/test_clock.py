@@ -5,6 +5,7 @@ import pytest
 
 from mixedlub.importers.plain import draft
 from mixedlub.importers.wizard import read
+from profiles.errors import InputError
 
 HISTORY = {"kind": "friction_history", "import.units.friction_coefficient": "-"}
 
@@ -80,3 +81,80 @@ def test_files_whose_clocks_follow_each_other_are_left_alone(file):
         file(history("load_N", *rows), name) for name, rows in (("a.csv", ("9,0", "9,60")), ("b.csv", ("9,70", "9,80")))
     ]
     assert np.all(read(paths, HISTORY).columns["time_s"] == [0.0, 60.0, 70.0, 80.0])
+
+
+STAMPS = (
+    ("2026-11-23T14:03:10Z", "2026-11-23T14:05:10Z"),
+    ("2026-11-23T14:03:10+01:00", "2026-11-23T14:05:10+01:00"),
+    ("2026-11-23 14:03:10.5 +0100", "2026-11-23 14:05:10.5 +0100"),
+    ("2026-10-25T02:59:10+02:00", "2026-10-25T02:01:10+01:00"),
+    ("11/23/2026 11:59:10 AM", "11/23/2026 12:01:10 PM"),
+    ("23/11/2026 11:59 pm", "24/11/2026 12:01 am"),
+    ("23 Nov 2026 14:03:10", "23 Nov 2026 14:05:10"),
+    ("23-November-2026 14:03:10", "23-November-2026 14:05:10"),
+    ("Nov 23 2026 2:03:10 PM", "Nov 23 2026 2:05:10 PM"),
+    ('"Nov 23, 2026 14:03:10"', '"Nov 23, 2026 14:05:10"'),
+    ("23-11-2026 14:03:10", "23-11-2026 14:05:10"),
+    ("2026.11.23 14:03:10", "2026.11.23 14:05:10"),
+)
+
+
+@pytest.mark.parametrize(("one", "other"), STAMPS)
+def test_dates_are_read_as_instruments_write_them(one, other):
+    times, (note,) = taken(history("started", f"{one},1", f"{one},2", f"{other},1", f"{other},2"))
+    assert times == [1.0, 2.0, 121.0, 122.0]
+    assert note == "t.csv: time_s starts anew in line 4, and runs on from the starts in 'started'"
+
+
+def test_no_day_or_hour_is_made_up():
+    for one, other in (("31/02/2026 10:00", "31/02/2026 10:02"), ("2026-01-31 13:00 AM", "2026-01-31 13:02 AM")):
+        assert "without the pauses" in taken(history("started", f"{one},0", f"{one},9", f"{other},0"))[1][0]
+
+
+def test_a_step_shorter_than_the_stamps_tell_keeps_the_dates():
+    """Two steps begin in the same minute: the second runs on from the first, the others by their dates."""
+    rows = [f"23/03/2018 10:12,{t}" for t in (0, 10)] + [f"23/03/2018 10:12,{t}" for t in (0, 5)]
+    rows += [f"23/03/2018 11:12,{t}" for t in (0, 10)]
+    times, (note,) = taken(history("started", *rows))
+    assert times == [0.0, 10.0, 10.0, 15.0, 3600.0, 3610.0]
+    assert note.endswith("and runs on from the starts in 'started'")
+
+
+def test_a_step_so_short_that_the_clock_does_not_fall_after_it_keeps_the_dates():
+    rows = ("2018-03-23 10:00:00,0", "2018-03-23 10:00:00,60", "2018-03-23 10:05:00,0", "2018-03-23 10:05:00,1")
+    times, _ = taken(history("started", *rows, "2018-03-23 10:09:00,2", "2018-03-23 10:09:00,30"))
+    assert times == [0.0, 60.0, 300.0, 301.0, 542.0, 570.0]
+
+
+def test_a_clock_that_goes_with_the_rows_puts_steps_in_their_place():
+    rows = ("10:00:00,5", "10:00:10,15", "10:05:00,1", "10:05:08,9")
+    times, (note,) = taken(history("clock", *(f"2018-03-23 {row}" for row in rows)))
+    assert times == [5.0, 15.0, 305.0, 313.0]
+    assert note.endswith("runs on by the clock in 'clock'")
+
+
+AMBIGUOUS = ("05/06/2019 22:00,0", "05/06/2019 22:00,3600", "05/07/2019 00:00,0", "05/07/2019 00:00,60")
+
+
+def test_a_day_that_could_be_the_month_is_told_with_the_answer_that_settles_it():
+    assert taken(history("started", *AMBIGUOUS))[1] == [
+        "warning: t.csv: time_s starts anew in line 4, and runs on from the starts in 'started', read with the month "
+        "first, as that makes the shorter test; import.dates = 'day first' says otherwise"
+    ]
+
+
+@pytest.mark.parametrize(("order", "second"), [("month first", 7200.0), ("day first", 30 * 86400.0 - 22 * 3600.0)])
+def test_what_is_told_of_day_and_month_is_done(order, second):
+    found = draft(history("started", *AMBIGUOUS), "t.csv", {**HISTORY, "import.dates": order})
+    assert found.columns["time_s"][2] == second
+    assert not [note for note in found.notes if note.startswith("warning")]
+
+
+def test_another_order_is_refused():
+    with pytest.raises(InputError, match=r"import\.dates: 'year first': must be 'day first' or 'month first'"):
+        draft(history("started", *AMBIGUOUS), "t.csv", {**HISTORY, "import.dates": "year first"})
+
+
+def test_dates_that_are_one_day_either_way_leave_nothing_open():
+    rows = ("05/05/2019 22:00,0", "05/05/2019 22:00,3600", "05/05/2019 23:30,0", "05/05/2019 23:30,60")
+    assert not taken(history("started", *rows))[1][0].startswith("warning")

@@ -26,8 +26,8 @@ Spacer thickness = 519.7 nm
 Step 2 "film" started at 01/02/2017 16:09
 Step type\tFILM\tStep description\tfilm
 @HEAD
-20.2\t24.4\t\t10\t40.4\t41.2\t20.025\t20.21\t0.5\t\t24.4\t0.3\t3\tone.bmp
-25.3\t30.6\t\t18\t40.4\t41.3\t19.994\t25.32\t-0.5\t\t30.6\t0.4\t3\ttwo.bmp
+20.2\t24.4\t\t10\t40.4\t41.2\t20.025\t20.21\t0.5\t\t24.4\t0.00\t3\tone.bmp
+25.3\t30.6\t\t18\t40.4\t41.3\t19.994\t25.32\t-0.5\t\t30.6\t0.00\t3\ttwo.bmp
 
 Step 3 "zero" started at 01/02/2017 16:13
 Step type\tZERO_CHECK\tStep description\tcheck

@@ -23,10 +23,14 @@ def tidy(path, *names):
     return [np.array([float(row[n]) for row in rows]) for n in names]
 
 
-@pytest.mark.parametrize("oil", ["oil_a_40C_100C", "oil_b_100C"])
-def test_film_rig(recordings, tmp_path, oil):
+SDS = {"import.columns.film_thickness_nm_sd": "Standard Deviation (nm)"}
+
+
+@pytest.mark.parametrize(("oil", "told"), [("oil_a_40C_100C", {}), ("oil_b_100C", SDS)])
+def test_film_rig(recordings, tmp_path, oil, told):
     folder = recordings / "ehd_film_two_oils_40C_100C"
-    table = read_case(import_files([folder / f"{oil}_original.txt"], tmp_path / "case", contact=BALL)).recordings
+    out = import_files([folder / f"{oil}_original.txt"], tmp_path / "case", contact=BALL, **told)
+    table = read_case(out).recordings
     speed, film, load = tidy(folder / f"{oil}.csv", "rolling_speed_mm_s", "film_thickness_nm", "ball_load_N")
     assert np.allclose(table["entrainment_speed_m_s"], speed * 1e-3, rtol=1e-6)
     assert np.array_equal(table["film_thickness_nm"], film)

@@ -8,6 +8,7 @@ from mixedlub.cli import main
 from mixedlub.headers import TARGETS
 from mixedlub.importers import import_files
 from mixedlub.importers.likely import likely_headers, likely_kind
+from mixedlub.importers.plain import draft
 from profiles.errors import InputError
 
 RIG8 = """# rig 8, campaign 3
@@ -201,3 +202,31 @@ def test_settings_pasted_with_their_blanks_are_refused(tmp_path, monkeypatch, ca
     assert main(["import", "t.csv", "--out", "rig", "--set", "kind=film", *words]) == 2
     assert "contact.geometry: 'LINE OR POINT': must be 'line' or 'point'" in capsys.readouterr().err
     assert not (tmp_path / "rig").exists()
+
+
+@pytest.mark.parametrize(
+    ("column", "header"),
+    [
+        ("time_s", "duration_s"),
+        ("time_s", "time constant (s)"),
+        ("load_N", "load_damping"),
+        ("load_N", "Load damping (N)"),
+        ("load_N", "load cell zero (N)"),
+        ("friction_coefficient", "initial_slope_friction_coefficient"),
+        ("friction_coefficient", "initial_slope_mu"),
+        ("friction_torque_Nm", "initial_slope_Nm"),
+        ("oil_temperature_C", "oil temperature rise (K)"),
+        ("viscosity_mPa_s", "viscosity index"),
+        ("film_thickness_nm", "film gradient (nm)"),
+    ],
+)
+def test_a_header_of_another_thing_is_not_proposed_for_the_word_in_it(column, header):
+    assert likely_headers([column], {header: ["1", "2"]}) == {}
+    assert likely_headers([column], {header: ["1", "2"], column: ["1", "3"]}) == {column: column}
+
+
+def test_a_needed_column_that_only_another_thing_is_near_is_asked_without_a_proposal():
+    found = draft("duration_s,mu\n1,0.1\n2,0.2\n", "t.csv", {"kind": "friction_history"})
+    (question,) = [q for q in found.questions if q.key == "import.columns.time_s"]
+    assert question.example == '"HEADER"'
+    assert question.among == ("duration_s", "mu")

@@ -8,8 +8,10 @@ import pytest
 from mixedlub.case import read_case
 from mixedlub.cli import main
 from mixedlub.importers import import_files
-from mixedlub.importers.wizard import run
+from mixedlub.importers.wizard import read, run
 from profiles.errors import InputError
+
+from .test_importers import EHD
 
 HEAD = (
     "Rolling Speed (mm/s)\tTraction Coeff (-)\t\tStep Time (s)\tPot RTD Temp (°C)\tLube RTD Temp (°C)\tBall Load (N)"
@@ -136,3 +138,49 @@ def test_a_kind_that_the_file_cannot_make_is_refused_with_those_it_can(file, tmp
 def test_what_the_steps_lack_is_named(file, tmp_path):
     with pytest.raises(InputError, match=r"mtm\.txt: the steps hold no load_N, which a case of kind 'disc' needs"):
         import_files([file(STRIBECK.replace("Ball Load", "Other"))], tmp_path / "case", kind="disc")
+
+
+def with_spread(text, header, value):
+    """The steps with one more column behind the others."""
+    lines = [
+        f"{line}\t{header}" if line == HEAD else f"{line}\t{value}" if line[:1].isdigit() and "\t" in line else line
+        for line in text.splitlines()
+    ]
+    return "\n".join(lines) + "\n"
+
+
+SD = "import.columns.friction_coefficient_sd"
+
+
+@pytest.mark.parametrize("header", ["Traction Coeff Std Dev (-)", "SD of Traction Coeff", "Standard Deviation (%)"])
+def test_the_sd_beside_a_traction_is_offered_with_the_setting_that_takes_it(file, header):
+    found = read([file(with_spread(STRIBECK, header, 0.2))], {})
+    assert [(q.example, q.needed) for q in found.questions if q.key == SD] == [(f'"{header}"', False)]
+    assert "friction_coefficient_sd" not in found.columns
+    (note,) = [note for note in found.notes if "friction_coefficient_sd" in note]
+    assert note.startswith(f"warning: mtm.txt: {header!r} is not taken; if it is friction_coefficient_sd, say --set ")
+
+
+def test_the_sd_of_a_film_is_offered(file):
+    found = read([file(EHD.replace("\t0.00\t3", "\t0.4\t3"))], {})
+    assert not any("sd" in q.key for q in read([file(EHD)], {}).questions)
+    (question,) = [q for q in found.questions if q.key == "import.columns.film_thickness_nm_sd"]
+    assert question.example == '"Standard Deviation (nm)"'
+
+
+@pytest.mark.parametrize(
+    ("header", "value"), [("Standard Deviation (nm)", 0.2), ("SD Repeat Number (-)", 1), ("Standard Deviation", 0.0)]
+)
+def test_the_sd_of_something_else_or_of_single_readings_is_not(file, header, value):
+    found = read([file(with_spread(STRIBECK, header, value))], {})
+    assert SD not in {q.key for q in found.questions}
+    assert not any("friction_coefficient_sd" in note for note in found.notes)
+
+
+def test_an_sd_that_is_told_is_taken_in_its_unit(file):
+    text = with_spread(STRIBECK, "Traction Coeff SD (%)", 0.2)
+    found = read([file(text)], {SD: "Traction Coeff SD (%)"})
+    assert found.columns["friction_coefficient_sd"].tolist() == [0.002] * 24
+    assert not any(note.startswith("warning") for note in found.notes)
+    with pytest.raises(InputError, match=r"friction_coefficient_sd: 'SD': no such header; known: "):
+        read([file(text)], {SD: "SD"})

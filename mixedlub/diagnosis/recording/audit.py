@@ -16,6 +16,8 @@ from mixedlub.diagnosis.recording.noise import (
     seen_noise,
     setups_differ,
 )
+from mixedlub.diagnosis.recording.signs import AS_LARGE, both_signs, of_other_sign
+from mixedlub.diagnosis.recording.units import of_odd_units
 from mixedlub.forward import Forward
 from mixedlub.headers import unit_of
 from mixedlub.kinds.friction_map import drive_speed
@@ -26,20 +28,8 @@ from profiles.errors import InputError
 
 FEWEST = 5
 SCARCE = 30
-UNIT_SLIPS = {
-    1e2: "a hundred times",
-    1e-2: "a hundredth of",
-    1e3: "a thousand times",
-    1e-3: "a thousandth of",
-    1e6: "a million times",
-    1e-6: "a millionth of",
-}
 MOST_SLIDING = 10.0
 """Slide-roll ratios above it are more likely percent: 2 is pure sliding, more needs surfaces that run against it."""
-SLIP_WITHIN = 2.0
-"""How far a slip of the unit may be off its power of ten: the base model itself is that good."""
-TWO_UNITS = 0.1
-"""Share of the readings from which some that are off together are no wild ones."""
 ALIKE = 0.05
 """Half the difference of two directions over their mean up to which they are as large: a payload alone holds more."""
 THINNEST_OIL = 0.4
@@ -53,7 +43,7 @@ STUCK_STEPS, STUCK_SPAN = 3.0, 0.05
 
 TOO_LARGE, ALONE = 50.0, 10.0
 """A reading so many times what the others suggest there, and so many times the largest of them, is doubted."""
-NEGATIVE_SHARE, NEGATIVE_SIGMAS, AS_LARGE = 0.02, 5.0, (0.67, 1.5)
+NEGATIVE_SHARE, NEGATIVE_SIGMAS = 0.02, 5.0
 """So few readings, negative by so many sds, as large as what the others suggest there, are doubted."""
 UNSTATED = 0.05
 """Share of the usual reading that one is taken to scatter by where nothing is stated."""
@@ -90,21 +80,22 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
         where = str(case.folder / "recordings.csv")
         raise InputError("all readings were taken at the same conditions; vary at least one", where=where)
     base = forward.nominal()
+    other_sign = of_other_sign(case, rows, y, NEGATIVE_SIGMAS * _sds(case, rows, y))
     return [
         *_entered_twice(case, rows, y),
         *_parts(case, rows),
         *_setups(case, rows),
         *_scarce(y),
         *_thin(case, y, forward),
-        *_of_another_unit(case, y, base),
-        *_of_two_units(case, y, base),
+        *map(Doubt, of_odd_units(case, rows, y, base, FEWEST, SCARCE)),
         *_more_than_put_in(case, rows, y),
         *_of_one_sign(case, rows, y),
         *_sliding(rows),
         *_warm(rows),
         *_backwards(rows),
         *_stuck(case, rows, y, base),
-        *_misread(case, rows, y, base),
+        *_misread(case, rows, y, base, other_sign),
+        *map(Doubt, both_signs(case, rows, y, other_sign)),
         *_contradicting(case, rows, y, base),
     ]
 
@@ -201,39 +192,6 @@ def _scarce(y: np.ndarray) -> list[str]:
     return [f"only {y.size} readings: expect ties and wide intervals"] if y.size < SCARCE else []
 
 
-def _of_another_unit(case: Case, y: np.ndarray, base: np.ndarray) -> list[str]:
-    """Readings that are a power of ten off the base model, or of the other sign."""
-    both = (np.abs(base) > 0) & (np.abs(y) > 0)
-    if both.sum() < FEWEST:
-        return []
-    ratio = float(np.median(np.abs(y[both] / base[both])))
-    found: list[str] = [
-        Doubt(f"readings are about {words} what the base model gives: check the unit of {case.quantity}")
-        for slip, words in UNIT_SLIPS.items()
-        if slip / SLIP_WITHIN < ratio < slip * SLIP_WITHIN
-    ]
-    if np.mean(base[both] * y[both] < 0) > 0.5:
-        found.append(Doubt("most readings have the other sign than the base model: check the sign"))
-    return found
-
-
-def _of_two_units(case: Case, y: np.ndarray, base: np.ndarray) -> list[str]:
-    """Readings of which a part is a power of ten off the others, beside the base model."""
-    used = (np.abs(base) > 0) & (np.abs(y) > 0)
-    if used.sum() < SCARCE:
-        return []
-    ratio = np.sort(np.log10(np.abs(y[used] / base[used])))
-    cut = int(np.argmax(np.diff(ratio))) + 1
-    parts = ratio[:cut], ratio[cut:]
-    apart = float(np.median(parts[1]) - np.median(parts[0]))
-    slips = [np.log10(slip) for slip in UNIT_SLIPS if slip > 1.0]
-    near = min(abs(apart - slip) for slip in slips) < np.log10(SLIP_WITHIN)
-    if not near or min(map(len, parts)) < TWO_UNITS * used.sum() or ratio[cut] - ratio[cut - 1] < 0.5 * apart:
-        return []
-    said = f"{len(parts[0])} readings are about {10**apart:.2g} times smaller, beside the base model, than the others"
-    return [Doubt(f"{said}: check that {case.quantity} is in one unit")]
-
-
 def _more_than_put_in(case: Case, rows: Table, y: np.ndarray) -> list[str]:
     """Losses of gears above the power that the pinion takes in."""
     if case.quantity != "power_loss_W":
@@ -307,8 +265,11 @@ def _stuck(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str
     return [Doubt(f"{said}: check for a channel that was stuck or filled in (runs {', '.join(runs)}{more})")]
 
 
-def _misread(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str]:
-    """Single readings that are off by a power of ten or by their sign, held against what the others suggest."""
+def _misread(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, told: np.ndarray) -> list[str]:
+    """Single readings that are off by a power of ten or by their sign, held against what the others suggest.
+
+    Those of which it is ``told`` already that their sign is wrong are left out.
+    """
     used = np.abs(base) > 0
     if used.sum() < FEWEST:
         return []
@@ -321,7 +282,7 @@ def _misread(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[s
         least, most = (share * expected for share in AS_LARGE)
         wrong = used & (y < -NEGATIVE_SIGMAS * _sds(case, rows, y)) & (-y > least) & (-y < most)
         if wrong.sum() <= max(1.0, NEGATIVE_SHARE * y.size):
-            found.append((wrong, "negative where the others suggest a positive one as large: check the sign"))
+            found.append((wrong & ~told, "negative where the others suggest a positive one as large: check the sign"))
     return [
         Doubt(f"run {rows['run'][i]} reads {y[i]:g} where the others suggest {expected[i]:.3g}: {words}")
         for which, words in found

@@ -14,6 +14,8 @@ from mixedlub.table import Table
 
 USELESS, WEAK = 0.01, 0.1
 """Bits below which a test is not worth naming, and below which it is not worth much."""
+WAITED_FOR = ("time_s",)
+"""Conditions that nobody sets."""
 HALF = 0.5
 """Share of what was recorded beyond which a range is no place to read around."""
 SETUPS = (
@@ -47,10 +49,31 @@ def next_test(d: Diagnosis) -> tuple[str, ...]:
     names = "; ".join(explanation_words(name.split("+")) for name in first.separates)
     weak = ("No single reading would tell much more; the best would be:",) if first.expected_bits < WEAK else ()
     run = (
-        f"Run {conditions_text(first.conditions)}: {first.expected_bits:.2f} bit towards telling apart {names} (1 bit "
-        "would settle which of two equally probable ones is right)."
+        f"{to_run(first.conditions, d.recorded.table)}: {first.expected_bits:.2f} bit towards telling apart {names} "
+        "(1 bit would settle which of two equally probable ones is right)."
     )
     return (*weak, run, *(f"{text[:1].upper()}{text[1:]}." for text in beyond(first.conditions, d.recorded.table)))
+
+
+def to_run(conditions: Mapping[str, float | str], recorded: Table) -> str:
+    """What to set, and when to read where a time passes: none can be set, but waited for.
+
+    >>> import numpy as np
+    >>> hour = Table({"time_s": np.array([0.0, 3600.0])})
+    >>> to_run({"load_N": 9.0, "time_s": 600.0}, hour), to_run({"load_N": 9.0}, hour)
+    ('Run load 9 N from the start, and read at time 600 s', 'Run load 9 N')
+    >>> to_run({"time_s": 600.0}, hour)
+    'Run the test anew from the start, and read at time 600 s'
+    >>> to_run({"load_N": 9.0, "time_s": 4500.0}, hour)
+    'Run load 9 N for longer than recorded, and read at time 4500 s'
+    """
+    time = {name: value for name, value in conditions.items() if name in WAITED_FOR}
+    held = conditions_text({name: value for name, value in conditions.items() if name not in time})
+    if not time:
+        return f"Run {held}"
+    later = any(name in recorded and float(value) > float(recorded[name].max()) for name, value in time.items())
+    how = "for longer than recorded" if later else "from the start" if held else "anew from the start"
+    return f"Run {held or 'the test'} {how}, and read at {conditions_text(time)}"
 
 
 def _refined(d: Diagnosis) -> tuple[str, ...]:

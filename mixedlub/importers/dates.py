@@ -1,0 +1,113 @@
+"""Dates with a clock as instruments write them, and both readings of those whose day could be the month."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime, timedelta, timezone
+
+KEY = "import.dates"
+ORDERS = ("day first", "month first")
+MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
+ENDS = ("uary", "ruary", "ch", "il", "", "e", "y", "ust", "t(?:ember)?", "ober", "ember", "ember")
+MONTH = "|".join(rf"{month}(?:{end})?" for month, end in zip(MONTHS, ENDS, strict=True))
+NAMED = rf"(?P<month>{MONTH})\.?"
+DAY, YEAR = r"(?P<day>\d{1,2})", r"(?P<year>\d{4})"
+CLOCK = (
+    r"(?P<hour>\d{1,2}):(?P<minute>\d\d)(?P<second>:\d\d(?:\.\d+)?)?"
+    r"(?:\s*(?P<half>[ap])\.?m\.?)?(?:\s*(?P<zone>z|utc|gmt|[+-]\d\d(?::?\d\d)?))?"
+)
+FORMS = tuple(
+    re.compile(rf"{date}(?:t|,?\s+){CLOCK}", re.IGNORECASE)
+    for date in (
+        rf"{YEAR}(?P<mark>[-/.])(?P<month>\d{{1,2}})(?P=mark){DAY}",
+        rf"(?P<first>\d{{1,2}})(?P<mark>[-/.])(?P<other>\d{{1,2}})(?P=mark){YEAR}",
+        rf"{DAY}[ .-]+{NAMED}[ ,-]+{YEAR}",
+        rf"{NAMED}[ -]+{DAY}(?:st|nd|rd|th)?[ ,-]+{YEAR}",
+    )
+)
+BEGUN = re.compile(rf"\d+[-/.:]\d+|(?:\d{{1,2}}[ .-]+)?(?:{MONTH})\.?[ ,-]+\d", re.IGNORECASE)
+
+
+def is_dated(cell: str) -> bool:
+    """Whether a cell begins as a date or a clock does, which names no thing.
+
+    >>> [is_dated(cell) for cell in ("23/11/2026", "14:03", "23 Nov 2026", "Nov 23, 2026", "steel 52", "Marlin 3")]
+    [True, True, True, True, False, False]
+    """
+    return BEGUN.match(cell) is not None
+
+
+def moments(cells: Sequence[str]) -> Mapping[str, list[datetime]]:
+    """The moments of cells that are all dates of one form, by the order in which day and month were read.
+
+    Where the order is plain there is one, by the name ''; nothing where a cell is no date.
+
+    >>> [str(m) for m in moments(["23 Nov 2026 02:03:10 PM"])[""]]
+    ['2026-11-23 14:03:10']
+    >>> {order: str(found[0]) for order, found in moments(["05/06/2019 22:00"]).items()}
+    {'day first': '2019-06-05 22:00:00', 'month first': '2019-05-06 22:00:00'}
+    >>> list(moments(["23/11/2026 14:03", "05/11/2026 14:03"])), moments(["14:03"])
+    ([''], {})
+    """
+    for form in FORMS:
+        if not cells or form.fullmatch(cells[0].strip()) is None:
+            continue
+        parts = [form.fullmatch(cell.strip()) for cell in cells]
+        read = [part.groupdict() for part in parts if part is not None]
+        if len(read) < len(parts):
+            return {}
+        if "first" not in read[0]:
+            ways = {"": [_moment(part, part["day"], part["month"]) for part in read]}
+        else:
+            ways = {"day first": [_moment(part, part["first"], part["other"]) for part in read]}
+            # A point stands between day and month where the day goes first.
+            if any(part["mark"] != "." for part in read):
+                ways["month first"] = [_moment(part, part["other"], part["first"]) for part in read]
+        whole = {order: [m for m in found if m is not None] for order, found in ways.items()}
+        whole = {order: found for order, found in whole.items() if len(found) == len(cells) and _alike(found)}
+        return whole if len(whole) != 1 else {"": next(iter(whole.values()))}
+    return {}
+
+
+def resolution(cells: Sequence[str]) -> float:
+    """Seconds within which a clock tells the time: those of a minute where it has no seconds.
+
+    >>> resolution(["23/11/2026 14:03"]), resolution(["2026-11-23T14:03:10Z"])
+    (60.0, 1.0)
+    """
+    return 1.0 if all(re.search(r":\d\d:\d\d", cell) for cell in cells) else 60.0
+
+
+def _alike(found: Sequence[datetime]) -> bool:
+    """Whether all moments have a zone, or none."""
+    return len({moment.tzinfo is None for moment in found}) == 1
+
+
+def _moment(part: Mapping[str, str | None], day: str | None, month: str | None) -> datetime | None:
+    """The moment that the parts of a date make; None where there is no such day or hour."""
+    name, half, hour = (month or "").lower(), (part["half"] or "").lower(), int(part["hour"] or 0)
+    number = int(name) if name.isdecimal() else MONTHS.index(name[:3]) + 1
+    if half and not 1 <= hour <= 12:
+        return None
+    if half:
+        hour = hour % 12 + (12 if half == "p" else 0)
+    try:
+        start = datetime(int(part["year"] or 0), number, int(day or 0), hour, int(part["minute"] or 0))
+    except ValueError:
+        return None
+    moment = start + timedelta(seconds=float((part["second"] or ":0")[1:]))
+    return moment.replace(tzinfo=_zone(part["zone"])) if part["zone"] else moment
+
+
+def _zone(text: str | None) -> timezone:
+    """A zone by what stands behind a clock.
+
+    >>> _zone("Z") == timezone.utc, str(_zone("-0530"))
+    (True, 'UTC-05:30')
+    """
+    found = re.fullmatch(r"([+-])(\d\d):?(\d\d)?", text or "")
+    if found is None:
+        return UTC
+    ahead = timedelta(hours=int(found[2]), minutes=int(found[3] or 0))
+    return timezone(ahead if found[1] == "+" else -ahead)

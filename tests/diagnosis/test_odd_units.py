@@ -1,0 +1,125 @@
+"""Columns in another unit than their name says, or in two of them: doubted by the column that is off."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mixedlub.case import read_case
+from mixedlub.diagnosis.recording.audit import Doubt, doubts
+from mixedlub.forward import Forward
+from mixedlub.importers import write_case
+
+BALL = {"geometry": "point", "radius_mm": [9.525, float("inf")], "youngs_modulus_GPa": [207.0, 75.0]}
+OIL = {"temperature_C": [40.0, 100.0], "kinematic_viscosity_mm2_s": [30.0, 6.2]}
+SPEED = np.tile(np.geomspace(0.05, 2.0, 10), 4)
+SCATTER = 1.0 + 0.01 * np.random.default_rng(0).standard_normal(40)
+HALF, EVEN = np.arange(40) < 20, np.arange(40) % 2 == 0
+
+
+def told(folder: Path, system: dict[str, Any], columns: dict[str, Any], quantity: str) -> list[str]:
+    """The doubts about a recording."""
+    case = read_case(write_case(folder / "case", {**system, "recording": {"quantity": quantity}}, columns))
+    assert case.recordings is not None
+    y = np.asarray(case.recordings[quantity], dtype=float)
+    found = doubts(case, case.recordings, y, Forward(case, case.recordings))
+    return [note for note in found if isinstance(note, Doubt)]
+
+
+def film(folder: Path, oil: dict[str, Any] | None = None, **times: Any) -> list[str]:
+    """Films of a sound rig, each column times a factor."""
+    columns = {
+        "load_N": np.repeat([10.0, 20.0, 10.0, 20.0], 10),
+        "entrainment_speed_m_s": SPEED,
+        "slide_roll_ratio": 0.0 * SPEED,
+        "oil_temperature_C": 40.0 + 0.0 * SPEED,
+        "film_thickness_nm": 200.0 * SPEED**0.67 * SCATTER,
+    }
+    columns = {name: values * times.get(name, 1.0) for name, values in columns.items()}
+    system = {"kind": "film", "contact": {**BALL, "poisson_ratio": [0.3, 0.22]}}
+    return told(folder, {**system, "lubricant": oil} if oil else system, columns, "film_thickness_nm")
+
+
+def oil(folder: Path, factor: Any, celsius: np.ndarray | None = None, **columns: Any) -> list[str]:
+    celsius = np.tile(np.linspace(20.0, 90.0, 8), 5) if celsius is None else celsius
+    viscosity = 200.0 * np.exp(-0.035 * (celsius - 20.0)) * SCATTER * factor
+    columns = {"temperature_C": celsius, "viscosity_mPa_s": viscosity, **columns}
+    return told(folder, {"kind": "viscosity"}, columns, "viscosity_mPa_s")
+
+
+@pytest.mark.parametrize("known", [None, OIL])
+def test_a_sound_recording_is_not_doubted(tmp_path: Path, known: dict[str, Any] | None) -> None:
+    assert film(tmp_path / "film", known) == []
+    assert oil(tmp_path / "oil", 1.0) == []
+
+
+@pytest.mark.parametrize("which", [HALF, EVEN])
+@pytest.mark.parametrize("factor", [10.0, 0.1, 1000.0])
+def test_readings_in_two_units_are_doubted(tmp_path: Path, which: np.ndarray, factor: float) -> None:
+    for notes in (
+        film(tmp_path / "film", film_thickness_nm=np.where(which, factor, 1.0)),
+        oil(tmp_path / "oil", np.where(HALF, factor, 1.0)),
+    ):
+        (note,) = [note for note in notes if "one unit" in note]
+        assert note.startswith("20 readings are about ")
+        assert note.endswith(" is in one unit")
+
+
+def test_readings_ten_times_apart_along_a_condition_are_physics(tmp_path: Path) -> None:
+    celsius = np.repeat(np.linspace(20.0, 90.0, 8), 5)
+    assert oil(tmp_path, np.where(celsius > 50.0, 0.1, 1.0), celsius) == []
+
+
+@pytest.mark.parametrize("factor", [1000.0, 0.001])
+def test_a_condition_in_two_units_is_doubted_rather_than_the_reading(tmp_path: Path, factor: float) -> None:
+    notes = film(tmp_path, entrainment_speed_m_s=np.where(HALF, factor, 1.0))
+    (note,) = [note for note in notes if "one unit" in note]
+    assert note == (
+        "20 of 40 values of entrainment_speed_m_s are 1000 times the others where readings and other conditions are "
+        "alike: check that entrainment_speed_m_s is in one unit"
+    )
+
+
+def test_a_condition_with_other_levels_in_the_other_unit_is_named_beside_the_reading(tmp_path: Path) -> None:
+    """Films follow the speeds as meant: half of them at speeds between those of the others, and in mm/s."""
+    between = np.where(HALF, 1.2, 1.0)
+    notes = film(tmp_path, entrainment_speed_m_s=between * np.where(HALF, 1000.0, 1.0), film_thickness_nm=between**0.67)
+    assert any(
+        note.endswith("check that film_thickness_nm and entrainment_speed_m_s are each in one unit") for note in notes
+    )
+
+
+def test_levels_that_come_again_tenfold_with_the_films_they_should_have_are_sound(tmp_path: Path) -> None:
+    faster = np.where(HALF, 100.0, 1.0)
+    assert film(tmp_path, entrainment_speed_m_s=faster, film_thickness_nm=faster**0.67) == []
+
+
+def test_speeds_in_millimetres_are_doubted_with_the_unit_they_are_in(tmp_path: Path) -> None:
+    notes = film(tmp_path, entrainment_speed_m_s=1000.0)
+    assert (
+        "the largest entrainment_speed_m_s is 2000, where rigs have 1e-05 to 300 m/s: 2000 mm/s would be 2 m/s" in notes
+    )
+
+
+def test_films_in_micrometres_are_doubted(tmp_path: Path) -> None:
+    (note,) = [note for note in film(tmp_path, film_thickness_nm=0.001) if "largest" in note]
+    assert note.startswith("the largest film_thickness_nm is 0.3")
+    assert "where rigs have 0.8 to 100000 nm: 0.3" in note
+    assert " um would be 3" in note
+
+
+def test_a_load_that_no_contact_bears_is_doubted(tmp_path: Path) -> None:
+    (note,) = film(tmp_path, load_N=1000.0)
+    assert note.startswith("the largest load_N, 20000, would press the bodies with 5.27 GPa, where hard ones yield")
+
+
+def test_an_oil_thicker_than_oils_is_doubted_where_it_is_warm(tmp_path: Path) -> None:
+    (note,) = oil(tmp_path / "warm", 1000.0)
+    assert note.startswith("the smallest viscosity_mPa_s is 17")
+    assert "where rigs have 0 to 5000 mPa s" in note
+    assert oil(tmp_path / "cold", 1000.0, np.tile(np.linspace(-40.0, 10.0, 8), 5)) == []
+    pressed = oil(tmp_path / "pressed", 1000.0, pressure_MPa=np.full(40, 800.0))
+    assert not any("smallest" in note for note in pressed)

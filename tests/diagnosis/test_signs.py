@@ -1,0 +1,85 @@
+"""Readings of both signs at one condition: one of them is wrong, and is named."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mixedlub.case import read_case
+from mixedlub.diagnosis.recording.audit import Doubt, doubts
+from mixedlub.forward import Forward
+from mixedlub.importers import write_case
+
+SCATTER = 1.0 + 0.01 * np.random.default_rng(0).standard_normal(40)
+SPEED = np.tile(np.geomspace(1.0, 100.0, 10), 4)
+HALF = np.where(np.arange(40) < 20, 1.0, -1.0)
+
+
+def told(folder: Path, kind: str, quantity: str, columns: dict[str, Any]) -> list[str]:
+    """The sentence about signs, if there is one."""
+    sections = {"kind": kind, "recording": {"quantity": quantity}}
+    case = read_case(write_case(folder / "case", sections, columns))
+    assert case.recordings is not None
+    y = np.asarray(case.recordings[quantity], dtype=float)
+    found = [note for note in doubts(case, case.recordings, y, Forward(case, case.recordings)) if "sign" in note]
+    assert all(isinstance(note, Doubt) for note in found)
+    return found
+
+
+def history(folder: Path, friction: np.ndarray) -> list[str]:
+    columns = {"time_s": 60.0 * np.arange(40), "friction_coefficient": friction}
+    return told(folder, "friction_history", "friction_coefficient", columns)
+
+
+def drive(folder: Path, friction: np.ndarray, speed: np.ndarray = SPEED) -> list[str]:
+    columns = {"speed_rpm": speed, "friction_torque_Nm": friction}
+    return told(folder, "friction_map", "friction_torque_Nm", columns)
+
+
+def test_an_unsigned_friction_of_both_signs_is_doubted_with_its_runs(tmp_path: Path) -> None:
+    (note,) = history(tmp_path, -0.1 * SCATTER * (-1.0) ** np.arange(40))
+    assert note == (
+        "friction_coefficient has both signs: 20 readings are negative where others at the same conditions are as "
+        "large with the opposite one: check the sign (runs 1, 3, 5, 7, 9, ...)"
+    )
+
+
+def test_a_drive_that_reads_both_signs_at_one_speed_is_doubted(tmp_path: Path) -> None:
+    (note,) = drive(tmp_path, SCATTER * (1.0 + 0.01 * SPEED) * np.where(np.arange(40) < 30, 1.0, -1.0))
+    assert "10 readings are negative" in note
+    assert "check the signs of friction_torque_Nm and of the speed (runs 31, " in note
+
+
+def test_one_reading_of_the_other_sign_is_named(tmp_path: Path) -> None:
+    flipped = np.where(np.arange(40) == 25, -1.0, 1.0)
+    (note,) = drive(tmp_path, SCATTER * (1.0 + 0.01 * SPEED) * flipped)
+    assert "1 reading is negative" in note
+    assert "(runs 26)" in note
+
+
+def test_a_drive_turned_back_reads_either_sign(tmp_path: Path) -> None:
+    assert drive(tmp_path, SCATTER * HALF, SPEED * HALF) == []
+
+
+def test_a_drive_that_stands_is_held_either_way(tmp_path: Path) -> None:
+    still = np.arange(40) % 10 == 0
+    assert drive(tmp_path, SCATTER * np.where(still, HALF, 1.0), np.where(still, 0.0, SPEED)) == []
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.005])
+def test_readings_about_zero_have_either_sign(tmp_path: Path, offset: float) -> None:
+    assert history(tmp_path, offset + 0.01 * np.random.default_rng(2).standard_normal(40)) == []
+
+
+def test_the_same_at_other_loads_is_no_matter_of_signs(tmp_path: Path) -> None:
+    """A payload that outweighs friction at one load and not at the other."""
+    columns = {"speed_rpm": SPEED, "torque_Nm": 10.0 + 5.0 * HALF, "friction_torque_Nm": SCATTER * HALF}
+    assert told(tmp_path, "friction_map", "friction_torque_Nm", columns) == []
+
+
+def test_a_single_wrong_sign_is_told_once(tmp_path: Path) -> None:
+    (note,) = history(tmp_path, 0.1 * SCATTER * np.where(np.arange(40) == 6, -1.0, 1.0))
+    assert note.endswith("(runs 7)")
