@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from mixedlub.case import read_case
+from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.recording.audit import Doubt, doubts
+from mixedlub.diagnosis.recording.units import of_two_units
 from mixedlub.forward import Forward
 from mixedlub.importers import write_case
 
@@ -54,6 +56,13 @@ def oil(folder: Path, factor: Any, celsius: np.ndarray | None = None, **columns:
 def test_a_sound_recording_is_not_doubted(tmp_path: Path, known: dict[str, Any] | None) -> None:
     assert film(tmp_path / "film", known) == []
     assert oil(tmp_path / "oil", 1.0) == []
+
+
+def test_readings_that_are_all_as_far_from_the_model_are_in_one_unit(offset: Diagnosis) -> None:
+    """Nothing parts them, as every ratio is the same."""
+    problem = offset.found.problem
+    base = np.asarray(offset.recorded.base)
+    assert of_two_units(offset.case, problem.rows, 7.0 * base, base, 5) == []
 
 
 @pytest.mark.parametrize("which", [HALF, EVEN])

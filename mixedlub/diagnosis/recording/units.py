@@ -66,11 +66,12 @@ def of_two_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewes
         return []
     ratio = np.log10(np.abs(y[used] / base[used]))
     upper, gap = _upper_part(ratio)
+    if min(upper.sum(), (~upper).sum()) < PART * used.sum():
+        return []
     apart = float(np.median(ratio[upper]) - np.median(ratio[~upper]))
     slips = [np.log10(slip) for slip in (TEN, *SLIPS) if slip > 1.0]
     slip = min(slips, key=lambda slip: abs(apart - slip))
-    near = abs(apart - slip) < np.log10(WITHIN)
-    if not near or min(upper.sum(), (~upper).sum()) < PART * used.sum():
+    if abs(apart - slip) >= np.log10(WITHIN):
         return []
     kept = rows.take(used)
     mixed = _are_mixed(_places(case, kept), upper)
