@@ -206,11 +206,11 @@ def test_film_of_a_steel_ball_on_glass_is_hamrock_and_dowson():
 
 
 def test_unnamed_sample_keeps_to_astm_d341_and_barus():
-    """log10 log10(nu + 0.7) is straight in log10 T whatever the calibration, and ln eta straight in pressure."""
+    """log10 log10(nu + 0.7) is straight in log10 T but for the bow, and ln eta straight in pressure."""
     rng = np.random.default_rng(1)
     benches = [viscosity.draw(rng) for _ in range(30)]
-    bench = next(b for b in benches if len(b.names) == 4 and len(np.unique(b.columns["temperature_C"])) > 2)
-    eta = bench.model(np.array([1.0, -1.5, 1.0, 2.0]), ())
+    bench = next(b for b in benches if len(b.names) == 5 and len(np.unique(b.columns["temperature_C"])) > 2)
+    eta = bench.model(np.array([1.0, -1.5, 0.0, 1.0, 2.0]), ())
     celsius, pressure = bench.columns["temperature_C"], bench.columns["pressure_MPa"]
     doubled, slopes = [], []
     for level in np.unique(celsius):
