@@ -110,9 +110,11 @@ plane_offset            | z_s        | m       | height of the summits' mean pla
 hertz_pressure          | p_0        | Pa      | largest pressure of the smooth dry contact; pressure on a sample
 hertz_half_width        | b_H        | m       | half width (line) or radius (point) of the smooth dry contact
 regression_film         | h_r        | m       | central film thickness as the regression for smooth contacts has it
-speed_exponent_change   | delta_u    | -       | what the film's exponent of speed has over that of the regression
-load_exponent_change    | delta_F    | -       | what the film's exponent of load has over that of the regression
-exponents_cross         | kappa      | -       | rise of the film's exponent of speed with the logarithm of load
+regime_film             | h_m        | m       | central film thickness as the formula for all regimes has it
+film_regime             | kappa      | -       | 0: film of the regression, 1: of the formula for all regimes
+law_film                | h_l        | m       | central film thickness by a law or between two
+speed_exponent_change   | delta_u    | -       | what the film's exponent of speed has over that of the law
+load_exponent_change    | delta_F    | -       | what the film's exponent of load has over that of the law
 middle_flow             | (eta_0 u)_m | N/m    | geometric mean of viscosity times speed in the recording
 middle_load             | F_m        | N       | geometric mean of the load in the recording
 film_thickness          | h          | m       | central film thickness

@@ -43,13 +43,13 @@ def test_film_is_hamrock_dowson_with_unit_ellipticity_of_a_ball(make):
 def test_film_of_an_unnamed_oil_is_fitted_with_broad_priors_and_says_so(make):
     case = make(system("film", "film_thickness_nm", contact=BALL), film_columns())
     forward = Forward(case, case.recordings)
-    assert [c.name for c in forward.calibrations] == ["viscosity", "pressure_viscosity", "film_exponent"]
+    assert [c.name for c in forward.calibrations] == ["viscosity", "pressure_viscosity", "film_regime", "film_exponent"]
     assert any("rests on these data" in note for note in forward.notes)
 
 
 def test_film_of_a_known_oil_has_the_film_law_alone_to_calibrate(make):
     case = make(system("film", "film_thickness_nm", contact=BALL, lubricant=OIL), film_columns())
-    assert [c.name for c in Forward(case, case.recordings).calibrations] == ["film_exponent"]
+    assert [c.name for c in Forward(case, case.recordings).calibrations] == ["film_regime", "film_exponent"]
 
 
 def test_film_needs_a_contact(make):

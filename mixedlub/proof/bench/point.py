@@ -14,7 +14,7 @@ from mixedlub.proof.concealed import film as film_room
 from mixedlub.proof.concealed.kinds import Knob, strength
 from mixedlub.proof.rig import Contact, Rig, Solid, lubricate, mix, press, shear, touch
 
-CIRCULAR, SPEED_EXPONENT, LOAD_EXPONENT = 1.03, 0.67, -0.067
+CIRCULAR, SPEED_EXPONENT = 1.03, 0.67
 
 
 def ball_rig(settings: Mapping[str, Any], columns: Mapping[str, np.ndarray], moments: np.ndarray) -> Rig:
@@ -54,14 +54,14 @@ def lubricate_ball(c: Contact) -> Contact:
     load = c.force / (modulus * radius**2)
     shape = 2.69 * (1 - 0.61 * np.exp(-0.73 * CIRCULAR))
     coefficient = (c.pressure_viscosity * modulus) ** 0.53
-    return replace(c, film=radius * shape * speed**SPEED_EXPONENT * coefficient * load**LOAD_EXPONENT)
+    return replace(c, film=radius * shape * speed**SPEED_EXPONENT * coefficient * load**-0.067)
 
 
-def turned_ball_film(c: Contact, speed: float, load: float, cross: float, middle: tuple[float, float]) -> Contact:
-    """The same film with other exponents of speed and load, turned about a viscosity times speed (Pa m) and a load."""
-    regression = lubricate_ball(c)
-    flow, loaded = np.log(c.viscosity * c.entrainment / middle[0]), np.log(c.force / middle[1])
-    return replace(regression, film=regression.film * np.exp((speed + cross * loaded) * flow + load * loaded))
+def ball_film_between(c: Contact, way: float, change: float, middle: float) -> Contact:
+    """On the way to the law of all regimes, with another exponent of speed about a viscosity times speed (Pa m)."""
+    regression, regimes = lubricate_ball(c).film, lubricate_ball_in_any_regime(c).film
+    turned = (c.viscosity * c.entrainment / middle) ** change
+    return replace(c, film=regression ** (1 - way) * regimes**way * turned)
 
 
 def lubricate_ball_in_any_regime(c: Contact) -> Contact:

@@ -9,26 +9,24 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.proof.bench.point import LOAD_EXPONENT, SPEED_EXPONENT, ball_film, turned_ball_film
+from mixedlub.proof.bench.point import SPEED_EXPONENT, ball_film, ball_film_between
 from mixedlub.proof.bench.stage import Act, pick, play, rounded
 from mixedlub.proof.rig import KELVIN, Calibration, Contact, Oil, Rig, start
 
-LEVEL, STEEPNESS, BOW, VISCOSITY, COEFFICIENT, WARMTH, EXPONENT, LOADED, CROSS = (
+LEVEL, STEEPNESS, BOW, VISCOSITY, COEFFICIENT, WARMTH, REGIME, EXPONENT = (
     "viscosity_level",
     "viscosity_steepness",
     "viscosity_bow",
     "viscosity",
     "pressure_viscosity",
     "pressure_viscosity_warmth",
+    "film_regime",
     "film_exponent",
-    "film_load_exponent",
-    "film_cross_exponent",
 )
-REGRESSIONS_DIFFER = {EXPONENT: 0.015, LOADED: 0.10, CROSS: 0.006}
-"""0.67 and -0.067 of Hamrock and Dowson 1977 from 0.68 and -0.073 of Chittenden, Dowson, Dunn and Taylor 1985."""
-REGIMES_DIFFER = {EXPONENT: 0.035, LOADED: 0.25, CROSS: 0.0125}
-"""Relative but for the last, the rise of the first with ln load: half of what Nijenbanning, Venner and Moes 1994 have
-over balls, oils, loads and speeds in use."""
+LAW = {EXPONENT: 0.015}
+"""Relative: 0.67 of Hamrock and Dowson 1977 and 0.68 of Chittenden, Dowson, Dunn and Taylor 1985."""
+OF_A_KNOWN_OIL, OF_AN_UNNAMED_OIL = {REGIME: 0.5, **LAW}, {REGIME: 1.0, **LAW}
+"""And the share of the way from the first to Nijenbanning, Venner and Moes 1994."""
 NOT_GIVEN = {LEVEL: 1.0, STEEPNESS: 0.5, BOW: 0.04, COEFFICIENT: 0.35, WARMTH: 0.4}
 """An oil that nobody describes: logarithms, but for the relative fall of the coefficient over 100 K."""
 NOMINAL = 0.3
@@ -75,11 +73,10 @@ class Told:
         return float(np.exp(np.mean(np.log(self.rig.temperature + KELVIN))) - KELVIN)
 
     @property
-    def middle(self) -> tuple[float, float]:
-        """Viscosity times speed, and load, in the middle of the programme, about which the film law turns."""
+    def middle(self) -> float:
+        """Viscosity times speed in the middle of the programme, about which the film law turns."""
         c = start(self.rig, Calibration())
-        flow, load = (float(np.exp(np.mean(np.log(v)))) for v in (c.viscosity * c.entrainment, c.force))
-        return flow, load
+        return float(np.exp(np.mean(np.log(c.viscosity * c.entrainment))))
 
     def factors(self, z: np.ndarray) -> dict[str, float]:
         """Factors on what is told, by name, ``z`` spreads off."""
@@ -102,23 +99,16 @@ class Told:
         return replace(c, pressure_viscosity=c.pressure_viscosity * ratio)
 
     def model(self, z: np.ndarray, acts: Sequence[Act]) -> np.ndarray:
-        """Films (nm) by the regression, its exponents within their spreads."""
+        """Films (nm) by a law as far from the regression as the spreads go."""
         by = self.factors(z)
-        speed, load = SPEED_EXPONENT * (by[EXPONENT] - 1), LOAD_EXPONENT * (by.get(LOADED, 1.0) - 1)
-        cross = float(np.log(by.get(CROSS, 1.0)))
-        law = partial(turned_ball_film, speed=speed, load=load, cross=cross, middle=self.middle)
+        way, change = float(np.log(by[REGIME])), SPEED_EXPONENT * (by[EXPONENT] - 1)
+        law = partial(ball_film_between, way=way, change=change, middle=self.middle)
         return np.asarray(play(ball_film(law), self.start(z), acts).recorded)
 
 
 def named(rig: Rig, viscosity: float, coefficient: float) -> Told:
     """An oil by its data sheet."""
-    return Told(rig, {VISCOSITY: viscosity, COEFFICIENT: coefficient, **_of_film(rig, REGRESSIONS_DIFFER)})
-
-
-def _of_film(rig: Rig, spreads: dict[str, float]) -> dict[str, float]:
-    """Those of the film law that the programme of a rig can show."""
-    load = rig.conditions["load_N"]
-    return {name: sd for name, sd in spreads.items() if name == EXPONENT or np.ptp(load) > 0.02 * np.max(load)}
+    return Told(rig, {VISCOSITY: viscosity, COEFFICIENT: coefficient, **OF_A_KNOWN_OIL})
 
 
 def _spreads(free: Sequence[str], celsius: np.ndarray) -> dict[str, float]:
@@ -130,7 +120,7 @@ def unnamed(rng: np.random.Generator, true: Rig) -> tuple[Told, dict[str, Any]]:
     """Of the rig's true oil nothing is told, or viscosities in name only; the sections of the case that tell it."""
     if pick(rng, (True, False)):
         free = _spreads((LEVEL, STEEPNESS, BOW, COEFFICIENT, WARMTH), true.temperature)
-        return Told(replace(true, oil=MINERAL), {**free, **_of_film(true, REGIMES_DIFFER)}), {}
+        return Told(replace(true, oil=MINERAL), {**free, **OF_AN_UNNAMED_OIL}), {}
     off = float(np.exp(NOMINAL * rng.standard_normal()))
     first, second = (rounded(1e6 * off * nu) for nu in true.oil.kinematic)
     section = {
@@ -140,5 +130,5 @@ def unnamed(rng: np.random.Generator, true: Rig) -> tuple[Told, dict[str, Any]]:
     }
     oil = replace(MINERAL, temperature=true.oil.temperature, kinematic=(1e-6 * first, 1e-6 * second))
     free = _spreads((COEFFICIENT, WARMTH), true.temperature)
-    told = Told(replace(true, oil=oil), {VISCOSITY: NOMINAL, **free, **_of_film(true, REGIMES_DIFFER)})
+    told = Told(replace(true, oil=oil), {VISCOSITY: NOMINAL, **free, **OF_AN_UNNAMED_OIL})
     return told, {"lubricant": section, "uncertainty": {"viscosity": NOMINAL}}
