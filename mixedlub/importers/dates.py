@@ -92,12 +92,13 @@ def _moment(part: Mapping[str, str | None], day: str | None, month: str | None) 
         return None
     if half:
         hour = hour % 12 + (12 if half == "p" else 0)
+    second = float((part["second"] or ":0")[1:])
     try:
         start = datetime(int(part["year"] or 0), number, int(day or 0), hour, int(part["minute"] or 0))
+        zone = _zone(part["zone"]) if part["zone"] else None
     except ValueError:
         return None
-    moment = start + timedelta(seconds=float((part["second"] or ":0")[1:]))
-    return moment.replace(tzinfo=_zone(part["zone"])) if part["zone"] else moment
+    return (start + timedelta(seconds=second)).replace(tzinfo=zone) if second < 61.0 else None
 
 
 def _zone(text: str | None) -> timezone:

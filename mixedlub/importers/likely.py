@@ -26,11 +26,13 @@ COUNTS = 1.0
 TEXT_FITS = 0.4
 SAME_WORD = 0.75
 DERIVED = re.compile(
-    r"(?:slope|gradient|derivative|curvature|rate|damping|stiffness|duration|interval|pause|delay|constant|factor|index|"
+    r"(?:slope|gradient|derivative|curvature|rate|damping|stiffness|duration|interval|pause|delay|index|"
     r"error|limit|threshold|tolerance|uncertainty|variance|zero|offset|drift|gain|sensitivity|change|difference|rise|"
     r"drop|wear|roughness|steigung|dämpfung|steifigkeit|dauer|fehler|grenze|verschleiß|rauheit)s?\.?"
 )
 """Words that make another thing of what stands beside them: the slope of a friction is no friction."""
+AS_IT_IS = {"corrected", "compensated", "free"}
+"""Words behind one of those that give the thing back: a friction whose zero is corrected."""
 TRANSMITTED = {"input", "output", "load", "applied"}
 """Words for a torque that a drive hands on: it loads the friction that is read beside it, and is offered last."""
 LAST = 0.41
@@ -156,8 +158,10 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
 def _is_derived(column: str, words: str) -> bool:
     """Whether the words of a header are those of another thing than a column, though its own may stand among them.
 
-    >>> [_is_derived("load_N", words) for words in ("load damping", "ball load", "load zero")]
-    [True, False, True]
+    >>> [_is_derived("load_N", words) for words in ("load damping", "ball load", "load zero", "constant load")]
+    [True, False, True, False]
+    >>> _is_derived("time_s", "time constant"), _is_derived("friction_coefficient", "friction zero corrected")
+    (True, False)
     >>> _is_derived("position_deg", "zero position"), _is_derived("rig", "rig index")
     (True, False)
     """
@@ -165,7 +169,11 @@ def _is_derived(column: str, words: str) -> bool:
     if target is None:
         return False
     own = {word for spoken in (*target.spoken, *target.offered) for word in spoken.split()}
-    return any(DERIVED.fullmatch(word) for word in words.split() if word not in own)
+    said = words.split()
+    if AS_IT_IS & set(said):
+        return False
+    # What is constant is still itself; a time constant is not.
+    return any(DERIVED.fullmatch(word) for word in said if word not in own) or said[-1:] == ["constant"]
 
 
 def _overlap(words: str, spoken: str) -> float:

@@ -21,7 +21,7 @@ from mixedlub.table import Column, Table
 
 FRINGE_NM = (167.0, 225.0)
 """One interference order, wavelength/(2 n): visible light of 500 to 620 nm, refractive index 1.38 to 1.5."""
-MOST_SCATTER = 45.0
+MOST_SCATTER = 30.0
 """How far (nm) the noise of a reading may take it from a whole order and leave it one."""
 
 EXPONENT_SPREAD, LINE_EXPONENT_SPREAD, LINE_LOAD_SPREAD = 0.015, 0.03, 0.3
@@ -146,6 +146,8 @@ def reading_fault(recorded: Table, row: int, excess: float, sd: float) -> str | 
         if orders * FRINGE_NM[0] - scatter <= abs(excess) <= orders * FRINGE_NM[1] + scatter:
             count = "one interference order" if orders == 1 else "two interference orders"
             side = "above" if excess > 0 else "below"
+            order = orders * FRINGE_NM[0] <= abs(excess) <= orders * FRINGE_NM[1]
+            count += "" if order else " within the noise of the reading"
             return (
                 f"{abs(excess):.0f} nm {side} what the other readings say: {count} (wavelength/2n, "
                 f"{FRINGE_NM[0]:.0f} to {FRINGE_NM[1]:.0f} nm each) miscounted by the instrument"

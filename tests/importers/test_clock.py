@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from mixedlub.importers.dates import moments
 from mixedlub.importers.plain import draft
 from mixedlub.importers.wizard import read
 from profiles.errors import InputError
@@ -158,3 +159,8 @@ def test_another_order_is_refused():
 def test_dates_that_are_one_day_either_way_leave_nothing_open():
     rows = ("05/05/2019 22:00,0", "05/05/2019 22:00,3600", "05/05/2019 23:30,0", "05/05/2019 23:30,60")
     assert not taken(history("started", *rows))[1][0].startswith("warning")
+
+
+@pytest.mark.parametrize("cell", ["2026-11-23 14:03:10 +2500", "2026-11-23 14:03:10+99:00", "2026-11-23 14:03:99"])
+def test_a_clock_or_zone_that_no_place_has_is_no_date(cell):
+    assert not any(moments([cell]).values())
