@@ -202,7 +202,8 @@ def test_film_of_a_steel_ball_on_glass_is_hamrock_and_dowson():
     speed = oil.viscosity_at(celsius) * columns["entrainment_speed_m_s"][0] / (modulus * radius)
     load = columns["load_N"][0] / (modulus * radius**2)
     film_m = 2.69 * radius * speed**0.67 * (oil.pressure_viscosity_at(celsius) * modulus) ** 0.53 * load**-0.067
-    assert bench.model(np.zeros(len(bench.names)), ())[0] == pytest.approx(1e9 * film_m * (1 - 0.61 * np.exp(-0.73 * 1.03)))
+    expected = 1e9 * film_m * (1 - 0.61 * np.exp(-0.73 * 1.03))
+    assert bench.model(np.zeros(len(bench.names)), ())[0] == pytest.approx(expected)
 
 
 def test_unnamed_sample_keeps_to_astm_d341_and_barus():
