@@ -67,8 +67,9 @@ class Forward:
         if reading_scale is None:
             reading_scale = float(np.median(np.abs(self.predict()))) / self.scale
         self.inputs["reading_scale"] = reading_scale
-        base = Model(self.chain, tuple(self.inputs), tuple(case.kind.nominal))(self.inputs)
-        self.inputs |= {name: base[quantity] for quantity, name in case.kind.nominal.items()}
+        if case.kind.nominal:
+            base = Model(self.chain, tuple(self.inputs), tuple(case.kind.nominal))(self.inputs)
+            self.inputs |= {name: base[quantity] for quantity, name in case.kind.nominal.items()}
 
     def _build(self, effects: tuple[str, ...]) -> Model:
         known = known_in(self.case.kind.name)

@@ -143,11 +143,11 @@ def reading_fault(recorded: Table, row: int, excess: float, sd: float) -> str | 
         return None
     scatter = min(2.0 * sd, MOST_SCATTER)
     for orders in (1, 2):
-        if orders * FRINGE_NM[0] - scatter <= abs(excess) <= orders * FRINGE_NM[1] + scatter:
+        off = max(orders * FRINGE_NM[0] - abs(excess), abs(excess) - orders * FRINGE_NM[1])
+        if off <= scatter:
             count = "one interference order" if orders == 1 else "two interference orders"
             side = "above" if excess > 0 else "below"
-            order = orders * FRINGE_NM[0] <= abs(excess) <= orders * FRINGE_NM[1]
-            count += "" if order else " within the noise of the reading"
+            count += " within the noise of the reading" if off > 0.0 else ""
             return (
                 f"{abs(excess):.0f} nm {side} what the other readings say: {count} (wavelength/2n, "
                 f"{FRINGE_NM[0]:.0f} to {FRINGE_NM[1]:.0f} nm each) miscounted by the instrument"
