@@ -7,13 +7,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.fit import NINETY, Fit, covariance, log_likelihood
+from mixedlub.diagnosis.fitting.fit import NINETY, Fit, covariance, log_likelihood, map_fit
 from mixedlub.diagnosis.fitting.problem import REACH, Explanation, Problem
 
 FAR, COUNT = 3.0, 121
 """Coordinates between which a place is tried, and how often."""
 HALVED, STEP, NEVER = 12, 0.7, 15.0
 """How often the gap between two places is halved, from what change of the log density on, and what is never so."""
+BETTER = 0.5
+"""Gain in log density from which another place is climbed from."""
 SHARES = (np.arange(20) + 0.5) / 20.0
 """Shares of the chance of a place below those that stand for all."""
 
@@ -105,15 +107,27 @@ def anywhere(
 
 
 def placed(problem: Problem, fit: Fit) -> Fit:
-    """The fit with the evidence of all places where its sudden changes may stand: Laplace sees but the slope at one."""
+    """The fit with the evidence of all places where its sudden changes may stand: Laplace sees but the slope at one.
+
+    Where another place is more probable the fit climbs anew from there: between two readings a slope leads no further.
+    """
     gained = 0.0
     for place in sudden_places(problem, fit.explanation):
-        curvature = 1.0 + float(fit.weight @ fit.slopes[:, place] ** 2)
         tried, log = anywhere(problem, fit, place, fit.z[[place]])
-        here = float(log_likelihood(fit.residual)[0].sum()) - 0.5 * fit.z[place] ** 2
-        whole = np.trapezoid(np.exp(np.minimum(log - here, 50.0)), tried[:, place])
+        if log.max() > _height(fit, place) + BETTER:
+            again = map_fit(problem, fit.explanation, tried[np.argmax(log)], warm=True)
+            if _height(again) > _height(fit) + BETTER:
+                return placed(problem, again)
+        curvature = 1.0 + float(fit.weight @ fit.slopes[:, place] ** 2)
+        whole = np.trapezoid(np.exp(np.minimum(log - _height(fit, place), 50.0)), tried[:, place])
         gained += float(np.log(max(whole, 1e-300)) - 0.5 * np.log(2.0 * np.pi / curvature))
     return replace(fit, evidence=fit.evidence + gained)
+
+
+def _height(fit: Fit, place: int | None = None) -> float:
+    """Log density of the readings and of a fit's coordinates, or of one of them."""
+    z = fit.z if place is None else fit.z[[place]]
+    return float(log_likelihood(fit.residual)[0].sum() - 0.5 * z @ z)
 
 
 def places(problem: Problem, fit: Fit, beside: np.ndarray | None = None) -> tuple[Places, ...]:
