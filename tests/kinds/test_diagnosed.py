@@ -14,6 +14,7 @@ from mixedlub.diagnosis.diagnose import diagnose_case
 from mixedlub.diagnosis.telling.answer import as_json
 from mixedlub.diagnosis.telling.words import as_text, sections
 from mixedlub.effect import catalogue
+from mixedlub.importers import write_case
 
 PER_CENT = 9.84e-5
 STATES = {"tribofilm_growth", "two_time_scales", "running_in", "friction_run_in", "wandering_surface_state"}
@@ -198,6 +199,24 @@ def test_rheometer_sample_changes_with_its_history_from_an_unknown_cause(filed):
     assert all("viscosity_drift" in ids for ids in named(d))
     assert "cannot say whether" in said(d)
     assert "fresh sample" in said(d)
+
+
+@pytest.mark.parametrize("every", [4, 20])
+def test_a_rheometer_log_is_answered_alike_however_dense_it_is(shared, tmp_path, every):
+    table = np.genfromtxt(
+        shared / "data" / "recordings" / "oil_viscosity_temperature_cycle" / "viscosity_temperature.csv",
+        delimiter=",",
+        names=True,
+    )[1::every]
+    ends = np.cumsum([0.0, *(table["segment_time_s"][table["segment"] == k].max() for k in (1, 2, 3))])
+    columns = {
+        "temperature_C": table["temperature_degC"],
+        "time_s": table["segment_time_s"] + ends[table["segment"].astype(int) - 1],
+        "viscosity_mPa_s": 1e3 * table["viscosity_Pa_s"],
+    }
+    system = {"kind": "viscosity", "recording": {"quantity": "viscosity_mPa_s", "noise": {"relative": 0.005}}}
+    write_case(tmp_path, system, columns)
+    assert tied(diagnose_case(tmp_path)) == [["viscosity_drift"]]
 
 
 def test_motors_without_gears_blame_the_torque_constant_and_not_the_gears(filed):

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
 from mixedlub.case import Case
 from mixedlub.diagnosis.recording.noise import seen_noise
+from mixedlub.diagnosis.recording.wander import STILL, Wander
 from mixedlub.effect import Effect, catalogue, known_in
 from mixedlub.forward import Forward, Run
 from mixedlub.table import Table
@@ -34,7 +36,8 @@ class Problem:
     ln(reading); ``level`` gives readings back.
 
     Every unknown has a standard-normal prior: calibration and effect parameters through their priors'
-    ``value``, errors shared within a set-up as columns of ``shared`` (in sigmas). ``held`` are parameters of
+    ``value``, errors shared within a set-up as columns of ``setups`` (in sigmas), and those that ``wander`` in time.
+    ``held`` are parameters of
     effects that are not unknown. Where noise lasts, so that ``together`` readings tell as much as one, ``sd`` is that
     of a reading times the root of it.
     """
@@ -44,16 +47,30 @@ class Problem:
     forward: Forward
     y: np.ndarray
     sd: np.ndarray
-    shared: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
+    setups: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
     held: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     together: float = 1.0
+    wander: Wander = STILL
 
     @classmethod
-    def of(cls, case: Case, rows: Table, forward: Forward, y: np.ndarray, together: float = 1.0) -> Problem:
+    def of(
+        cls,
+        case: Case,
+        rows: Table,
+        forward: Forward,
+        y: np.ndarray,
+        together: float = 1.0,
+        wander: Wander = STILL,
+    ) -> Problem:
         """The problem of a recording whose noise is known."""
-        sd, shared = seen_noise(case, rows, y, forward.predict())
-        one = cls(case, rows, forward, np.log(y) if case.kind.logarithmic else y, sd, shared)
+        sd, setups = seen_noise(case, rows, y, forward.predict())
+        one = cls(case, rows, forward, np.log(y) if case.kind.logarithmic else y, sd, setups, wander=wander)
         return one.with_together(together)
+
+    @cached_property
+    def shared(self) -> np.ndarray:
+        """Columns, in sigmas, of all errors that several readings share."""
+        return np.hstack([self.setups, self.wander.columns(self.rows) / np.sqrt(self.together)])
 
     @property
     def one_sd(self) -> np.ndarray:
@@ -67,7 +84,7 @@ class Problem:
     def with_together(self, together: float) -> Problem:
         """The same problem where so many readings tell as much as one."""
         times = np.sqrt(together / self.together)
-        return replace(self, sd=times * self.sd, shared=self.shared / times, together=together)
+        return replace(self, sd=times * self.sd, setups=self.setups / times, together=together)
 
     def seen(self, level: np.ndarray) -> np.ndarray:
         """Readings as they are compared."""
@@ -149,16 +166,16 @@ class Problem:
         errors of set-ups are shares of the calibrated ``base``: of what fits better they would be its shape for free.
         """
         size = self.noise_size(prediction)
-        sd, shared = seen_noise(self.case, self.rows, size, self.level(base))
-        return replace(self, sd=sd, shared=shared, together=1.0).with_together(self.together)
+        sd, setups = seen_noise(self.case, self.rows, size, self.level(base))
+        return replace(self, sd=sd, setups=setups, together=1.0).with_together(self.together)
 
     def take(self, rows: np.ndarray) -> Problem:
         """The problem on some of its rows."""
         table = self.rows.take(rows)
         forward = Forward(self.case, table, float(self.forward.inputs["reading_scale"]))
-        shared = self.shared[rows]
-        shared = shared[:, np.any(shared != 0, axis=0)]
-        return replace(self, rows=table, forward=forward, y=self.y[rows], sd=self.sd[rows], shared=shared)
+        setups = self.setups[rows]
+        setups = setups[:, np.any(setups != 0, axis=0)]
+        return replace(self, rows=table, forward=forward, y=self.y[rows], sd=self.sd[rows], setups=setups)
 
     def spread(self, rows: np.ndarray) -> Problem:
         """The problem on a share of its rows from all over: the farther apart they are, the less noise lasts."""

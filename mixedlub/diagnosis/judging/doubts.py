@@ -46,19 +46,36 @@ def scatter_notes(found: Search, stated: bool, raised: Raised) -> list[str]:
         if lasting > 1.0
         else []
     )
-    return [*series, *_size_notes(found, stated, raised)]
+    wander = found.problem.wander
+    wanders = (
+        [
+            f"what readings are off by wanders, by {wander.size:.2g} times the noise of a single one, and is forgotten "
+            f"over about {_clocked(found.problem.rows, wander.lasts)}; that counts as noise here, and no event of that "
+            "size can be told from it"
+        ]
+        if wander.size
+        else []
+    )
+    return [*series, *wanders, *_size_notes(found, stated, raised)]
+
+
+def _clocked(rows: Table, length: float) -> str:
+    if "sequence" in rows:
+        return f"{100.0 * length:.2g} % of the programme"
+    return amount(float(f"{length:.2g}"), "time_s")
 
 
 def _size_notes(found: Search, stated: bool, raised: Raised) -> list[str]:
     times = raised.times
+    whole = times * found.problem.wander.whole
     if raised.share:
         beside = f"readings scatter by {100.0 * raised.share:.2g} % of them beside the sds told, which may be those of"
         return [Doubt(f"{beside} one setting; the noise was taken as that much larger")]
+    scatter = "readings scatter about {:.2g} times as much as stated, whatever is taken to explain them"
+    if stated and whole > MOST:
+        return [Doubt(f"{scatter.format(whole)}: more than a stated noise is off by, so {NOT_NOISE}")]
     if times > 1.0:
-        said = f"readings scatter about {times:.2g} times as much as stated, whatever is taken to explain them"
-        if times > MOST:
-            return [Doubt(f"{said}: more than a stated noise is off by, so {NOT_NOISE}")]
-        return [Doubt(f"{said}: the noise was taken as that much larger")]
+        return [Doubt(f"{scatter.format(times)}: the noise was taken as that much larger")]
     noise = found.problem.case.system.recording.noise
     if not stated and noise is not None:
         unit = unit_of(found.problem.case.quantity)

@@ -131,7 +131,7 @@ def told_from_nothing(weighed: Weighed, level: float) -> tuple[Search, Mismatch]
     found = weighed.found
     test = mismatch_test(found, level)
     if weighed.stated:
-        test = beyond_noise(found, weighed.raised.times, test)
+        test = beyond_noise(found, weighed.times, test)
         if not test.detected:
             return found, test
     alone = weighed.alone()

@@ -12,6 +12,7 @@ from mixedlub.diagnosis.fitting.problem import Problem
 from mixedlub.diagnosis.fitting.sudden import Places, elsewhere, places, sudden_places, without
 from mixedlub.diagnosis.recording.noise import by_level, seen_noise
 from mixedlub.diagnosis.searching.search import ELASTIC, Search, bendable, elastic_columns, typical_size
+from mixedlub.diagnosis.searching.wandering import wandering_variance
 from mixedlub.diagnosis.unnamed.carriers import carrier
 from mixedlub.forward import Forward
 from mixedlub.table import Table
@@ -110,8 +111,9 @@ class Rows:
         self.problem = Problem(known.case, table, self.forward, start, self.sd, none).with_together(known.together)
 
     def noise_at(self, seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Noise of a reading where a prediction is seen, and the variance of its set-up's error."""
-        return _noise_at(self.found.problem, self.table, seen)
+        """Noise of a reading where a prediction is seen, and the variance of what it shares with others."""
+        single, setups = _noise_at(self.found.problem, self.table, seen)
+        return single, setups + wandering_variance(self.found) * single**2
 
     def of_fit(self, refined: Refined) -> Prediction:
         """Prediction of a catalogue explanation."""

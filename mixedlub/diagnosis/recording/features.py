@@ -113,10 +113,20 @@ def unrolled(values: np.ndarray, logarithmic: bool, folded: float) -> np.ndarray
     return np.log(values) if logarithmic else values
 
 
-def clock_of(rows: Table) -> np.ndarray | None:
-    """What tells the order in which readings were taken; None where nothing does, or not of every one."""
+def clock_of(rows: Table, ties: bool = False) -> np.ndarray | None:
+    """What tells the order in which readings were taken; None where nothing does, or not of every one.
+
+    With ``ties`` several may have one time, as where a logger writes whole seconds.
+
+    >>> log = Table({"time_s": np.array([0.0, 1.0, 1.0, 2.0])}, "log")
+    >>> clock_of(log), clock_of(log, ties=True).tolist()
+    (None, [0.0, 1.0, 1.0, 2.0])
+    """
     clock = next((rows[name] for name in ("sequence", "time_s") if name in rows), None)
-    return None if clock is None or np.unique(clock).size < clock.size else clock
+    if clock is None:
+        return None
+    times = np.unique(clock).size
+    return clock if times == clock.size or (ties and 2 * times > clock.size) else None
 
 
 def is_held(name: str, levels: np.ndarray) -> bool:

@@ -4,16 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from mixedlub.case import Case
 from mixedlub.diagnosis.fitting.problem import Problem
-from mixedlub.diagnosis.recording.features import coordinates
+from mixedlub.diagnosis.recording.features import SERIES, coordinates
 from mixedlub.diagnosis.recording.noise import estimated, is_stated, repeated
-from mixedlub.diagnosis.searching.scatter import Raised, repeats_allow, shown, stated_or_more, under_its_own
+from mixedlub.diagnosis.recording.wander import STILL, Wander
+from mixedlub.diagnosis.searching.scatter import (
+    Raised,
+    repeats_allow,
+    shown,
+    stated_or_more,
+    under_its_own,
+)
 from mixedlub.diagnosis.searching.search import MANY, Progress, Search, search, spread_rows
 from mixedlub.diagnosis.searching.serial import lasting, lasting_alone
+from mixedlub.diagnosis.searching.wandering import under_wandering
 from mixedlub.forward import Forward
 from mixedlub.table import Table
 
@@ -22,25 +31,30 @@ from mixedlub.table import Table
 class Weighed:
     """The search, how much more than the stated noise it took, and what weighs everything under other noise.
 
-    That takes the case, its readings and how many of them tell as much as one.
+    That takes the case, its readings, how many of them tell as much as one, and how their errors wander.
     """
 
     found: Search
     raised: Raised
     stated: bool
-    again: Callable[[Case, Table, float], Search]
+    again: Callable[[Case, Table, float, Wander], Search]
+
+    @property
+    def times(self) -> float:
+        """How many times the stated noise a reading has, with what wanders."""
+        return self.raised.times * self.found.problem.wander.whole
 
     def alone(self) -> Search:
         """The search under the noise that the calibrated base model would need if nothing were missing.
 
         Noise that is stated is as large as that, and may last longer.
         """
-        kept = self.found.problem.together
         found = self.found
+        kept, wander = found.problem.together, found.problem.wander
         if not self.stated:
-            found = under_its_own(found, lambda case, rows: self.again(case, rows, kept))
+            found = under_its_own(found, lambda case, rows: self.again(case, rows, kept, wander))
         lasts = lasting_alone(found)
-        return found if lasts <= kept else self.again(found.problem.case, found.problem.rows, lasts)
+        return found if lasts <= kept else self.again(found.problem.case, found.problem.rows, lasts, wander)
 
 
 def weighed(
@@ -48,22 +62,23 @@ def weighed(
 ) -> Weighed:
     """Every explanation weighed under the stated noise or what readings ask for, else under the noise they show.
 
-    Where noise lasts over several readings, so many count as one, and everything is weighed again.
+    Where noise lasts over several readings, so many count as one; where it wanders, readings share it. A logged series
+    tells first how long its noise lasts, a shorter one hardly can. Everything is then weighed again.
     """
     space = coordinates(case, rows, forward)
     values = space.values(case, rows, forward)
 
-    def trial(case: Case, rows: Table, together: float = 1.0) -> Search:
-        return search(Problem.of(case, rows, forward, y, together), space, values, exclude, progress)
+    def trial(case: Case, rows: Table, together: float = 1.0, wander: Wander = STILL) -> Search:
+        return search(Problem.of(case, rows, forward, y, together, wander), space, values, exclude, progress)
 
     def glance(case: Case, rows: Table) -> Search:
         few = spread_rows(values, y.size)
         return search(Problem.of(case, rows, forward, y).take(few), space, [v[few] for v in values], exclude, progress)
 
     seek = trial if y.size <= MANY else glance
-    stated, raised = is_stated(case, rows), Raised()
+    stated, raised, most = is_stated(case, rows), Raised(), np.inf
     if stated:
-        group, most = repeated(case, rows), np.inf
+        group = repeated(case, rows)
         if group is not None:
             whole = Problem.of(case, rows, forward, y)
             most = repeats_allow(whole.y, whole.sd, group)
@@ -74,7 +89,14 @@ def weighed(
         case = found.problem.case
     if seek is glance:
         found = trial(case, rows)
-    together = lasting(found)
+    together = lasting(found) if y.size >= SERIES else 1.0
     if together > 1.0:
         found = trial(case, rows, together)
+    found, raised = under_wandering(found, raised, most, partial(trial, together=together))
+    case, rows, wander = found.problem.case, found.problem.rows, found.problem.wander
+    if wander.size and together > 1.0:
+        found = trial(case, rows, wander=wander)
+    longer = lasting(found)
+    if longer > found.problem.together:
+        found = trial(case, rows, longer, wander)
     return Weighed(found, raised, stated, trial)

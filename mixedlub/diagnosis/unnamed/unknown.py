@@ -111,9 +111,10 @@ def _weighed(
     """
     tried: list[Shape] = []
     quick: list[float] = []
+    whitened = whitening(fixed, weight)
     for shape in family:
         tried.extend(replace(shape, size=size) for size in shape.sizes)
-        quick.extend(_evidence_by_size(target, fixed, columns_of(shape), weight, np.array(shape.sizes)))
+        quick.extend(_evidence_by_size(target, whitened, columns_of(shape), np.array(shape.sizes)))
     order = np.argsort(quick)[::-1]
     full = {int(i): linear_fit(target, np.hstack([fixed, columns_of(tried[i])]), weight) for i in order[:FULL]}
     offset = full[int(order[0])].evidence - quick[order[0]]
@@ -151,10 +152,10 @@ def _log_mean(logs: list[float]) -> float:
 
 
 def _evidence_by_size(
-    target: np.ndarray, fixed: np.ndarray, own: np.ndarray, weight: np.ndarray, sizes: np.ndarray
+    target: np.ndarray, whitened: Callable[[np.ndarray], np.ndarray], own: np.ndarray, sizes: np.ndarray
 ) -> np.ndarray:
-    """Gaussian log evidence for each size, relative to size zero, at fixed weights."""
-    seen = whitening(fixed, weight)(own.T)
+    """Gaussian log evidence for each size, relative to size zero, beside what is whitened away."""
+    seen = whitened(own.T)
     power, turn = np.linalg.eigh(seen @ own)
     power = np.maximum(power, 0.0)
     along = (turn.T @ (seen @ target)) ** 2
