@@ -46,23 +46,23 @@ def scatter_notes(found: Search, stated: bool, raised: Raised) -> list[str]:
         if lasting > 1.0
         else []
     )
-    wander = found.problem.wander
-    wanders = (
-        [
-            f"what readings are off by wanders, by {wander.size:.2g} times the noise of a single one, and is forgotten "
-            f"over about {_clocked(found.problem.rows, wander.lasts)}; that counts as noise here, and no event of that "
-            "size can be told from it"
-        ]
-        if wander.size
-        else []
+    return [*series, *_wandering_notes(found), *_size_notes(found, stated, raised)]
+
+
+def _wandering_notes(found: Search) -> list[str]:
+    wander, rows = found.problem.wander, found.problem.rows
+    if not wander.size:
+        return []
+    length = wander.lasts
+    over = (
+        f"{100.0 * length:.2g} % of the programme" if "sequence" in rows else amount(float(f"{length:.2g}"), "time_s")
     )
-    return [*series, *wanders, *_size_notes(found, stated, raised)]
-
-
-def _clocked(rows: Table, length: float) -> str:
-    if "sequence" in rows:
-        return f"{100.0 * length:.2g} % of the programme"
-    return amount(float(f"{length:.2g}"), "time_s")
+    return [
+        Doubt(
+            f"what readings are off by wanders, by {wander.size:.2g} times the noise of a single one, and is forgotten "
+            f"over about {over}; that counts as noise here, and no event of that size can be told from it"
+        )
+    ]
 
 
 def _size_notes(found: Search, stated: bool, raised: Raised) -> list[str]:
