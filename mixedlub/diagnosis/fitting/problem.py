@@ -37,9 +37,8 @@ class Problem:
 
     Every unknown has a standard-normal prior: calibration and effect parameters through their priors'
     ``value``, errors shared within a set-up as columns of ``setups`` (in sigmas), and those that ``wander`` in time.
-    ``held`` are parameters of
-    effects that are not unknown. Where noise lasts, so that ``together`` readings tell as much as one, ``sd`` is that
-    of a reading times the root of it.
+    ``held`` are parameters of effects that are not unknown. Where noise lasts, so that ``together`` readings tell as
+    much as one, ``sd`` is that of a reading times the root of it.
     """
 
     case: Case

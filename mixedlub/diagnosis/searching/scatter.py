@@ -162,7 +162,7 @@ def shown(case: Case, rows: Table, trial: Trial) -> Search:
 def _other_parts(found: Search) -> tuple[float, Case]:
     """Gain in log probability by the best other mixture of the parts of noise, and the case with it."""
     problem = found.problem
-    best = max(found.fits.values(), key=lambda fit: found.log_weights[fit.explanation])
+    best = found.likely
     size = problem.noise_size(best.prediction)
     typical = float(np.median(size))
     scales = SIZES * float(np.median(problem.sd * problem.unit_size(best.prediction))) / typical

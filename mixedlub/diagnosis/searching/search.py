@@ -71,6 +71,11 @@ class Search:
         return self if self.screen is None else self.screen
 
     @property
+    def likely(self) -> Fit:
+        """The fit of the most probable explanation that the catalogue has, nothing missing among them."""
+        return self.fits[max(self.fits, key=self.log_weights.__getitem__)]
+
+    @property
     def log_weights(self) -> dict[str | Explanation, float]:
         """Log prior plus log evidence of every explanation; "unknown" is its own key."""
         odds = {e.id: e.odds for s in self.sampled for e in effects_of((s.id,))}

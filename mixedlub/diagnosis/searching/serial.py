@@ -20,8 +20,7 @@ def lasting(found: Search) -> float:
 
     What the most probable name or the unnamed still follows is no noise.
     """
-    likely = max(found.fits, key=found.log_weights.__getitem__)
-    return min(_together(found, left) for left in (found.fits[likely].residual, found.unknown.fit.residual))
+    return min(_together(found, left) for left in (found.likely.residual, found.unknown.fit.residual))
 
 
 def lasting_alone(found: Search) -> float:

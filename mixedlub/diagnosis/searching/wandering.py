@@ -64,10 +64,11 @@ def wandering_of(whole: Search, least: float) -> tuple[Wander, float]:
     forms = [Wander.over(record, size, length) for length in LENGTHS for size in SIZES]
     weights, none, unknown = found.log_weights, found.none, found.unknown
     most, best = max(weights.values()) + CLEAR, (now, 1.0)
-    named = sorted(filter(None, found.fits), key=lambda key: weights.get(key, -np.inf))[-LEADERS:]
+    named = sorted(filter(None, found.fits), key=weights.__getitem__)[-LEADERS:]
     own = unknown.best.columns(found.space, found.values, unknown.carriers)
     order = np.argsort(clock, kind="stable")
-    noise = [form for form in forms if form.size <= _farthest(found)]
+    farthest = _farthest(found)
+    noise = [form for form in forms if form.size <= farthest]
     tried = [(weights[()], none.residual, none.anchor, none.slopes, noise)]
     for key in named:
         fit = found.fits[key]
@@ -86,7 +87,7 @@ def wandering_variance(found: Search) -> float:
     """Variance of what wanders in that of single readings, as the most probable name leaves it."""
     if not found.problem.wander.size:
         return 0.0
-    likely = found.fits[max(found.fits, key=found.log_weights.__getitem__)]
+    likely = found.likely
     own, every = found.problem.wander.columns(found.problem.rows), found.problem.shared
     errors = np.linalg.lstsq(every, likely.common, rcond=None)[0][-own.shape[1] :]
     left = found.problem.of_one(likely.residual) + own @ errors

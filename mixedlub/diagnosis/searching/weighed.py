@@ -13,13 +13,7 @@ from mixedlub.diagnosis.fitting.problem import Problem
 from mixedlub.diagnosis.recording.features import SERIES, coordinates
 from mixedlub.diagnosis.recording.noise import estimated, is_stated, repeated
 from mixedlub.diagnosis.recording.wander import STILL, Wander
-from mixedlub.diagnosis.searching.scatter import (
-    Raised,
-    repeats_allow,
-    shown,
-    stated_or_more,
-    under_its_own,
-)
+from mixedlub.diagnosis.searching.scatter import Raised, repeats_allow, shown, stated_or_more, under_its_own
 from mixedlub.diagnosis.searching.search import MANY, Progress, Search, search, spread_rows
 from mixedlub.diagnosis.searching.serial import lasting, lasting_alone
 from mixedlub.diagnosis.searching.wandering import under_wandering
