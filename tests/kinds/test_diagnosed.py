@@ -96,6 +96,17 @@ def test_film_with_the_sds_of_the_rig_alone_loses_film_at_speed_too(typed_in, tm
     assert d.outlier_runs == [21]
 
 
+def test_film_whose_noise_nobody_tells_loses_film_at_speed_too(typed_in, tmp_path):
+    folder = Path(shutil.copytree(typed_in / "ehd_film_31C_50N", tmp_path / "case"))
+    system = (folder / "system.toml").read_text(encoding="utf-8")
+    (folder / "system.toml").write_text(system.split("[recording.noise]")[0], encoding="utf-8")
+    d = diagnose_case(folder)
+    assert d.test.detected
+    assert ["inlet_shear_heating"] in tied(d)
+    assert d.outlier_runs == [21]
+    assert "whatever its noise" in said(d)
+
+
 def test_growing_friction_is_an_evolving_surface_state(typed):
     d = typed("mtm_tribofilm_growth_120C")
     assert tied(d)[0] == ["tribofilm_growth"]

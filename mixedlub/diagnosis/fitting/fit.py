@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,6 +16,10 @@ OUTLIER_WIDTH = 10.0
 """Half-width of the wrong ones in sigmas: clearly beyond noise, or it would be noise."""
 BOUND = 5.0
 """Usual residuals beyond which a reading is bounded while a fit is still far off."""
+SAME = 0.1
+"""Standard deviations of the prior within which fits from several starts have come to one place."""
+BETTER = 2.0
+"""How far laws may gain more by a step than their slopes promise."""
 PARTS = (1.0, 0.5, 0.25, 0.1, 0.0)
 """Parts of the way to the coordinates of linearised laws that are tried."""
 NINETY = 1.6449
@@ -147,19 +151,45 @@ def whitening(columns: np.ndarray, weight: np.ndarray) -> Callable[[np.ndarray],
     return whitened
 
 
-def map_fit(problem: Problem, explanation: Explanation, start: np.ndarray, *, warm: bool = False) -> Fit:
+def map_fit(
+    problem: Problem, explanation: Explanation, start: np.ndarray, *, warm: bool = False, least: float = -np.inf
+) -> Fit:
     """Gauss-Newton with damping to the most probable coordinates, then Laplace's evidence.
 
     Unless the start is ``warm``, least squares come first, with only those readings bounded that are far beyond the
-    others: from afar every reading looks like an outlier.
+    others: from afar every reading looks like an outlier. A climb that will not come up to the ``least`` evidence
+    is given up where it stands.
     """
-    z = np.clip(start, -REACH, REACH)
+    state = _started(problem, explanation, start)
+    return _topped(problem, explanation, state if warm else _neared(problem, explanation, state), least)
+
+
+def map_fits(problem: Problem, explanation: Explanation, starts: Sequence[np.ndarray]) -> list[Fit]:
+    """`map_fit` from several starts; those that least squares bring to one place climb on together."""
+    found: list[Fit] = []
+    places: list[np.ndarray] = []
+    for start in starts:
+        state = _neared(problem, explanation, _started(problem, explanation, start))
+        if all(np.max(np.abs(state.z - z)) > SAME for z in places):
+            places.append(state.z)
+            found.append(_topped(problem, explanation, state))
+    return found
+
+
+def _started(problem: Problem, explanation: Explanation, start: np.ndarray) -> _State:
     shared = np.zeros(problem.shared.shape[1])
-    state = _State.at(problem, explanation, z, shared, likelihood=log_likelihood)
-    if not warm:
-        first = bounded((problem.y - state.run.prediction) / problem.sd)
-        state = _climb(problem, explanation, state, first, tolerance=0.5)
-    state = _climb(problem, explanation, state, log_likelihood, tolerance=2e-3)
+    return _State.at(problem, explanation, np.clip(start, -REACH, REACH), shared, likelihood=log_likelihood)
+
+
+def _neared(problem: Problem, explanation: Explanation, state: _State) -> _State:
+    """Where least squares lead from afar."""
+    first = bounded((problem.y - state.run.prediction) / problem.sd)
+    return _climb(problem, explanation, state, first, tolerance=0.5)
+
+
+def _topped(problem: Problem, explanation: Explanation, state: _State, least: float = -np.inf) -> Fit:
+    """The most probable coordinates, and Laplace's evidence there."""
+    state = _climb(problem, explanation, state, log_likelihood, tolerance=2e-3, least=least)
     columns = np.hstack([state.slopes, problem.shared])
     curvature = np.eye(columns.shape[1]) + columns.T @ (columns * state.weight[:, None])
     evidence = -state.cost - 0.5 * float(np.linalg.slogdet(curvature)[1])
@@ -240,9 +270,15 @@ class _State:
 
 
 def _climb(
-    problem: Problem, explanation: Explanation, state: _State, likelihood: Likelihood, *, tolerance: float
+    problem: Problem,
+    explanation: Explanation,
+    state: _State,
+    likelihood: Likelihood,
+    *,
+    tolerance: float,
+    least: float = -np.inf,
 ) -> _State:
-    """Damped Gauss-Newton steps until the gain falls below the tolerance."""
+    """Damped Gauss-Newton steps until the gain falls below the tolerance, or too much is lacking to the least."""
     z, shared, run, slopes = state.z, state.shared, state.run, state.slopes
     cost, weight = _cost(problem, run.prediction, z, shared, likelihood)
     damping = 1e-2
@@ -253,6 +289,8 @@ def _climb(
         residual = (problem.y - run.prediction) / problem.sd - problem.shared @ shared
         slope = scaled.T @ residual - np.concatenate([z, shared])
         _hold_at_bounds(curvature, slope, z)
+        if np.isfinite(least) and _in_sight(cost, slope, curvature) < least:
+            break
         for _ in range(8):
             step = np.linalg.solve(curvature + damping * np.diag(np.diag(curvature)), slope)
             step *= min(1.0, 2.0 / max(np.max(np.abs(step[: z.size]), initial=0.0), 1e-12))
@@ -272,6 +310,12 @@ def _climb(
         if gain < tolerance:
             break
     return _State(z, shared, run, slopes, cost, weight)
+
+
+def _in_sight(cost: float, slope: np.ndarray, curvature: np.ndarray) -> float:
+    """Log evidence that a climb may come to, with BETTER times the gain that the linearised laws promise."""
+    gain = 0.5 * float(slope @ np.linalg.solve(curvature, slope))
+    return BETTER * gain - cost - 0.5 * float(np.linalg.slogdet(curvature)[1])
 
 
 def _hold_at_bounds(curvature: np.ndarray, slope: np.ndarray, z: np.ndarray) -> None:

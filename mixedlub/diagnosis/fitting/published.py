@@ -13,12 +13,15 @@ from mixedlub.diagnosis.fitting.sudden import placed
 
 SHARE = 0.5
 """Of an effect's prior, the part of its published law exactly; the rest is for laws about it."""
+HOPELESS = 15.0
+"""Log odds against a law from which it adds nothing, whatever they are."""
 
 
-def published_odds(problem: Problem, free: Fit) -> Iterator[tuple[str, str, float]]:
+def published_odds(problem: Problem, free: Fit, worst: float = np.inf) -> Iterator[tuple[str, str, float]]:
     """Effect, law and log odds of each law that an explanation's effects contain against all parameters free.
 
-    The rest of the explanation is fitted again; the evidences are those of all places of its sudden changes.
+    The rest of the explanation is fitted again; the evidences are those of all places of its sudden changes. Odds
+    ``worst`` against it and beyond need not be told apart.
     """
     place = problem.calibration_size
     for e in problem.effects(free.explanation):
@@ -26,7 +29,8 @@ def published_odds(problem: Problem, free: Fit) -> Iterator[tuple[str, str, floa
         for law, values in e.laws_within_reach.items():
             drop = [place + names.index(name) for name in values]
             held = replace(problem, held={**problem.held, e.id: {**problem.held.get(e.id, {}), **values}})
-            fit = placed(held, map_fit(held, free.explanation, np.delete(free.z, drop), warm=True))
+            start, least = np.delete(free.z, drop), free.evidence - worst
+            fit = placed(held, map_fit(held, free.explanation, start, warm=True, least=least))
             yield e.id, law, fit.evidence - free.evidence
         place += len(names)
 
@@ -37,7 +41,7 @@ def published_gain(problem: Problem, free: Fit) -> float:
     A law that many share must not be lost for parameters by which others differ from it.
     """
     odds: dict[str, list[float]] = {}
-    for name, _, log_odds in published_odds(problem, free):
+    for name, _, log_odds in published_odds(problem, free, HOPELESS):
         odds.setdefault(name, []).append(log_odds)
     return sum(
         float(np.logaddexp(np.log1p(-SHARE), np.log(SHARE / len(logs)) + np.logaddexp.reduce(logs)))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.fit import Fit, linear_fit, map_fit
+from mixedlub.diagnosis.fitting.fit import Fit, linear_fit, map_fit, map_fits
 from mixedlub.diagnosis.fitting.problem import STEP, Problem
 
 SAMPLES = (12, 24, 40, 56)
@@ -131,7 +131,7 @@ def fit_single(problem: Problem, none: Fit, sampled: Sampled) -> Fit:
     tries = [starts[i] for i in chosen]
     if none.z @ none.z > STRAINED:
         tries.append(np.concatenate([np.zeros(none.z.size), sampled.z[order[0]]]))
-    found = [map_fit(problem, (sampled.id,), start) for start in tries]
+    found = map_fits(problem, (sampled.id,), tries)
     if none.weight.min() < WILD:
         # Wild readings may pull a fit away from where it starts well.
         found.append(map_fit(problem, (sampled.id,), tries[0], warm=True))

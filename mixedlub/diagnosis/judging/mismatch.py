@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -25,6 +26,9 @@ SMALLEST = 1e-304
 """Smallest p-value: what a number of the answer can still hold."""
 UNSURE = 10.0
 """How far the search's Bayes factor may be off."""
+KNOWN = (1.0,)
+UNTOLD = tuple(np.geomspace(0.12, 2.0, 13))
+"""Noise over that which the calibrated base model would need, where it is known and where it could be any of these."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +36,7 @@ class Mismatch:
     """Outcome of the test; ``statistic`` is the mean log Bayes factor of all alternatives against none.
 
     ``unfollowed`` says that readings scatter more than noise can about whatever was tried, ``lenient`` that the
-    p-value is that under the noise which nothing missing would need itself.
+    p-value grants nothing missing the noise that it would need itself.
     """
 
     detected: bool
@@ -55,20 +59,26 @@ def judged_weight(found: Search) -> np.ndarray:
 class _Alternatives:
     """What may be missing, against recordings of the linearised base model: prior draws of effects, smooth functions.
 
-    ``seen`` are the draws under the inverse covariance of noise and calibration, ``power`` their squared size;
-    ``smooth`` the squared sizes of each block of functions and their directions.
+    All under ``scale`` times the noise of the search. ``covered`` multiplies by the inverse covariance of noise and
+    calibration, ``spread`` is the logarithm of its determinant; ``seen`` are the draws so multiplied, ``power``
+    their squared size; ``smooth`` the squared sizes of each block of functions and their directions.
     """
 
+    scale: float
+    covered: Callable[[np.ndarray], np.ndarray]
+    spread: float
     seen: np.ndarray
     power: np.ndarray
     smooth: tuple[tuple[np.ndarray, np.ndarray], ...]
 
     @classmethod
-    def of(cls, found: Search, fixed: np.ndarray, weight: np.ndarray) -> _Alternatives:
+    def of(cls, found: Search, fixed: np.ndarray, weight: np.ndarray, scale: float) -> _Alternatives:
         """Those of a search, beside the columns of calibration and set-ups, at the weights of the readings."""
+        fixed = fixed / scale
         whitened = whitening(fixed, weight)
+        inner = np.eye(fixed.shape[1]) + fixed.T @ (fixed * weight[:, None])
         directions = [s.change[: s.blind] for s in found.sampled]
-        effects = np.vstack(directions) if directions else np.zeros((0, weight.size))
+        effects = np.vstack(directions) / scale if directions else np.zeros((0, weight.size))
         seen = whitened(effects)
         smooth = []
         for length, interactions in SHAPES:
@@ -77,10 +87,17 @@ class _Alternatives:
             pulled = whitened(block.T)
             size, turn = np.linalg.eigh(pulled @ block)
             smooth.append((np.maximum(size, 0.0), turn.T @ pulled))
-        return cls(seen, np.einsum("ij,ij->i", effects, seen), tuple(smooth))
+        spread = float(np.linalg.slogdet(inner)[1]) + 2.0 * weight.size * float(np.log(scale))
+        return cls(scale, whitened, spread, seen, np.einsum("ij,ij->i", effects, seen), tuple(smooth))
+
+    def log_nothing(self, targets: np.ndarray) -> np.ndarray:
+        """Log density of each row of targets if nothing is missing, up to a constant that no scale changes."""
+        targets = targets / self.scale
+        return np.asarray(-0.5 * (np.einsum("ij,ij->i", targets, self.covered(targets)) + self.spread))
 
     def log_bayes_factor(self, targets: np.ndarray) -> np.ndarray:
         """Log mean Bayes factor against none of each row of targets."""
+        targets = targets / self.scale
         parts = []
         if len(self.seen):
             along = targets @ self.seen.T
@@ -95,10 +112,26 @@ class _Alternatives:
         return np.logaddexp.reduce(np.array(parts), axis=0)
 
 
-def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch:
+def _statistic(alternatives: Sequence[_Alternatives], targets: np.ndarray) -> np.ndarray:
+    """Log mean Bayes factor of each row of targets, whichever of the scales the noise has, for either side."""
+    nothing = np.array([one.log_nothing(targets) for one in alternatives])
+    missing = nothing + np.array([one.log_bayes_factor(targets) for one in alternatives])
+    return np.asarray(np.logaddexp.reduce(missing, axis=0) - np.logaddexp.reduce(nothing, axis=0))
+
+
+def mismatch_test(
+    found: Search,
+    level: float,
+    seed: int = 20240229,
+    *,
+    weight: np.ndarray | None = None,
+    scales: Sequence[float] = KNOWN,
+) -> Mismatch:
     """Compare the data's Bayes factor against none with its law when nothing is missing.
 
-    Alternatives are the catalogue's prior draws with free amplitude and smooth functions of the conditions.
+    Alternatives are the catalogue's prior draws with free amplitude and smooth functions of the conditions. Noise
+    that nobody told could have any of the ``scales`` on either side, as in Student's test; ``weight`` says which
+    readings are outliers, by default as the best explanation judges.
     Data without mismatch are drawn from the linearised base model: calibration from its prior, noise from its
     law. Beyond the largest draw the bound P(B > b) <= 1/b of any Bayes factor gives the p-value; the bound of the
     search's own, which has fitted what no prior draw comes near, such as a ripple of any order, is taken with a
@@ -108,12 +141,12 @@ def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch
     found = full.screened
     problem, none = found.problem, found.none
     fixed = np.hstack([none.slopes, problem.shared])
-    weight = judged_weight(found)
-    alternatives = _Alternatives.of(found, fixed, weight)
+    weight = judged_weight(found) if weight is None else weight
+    alternatives = [_Alternatives.of(found, fixed, weight, scale) for scale in scales]
     rng = np.random.default_rng(seed)
     noise = rng.standard_normal((DRAWS, problem.y.size)) / np.sqrt(weight)
-    drawn = alternatives.log_bayes_factor(noise + rng.standard_normal((DRAWS, fixed.shape[1])) @ fixed.T)
-    observed = float(alternatives.log_bayes_factor(none.anchor[None, :])[0])
+    drawn = _statistic(alternatives, noise + rng.standard_normal((DRAWS, fixed.shape[1])) @ fixed.T)
+    observed = float(_statistic(alternatives, none.anchor[None, :])[0])
     p = (1.0 + float((drawn >= observed).sum())) / (DRAWS + 1.0)
     if observed > drawn.max():
         p = min(p, float(np.exp(-min(observed, 700.0))))
@@ -125,8 +158,8 @@ def mismatch_test(found: Search, level: float, seed: int = 20240229) -> Mismatch
 def told_from_nothing(weighed: Weighed, level: float) -> tuple[Search, Mismatch]:
     """Whether anything is missing, and the search that the answer goes by.
 
-    Nothing missing is tested under the noise that it would need itself as well, as far as none is stated, and where
-    that is the answer it has that noise: what suits an explanation best is no fair one for its rival.
+    Where no noise is stated, what suits an explanation best is no fair one for its rival: nothing missing is tested
+    under whatever noise it would need itself as well, and has that where it is the answer.
     """
     found = weighed.found
     test = mismatch_test(found, level)
@@ -135,7 +168,10 @@ def told_from_nothing(weighed: Weighed, level: float) -> tuple[Search, Mismatch]
         if not test.detected:
             return found, test
     alone = weighed.alone()
-    other = test if alone is found else mismatch_test(alone, level)
+    if weighed.stated:
+        other = test if alone is found else mismatch_test(alone, level)
+    else:
+        other = mismatch_test(alone, level, weight=judged_weight(found.screened), scales=UNTOLD)
     if other.p_value <= test.p_value:
         return found, test
     if not other.detected:

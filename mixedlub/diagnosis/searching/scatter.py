@@ -29,8 +29,8 @@ MOST = 4.0
 """How many times the stated noise a rig may have: what scatters more is no noise, though nothing follows it."""
 UNLIKELY = 1e-3
 """Chance of repeats that scatter as little as these under the noise that bounds it."""
-QUIETER, STEPS = 0.7, 5
-"""Noise that a smooth fit leaves over holds what the fit does not follow: by how much it is lowered, how often."""
+MULTIPLES, NEARLY, STEPS = np.geomspace(0.25, 2.0, 31), 0.1, 5
+"""Of an estimated noise, how much less or more it may be meant, how near is near enough, how often that is asked."""
 ENOUGH = 10
 """Readings, beyond the coordinates of the base model, from which their scatter is known well enough to judge."""
 
@@ -146,12 +146,12 @@ def _under_other_noise(found: Search, times: np.ndarray) -> tuple[float, int]:
 
 
 def shown(case: Case, rows: Table, trial: Trial) -> Search:
-    """The search under the estimated noise, lowered to where the readings are most probable.
+    """The search under the estimated noise, or as much less or more as makes the readings most probable.
 
     What is left over then says how much of it goes in proportion to the reading and how much is alike for all: few
     repeats tell that less well than all readings do.
     """
-    found = _lowered(case, rows, trial)
+    found = _fitting(case, rows, trial)
     gain, other = _other_parts(found)
     if gain < BOTH:
         return found
@@ -172,20 +172,21 @@ def _other_parts(found: Search) -> tuple[float, Case]:
     return gain, with_noise(problem.case, *noises[which])
 
 
-def _lowered(case: Case, rows: Table, trial: Trial) -> Search:
-    """The search under the case's noise or a share of it, whichever makes the readings most probable."""
-    found = [trial(case, rows)]
-    for step in range(1, STEPS + 1):
-        found.append(trial(*scaled(case, rows, QUIETER**step)))
-        if found[-1].log_probability <= found[-2].log_probability:
+def _fitting(case: Case, rows: Table, trial: Trial) -> Search:
+    """The search under the multiple of the case's noise that makes the readings most probable.
+
+    What is left over under one noise asks for the next, which is tried and kept while it does better.
+    """
+    found = trial(case, rows)
+    for _ in range(STEPS):
+        _, best = _under_other_noise(found, MULTIPLES[:, None])
+        if abs(np.log(MULTIPLES[best])) < NEARLY:
             break
-    else:
-        return found[-1]
-    if len(found) < 3:
-        return found[0]
-    below, best, above = (one.log_probability for one in found[:-4:-1])
-    steps = len(found) - 2 + 0.5 * (below - above) / (2.0 * best - below - above)
-    return trial(*scaled(case, rows, QUIETER**steps))
+        again = trial(*scaled(found.problem.case, rows, float(MULTIPLES[best])))
+        if again.log_probability <= found.log_probability:
+            break
+        found = again
+    return found
 
 
 def under_its_own(found: Search, trial: Trial) -> Search:

@@ -122,7 +122,8 @@ def _mismatch(d: Diagnosis) -> tuple[str, ...]:
     chi2 = f"chi-square {left} for {int(kept.sum())} readings after calibration{without}{_noise(d)}"
     size = p_words(test.p_value)
     size = f"p {size}" if size[0].isalpha() else f"p = {size}"
-    size += " even with the noise that this would need" if test.lenient else ""
+    if test.lenient:
+        size += " even with the noise that this would need" if d.noise_stated else ", whatever its noise"
     if test.detected:
         return (f"Yes ({size}; {chi2}).", alarm)
     return (f"None that can be told from noise ({size}; {chi2}).", alarm)
