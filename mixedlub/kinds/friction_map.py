@@ -154,14 +154,35 @@ def _size(system: config.System, recorded: Table) -> float:
     if quantity not in recorded:
         return 1.0
     whole = ~gears_out(recorded)
-    values = np.abs(recorded[quantity][whole] if whole.any() else recorded[quantity])
-    return float(max(np.median(values), LEAST_SHARE * np.quantile(values, LARGE))) or 1.0
+    kept = whole if whole.any() else slice(None)
+    values, speed = recorded[quantity][kept], drive_speed(recorded)[kept]
+    size = np.abs(values)
+    return float(max(np.median(size), LEAST_SHARE * np.quantile(size, LARGE), made_up_for(values, speed))) or 1.0
 
 
 def _largest(system: config.System, recorded: Table) -> float:
     """Size of the largest readings but for wild ones: most may be at speeds too low for viscous friction."""
     quantity = system.recording.quantity
-    return float(np.quantile(np.abs(recorded[quantity]), LARGE)) or 1.0 if quantity in recorded else 1.0
+    if quantity not in recorded:
+        return 1.0
+    values = recorded[quantity]
+    return float(max(np.quantile(np.abs(values), LARGE), made_up_for(values, drive_speed(recorded)))) or 1.0
+
+
+def made_up_for(values: np.ndarray, speed: np.ndarray) -> float:
+    """Span of the readings of a direction in which both signs are usual, zero where none is: the parts are that large.
+
+    >>> round(made_up_for(np.array([-0.2, 0.5, 0.6, -0.3]), np.array([1.0, 2.0, 2.0, 1.0])), 1)
+    0.9
+    >>> made_up_for(np.array([-0.5, -0.6, 0.5, 0.6]), np.array([-1.0, -2.0, 1.0, 2.0]))
+    0.0
+    """
+    spans = [0.0]
+    for way in (speed < 0.0, speed > 0.0):
+        if way.any():
+            low, high = np.quantile(values[way], (1.0 - LARGE, LARGE))
+            spans.append(float(high - low) if low < 0.0 < high else 0.0)
+    return max(spans)
 
 
 def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibration, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -85,6 +86,16 @@ def test_one_direction_does_not_tell_dry_friction_from_a_payload(drive: Diagnosi
     for rows in (speed > 0.0, speed < 0.0):
         said = tables.one_way(both.take(np.flatnonzero(rows)).forward)
         assert "one way only, which does not tell coulomb torque from payload torque" in said[0]
+
+
+def test_a_payload_that_makes_up_for_friction_is_nothing_missing(tmp_path: Path) -> None:
+    """Lowering a load: what is read is far smaller than any of its parts, and changes its sign with the speed."""
+    speed = np.tile([0.05, 0.1], 40)
+    friction = 0.02 - 0.08 + 0.9 * speed
+    friction *= 1.0 + 0.004 * np.random.default_rng(3).standard_normal(speed.size)
+    columns = {"sliding_speed_m_s": speed, "friction_coefficient": friction}
+    case = write_case(tmp_path / "case", system("friction_map", "friction_coefficient"), columns)
+    assert diagnose_case(case).posterior.verdict == ()
 
 
 def test_only_a_drive_has_a_direction(complete: Diagnosis) -> None:
