@@ -20,7 +20,7 @@ STEADY = 1e-9
             "length of the programme over the time in which the drift settles; 0: it goes on at one pace",
             null=0.0,
             symbol="s",
-            kinds=("gear_pair", "disc", "film", "friction_map", "mesh_friction"),
+            kinds=("gear_pair", "disc", "film", "friction_map", "mesh_friction", "viscosity"),
         ),
     ),
     equation=r"y \leftarrow y\left(1 + d\,\frac{1 - e^{-s q}}{1 - e^{-s}}\right)",
