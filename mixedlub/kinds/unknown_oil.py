@@ -21,6 +21,8 @@ PRESSURE_SPREAD = 0.35
 SLOPE_SPREAD = 0.5
 DENSITY_SPREAD = 0.04
 PRESSURE_SLOPE_SPREAD = 0.4
+PRESSURE_BOW_SPREAD = 0.25
+"""Of ln alpha, over 100 K to either side: ISO/TR 15144 has 0.2 beyond a line, powers of viscosity up to 0.5."""
 BOW_SPREAD = 0.04
 """Of ln viscosity, over 50 K to either side: what fits of oils after Vogel have beyond a line of ASTM D341."""
 FIFTY_KELVIN, HUNDRED_KELVIN = 50.0, 100.0
@@ -115,6 +117,13 @@ def calibrations(system: config.System, temperature: np.ndarray, *, level: float
                 "relative change of pressure-viscosity over 100 K, linear in temperature",
             )
             found.append(Calibration(fall, _tilted(usual, pivot), usual, ("pressure_viscosity", "oil_temperature")))
+            bend = Parameter(
+                "pressure_viscosity_bow",
+                "-",
+                Normal(0.0, PRESSURE_BOW_SPREAD),
+                "what ln pressure-viscosity has 100 K from the middle beyond that line",
+            )
+            found.append(Calibration(bend, _bent(pivot), 0.0, ("pressure_viscosity", "oil_temperature")))
     return tuple(found)
 
 
@@ -188,5 +197,13 @@ def _tilted(usual: float, pivot: float) -> Any:
         rise = (inputs["oil_temperature"] - pivot) / HUNDRED_KELVIN
         turned = np.maximum(1.0 + value * rise, 0.05) / np.maximum(1.0 + usual * rise, 0.05)
         return {"pressure_viscosity": inputs["pressure_viscosity"] * turned}
+
+    return apply
+
+
+def _bent(pivot: float) -> Any:
+    def apply(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
+        rise = (inputs["oil_temperature"] - pivot) / HUNDRED_KELVIN
+        return {"pressure_viscosity": inputs["pressure_viscosity"] * np.exp(value * rise**2)}
 
     return apply

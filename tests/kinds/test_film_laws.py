@@ -110,3 +110,20 @@ def test_exponent_turns_films_about_the_middle_of_the_recording(make):
     ratio = forward.predict({"film_exponent": 1.03}) / forward.predict()
     assert np.exp(np.mean(np.log(ratio))) == pytest.approx(1.0, abs=1e-12)
     assert np.polyfit(np.log(SPEED), np.log(ratio), 1)[0] == pytest.approx(0.03 * POINT_EXPONENT, rel=1e-9)
+
+
+def test_pressure_viscosity_that_goes_with_a_power_of_viscosity_lacks_nothing(make):
+    """That of mineral oils by P. W. Gold and others, J. Synth. Lubr. 18 (2001) 51, is no line in temperature."""
+    celsius, speed = (grid.ravel() for grid in np.meshgrid([20.0, 60.0, 100.0, 140.0], np.geomspace(0.02, 3.0, 16)))
+    known = {"temperature_C": [40.0, 100.0], "kinematic_viscosity_mm2_s": [35.0, 6.2]}
+    line = np.polyfit(np.log10(np.array([313.15, 373.15])), np.log10(np.log10(np.array([35.7, 6.9]))), 1)
+    kinematic = 10.0**10.0 ** np.polyval(line, np.log10(celsius + 273.15)) - 0.7
+    density = 870.0 * (1.0 - 7e-4 * (celsius - 15.0))
+    film = moes_film(speed, 1e-6 * kinematic * density, 9.904e-9 * kinematic**0.139, 20.0)
+    columns = {"slide_roll_ratio": np.zeros(speed.size), "load_N": np.full(speed.size, 20.0)}
+    columns |= {"oil_temperature_C": celsius, "entrainment_speed_m_s": speed}
+    sections = system("film", "film_thickness_nm", contact=BALL, lubricant=known)
+    sections |= {"uncertainty": {"viscosity": 0.3}}
+    sections["recording"]["noise"] = {"relative": 0.004}
+    d = diagnose_case(make(sections, {**columns, "film_thickness_nm": noisy(1e9 * film, 0.004)}).folder)
+    assert d.posterior.names(d.posterior.verdict) == ["none"]

@@ -13,13 +13,14 @@ from mixedlub.proof.bench.point import SPEED_EXPONENT, ball_film, ball_film_betw
 from mixedlub.proof.bench.stage import Act, pick, play, rounded
 from mixedlub.proof.rig import KELVIN, Calibration, Contact, Oil, Rig, start
 
-LEVEL, STEEPNESS, BOW, VISCOSITY, COEFFICIENT, WARMTH, REGIME, EXPONENT = (
+LEVEL, STEEPNESS, BOW, VISCOSITY, COEFFICIENT, WARMTH, BEND, REGIME, EXPONENT = (
     "viscosity_level",
     "viscosity_steepness",
     "viscosity_bow",
     "viscosity",
     "pressure_viscosity",
     "pressure_viscosity_warmth",
+    "pressure_viscosity_bow",
     "film_regime",
     "film_exponent",
 )
@@ -27,11 +28,11 @@ LAW = {EXPONENT: 0.015}
 """Relative: 0.67 of Hamrock and Dowson 1977 and 0.68 of Chittenden, Dowson, Dunn and Taylor 1985."""
 OF_A_KNOWN_OIL, OF_AN_UNNAMED_OIL = {REGIME: 0.5, **LAW}, {REGIME: 1.0, **LAW}
 """And the share of the way from the first to Nijenbanning, Venner and Moes 1994."""
-NOT_GIVEN = {LEVEL: 1.0, STEEPNESS: 0.5, BOW: 0.04, COEFFICIENT: 0.35, WARMTH: 0.4}
+NOT_GIVEN = {LEVEL: 1.0, STEEPNESS: 0.5, BOW: 0.04, COEFFICIENT: 0.35, WARMTH: 0.4, BEND: 0.25}
 """An oil that nobody describes: logarithms, but for the relative fall of the coefficient over 100 K."""
 NOMINAL = 0.3
 """Relative, of viscosities that are those of a class of oils or of a label."""
-ACROSS = (STEEPNESS, BOW, WARMTH)
+ACROSS = (STEEPNESS, BOW, WARMTH, BEND)
 """What only readings at several temperatures are touched by."""
 MINERAL = Oil((40.0, 100.0), (55e-6, 6.6e-6), (19.9e-9, 14.8e-9), 865.0)
 """The middle of the mineral oils that are drawn; only where calibration starts from."""
@@ -88,8 +89,11 @@ class Told:
         if LEVEL in by:
             rig = replace(rig, oil=moved(rig.oil, self.pivot, by[LEVEL], by.get(STEEPNESS, 1.0)))
         c = start(rig, Calibration(viscosity=by.get(VISCOSITY, 1.0), pressure_viscosity=by[COEFFICIENT]))
-        bowed = by.get(BOW, 1.0) ** (((c.temperature - self.pivot) / 50.0) ** 2)
-        return self._tilted(replace(c, viscosity=c.viscosity * bowed), float(np.log(by.get(WARMTH, 1.0))))
+        away = (c.temperature - self.pivot) / 100.0
+        viscosity = c.viscosity * by.get(BOW, 1.0) ** (4.0 * away**2)
+        bent = c.pressure_viscosity * by.get(BEND, 1.0) ** away**2
+        c = replace(c, viscosity=viscosity, pressure_viscosity=bent)
+        return self._tilted(c, float(np.log(by.get(WARMTH, 1.0))))
 
     def _tilted(self, c: Contact, more: float) -> Contact:
         """The coefficient with another fall over 100 K, linear in temperature about the pivot."""
@@ -119,7 +123,7 @@ def _spreads(free: Sequence[str], celsius: np.ndarray) -> dict[str, float]:
 def unnamed(rng: np.random.Generator, true: Rig) -> tuple[Told, dict[str, Any]]:
     """Of the rig's true oil nothing is told, or viscosities in name only; the sections of the case that tell it."""
     if pick(rng, (True, False)):
-        free = _spreads((LEVEL, STEEPNESS, BOW, COEFFICIENT, WARMTH), true.temperature)
+        free = _spreads((LEVEL, STEEPNESS, BOW, COEFFICIENT, WARMTH, BEND), true.temperature)
         return Told(replace(true, oil=MINERAL), {**free, **OF_AN_UNNAMED_OIL}), {}
     off = float(np.exp(NOMINAL * rng.standard_normal()))
     first, second = (rounded(1e6 * off * nu) for nu in true.oil.kinematic)
@@ -129,6 +133,6 @@ def unnamed(rng: np.random.Generator, true: Rig) -> tuple[Told, dict[str, Any]]:
         "kinematic_viscosity_mm2_s": [first, second],
     }
     oil = replace(MINERAL, temperature=true.oil.temperature, kinematic=(1e-6 * first, 1e-6 * second))
-    free = _spreads((COEFFICIENT, WARMTH), true.temperature)
+    free = _spreads((COEFFICIENT, WARMTH, BEND), true.temperature)
     told = Told(replace(true, oil=oil), {VISCOSITY: NOMINAL, **free, **OF_AN_UNNAMED_OIL})
     return told, {"lubricant": section, "uncertainty": {"viscosity": NOMINAL}}
