@@ -32,6 +32,8 @@ COLUMNS = (
 MOTOR_TORQUE = Column("motor_torque_Nm", required=False)
 """No condition of the test: friction is what it has above the torque at the shaft."""
 LARGE, LEAST_SHARE = 0.95, 0.3
+BEYOND = 2.5
+"""Standard deviations between the slow and the fast half of readings that are no chance."""
 BARE_SHARE = 0.3
 """Friction of motor and sensor alone, over that of the whole drive, before the readings say it."""
 
@@ -150,38 +152,47 @@ def _motor_column(table: Table) -> str | None:
 
 def _size(system: config.System, recorded: Table) -> float:
     """Typical size of the readings of the complete drive; in one direction a payload may make up for friction."""
-    quantity = system.recording.quantity
-    if quantity not in recorded:
-        return 1.0
-    whole = ~gears_out(recorded)
-    kept = whole if whole.any() else slice(None)
-    values, speed = recorded[quantity][kept], drive_speed(recorded)[kept]
+    values, speed = _complete(system, recorded)
     size = np.abs(values)
     return float(max(np.median(size), LEAST_SHARE * np.quantile(size, LARGE), made_up_for(values, speed))) or 1.0
 
 
 def _largest(system: config.System, recorded: Table) -> float:
     """Size of the largest readings but for wild ones: most may be at speeds too low for viscous friction."""
-    quantity = system.recording.quantity
-    if quantity not in recorded:
+    if system.recording.quantity not in recorded:
         return 1.0
-    values = recorded[quantity]
-    return float(max(np.quantile(np.abs(values), LARGE), made_up_for(values, drive_speed(recorded)))) or 1.0
+    size = np.abs(recorded[system.recording.quantity])
+    return float(max(np.quantile(size, LARGE), made_up_for(*_complete(system, recorded)))) or 1.0
+
+
+def _complete(system: config.System, recorded: Table) -> tuple[np.ndarray, np.ndarray]:
+    """Readings of the complete drive, or of what there is, and their speeds."""
+    if system.recording.quantity not in recorded:
+        return np.ones(1), np.ones(1)
+    whole = ~gears_out(recorded)
+    kept = whole if whole.any() else slice(None)
+    return recorded[system.recording.quantity][kept], drive_speed(recorded)[kept]
 
 
 def made_up_for(values: np.ndarray, speed: np.ndarray) -> float:
-    """Span of the readings of a direction in which both signs are usual, zero where none is: the parts are that large.
+    """How far fast and slow readings of a direction lie apart where their signs differ: the parts are that large.
 
-    >>> round(made_up_for(np.array([-0.2, 0.5, 0.6, -0.3]), np.array([1.0, 2.0, 2.0, 1.0])), 1)
-    0.9
+    Zero where they do not, or no farther than readings at neighbouring speeds scatter.
+
+    >>> round(made_up_for(np.array([-0.2, 0.5, 0.6, -0.3, -0.2, 0.5]), np.array([1.0, 2.0, 2.0, 1.0, 1.0, 2.0])), 1)
+    0.7
     >>> made_up_for(np.array([-0.5, -0.6, 0.5, 0.6]), np.array([-1.0, -2.0, 1.0, 2.0]))
     0.0
     """
     spans = [0.0]
     for way in (speed < 0.0, speed > 0.0):
-        if way.any():
-            low, high = np.quantile(values[way], (1.0 - LARGE, LARGE))
-            spans.append(float(high - low) if low < 0.0 < high else 0.0)
+        if np.count_nonzero(way) < 2:
+            continue
+        ranked = values[way][np.argsort(np.abs(speed[way]), kind="stable")]
+        slow, fast = np.median(ranked[: ranked.size // 2]), np.median(ranked[-(ranked.size // 2) :])
+        scatter = float(np.median(np.abs(np.diff(ranked)))) / 0.954
+        apart = float(abs(fast - slow))
+        spans.append(apart if slow * fast < 0.0 and apart > BEYOND * scatter else 0.0)
     return max(spans)
 
 

@@ -12,6 +12,7 @@ from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.drawing import figures, maps
 from mixedlub.diagnosis.telling import tables, words
 from mixedlub.importers import write_case
+from mixedlub.kinds.friction_map import made_up_for
 
 from ..kinds.conftest import system
 
@@ -96,6 +97,15 @@ def test_a_payload_that_makes_up_for_friction_is_nothing_missing(tmp_path: Path)
     columns = {"sliding_speed_m_s": speed, "friction_coefficient": friction}
     case = write_case(tmp_path / "case", system("friction_map", "friction_coefficient"), columns)
     assert diagnose_case(case).posterior.verdict == ()
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_no_payload_is_seen_in_noise_about_zero_nor_in_a_wild_reading(seed: int) -> None:
+    rng, speed = np.random.default_rng(seed), np.linspace(10.0, 200.0, 10)
+    assert made_up_for(rng.standard_normal(10), speed) == 0.0
+    friction = 0.5 + 0.002 * speed
+    friction[seed] = -50.0
+    assert made_up_for(friction, speed) == 0.0
 
 
 def test_only_a_drive_has_a_direction(complete: Diagnosis) -> None:

@@ -104,7 +104,7 @@ def test_film_whose_noise_nobody_tells_loses_film_at_speed_too(typed_in, tmp_pat
     assert d.test.detected
     assert ["inlet_shear_heating"] in tied(d)
     assert d.outlier_runs == [21]
-    assert "whatever its noise" in said(d)
+    assert "the noise left open" in said(d)
 
 
 def test_growing_friction_is_an_evolving_surface_state(typed):

@@ -18,8 +18,8 @@ BOUND = 5.0
 """Usual residuals beyond which a reading is bounded while a fit is still far off."""
 SAME = 0.1
 """Standard deviations of the prior within which fits from several starts have come to one place."""
-BETTER = 2.0
-"""How far laws may gain more by a step than their slopes promise."""
+BETTER, PATIENCE = 2.0, 3
+"""How far laws may gain more by a step than their slopes promise, once so many steps have come out of the worst."""
 PARTS = (1.0, 0.5, 0.25, 0.1, 0.0)
 """Parts of the way to the coordinates of linearised laws that are tried."""
 NINETY = 1.6449
@@ -157,8 +157,8 @@ def map_fit(
     """Gauss-Newton with damping to the most probable coordinates, then Laplace's evidence.
 
     Unless the start is ``warm``, least squares come first, with only those readings bounded that are far beyond the
-    others: from afar every reading looks like an outlier. A climb that will not come up to the ``least`` evidence
-    is given up where it stands.
+    others: from afar every reading looks like an outlier. A climb that after some steps is not in sight of the
+    ``least`` evidence is given up where it stands.
     """
     state = _started(problem, explanation, start)
     return _topped(problem, explanation, state if warm else _neared(problem, explanation, state), least)
@@ -282,14 +282,14 @@ def _climb(
     z, shared, run, slopes = state.z, state.shared, state.run, state.slopes
     cost, weight = _cost(problem, run.prediction, z, shared, likelihood)
     damping = 1e-2
-    for _ in range(20):
+    for step_number in range(20):
         columns = np.hstack([slopes, problem.shared])
         scaled = columns * weight[:, None]
         curvature = np.eye(columns.shape[1]) + columns.T @ scaled
         residual = (problem.y - run.prediction) / problem.sd - problem.shared @ shared
         slope = scaled.T @ residual - np.concatenate([z, shared])
         _hold_at_bounds(curvature, slope, z)
-        if np.isfinite(least) and _in_sight(cost, slope, curvature) < least:
+        if step_number >= PATIENCE and _in_sight(cost, slope, curvature) < least:
             break
         for _ in range(8):
             step = np.linalg.solve(curvature + damping * np.diag(np.diag(curvature)), slope)

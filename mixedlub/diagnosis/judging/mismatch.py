@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.fit import outlier_chance, whitening
+from mixedlub.diagnosis.fitting.fit import linear_fit, outlier_chance, whitening
 from mixedlub.diagnosis.searching.scatter import MOST
 from mixedlub.diagnosis.searching.search import Search
 from mixedlub.diagnosis.searching.weighed import Weighed
@@ -24,11 +24,14 @@ BY_EFFECTS = 0.6
 """Weight of the effects among the alternatives; the smooth functions share the rest."""
 SMALLEST = 1e-304
 """Smallest p-value: what a number of the answer can still hold."""
+OWN_ROUNDS = 30
+"""Times that nothing missing judges anew which readings are outliers."""
 UNSURE = 10.0
 """How far the search's Bayes factor may be off."""
 KNOWN = (1.0,)
+"""Noise that is stated, over that of the search."""
 UNTOLD = tuple(np.geomspace(0.12, 2.0, 13))
-"""Noise over that which the calibrated base model would need, where it is known and where it could be any of these."""
+"""Noise that nobody states, over what the calibrated base model would need: it could be any of these."""
 
 
 @dataclass(frozen=True)
@@ -119,6 +122,19 @@ def _statistic(alternatives: Sequence[_Alternatives], targets: np.ndarray) -> np
     return np.asarray(np.logaddexp.reduce(missing, axis=0) - np.logaddexp.reduce(nothing, axis=0))
 
 
+def _cost(found: Search, fixed: np.ndarray, weight: np.ndarray, scales: Sequence[float]) -> float:
+    """Log probability that nothing missing loses where others judge which readings are outliers."""
+
+    def log_nothing(weight: np.ndarray, rounds: int) -> float:
+        each = [
+            linear_fit(found.none.anchor / scale, fixed / scale, weight, rounds).evidence - weight.size * np.log(scale)
+            for scale in scales
+        ]
+        return float(np.logaddexp.reduce(each))
+
+    return max(0.0, log_nothing(found.none.weight, OWN_ROUNDS) - log_nothing(weight, 1)) if len(scales) > 1 else 0.0
+
+
 def mismatch_test(
     found: Search,
     level: float,
@@ -131,7 +147,8 @@ def mismatch_test(
 
     Alternatives are the catalogue's prior draws with free amplitude and smooth functions of the conditions. Noise
     that nobody told could have any of the ``scales`` on either side, as in Student's test; ``weight`` says which
-    readings are outliers, by default as the best explanation judges.
+    readings are outliers, by default as the best explanation judges. What that costs nothing missing, which would
+    write off others, is taken off.
     Data without mismatch are drawn from the linearised base model: calibration from its prior, noise from its
     law. Beyond the largest draw the bound P(B > b) <= 1/b of any Bayes factor gives the p-value; the bound of the
     search's own, which has fitted what no prior draw comes near, such as a ripple of any order, is taken with a
@@ -146,7 +163,7 @@ def mismatch_test(
     rng = np.random.default_rng(seed)
     noise = rng.standard_normal((DRAWS, problem.y.size)) / np.sqrt(weight)
     drawn = _statistic(alternatives, noise + rng.standard_normal((DRAWS, fixed.shape[1])) @ fixed.T)
-    observed = float(_statistic(alternatives, none.anchor[None, :])[0])
+    observed = float(_statistic(alternatives, none.anchor[None, :])[0]) - _cost(found, fixed, weight, scales)
     p = (1.0 + float((drawn >= observed).sum())) / (DRAWS + 1.0)
     if observed > drawn.max():
         p = min(p, float(np.exp(-min(observed, 700.0))))

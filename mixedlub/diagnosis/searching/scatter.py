@@ -173,18 +173,24 @@ def _other_parts(found: Search) -> tuple[float, Case]:
 
 
 def _fitting(case: Case, rows: Table, trial: Trial) -> Search:
-    """The search under the multiple of the case's noise that makes the readings most probable.
+    """The search under the multiple of the case's noise that its own residuals ask for.
 
-    What is left over under one noise asks for the next, which is tried and kept while it does better.
+    What is left over under one noise asks for the next, which is kept while the readings are more probable under it;
+    half the way is tried where it is not. A start far too low stays there, for what is then fitted follows the noise:
+    the estimate from a smooth fit is none.
     """
     found = trial(case, rows)
     for _ in range(STEPS):
         _, best = _under_other_noise(found, MULTIPLES[:, None])
-        if abs(np.log(MULTIPLES[best])) < NEARLY:
-            break
-        again = trial(*scaled(found.problem.case, rows, float(MULTIPLES[best])))
-        if again.log_probability <= found.log_probability:
-            break
+        asked = float(MULTIPLES[best])
+        for step in (asked, np.sqrt(asked)):
+            if abs(np.log(step)) < NEARLY:
+                return found
+            again = trial(*scaled(found.problem.case, rows, float(step)))
+            if again.log_probability > found.log_probability:
+                break
+        else:
+            return found
         found = again
     return found
 

@@ -123,7 +123,7 @@ def _mismatch(d: Diagnosis) -> tuple[str, ...]:
     size = p_words(test.p_value)
     size = f"p {size}" if size[0].isalpha() else f"p = {size}"
     if test.lenient:
-        size += " even with the noise that this would need" if d.noise_stated else ", whatever its noise"
+        size += " even with the noise that this would need" if d.noise_stated else ", the noise left open"
     if test.detected:
         return (f"Yes ({size}; {chi2}).", alarm)
     return (f"None that can be told from noise ({size}; {chi2}).", alarm)
