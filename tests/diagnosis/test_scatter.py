@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.judging.mismatch import UNTOLD, _cost
 from mixedlub.diagnosis.searching.scatter import CLEAR, more
 from mixedlub.importers import write_case
 
@@ -164,3 +165,11 @@ def test_sds_of_one_setting_leave_out_a_share_of_the_reading(tmp_path: Path) -> 
     assert d.posterior.verdict == ()
     assert any("beside the sds told" in text for text in d.warnings)
     assert d.found.problem.one_sd[-1] == pytest.approx(0.02 * recorded[-1], rel=0.6)
+
+
+def test_readings_that_others_write_off_cost_nothing_missing_what_it_would_keep(complete: Diagnosis) -> None:
+    found = complete.found
+    fixed = np.hstack([found.none.slopes, found.problem.shared])
+    low = complete.readings < np.quantile(complete.readings, 0.7)
+    assert _cost(found, fixed, found.none.weight, UNTOLD) < 0.2
+    assert _cost(found, fixed, np.where(low, 1e-3, 1.0), UNTOLD) > 1.0
