@@ -13,6 +13,8 @@ from mixedlub.diagnosis.fitting.sudden import placed
 
 SHARE = 0.5
 """Of an effect's prior, the part of its published law exactly; the rest is for laws about it."""
+WRONG = 0.5
+"""Precision weight below which a reading counts as a wrong one."""
 HOPELESS = 15.0
 """Log odds against a law from which it adds nothing, whatever they are."""
 
@@ -29,10 +31,17 @@ def published_odds(problem: Problem, free: Fit, worst: float = np.inf) -> Iterat
         for law, values in e.laws_within_reach.items():
             drop = [place + names.index(name) for name in values]
             held = replace(problem, held={**problem.held, e.id: {**problem.held.get(e.id, {}), **values}})
-            start, least = np.delete(free.z, drop), free.evidence - worst
-            fit = placed(held, map_fit(held, free.explanation, start, warm=True, least=least))
-            yield e.id, law, fit.evidence - free.evidence
+            fit = _held_fit(held, free, np.delete(free.z, drop), free.evidence - worst)
+            yield e.id, law, placed(held, fit).evidence - free.evidence
         place += len(names)
+
+
+def _held_fit(held: Problem, free: Fit, start: np.ndarray, least: float) -> Fit:
+    """The rest of an explanation fitted again; from afar too where near by it takes more readings for wrong ones."""
+    fit = map_fit(held, free.explanation, start, warm=True, least=least)
+    if fit.evidence < least or np.count_nonzero(fit.weight < WRONG) <= np.count_nonzero(free.weight < WRONG):
+        return fit
+    return max(fit, map_fit(held, free.explanation, start), key=lambda one: one.evidence)
 
 
 def published_gain(problem: Problem, free: Fit) -> float:
