@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 
@@ -34,7 +35,11 @@ MULTIPLES, NEARLY, STEPS = np.geomspace(0.25, 2.0, 31), 0.1, 5
 ENOUGH = 10
 """Readings, beyond the coordinates of the base model, from which their scatter is known well enough to judge."""
 
-Trial = Callable[[Case, Table], Search]
+
+class Trial(Protocol):
+    """A search for a case and its readings, or what it makes of a ``near`` one under their noise."""
+
+    def __call__(self, case: Case, rows: Table, near: Search | None = None) -> Search: ...
 
 
 @dataclass(frozen=True)
@@ -66,13 +71,14 @@ def stated_or_more(case: Case, rows: Table, trial: Trial, most: float) -> tuple[
     found, raised = trial(case, rows), Raised()
     if f"{case.quantity}_sd" in rows and np.isinf(most):
         found, raised = _with_share(case, rows, trial, found)
+    whole = raised
     for needed in (CLEAR, *[0.0] * (ROUNDS - 1)):
         gain, factor = more(found)
         if gain <= needed or raised.times * factor > most:
             break
         raised = replace(raised, times=raised.times * factor)
-        found = trial(*raised.of(case, rows))
-    return found, raised
+        found = trial(*raised.of(case, rows), near=found)
+    return (found if raised == whole else trial(*raised.of(case, rows))), raised
 
 
 def _with_share(case: Case, rows: Table, trial: Trial, found: Search) -> tuple[Search, Raised]:
@@ -80,23 +86,25 @@ def _with_share(case: Case, rows: Table, trial: Trial, found: Search) -> tuple[S
 
     Looked for uphill from a usual share and from the one that residuals under the sds ask for.
     """
-    tried = {-1: found}
+    tried = {-1: found, USUAL: trial(*Raised(share=SHARES[USUAL]).of(case, rows))}
 
     def height(i: int) -> float:
         if i not in tried:
-            tried[i] = trial(*Raised(share=SHARES[i]).of(case, rows))
+            near = min((j for j in tried if j >= 0), key=lambda j: abs(j - i))
+            tried[i] = trial(*Raised(share=SHARES[i]).of(case, rows), near=tried[near])
         return tried[i].log_probability
 
     gain, asked = _lacking(found)
     for i in (USUAL, asked) if gain > WEAKER else (USUAL,):
-        near = [j for j in (i - 1, i + 1) if 0 <= j < SHARES.size]
-        step = max(near, key=height) - i
+        beside = [j for j in (i - 1, i + 1) if 0 <= j < SHARES.size]
+        step = max(beside, key=height) - i
         while 0 <= i + step < SHARES.size and height(i + step) > height(i):
             i += step
     best = max(tried, key=height)
     if best < 0 or height(best) <= height(-1) + WEAKER:
         return found, Raised()
-    return tried[best], Raised(share=float(SHARES[best]))
+    raised = Raised(share=float(SHARES[best]))
+    return (tried[best] if best == USUAL else trial(*raised.of(case, rows))), raised
 
 
 def _lacking(found: Search) -> tuple[float, int]:
@@ -179,23 +187,31 @@ def _fitting(case: Case, rows: Table, trial: Trial) -> Search:
     half the way is tried where it is not. A start far too low stays there, for what is then fitted follows the noise:
     the estimate from a smooth fit is none.
     """
-    found = trial(case, rows)
+    first = found = trial(case, rows)
     for _ in range(STEPS):
-        _, best = _under_other_noise(found, MULTIPLES[:, None])
-        asked = float(MULTIPLES[best])
-        for step in (asked, np.sqrt(asked)):
-            if abs(np.log(step)) < NEARLY:
-                return found
-            again = trial(*scaled(found.problem.case, rows, float(step)))
-            if again.log_probability > found.log_probability:
-                break
-        else:
-            return found
+        again = _asked(found, rows, trial)
+        if again is None:
+            break
         found = again
-    return found
+    if found is first:
+        return first
+    whole = trial(found.problem.case, found.problem.rows)
+    return whole if whole.log_probability > first.log_probability else first
 
 
-def under_its_own(found: Search, trial: Trial) -> Search:
+def _asked(found: Search, rows: Table, trial: Trial) -> Search | None:
+    """The search under the noise its residuals ask for, or half the way there; none where neither is more probable."""
+    asked = float(MULTIPLES[_under_other_noise(found, MULTIPLES[:, None])[1]])
+    for step in (asked, np.sqrt(asked)):
+        if abs(np.log(step)) < NEARLY:
+            return None
+        again = trial(*scaled(found.problem.case, rows, float(step)), near=found)
+        if again.log_probability > found.log_probability:
+            return again
+    return None
+
+
+def under_its_own(found: Search, trial: Callable[[Case, Table], Search]) -> Search:
     """The search under the noise that the calibrated base model would need if nothing were missing."""
     gain, times = louder(found.none.residual)
     return trial(*scaled(found.problem.case, found.problem.rows, times)) if gain > 0.0 else found

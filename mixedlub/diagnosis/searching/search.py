@@ -8,7 +8,7 @@ from itertools import combinations
 
 import numpy as np
 
-from mixedlub.diagnosis.fitting.fit import OUTLIER_SHARE, Fit, linear_fit, map_fit
+from mixedlub.diagnosis.fitting.fit import OUTLIER_SHARE, Fit, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.fitting.pairs import ROUNDS, exchanged, promising_pairs
 from mixedlub.diagnosis.fitting.problem import Explanation, Problem, effects_of
 from mixedlub.diagnosis.fitting.published import published_gain
@@ -134,6 +134,33 @@ def search(
     names = {s.id for s in screen.sampled}
     unknown = unknown_fit(problem, fits[()], space, values, names)
     return Search(problem, space, values, fits[()], fits, scores, unknown, screen.sampled, screen.untestable, screen)
+
+
+def reweighed(found: Search, problem: Problem) -> Search:
+    """A search again under another noise, from where its fits stand: no new pair is tried and no law is climbed anew.
+
+    Fits that are far behind under the new noise, by what they leave over, keep to where they stand.
+    """
+    best = found.likely
+    problem = problem.with_sd(best.prediction, found.none.prediction)
+    scale = found.problem.sd / problem.sd
+    moved = {m: f.in_sigmas(scale, f.evidence + _louder(f.residual, scale)) for m, f in found.fits.items()}
+    near = max(f.evidence for f in moved.values()) - FAR
+    fits = {
+        m: placed(problem, map_fit(problem, m, f.z, warm=True)) if f.evidence > near or not m else f
+        for m, f in moved.items()
+    }
+    none, scores = fits[()], _scores(problem, fits, found.space, found.values)
+    unknown = unknown_fit(problem, none, found.space, found.values, {s.id for s in found.sampled})
+    sampled = tuple(replace(s, change=s.change * scale) for s in found.sampled)
+    return replace(
+        found, problem=problem, none=none, fits=fits, scores=scores, unknown=unknown, sampled=sampled, screen=None
+    )
+
+
+def _louder(residual: np.ndarray, scale: np.ndarray) -> float:
+    """Gain of the log likelihood of residuals that are counted in other sigmas."""
+    return float(log_likelihood(residual * scale)[0].sum() - log_likelihood(residual)[0].sum())
 
 
 def spread_rows(values: list[np.ndarray], count: int) -> np.ndarray:

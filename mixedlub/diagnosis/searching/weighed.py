@@ -14,7 +14,7 @@ from mixedlub.diagnosis.recording.features import SERIES, coordinates
 from mixedlub.diagnosis.recording.noise import estimated, is_stated, repeated
 from mixedlub.diagnosis.recording.wander import STILL, Wander
 from mixedlub.diagnosis.searching.scatter import Raised, repeats_allow, shown, stated_or_more, under_its_own
-from mixedlub.diagnosis.searching.search import MANY, Progress, Search, search, spread_rows
+from mixedlub.diagnosis.searching.search import MANY, Progress, Search, reweighed, search, spread_rows
 from mixedlub.diagnosis.searching.serial import lasting, lasting_alone
 from mixedlub.diagnosis.searching.wandering import under_wandering
 from mixedlub.forward import Forward
@@ -65,11 +65,15 @@ def weighed(
     def trial(case: Case, rows: Table, together: float = 1.0, wander: Wander = STILL) -> Search:
         return search(Problem.of(case, rows, forward, y, together, wander), space, values, exclude, progress)
 
-    def glance(case: Case, rows: Table) -> Search:
-        few = spread_rows(values, y.size)
-        return search(Problem.of(case, rows, forward, y).take(few), space, [v[few] for v in values], exclude, progress)
+    few = spread_rows(values, y.size) if y.size > MANY else None
 
-    seek = trial if y.size <= MANY else glance
+    def seek(case: Case, rows: Table, near: Search | None = None) -> Search:
+        problem = Problem.of(case, rows, forward, y)
+        problem = problem if few is None else problem.take(few)
+        if near is not None:
+            return reweighed(near, problem)
+        return search(problem, space, values if few is None else [v[few] for v in values], exclude, progress)
+
     stated, raised, most = is_stated(case, rows), Raised(), np.inf
     if stated:
         group = repeated(case, rows)
@@ -81,7 +85,7 @@ def weighed(
     else:
         found = shown(estimated(case, rows, y, forward.predict(), space, values), rows, seek)
         case = found.problem.case
-    if seek is glance:
+    if few is not None:
         found = trial(case, rows)
     together = lasting(found) if y.size >= SERIES else 1.0
     if together > 1.0:
