@@ -30,7 +30,7 @@ def command(
     ] = False,
     seed: Annotated[
         int, typer.Option(metavar="N", min=0, help="Which battery: every seed deals other cases.")
-    ] = 969696,
+    ] = 969710,
     cases: Annotated[
         int | None,
         typer.Option(metavar="N", min=5, help=f"How many cases to deal; default {FULL}, with --rigs {RIGS}."),
