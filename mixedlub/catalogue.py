@@ -179,6 +179,9 @@ def _page(effect: Effect) -> str:
         parts.append(_entry("recordings", ", ".join(effect.kinds)))
     if effect.odds < 1.0:
         parts.append(_entry("prior odds", f"{effect.odds:g} of those of an effect that is missing as often as most"))
+    if effect.likelier:
+        name, beyond, times = effect.likelier
+        parts.append(_entry("more often", f"{times:g} times as often where {name} is beyond {beyond:g}"))
     if effect.exact:
         parts.append(_entry("form", "exact: it is the effect's definition and does not bend in a fit"))
     parts += ["", "parameters"]

@@ -11,7 +11,7 @@ import numpy as np
 from mixedlub.case import Case, hidden, read_case, read_conditions, refuse_used_runs
 from mixedlub.diagnosis.judging.averaged import Predicted, averaged, leaders, outlier_chances
 from mixedlub.diagnosis.judging.channel import Check, check_channel
-from mixedlub.diagnosis.judging.doubts import against, scatter_notes, unsure_odds
+from mixedlub.diagnosis.judging.doubts import against, likelier_notes, scatter_notes, unsure_odds
 from mixedlub.diagnosis.judging.heldout import HeldOut
 from mixedlub.diagnosis.judging.location import Region, passed_by, region
 from mixedlub.diagnosis.judging.mismatch import Mismatch, told_from_nothing
@@ -112,6 +112,7 @@ def diagnose_case(
     forward = Forward(case, rows)
     y = np.asarray(rows[case.quantity], dtype=float)
     warnings = [*case.notes, *assumed, *hidden(case, wanted), *forward.notes, *audit(case, rows, y, forward)]
+    warnings += likelier_notes(forward)
     left_out = tuple(e.id for e in forward.effects() if e.id in exclude)
     if left_out:
         named = ", ".join(effect_words(name) for name in left_out)

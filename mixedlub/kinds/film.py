@@ -50,12 +50,23 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
     return {
         **contact_inputs(system.contact, table),
         **bodies.lubricant(system.lubricant).inputs(temperature),
+        **_thickener(system),
         **bookkeeping_inputs(system, table),
         **programme(table, recorded),
         **_orders(table, recorded),
         **_middle(system, recorded),
         "oil_temperature": temperature,
     }
+
+
+def _thickener(system: config.System) -> Inputs:
+    """The viscosity index, by which an oil shows that it holds polymer; polyglycols are polymers without one.
+
+    That is of films alone: gears soon cut such polymer to pieces.
+    """
+    if system.lubricant is None or system.lubricant.base == "pag":
+        return {}
+    return {"viscosity_index": bodies.lubricant(system.lubricant).viscosity_index}
 
 
 def _middle(system: config.System, recorded: Table) -> Inputs:

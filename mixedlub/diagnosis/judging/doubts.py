@@ -8,12 +8,13 @@ import numpy as np
 
 from mixedlub.diagnosis.judging.heldout import HeldOut
 from mixedlub.diagnosis.judging.posterior import Key, Posterior
-from mixedlub.diagnosis.labels import amount, words_of
+from mixedlub.diagnosis.labels import amount, effect_words, words_of
 from mixedlub.diagnosis.recording.audit import Doubt
 from mixedlub.diagnosis.recording.features import PASSING, clock_of
 from mixedlub.diagnosis.recording.levels import set_points
 from mixedlub.diagnosis.searching.scatter import CLEAR, MOST, Raised, more, quiet
 from mixedlub.diagnosis.searching.search import Search
+from mixedlub.forward import Forward
 from mixedlub.headers import unit_of
 from mixedlub.table import Table
 
@@ -36,6 +37,16 @@ NOT_NOISE = (
     "named below was found under noise that much larger"
 )
 QUIET = "readings scatter by less than half of the stated noise: with noise nearer to theirs more could be told"
+
+
+def likelier_notes(forward: Forward) -> list[str]:
+    """Effects that are missing more often than usual, by what is known before any reading is seen."""
+    return [
+        f"{words_of(e.likelier[0])} {float(forward.inputs[e.likelier[0]]):.3g}, beyond {e.likelier[1]:g}: "
+        f"{effect_words(e.id)} is taken as {forward.odds(e) / e.odds:.2g} times as usual, before any reading is seen"
+        for e in forward.effects()
+        if e.likelier and forward.odds(e) != e.odds
+    ]
 
 
 def scatter_notes(found: Search, stated: bool, raised: Raised) -> list[str]:

@@ -67,7 +67,8 @@ class Posterior:
 
 def untold(found: Search) -> dict[str, float]:
     """Chance of the effects that move no reading: as probable as they were before."""
-    odds = {e.id: e.odds for s in (*found.sampled, *found.untestable) for e in effects_of((s.id,))}
+    looked = (*found.sampled, *found.untestable)
+    odds = {e.id: found.problem.forward.odds(e) for s in looked for e in effects_of((s.id,))}
     nothing, single, pair = priors(len(odds))
     single /= nothing + single + pair + PRIOR["unknown"]
     return {s.id: single * odds[s.id] / sum(odds.values()) for s in found.untestable}
