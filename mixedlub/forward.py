@@ -81,6 +81,12 @@ class Forward:
         """Readings in the unit of the recorded column, one a row."""
         return self.run(calibration, parameters).prediction
 
+    def base(self, name: str) -> np.ndarray:
+        """A quantity of the base model before calibration, by its name in the glossary."""
+        if name in self.inputs:
+            return np.asarray(self.inputs[name])
+        return np.asarray(Model(self.chain, tuple(self.inputs), (name,))(self.inputs)[name])
+
     def nominal(self) -> np.ndarray:
         """The base model at the nominal calibration, one reading a row; an error where it has no finite answer."""
         base = self.predict()

@@ -209,9 +209,11 @@ def _with_nearest(name: str, absent: list[Column]) -> str:
     "load_Nm (nearest known: 'torque_Nm')"
     >>> _with_nearest("colour", [Column("torque_Nm")]), _with_nearest("surface2", [Column("surface_2")])
     ('colour', "surface2 (nearest known: 'surface_2')")
+    >>> _with_nearest("power_loss_sd", [Column("power_loss_W_sd")])
+    "power_loss_sd (nearest known: 'power_loss_W_sd')"
     """
     unit = unit_of(name)
-    known = [c.name for c in absent if not c.name.endswith("_sd")]
+    known = [c.name for c in absent if c.name.endswith("_sd") == name.endswith("_sd")]
     alike = [other for other in known if unit and unit_of(other) == unit]
     close = difflib.get_close_matches(name, alike or known, n=1, cutoff=0.0 if alike else 0.8)
     return f"{name} ({MEANT}: {close[0]!r})" if close else name

@@ -135,7 +135,7 @@ def _uncertain(case: Case, movable: Sequence[Calibration]) -> Iterator[str]:
     own = f"{case.quantity}_sd"
     if case.recordings is not None and own in case.recordings:
         yield f"Noise of a reading: the column {own}."
-    elif noise is None:
+    elif noise is None or not (noise.relative > 0 or noise.absolute > 0):
         yield "Noise of a reading: not given; it would be estimated from repeats, else from the fit."
     else:
         yield f"Noise of a reading: {_scatter(noise.relative, noise.absolute, case)}."

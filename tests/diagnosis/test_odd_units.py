@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,9 +15,11 @@ from mixedlub.diagnosis.recording.audit import Doubt, doubts
 from mixedlub.diagnosis.recording.units import of_two_units
 from mixedlub.forward import Forward
 from mixedlub.importers import write_case
+from mixedlub.table import Table
 
 BALL = {"geometry": "point", "radius_mm": [9.525, float("inf")], "youngs_modulus_GPa": [207.0, 75.0]}
 OIL = {"temperature_C": [40.0, 100.0], "kinematic_viscosity_mm2_s": [30.0, 6.2]}
+EXAMPLE = Path(__file__).parents[2] / "examples" / "case"
 SPEED = np.tile(np.geomspace(0.05, 2.0, 10), 4)
 SCATTER = 1.0 + 0.01 * np.random.default_rng(0).standard_normal(40)
 HALF, EVEN = np.arange(40) < 20, np.arange(40) % 2 == 0
@@ -132,3 +135,25 @@ def test_an_oil_thicker_than_oils_is_doubted_where_it_is_warm(tmp_path: Path) ->
     assert oil(tmp_path / "cold", 1000.0, np.tile(np.linspace(-40.0, 10.0, 8), 5)) == []
     pressed = oil(tmp_path / "pressed", 1000.0, pressure_MPa=np.full(40, 800.0))
     assert not any("smallest" in note for note in pressed)
+
+
+def gears(folder: Path, column: str, change: Any) -> list[str]:
+    """The doubts about the example's gears, a column changed."""
+    case = read_case(EXAMPLE)
+    assert case.recordings is not None
+    rows = Table({**case.recordings.columns, column: change(case.recordings[column])}, "recordings.csv")
+    case = replace(case, recordings=rows)
+    return [str(note) for note in doubts(case, rows, rows[case.quantity], Forward(case, rows))]
+
+
+def test_torque_in_newton_millimetres_presses_the_flanks_too_hard() -> None:
+    assert any("press the flanks with 39.8 GPa" in note for note in gears(EXAMPLE, "torque_Nm", lambda t: 1000.0 * t))
+    assert not any("flanks" in note for note in gears(EXAMPLE, "torque_Nm", lambda t: 2.0 * t))
+
+
+def test_temperatures_in_fahrenheit_are_far_from_those_of_the_oil() -> None:
+    (note,) = gears(EXAMPLE, "oil_temperature_C", lambda t: 1.8 * t + 32.0)
+    assert note.endswith("104 to 158 °F would be 40 to 70 °C: is it in that unit?")
+    (note,) = gears(EXAMPLE, "oil_temperature_C", lambda t: 40.0 + 10.0 / 3.0 * (t - 40.0))
+    assert note.endswith("far from the 40 and 100 of [lubricant]: viscosity is extrapolated")
+    assert not gears(EXAMPLE, "oil_temperature_C", lambda t: t + 20.0)

@@ -173,3 +173,14 @@ def test_readings_that_others_write_off_cost_nothing_missing_what_it_would_keep(
     low = complete.readings < np.quantile(complete.readings, 0.7)
     assert _cost(found, fixed, found.none.weight, UNTOLD) < 0.2
     assert _cost(found, fixed, np.where(low, 1e-3, 1.0), UNTOLD) > 1.0
+
+
+def test_noise_of_very_many_readings_is_estimated_though_a_share_of_them_is_looked_at(tmp_path: Path) -> None:
+    passed = np.linspace(0.0, 1.0, 1300)
+    friction = 0.1 * (1.0 - 0.3 * (1.0 - np.exp(-4.0 * passed)) + 0.15 * (passed > 0.6))
+    friction *= 1.0 + 0.01 * np.random.default_rng(3).standard_normal(1300)
+    columns = {"time_s": 3600.0 * passed, "friction_coefficient": friction}
+    system = {"kind": "friction_history", "recording": {"quantity": "friction_coefficient"}}
+    d = diagnose_case(write_case(tmp_path / "case", system, columns))
+    assert float(np.median(d.seen_sd / d.recorded.predicted)) == pytest.approx(0.01, rel=0.15)
+    assert d.test.detected

@@ -17,7 +17,7 @@ from mixedlub.diagnosis.recording.noise import (
     setups_differ,
 )
 from mixedlub.diagnosis.recording.signs import AS_LARGE, both_signs, of_other_sign
-from mixedlub.diagnosis.recording.units import of_odd_units
+from mixedlub.diagnosis.recording.units import of_odd_units, teeth_too_hard_pressed
 from mixedlub.forward import Forward
 from mixedlub.headers import unit_of
 from mixedlub.kinds.friction_map import drive_speed
@@ -35,6 +35,8 @@ ALIKE = 0.05
 THINNEST_OIL = 0.4
 THINNEST_D341 = 2e-6
 """Kinematic viscosity (m2/s) down to which log log(nu + 0.7) is all of ASTM D341."""
+FAR_FROM_OIL = 30.0
+"""Kelvin from the temperatures at which viscosity is told to which its course is known well enough."""
 STUCK_ROWS, STUCK_SHARE = 5, 0.2
 """A value that stands in so many rows, and in such a share of them, is looked at."""
 STUCK_STEPS, STUCK_SPAN = 3.0, 0.05
@@ -88,10 +90,12 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
         *_scarce(y),
         *_thin(case, y, forward),
         *map(Doubt, of_odd_units(case, rows, y, base, FEWEST, SCARCE)),
+        *map(Doubt, teeth_too_hard_pressed(case, rows, forward)),
         *_more_than_put_in(case, rows, y),
         *_of_one_sign(case, rows, y),
         *_sliding(rows),
         *_warm(rows),
+        *_beyond_the_oil(case, rows),
         *_backwards(rows),
         *_stuck(case, rows, y, base),
         *_misread(case, rows, y, base, other_sign),
@@ -302,6 +306,24 @@ def _warm(rows: Table) -> list[str]:
         return []
     lowest = float(rows[name].min())
     return [Doubt(f"{name} is {lowest:g} or more in all rows: check that it is not in kelvin")]
+
+
+def _beyond_the_oil(case: Case, rows: Table) -> list[str]:
+    """Temperatures far from both at which the oil's viscosity is told, as those in degrees Fahrenheit are."""
+    oil = case.system.lubricant
+    if oil is None or oil.temperature_C is None or "oil_temperature_C" not in rows:
+        return []
+    low, high = sorted(oil.temperature_C)
+    coldest, hottest = float(rows["oil_temperature_C"].min()), float(rows["oil_temperature_C"].max())
+    if low - FAR_FROM_OIL <= coldest and hottest <= high + FAR_FROM_OIL:
+        return []
+    far = hottest if hottest > high + FAR_FROM_OIL else coldest
+    said = f"oil_temperature_C has {far:g}, far from the {low:g} and {high:g} of [lubricant]: viscosity is extrapolated"
+    least, most = ((value - 32.0) / 1.8 for value in (coldest, hottest))
+    if not (low - FAR_FROM_OIL <= least and most <= high + FAR_FROM_OIL):
+        return [said]
+    other = f"{coldest:g} to {hottest:g} °F would be {least:.3g} to {most:.3g} °C"
+    return [Doubt(f"{said}; {other}: is it in that unit?")]
 
 
 def _backwards(rows: Table) -> list[str]:

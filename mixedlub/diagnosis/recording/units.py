@@ -9,6 +9,7 @@ from scipy.spatial import cKDTree
 
 from mixedlub.bounds import beyond_usual
 from mixedlub.case import Case
+from mixedlub.forward import Forward
 from mixedlub.kinds.disc import contact_inputs
 from mixedlub.laws.contact import line_hertz_pressure, point_hertz_pressure
 from mixedlub.table import Table
@@ -150,6 +151,18 @@ def too_hard_pressed(case: Case, rows: Table) -> list[str]:
     said = f"the largest load_N, {load:g}, would press the bodies with {1e-9 * float(pressure):.3g} GPa"
     limit = f"where hard ones yield below {1e-9 * YIELDS * values['reduced_modulus']:.2g} GPa"
     return [f"{said}, {limit}: check the unit of load_N and the radii in [contact]"]
+
+
+def teeth_too_hard_pressed(case: Case, rows: Table, forward: Forward) -> list[str]:
+    """Torques under which flanks would yield many times over."""
+    if case.system.gears is None or "torque_Nm" not in rows:
+        return []
+    pressure, modulus = (np.max(forward.base(name)) for name in ("hertz_pressure", "reduced_modulus"))
+    if modulus < HARD or pressure <= YIELDS * modulus:
+        return []
+    said = f"the largest torque_Nm, {np.max(np.abs(rows['torque_Nm'])):g}, would press the flanks with"
+    limit = f"{1e-9 * pressure:.3g} GPa, where hard ones yield below {1e-9 * YIELDS * modulus:.2g} GPa"
+    return [f"{said} {limit}: check the unit of torque_Nm, and module and face width in [gears]"]
 
 
 SIZED = ("entrainment_speed_m_s", "sliding_speed_m_s", "film_thickness_nm")

@@ -71,20 +71,20 @@ def stated_or_more(case: Case, rows: Table, trial: Trial, most: float) -> tuple[
     found, raised = trial(case, rows), Raised()
     if f"{case.quantity}_sd" in rows and np.isinf(most):
         found, raised = _with_share(case, rows, trial, found)
-    whole = raised
     for needed in (CLEAR, *[0.0] * (ROUNDS - 1)):
         gain, factor = more(found)
         if gain <= needed or raised.times * factor > most:
             break
         raised = replace(raised, times=raised.times * factor)
-        found = trial(*raised.of(case, rows), near=found)
-    return (found if raised == whole else trial(*raised.of(case, rows))), raised
+        found = trial(*raised.of(case, rows))
+    return found, raised
 
 
 def _with_share(case: Case, rows: Table, trial: Trial, found: Search) -> tuple[Search, Raised]:
     """The search under the share of the reading, beside the sds told, that makes the readings most probable.
 
-    Looked for uphill from a usual share and from the one that residuals under the sds ask for.
+    Looked for uphill from a usual share and from the one that residuals under the sds ask for. Shares in between are
+    weighed from where the search of the nearest one stands; that of the best one is then made whole.
     """
     tried = {-1: found, USUAL: trial(*Raised(share=SHARES[USUAL]).of(case, rows))}
 
@@ -104,7 +104,8 @@ def _with_share(case: Case, rows: Table, trial: Trial, found: Search) -> tuple[S
     if best < 0 or height(best) <= height(-1) + WEAKER:
         return found, Raised()
     raised = Raised(share=float(SHARES[best]))
-    return (tried[best] if best == USUAL else trial(*raised.of(case, rows))), raised
+    whole = tried[best] if best == USUAL else trial(*raised.of(case, rows))
+    return (whole, raised) if whole.log_probability > height(-1) + WEAKER else (found, Raised())
 
 
 def _lacking(found: Search) -> tuple[float, int]:
@@ -187,28 +188,20 @@ def _fitting(case: Case, rows: Table, trial: Trial) -> Search:
     half the way is tried where it is not. A start far too low stays there, for what is then fitted follows the noise:
     the estimate from a smooth fit is none.
     """
-    first = found = trial(case, rows)
+    found = trial(case, rows)
     for _ in range(STEPS):
-        again = _asked(found, rows, trial)
-        if again is None:
-            break
+        _, best = _under_other_noise(found, MULTIPLES[:, None])
+        asked = float(MULTIPLES[best])
+        for step in (asked, np.sqrt(asked)):
+            if abs(np.log(step)) < NEARLY:
+                return found
+            again = trial(*scaled(found.problem.case, rows, float(step)))
+            if again.log_probability > found.log_probability:
+                break
+        else:
+            return found
         found = again
-    if found is first:
-        return first
-    whole = trial(found.problem.case, found.problem.rows)
-    return whole if whole.log_probability > first.log_probability else first
-
-
-def _asked(found: Search, rows: Table, trial: Trial) -> Search | None:
-    """The search under the noise its residuals ask for, or half the way there; none where neither is more probable."""
-    asked = float(MULTIPLES[_under_other_noise(found, MULTIPLES[:, None])[1]])
-    for step in (asked, np.sqrt(asked)):
-        if abs(np.log(step)) < NEARLY:
-            return None
-        again = trial(*scaled(found.problem.case, rows, float(step)), near=found)
-        if again.log_probability > found.log_probability:
-            return again
-    return None
+    return found
 
 
 def under_its_own(found: Search, trial: Callable[[Case, Table], Search]) -> Search:

@@ -32,7 +32,7 @@ MOVED = 0.1
 NEAR = 12.0
 """Log evidence behind the best within which the published laws that an explanation contains are weighed too."""
 FAR = 60.0
-"""Log evidence behind the best from which a fit is not made again under a new noise."""
+"""Log evidence behind the best from which a fit is not made again under a new noise, before or with it."""
 MANY, SPREAD = 1200, 600
 """Readings beyond which a spread of so many stands for all while explanations are sought."""
 SEED = 1
@@ -137,29 +137,25 @@ def search(
 
 
 def reweighed(found: Search, problem: Problem) -> Search:
-    """A search again under another noise, from where its fits stand: no new pair is tried and no law is climbed anew.
+    """A search again under another noise: its fits climb on from where they stand, and no other is tried.
 
-    Fits that are far behind under the new noise, by what they leave over, keep to where they stand.
+    Those far behind the best one under either noise, by what they leave over, stay where they are.
     """
     best = found.likely
     problem = problem.with_sd(best.prediction, found.none.prediction)
     scale = found.problem.sd / problem.sd
-    moved = {m: f.in_sigmas(scale, f.evidence + _louder(f.residual, scale)) for m, f in found.fits.items()}
-    near = max(f.evidence for f in moved.values()) - FAR
-    fits = {
-        m: placed(problem, map_fit(problem, m, f.z, warm=True)) if f.evidence > near or not m else f
-        for m, f in moved.items()
-    }
+    moved = {m: f.in_sigmas(scale, f.evidence + _counted_anew(f.residual, scale)) for m, f in found.fits.items()}
+    then, now = (max(f.evidence for f in fits.values()) - FAR for fits in (found.fits, moved))
+    near = {m for m, f in moved.items() if not m or found.fits[m].evidence > then or f.evidence > now}
+    fits = {m: placed(problem, map_fit(problem, m, f.z, warm=True)) if m in near else f for m, f in moved.items()}
     none, scores = fits[()], _scores(problem, fits, found.space, found.values)
     unknown = unknown_fit(problem, none, found.space, found.values, {s.id for s in found.sampled})
     sampled = tuple(replace(s, change=s.change * scale) for s in found.sampled)
-    return replace(
-        found, problem=problem, none=none, fits=fits, scores=scores, unknown=unknown, sampled=sampled, screen=None
-    )
+    return replace(found, problem=problem, none=none, fits=fits, scores=scores, unknown=unknown, sampled=sampled)
 
 
-def _louder(residual: np.ndarray, scale: np.ndarray) -> float:
-    """Gain of the log likelihood of residuals that are counted in other sigmas."""
+def _counted_anew(residual: np.ndarray, scale: np.ndarray) -> float:
+    """What the log likelihood of residuals gains, up to what all share, by being counted in other sigmas."""
     return float(log_likelihood(residual * scale)[0].sum() - log_likelihood(residual)[0].sum())
 
 
