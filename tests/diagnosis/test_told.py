@@ -16,6 +16,8 @@ from mixedlub.diagnosis.telling.answer import as_json
 from mixedlub.diagnosis.telling.headline import CONTRADICTION
 from mixedlub.diagnosis.telling.nearest import nearest
 from mixedlub.diagnosis.telling.resembling import resembling
+from mixedlub.diagnosis.telling.tables import _reaching_nothing
+from mixedlub.effect import catalogue
 from mixedlub.forward import Forward
 from mixedlub.table import Table
 
@@ -123,3 +125,13 @@ def test_strained_is_what_the_table_shows_so(complete: Diagnosis, off: float, st
     z = np.where(np.arange(none.z.size) == 0, off, 0.0)
     said = told(replace(complete, refined={**complete.refined, (): replace(none, z=z)}))[words.CALIBRATION]
     assert ("Strained" in said) == strained
+
+
+@pytest.mark.parametrize(("low", "chance", "said"), [(-0.006, 0.99, True), (0.02, 0.99, False), (-0.006, 0.5, False)])
+def test_a_sure_effect_whose_size_may_be_nothing_is_no_contradiction(low: float, chance: float, said: bool) -> None:
+    e = catalogue()["boundary_film_temperature"]
+    ends = {"drop": (low, 0.29), "flash": (0.005, 0.64)}
+    fitted = [(p, dict(zip(("low90", "high90"), ends.get(p.name, (1.0, 2.0)), strict=True))) for p in e.parameters]
+    notes = _reaching_nothing(e, fitted, chance)
+    assert bool(notes) == said
+    assert all("interval of drop takes in no effect" in note for note in notes)

@@ -56,7 +56,9 @@ def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
         said += _unmoved(e, [p for p, _, i in every if not (p.sudden or moved[i])])
         vague = [p.name.replace("_", " ") for p, _, i in told if refined.spread[i] >= UNTOLD]
         alone = _untold(replace(e, parameters=tuple(p for p, _, _ in told)), vague)
-        said += alone or _cancelling(e, [(p, fitted) for p, fitted, _ in told], every_company[e.id])
+        fitted_ones = [(p, fitted) for p, fitted, _ in told]
+        said += alone or _cancelling(e, fitted_ones, every_company[e.id])
+        said += _reaching_nothing(e, fitted_ones, every_company[e.id])
         for p, fitted, i in told:
             usual = float(p.prior.value(0.0))
             scaled, unit = in_reach((fitted["value"], fitted["low90"], fitted["high90"]), p.unit, usual)
@@ -149,6 +151,18 @@ def _cancelling(e: Effect, told: list[tuple[Parameter, dict[str, float]]], proba
     return [
         f"{with_names(effect_words(e.id))}: each of {names} alone may be nothing, not all at once: only their combined "
         "effect is known."
+    ]
+
+
+def _reaching_nothing(e: Effect, told: list[tuple[Parameter, dict[str, float]]], probability: float) -> list[str]:
+    """That an effect is sure although the interval of one that switches it off, a parabola's, takes in nothing."""
+    ends = [(p, f["low90"] < p.null < f["high90"]) for p, f in told if p.null is not None]
+    names = [p.name.replace("_", " ") for p, within in ends if within]
+    if len(names) != 1 or probability < SURE:
+        return []
+    return [
+        f"{with_names(effect_words(e.id))}: the 90 % interval of {names[0]} takes in no effect, as other parameters "
+        "may make up for much of it. The readings exclude no effect at all: that it acts is known better than how much."
     ]
 
 
