@@ -12,6 +12,7 @@ import pytest
 
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.judging.mismatch import UNTOLD, _cost
+from mixedlub.diagnosis.recording.audit import Doubt
 from mixedlub.diagnosis.searching.scatter import CLEAR, more
 from mixedlub.importers import write_case
 
@@ -184,3 +185,14 @@ def test_noise_of_very_many_readings_is_estimated_though_a_share_of_them_is_look
     d = diagnose_case(write_case(tmp_path / "case", system, columns))
     assert float(np.median(d.seen_sd / d.recorded.predicted)) == pytest.approx(0.01, rel=0.15)
     assert d.test.detected
+
+
+@pytest.mark.parametrize(("scatter", "doubted"), [(0.01, False), (0.25, True)])
+def test_estimated_noise_that_no_rig_has_is_doubted(tmp_path: Path, scatter: float, doubted: bool) -> None:
+    friction = 0.1 * (1.0 + scatter * np.random.default_rng(4).standard_normal(40))
+    columns = {"time_s": np.arange(40.0), "friction_coefficient": friction}
+    system = {"kind": "friction_history", "recording": {"quantity": "friction_coefficient"}}
+    d = diagnose_case(write_case(tmp_path / "case", system, columns))
+    (note,) = [note for note in d.warnings if "was estimated as" in note]
+    assert isinstance(note, Doubt) == doubted
+    assert ("rows may be of different things" in note) == doubted

@@ -28,6 +28,8 @@ WORTH_TELLING = 1.5
 """Inflation of the variance from which it is told."""
 FAR_OFF = 3.0
 """Error on levels left out, in sigmas of a reading, from which an answer foretells none."""
+LARGE = 0.1
+"""Share of a reading from which estimated noise is doubted."""
 UNFOLLOWED = (
     "readings lie farther from every explanation than from their repeats: something is missing whose form none that "
     "was tried follows"
@@ -92,7 +94,13 @@ def _size_notes(found: Search, stated: bool, raised: Raised) -> list[str]:
         unit = unit_of(found.problem.case.quantity)
         parts = [f"{100.0 * noise.relative:.2g} % of it"] if noise.relative else []
         parts += [f"{noise.absolute:.2g} {unit}".rstrip()] if noise.absolute else []
-        return [f"the noise of a reading was estimated as {' and '.join(parts)}"]
+        said = f"the noise of a reading was estimated as {' and '.join(parts)}"
+        sd = found.problem.one_sd * found.problem.unit_size(found.problem.y)
+        if np.median(sd) <= LARGE * np.median(np.abs(found.problem.level(found.problem.y))):
+            return [said]
+        return [
+            Doubt(f"{said}, more than rigs scatter by: rows may be of different things, or what is missing is in it")
+        ]
     if stated and more(found)[0] > CLEAR:
         return [Doubt(UNFOLLOWED)]
     return [QUIET] if quiet(found) else []
