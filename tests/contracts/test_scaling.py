@@ -37,6 +37,8 @@ OTHER_ARGUMENTS = {
     "given": (0.4, "-"),
     "exponent": (0.6, "-"),
     "per_stress": (2e-8, "1/Pa"),
+    "at_40": (46e-6, "m^2/s"),
+    "at_100": (8.7e-6, "m^2/s"),
 }
 """Arguments of laws that are no words of the glossary: a value and its unit."""
 

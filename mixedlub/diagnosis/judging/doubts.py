@@ -45,7 +45,8 @@ def likelier_notes(forward: Forward) -> list[str]:
     """Effects that are missing more often than usual, by what is known before any reading is seen."""
     return [
         f"{words_of(e.likelier[0])} {float(forward.inputs[e.likelier[0]]):.3g}, beyond {e.likelier[1]:g}: "
-        f"{effect_words(e.id)} is taken as {forward.odds(e) / e.odds:.2g} times as usual, before any reading is seen"
+        f"{effect_words(e.id)} is taken as {forward.odds(e) / e.odds:.2g} times as usual, before any reading is seen; "
+        "how probable it is told to be rests on that"
         for e in forward.effects()
         if e.likelier and forward.odds(e) != e.odds
     ]

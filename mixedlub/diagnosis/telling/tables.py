@@ -58,7 +58,8 @@ def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
         alone = _untold(replace(e, parameters=tuple(p for p, _, _ in told)), vague)
         fitted_ones = [(p, fitted) for p, fitted, _ in told]
         said += alone or _cancelling(e, fitted_ones, every_company[e.id])
-        said += _reaching_nothing(e, fitted_ones, every_company[e.id])
+        off = [(p, fitted) for p, fitted in fitted_ones if _switches_off(d, e, p)]
+        said += _reaching_nothing(e, off, every_company[e.id])
         for p, fitted, i in told:
             usual = float(p.prior.value(0.0))
             scaled, unit = in_reach((fitted["value"], fitted["low90"], fitted["high90"]), p.unit, usual)
@@ -152,6 +153,19 @@ def _cancelling(e: Effect, told: list[tuple[Parameter, dict[str, float]]], proba
         f"{with_names(effect_words(e.id))}: each of {names} alone may be nothing, not all at once: only their combined "
         "effect is known."
     ]
+
+
+def _switches_off(d: Diagnosis, e: Effect, p: Parameter) -> bool:
+    """Whether an effect of the answer does nothing at the null of one parameter, the others as fitted."""
+    if p.null is None:
+        return False
+    problem, key, z = d.found.problem, d.posterior.verdict, verdict_fit(d).z
+    assert not isinstance(key, str)
+    values = problem.parameters(key, z)
+    others = {name: fitted for name, fitted in values.items() if name != e.id}
+    at_null = {**others, e.id: {**values[e.id], p.name: p.null}}
+    one, other = (problem.forward.run(problem.calibration(z), told).prediction for told in (at_null, others))
+    return bool(np.allclose(one, other, rtol=1e-9))
 
 
 def _reaching_nothing(e: Effect, told: list[tuple[Parameter, dict[str, float]]], probability: float) -> list[str]:
