@@ -142,14 +142,14 @@ def pressure_viscosity_law(
     down_with_temperature: float,
     up_with_temperature: float,
 ) -> np.ndarray:
-    """The logarithm of viscosity rises more slowly with pressure at first and faster again near the glass.
+    """Viscosity leaves the base's law of pressure (Barus for samples, Roelands in contacts): its logarithm bends.
 
-    At contact pressures Roelands' law, the base of gears and discs, has most of the bend already; a sample in a
-    viscometer starts from the exponential of Barus. The coefficient that makes the film belongs to the inlet, to
-    0.1 GPa or so: the slope in the contact may differ, and neither need run straight between the temperatures at which
-    the coefficient was measured; how the slope changes is an interpolation of this catalogue. Both bends change
-    exponentially with 1/T. It levels off at a glass. The glass's 1e8 Pa s, 9.67 and p_r make the form belong to Pa s
-    and Pa.
+    It rises more slowly at first and faster again near the glass. At contact pressures Roelands' law, the base of
+    gears and discs, has most of the bend already; a sample in a viscometer starts from the exponential of Barus.
+    The coefficient that makes the film belongs to the inlet, to 0.1 GPa or so: the slope in the contact may differ,
+    and neither need run straight between the temperatures at which the coefficient was measured; how the slope
+    changes is an interpolation of this catalogue. Both bends change exponentially with 1/T. It levels off at a
+    glass. The glass's 1e8 Pa s, 9.67 and p_r make the form belong to Pa s and Pa.
 
     >>> rest = dict(down_with_temperature=0.0, up_with_temperature=0.0, bend_up=0.0, exponent=0.53135)
     >>> rest |= dict(slope=1.0, onset=0.15e9, slope_with_temperature=0.0, slope_bow=0.0)

@@ -35,8 +35,8 @@ def viscosity_index(at_40: float, at_100: float) -> float:
     .. math:: VI = 100\,\frac{L - U}{L - H}\ (U \ge H), \quad
         VI = 100 + \frac{10^N - 1}{0.00715},\ N = \frac{\log H - \log U}{\log Y}\ (U < H)
 
-    with U and Y at 40 and 100 degC, and L and H the viscosities at 40 degC of oils of index 0 and 100 that have Y too. Their
-    table makes this form belong to mm^2/s.
+    with U and Y at 40 and 100 degC, and L and H the viscosities at 40 degC of oils of index 0 and 100 that have Y too.
+    Their table makes this form belong to mm^2/s.
     Source: ASTM D2270 (ISO 2909); its tabulated L and H are met within 0.1 %.
 
     >>> round(viscosity_index(73.30e-6, 8.86e-6)), round(viscosity_index(22.83e-6, 5.05e-6))   # examples there
