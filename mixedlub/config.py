@@ -179,6 +179,16 @@ class Noise(Section):
     setup_relative: Number = 0.0
     setup_absolute: NotNegative = 0.0
 
+    @property
+    def of_single(self) -> bool:
+        """Whether it says how much single readings scatter."""
+        return self.relative > 0 or self.absolute > 0
+
+    @property
+    def of_setups(self) -> bool:
+        """Whether it says how much set-ups are off as a whole."""
+        return self.setup_relative > 0 or self.setup_absolute > 0
+
 
 class Recording(Section):
     place = "recording"

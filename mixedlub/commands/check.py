@@ -135,11 +135,11 @@ def _uncertain(case: Case, movable: Sequence[Calibration]) -> Iterator[str]:
     own = f"{case.quantity}_sd"
     if case.recordings is not None and own in case.recordings:
         yield f"Noise of a reading: the column {own}."
-    elif noise is None or not (noise.relative > 0 or noise.absolute > 0):
+    elif noise is None or not noise.of_single:
         yield "Noise of a reading: not given; it would be estimated from repeats, else from the fit."
     else:
         yield f"Noise of a reading: {_scatter(noise.relative, noise.absolute, case)}."
-    if noise is not None and (noise.setup_relative > 0 or noise.setup_absolute > 0):
+    if noise is not None and noise.of_setups:
         yield f"Shared within a set-up: {_scatter(noise.setup_relative, noise.setup_absolute, case)}."
 
 

@@ -17,6 +17,7 @@ from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, progra
 from mixedlub.laws import contact, film, load
 from mixedlub.laws.film import LINE_EXPONENT, LINE_LOAD_EXPONENT, POINT_EXPONENT
 from mixedlub.laws.oil import ZERO_CELSIUS
+from mixedlub.lubricant import Lubricant
 from mixedlub.table import Column, Table
 
 FRINGE_NM = (167.0, 225.0)
@@ -47,32 +48,34 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
     """Chain inputs of the rows of a table."""
     assert system.contact is not None
     temperature = column(table["oil_temperature_C"]) + ZERO_CELSIUS
+    oil = bodies.lubricant(system.lubricant)
     return {
         **contact_inputs(system.contact, table),
-        **bodies.lubricant(system.lubricant).inputs(temperature),
-        **_thickener(system),
+        **oil.inputs(temperature),
+        **_thickener(system, oil),
         **bookkeeping_inputs(system, table),
         **programme(table, recorded),
         **_orders(table, recorded),
-        **_middle(system, recorded),
+        **_middle(oil, recorded),
         "oil_temperature": temperature,
     }
 
 
-def _thickener(system: config.System) -> Inputs:
+def _thickener(system: config.System, oil: Lubricant) -> Inputs:
     """The viscosity index, by which an oil shows that it holds polymer; polyglycols are polymers without one.
 
     That is of films alone: gears soon cut such polymer to pieces.
     """
     if system.lubricant is None or system.lubricant.base == "pag":
         return {}
-    return {"viscosity_index": bodies.lubricant(system.lubricant).viscosity_index}
+    return {"viscosity_index": oil.viscosity_index}
 
 
-def _middle(system: config.System, recorded: Table) -> Inputs:
+def _middle(oil: Lubricant, recorded: Table) -> Inputs:
     """The film law as it is, and where in the recording other exponents would turn it about."""
-    oil = bodies.lubricant(system.lubricant).inputs(column(recorded["oil_temperature_C"]) + ZERO_CELSIUS)
-    flow = oil["viscosity"] * column(recorded["entrainment_speed_m_s"])
+    flow = oil.viscosity(column(recorded["oil_temperature_C"]) + ZERO_CELSIUS) * column(
+        recorded["entrainment_speed_m_s"]
+    )
     return {
         **dict.fromkeys(("film_regime", "speed_exponent_change", "load_exponent_change"), 0.0),
         "middle_flow": float(np.exp(np.mean(np.log(flow)))),

@@ -19,7 +19,7 @@ from mixedlub.diagnosis.recording.noise import (
 from mixedlub.diagnosis.recording.signs import AS_LARGE, both_signs, of_other_sign
 from mixedlub.diagnosis.recording.units import of_odd_units, teeth_too_hard_pressed
 from mixedlub.forward import Forward
-from mixedlub.headers import unit_of
+from mixedlub.headers import UNITS, unit_of
 from mixedlub.kinds.friction_map import drive_speed
 from mixedlub.kinds.kind import gears_out
 from mixedlub.table import IGNORED, MEANT, Table
@@ -319,7 +319,8 @@ def _beyond_the_oil(case: Case, rows: Table) -> list[str]:
         return []
     far = hottest if hottest > high + FAR_FROM_OIL else coldest
     said = f"oil_temperature_C has {far:g}, far from the {low:g} and {high:g} of [lubricant]: viscosity is extrapolated"
-    least, most = ((value - 32.0) / 1.8 for value in (coldest, hottest))
+    factor, added = UNITS["C"]["degF"]
+    least, most = (factor * value + added for value in (coldest, hottest))
     if not (low - FAR_FROM_OIL <= least and most <= high + FAR_FROM_OIL):
         return [said]
     other = f"{coldest:g} to {hottest:g} °F would be {least:.3g} to {most:.3g} °C"

@@ -37,13 +37,13 @@ CROSSINGS, SMALLEST = 121, 1e-6
 def is_stated(case: Case, rows: Table) -> bool:
     """Whether the recording says how much its readings scatter."""
     stated = case.system.recording.noise
-    return f"{case.quantity}_sd" in rows or (stated is not None and (stated.relative > 0 or stated.absolute > 0))
+    return f"{case.quantity}_sd" in rows or (stated is not None and stated.of_single)
 
 
 def setups_differ(case: Case) -> bool:
     """Whether the recording says how much a set-up is off as a whole."""
     stated = case.system.recording.noise
-    return stated is not None and (stated.setup_relative > 0 or stated.setup_absolute > 0)
+    return stated is not None and stated.of_setups
 
 
 def with_noise(case: Case, relative: float, absolute: float) -> Case:

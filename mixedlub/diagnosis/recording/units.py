@@ -137,8 +137,6 @@ def too_hard_pressed(case: Case, rows: Table) -> list[str]:
     if contact is None or "load_N" not in rows:
         return []
     values = contact_inputs(contact, rows)
-    if values["reduced_modulus"] < HARD:
-        return []
     load = np.max(rows["load_N"])
     if contact.geometry == "line":
         width = values.get("contact_width")
@@ -146,11 +144,8 @@ def too_hard_pressed(case: Case, rows: Table) -> list[str]:
     else:
         radius = values["radius"]
         pressure = point_hertz_pressure(load, radius, values["transverse_radius"], values["reduced_modulus"])
-    if float(pressure) <= YIELDS * values["reduced_modulus"]:
-        return []
-    said = f"the largest load_N, {load:g}, would press the bodies with {1e-9 * float(pressure):.3g} GPa"
-    limit = f"where hard ones yield below {1e-9 * YIELDS * values['reduced_modulus']:.2g} GPa"
-    return [f"{said}, {limit}: check the unit of load_N and the radii in [contact]"]
+    said = f"the largest load_N, {load:g}, would press the bodies"
+    return _yielding(said, float(pressure), values["reduced_modulus"], "load_N and the radii in [contact]")
 
 
 def teeth_too_hard_pressed(case: Case, rows: Table, forward: Forward) -> list[str]:
@@ -158,11 +153,16 @@ def teeth_too_hard_pressed(case: Case, rows: Table, forward: Forward) -> list[st
     if case.system.gears is None or "torque_Nm" not in rows:
         return []
     pressure, modulus = (np.max(forward.base(name)) for name in ("hertz_pressure", "reduced_modulus"))
+    said = f"the largest torque_Nm, {np.max(np.abs(rows['torque_Nm'])):g}, would press the flanks"
+    return _yielding(said, pressure, modulus, "torque_Nm, and module and face width in [gears]")
+
+
+def _yielding(said: str, pressure: float, modulus: float, cause: str) -> list[str]:
+    """That a pressure (Pa) is one under which hard bodies of this reduced modulus (Pa) would yield."""
     if modulus < HARD or pressure <= YIELDS * modulus:
         return []
-    said = f"the largest torque_Nm, {np.max(np.abs(rows['torque_Nm'])):g}, would press the flanks with"
-    limit = f"{1e-9 * pressure:.3g} GPa, where hard ones yield below {1e-9 * YIELDS * modulus:.2g} GPa"
-    return [f"{said} {limit}: check the unit of torque_Nm, and module and face width in [gears]"]
+    limit = f"with {1e-9 * pressure:.3g} GPa, where hard ones yield below {1e-9 * YIELDS * modulus:.2g} GPa"
+    return [f"{said} {limit}: check the unit of {cause}"]
 
 
 SIZED = ("entrainment_speed_m_s", "sliding_speed_m_s", "film_thickness_nm")
