@@ -14,8 +14,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import typer
 
 from mixedlub.commands import check, diagnose, effects, import_files, kinds, profile, prove, simulate, study
-from mixedlub.commands.output import drop_empty_folders, forget_folder, note, save_traceback, say, what_is_kept
-from mixedlub.refusal import of_option
+from mixedlub.commands.console import drop_empty_folders, forget_folder, note, save_traceback, say, what_is_kept
+from mixedlub.schema.messages import of_option
 from profiles.errors import InputError, nearest
 
 COMMANDS = (profile, study, simulate, diagnose, check, import_files, kinds, effects, prove)

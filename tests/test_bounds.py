@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from mixedlub import bounds, config
-from mixedlub.config import KINDS
 from mixedlub.kinds import kind
-from mixedlub.study.sections import Conditions
+from mixedlub.schema import ranges, system_file
+from mixedlub.schema.system_file import KINDS
+from mixedlub.study.schema import Conditions
 from profiles.errors import InputError
 
 FREE = {"gears.teeth", "recording.noise.absolute", "recording.noise.setup_absolute"}
@@ -19,12 +19,12 @@ RECORDED = "recordings."
 """Before the names of columns, which bound themselves: their rows hold what is usual."""
 
 
-def numeric_keys(model: type[config.Section], place: str = "") -> set[str]:
+def numeric_keys(model: type[system_file.Section], place: str = "") -> set[str]:
     """Keys of a model, and of the models in it, that hold numbers."""
     found = set()
     for name, field in model.model_fields.items():
-        inside = config._flatten((field.annotation,))
-        tables = [a for a in inside if config._is_model(a)]
+        inside = system_file._flatten((field.annotation,))
+        tables = [a for a in inside if system_file._is_model(a)]
         for table in tables:
             found |= numeric_keys(table, f"{place}{name}.")
         if not tables and {float, int} & set(inside):
@@ -33,24 +33,24 @@ def numeric_keys(model: type[config.Section], place: str = "") -> set[str]:
 
 
 def test_every_number_of_a_case_and_of_the_conditions_of_a_study_has_its_row() -> None:
-    keys = numeric_keys(config.System) | numeric_keys(Conditions, "conditions.")
-    assert keys - FREE == {key for key in bounds.ranges() if not key.startswith(RECORDED)}
+    keys = numeric_keys(system_file.System) | numeric_keys(Conditions, "conditions.")
+    assert keys - FREE == {key for key in ranges.ranges() if not key.startswith(RECORDED)}
 
 
 def test_rows_of_recordings_are_columns_of_a_kind() -> None:
     columns = {c for k in KINDS for c in (*(column.name for column in kind(k).columns), *kind(k).quantities)}
-    assert {key.removeprefix(RECORDED) for key in bounds.ranges() if key.startswith(RECORDED)} <= columns
+    assert {key.removeprefix(RECORDED) for key in ranges.ranges() if key.startswith(RECORDED)} <= columns
 
 
 def test_each_section_looks_up_its_own_rows() -> None:
-    places = {s.place for s in config.Section.__subclasses__() if s.place}
-    tables = {key.rpartition(".")[0] for key in bounds.ranges()} - {"", RECORDED.rstrip(".")}
+    places = {s.place for s in system_file.Section.__subclasses__() if s.place}
+    tables = {key.rpartition(".")[0] for key in ranges.ranges()} - {"", RECORDED.rstrip(".")}
     assert tables <= places
 
 
-@pytest.mark.parametrize("key", bounds.ranges())
+@pytest.mark.parametrize("key", ranges.ranges())
 def test_what_is_usual_is_possible(key: str) -> None:
-    found = bounds.ranges()[key]
+    found = ranges.ranges()[key]
     assert found.possible[0] <= found.usual[0] < found.usual[1] <= found.possible[1]
 
 
@@ -89,7 +89,7 @@ SLIPS = [
 @pytest.mark.parametrize(("section", "key", "value", "said"), SLIPS)
 def test_a_slip_of_the_unit_is_refused_with_the_unit_that_fits(section, key, value, said) -> None:
     with pytest.raises(InputError) as refused:
-        config.parse(config.System, system(section, key, value), "system.toml")
+        system_file.parse(system_file.System, system(section, key, value), "system.toml")
     place = {"": key, "surfaces": f"surfaces.a.{key}"}.get(section, f"{section}.{key}")
     assert str(refused.value).startswith(f"system.toml: {place}: ")
     assert said in str(refused.value)
@@ -112,8 +112,8 @@ ODD_BUT_RIGHT = [
 
 @pytest.mark.parametrize(("section", "key", "value"), ODD_BUT_RIGHT)
 def test_an_unusual_rig_is_neither_refused_nor_doubted(section, key, value) -> None:
-    found = config.parse(config.System, system(section, key, value), "system.toml")
-    assert list(bounds.unusual(found)) == []
+    found = system_file.parse(system_file.System, system(section, key, value), "system.toml")
+    assert list(ranges.unusual(found)) == []
 
 
 FAR_OFF = [
@@ -136,18 +136,18 @@ FAR_OFF = [
 
 @pytest.mark.parametrize(("section", "key", "value", "said"), FAR_OFF)
 def test_a_possible_number_far_from_any_rig_is_doubted_with_what_is_usual(section, key, value, said) -> None:
-    found = config.parse(config.System, system(section, key, value), "system.toml")
-    (doubt,) = bounds.unusual(found)
+    found = system_file.parse(system_file.System, system(section, key, value), "system.toml")
+    (doubt,) = ranges.unusual(found)
     assert said in doubt
 
 
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), "50", True])
 def test_what_is_no_finite_number_is_refused(value) -> None:
     with pytest.raises(InputError, match=r"system\.toml: lubricant\.eyring_stress_MPa: "):
-        config.parse(config.System, system("lubricant", "eyring_stress_MPa", value), "system.toml")
+        system_file.parse(system_file.System, system("lubricant", "eyring_stress_MPa", value), "system.toml")
 
 
 def test_practice_cases_lie_within_what_is_usual(shared: Path) -> None:
     for folder in sorted((shared / "cases").glob("case_*")):
-        found = config.parse(config.System, config.read_toml(folder / "system.toml"), folder.name)
-        assert list(bounds.unusual(found)) == []
+        found = system_file.parse(system_file.System, system_file.read_toml(folder / "system.toml"), folder.name)
+        assert list(ranges.unusual(found)) == []

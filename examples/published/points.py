@@ -12,14 +12,15 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub import bodies, config
-from mixedlub.case import read_case
-from mixedlub.chain import Model
-from mixedlub.effect import find
-from mixedlub.forward import Forward
+from mixedlub.case.folder import read_case
+from mixedlub.case.forward import Forward
+from mixedlub.chain.effect import find
+from mixedlub.chain.model import Model
+from mixedlub.rig import build
+from mixedlub.schema import system_file
+from mixedlub.schema.table import Table
 from mixedlub.study import read_study, run_study
-from mixedlub.study.sections import StudyFile
-from mixedlub.table import Table
+from mixedlub.study.schema import StudyFile
 
 HERE = Path(__file__).parent
 HEAT = {
@@ -56,10 +57,10 @@ Row = tuple[str, str, str, str]
 def fast_gears() -> Iterator[Row]:
     """Helical gears up to 95 m/s: relative changes of the mean friction."""
     file = HERE / "high_speed_gears.toml"
-    raw = config.read_toml(file)
+    raw = system_file.read_toml(file)
     friction = []
     for effects in MODELS:
-        study = read_study(file, config.parse(StudyFile, {**raw, "effects": effects}, str(file)))
+        study = read_study(file, system_file.parse(StudyFile, {**raw, "effects": effects}, str(file)))
         friction.append(run_study(study).dataset()["mean_friction"])
     for stated, measured, before, after in CHANGES:
         base, heat = (_percent(_mean(f, after) / _mean(f, before)) for f in friction)
@@ -79,7 +80,7 @@ def nasa_rig() -> Iterator[Row]:
     """Spur gears of the NASA gear noise rig: the largest friction while one pair of teeth carries the load."""
     case = read_case(HERE / "nasa_rig", need_recordings=False)
     assert case.system.gears is not None
-    pair = bodies.gear_pair(case.system.gears)
+    pair = build.gear_pair(case.system.gears)
     single = np.linspace(pair.lowest_single_contact, pair.highest_single_contact, 41) / pair.base_radius[0]
     rows = [(speed, load) for speed in SPEEDS for load in LOADS]
     table = Table(

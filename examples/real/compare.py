@@ -12,11 +12,11 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub.case import read_case
+from mixedlub.case.folder import read_case
+from mixedlub.diagnosis.assessment.identifiability import confusion
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.judging.confusion import confusion
-from mixedlub.diagnosis.telling.answer import as_json
-from mixedlub.diagnosis.telling.resembling import unshown
+from mixedlub.diagnosis.report.text.alternatives import unshown
+from mixedlub.diagnosis.report.text.answer import as_json
 from profiles.errors import InputError
 
 KNOWN = tomllib.loads((Path(__file__).parent / "known.toml").read_text(encoding="utf-8"))

@@ -1,6 +1,6 @@
 """The rig of the worked example: an independent program that measures gearbox loss, with a loss kept secret.
 
-Nothing here uses the model that is to be diagnosed. The rig is that of `mixedlub.proof`: its own tooth geometry,
+Nothing here uses the model that is to be diagnosed. The rig is that of `mixedlub.validation`: its own tooth geometry,
 film and friction laws, its own form of the hidden loss, 240 points along the path of contact.
 
     python make_rig.py        writes first_campaign/ and second_campaign/ (what the engineer has)
@@ -16,11 +16,11 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub.proof.build import Case, rig_of
-from mixedlub.proof.concealed import NAMED
-from mixedlub.proof.explain import calibrated
-from mixedlub.proof.rig import readings
-from mixedlub.proof.sealed import toml
+from mixedlub.validation.build import Case, rig_of
+from mixedlub.validation.explain import calibrated
+from mixedlub.validation.planted import NAMED
+from mixedlub.validation.rig import readings
+from mixedlub.validation.sealed import toml
 
 HERE = Path(__file__).resolve().parent
 SECRET = {"churning": {"strength": 0.55, "speed_power": 1.9, "viscosity_power": 0.25}}

@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.drawing import figures
-from mixedlub.diagnosis.drawing.charts import evidence
-from mixedlub.diagnosis.drawing.maps import residual_map
-from mixedlub.diagnosis.drawing.style import AFTER, BEFORE, GRID, INK, MUTED, blank, look
 from mixedlub.diagnosis.labels import conditions_text, effect_words, explanation_words
-from mixedlub.diagnosis.telling import words
+from mixedlub.diagnosis.report.figures import figures
+from mixedlub.diagnosis.report.figures.charts import evidence
+from mixedlub.diagnosis.report.figures.maps import residual_map
+from mixedlub.diagnosis.report.figures.style import AFTER, BEFORE, GRID, INK, MUTED, blank, look
+from mixedlub.diagnosis.report.text import words
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

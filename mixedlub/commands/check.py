@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 import typer
 
-from mixedlub.commands.output import case_folder, note, say, within_range
-from mixedlub.headers import unit_of
+from mixedlub.commands.console import case_folder, note, say, within_range
+from mixedlub.schema.units import unit_of
 from profiles.errors import InputError
 
 if TYPE_CHECKING:
-    from mixedlub.calibration import Calibration
-    from mixedlub.case import Case
-    from mixedlub.forward import Forward
-    from mixedlub.table import Table
+    from mixedlub.case.folder import Case
+    from mixedlub.case.forward import Forward
+    from mixedlub.kinds.calibration import Calibration
+    from mixedlub.schema.table import Table
 
 NAME = "check"
 EXAMPLE = "mixedlub check examples/case"
@@ -28,7 +28,7 @@ def command(case: Annotated[Path, typer.Argument(metavar="CASE", help="Case fold
 
     What is there, what is missing, and what would be assumed for it.
     """
-    from mixedlub.case import read_case
+    from mixedlub.case.folder import read_case
 
     with within_range(str(case)):
         found = read_case(case_folder(case), need_recordings=False)
@@ -41,8 +41,8 @@ def command(case: Annotated[Path, typer.Argument(metavar="CASE", help="Case fold
 
 def understood(case: Case) -> Iterator[str]:
     """The case in plain words, line by line."""
-    from mixedlub.assumed import assumed
-    from mixedlub.case import hidden, noted
+    from mixedlub.case.defaults import assumed
+    from mixedlub.case.folder import hidden, noted
 
     yield f"{case.name}: a case of kind {case.system.kind}, recording {case.quantity}."
     if case.system.description:
@@ -67,13 +67,13 @@ def understood(case: Case) -> Iterator[str]:
 
 
 def _bodies(case: Case) -> Iterator[str]:
-    from mixedlub import bodies
+    from mixedlub.rig import build
 
     system = case.system
     if system.gears is not None:
-        pair = bodies.gear_pair(system.gears)
+        pair = build.gear_pair(system.gears)
         share = system.gears.load_sharing
-        bodies.sharing(share, case.folder)
+        build.sharing(share, case.folder)
         yield (
             f"Gears: {pair.teeth[0]}/{pair.teeth[1]} teeth, module {pair.normal_module * 1e3:.4g} mm, contact ratio "
             f"{pair.contact_ratio:.3f}, load shared by "
@@ -83,12 +83,12 @@ def _bodies(case: Case) -> Iterator[str]:
         radii = " and ".join(f"{r:g}" for r in system.contact.radius_mm)
         yield f"Contact: {system.contact.geometry} contact of radii {radii} mm."
     if "lubricant" in case.kind.sections or system.lubricant is not None:
-        oil = bodies.lubricant(system.lubricant)
-        low, high = (t - bodies.ZERO_CELSIUS for t in oil.temperature)
+        oil = build.lubricant(system.lubricant)
+        low, high = (t - build.ZERO_CELSIUS for t in oil.temperature)
         eta = oil.viscosity(np.array(oil.temperature)) * 1e3
         yield f"Oil: {oil.name}, {eta[0]:.3g} mPa s at {low:g} C and {eta[1]:.3g} mPa s at {high:g} C."
     for name, section in system.surfaces.items():
-        surface = bodies.surface(name, section, case.folder)
+        surface = build.surface(name, section, case.folder)
         origin = "its moments" if section.profile is None else f"the trace {section.profile}"
         coated = f", coated with {section.coating.name}" if section.coating else ""
         yield (
@@ -150,9 +150,9 @@ def _scatter(relative: float, absolute: float, case: Case) -> str:
 
 def _audit(case: Case, forward: Forward | None) -> Iterator[str]:
     """What is doubtful about system and readings, or why they cannot be diagnosed."""
-    from mixedlub.diagnosis.judging.reach import beyond_recorded
-    from mixedlub.diagnosis.recording.audit import doubts, system_doubts
-    from mixedlub.forward import Forward
+    from mixedlub.case.forward import Forward
+    from mixedlub.data_checks.audit import doubts, system_doubts
+    from mixedlub.diagnosis.assessment.extrapolation import beyond_recorded
     from mixedlub.importers.groups import pooled_in
 
     found = system_doubts(case)
@@ -177,7 +177,7 @@ def _audit(case: Case, forward: Forward | None) -> Iterator[str]:
 
 def _forward(case: Case) -> Forward | None:
     """The forward problem of what was recorded, or of what is wanted."""
-    from mixedlub.forward import Forward
+    from mixedlub.case.forward import Forward
 
     table = case.recordings if case.recordings is not None else case.conditions
     return None if table is None else Forward(case, table)

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.output import busy, case_folder, note, output_folder, say, within_range
+from mixedlub.commands.console import busy, case_folder, note, output_folder, say, within_range
 
 NAME = "diagnose"
 EXAMPLE = "mixedlub diagnose examples/case --out out/diagnose"
@@ -32,7 +32,7 @@ def command(
 
     How sure, where it shows, what it is confused with, and what to test next.
     """
-    from mixedlub.diagnosis.publishing.write import diagnose
+    from mixedlub.diagnosis.report.files import diagnose
 
     folder = output_folder(out, NAME, case_folder(case).resolve().name)
     with busy("reading") as progress, within_range(str(case)):

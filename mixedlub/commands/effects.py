@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.output import say
+from mixedlub.commands.console import say
 
 NAME = "effects"
 EXAMPLE = "mixedlub effects inlet_shear_heating"
@@ -19,6 +19,6 @@ def command(
 
     Equation, source, parameters, fingerprint, what it is confused with and the test that separates it.
     """
-    from mixedlub.catalogue import effects_text
+    from mixedlub.report.effect_pages import effects_text
 
     say(effects_text(effect))

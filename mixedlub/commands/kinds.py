@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.output import say
+from mixedlub.commands.console import say
 
 NAME = "kinds"
 EXAMPLE = "mixedlub kinds disc"
@@ -19,6 +19,6 @@ def command(
 
     Columns of recordings.csv and keys of system.toml, with unit, default, allowed values and meaning.
     """
-    from mixedlub.case_format import kinds_text
+    from mixedlub.case.format_reference import kinds_text
 
     say(kinds_text(kind))

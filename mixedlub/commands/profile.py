@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from mixedlub.commands.output import note, output_folder, say
-from mixedlub.writing import writing
+from mixedlub.atomic import writing
+from mixedlub.commands.console import note, output_folder, say
 from profiles.errors import InputError
 
 if TYPE_CHECKING:

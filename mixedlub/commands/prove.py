@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.output import output_folder, say
+from mixedlub.commands.console import output_folder, say
 
 NAME = "prove"
 EXAMPLE = "mixedlub prove --out out/prove"
@@ -45,9 +45,9 @@ def command(
     from rich.console import Console
     from rich.progress import Progress
 
-    from mixedlub.diagnosis.publishing.write import diagnose
-    from mixedlub.proof.bench.prove import prove_rigs
-    from mixedlub.proof.prove import prove
+    from mixedlub.diagnosis.report.files import diagnose
+    from mixedlub.validation.prove import prove
+    from mixedlub.validation.rigs.prove import prove_rigs
 
     folder = output_folder(out, NAME, ("rigs_" if rigs else "") + ("quick" if quick else "battery"))
     with Progress(console=Console(stderr=True)) as bar:

@@ -7,8 +7,8 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.output import case_folder, note, output_folder, say, within_range
-from mixedlub.writing import writing
+from mixedlub.atomic import writing
+from mixedlub.commands.console import case_folder, note, output_folder, say, within_range
 from profiles.errors import InputError
 
 NAME = "simulate"
@@ -26,9 +26,9 @@ def command(
 
     Those of recordings.csv and conditions.csv, or of another table; nothing is fitted.
     """
-    from mixedlub.case import hidden, noted, read_case, read_conditions
-    from mixedlub.forward import Forward
-    from mixedlub.usual import far_off
+    from mixedlub.case.folder import hidden, noted, read_case, read_conditions
+    from mixedlub.case.forward import Forward
+    from mixedlub.rig.plausibility import far_off
 
     notes: list[str] = []
     rows: dict[int, float] = {}

@@ -10,8 +10,8 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.output import note, output_folder, say, within_range
-from mixedlub.writing import writing
+from mixedlub.atomic import writing
+from mixedlub.commands.console import note, output_folder, say, within_range
 
 NAME = "study"
 EXAMPLE = "mixedlub study examples/study_21_pairings.toml --out out/study"
@@ -33,8 +33,8 @@ def command(
 
     A run that was stopped, started again with the same inputs, goes on where it was.
     """
-    from mixedlub.study import counted, factors, read_study, run_study, store
-    from mixedlub.study.ranges import out_of_range
+    from mixedlub.study import checkpoint, counted, factors, read_study, run_study
+    from mixedlub.study.validity import out_of_range
 
     with within_range(str(file)):
         study = read_study(file)
@@ -45,7 +45,9 @@ def command(
     start = time.perf_counter()
     with progress_bar("computing") as bar:
         progress = _resumed(bar)
-        results = run_study(study, parts=store.parts_folder(folder, study.plan), scheduler=scheduler, progress=progress)
+        results = run_study(
+            study, parts=checkpoint.parts_folder(folder, study.plan), scheduler=scheduler, progress=progress
+        )
     say(f"computed in {time.perf_counter() - start:.2f} s")
     warnings = out_of_range(results)
     for text in warnings:
@@ -56,9 +58,9 @@ def command(
             from mixedlub.report.page import write_page
 
             write_page(results, aside, (*study.notes, *warnings))
-    store.clear(folder)
+    checkpoint.clear(folder)
     page = folder / "index.html"
-    if not figures and page.exists() and store.fingerprint(study.plan) not in page.read_text("utf-8", "replace"):
+    if not figures and page.exists() and checkpoint.fingerprint(study.plan) not in page.read_text("utf-8", "replace"):
         note(f"{page} and the figures beside it are of another study; without --no-figures they are drawn anew")
     say(f"results in {folder / 'results.csv'} and .parquet" + (f", page {page}" if figures else ""))
 

@@ -8,27 +8,27 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub.case import Case, hidden, read_case, read_conditions, refuse_used_runs
-from mixedlub.diagnosis.judging.averaged import Predicted, averaged, leaders, outlier_chances
-from mixedlub.diagnosis.judging.channel import Check, check_channel
-from mixedlub.diagnosis.judging.doubts import against, likelier_notes, scatter_notes, unsure_odds
-from mixedlub.diagnosis.judging.heldout import HeldOut
-from mixedlub.diagnosis.judging.location import Region, passed_by, region
-from mixedlub.diagnosis.judging.mismatch import Mismatch, told_from_nothing
-from mixedlub.diagnosis.judging.nexttest import NextTest, next_tests
-from mixedlub.diagnosis.judging.posterior import Key, Posterior
-from mixedlub.diagnosis.judging.predict import Refined
-from mixedlub.diagnosis.judging.published import Contained, contained
-from mixedlub.diagnosis.judging.reach import beyond_recorded
-from mixedlub.diagnosis.judging.validity import beyond_range, unpublished
-from mixedlub.diagnosis.judging.verdict import judge
+from mixedlub.case.folder import Case, hidden, read_case, read_conditions, refuse_used_runs
+from mixedlub.case.forward import Forward
+from mixedlub.chain.effect import find
+from mixedlub.data_checks.audit import audit
+from mixedlub.diagnosis.assessment.answer_checks import against, likelier_notes, scatter_notes, unsure_odds
+from mixedlub.diagnosis.assessment.check_channel import Check, check_channel
+from mixedlub.diagnosis.assessment.cross_validation import HeldOut
+from mixedlub.diagnosis.assessment.experiment_design import NextTest, next_tests
+from mixedlub.diagnosis.assessment.extrapolation import beyond_recorded
+from mixedlub.diagnosis.assessment.location import Region, passed_by, region
+from mixedlub.diagnosis.assessment.mismatch_test import Mismatch, told_from_nothing
+from mixedlub.diagnosis.assessment.model_averaging import Predicted, averaged, leaders, outlier_chances
+from mixedlub.diagnosis.assessment.posterior import Key, Posterior
+from mixedlub.diagnosis.assessment.prediction import Refined
+from mixedlub.diagnosis.assessment.published_laws import Contained, contained
+from mixedlub.diagnosis.assessment.validity import beyond_range, unpublished
+from mixedlub.diagnosis.assessment.verdict import judge
 from mixedlub.diagnosis.labels import effect_words
-from mixedlub.diagnosis.recording.audit import audit
-from mixedlub.diagnosis.searching.search import Progress, Search
-from mixedlub.diagnosis.searching.weighed import weighed
-from mixedlub.effect import find
-from mixedlub.forward import Forward
-from mixedlub.table import Table
+from mixedlub.diagnosis.search.noise_selection import weighed
+from mixedlub.diagnosis.search.search import Progress, Search
+from mixedlub.schema.table import Table
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from mixedlub.diagnosis.recording.levels import one_point
-from mixedlub.headers import unit_of, without_unit
+from mixedlub.recording.set_points import one_point
+from mixedlub.schema.units import unit_of, without_unit
 
 STAGE_WORDS = {
     "film": "the oil film",

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import LogNormal, Parameter, effect
+from mixedlub.chain.effect import LogNormal, Parameter, effect
 from mixedlub.laws.contact import area_per_overlap
 from roughness.integrals import area_integral
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import Between, LogNormal, Parameter, effect
+from mixedlub.chain.effect import Between, LogNormal, Parameter, effect
 from mixedlub.laws.drag import bearing_asperity_share, palmgren_idle_torque, palmgren_load_torque
 
 _SIZE = 1.25

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import Between, LogNormal, Parameter, effect
+from mixedlub.chain.effect import Between, LogNormal, Parameter, effect
 from mixedlub.laws.drag import churning_changenet_velex
 
 TURBULENT = -1.0 / 3.0, 8.0 / 3.0

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import Between, LogNormal, Parameter, effect
+from mixedlub.chain.effect import Between, LogNormal, Parameter, effect
 
 FRICTION, PRESSURE = 0.05, 1e9
 """Friction coefficient and Hertz pressure (Pa) at which the slip of full sliding is given."""

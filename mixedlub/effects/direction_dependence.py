@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import Normal, Parameter, effect
+from mixedlub.chain.effect import Normal, Parameter, effect
 
 
 @effect(

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import BetweenLog, EitherSign, Parameter, effect
+from mixedlub.chain.effect import BetweenLog, EitherSign, Parameter, effect
 
 SHARPNESS = 60.0
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import BetweenLog, LogNormal, Parameter, effect
+from mixedlub.chain.effect import BetweenLog, LogNormal, Parameter, effect
 
 
 @effect(

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import Between, LogNormal, Parameter, effect
+from mixedlub.chain.effect import Between, LogNormal, Parameter, effect
 
 FORTY = 313.15
 """Kelvins at which fall and convexity are told: 40 degC, where oils are graded."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import Between, LogNormal, Parameter, effect
+from mixedlub.chain.effect import Between, LogNormal, Parameter, effect
 
 USUAL = 0.005
 """Hertz pressure over the reduced modulus at which the published factors are much alike."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import Between, BetweenLog, Parameter, effect
+from mixedlub.chain.effect import Between, BetweenLog, Parameter, effect
 
 REFERENCE = 0.01
 MOST_OF_BASES, THICKENED = 200.0, 0.2

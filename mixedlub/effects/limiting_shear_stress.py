@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import Between, BetweenLog, LogNormal, Parameter, effect
+from mixedlub.chain.effect import Between, BetweenLog, LogNormal, Parameter, effect
 
 WARM = 313.15
 """Oil temperature, 40 degC, at which the coefficient is told."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import Between, BetweenLog, Normal, Parameter, effect
+from mixedlub.chain.effect import Between, BetweenLog, Normal, Parameter, effect
 
 
 @effect(

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import BetweenLog, LogNormal, Normal, Parameter, effect
+from mixedlub.chain.effect import BetweenLog, LogNormal, Normal, Parameter, effect
 from mixedlub.laws.oil import roelands_coefficient, roelands_viscosity
 
 WARM = 313.15

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import Between, LogNormal, Parameter, effect
+from mixedlub.chain.effect import Between, LogNormal, Parameter, effect
 
 _PIVOT, _MATERIAL = 3e-11, 3000.0
 """Speed and material group at which both laws of the source give the same."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import Between, LogNormal, Parameter, effect
+from mixedlub.chain.effect import Between, LogNormal, Parameter, effect
 from mixedlub.laws.drag import seal_torque
 
 _PIVOT = 20e-6

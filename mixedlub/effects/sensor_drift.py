@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import Between, Parameter, Wide, effect
+from mixedlub.chain.effect import Between, Parameter, Wide, effect
 
 STEADY = 1e-9
 """Settling below which a drift is the straight line that it becomes."""

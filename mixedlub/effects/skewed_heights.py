@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import Between, Normal, Parameter, effect
+from mixedlub.chain.effect import Between, Normal, Parameter, effect
 from mixedlub.laws.contact import area_per_overlap
 from roughness.integrals import area_integral
 

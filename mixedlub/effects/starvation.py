@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import BetweenLog, LogNormal, Parameter, Wide, effect
+from mixedlub.chain.effect import BetweenLog, LogNormal, Parameter, Wide, effect
 
 USUAL = 1e9
 LEAST, MOST = 1e-300, 60.0

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import Between, BetweenLog, LogNormal, Parameter, effect
+from mixedlub.chain.effect import Between, BetweenLog, LogNormal, Parameter, effect
 
 
 @effect(

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import Parameter, Wide, effect
+from mixedlub.chain.effect import Parameter, Wide, effect
 
 
 @effect(

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import LogNormal, Parameter, Wide, effect
+from mixedlub.chain.effect import LogNormal, Parameter, Wide, effect
 
 SOFTNESS = 0.2
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import EitherSign, LogNormal, Parameter, Wide, effect
+from mixedlub.chain.effect import EitherSign, LogNormal, Parameter, Wide, effect
 
 
 @effect(

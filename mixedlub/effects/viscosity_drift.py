@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mixedlub.effect import Between, Normal, Parameter, Wide, effect
+from mixedlub.chain.effect import Between, Normal, Parameter, Wide, effect
 
 WARM = 313.15
 KELVIN = 100.0

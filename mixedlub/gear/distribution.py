@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mixedlub.gear.complementarity import share_out
 from mixedlub.gear.compliance import (
     bending_compliance,
     foundation_compliance,
@@ -22,6 +21,7 @@ from mixedlub.gear.compliance import (
     sainsot_foundation,
     weber_foundation,
 )
+from mixedlub.gear.contact_solver import share_out
 from mixedlub.gear.geometry import GearPair, Pair, number, two, whole
 from mixedlub.gear.modifications import Modifications
 from mixedlub.gear.plate import Plate, tapered_plate

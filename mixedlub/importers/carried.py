@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path, PurePath
 from typing import Any
 
-from mixedlub.bodies import SHIPPED_MARK
 from mixedlub.importers.draft import nested
+from mixedlub.rig.build import SHIPPED_MARK
 from profiles.errors import InputError, nearest
 
 OWN = ("system.toml", "recordings.csv", "conditions.csv")

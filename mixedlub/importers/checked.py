@@ -6,10 +6,10 @@ import re
 import tomllib
 from typing import Any
 
-from mixedlub import config
 from mixedlub.importers.draft import EVERY
 from mixedlub.importers.keys import MODELS, WORDS
 from mixedlub.importers.needs import INSTEAD
+from mixedlub.schema import system_file
 from profiles.errors import InputError
 
 NOISE = "recording.noise"
@@ -37,7 +37,7 @@ def refuse_wrong(key: str, value: Any) -> None:
     if key == EVERY.key and (not isinstance(value, int) or isinstance(value, bool) or value < 1):
         raise InputError("must be a whole number of at least 1", where=key, value=value)
     section, _, last = key.rpartition(".")
-    model = config.Noise if section == NOISE else MODELS.get(section)
+    model = system_file.Noise if section == NOISE else MODELS.get(section)
     if model is None or last not in model.model_fields:
         return
     words = {} if section == NOISE else WORDS[section]
@@ -47,6 +47,6 @@ def refuse_wrong(key: str, value: Any) -> None:
         if not meaning.startswith(INSTEAD)
     }
     try:
-        config.parse(model, {**others, last: value}, section)
+        system_file.parse(model, {**others, last: value}, section)
     except InputError as error:
         raise InputError(error.rule, where=key, value=value) from None

@@ -7,11 +7,11 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from mixedlub.headers import rounded, words_of
 from mixedlub.importers.dates import KEY, ORDERS, moments, resolution
 from mixedlub.importers.draft import WARNING, Answers
 from mixedlub.importers.pace import TIME
 from mixedlub.importers.sheet import Sheet, places
+from mixedlub.schema.units import rounded, words_of
 from profiles.errors import InputError
 
 STEPS = re.compile(r"\b(?:step|cycle|segment|stage|phase|interval|block|schritt|stufe|abschnitt|zyklus)s?\b")

@@ -8,7 +8,7 @@ import numpy as np
 
 from mixedlub.importers.draft import Answers
 from mixedlub.kinds import Kind
-from mixedlub.table import Column
+from mixedlub.schema.table import Column
 from profiles.errors import InputError
 
 VALUES = "import.values."

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.config import KINDS
 from mixedlub.importers.keys import WORDS
 from mixedlub.kinds import kind as kind_of
+from mixedlub.schema.system_file import KINDS
 from profiles.errors import InputError, nearest
 
 Answers = Mapping[str, Any]

@@ -12,12 +12,12 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.headers import split, words_of
 from mixedlub.importers.dates import is_dated
 from mixedlub.importers.draft import Answers
 from mixedlub.importers.sheet import Cells, Sheet, are_numbers, is_number
 from mixedlub.importers.write import toml_value
-from mixedlub.table import Table, is_missing
+from mixedlub.schema.table import Table, is_missing
+from mixedlub.schema.units import split, words_of
 from profiles.errors import InputError, nearest
 
 ONLY = "import.only."

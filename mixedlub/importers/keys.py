@@ -6,18 +6,18 @@ from collections.abc import Mapping
 
 from pydantic import BaseModel
 
-from mixedlub import config
+from mixedlub.schema import system_file
 
 Words = Mapping[str, tuple[str, str]]
 """By key: example and meaning."""
 
 MODELS: Mapping[str, type[BaseModel]] = {
-    "gears": config.Gears,
-    "contact": config.Contact,
-    "lubricant": config.Lubricant,
-    "surfaces": config.SurfaceSection,
-    "uncertainty": config.Uncertainty,
-    "recording": config.Recording,
+    "gears": system_file.Gears,
+    "contact": system_file.Contact,
+    "lubricant": system_file.Lubricant,
+    "surfaces": system_file.SurfaceSection,
+    "uncertainty": system_file.Uncertainty,
+    "recording": system_file.Recording,
 }
 
 MODULI = ("[206.0, 206.0]", "Young's moduli of the two bodies in GPa")

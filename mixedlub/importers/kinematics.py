@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from mixedlub.headers import change_to, split, words_of
 from mixedlub.importers.sheet import Cells, is_number
+from mixedlub.schema.units import change_to, split, words_of
 from profiles.errors import InputError
 
 SIDES = (("1", "2"), ("a", "b"), ("disc", "ball"), ("disk", "ball"), ("lower", "upper"), ("scheibe", "kugel"))

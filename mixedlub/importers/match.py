@@ -7,7 +7,17 @@ from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from mixedlub.headers import (
+from mixedlub.importers import pace
+from mixedlub.importers.constant import VALUES, has_header, in_words, not_told
+from mixedlub.importers.draft import Answers, Question
+from mixedlub.importers.kinematics import MADE, other_surface
+from mixedlub.importers.likely import either, is_logarithm, likely_headers, likely_spread, likeness
+from mixedlub.importers.sheet import Cells, are_numbers
+from mixedlub.importers.spare import spare_headers, spare_notes, spare_questions
+from mixedlub.importers.write import toml_value
+from mixedlub.kinds import Kind
+from mixedlub.schema.table import BOOKKEEPING, Column, is_missing
+from mixedlub.schema.units import (
     BY_NAME,
     TEXT_COLUMNS,
     WEIGHED,
@@ -23,16 +33,6 @@ from mixedlub.headers import (
     unknown_unit,
     words_of,
 )
-from mixedlub.importers import pace
-from mixedlub.importers.constant import VALUES, has_header, in_words, not_told
-from mixedlub.importers.draft import Answers, Question
-from mixedlub.importers.kinematics import MADE, other_surface
-from mixedlub.importers.likely import either, is_logarithm, likely_headers, likely_spread, likeness
-from mixedlub.importers.sheet import Cells, are_numbers
-from mixedlub.importers.spare import spare_headers, spare_notes, spare_questions
-from mixedlub.importers.write import toml_value
-from mixedlub.kinds import Kind
-from mixedlub.table import BOOKKEEPING, Column, is_missing
 from profiles.errors import InputError, nearest
 
 COLUMNS = "import.columns."

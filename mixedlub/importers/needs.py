@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel, ValidationError
 
-from mixedlub import config
-from mixedlub.assumed import BROAD, broadly_fitted, gears_taken, oil_taken
-from mixedlub.calibration import calibrations
+from mixedlub.case.defaults import BROAD, broadly_fitted, gears_taken, oil_taken
 from mixedlub.importers.keys import HEAD, MODELS, WORDS, Words
 from mixedlub.importers.write import toml_key, toml_value
 from mixedlub.kinds import kind as kind_of
-from mixedlub.table import Table
+from mixedlub.kinds.calibration import calibrations
+from mixedlub.schema import system_file
+from mixedlub.schema.table import Table
 
 INSTEAD = "instead of"
 
@@ -58,7 +58,7 @@ class Gap:
         return "; ".join(place + key + (f" ({value})" if value else "") for key, value in values.items())
 
 
-def gaps(system: config.System, columns: Mapping[str, np.ndarray]) -> tuple[Gap, ...]:
+def gaps(system: system_file.System, columns: Mapping[str, np.ndarray]) -> tuple[Gap, ...]:
     """What a case of the system's kind computes with and the system does not say; the rows name the surfaces."""
     rules = kind_of(system.kind)
     reads = _reads(system, columns)
@@ -66,7 +66,7 @@ def gaps(system: config.System, columns: Mapping[str, np.ndarray]) -> tuple[Gap,
     if "boundary_friction" not in reads:
         head.pop("boundary_friction", None)
     broad = broadly_fitted(system, columns)
-    usual = {k: BROAD if k in broad else _default(config.System, k) for k in head}
+    usual = {k: BROAD if k in broad else _default(system_file.System, k) for k in head}
     found = [Gap("", False, False, (), usual, HEAD)]
     wanted = [s for s in ("gears", "contact", "lubricant") if s in rules.sections]
     if "viscosity" in reads and "lubricant" not in wanted:
@@ -84,19 +84,19 @@ def gaps(system: config.System, columns: Mapping[str, np.ndarray]) -> tuple[Gap,
     return tuple(gap for gap in found if gap.needed or gap.assumed)
 
 
-def _reads(system: config.System, columns: Mapping[str, np.ndarray]) -> set[str]:
+def _reads(system: system_file.System, columns: Mapping[str, np.ndarray]) -> set[str]:
     """What the laws of the kind's chain read."""
     chain = kind_of(system.kind).chain(system, Table(columns))
     return {name for _, law in chain for name in inspect.signature(law).parameters}
 
 
-def _movable(system: config.System) -> tuple[Any, ...]:
+def _movable(system: system_file.System) -> tuple[Any, ...]:
     """Everything that calibration can move."""
-    everything = config.Uncertainty(**dict.fromkeys(config.Uncertainty.model_fields, 1.0))
+    everything = system_file.Uncertainty(**dict.fromkeys(system_file.Uncertainty.model_fields, 1.0))
     return calibrations(system.model_copy(update={"uncertainty": everything}))
 
 
-def undescribed(system: config.System, columns: Mapping[str, np.ndarray]) -> list[str]:
+def undescribed(system: system_file.System, columns: Mapping[str, np.ndarray]) -> list[str]:
     """Surfaces that the rows name and the system does not describe, where the kind computes with them."""
     if "surfaces" not in kind_of(system.kind).sections:
         return []
@@ -135,7 +135,7 @@ def _default(model: type[BaseModel], key: str) -> str:
     return "" if value is None or value == "" or isinstance(value, BaseModel) else toml_value(value)
 
 
-def told(found: tuple[Gap, ...], file: str, system: config.System) -> Iterator[str]:
+def told(found: tuple[Gap, ...], file: str, system: system_file.System) -> Iterator[str]:
     """The gaps in plain words, line by line: first those without which nothing computes."""
     taken = {"lubricant": oil_taken(system.lubricant)}
     if system.gears is not None:

@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mixedlub.headers import BY_NAME, Target, change_to, fits, rounded, split, words_of
 from mixedlub.importers.draft import Answers, Question
 from mixedlub.importers.sheet import COUNTED, Cells, are_numbers
+from mixedlub.schema.units import BY_NAME, Target, change_to, fits, rounded, split, words_of
 from profiles.errors import InputError
 
 TIME = "time_s"

@@ -7,7 +7,6 @@ from collections.abc import Sequence, Set
 
 import numpy as np
 
-from mixedlub.headers import BY_NAME, convert, rounded, split
 from mixedlub.importers.draft import WARNING, Answers, Draft, Question, kind_told, questions_of, refuse_unknown
 from mixedlub.importers.likely import likely_spread
 from mixedlub.importers.match import COLUMNS, target_for
@@ -15,6 +14,7 @@ from mixedlub.importers.sheet import not_above_zero
 from mixedlub.importers.spare import spare_notes, spare_questions
 from mixedlub.importers.steps import STEP, Step, steps_of, without_gaps
 from mixedlub.kinds import kind as kind_of
+from mixedlub.schema.units import BY_NAME, convert, rounded, split
 from profiles.errors import InputError, nearest
 
 SAID = re.compile(r"^Number of steps (completed|in profile):\t(\d+)", re.MULTILINE)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.config import KINDS
-from mixedlub.headers import convert
 from mixedlub.importers.clock import date_order, run_on
 from mixedlub.importers.constant import constants, value_keys
 from mixedlub.importers.dates import KEY as DATES
@@ -23,7 +21,9 @@ from mixedlub.importers.sheet import Cells, Sheet, not_above_zero, read_sheet, w
 from mixedlub.importers.write import toml_value
 from mixedlub.kinds import Kind
 from mixedlub.kinds import kind as kind_of
-from mixedlub.table import Column
+from mixedlub.schema.system_file import KINDS
+from mixedlub.schema.table import Column
+from mixedlub.schema.units import convert
 from profiles.errors import InputError, nearest
 
 

@@ -6,13 +6,14 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub import bodies, config
-from mixedlub.case import Case, noted, read_case, read_conditions
+from mixedlub.case.folder import Case, noted, read_case, read_conditions
 from mixedlub.kinds import kind as kind_of
+from mixedlub.rig import build
+from mixedlub.schema import system_file
 from profiles.errors import InputError
 
 
-def refuse_unreadable(folder: Path, system: config.System, complete: bool, shown: Path) -> str:
+def refuse_unreadable(folder: Path, system: system_file.System, complete: bool, shown: Path) -> str:
     """An error where `check` would give one; why `diagnose` would refuse what `check` reads, else nothing.
 
     Of a case that still lacks sections (not ``complete``) the tables and what is described are read. The error names
@@ -22,7 +23,7 @@ def refuse_unreadable(folder: Path, system: config.System, complete: bool, shown
         with noted([]):
             return (_whole(folder) if complete else _parts(folder, system)).replace(str(folder), str(shown))
     except InputError as error:
-        told = config.in_file(error, str(folder / "system.toml"))
+        told = system_file.in_file(error, str(folder / "system.toml"))
         rule, where = (text.replace(str(folder), str(shown)) for text in (told.rule, told.where))
         raise InputError(f"{rule}; nothing was written", where=where, value=told.value) from None
     except ArithmeticError as error:
@@ -31,8 +32,8 @@ def refuse_unreadable(folder: Path, system: config.System, complete: bool, shown
 
 
 def _whole(folder: Path) -> str:
-    from mixedlub.diagnosis.recording.audit import doubts
-    from mixedlub.forward import Forward
+    from mixedlub.case.forward import Forward
+    from mixedlub.data_checks.audit import doubts
 
     case = read_case(folder)
     assert case.recordings is not None
@@ -45,18 +46,18 @@ def _whole(folder: Path) -> str:
     return ""
 
 
-def _parts(folder: Path, system: config.System) -> str:
+def _parts(folder: Path, system: system_file.System) -> str:
     _bodies(system, folder)
     read_conditions(Case("", folder, system, kind_of(system.kind), None, None, ()), folder / "recordings.csv")
     return ""
 
 
-def _bodies(system: config.System, folder: Path) -> None:
+def _bodies(system: system_file.System, folder: Path) -> None:
     """What the system describes is built once, as `check` does."""
     if system.gears is not None:
-        bodies.gear_pair(system.gears)
-        bodies.sharing(system.gears.load_sharing, folder)
+        build.gear_pair(system.gears)
+        build.sharing(system.gears.load_sharing, folder)
     if system.lubricant is not None:
-        bodies.lubricant(system.lubricant)
+        build.lubricant(system.lubricant)
     for name, section in system.surfaces.items():
-        bodies.surface(name, section, folder)
+        build.surface(name, section, folder)

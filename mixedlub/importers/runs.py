@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mixedlub.headers import words_of
 from mixedlub.importers.draft import Answers
 from mixedlub.importers.sheet import Sheet
-from mixedlub.table import LARGEST
+from mixedlub.schema.table import LARGEST
+from mixedlub.schema.units import words_of
 from profiles.errors import InputError, nearest
 
 KEY = "import.columns.run"

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from mixedlub.headers import is_unit, split
 from mixedlub.importers.marks import Line, with_points
 from mixedlub.importers.rows import rows_of
-from mixedlub.table import is_missing
+from mixedlub.schema.table import is_missing
+from mixedlub.schema.units import is_unit, split
 from profiles.errors import InputError
 
 Cells = Mapping[str, list[str]]

@@ -6,12 +6,12 @@ import re
 import shlex
 from collections.abc import Iterable, Mapping, Sequence
 
-from mixedlub.headers import split, words_of
 from mixedlub.importers.draft import Question
 from mixedlub.importers.likely import likely_headers
 from mixedlub.importers.sheet import Cells, are_numbers
 from mixedlub.importers.write import toml_value
-from mixedlub.table import Column
+from mixedlub.schema.table import Column
+from mixedlub.schema.units import split, words_of
 
 SLIP = "slide_roll_ratio"
 SLIDES = re.compile(r"\b(?:slip|schlupf|slid|gleit)")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.headers import BY_NAME, convert, rounded, target_of
 from mixedlub.importers.draft import WARNING, Answers, Draft, kind_told, questions_of, refuse_unknown
 from mixedlub.importers.sheet import count, places
-from mixedlub.table import Column
+from mixedlub.schema.table import Column
+from mixedlub.schema.units import BY_NAME, convert, rounded, target_of
 from profiles.errors import InputError
 
 WANTED = ("temperature_C", "viscosity_mPa_s", "time_s")

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub import config
 from mixedlub.importers import pcs, plain, trios
 from mixedlub.importers.carried import carried, is_share, with_share
 from mixedlub.importers.checked import is_list, refuse_wrong
@@ -23,7 +22,8 @@ from mixedlub.importers.pace import TIME
 from mixedlub.importers.readable import refuse_unreadable
 from mixedlub.importers.runs import together
 from mixedlub.importers.write import write_case
-from mixedlub.table import CaseWarning, with_hyphens
+from mixedlub.schema import system_file
+from mixedlub.schema.table import CaseWarning, with_hyphens
 from profiles.errors import InputError, nearest
 from profiles.readers.numbers import decoded
 
@@ -125,7 +125,7 @@ def run(
 
     ``ask`` is None where nobody is there to answer; then missing answers are an error that lists them.
     """
-    answers = flat(config.read_toml(answers_file)) if answers_file is not None else {}
+    answers = flat(system_file.read_toml(answers_file)) if answers_file is not None else {}
     answers.update(parse_setting(s) for s in settings)
     files, shares = _apart(files)
     answers = with_share(answers, shares)
@@ -151,7 +151,7 @@ def run(
     if refusal:
         say(f"{WARNING}diagnose cannot use this case as it stands: {refusal}")
     say(f"{folder}: a case of kind {draft.kind} that records {draft.quantity}")
-    system = config.parse(config.System, config.read_toml(folder / "system.toml"), "system.toml")
+    system = system_file.parse(system_file.System, system_file.read_toml(folder / "system.toml"), "system.toml")
     for line in told(gaps(system, draft.columns), str(folder / "system.toml"), system):
         say(line)
     return folder
@@ -254,7 +254,7 @@ def _write(
     for section, facts in draft.system.items():
         system[section] = {**facts, **system.get(section, {})}
     system["recording"] = {"quantity": draft.quantity, **system.get("recording", {})}
-    checked = config.parse(config.System, {"schema": SCHEMA, **system}, "answers")
+    checked = system_file.parse(system_file.System, {"schema": SCHEMA, **system}, "answers")
     every = answers.get(EVERY.key, 1)
     refuse_wrong(EVERY.key, every)
     columns = {name: values[::every] for name, values in draft.columns.items()}

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.writing import writing
+from mixedlub.atomic import writing
 from profiles.errors import InputError
 
 Comments = Mapping[str, Sequence[str]]

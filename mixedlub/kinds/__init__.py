@@ -5,8 +5,8 @@ from __future__ import annotations
 import importlib
 from functools import cache
 
-from mixedlub.config import KINDS
 from mixedlub.kinds.kind import Kind
+from mixedlub.schema.system_file import KINDS
 
 
 @cache

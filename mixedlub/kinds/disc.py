@@ -6,17 +6,18 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub import bodies, config
-from mixedlub.calibration import Calibration
-from mixedlub.chain import Chain
-from mixedlub.chains import LINE, POINT
-from mixedlub.kinds import unknown_oil
+from mixedlub.chain.base_models import LINE, POINT
+from mixedlub.chain.model import Chain
+from mixedlub.kinds import oil_priors
+from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, inverse_load
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws import load, loss
 from mixedlub.laws.contact import reduced_modulus
 from mixedlub.laws.oil import ZERO_CELSIUS
-from mixedlub.table import Column, Table
+from mixedlub.rig import build
+from mixedlub.schema import system_file
+from mixedlub.schema.table import Column, Table
 from profiles.errors import InputError
 
 COLUMNS = (
@@ -46,7 +47,7 @@ def point_reading(friction: np.ndarray) -> np.ndarray:
     return friction
 
 
-def contact_inputs(contact: config.Contact, table: Table) -> Inputs:
+def contact_inputs(contact: system_file.Contact, table: Table) -> Inputs:
     """Chain inputs of the bodies and their motion."""
     first, second = contact.youngs_modulus_GPa
     modulus = reduced_modulus((first * 1e9, second * 1e9), contact.poisson_ratio)
@@ -68,13 +69,13 @@ def contact_inputs(contact: config.Contact, table: Table) -> Inputs:
     return found
 
 
-def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
+def inputs(system: system_file.System, folder: Path, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table."""
     assert system.contact is not None
     temperature = column(table["oil_temperature_C"]) + ZERO_CELSIUS
     return {
         **contact_inputs(system.contact, table),
-        **bodies.lubricant(system.lubricant).inputs(temperature),
+        **build.lubricant(system.lubricant).inputs(temperature),
         **pair_of_surfaces(system, folder, table, "surface_1", "surface_2"),
         **bookkeeping_inputs(system, table),
         **inverse_load(system, table, recorded),
@@ -83,12 +84,12 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
     }
 
 
-def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibration, ...]:
+def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Calibration, ...]:
     """An unnamed oil takes broad priors."""
-    return unknown_oil.calibrations(system, recorded["oil_temperature_C"] + ZERO_CELSIUS)
+    return oil_priors.calibrations(system, recorded["oil_temperature_C"] + ZERO_CELSIUS)
 
 
-def chain(system: config.System, table: Table) -> Chain:
+def chain(system: system_file.System, table: Table) -> Chain:
     """Line contact, or point contact for a ball."""
     if system.contact is not None and system.contact.geometry == "point":
         return (*POINT, ("reading", point_reading))

@@ -7,18 +7,19 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub import bodies, config
-from mixedlub.calibration import Calibration
-from mixedlub.chain import Chain
-from mixedlub.effect import LogNormal, Normal, Parameter
-from mixedlub.kinds import unknown_oil
+from mixedlub.chain.effect import LogNormal, Normal, Parameter
+from mixedlub.chain.model import Chain
+from mixedlub.kinds import oil_priors
+from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.disc import COLUMNS, contact_inputs
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, programme, varies
 from mixedlub.laws import contact, film, load
 from mixedlub.laws.film import LINE_EXPONENT, LINE_LOAD_EXPONENT, POINT_EXPONENT
 from mixedlub.laws.oil import ZERO_CELSIUS
-from mixedlub.lubricant import Lubricant
-from mixedlub.table import Column, Table
+from mixedlub.rig import build
+from mixedlub.rig.lubricant import Lubricant
+from mixedlub.schema import system_file
+from mixedlub.schema.table import Column, Table
 
 FRINGE_NM = (167.0, 225.0)
 """One interference order, wavelength/(2 n): visible light of 500 to 620 nm, refractive index 1.38 to 1.5."""
@@ -44,11 +45,11 @@ def reading(film_thickness: np.ndarray) -> np.ndarray:
     return film_thickness
 
 
-def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
+def inputs(system: system_file.System, folder: Path, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table."""
     assert system.contact is not None
     temperature = column(table["oil_temperature_C"]) + ZERO_CELSIUS
-    oil = bodies.lubricant(system.lubricant)
+    oil = build.lubricant(system.lubricant)
     return {
         **contact_inputs(system.contact, table),
         **oil.inputs(temperature),
@@ -61,7 +62,7 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
     }
 
 
-def _thickener(system: config.System, oil: Lubricant) -> Inputs:
+def _thickener(system: system_file.System, oil: Lubricant) -> Inputs:
     """The viscosity index, by which an oil shows that it holds polymer; polyglycols are polymers without one.
 
     That is of films alone: gears soon cut such polymer to pieces.
@@ -92,14 +93,14 @@ def _orders(table: Table, recorded: Table) -> Inputs:
     return {"fringe_order": column(orders), "first_fringe_order": first}
 
 
-def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibration, ...]:
+def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Calibration, ...]:
     """An unnamed oil takes broad priors; the film law is known as well as film laws agree."""
-    oil = unknown_oil.calibrations(system, recorded["oil_temperature_C"] + ZERO_CELSIUS)
+    oil = oil_priors.calibrations(system, recorded["oil_temperature_C"] + ZERO_CELSIUS)
     return (*oil, *(_of_line(recorded["load_N"]) if _is_line(system) else _of_ball(system)))
 
 
-def _of_ball(system: config.System) -> Iterator[Calibration]:
-    spread = UNNAMED_OIL if unknown_oil.missing(system) else KNOWN_OIL
+def _of_ball(system: system_file.System) -> Iterator[Calibration]:
+    spread = UNNAMED_OIL if oil_priors.missing(system) else KNOWN_OIL
     regime = Parameter(
         "film_regime", "-", Normal(0.0, spread), "0: film of Hamrock and Dowson, 1: of Nijenbanning, Venner and Moes"
     )
@@ -119,11 +120,11 @@ def _exponent(name: str, of: str, nominal: float, spread: float) -> Calibration:
     return Calibration(parameter, lambda inputs, value: {change: nominal * (value - 1.0)}, 1.0, (change,))
 
 
-def _is_line(system: config.System) -> bool:
+def _is_line(system: system_file.System) -> bool:
     return system.contact is not None and system.contact.geometry == "line"
 
 
-def chain(system: config.System, table: Table) -> Chain:
+def chain(system: system_file.System, table: Table) -> Chain:
     """Hamrock-Dowson for a ball, Dowson-Toyoda for a roller."""
     if _is_line(system):
         contact_laws: Chain = (

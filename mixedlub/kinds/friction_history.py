@@ -8,14 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub import config
-from mixedlub.calibration import Calibration
-from mixedlub.chain import Chain
-from mixedlub.effect import LogNormal, Parameter
-from mixedlub.kinds import disc, unknown_oil
+from mixedlub.chain.effect import LogNormal, Parameter
+from mixedlub.chain.model import Chain
+from mixedlub.kinds import disc, oil_priors
+from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, inverse_load, programme
 from mixedlub.laws.oil import ZERO_CELSIUS
-from mixedlub.table import CaseWarning, Column, Table
+from mixedlub.schema import system_file
+from mixedlub.schema.table import CaseWarning, Column, Table
 
 COLUMNS = (
     Column("time_s"),
@@ -36,13 +36,13 @@ def constant_friction(boundary_friction: np.ndarray) -> np.ndarray:
     return boundary_friction
 
 
-def resolved(system: config.System, table: Table) -> bool:
+def resolved(system: system_file.System, table: Table) -> bool:
     """Whether film and asperities can be computed: contact, oil, surfaces and all conditions are given."""
     sections = system.contact is not None and system.lubricant is not None and bool(system.surfaces)
     return sections and all(name in table for name in NEEDED)
 
 
-def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
+def inputs(system: system_file.System, folder: Path, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table."""
     if resolved(system, table):
         return {**disc.inputs(system, folder, table, recorded), **programme(table, recorded)}
@@ -89,20 +89,20 @@ def _conditions(table: Table, recorded: Table) -> Inputs:
     return found
 
 
-def _given(system: config.System) -> bool:
+def _given(system: system_file.System) -> bool:
     return system.uncertainty.boundary_friction > 0
 
 
-def _level(system: config.System, recorded: Table) -> float:
+def _level(system: system_file.System, recorded: Table) -> float:
     if _given(system) or "friction_coefficient" not in recorded:
         return system.boundary_friction
     return max(float(np.median(np.abs(recorded["friction_coefficient"]))), 1e-3)
 
 
-def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibration, ...]:
+def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Calibration, ...]:
     """The constant coefficient where nothing is said of it; an unnamed oil where the film is computed."""
     if resolved(system, recorded):
-        return unknown_oil.calibrations(system, recorded["oil_temperature_C"] + ZERO_CELSIUS)
+        return oil_priors.calibrations(system, recorded["oil_temperature_C"] + ZERO_CELSIUS)
     if _given(system):
         return ()
     level = _level(system, recorded)
@@ -112,7 +112,7 @@ def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibrati
     return (Calibration(parameter, lambda inputs, value: {"boundary_friction": value}, level, ("boundary_friction",)),)
 
 
-def chain(system: config.System, table: Table) -> Chain:
+def chain(system: system_file.System, table: Table) -> Chain:
     """The mixture of film and asperities where it can be computed, else one coefficient."""
     if resolved(system, table):
         return disc.chain(system, table)

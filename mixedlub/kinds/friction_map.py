@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub import config
-from mixedlub.calibration import Calibration
-from mixedlub.chain import Chain
-from mixedlub.effect import BetweenLog, LogNormal, Normal, Parameter
+from mixedlub.chain.effect import BetweenLog, LogNormal, Normal, Parameter
+from mixedlub.chain.model import Chain
+from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out, inverse_load, programme
 from mixedlub.laws import drive
 from mixedlub.laws.oil import ZERO_CELSIUS
-from mixedlub.table import CaseWarning, Column, Table
+from mixedlub.schema import system_file
+from mixedlub.schema.table import CaseWarning, Column, Table
 from profiles.errors import InputError
 
 SPEEDS = ("speed_rpm", "sliding_speed_m_s")
@@ -57,7 +57,7 @@ def drive_speed(table: Table) -> np.ndarray:
     return table[present[0]] * (np.pi / 30.0 if present[0] == "speed_rpm" else 1.0)
 
 
-def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
+def inputs(system: system_file.System, folder: Path, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table."""
     speed = drive_speed(table)
     size = _size(system, recorded)
@@ -150,14 +150,14 @@ def _motor_column(table: Table) -> str | None:
     return next((name for name in (MOTOR_TORQUE.name, "torque_Nm") if name in table), None)
 
 
-def _size(system: config.System, recorded: Table) -> float:
+def _size(system: system_file.System, recorded: Table) -> float:
     """Typical size of the readings of the complete drive; in one direction a payload may make up for friction."""
     values, speed = _complete(system, recorded)
     size = np.abs(values)
     return float(max(np.median(size), LEAST_SHARE * np.quantile(size, LARGE), made_up_for(values, speed))) or 1.0
 
 
-def _largest(system: config.System, recorded: Table) -> float:
+def _largest(system: system_file.System, recorded: Table) -> float:
     """Size of the largest readings but for wild ones: most may be at speeds too low for viscous friction."""
     if system.recording.quantity not in recorded:
         return 1.0
@@ -165,7 +165,7 @@ def _largest(system: config.System, recorded: Table) -> float:
     return float(max(np.quantile(size, LARGE), made_up_for(*_complete(system, recorded)))) or 1.0
 
 
-def _complete(system: config.System, recorded: Table) -> tuple[np.ndarray, np.ndarray]:
+def _complete(system: system_file.System, recorded: Table) -> tuple[np.ndarray, np.ndarray]:
     """Readings of the complete drive, or of what there is, and their speeds."""
     if system.recording.quantity not in recorded:
         return np.ones(1), np.ones(1)
@@ -196,7 +196,7 @@ def made_up_for(values: np.ndarray, speed: np.ndarray) -> float:
     return max(spans)
 
 
-def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibration, ...]:
+def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Calibration, ...]:
     """Dry, viscous and payload torque, all unknown: broad priors of the size of the readings."""
     size, largest = _size(system, recorded), _largest(system, recorded)
 
@@ -227,7 +227,7 @@ def _bare_share(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
     return {"gears_fitted": np.where(fitted == 1.0, 1.0, value)}
 
 
-def chain(system: config.System, table: Table) -> Chain:
+def chain(system: system_file.System, table: Table) -> Chain:
     """Coulomb and viscous friction, and a payload."""
     return (
         ("running_friction", drive.coulomb_viscous),

@@ -7,13 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub import bodies, config
-from mixedlub.chains import GEAR_LOSS
+from mixedlub.chain.base_models import GEAR_LOSS
 from mixedlub.gear import Mesh, mesh
 from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws.oil import ZERO_CELSIUS
-from mixedlub.table import CaseWarning, Column, Table
+from mixedlub.rig import build
+from mixedlub.schema import system_file
+from mixedlub.schema.table import CaseWarning, Column, Table
 
 PATH_POINTS = 24
 
@@ -96,12 +97,12 @@ def without_gears(found: Inputs, table: Table) -> Inputs:
     }
 
 
-def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
+def inputs(system: system_file.System, folder: Path, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table."""
     assert system.gears is not None
-    pair = bodies.gear_pair(system.gears)
-    points = mesh(pair, bodies.sharing(system.gears.load_sharing, folder), points=PATH_POINTS)
-    oil = bodies.lubricant(system.lubricant)
+    pair = build.gear_pair(system.gears)
+    points = mesh(pair, build.sharing(system.gears.load_sharing, folder), points=PATH_POINTS)
+    oil = build.lubricant(system.lubricant)
     temperature = column(table["oil_temperature_C"]) + ZERO_CELSIUS
     mesh_inputs = contact_inputs(points, column(table["torque_Nm"]), column(table["speed_rpm"]) * np.pi / 30.0)
     return {

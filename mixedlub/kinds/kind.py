@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub import config
-from mixedlub.calibration import Calibration
-from mixedlub.chain import Chain
+from mixedlub.chain.model import Chain
+from mixedlub.kinds.calibration import Calibration
 from mixedlub.laws.oil import ZERO_CELSIUS
-from mixedlub.table import Column, Table
+from mixedlub.schema import system_file
+from mixedlub.schema.table import Column, Table
 
 Inputs = dict[str, Any]
 WANDERS = 0.02
@@ -44,15 +44,15 @@ class Kind:
     quantities: tuple[str, ...]
     columns: tuple[Column, ...]
     sections: tuple[str, ...]
-    chain: Callable[[config.System, Table], Chain]
-    inputs: Callable[[config.System, Path, Table, Table], Inputs]
-    extra_calibration: Callable[[config.System, Table], tuple[Calibration, ...]] = lambda system, recorded: ()
+    chain: Callable[[system_file.System, Table], Chain]
+    inputs: Callable[[system_file.System, Path, Table, Table], Inputs]
+    extra_calibration: Callable[[system_file.System, Table], tuple[Calibration, ...]] = lambda system, recorded: ()
     reading_fault: Callable[[Table, int, float, float], str | None] = lambda recorded, row, excess, sd: None
     logarithmic: bool = False
     part_rigs: tuple[str, ...] = ()
     channels: tuple[Column, ...] = ()
     completed: Callable[[Table, Table], Table] = lambda table, recorded: table
-    limits: Callable[[config.System], Mapping[str, tuple[float, float]]] = lambda system: {}
+    limits: Callable[[system_file.System], Mapping[str, tuple[float, float]]] = lambda system: {}
     nominal: Mapping[str, str] = field(default_factory=dict)
 
     def is_unsigned(self, quantity: str) -> bool:
@@ -80,7 +80,7 @@ LOADS_DIFFER, LEAST = 1.2, 1e-3
 """Largest over smallest load from which a constant force is no constant share of it; smallest load told from none."""
 
 
-def inverse_load(system: config.System, table: Table, recorded: Table) -> Inputs:
+def inverse_load(system: system_file.System, table: Table, recorded: Table) -> Inputs:
     """Smallest recorded load over that of each row, where readings are friction forces over loads that differ."""
     if system.recording.quantity != "friction_coefficient" or "load_N" not in table or "load_N" not in recorded:
         return {}
@@ -120,7 +120,7 @@ def column(values: np.ndarray | float) -> np.ndarray:
     return np.asarray(values, dtype=float)[:, None]
 
 
-def bookkeeping_inputs(system: config.System, table: Table) -> Inputs:
+def bookkeeping_inputs(system: system_file.System, table: Table) -> Inputs:
     """What effects on the measurement read: place in the programme, ambient temperature."""
     inputs: Inputs = {"ambient_temperature": system.recording.ambient_temperature_C + ZERO_CELSIUS}
     if "sequence" in table:

@@ -6,14 +6,15 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub import bodies, config
-from mixedlub.chains import GEAR_CONTACT
+from mixedlub.chain.base_models import GEAR_CONTACT
 from mixedlub.gear import GearPair, Mesh, Sharing, at_roll_angle
 from mixedlub.kinds.gear_pair import CONDITIONS, motion_inputs
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, inverse_of
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws.oil import ZERO_CELSIUS
-from mixedlub.table import Column, Table
+from mixedlub.rig import build
+from mixedlub.schema import system_file
+from mixedlub.schema.table import Column, Table
 
 LEAST_SHARE = 0.05
 """Of a tooth pair's load, where it comes into mesh: a force over less is no friction coefficient."""
@@ -28,11 +29,11 @@ def reading(friction: np.ndarray) -> np.ndarray:
     return friction
 
 
-def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
+def inputs(system: system_file.System, folder: Path, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table: one contact point a row."""
     assert system.gears is not None
-    pair = bodies.gear_pair(system.gears)
-    sharing = bodies.sharing(system.gears.load_sharing, folder)
+    pair = build.gear_pair(system.gears)
+    sharing = build.sharing(system.gears.load_sharing, folder)
     points, share = _contacts(pair, sharing, table)
     known = share if recorded is table else _contacts(pair, sharing, recorded)[1]
     along = motion_inputs(points, table["torque_Nm"], table["speed_rpm"] * np.pi / 30.0)
@@ -42,7 +43,7 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
         **own,
         "load_share": column(share),
         **inverse_of(_asked_of(share, table), _asked_of(known, recorded)),
-        **bodies.lubricant(system.lubricant).inputs(temperature),
+        **build.lubricant(system.lubricant).inputs(temperature),
         **pair_of_surfaces(system, folder, table, "pinion_surface", "gear_surface"),
         **bookkeeping_inputs(system, table),
         "oil_temperature": temperature,
@@ -65,11 +66,11 @@ def _asked_of(share: np.ndarray, table: Table) -> np.ndarray:
     return np.asarray(table["torque_Nm"] * np.maximum(share, LEAST_SHARE))
 
 
-def limits(system: config.System) -> dict[str, tuple[float, float]]:
+def limits(system: system_file.System) -> dict[str, tuple[float, float]]:
     """The teeth touch on the path of contact only."""
     if system.gears is None:
         return {}
-    pair = bodies.gear_pair(system.gears)
+    pair = build.gear_pair(system.gears)
     first, last = np.degrees(np.array([pair.path_start, pair.path_end]) / pair.base_radius[0])
     return {"roll_angle_deg": (float(first), float(last))}
 

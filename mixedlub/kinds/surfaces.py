@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from mixedlub import bodies, config
 from mixedlub.kinds.kind import Inputs
-from mixedlub.surface import paired
-from mixedlub.table import Table
+from mixedlub.rig import build
+from mixedlub.rig.surface import paired
+from mixedlub.schema import system_file
+from mixedlub.schema.table import Table
 from profiles.errors import InputError, nearest
 
 
-def pair_of_surfaces(system: config.System, folder: Path, table: Table, first: str, second: str) -> Inputs:
+def pair_of_surfaces(system: system_file.System, folder: Path, table: Table, first: str, second: str) -> Inputs:
     """Chain inputs of the two surfaces named in two columns, shaped (rows, 1)."""
     known = {}
     for place in (first, second):
@@ -23,7 +24,7 @@ def pair_of_surfaces(system: config.System, folder: Path, table: Table, first: s
                     value=name,
                 )
             if name not in known:
-                known[name] = bodies.surface(name, system.surfaces[name], folder)
+                known[name] = build.surface(name, system.surfaces[name], folder)
     # Rows may be a part of a recording, whose other rows are on coated surfaces.
     coated = any(section.coating is not None for section in system.surfaces.values())
     both = paired([known[n] for n in table[first].tolist()], [known[n] for n in table[second].tolist()], coated)

@@ -6,14 +6,15 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub import bodies, config
-from mixedlub.calibration import Calibration
-from mixedlub.chain import Chain
-from mixedlub.kinds import unknown_oil
+from mixedlub.chain.model import Chain
+from mixedlub.kinds import oil_priors
+from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, programme
 from mixedlub.laws import oil
-from mixedlub.lubricant import Lubricant
-from mixedlub.table import Column, Table
+from mixedlub.rig import build
+from mixedlub.rig.lubricant import Lubricant
+from mixedlub.schema import system_file
+from mixedlub.schema.table import Column, Table
 
 AMBIENT_MPA = 0.101325
 NEAR_AMBIENT_MPA = 50.0
@@ -45,7 +46,7 @@ def under_pressure(viscosity: np.ndarray, pressure_viscosity: np.ndarray, hertz_
     return oil.barus_viscosity(viscosity, pressure_viscosity, hertz_pressure)
 
 
-def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -> Inputs:
+def inputs(system: system_file.System, folder: Path, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table; what carries no pressure was measured at ambient."""
     temperature = column(table["temperature_C"]) + oil.ZERO_CELSIUS
     return {
@@ -57,11 +58,11 @@ def inputs(system: config.System, folder: Path, table: Table, recorded: Table) -
     }
 
 
-def _oil(system: config.System, recorded: Table) -> Lubricant:
+def _oil(system: system_file.System, recorded: Table) -> Lubricant:
     """The oil, at the level that the readings suggest where it is not given."""
     kelvin = recorded["temperature_C"] + oil.ZERO_CELSIUS
-    return unknown_oil.moved(
-        bodies.lubricant(system.lubricant, UNREAD), unknown_oil.pivot_of(kelvin), _level(system, recorded)
+    return oil_priors.moved(
+        build.lubricant(system.lubricant, UNREAD), oil_priors.pivot_of(kelvin), _level(system, recorded)
     )
 
 
@@ -69,28 +70,28 @@ def _pressure(table: Table) -> np.ndarray:
     return 1e6 * (table["pressure_MPa"] if "pressure_MPa" in table else np.full(len(table), AMBIENT_MPA))
 
 
-def _level(system: config.System, recorded: Table) -> float:
+def _level(system: system_file.System, recorded: Table) -> float:
     """Factor on the assumed viscosity that the readings near ambient pressure suggest, where it is not given."""
-    if "viscosity" not in unknown_oil.missing(system):
+    if "viscosity" not in oil_priors.missing(system):
         return 1.0
     near = _pressure(recorded) <= max(NEAR_AMBIENT_MPA * 1e6, float(_pressure(recorded).min()))
     rows = recorded.take(near)
-    guess = bodies.lubricant(system.lubricant, UNREAD).viscosity(rows["temperature_C"] + oil.ZERO_CELSIUS)
-    return unknown_oil.level_of(rows, "viscosity_mPa_s", guess * 1e3)
+    guess = build.lubricant(system.lubricant, UNREAD).viscosity(rows["temperature_C"] + oil.ZERO_CELSIUS)
+    return oil_priors.level_of(rows, "viscosity_mPa_s", guess * 1e3)
 
 
-def extra_calibration(system: config.System, recorded: Table) -> tuple[Calibration, ...]:
+def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Calibration, ...]:
     """An unnamed oil is fitted whole: level and slope against temperature, level and slope against pressure."""
     kelvin = recorded["temperature_C"] + oil.ZERO_CELSIUS
     pressurised = float(np.ptp(_pressure(recorded))) > 0
     return tuple(
         c
-        for c in unknown_oil.calibrations(system, kelvin, level=_level(system, recorded))
+        for c in oil_priors.calibrations(system, kelvin, level=_level(system, recorded))
         if pressurised or not c.name.startswith("pressure")
     )
 
 
-def chain(system: config.System, table: Table) -> Chain:
+def chain(system: system_file.System, table: Table) -> Chain:
     """ASTM D341 for temperature (in the inputs), Barus for pressure."""
     return (("contact_viscosity", under_pressure), ("reading", reading))
 

@@ -23,10 +23,10 @@ from mixedlub.report.surfaces import (
     traced,
 )
 from mixedlub.study import counted, factors
+from mixedlub.study.checkpoint import fingerprint
+from mixedlub.study.options import MEANINGS
 from mixedlub.study.results import COLUMNS, DEFINITIONS, Results
-from mixedlub.study.sections import Options
-from mixedlub.study.store import fingerprint
-from mixedlub.study.variants import MEANINGS
+from mixedlub.study.schema import Options
 from mixedlub.version import installed_version
 
 MOST_SURFACES = 12

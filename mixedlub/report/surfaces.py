@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mixedlub.bodies import flank_profile
-from mixedlub.case import noted
+from mixedlub.case.folder import noted
 from mixedlub.report.figures import Drawn
 from mixedlub.report.style import styled
-from mixedlub.study.study import Study
+from mixedlub.rig.build import flank_profile
+from mixedlub.study.plan import Study
 from profiles import Profile
 from roughness.mccool import nayak_parameter, summit_density, summit_radius
 

@@ -18,11 +18,11 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.chain import Model, Step
+from mixedlub.chain.model import Model, Step
 from mixedlub.laws.contact import asperity_pressure
 from mixedlub.laws.loss import over_path
-from mixedlub.study.study import Plan
-from mixedlub.study.variants import mean_hertz_pressure
+from mixedlub.study.options import mean_hertz_pressure
+from mixedlub.study.plan import Plan
 from profiles.errors import InputError
 
 OUTPUTS = ("power_loss", "mean_friction", "area_ratio", "film_thickness", "film_parameter", "composite_roughness")

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mixedlub.quantities import GLOSSARY
-from mixedlub.study import batch, store
+from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.study import batch, checkpoint
 from mixedlub.study.batch import CHECKS, OUTPUTS
-from mixedlub.study.study import AXES, Study
+from mixedlub.study.plan import AXES, Study
 from profiles.errors import InputError
 
 if TYPE_CHECKING:
@@ -85,13 +85,13 @@ class Results:
         for start in range(0, len(self.study.pairings), step):
             pairings = self.study.pairings[start : start + step]
             columns = {
-                name: store.words([both[side] for both in pairings], theta.size)
+                name: checkpoint.words([both[side] for both in pairings], theta.size)
                 for side, name in enumerate(("pinion_surface", "gear_surface"))
             }
             for name, level in (("torque_Nm", torque), ("speed_rpm", speed), ("oil_temperature_C", theta)):
-                columns[name] = store.floats(np.tile(level, len(pairings)))
+                columns[name] = checkpoint.floats(np.tile(level, len(pairings)))
             for name, (column, scale) in COLUMNS.items():
-                columns[column] = store.floats(self.values[name][start : start + step] * scale)
+                columns[column] = checkpoint.floats(self.values[name][start : start + step] * scale)
             yield pa.table(columns)
 
     def write(self, csv_path: Path, parquet_path: Path) -> None:
@@ -128,19 +128,19 @@ def run_study(
     """Run a study; with a folder for parts, blocks are saved as they get done and those saved before are kept."""
     values = {name: np.empty(study.plan.shape) for name in (*OUTPUTS, *CHECKS)}
     todo = batch.blocks(study.plan)
-    waiting = {store.block_name(b): b for b in todo}
+    waiting = {checkpoint.block_name(b): b for b in todo}
     total, done = len(todo), 0
     if total == 1:
         parts = None
     if parts is not None:
-        for block, found in store.kept(parts, todo):
+        for block, found in checkpoint.kept(parts, todo):
             _fill(values, block, found)
-            del waiting[store.block_name(block)]
+            del waiting[checkpoint.block_name(block)]
         done = total - len(waiting)
     progress(done, total)
     for block, found in batch.run(study.plan, list(waiting.values()), scheduler=scheduler, threads=threads):
         if parts is not None:
-            store.keep(parts, block, found)
+            checkpoint.keep(parts, block, found)
         _fill(values, block, found)
         done += 1
         progress(done, total)

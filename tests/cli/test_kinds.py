@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mixedlub import case, config
-from mixedlub.case_format import MEANINGS, USED, kinds_text, sections
+from mixedlub.case import folder
+from mixedlub.case.format_reference import MEANINGS, USED, kinds_text, sections
 from mixedlub.cli import main
-from mixedlub.config import KINDS
 from mixedlub.kinds import kind
-from mixedlub.table import BOOKKEEPING, RUN, Column, Table
+from mixedlub.schema import system_file
+from mixedlub.schema.system_file import KINDS
+from mixedlub.schema.table import BOOKKEEPING, RUN, Column, Table
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "case"
 PAGE = (EXAMPLE / "README.md").read_text(encoding="utf-8")
@@ -43,19 +44,19 @@ def test_the_case_of_the_page_is_understood_without_a_doubt(tmp_path, capsys):
 def test_every_column_of_a_kind_is_told(name):
     lines = kinds_text(name).splitlines()
     for quantity in kind(name).quantities:
-        recording = config.Recording(quantity=quantity, check="CHECK")
-        system = config.System.model_construct(recording=recording, surfaces={})
-        for column in case._columns(kind(name), system, measured=True):
+        recording = system_file.Recording(quantity=quantity, check="CHECK")
+        system = system_file.System.model_construct(recording=recording, surfaces={})
+        for column in folder._columns(kind(name), system, measured=True):
             shown = column.name.replace(f"{quantity}_sd", "READING_sd")
             (line,) = [text for text in lines if text.split()[:1] == [shown] and text.startswith("  ")][:1]
             assert ("optional" in line) == (not column.required), line
 
 
-def keys(model: type[config.Section], place: str = "") -> set[str]:
+def keys(model: type[system_file.Section], place: str = "") -> set[str]:
     """Keys of a model and of the models in it, walked by trying what pydantic knows of each field."""
     found = set()
     for name, field in model.model_fields.items():
-        inner = [a for a in config._flatten((field.annotation,)) if config._is_model(a)]
+        inner = [a for a in system_file._flatten((field.annotation,)) if system_file._is_model(a)]
         own = f"{place}{field.alias or name}"
         for table in inner:
             found |= keys(table, f"{own}{'.NAME' if own == 'surfaces' else ''}.")
@@ -66,7 +67,7 @@ def keys(model: type[config.Section], place: str = "") -> set[str]:
 
 def test_every_key_of_a_case_is_told_with_its_meaning():
     told = {f"{table}.{key}".lstrip(".") for table, rows in sections().items() for key, _, _ in rows}
-    assert told == keys(config.System)
+    assert told == keys(system_file.System)
     assert told <= set(MEANINGS)
 
 
@@ -76,7 +77,7 @@ def test_no_meaning_is_told_of_what_is_not_there():
     readings = {q for name in KINDS for q in kind(name).quantities}
     readings |= {f"{name}.{q}" for name in KINDS for q in kind(name).quantities}
     known = {RUN.name, *(c.name for c in BOOKKEEPING), "READING_sd", "CHECK"} | columns | readings
-    assert set(MEANINGS) <= known | keys(config.System) | set(sections())
+    assert set(MEANINGS) <= known | keys(system_file.System) | set(sections())
 
 
 @pytest.mark.parametrize(
@@ -115,7 +116,7 @@ def test_an_unknown_kind_gets_the_nearest(capsys):
 class Watched:
     """A system that remembers which of its sections were asked for."""
 
-    def __init__(self, system: config.System) -> None:
+    def __init__(self, system: system_file.System) -> None:
         self.system, self.asked = system, set()
 
     def __getattr__(self, name: str) -> Any:
@@ -136,9 +137,9 @@ def test_the_sections_told_are_those_that_are_computed_with(name):
     columns["run"] = np.arange(3)
     columns[found.quantities[0]] = np.array([0.1, 0.11, 0.12])
     table = Table(columns)
-    data = config.read_toml(EXAMPLE / "system.toml")
+    data = system_file.read_toml(EXAMPLE / "system.toml")
     data["contact"] = {"geometry": "point", "radius_mm": [10.0, 20.0]}
-    watched = Watched(config.parse(config.System, data, "system.toml"))
+    watched = Watched(system_file.parse(system_file.System, data, "system.toml"))
     found.inputs(watched, EXAMPLE, table, table)
     found.chain(watched, table)
     found.extra_calibration(watched, table)
@@ -147,6 +148,6 @@ def test_the_sections_told_are_those_that_are_computed_with(name):
 
 def test_a_column_that_changes_changes_the_page(monkeypatch):
     changed = replace(kind("film"), columns=(Column("load_N", at_least=2.0, at_most=3.0, required=False),))
-    monkeypatch.setattr("mixedlub.case_format.kind", lambda name: changed if name == "film" else kind(name))
+    monkeypatch.setattr("mixedlub.case.format_reference.kind", lambda name: changed if name == "film" else kind(name))
     assert re.search(r"load_N +N +optional +2 to 3 ", kinds_text("film"))
     assert kinds_text() != block("text").rstrip("\n")

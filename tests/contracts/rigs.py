@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub import standard
-from mixedlub.chain import Chain, Model
-from mixedlub.effect import Effect, catalogue
-from mixedlub.forward import Forward
-from mixedlub.quantities import GLOSSARY
+from mixedlub.case import reference_rigs
+from mixedlub.case.forward import Forward
+from mixedlub.chain.effect import Effect, catalogue
+from mixedlub.chain.model import Chain, Model
+from mixedlub.chain.quantities import GLOSSARY
 
-RIGS = tuple(standard.CONDITIONS)
+RIGS = tuple(reference_rigs.CONDITIONS)
 LEVELS = {
     "gear_pair": {"load": (60.0, 140.0), "speed": (600.0, 2800.0), "oil_temperature": (45.0, 95.0)},
     "disc": {
@@ -59,7 +59,7 @@ ELSEWHERE = {
 @cache
 def rig(name: str) -> Forward:
     """The forward problem of a small rig."""
-    return Forward(standard.case(name), standard.table(name, **LEVELS[name]))
+    return Forward(reference_rigs.case(name), reference_rigs.table(name, **LEVELS[name]))
 
 
 @cache

@@ -10,10 +10,10 @@ from time import perf_counter
 import numpy as np
 import pytest
 
-from mixedlub.catalogue import effects_text, fingerprint, lookalikes
-from mixedlub.chain import Model
-from mixedlub.effect import Effect, catalogue, known_in
-from mixedlub.quantities import GLOSSARY, dimension
+from mixedlub.chain.effect import Effect, catalogue, known_in
+from mixedlub.chain.model import Model
+from mixedlub.chain.quantities import GLOSSARY, dimension
+from mixedlub.report.effect_pages import effects_text, fingerprint, lookalikes
 from mixedlub.report.plain import plain_equation
 from profiles.errors import InputError
 from tests.contracts.rigs import DISSIPATED, EFFECTS, RIGS, acting, apply, cases, moved, on_rigs, rig, states

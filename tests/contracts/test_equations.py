@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import pytest
 
-from mixedlub.catalogue import effects_text
-from mixedlub.effect import Effect, catalogue
-from mixedlub.quantities import GLOSSARY
+from mixedlub.chain.effect import Effect, catalogue
+from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.report.effect_pages import effects_text
 from mixedlub.report.equations import equation as drawn
 from mixedlub.report.plain import plain_equation, with_symbol
 from tests.contracts.rigs import EFFECTS

@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 import mixedlub.laws
-from mixedlub import chains
-from mixedlub.effect import Effect
-from mixedlub.quantities import GLOSSARY, dimension
+from mixedlub.chain import base_models
+from mixedlub.chain.effect import Effect
+from mixedlub.chain.quantities import GLOSSARY, dimension
 from roughness import mccool
 from tests.contracts.rigs import EFFECTS, RIGS, moved, states
 
@@ -91,7 +91,7 @@ def output_unit(name: str, law: Callable[..., object]) -> str:
     word = name.rsplit(".", 1)[-1]
     if word in GLOSSARY:
         return GLOSSARY[word].unit
-    for chain in (chains.GEAR_LOSS, chains.LINE, chains.POINT):
+    for chain in (base_models.GEAR_LOSS, base_models.LINE, base_models.POINT):
         for quantity, candidate in chain:
             if candidate is law:
                 return GLOSSARY[quantity].unit

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mixedlub.case import read_case, read_conditions
+from mixedlub.case.folder import read_case, read_conditions
+from mixedlub.case.forward import Forward
+from mixedlub.chain.effect import catalogue
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.publishing.write import files
-from mixedlub.effect import catalogue
-from mixedlub.forward import Forward
+from mixedlub.diagnosis.report.files import files
 
 OIL = """
 [lubricant]

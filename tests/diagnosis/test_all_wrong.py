@@ -8,12 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from mixedlub.diagnosis.assessment.answer_checks import levels_off
+from mixedlub.diagnosis.assessment.mismatch_test import beyond_noise
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.judging.doubts import levels_off
-from mixedlub.diagnosis.judging.mismatch import beyond_noise
-from mixedlub.diagnosis.publishing.write import files
-from mixedlub.diagnosis.telling import words
-from mixedlub.table import Table
+from mixedlub.diagnosis.report.files import files
+from mixedlub.diagnosis.report.text import words
+from mixedlub.schema.table import Table
 
 
 @pytest.fixture(scope="module")

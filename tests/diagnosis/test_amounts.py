@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mixedlub.case import read_case
+from mixedlub.case.folder import read_case
+from mixedlub.chain.effect import catalogue
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.labels import number
-from mixedlub.diagnosis.telling import tables, words
-from mixedlub.diagnosis.telling.answer import calibration_record
-from mixedlub.effect import catalogue
+from mixedlub.diagnosis.report.text import tables, words
+from mixedlub.diagnosis.report.text.answer import calibration_record
 from mixedlub.importers import write_case
 
 from .test_words import judged, section

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mixedlub.bodies import gear_pair
-from mixedlub.case import Case, read_case
-from mixedlub.diagnosis.recording.audit import Doubt, doubts, system_doubts
-from mixedlub.forward import Forward
+from mixedlub.case.folder import Case, read_case
+from mixedlub.case.forward import Forward
+from mixedlub.data_checks.audit import Doubt, doubts, system_doubts
 from mixedlub.gear import RigidSharing, at_roll_angle
 from mixedlub.importers import write_case
-from mixedlub.table import Table
+from mixedlub.rig.build import gear_pair
+from mixedlub.schema.table import Table
 from profiles.errors import InputError
 
 Change = Callable[[np.ndarray], np.ndarray]

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from mixedlub.diagnosis.diagnose import diagnose_case
-from mixedlub.diagnosis.publishing.write import diagnose
+from mixedlub.diagnosis.report.files import diagnose
 from profiles.errors import InputError
 
 

@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mixedlub.case import Case
+from mixedlub.case.folder import Case
+from mixedlub.diagnosis.assessment.answer_checks import against, in_a_row, levels_off
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.judging.doubts import against, in_a_row, levels_off
-from mixedlub.diagnosis.recording.features import jitters
-from mixedlub.diagnosis.recording.noise import nearly_repeated
-from mixedlub.table import Table
+from mixedlub.recording.conditions import jitters
+from mixedlub.recording.noise import nearly_repeated
+from mixedlub.schema.table import Table
 
 from ..kinds.conftest import make, system
 from .test_inference import problem

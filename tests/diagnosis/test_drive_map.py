@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.drawing import figures, maps
-from mixedlub.diagnosis.telling import tables, words
+from mixedlub.diagnosis.report.figures import figures, maps
+from mixedlub.diagnosis.report.text import tables, words
 from mixedlub.importers import write_case
 from mixedlub.kinds.friction_map import made_up_for
 

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mixedlub.chain.effect import catalogue
+from mixedlub.diagnosis.assessment.power_law import absorbing_stages, features, power_law
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.judging.empirical import absorbing_stages, features, power_law
-from mixedlub.effect import catalogue
 
 
 @pytest.fixture(scope="module")
@@ -79,8 +79,8 @@ def test_stage_that_was_changed_absorbs_best(
     make_case: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory
 ) -> None:
     """Boundary friction that halves in hot oil is best absorbed by boundary friction."""
-    from mixedlub.case import read_case
-    from mixedlub.forward import Forward
+    from mixedlub.case.folder import read_case
+    from mixedlub.case.forward import Forward
 
     folder = make_case(tmp_path_factory.mktemp("boundary"), "gear_pair")
 

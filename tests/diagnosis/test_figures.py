@@ -11,14 +11,14 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import PatchCollection
 from matplotlib.figure import Figure
 
+from mixedlub.diagnosis.assessment.identifiability import confusion
+from mixedlub.diagnosis.assessment.power_law import Absorbed, Unnamed
+from mixedlub.diagnosis.assessment.power_law import unnamed as describe
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.drawing import charts, figures, maps
-from mixedlub.diagnosis.drawing.style import as_drawn, blank, inline, look
-from mixedlub.diagnosis.judging.confusion import confusion
-from mixedlub.diagnosis.judging.empirical import Absorbed, Unnamed
-from mixedlub.diagnosis.judging.empirical import unnamed as describe
+from mixedlub.diagnosis.report.figures import charts, figures, maps
+from mixedlub.diagnosis.report.figures.style import as_drawn, blank, inline, look
 from mixedlub.kinds import kind
-from mixedlub.table import Table
+from mixedlub.schema.table import Table
 
 
 def labels(figure: Figure) -> str:

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub.case import read_case
-from mixedlub.diagnosis.recording.features import coordinates
-from mixedlub.forward import Forward
-from mixedlub.table import Table
+from mixedlub.case.folder import read_case
+from mixedlub.case.forward import Forward
+from mixedlub.recording.conditions import coordinates
+from mixedlub.schema.table import Table
 
 
 def axes(folder: Path, **columns: np.ndarray) -> list[str]:

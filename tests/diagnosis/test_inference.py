@@ -7,18 +7,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from mixedlub.case.forward import Run
+from mixedlub.case.reference_rigs import case, forward
+from mixedlub.chain.effect import catalogue
+from mixedlub.diagnosis.assessment.mismatch_test import mismatch_test
+from mixedlub.diagnosis.assessment.posterior import posterior
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.fitting.fit import Fit, linear_fit, map_fit, outlier_chance
-from mixedlub.diagnosis.fitting.problem import Explanation, Problem
-from mixedlub.diagnosis.fitting.reference import importance_evidence
-from mixedlub.diagnosis.judging.mismatch import mismatch_test
-from mixedlub.diagnosis.judging.posterior import posterior
-from mixedlub.diagnosis.recording.features import coordinates
-from mixedlub.diagnosis.recording.noise import noise_from_repeats, noise_from_smoothness
-from mixedlub.diagnosis.searching import search as searching
-from mixedlub.effect import catalogue
-from mixedlub.forward import Run
-from mixedlub.standard import case, forward
+from mixedlub.diagnosis.inference.map_fit import Fit, linear_fit, map_fit, outlier_chance
+from mixedlub.diagnosis.inference.reference_evidence import importance_evidence
+from mixedlub.diagnosis.problem import Explanation, Problem
+from mixedlub.diagnosis.search import search as searching
+from mixedlub.recording.conditions import coordinates
+from mixedlub.recording.noise import noise_from_repeats, noise_from_smoothness
 
 KEPT = ("inlet_shear_heating", "churning", "sensor_offset", "sensor_gain")
 OTHERS = [name for name in catalogue() if name not in KEPT]

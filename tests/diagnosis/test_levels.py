@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.diagnosis.judging.location import region
-from mixedlub.diagnosis.recording.levels import set_points
-from mixedlub.table import Table
+from mixedlub.diagnosis.assessment.location import region
+from mixedlub.recording.set_points import set_points
+from mixedlub.schema.table import Table
 
 RNG = np.random.default_rng(5)
 

@@ -6,16 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 
+from mixedlub.chain.effect import catalogue
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.telling import advice, place, words
-from mixedlub.effect import catalogue
+from mixedlub.diagnosis.report.text import location_text, next_test_text, words
 
 
 def test_without_a_name_the_place_may_be_the_other_end(unnamed: Diagnosis, offset: Diagnosis) -> None:
-    assert place.LEVEL in place.where(unnamed)
-    assert place.LEVEL not in place.where(offset)
+    assert location_text.LEVEL in location_text.where(unnamed)
+    assert location_text.LEVEL not in location_text.where(offset)
     everywhere = replace(unnamed.region, inside=np.ones_like(unnamed.region.inside))
-    assert place.LEVEL not in place.where(replace(unnamed, region=everywhere))
+    assert location_text.LEVEL not in location_text.where(replace(unnamed, region=everywhere))
 
 
 def test_a_mismatch_that_goes_with_names_has_no_levels(unnamed: Diagnosis) -> None:
@@ -24,16 +24,16 @@ def test_a_mismatch_that_goes_with_names_has_no_levels(unnamed: Diagnosis) -> No
     cut = {"column": "pinion_surface", "values": ["polished"]}
     d = replace(unnamed, found=found, region=replace(unnamed.region, where=(cut,)))
     assert words._form(d, "surfaces").startswith("differs between surfaces, as ")
-    said = " ".join(advice.next_test(d))
+    said = " ".join(next_test_text.next_test(d))
     assert "repeat readings with pinion surface polished and with others in its place." in said
     assert "levels" not in said
     assert "a column setup" in said
     both = replace(d, region=replace(d.region, where=(cut, {"column": "speed_rpm", "low": 1e3, "high": 2e3})))
-    assert "refine and repeat the levels around speed 1000 to 2000 rpm." in advice.next_test(both)[0]
+    assert "refine and repeat the levels around speed 1000 to 2000 rpm." in next_test_text.next_test(both)[0]
 
 
 def test_a_mismatch_over_numbers_asks_for_levels_and_no_set_ups(unnamed: Diagnosis) -> None:
-    said = " ".join(advice.next_test(unnamed))
+    said = " ".join(next_test_text.next_test(unnamed))
     assert "speed 1500 rpm" in said
     assert "setup" not in said
 
@@ -54,7 +54,7 @@ def test_only_a_narrow_range_is_read_around(unnamed: Diagnosis) -> None:
     }
     for (name, low, high), wanted in asked.items():
         cut = {"column": name, "low": low, "high": high}
-        said = advice.next_test(replace(d, region=replace(d.region, where=(cut,))))[0]
+        said = next_test_text.next_test(replace(d, region=replace(d.region, where=(cut,))))[0]
         assert said == f"To learn its form, {wanted}"
-    nowhere = advice.next_test(replace(d, region=replace(d.region, where=())))[0]
+    nowhere = next_test_text.next_test(replace(d, region=replace(d.region, where=())))[0]
     assert nowhere == "To learn its form, refine and repeat the levels of all conditions."

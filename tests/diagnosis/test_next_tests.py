@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
+from mixedlub.diagnosis.assessment.experiment_design import candidates
 from mixedlub.diagnosis.diagnose import diagnose_case
-from mixedlub.diagnosis.judging.nexttest import candidates
-from mixedlub.table import Column, Table
+from mixedlub.schema.table import Column, Table
 
 
 def test_candidates_stay_within_the_limits_of_the_rig() -> None:

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mixedlub.case import Case, read_case
-from mixedlub.diagnosis.fitting.problem import Problem
-from mixedlub.diagnosis.judging.predict import _noise_at
-from mixedlub.diagnosis.recording.audit import audit
-from mixedlub.diagnosis.recording.noise import noise, noise_from_repeats, pooled_sd
-from mixedlub.forward import Forward
-from mixedlub.table import Table
+from mixedlub.case.folder import Case, read_case
+from mixedlub.case.forward import Forward
+from mixedlub.data_checks.audit import audit
+from mixedlub.diagnosis.assessment.prediction import _noise_at
+from mixedlub.diagnosis.problem import Problem
+from mixedlub.recording.noise import noise, noise_from_repeats, pooled_sd
+from mixedlub.schema.table import Table
 
 
 def repeated(folder: Path, scatter: float, columns: dict[str, Callable[[int], object]] | None = None) -> Case:

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mixedlub.case import read_case
+from mixedlub.case.folder import read_case
+from mixedlub.case.forward import Forward
+from mixedlub.data_checks.audit import doubts
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.recording.audit import doubts
-from mixedlub.diagnosis.recording.features import is_held
-from mixedlub.diagnosis.recording.noise import steadied
-from mixedlub.forward import Forward
 from mixedlub.importers import write_case
+from mixedlub.recording.conditions import is_held
+from mixedlub.recording.noise import steadied
 
 from .conftest import left_out
 

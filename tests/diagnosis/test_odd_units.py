@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mixedlub.case import read_case
+from mixedlub.case.folder import read_case
+from mixedlub.case.forward import Forward
+from mixedlub.data_checks.audit import Doubt, doubts
+from mixedlub.data_checks.mixed_units import of_two_units
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.recording.audit import Doubt, doubts
-from mixedlub.diagnosis.recording.units import of_two_units
-from mixedlub.forward import Forward
 from mixedlub.importers import write_case
-from mixedlub.table import Table
+from mixedlub.schema.table import Table
 
 BALL = {"geometry": "point", "radius_mm": [9.525, float("inf")], "youngs_modulus_GPa": [207.0, 75.0]}
 OIL = {"temperature_C": [40.0, 100.0], "kinematic_viscosity_mm2_s": [30.0, 6.2]}

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import pytest
 
+from mixedlub.data_checks.audit import Doubt
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.publishing.page import _cards, render
-from mixedlub.diagnosis.recording.audit import Doubt
-from mixedlub.diagnosis.telling import words
-from mixedlub.diagnosis.telling.headline import chance, percent
+from mixedlub.diagnosis.report.html import _cards, render
+from mixedlub.diagnosis.report.text import words
+from mixedlub.diagnosis.report.text.headline import chance, percent
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 

@@ -7,15 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from mixedlub.case.forward import Forward
 from mixedlub.diagnosis.diagnose import diagnose_case
-from mixedlub.diagnosis.fitting.fit import Fit, map_fit
-from mixedlub.diagnosis.fitting.pairs import exchanged, promising_pairs
-from mixedlub.diagnosis.fitting.problem import Problem
-from mixedlub.diagnosis.fitting.published import published_gain, published_odds
-from mixedlub.diagnosis.fitting.starts import Sampled, fit_single, sample
-from mixedlub.diagnosis.fitting.sudden import placed
-from mixedlub.diagnosis.searching.search import one_in_time
-from mixedlub.forward import Forward
+from mixedlub.diagnosis.inference.change_points import placed
+from mixedlub.diagnosis.inference.initial_guesses import Sampled, fit_single, sample
+from mixedlub.diagnosis.inference.map_fit import Fit, map_fit
+from mixedlub.diagnosis.inference.nested_laws import published_gain, published_odds
+from mixedlub.diagnosis.inference.pairs import exchanged, promising_pairs
+from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.search.search import one_in_time
 
 from ..kinds.conftest import BALL, make, system
 from .test_inference import problem

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from mixedlub.case import read_case, read_conditions, refuse_used_runs
+from mixedlub.case.folder import read_case, read_conditions, refuse_used_runs
 from mixedlub.cli import main
+from mixedlub.diagnosis.assessment.extrapolation import beyond_recorded
 from mixedlub.diagnosis.diagnose import diagnose_case
-from mixedlub.diagnosis.judging.reach import beyond_recorded
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "case"
 HEAD = "run,torque_Nm,speed_rpm,oil_temperature_C,pinion_surface,gear_surface\n"

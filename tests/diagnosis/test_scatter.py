@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mixedlub.data_checks.audit import Doubt
+from mixedlub.diagnosis.assessment.mismatch_test import UNTOLD, _cost
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.judging.mismatch import UNTOLD, _cost
-from mixedlub.diagnosis.recording.audit import Doubt
-from mixedlub.diagnosis.searching.scatter import CLEAR, more
+from mixedlub.diagnosis.search.noise_inflation import CLEAR, more
 from mixedlub.importers import write_case
 
 from ..kinds.conftest import BALL
@@ -140,9 +140,9 @@ def test_repeats_bound_the_noise_of_very_many_readings(
     ]
     with path.open("w", encoding="utf-8", newline="") as file:
         csv.writer(file).writerows([rows[0], *lines])
-    monkeypatch.setattr("mixedlub.diagnosis.searching.weighed.MANY", 40)
-    monkeypatch.setattr("mixedlub.diagnosis.searching.search.MANY", 40)
-    monkeypatch.setattr("mixedlub.diagnosis.searching.search.SPREAD", 30)
+    monkeypatch.setattr("mixedlub.diagnosis.search.noise_selection.MANY", 40)
+    monkeypatch.setattr("mixedlub.diagnosis.search.search.MANY", 40)
+    monkeypatch.setattr("mixedlub.diagnosis.search.search.SPREAD", 30)
     d = diagnose_case(folder, exclude=excluded)
     assert not any("times as much as stated" in note for note in d.warnings)
 

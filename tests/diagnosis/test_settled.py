@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from mixedlub.diagnosis.fitting.fit import settled
+from mixedlub.diagnosis.inference.map_fit import settled
 
 
 def test_coordinates_go_no_farther_than_the_laws_gain(offset) -> None:

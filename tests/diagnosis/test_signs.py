@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mixedlub.case import read_case
-from mixedlub.diagnosis.recording.audit import Doubt, doubts
-from mixedlub.forward import Forward
+from mixedlub.case.folder import read_case
+from mixedlub.case.forward import Forward
+from mixedlub.data_checks.audit import Doubt, doubts
 from mixedlub.importers import write_case
 
 SCATTER = 1.0 + 0.01 * np.random.default_rng(0).standard_normal(40)

@@ -7,19 +7,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from mixedlub.case.forward import Forward
+from mixedlub.chain.effect import catalogue
+from mixedlub.data_checks.audit import Doubt, doubts
+from mixedlub.diagnosis.assessment.identifiability import confusion
+from mixedlub.diagnosis.assessment.posterior import Key
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.judging.confusion import confusion
-from mixedlub.diagnosis.judging.posterior import Key
-from mixedlub.diagnosis.recording.audit import Doubt, doubts
-from mixedlub.diagnosis.telling import words
-from mixedlub.diagnosis.telling.answer import as_json
-from mixedlub.diagnosis.telling.headline import CONTRADICTION
-from mixedlub.diagnosis.telling.nearest import nearest
-from mixedlub.diagnosis.telling.resembling import resembling
-from mixedlub.diagnosis.telling.tables import _reaching_nothing
-from mixedlub.effect import catalogue
-from mixedlub.forward import Forward
-from mixedlub.table import Table
+from mixedlub.diagnosis.report.text import words
+from mixedlub.diagnosis.report.text.alternatives import resembling
+from mixedlub.diagnosis.report.text.answer import as_json
+from mixedlub.diagnosis.report.text.headline import CONTRADICTION
+from mixedlub.diagnosis.report.text.nearest_effect import nearest
+from mixedlub.diagnosis.report.text.tables import _reaching_nothing
+from mixedlub.schema.table import Table
 
 from .test_words import judged, told
 

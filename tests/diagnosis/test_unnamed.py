@@ -8,20 +8,21 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mixedlub import config, standard
-from mixedlub.case import Case
-from mixedlub.diagnosis.fitting.fit import log_likelihood, map_fit
-from mixedlub.diagnosis.fitting.problem import Explanation, Problem
-from mixedlub.diagnosis.judging.heldout import HeldOut
-from mixedlub.diagnosis.judging.mismatch import mismatch_test
-from mixedlub.diagnosis.judging.posterior import posterior
-from mixedlub.diagnosis.recording.features import Coordinate, Coordinates, coordinates
-from mixedlub.diagnosis.searching.search import search
-from mixedlub.diagnosis.unnamed.carriers import LATE, NOTHING, QUANTITIES, READING, Typical, carriers, log_slope
-from mixedlub.effect import Effect
-from mixedlub.forward import Forward
+from mixedlub.case import reference_rigs
+from mixedlub.case.folder import Case
+from mixedlub.case.forward import Forward
+from mixedlub.chain.effect import Effect
+from mixedlub.diagnosis.assessment.cross_validation import HeldOut
+from mixedlub.diagnosis.assessment.mismatch_test import mismatch_test
+from mixedlub.diagnosis.assessment.posterior import posterior
+from mixedlub.diagnosis.discrepancy.modulated import LATE, NOTHING, QUANTITIES, READING, Typical, carriers, log_slope
+from mixedlub.diagnosis.inference.map_fit import log_likelihood, map_fit
+from mixedlub.diagnosis.problem import Explanation, Problem
+from mixedlub.diagnosis.search.search import search
 from mixedlub.kinds import kind
-from mixedlub.table import Table
+from mixedlub.recording.conditions import Coordinate, Coordinates, coordinates
+from mixedlub.schema import system_file
+from mixedlub.schema.table import Table
 
 from .test_inference import found_in, problem
 
@@ -69,8 +70,8 @@ def test_an_oil_of_another_coefficient_has_no_other_law() -> None:
     """Readings of one exponential of pressure, a third steeper than stated, make no law of pressure of their own."""
     stated = {"viscosity": 0.05, "pressure_viscosity": 0.06}
     noise = {"quantity": "viscosity_mPa_s", "noise": {"relative": 0.01, "absolute": 0.0}}
-    text = {"schema": "mixedlub-case/1", "kind": "viscosity", "lubricant": standard.OIL, "uncertainty": stated}
-    system = config.parse(config.System, {**text, "recording": noise}, "steeper oil")
+    text = {"schema": "mixedlub-case/1", "kind": "viscosity", "lubricant": reference_rigs.OIL, "uncertainty": stated}
+    system = system_file.parse(system_file.System, {**text, "recording": noise}, "steeper oil")
     case = Case("steeper oil", Path("."), system, kind("viscosity"), None, None, ())
     warm, high = (x.ravel() for x in np.meshgrid([40.0, 60.0, 80.0, 100.0], [0.1, 50.0, 100.0, 200.0, 300.0, 400.0]))
     rows = Table({"temperature_C": warm, "pressure_MPa": high, "run": np.arange(1, warm.size + 1)})
@@ -119,7 +120,7 @@ def test_the_demerit_spares_what_chance_and_another_form_leave(after: float, row
 
 
 def test_an_effect_that_is_seldom_missing_has_lower_odds(monkeypatch: pytest.MonkeyPatch) -> None:
-    from mixedlub.diagnosis.searching import search
+    from mixedlub.diagnosis.search import search
 
     found = found_in(problem())
     here = found.log_weights

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub import standard
-from mixedlub.diagnosis.fitting.problem import Problem
-from mixedlub.diagnosis.judging.validity import beyond_range, outside, unpublished
-from mixedlub.diagnosis.recording.audit import Doubt
-from mixedlub.effect import catalogue, find
+from mixedlub.case import reference_rigs
+from mixedlub.chain.effect import catalogue, find
+from mixedlub.data_checks.audit import Doubt
+from mixedlub.diagnosis.assessment.validity import beyond_range, outside, unpublished
+from mixedlub.diagnosis.problem import Problem
 
 CREEP = find(["contact_creep"])
 ROWS = {"slide_roll_ratio": np.array([[0.02], [0.4], [0.9], [1.2]])}
@@ -33,7 +33,7 @@ def test_within_the_range_or_without_the_quantity_nothing_is_said() -> None:
 
 def test_a_fit_is_judged_by_the_quantities_it_passes_through() -> None:
     """A third of the readings of the standard disc slide at 0.6."""
-    forward = standard.forward("disc")
+    forward = reference_rigs.forward("disc")
     y = forward.predict()
     problem = Problem.of(forward.case, forward.table, forward, y)
     z = np.zeros(problem.size(("contact_creep",)))

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import diagnose_case
-from mixedlub.diagnosis.recording.wander import STILL, Wander
 from mixedlub.importers import write_case
-from mixedlub.table import Table
+from mixedlub.recording.correlated_error import STILL, Wander
+from mixedlub.schema.table import Table
 
 COUNT, SINGLE = 120, 0.005
 CLOCK = np.linspace(30.0, 7200.0, COUNT)

@@ -8,18 +8,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from mixedlub.chain.effect import Normal, Parameter, catalogue
+from mixedlub.data_checks.audit import SCARCE, Doubt, audit
+from mixedlub.diagnosis.assessment.answer_checks import against
+from mixedlub.diagnosis.assessment.experiment_design import NextTest
+from mixedlub.diagnosis.assessment.posterior import Key, Posterior
+from mixedlub.diagnosis.assessment.power_law import unnamed as describe
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.fitting.problem import Problem
-from mixedlub.diagnosis.judging.doubts import against
-from mixedlub.diagnosis.judging.empirical import unnamed as describe
-from mixedlub.diagnosis.judging.nexttest import NextTest
-from mixedlub.diagnosis.judging.posterior import Key, Posterior
 from mixedlub.diagnosis.labels import effect_words, number, with_names
-from mixedlub.diagnosis.publishing import page
-from mixedlub.diagnosis.recording.audit import SCARCE, Doubt, audit
-from mixedlub.diagnosis.telling import place, tables, words
-from mixedlub.diagnosis.telling.answer import as_json, effect_records
-from mixedlub.effect import Normal, Parameter, catalogue
+from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.report import html
+from mixedlub.diagnosis.report.text import location_text, tables, words
+from mixedlub.diagnosis.report.text.answer import as_json, effect_records
 from mixedlub.report.equations import equation
 from mixedlub.report.plain import plain_equation
 
@@ -200,7 +200,7 @@ def test_the_place_is_told_in_the_same_words_everywhere(offset: Diagnosis) -> No
 
 
 def test_where_says_which_base_model_is_meant(offset: Diagnosis) -> None:
-    assert place.SPREAD in section(offset, words.WHERE).sentences
+    assert location_text.SPREAD in section(offset, words.WHERE).sentences
 
 
 def test_name_keeps_its_letters_at_the_start_of_a_sentence() -> None:
@@ -221,7 +221,7 @@ def test_temperature_of_an_answer_is_in_celsius(offset: Diagnosis, monkeypatch: 
 @pytest.mark.parametrize("p", [1e-304, 3e-7, 0.004, 0.3])
 def test_page_and_text_have_the_same_p_value(offset: Diagnosis, p: float) -> None:
     d = replace(offset, test=replace(offset.test, p_value=p, lenient=False))
-    card = page._cards(d)[0][0]
+    card = html._cards(d)[0][0]
     assert f"(p {'' if 'below' in card else '= '}{card}; " in told(d)[words.MISMATCH]
 
 
@@ -353,7 +353,7 @@ def test_every_equation_of_the_catalogue_reads_as_text() -> None:
 
 def test_every_equation_of_the_catalogue_is_drawn() -> None:
     for e in catalogue().values():
-        assert equation(page.bare(e.equation)).startswith("<svg"), e.id
+        assert equation(html.bare(e.equation)).startswith("<svg"), e.id
 
 
 def test_the_gain_says_what_was_not_refitted(offset: Diagnosis, complete: Diagnosis) -> None:

@@ -12,10 +12,10 @@ from typing import Any
 
 import pytest
 
+from mixedlub.chain.effect import STAGES, catalogue
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.publishing.write import diagnose, write
-from mixedlub.diagnosis.telling.answer import as_json, predictions_csv
-from mixedlub.effect import STAGES, catalogue
+from mixedlub.diagnosis.report.files import diagnose, write
+from mixedlub.diagnosis.report.text.answer import as_json, predictions_csv
 
 
 def number(value: Any) -> bool:

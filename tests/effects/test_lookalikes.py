@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub import standard
-from mixedlub.catalogue import lookalikes, shown, signature, signatures
-from mixedlub.effect import catalogue
+from mixedlub.case import reference_rigs
+from mixedlub.chain.effect import catalogue
+from mixedlub.report.effect_pages import lookalikes, shown, signature, signatures
 
 
 class TestLookalikes:
@@ -14,7 +14,7 @@ class TestLookalikes:
 
     def test_rolling_and_churning_by_viscosity_look_alike_on_a_gear(self) -> None:
         """Both are drag of a film then; churning by inertia is further off."""
-        forward = standard.forward("gear_pair")
+        forward = reference_rigs.forward("gear_pair")
         base = forward.predict()
 
         def sign(name: str, values: dict[str, float]) -> np.ndarray:

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 from scipy import integrate, optimize, stats
 
-from mixedlub import standard
-from mixedlub.catalogue import shown
-from mixedlub.effect import catalogue
+from mixedlub.case import reference_rigs
+from mixedlub.chain.effect import catalogue
 from mixedlub.effects.asperity_plasticity import asperity_plasticity
 from mixedlub.effects.dynamic_load import dynamic_load
 from mixedlub.effects.elastic_hysteresis import elastic_hysteresis
@@ -23,7 +22,8 @@ from mixedlub.effects.tip_relief import tip_relief
 from mixedlub.effects.torque_offset import torque_offset
 from mixedlub.effects.viscosity_temperature_law import viscosity_temperature_law
 from mixedlub.laws import drag, heating, loss
-from mixedlub.lubricant import Lubricant
+from mixedlub.report.effect_pages import shown
+from mixedlub.rig.lubricant import Lubricant
 from roughness.integrals import area_integral
 
 PROTOTYPE = {
@@ -146,14 +146,14 @@ class TestLiterature:
     )
     def test_powers_of_torque_and_speed_on_the_standard_gear(self, effect_id: str, torque: float, speed: float) -> None:
         """Exponents of the change of loss that an independent prototype of this gear gave; they are good to 0.3."""
-        forward = standard.forward("gear_pair")
+        forward = reference_rigs.forward("gear_pair")
         values = shown(catalogue()[effect_id]) | PROTOTYPE.get(effect_id, {})
         change = np.abs(forward.predict(None, {effect_id: values}) - forward.predict())
         rows = change > 1e-9 * change.max()
         table = forward.table
         columns = [np.ones(rows.sum()), np.log(table["torque_Nm"][rows]), np.log(table["speed_rpm"][rows])]
         temperature = table["oil_temperature_C"][rows] / 10.0
-        rough = [table["pinion_surface"][rows] == s for s in standard.ROUGHNESS_UM]
+        rough = [table["pinion_surface"][rows] == s for s in reference_rigs.ROUGHNESS_UM]
         design = np.array([*columns[1:], temperature, *rough], dtype=float).T
         powers, *_ = np.linalg.lstsq(design, np.log(change[rows]), rcond=None)
         assert powers[0] == pytest.approx(torque, abs=0.3)
@@ -311,7 +311,7 @@ class TestIntegrals:
 
     @pytest.mark.parametrize("relief", [5e-6, 30e-6])
     def test_relief_hands_load_on_without_losing_any(self, relief: float) -> None:
-        inputs = standard.forward("gear_pair").inputs
+        inputs = reference_rigs.forward("gear_pair").inputs
         words = ("load_share", "path_fraction", "contact_ratio", "transmitted_force", "contact_width", "face_width")
         before = inputs["load_share"]
         after = tip_relief(*(inputs[w] for w in words), relief=relief, length=0.2, fade=1.0)

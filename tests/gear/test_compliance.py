@@ -8,7 +8,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mixedlub.gear import GearPair
-from mixedlub.gear.complementarity import descend, share_out
 from mixedlub.gear.compliance import (
     bending_compliance,
     foundation_compliance,
@@ -17,6 +16,7 @@ from mixedlub.gear.compliance import (
     sainsot_foundation,
     weber_foundation,
 )
+from mixedlub.gear.contact_solver import descend, share_out
 from mixedlub.gear.plate import tapered_plate
 from mixedlub.gear.tooth import Tooth, tooth
 from profiles.errors import InputError

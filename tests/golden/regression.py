@@ -63,7 +63,10 @@ def answer(folder: Path) -> dict[str, object]:
     told = json.loads((folder / "diagnosis.json").read_text(encoding="utf-8"))
     numbers = {key: value for key, value in told.items() if key not in ("warnings", "next_tests", "location", "case")}
     with (folder / "predictions.csv").open(encoding="utf-8", newline="") as file:
-        rows = [{key: float(cell) if cell else None for key, cell in row.items() if key in PREDICTED} for row in csv.DictReader(file)]
+        rows = [
+            {key: float(cell) if cell else None for key, cell in row.items() if key in PREDICTED}
+            for row in csv.DictReader(file)
+        ]
     return {**numbers, "rows": told["location"]["rows"], "predictions": rows}
 
 

@@ -4,15 +4,15 @@ import shlex
 
 import pytest
 
-from mixedlub.case import read_case
+from mixedlub.case.folder import read_case
 from mixedlub.cli import main
-from mixedlub.config import KINDS
 from mixedlub.importers import import_files
 from mixedlub.importers.likely import likely_headers, likely_kind
 from mixedlub.importers.match import wanted
 from mixedlub.importers.plain import draft
 from mixedlub.importers.write import toml_value
 from mixedlub.kinds import kind as kind_of
+from mixedlub.schema.system_file import KINDS
 from profiles.errors import InputError
 
 DRIVE = {"kind": "friction_map", "recording.quantity": "friction_torque_Nm"}

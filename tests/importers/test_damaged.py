@@ -2,10 +2,10 @@
 
 import pytest
 
-from mixedlub.case import read_case
+from mixedlub.case.folder import read_case
 from mixedlub.importers import import_files
 from mixedlub.importers.wizard import run
-from mixedlub.table import CaseWarning
+from mixedlub.schema.table import CaseWarning
 from profiles.errors import InputError
 
 BALL = ["contact.radius_mm=[9.525, inf]", "contact.youngs_modulus_GPa=[207, 75]", "contact.poisson_ratio=[0.3, 0.22]"]

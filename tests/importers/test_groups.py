@@ -2,10 +2,10 @@
 
 import pytest
 
-from mixedlub.case import read_case
+from mixedlub.case.folder import read_case
 from mixedlub.importers import import_files
 from mixedlub.importers.plain import draft
-from mixedlub.table import CaseWarning
+from mixedlub.schema.table import CaseWarning
 from profiles.errors import InputError
 
 MAP = {"kind": "friction_map", "recording.quantity": "friction_torque_Nm"}

@@ -2,11 +2,11 @@
 
 import pytest
 
-from mixedlub.case import read_case
-from mixedlub.case_format import kinds_text
+from mixedlub.case.folder import read_case
+from mixedlub.case.format_reference import kinds_text
 from mixedlub.importers import import_files
 from mixedlub.importers.wizard import run
-from mixedlub.table import CaseWarning
+from mixedlub.schema.table import CaseWarning
 from profiles.errors import InputError
 
 FALLING_BODY = """# falling-body viscometer, sinker 6.30 mm

@@ -5,12 +5,12 @@ import re
 import numpy as np
 import pytest
 
-from mixedlub import config
-from mixedlub.case import read_case
+from mixedlub.case.folder import read_case
 from mixedlub.cli import main
 from mixedlub.importers import import_files
 from mixedlub.importers.keys import HEAD, MODELS, WORDS
 from mixedlub.importers.needs import gaps
+from mixedlub.schema import system_file
 
 TABLES = {
     "gear_pair": "torque_Nm,speed_rpm,oil_temperature_C,pinion_surface,gear_surface,power_loss_W\n"
@@ -39,7 +39,7 @@ def uncommented(folder, wanted):
 
 def recorded(system, **columns):
     """The gaps by table of a system and columns."""
-    full = config.parse(config.System, {"schema": "mixedlub-case/1", **system}, "answers")
+    full = system_file.parse(system_file.System, {"schema": "mixedlub-case/1", **system}, "answers")
     return {gap.table: gap for gap in gaps(full, {name: np.array(values) for name, values in columns.items()})}
 
 
@@ -48,7 +48,7 @@ def test_the_words_have_every_key_of_the_file():
     for section, model in MODELS.items():
         assert set(WORDS[section]) == set(model.model_fields)
     scalars = {"schema_", "kind", *MODELS}
-    assert set(HEAD) == set(config.System.model_fields) - scalars
+    assert set(HEAD) == set(system_file.System.model_fields) - scalars
 
 
 @pytest.mark.parametrize("kind", TABLES)

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from mixedlub.case import read_case
-from mixedlub.headers import BY_NAME, convert
+from mixedlub.case.folder import read_case
 from mixedlub.importers import import_files
 from mixedlub.importers.wizard import run
+from mixedlub.schema.units import BY_NAME, convert
 
 HISTORY = {"kind": "friction_history"}
 

@@ -5,9 +5,9 @@ import csv
 import numpy as np
 import pytest
 
-from mixedlub.case import read_case
+from mixedlub.case.folder import read_case
 from mixedlub.importers import import_files
-from mixedlub.table import CaseWarning
+from mixedlub.schema.table import CaseWarning
 
 BALL = {"radius_mm": [9.525, float("inf")], "youngs_modulus_GPa": [207.0, 75.0], "poisson_ratio": [0.3, 0.22]}
 

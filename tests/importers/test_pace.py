@@ -2,12 +2,12 @@
 
 import pytest
 
-from mixedlub.case import read_case
-from mixedlub.headers import split
+from mixedlub.case.folder import read_case
 from mixedlub.importers import import_files
 from mixedlub.importers.likely import likely_kind
 from mixedlub.importers.plain import draft
 from mixedlub.importers.wizard import run
+from mixedlub.schema.units import split
 from profiles.errors import InputError
 
 HISTORY = {"kind": "friction_history", "import.units.friction_coefficient": "-"}

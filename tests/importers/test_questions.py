@@ -5,10 +5,10 @@ import shlex
 import pytest
 
 from mixedlub.cli import main
-from mixedlub.headers import TARGETS
 from mixedlub.importers import import_files
 from mixedlub.importers.likely import likely_headers, likely_kind
 from mixedlub.importers.plain import draft
+from mixedlub.schema.units import TARGETS
 from profiles.errors import InputError
 
 RIG8 = """# rig 8, campaign 3

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mixedlub.case import read_case
+from mixedlub.case.folder import read_case
 from mixedlub.cli import main
 from mixedlub.importers import import_files, write_case
 from profiles.errors import InputError

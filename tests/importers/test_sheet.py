@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from mixedlub.headers import BY_NAME, convert, split
 from mixedlub.importers.plain import draft
 from mixedlub.importers.sheet import read_sheet
+from mixedlub.schema.units import BY_NAME, convert, split
 from profiles.errors import InputError
 
 PIN = """Data file\t\tPIN.TSV

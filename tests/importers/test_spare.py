@@ -2,11 +2,11 @@
 
 import pytest
 
-from mixedlub.case import read_case
+from mixedlub.case.folder import read_case
 from mixedlub.importers import import_files
 from mixedlub.importers.plain import draft
 from mixedlub.importers.wizard import run
-from mixedlub.table import CaseWarning
+from mixedlub.schema.table import CaseWarning
 
 FALLING_BODY = """# falling-body viscometer
 T (degC),p (bar),density (kg/m3),viscosity (Pa s),remark

@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from mixedlub.case import read_case
+from mixedlub.case.folder import read_case
 from mixedlub.cli import main
 from mixedlub.importers import import_files
 from mixedlub.importers.wizard import read, run

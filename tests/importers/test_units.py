@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from mixedlub.headers import BY_NAME, FORMS, UNITS, change_to, convert
 from mixedlub.importers import import_files
 from mixedlub.importers.likely import likely_headers, likely_kind
 from mixedlub.importers.plain import draft
+from mixedlub.schema.units import BY_NAME, FORMS, UNITS, change_to, convert
 from profiles.errors import InputError
 
 KNOWN = sorted({form for forms in FORMS.values() for form in forms})

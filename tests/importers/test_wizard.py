@@ -2,7 +2,7 @@
 
 import pytest
 
-from mixedlub.case import read_case
+from mixedlub.case.folder import read_case
 from mixedlub.importers.plain import draft
 from mixedlub.importers.wizard import run
 from profiles.errors import InputError

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mixedlub.case import Case, read_case
-from mixedlub.effect import catalogue
-from mixedlub.forward import Forward
+from mixedlub.case.folder import Case, read_case
+from mixedlub.case.forward import Forward
+from mixedlub.chain.effect import catalogue
 from mixedlub.importers import write_case
 
 BALL = {"geometry": "point", "radius_mm": [9.525, float("inf")], "youngs_modulus_GPa": [207.0, 75.0]}

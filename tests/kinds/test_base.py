@@ -5,9 +5,9 @@ from math import asinh, exp, log, log10
 import numpy as np
 import pytest
 
-from mixedlub.case import read_conditions
-from mixedlub.forward import Forward
-from mixedlub.table import Table
+from mixedlub.case.folder import read_conditions
+from mixedlub.case.forward import Forward
+from mixedlub.schema.table import Table
 from profiles.errors import InputError
 
 from .conftest import BALL, OIL, system

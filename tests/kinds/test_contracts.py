@@ -5,8 +5,8 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from mixedlub.effect import catalogue
-from mixedlub.forward import Forward
+from mixedlub.case.forward import Forward
+from mixedlub.chain.effect import catalogue
 
 from .conftest import BALL, OIL, system
 

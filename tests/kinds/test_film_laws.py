@@ -6,8 +6,8 @@ The films are those of G. Nijenbanning, C. H. Venner, H. Moes, Wear 176 (1994) 2
 import numpy as np
 import pytest
 
+from mixedlub.case.forward import Forward
 from mixedlub.diagnosis.diagnose import diagnose_case
-from mixedlub.forward import Forward
 from mixedlub.laws.film import POINT_EXPONENT, nijenbanning
 
 from .conftest import BALL, OIL, noisy, system

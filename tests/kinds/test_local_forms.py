@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
+from mixedlub.case.forward import Forward
+from mixedlub.diagnosis.assessment.power_law import unnamed
 from mixedlub.diagnosis.diagnose import diagnose_case
-from mixedlub.diagnosis.fitting.problem import Problem
-from mixedlub.diagnosis.judging.empirical import unnamed
-from mixedlub.diagnosis.telling.words import as_text, sections
-from mixedlub.diagnosis.unnamed.carriers import late
-from mixedlub.forward import Forward
+from mixedlub.diagnosis.discrepancy.modulated import late
+from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.report.text.words import as_text, sections
 
 from .conftest import BALL, system
 from .test_planted import by_d341, film

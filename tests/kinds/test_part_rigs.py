@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from mixedlub import standard
-from mixedlub.case import noted
-from mixedlub.forward import Forward
-from mixedlub.table import Table
+from mixedlub.case import reference_rigs
+from mixedlub.case.folder import noted
+from mixedlub.case.forward import Forward
+from mixedlub.schema.table import Table
 
 GEARED, BARE = slice(0, 3), slice(3, 6)
 
@@ -14,11 +14,11 @@ GEARED, BARE = slice(0, 3), slice(3, 6)
 @pytest.fixture(scope="module")
 def forward():
     """Three conditions with gears and the same three without."""
-    once = standard.table("gear_pair").take(np.array([0, 7, 19]))
+    once = reference_rigs.table("gear_pair").take(np.array([0, 7, 19]))
     columns = {name: np.concatenate([values, values]) for name, values in once.columns.items()}
     columns["run"] = np.arange(1, 7)
     columns["rig"] = np.repeat(["complete", "no_gears"], 3)
-    return Forward(standard.case("gear_pair"), Table(columns))
+    return Forward(reference_rigs.case("gear_pair"), Table(columns))
 
 
 def test_base_model_loses_nothing_without_gears(forward):
@@ -72,5 +72,5 @@ def test_what_was_assumed_is_said(forward):
 def test_a_complete_rig_says_nothing():
     notes: list[str] = []
     with noted(notes):
-        Forward(standard.case("gear_pair"), standard.table("gear_pair").take(np.arange(3)))
+        Forward(reference_rigs.case("gear_pair"), reference_rigs.table("gear_pair").take(np.arange(3)))
     assert not any("no_gears" in note for note in notes)

@@ -6,9 +6,9 @@ The numbers are those that their sources or a direct look at the data give; fits
 import numpy as np
 import pytest
 
-from mixedlub.case import read_case
-from mixedlub.effect import catalogue
-from mixedlub.forward import Forward
+from mixedlub.case.folder import read_case
+from mixedlub.case.forward import Forward
+from mixedlub.chain.effect import catalogue
 
 from .conftest import least_squares
 

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from mixedlub.case import read_case
-from mixedlub.forward import Forward
+from mixedlub.case.folder import read_case
+from mixedlub.case.forward import Forward
 
 
 @pytest.mark.parametrize(

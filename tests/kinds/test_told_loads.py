@@ -5,16 +5,16 @@ from itertools import product
 
 import numpy as np
 
-from mixedlub import standard
-from mixedlub.forward import Forward
-from mixedlub.table import Table
+from mixedlub.case import reference_rigs
+from mixedlub.case.forward import Forward
+from mixedlub.schema.table import Table
 
 from .conftest import BALL, OIL, drive, system
 
 
 def teeth(torques: tuple[float, ...], angles: tuple[float, ...]) -> Forward:
     """The standard rig of tooth friction at torques and roll angles."""
-    rig = standard.forward("mesh_friction")
+    rig = reference_rigs.forward("mesh_friction")
     rows = np.array(list(product(torques, angles)))
     held = {name: np.repeat(values[:1], len(rows)) for name, values in rig.table.columns.items()}
     own = {"run": np.arange(len(rows)), "torque_Nm": rows[:, 0], "roll_angle_deg": rows[:, 1]}

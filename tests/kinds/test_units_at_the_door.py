@@ -2,16 +2,16 @@
 
 import pytest
 
-from mixedlub import config
+from mixedlub.schema import system_file
 from profiles.errors import InputError
 
 
 @pytest.mark.parametrize(
     ("section", "values", "key"),
     [
-        (config.Lubricant, {"density_15C_kg_m3": 0.85}, "density_15C_kg_m3"),
+        (system_file.Lubricant, {"density_15C_kg_m3": 0.85}, "density_15C_kg_m3"),
         (
-            config.Gears,
+            system_file.Gears,
             {"teeth": [17, 26], "normal_module_mm": 4.2, "face_width_mm": 14.0, "youngs_modulus_GPa": [206e3, 206e3]},
             "youngs_modulus_GPa",
         ),
@@ -19,4 +19,4 @@ from profiles.errors import InputError
 )
 def test_another_unit_is_refused(section: type, values: dict[str, object], key: str) -> None:
     with pytest.raises(InputError, match=key):
-        config.parse(section, values, "system.toml")
+        system_file.parse(section, values, "system.toml")

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from mixedlub.chain import Model
-from mixedlub.chains import GEAR_CONTACT
+from mixedlub.chain.base_models import GEAR_CONTACT
+from mixedlub.chain.model import Model
 from mixedlub.gear import GearPair, RigidSharing, at_roll_angle
 from mixedlub.kinds.gear_pair import motion_inputs
 from mixedlub.laws.film import dowson_higginson

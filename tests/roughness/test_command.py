@@ -8,7 +8,7 @@ import pytest
 
 import profiles
 from mixedlub.cli import main
-from mixedlub.table import CaseWarning
+from mixedlub.schema.table import CaseWarning
 from tests.profiles.test_manifest import FILES, SDF, X3P
 from tests.profiles.test_shipped import TABLE_1
 
@@ -138,8 +138,8 @@ def test_option_that_cannot_be_is_told(tmp_path, capsys, options, named):
 
 def test_study_and_profile_prepare_a_trace_alike(evaluated):
     """One preparation: the moments of a study's surface are those that the command prints."""
-    from mixedlub.bodies import surface
-    from mixedlub.config import SurfaceSection
+    from mixedlub.rig.build import surface
+    from mixedlub.schema.system_file import SurfaceSection
 
     row = evaluated(TRACES / "0450.txt")["moments"]
     made = surface("rough", SurfaceSection(profile="0450.txt", cutoff_mm=0.8, short_cutoff_um=2.5), TRACES)
@@ -149,8 +149,8 @@ def test_study_and_profile_prepare_a_trace_alike(evaluated):
 
 
 def test_what_is_cut_off_a_trace_is_told_by_command_and_study(tmp_path, evaluated, capsys):
-    from mixedlub.bodies import surface
-    from mixedlub.config import SurfaceSection
+    from mixedlub.rig.build import surface
+    from mixedlub.schema.system_file import SurfaceSection
 
     trace = profiles.shipped("0258")
     fallen = trace.heights - 0.5 * np.maximum(0.0, trace.positions - 4.4e-3)
@@ -170,8 +170,8 @@ def test_what_is_cut_off_a_trace_is_told_by_command_and_study(tmp_path, evaluate
 
 
 def test_study_keeps_a_profile_that_the_instrument_filtered(shared):
-    from mixedlub.bodies import flank_profile
-    from mixedlub.config import SurfaceSection
+    from mixedlub.rig.build import flank_profile
+    from mixedlub.schema.system_file import SurfaceSection
 
     folder = shared / "data" / "profiles" / "reference"
     kept = flank_profile("turned", SurfaceSection(profile="mitutoyo_2_mock.xlsx"), folder)
@@ -249,8 +249,8 @@ def test_a_stuck_stylus_is_refused_by_every_command(command, tmp_path, capsys):
 
 
 def test_a_study_tells_of_inferred_units_and_an_overruled_step_is_told_by_the_command(tmp_path, capsys):
-    from mixedlub.bodies import surface
-    from mixedlub.config import SurfaceSection
+    from mixedlub.rig.build import surface
+    from mixedlub.schema.system_file import SurfaceSection
 
     trace = profiles.shipped("0258")
     rows = "".join(f"{x * 1e3:.6f},{z * 1e6:.4f}\n" for x, z in zip(trace.positions, trace.heights))

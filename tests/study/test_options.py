@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from mixedlub.study import read_study, run_study
-from mixedlub.study.sections import Options
-from mixedlub.study.variants import MEANINGS
+from mixedlub.study.options import MEANINGS
+from mixedlub.study.schema import Options
 
 
 def results(write_study, **options):

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from mixedlub.study import read_study, run_study
-from mixedlub.study.ranges import out_of_range
 from mixedlub.study.results import COLUMNS, DEFINITIONS
+from mixedlub.study.validity import out_of_range
 
 HEADER = [
     "pinion_surface",

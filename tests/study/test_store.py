@@ -10,7 +10,7 @@ import time
 import numpy as np
 import pytest
 
-from mixedlub.study import batch, read_study, run_study, store
+from mixedlub.study import batch, checkpoint, read_study, run_study
 
 
 @pytest.fixture
@@ -28,10 +28,10 @@ def computed_blocks(monkeypatch):
 def test_run_goes_on_from_what_is_kept(write_study, tmp_path, monkeypatch, small_blocks):
     study = read_study(write_study())
     whole = run_study(study)
-    parts = store.parts_folder(tmp_path, study.plan)
+    parts = checkpoint.parts_folder(tmp_path, study.plan)
     todo = batch.blocks(study.plan)
     for block in todo[::3]:
-        store.keep(parts, block, batch.compute(study.plan, block))
+        checkpoint.keep(parts, block, batch.compute(study.plan, block))
     done = computed_blocks(monkeypatch)
     again = run_study(study, parts=parts, threads=1)
     assert done == [b for i, b in enumerate(todo) if i % 3]
@@ -41,12 +41,12 @@ def test_run_goes_on_from_what_is_kept(write_study, tmp_path, monkeypatch, small
 
 def test_half_written_part_is_computed_again(write_study, tmp_path, monkeypatch, small_blocks):
     study = read_study(write_study())
-    parts = store.parts_folder(tmp_path, study.plan)
+    parts = checkpoint.parts_folder(tmp_path, study.plan)
     block = batch.blocks(study.plan)[0]
-    store.keep(parts, block, batch.compute(study.plan, block))
-    path = parts / store.block_name(block)
+    checkpoint.keep(parts, block, batch.compute(study.plan, block))
+    path = parts / checkpoint.block_name(block)
     path.write_bytes(path.read_bytes()[:100])
-    assert list(store.kept(parts, [block])) == []
+    assert list(checkpoint.kept(parts, [block])) == []
 
 
 @pytest.mark.parametrize(
@@ -62,13 +62,13 @@ def test_half_written_part_is_computed_again(write_study, tmp_path, monkeypatch,
     ids=lambda change: next(iter(change)),
 )
 def test_fingerprint_sees_every_input(write_study, change):
-    assert store.fingerprint(read_study(write_study()).plan) != store.fingerprint(
+    assert checkpoint.fingerprint(read_study(write_study()).plan) != checkpoint.fingerprint(
         read_study(write_study(**change)).plan
     )
 
 
 def test_fingerprint_does_not_see_words(write_study):
-    plain, titled = (store.fingerprint(read_study(write_study(**c)).plan) for c in ({}, {"title": "Other"}))
+    plain, titled = (checkpoint.fingerprint(read_study(write_study(**c)).plan) for c in ({}, {"title": "Other"}))
     assert plain == titled
 
 
@@ -92,20 +92,20 @@ def test_killed_study_started_again_gives_the_same_table(write_study, tmp_path, 
     # It must not end before this test, on a busy machine, looks again.
     command = ["nice", "-n", "19", *command] if shutil.which("nice") else command
     run = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    parts = store.parts_folder(out, study.plan)
+    parts = checkpoint.parts_folder(out, study.plan)
     deadline = time.monotonic() + 60
     while len(list(parts.glob("*.parquet"))) < 3 and run.poll() is None and time.monotonic() < deadline:
         time.sleep(0.005)
     os.kill(run.pid, signal.SIGKILL)
     run.wait()
     saved = {p.name for p in parts.glob("*.parquet")}
-    todo = {store.block_name(b) for b in batch.blocks(study.plan)}
+    todo = {checkpoint.block_name(b) for b in batch.blocks(study.plan)}
     assert 3 <= len(saved) < len(todo)
     assert not (out / "results.csv").exists()
 
     done = computed_blocks(monkeypatch)
     again = run_study(study, parts=parts)
-    assert {store.block_name(b) for b in done} == todo - saved
+    assert {checkpoint.block_name(b) for b in done} == todo - saved
     whole = run_study(study)
     for name in batch.OUTPUTS:
         assert np.array_equal(whole[name], again[name]), name

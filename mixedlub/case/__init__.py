@@ -1,0 +1,1 @@
+"""A case: its folder, its forward model, its defaults and the reference of its format."""

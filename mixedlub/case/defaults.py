@@ -1,0 +1,118 @@
+"""What is taken where `system.toml` says nothing: each key with the value that the model computes with."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mixedlub.kinds import kind as kind_of
+from mixedlub.rig import build
+from mixedlub.schema import system_file
+from mixedlub.schema.table import Table
+from profiles.errors import InputError
+
+if TYPE_CHECKING:
+    from mixedlub.case.folder import Case
+    from mixedlub.case.forward import Forward
+
+SHARING = "rigid: the pairs in contact share equally"
+BROAD = "fitted with a broad prior"
+MINERAL = "mineral"
+"""Base stock of an oil that nothing is said of."""
+STEEL = ("thermal_conductivity_W_mK", "density_kg_m3", "specific_heat_J_kgK")
+
+
+def gears_taken(section: system_file.Gears) -> dict[str, str]:
+    """Keys of the gears that are not given, with what is taken.
+
+    >>> pair = system_file.Gears(teeth=(17, 26), normal_module_mm=4.0, face_width_mm=14.0)
+    >>> gears_taken(pair)["tip_diameter_mm"], gears_taken(pair)["load_sharing"]
+    ('[76, 112], standard addendum', 'rigid: the pairs in contact share equally')
+    """
+    pair = build.gear_pair(section)
+    made = {
+        "tip_diameter_mm": f"{_shown([2e3 * r for r in pair.tip_radii])}, standard addendum",
+        "centre_distance_mm": f"{_shown(1e3 * pair.working_centre_distance)}, from the profile shift",
+        "load_sharing": SHARING,
+    }
+    return {key: made[key] if key in made else _shown(getattr(section, key)) for key in _open(section)}
+
+
+def oil_taken(section: system_file.Lubricant | None) -> dict[str, str]:
+    """Keys of the oil that are not given, with what is taken as typical of its base stock."""
+    section = section or system_file.Lubricant()
+    typical = build.named_bases()[section.base or MINERAL]
+    base = {} if section.base else {"base": f"{MINERAL}, if needed"}
+    return base | {key: _shown(value) for key, value in typical.items() if getattr(section, key, "") is None}
+
+
+def broadly_fitted(system: system_file.System, columns: Mapping[str, np.ndarray]) -> set[str]:
+    """Inputs of which nothing is said, so that a recording of these columns is fitted with a broad prior.
+
+    None where what is said of them is refused, which is told where the case is read.
+    """
+    from mixedlub.case.folder import noted
+
+    rules = kind_of(system.kind)
+    if any(column.required and column.name not in columns for column in rules.columns):
+        return set()
+    try:
+        with noted([]):
+            return {entry.name for entry in rules.extra_calibration(system, Table(columns))}
+    except InputError:
+        return set()
+
+
+def assumed(case: Case, forward: Forward | None) -> Iterator[str]:
+    """Every default that a case is computed with, a line a table; what an oil lacks is warned of where it is read."""
+    system, sections = case.system, case.kind.sections
+    read = {"boundary_friction"} if forward is None and "surfaces" in sections else _not_fitted(forward)
+    if "boundary_friction" not in system.model_fields_set and "boundary_friction" in read:
+        yield f"boundary_friction = {system.boundary_friction:g}"
+    if system.gears is not None:
+        yield from _line("gears", gears_taken(system.gears))
+    if system.contact is not None and "contact" in sections:
+        left = {key: _shown(getattr(system.contact, key)) for key in _open(system.contact) if key != "width_mm"}
+        yield from _line("contact", left)
+    yield from _surfaces(system) if "surfaces" in sections else ()
+    effects = () if forward is None else forward.effects()
+    ambient = "ambient_temperature_C" not in system.recording.model_fields_set
+    if ambient and any("ambient_temperature" in effect.reads for effect in effects):
+        yield f"recording: ambient_temperature_C = {system.recording.ambient_temperature_C:g}"
+
+
+def _not_fitted(forward: Forward | None) -> set[str]:
+    """Inputs of the rows but for those of which nothing is said, so that the readings have to tell them."""
+    if forward is None:
+        return set()
+    stated = {key for key, sd in forward.case.system.uncertainty.model_dump().items() if sd > 0}
+    return set(forward.inputs) - ({entry.name for entry in forward.calibrations} - stated)
+
+
+def _surfaces(system: system_file.System) -> Iterator[str]:
+    """Bodies of steel, and traces levelled by a line, those alike in one line."""
+    alike: dict[tuple[str, ...], list[str]] = {}
+    for name, section in system.surfaces.items():
+        left = [f"{key} = {_shown(getattr(section, key))}" for key in STEEL if key in _open(section)]
+        left += ['form = "line"'] if section.profile is not None and section.form is None else []
+        alike.setdefault(tuple(left), []).append(name)
+    for said, names in alike.items():
+        if said:
+            yield f"surfaces.{', surfaces.'.join(names)}: {', '.join(said)}"
+
+
+def _line(table: str, values: Mapping[str, str]) -> Iterator[str]:
+    if values:
+        yield f"{table}: " + "; ".join(f"{key} = {value}" for key, value in values.items())
+
+
+def _open(section: system_file.Section) -> list[str]:
+    return [key for key in type(section).model_fields if key not in section.model_fields_set]
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, str):
+        return value
+    return f"[{', '.join(map(_shown, value))}]" if isinstance(value, (list, tuple)) else f"{value:.6g}"

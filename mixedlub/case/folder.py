@@ -1,0 +1,184 @@
+"""A case folder: what the engineer knows of the rig, what the rig recorded, where predictions are wanted."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from mixedlub.gear import ROUNDED
+from mixedlub.kinds import Kind, kind
+from mixedlub.schema import system_file
+from mixedlub.schema.table import BOOKKEEPING, RUN, CaseWarning, Column, Table, read_table
+from profiles.errors import InputError, nearest
+
+SHOWN = 5
+"""Runs that a note lists at most."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """Everything in a case folder, checked."""
+
+    name: str
+    folder: Path
+    system: system_file.System
+    kind: Kind
+    recordings: Table | None
+    conditions: Table | None
+    notes: tuple[str, ...]
+
+    @property
+    def quantity(self) -> str:
+        """Name of the column the rig recorded, with its unit."""
+        return self.system.recording.quantity
+
+
+@contextmanager
+def noted(notes: list[str]) -> Iterator[None]:
+    """Collect the warnings meant for the user instead of printing them."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        yield
+    for w in caught:
+        text = str(w.message)
+        if issubclass(w.category, UserWarning):
+            if text not in notes:
+                notes.append(text)
+        else:
+            warnings.warn_explicit(w.message, w.category, w.filename, w.lineno)
+
+
+def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
+    """Read and check a case folder."""
+    if not folder.is_dir():
+        raise InputError("no such case folder", where=str(folder))
+    file = folder / "system.toml"
+    system = system_file.parse(system_file.System, system_file.read_toml(file), str(file))
+    found = kind(system.kind)
+    for section in found.sections:
+        if not getattr(system, section):
+            raise InputError(f"a case of kind {system.kind!r} needs the section [{section}]", where=str(file))
+    quantity = system.recording.quantity
+    if quantity not in found.quantities:
+        raise InputError(
+            f"a case of kind {system.kind!r} records {' or '.join(found.quantities)}",
+            where=f"{file}: recording.quantity",
+            value=quantity,
+        )
+    notes: list[str] = []
+    with noted(notes):
+        recordings = _read(folder / "recordings.csv", found, quantity, system, need_recordings)
+        _doubt_unknown_check(system.recording.check, recordings, file)
+        conditions = _read(folder / "conditions.csv", found, None, system, False)
+    return Case(folder.resolve().name, folder, system, found, recordings, conditions, tuple(notes))
+
+
+def read_conditions(case: Case, path: Path) -> Table:
+    """Another table of conditions for the case."""
+    return _sds_told(read_table(path, _columns(case.kind, case.system, False)), f"{case.quantity}_sd", path)
+
+
+def hidden(case: Case, wanted: Table | None) -> list[str]:
+    """Conditions that carry the run number of a reading taken at others: each run stands once in an answer."""
+    runs = ", ".join(map(str, _used_runs(case, wanted)))
+    if wanted is None or not runs:
+        return []
+    return [f"{wanted.source}: not predicted, as readings at other conditions have the run: {runs}"]
+
+
+def refuse_used_runs(case: Case, wanted: Table | None, path: Path) -> None:
+    """An error where conditions that are asked for carry the run number of a reading taken at others."""
+    used = _used_runs(case, wanted)
+    if used and case.recordings is not None:
+        free = int(case.recordings["run"].max()) + 1
+        rule = f"the run number is that of a reading at other conditions; number them from {free} on"
+        raise InputError(rule, where=f"{path}: run", value=used[0] if len(used) == 1 else used[:SHOWN])
+
+
+def _used_runs(case: Case, wanted: Table | None) -> list[int]:
+    if wanted is None or case.recordings is None:
+        return []
+    rows = case.recordings
+    _, here, there = np.intersect1d(wanted["run"], rows["run"], return_indices=True)
+    told = (*(c.name for c in BOOKKEEPING), *(c.name for c in case.kind.columns))
+    names = [name for name in told if name in wanted and name in rows]
+    other = np.any([wanted[name][here] != rows[name][there] for name in names], axis=0)
+    return [int(run) for run in wanted["run"][here][other]]
+
+
+def _read(path: Path, found: Kind, quantity: str | None, system: system_file.System, needed: bool) -> Table | None:
+    if not path.exists() and not needed:
+        return None
+    table = read_table(path, _columns(found, system, quantity is not None))
+    if quantity is not None and np.ptp(table[quantity]) == 0 and len(table) > 2:
+        raise InputError(
+            "all readings are the same number; a stuck channel cannot be diagnosed",
+            where=f"{path}: {quantity}",
+            value=float(table[quantity][0]),
+        )
+    return _sds_told(table, f"{system.recording.quantity}_sd", path)
+
+
+def _doubt_unknown_check(name: str | None, recordings: Table | None, file: Path) -> None:
+    """A warning where the second channel that a case names is no column of its recording: it may have been left out."""
+    if name is None or recordings is None or name in recordings:
+        return
+    told = f"{file}: recording.check: {name!r}: no such column in {recordings.source}, so nothing is compared with it"
+    there = nearest(name, [*recordings.columns, *recordings.ignored])
+    warnings.warn(f"{told}; {there}", CaseWarning, stacklevel=2)
+
+
+def _listed(runs: np.ndarray) -> str:
+    more = f" and {runs.size - SHOWN} more" if runs.size > SHOWN else ""
+    return ", ".join(str(run) for run in runs[:SHOWN].tolist()) + more
+
+
+def _sds_told(table: Table, name: str, path: Path) -> Table:
+    """The table with standard deviations that are left out, or 0, taken as the median of the others."""
+    if name not in table:
+        return table
+    told = table[name] > 0.0
+    if told.all():
+        return table
+    if not told.any():
+        note = f"{path.name}: {name} is 0 or left out everywhere: it says nothing of how much a reading scatters"
+        warnings.warn(note, CaseWarning, stacklevel=2)
+        return replace(table, columns={k: v for k, v in table.columns.items() if k != name})
+    runs = _listed(table["run"][~told])
+    middle = float(np.median(table[name][told]))
+    note = f"{path.name}: {name} is 0 or left out at run {runs}: taken as the median of the others, {middle:.3g}"
+    warnings.warn(note, CaseWarning, stacklevel=2)
+    return replace(table, columns={**table.columns, name: np.where(told, table[name], middle)})
+
+
+def _columns(found: Kind, system: system_file.System, measured: bool) -> tuple[Column, ...]:
+    """What a table of the case may hold; surfaces are those of the system where the kind computes with them."""
+    names = tuple(system.surfaces) if "surfaces" in found.sections else ()
+    own = (replace(c, names=names) if c.form == "name" and "surface" in c.name else c for c in found.columns)
+    reach = found.limits(system)
+    own = (_rounded(c, *reach[c.name]) if c.name in reach else c for c in own)
+    return (RUN, *BOOKKEEPING, *own, *found.channels, *_measured(found, system, measured))
+
+
+def _rounded(column: Column, low: float, high: float) -> Column:
+    """The column within what the rig can reach, its ends rounded as recordings are."""
+    margin = ROUNDED * (high - low)
+    return replace(column, at_least=low - margin, at_most=high + margin)
+
+
+def _measured(found: Kind, system: system_file.System, required: bool) -> tuple[Column, ...]:
+    """The recorded quantity, its standard deviation, and the check channel."""
+    quantity = system.recording.quantity
+    reading = Column(quantity, above=0.0 if found.logarithmic else -np.inf, required=required)
+    columns = [reading, Column(f"{quantity}_sd", at_least=0.0, required=False, blank=True)]
+    if system.recording.check is not None:
+        columns.append(Column(system.recording.check, required=False, blank=True))
+    return tuple(columns)
+
+
+__all__ = ["Case", "CaseWarning", "hidden", "noted", "read_case", "read_conditions", "refuse_used_runs"]

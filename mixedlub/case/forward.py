@@ -1,0 +1,136 @@
+"""The forward problem of a case: calibration and effect parameters in, readings out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from mixedlub.case.folder import Case, noted
+from mixedlub.chain.effect import Effect, known_in
+from mixedlub.chain.model import Model, Parameters, Record, available
+from mixedlub.kinds.calibration import Calibration, calibrations
+from mixedlub.kinds.kind import SCALE, ageing, varies
+from mixedlub.schema.table import Table
+from profiles.errors import InputError
+
+
+@dataclass(frozen=True, eq=False)
+class Move:
+    """One calibrated input: its value, what it was applied to, and what that changed."""
+
+    value: float
+    on: tuple[Any, ...]
+    changes: Mapping[str, Any]
+
+    def is_of(self, value: float, on: tuple[Any, ...]) -> bool:
+        """Whether this value was applied to these very inputs."""
+        return self.value == value and all(a is b for a, b in zip(self.on, on, strict=True))
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """A prediction with the steps that made it and the calibration applied to the inputs."""
+
+    prediction: np.ndarray
+    record: Record
+    applied: Mapping[str, Move]
+
+
+class Forward:
+    """Predicts the rows of a table under any set of effects.
+
+    Inputs are laid out once; ``notes`` says what had to be assumed for that.
+    """
+
+    def __init__(self, case: Case, table: Table, reading_scale: float | None = None) -> None:
+        self.case = case
+        recorded = table if case.recordings is None else case.recordings
+        notes: list[str] = []
+        with noted(notes):
+            self.table = table = case.kind.completed(table, recorded)
+            self.inputs: dict[str, Any] = case.kind.inputs(case.system, case.folder, table, recorded)
+            if "sequence" in self.inputs:
+                self.inputs["ageing"] = ageing(recorded, self.inputs["sequence"])
+            extra = case.kind.extra_calibration(case.system, recorded)
+        self.notes = tuple(notes)
+        self.scale = SCALE[case.quantity]
+        self.chain = case.kind.chain(case.system, table)
+        self.calibrations: tuple[Calibration, ...] = tuple(
+            c for c in (*calibrations(case.system), *extra) if all(n in self.inputs for n in c.needs)
+        )
+        self._model = lru_cache(maxsize=1024)(self._build)
+        self.inputs["reading_scale"] = 1.0
+        if reading_scale is None:
+            reading_scale = float(np.median(np.abs(self.predict()))) / self.scale
+        self.inputs["reading_scale"] = reading_scale
+        if case.kind.nominal:
+            base = Model(self.chain, tuple(self.inputs), tuple(case.kind.nominal))(self.inputs)
+            self.inputs |= {name: base[quantity] for quantity, name in case.kind.nominal.items()}
+
+    def _build(self, effects: tuple[str, ...]) -> Model:
+        known = known_in(self.case.kind.name)
+        return Model(self.chain, tuple(self.inputs), ("reading",), [known[e] for e in effects])
+
+    def predict(
+        self, calibration: Mapping[str, float] | None = None, parameters: Parameters | None = None
+    ) -> np.ndarray:
+        """Readings in the unit of the recorded column, one a row."""
+        return self.run(calibration, parameters).prediction
+
+    def base(self, name: str) -> np.ndarray:
+        """A quantity of the base model before calibration, by its name in the glossary."""
+        if name in self.inputs:
+            return np.asarray(self.inputs[name])
+        return np.asarray(Model(self.chain, tuple(self.inputs), (name,))(self.inputs)[name])
+
+    def nominal(self) -> np.ndarray:
+        """The base model at the nominal calibration, one reading a row; an error where it has no finite answer."""
+        base = self.predict()
+        if not np.isfinite(base).all():
+            run = int(self.table["run"][~np.isfinite(base)][0])
+            raise InputError(
+                "the base model has no finite answer for this run's conditions; look for a number far out of range",
+                where=f"{self.case.folder / self.table.source}: {self.case.quantity}, run",
+                value=run,
+            )
+        return base
+
+    def run(
+        self,
+        calibration: Mapping[str, float] | None = None,
+        parameters: Parameters | None = None,
+        near: Run | None = None,
+    ) -> Run:
+        """Predict, keeping the steps; with a run of the same effects ``near`` by, only what changed is computed."""
+        inputs, applied = dict(self.inputs), {}
+        for c in self.calibrations:
+            if calibration and c.name in calibration:
+                value, on = calibration[c.name], tuple(inputs[name] for name in c.needs)
+                move = None if near is None else near.applied.get(c.name)
+                if move is None or not move.is_of(value, on):
+                    move = Move(value, on, c.apply(inputs, value))
+                applied[c.name] = move
+                inputs.update(move.changes)
+        model = self._model(tuple(sorted(parameters or {})))
+        record = model.record(inputs, parameters, None if near is None else near.record)
+        reading = np.asarray(record.wanted["reading"])
+        return Run(np.broadcast_to(reading, (len(self.table), 1))[:, 0] * self.scale, record, applied)
+
+    def odds(self, effect: Effect) -> float:
+        """How often an effect is what is missing, over others, by what is known before any reading is seen."""
+        name, beyond, times = effect.likelier or ("", 0.0, 1.0)
+        return effect.odds * (times if name in self.inputs and float(self.inputs[name]) > beyond else 1.0)
+
+    def effects(self, exclude: Sequence[str] = ()) -> tuple[Effect, ...]:
+        """Effects of the catalogue that these rows could show, with the parameters that are free in this kind."""
+        return tuple(
+            e
+            for e in known_in(self.case.kind.name).values()
+            if e.id not in exclude
+            and available(e, self.chain, tuple(self.inputs), "reading", self.case.kind.name)
+            and (not e.over or varies(self.inputs[e.over]))
+        )

@@ -1,0 +1,340 @@
+"""What an effect is: one switchable piece of physics, written in one file, read by everything else."""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+import pkgutil
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cache
+from importlib.metadata import entry_points
+from math import copysign, erf, erfc, exp, log, sinh, sqrt
+from statistics import NormalDist
+from types import MappingProxyType
+
+import numpy as np
+
+from mixedlub.chain.quantities import GLOSSARY
+from profiles.errors import InputError, nearest
+
+STAGES = ("film", "shear", "contact", "boundary", "load", "loss", "property", "measurement")
+
+
+@dataclass(frozen=True)
+class Normal:
+    """A normal prior: what either sign may have."""
+
+    mean: float
+    sd: float
+
+    def value(self, z: float) -> float:
+        """The value that lies ``z`` standard deviations up the prior."""
+        return self.mean + self.sd * z
+
+    def __str__(self) -> str:
+        return f"{self.mean:g} ± {self.sd:g}"
+
+
+@dataclass(frozen=True)
+class Wide:
+    """A prior of either sign with wide wings: usually about ``scale``, now and then ten times that."""
+
+    scale: float
+
+    def value(self, z: float) -> float:
+        """The value that lies ``z`` standard deviations up the prior."""
+        return self.scale * sinh(z)
+
+    def __str__(self) -> str:
+        return f"about 0 ± {self.scale:g}, wide wings"
+
+
+@dataclass(frozen=True)
+class LogNormal:
+    """A lognormal prior: positive, known to within a factor; ``spread`` is the sd of its logarithm."""
+
+    median: float
+    spread: float
+
+    def value(self, z: float) -> float:
+        """The value that lies ``z`` standard deviations up the prior."""
+        return self.median * exp(min(self.spread * z, 60.0))
+
+    def __str__(self) -> str:
+        return f"{self.median:g} ×/÷ {exp(self.spread):.2g}"
+
+
+@dataclass(frozen=True)
+class EitherSign:
+    """A lognormal prior of either sign: the size is known to within a factor, and nothing small is meant."""
+
+    median: float
+    spread: float
+
+    def value(self, z: float) -> float:
+        """The value that lies ``z`` standard deviations up the prior; zero in the middle, between the two signs.
+
+        >>> prior = EitherSign(200.0, 0.25)
+        >>> [round(prior.value(z)) for z in (-0.6745, -0.1, 0.0, 0.1, 0.6745)]   # quartiles at the medians
+        [-200, -141, 0, 141, 200]
+        """
+        if z == 0.0:
+            return 0.0
+        size, normal = min(abs(z), 37.0) / sqrt(2.0), NormalDist()
+        inner = normal.inv_cdf(erf(size)) if size < 0.7 else -normal.inv_cdf(erfc(size))
+        return copysign(self.median * exp(min(self.spread * inner, 60.0)), z)
+
+    def __str__(self) -> str:
+        return f"±{self.median:g} ×/÷ {exp(self.spread):.2g}"
+
+
+@dataclass(frozen=True)
+class Between:
+    """A prior that is even between two bounds."""
+
+    low: float
+    high: float
+
+    def value(self, z: float) -> float:
+        """The value that lies ``z`` standard deviations up the prior."""
+        return self.low + (self.high - self.low) * NormalDist().cdf(z)
+
+    def __str__(self) -> str:
+        return f"even in {self.low:g} to {self.high:g}"
+
+
+@dataclass(frozen=True)
+class BetweenLog:
+    """A prior whose logarithm is even between two bounds: the order of magnitude is all that is known."""
+
+    low: float
+    high: float
+
+    def value(self, z: float) -> float:
+        """The value that lies ``z`` standard deviations up the prior."""
+        return self.low * exp(log(self.high / self.low) * NormalDist().cdf(z))
+
+    def __str__(self) -> str:
+        return f"even in order of magnitude, {self.low:g} to {self.high:g}"
+
+
+Prior = Normal | Wide | LogNormal | EitherSign | Between | BetweenLog
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number an effect depends on; ``null`` is the value that switches it off, if there is one.
+
+    ``symbol`` is the letter it has in the effect's equation, as LaTeX.
+    ``scan`` is how many values a search must try, where readings are matched in many separate ranges of it.
+    ``sudden`` says that readings move where it passes them and hardly in between.
+    ``kinds`` restricts the kinds of recording in which it is free (empty: all); in others it stays at its null.
+    ``published`` is the range that the laws cited in the source have, where other values are tried as well.
+    ``of`` is the input that it is a share of, if one is.
+    """
+
+    name: str
+    unit: str
+    prior: Prior
+    meaning: str
+    null: float | None = None
+    symbol: str = ""
+    scan: int = 0
+    sudden: bool = False
+    kinds: tuple[str, ...] = ()
+    published: tuple[float, float] | None = None
+    of: str = ""
+
+    @property
+    def off(self) -> float:
+        """The null; the middle of the prior where there is none."""
+        return self.prior.value(0.0) if self.null is None else self.null
+
+    @property
+    def typical(self) -> tuple[float, float]:
+        """The middle 80 % of the prior."""
+        low, high = self.prior.value(-1.2816), self.prior.value(1.2816)
+        return (low, high)
+
+
+@dataclass(frozen=True)
+class Effect:
+    """A law that changes one quantity of the chain, with all that is to be known about it."""
+
+    id: str
+    law: Callable[..., object]
+    stage: str
+    acts_on: tuple[str, ...]
+    reads: tuple[str, ...]
+    parameters: tuple[Parameter, ...]
+    equation: str
+    source: str
+    fingerprint: Mapping[str, str]
+    separated_by: str
+    valid: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    after: tuple[str, ...] = ()
+    kinds: tuple[str, ...] = ()
+    odds: float = 1.0
+    contains: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    free_form: bool = False
+    exact: bool = False
+    over: str = ""
+    likelier: tuple[str, float, float] | None = None
+    held: Mapping[str, float] = field(default_factory=dict)
+
+    def holding(self, values: Mapping[str, float]) -> Effect:
+        """The same effect with some of its parameters held at these values, no longer among its parameters."""
+        free = tuple(p for p in self.parameters if p.name not in values)
+        return replace(self, parameters=free, held={**self.held, **values})
+
+    @property
+    def laws_within_reach(self) -> dict[str, dict[str, float]]:
+        """Laws it contains that are within reach of the free parameters, with the values these take there."""
+        free = {p.name for p in self.parameters}
+        left = {
+            law: {name: value for name, value in values.items() if self.held.get(name) != value}
+            for law, values in self.contains.items()
+        }
+        return {law: values for law, values in left.items() if values and values.keys() <= free}
+
+    @property
+    def summary(self) -> str:
+        """The first line of the law's docstring."""
+        return (inspect.getdoc(self.law) or "").split("\n")[0]
+
+    @property
+    def nulls(self) -> dict[str, float]:
+        """Parameter values that switch the effect off; the middle of the prior where none does."""
+        return {**self.held, **{p.name: p.off for p in self.parameters}}
+
+    @property
+    def middle(self) -> dict[str, float]:
+        """Every parameter at the middle of its prior."""
+        return {p.name: p.prior.value(0.0) for p in self.parameters}
+
+    def values(self, z: np.ndarray) -> dict[str, float]:
+        """Parameter values at standard-normal coordinates of the prior."""
+        return {**self.held, **{p.name: p.prior.value(float(x)) for p, x in zip(self.parameters, z, strict=True)}}
+
+
+_registry: dict[str, Effect] = {}
+
+
+def effect(
+    *,
+    stage: str,
+    acts_on: str | tuple[str, ...],
+    parameters: tuple[Parameter, ...],
+    equation: str,
+    source: str,
+    fingerprint: Mapping[str, str],
+    separated_by: str,
+    valid: Mapping[str, tuple[float, float]] | None = None,
+    after: tuple[str, ...] = (),
+    kinds: tuple[str, ...] = (),
+    odds: float = 1.0,
+    contains: Mapping[str, Mapping[str, float]] | None = None,
+    free_form: bool = False,
+    exact: bool = False,
+    over: str = "",
+    likelier: tuple[str, float, float] | None = None,
+) -> Callable[[Callable[..., object]], Callable[..., object]]:
+    """Register a law as an effect; its signature must say what the declaration says.
+
+    The first arguments are the quantities acted on, then the quantities read, then keyword-only parameters.
+    ``fingerprint`` names conditions (load, speed, slide_roll_ratio, oil_temperature, roughness, sequence) and
+    says whether the effect's share of the reading, (with - without)/without, grows (``"+"``), falls (``"-"``) or
+    stays (``"0"``) as the condition grows; falling includes growing more negative. It speaks of the loss of gears and
+    the friction of discs, of what shows on neither of the first standard rig that shows it; a film, say, may have
+    the opposite sign. ``after`` names effects on the same quantity that come first; ``kinds`` restricts the kinds of
+    recording (empty: all). ``odds`` below one say that it is missing less often than others are, before any reading
+    is seen; ``likelier`` is an input, the value beyond which that is more often, and how many times as often.
+    ``contains`` names laws, published or limits, that it becomes at certain values of some parameters. A
+    ``free_form`` describes, and names no cause. The form of an ``exact`` one is its definition and cannot be a little
+    wrong. One law ``over`` a quantity is no more than calibration where readings were all taken at one value of it.
+    """
+    targets = (acts_on,) if isinstance(acts_on, str) else acts_on
+
+    def register(law: Callable[..., object]) -> Callable[..., object]:
+        arguments = inspect.signature(law).parameters
+        names = [n for n, a in arguments.items() if a.kind is not a.KEYWORD_ONLY]
+        keywords = [n for n, a in arguments.items() if a.kind is a.KEYWORD_ONLY]
+        where = f"effect {law.__name__}"
+        if stage not in STAGES:
+            raise TypeError(f"{where}: stage {stage!r} is none of {STAGES}")
+        if tuple(names[: len(targets)]) != targets:
+            raise TypeError(f"{where}: first arguments {names[: len(targets)]} must be what it acts on, {targets}")
+        if keywords != [p.name for p in parameters]:
+            raise TypeError(f"{where}: keyword-only arguments {keywords} must be its parameters")
+        for name in names:
+            if name not in GLOSSARY:
+                raise TypeError(f"{where}: {name!r} is not in the glossary; {nearest(name, GLOSSARY)}")
+        if over and over not in names:
+            raise TypeError(f"{where}: {over!r} is nothing that it reads")
+        if not 0.0 < odds <= 1.0:
+            raise TypeError(f"{where}: odds {odds!r} must lie above 0 and not above 1")
+        if likelier and (likelier[0] not in GLOSSARY or likelier[2] <= 0.0):
+            raise TypeError(f"{where}: {likelier!r} must name a quantity of the glossary, and times above 0")
+        for held, values in (contains or {}).items():
+            if not values.keys() <= set(keywords):
+                raise TypeError(f"{where}: {held!r} fixes {sorted(values)}, not all of them parameters")
+        if law.__name__ in _registry and _registry[law.__name__].law.__module__ != law.__module__:
+            raise TypeError(f"{where}: already defined in {_registry[law.__name__].law.__module__}")
+        _registry[law.__name__] = Effect(
+            id=law.__name__,
+            law=law,
+            stage=stage,
+            acts_on=targets,
+            reads=tuple(names[len(targets) :]),
+            parameters=parameters,
+            equation=equation,
+            source=source,
+            fingerprint=MappingProxyType(dict(fingerprint)),
+            separated_by=separated_by,
+            valid=MappingProxyType(dict(valid or {})),
+            after=after,
+            kinds=kinds,
+            odds=odds,
+            contains=MappingProxyType(dict(contains or {})),
+            free_form=free_form,
+            exact=exact,
+            over=over,
+            likelier=likelier,
+        )
+        return law
+
+    return register
+
+
+@cache
+def catalogue() -> Mapping[str, Effect]:
+    """Every effect by id: those of the package and those other packages offer as ``mixedlub.effects``."""
+    import mixedlub.effects as rooms
+
+    for found in pkgutil.iter_modules(rooms.__path__):
+        importlib.import_module(f"{rooms.__name__}.{found.name}")
+    for point in entry_points(group="mixedlub.effects"):
+        point.load()
+    order = sorted(_registry.values(), key=lambda e: (STAGES.index(e.stage), e.id))
+    return MappingProxyType({e.id: e for e in order})
+
+
+@cache
+def known_in(kind: str) -> Mapping[str, Effect]:
+    """The catalogue with only those parameters that are free in a kind of recording."""
+    return MappingProxyType(
+        {
+            e.id: e.holding({p.name: p.off for p in e.parameters if p.kinds and kind not in p.kinds})
+            for e in catalogue().values()
+        }
+    )
+
+
+def find(ids: list[str] | tuple[str, ...]) -> tuple[Effect, ...]:
+    """Effects by id, or an error naming the nearest known one."""
+    known = catalogue()
+    for name in ids:
+        if name not in known:
+            raise InputError(f"no such effect; {nearest(name, known)}", where="effect", value=name)
+    return tuple(known[name] for name in ids)

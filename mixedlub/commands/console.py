@@ -1,0 +1,115 @@
+"""Where commands write, and what they tell the user."""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+import traceback
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from profiles.errors import InputError
+
+_opened: list[Path] = []
+_made: list[Path] = []
+
+
+def output_folder(out: Path | None, command: str, name: str) -> Path:
+    """The folder to write into, made if need be; ``out/COMMAND/NAME`` where none is given."""
+    folder = Path("out") / command / name if out is None else out
+    if out is None and folder.is_dir() and any(not path.name.startswith(".") for path in folder.iterdir()):
+        note(f"the result in {folder}, maybe of another input of that name, is replaced; --out names another folder")
+    _made[:] = [path for path in (folder, *folder.parents) if not path.exists()]
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise InputError(f"cannot be written to ({error.strerror})", where="--out", value=str(folder)) from None
+    _opened[:] = [folder]
+    return folder
+
+
+def forget_folder() -> None:
+    """Start afresh: no folder is being written to."""
+    _opened.clear()
+    _made.clear()
+
+
+def drop_empty_folders() -> None:
+    """Take away the folders made for results that never came."""
+    for folder in _made:
+        try:
+            folder.rmdir()
+        except OSError:
+            return
+
+
+def what_is_kept(goes_on: bool) -> str:
+    """What is left of a command that was stopped, and how it ``goes_on`` where it does; nothing where none writes."""
+    if not _opened:
+        return ""
+    (folder,) = _opened
+    if goes_on and any(path.is_file() for path in folder.rglob("*")):
+        return f"; what was done is kept in {folder}, and the same command goes on from there"
+    return "; no result was written, and the same command starts anew"
+
+
+def case_folder(case: Path) -> Path:
+    """The case folder a user named."""
+    if case.is_file():
+        raise InputError("is a file; name the case folder that holds it", where=str(case))
+    if not case.is_dir():
+        raise InputError("no such case folder", where=str(case))
+    return case
+
+
+@contextmanager
+def busy(first: str) -> Iterator[Callable[[str], None]]:
+    """A line on stderr that says what is being done, where a person watches; gives the function that changes it."""
+    from rich.console import Console
+
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield lambda text: None
+        return
+    with console.status(first) as status:
+        yield status.update
+
+
+@contextmanager
+def within_range(where: str) -> Iterator[None]:
+    """Bad input gets its place: numbers outside arithmetic that of the input, keys of a case their file."""
+    from mixedlub.schema.system_file import in_file
+
+    try:
+        yield
+    except InputError as error:
+        file = Path(where) / "system.toml" if Path(where).is_dir() else Path(where)
+        raise in_file(error, str(file)) from None
+    except ArithmeticError as error:
+        raise InputError(f"has numbers too large or too small to compute with ({error})", where=where) from None
+
+
+def say(text: str = "") -> None:
+    """A line for the user."""
+    print(text, flush=True)
+
+
+def note(text: str) -> None:
+    """Something assumed, ignored or doubtful that the user should know."""
+    print(f"note: {text}", file=sys.stderr, flush=True)
+
+
+def save_traceback(error: BaseException) -> Path:
+    """The full story of an unexpected error, beside the results or, where there are none, among temporary files."""
+    told = "".join(traceback.format_exception(error))
+    for folder in (*_opened, Path(tempfile.gettempdir())):
+        path = folder / "mixedlub-error.log"
+        try:
+            path.write_text(told, encoding="utf-8")
+        except OSError:
+            continue
+        return path
+    return Path("nowhere: no folder can be written to")

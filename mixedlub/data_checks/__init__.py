@@ -1,0 +1,1 @@
+"""Checks of a recording before anything is fitted."""

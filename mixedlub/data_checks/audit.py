@@ -1,0 +1,362 @@
+"""A look at the recording before anything is fitted: is it what it says it is."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mixedlub.case.folder import Case
+from mixedlub.case.forward import Forward
+from mixedlub.data_checks.mixed_units import of_odd_units, teeth_too_hard_pressed
+from mixedlub.data_checks.sign_checks import AS_LARGE, both_signs, of_other_sign
+from mixedlub.kinds.friction_map import drive_speed
+from mixedlub.kinds.kind import gears_out
+from mixedlub.recording.conditions import PASSING, raw_coordinates
+from mixedlub.recording.noise import (
+    is_stated,
+    nearly_repeated,
+    noise,
+    noise_from_repeats,
+    pooled_sd,
+    seen_noise,
+    setups_differ,
+)
+from mixedlub.rig.plausibility import far_off
+from mixedlub.schema.ranges import ranges
+from mixedlub.schema.table import IGNORED, MEANT, Table
+from mixedlub.schema.units import UNITS, unit_of
+from profiles.errors import InputError
+
+FEWEST = 5
+SCARCE = 30
+MOST_SLIDING = 10.0
+"""Slide-roll ratios above it are more likely percent: 2 is pure sliding, more needs surfaces that run against it."""
+ALIKE = 0.05
+"""Half the difference of two directions over their mean up to which they are as large: a payload alone holds more."""
+THINNEST_OIL = 0.4
+THINNEST_D341 = 2e-6
+"""Kinematic viscosity (m2/s) down to which log log(nu + 0.7) is all of ASTM D341."""
+FAR_FROM_OIL = 30.0
+"""Kelvin from the temperatures at which viscosity is told to which its course is known well enough."""
+STUCK_ROWS, STUCK_SHARE = 5, 0.2
+"""A value that stands in so many rows, and in such a share of them, is looked at."""
+STUCK_STEPS, STUCK_SPAN = 3.0, 0.05
+"""Where the base model changes by more steps of the reading than that, and by such a share of its size, it is stuck."""
+
+
+TOO_LARGE, ALONE = 50.0, 10.0
+"""A reading so many times what the others suggest there, and so many times the largest of them, is doubted."""
+NEGATIVE_SHARE, NEGATIVE_SIGMAS = 0.02, 5.0
+"""So few readings, negative by so many sds, as large as what the others suggest there, are doubted."""
+UNSTATED = 0.05
+"""Share of the usual reading that one is taken to scatter by where nothing is stated."""
+ORDER = ("run", "sequence", "time_s")
+"""Columns that a row has anew when it is entered again."""
+TWICE_ROWS, TWICE_SHARE = 3, 0.1
+"""So many different rows, and such a share of them, that come again to the last digit are no chance."""
+CHANCE = 2.0
+"""Times as many readings that come again as rounding explains: so many are no chance."""
+CONTRADICTING = 4.0
+"""Times the stated noise from which the scatter of repeats contradicts it."""
+
+
+class Doubt(str):
+    """A warning that questions the answer as a whole, and so stands above it."""
+
+    __slots__ = ()
+
+
+def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]:
+    """What the user should know of the recording; an error where it cannot be what it is labelled."""
+    return [*system_doubts(case), *doubts(case, rows, y, forward), *_noise_source(case, rows, y)]
+
+
+def system_doubts(case: Case) -> list[str]:
+    """What in the files beside the readings is far from any rig."""
+    return [Doubt(odd.text) if odd.grave else odd.text for odd in far_off(case.system, case.folder)]
+
+
+def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]:
+    """What speaks against the recording; an error where it cannot be diagnosed."""
+    _readable(case, y)
+    if all(np.unique(values).size == 1 for values in raw_coordinates(case, rows, forward).values()):
+        where = str(case.folder / "recordings.csv")
+        raise InputError("all readings were taken at the same conditions; vary at least one", where=where)
+    base = forward.nominal()
+    other_sign = of_other_sign(case, rows, y, NEGATIVE_SIGMAS * _sds(case, rows, y))
+    return [
+        *_entered_twice(case, rows, y),
+        *_parts(case, rows),
+        *_setups(case, rows),
+        *_scarce(y),
+        *_thin(case, y, forward),
+        *map(Doubt, of_odd_units(case, rows, y, base, FEWEST, SCARCE)),
+        *map(Doubt, teeth_too_hard_pressed(case, rows, forward)),
+        *_more_than_put_in(case, rows, y),
+        *_of_one_sign(case, rows, y),
+        *_sliding(rows),
+        *_warm(rows),
+        *_beyond_the_oil(case, rows),
+        *_backwards(rows),
+        *_stuck(case, rows, y, base),
+        *_misread(case, rows, y, base, other_sign),
+        *map(Doubt, both_signs(case, rows, y, other_sign)),
+        *_contradicting(case, rows, y, base),
+    ]
+
+
+def _readable(case: Case, y: np.ndarray) -> None:
+    """An error where no model can answer: too few readings, or such as the quantity never has."""
+    where = f"{case.folder / 'recordings.csv'}: {case.quantity}"
+    if y.size < FEWEST:
+        raise InputError(f"needs at least {FEWEST} readings to say anything", where=where, value=y.size)
+    if case.quantity == "viscosity_mPa_s" and np.median(y) < THINNEST_OIL:
+        said = f"are below the {THINNEST_OIL} mPa s of the thinnest liquid that the model holds for; check the unit"
+        raise InputError(f"readings {said}", where=where, value=float(np.median(y)))
+
+
+def _entered_twice(case: Case, rows: Table, y: np.ndarray) -> list[str]:
+    """Rows that repeat others in reading and conditions, more of them than rounding makes alike by chance."""
+    named = [_numbered(values) for name, values in rows.columns.items() if name not in (*ORDER, case.quantity)]
+    told = np.column_stack([np.zeros(y.size, dtype=int), *named])
+    point = np.unique(told, axis=0, return_inverse=True)[1].reshape(-1)
+    both = np.column_stack([point, _numbered(y)])
+    _, first, count = np.unique(both, axis=0, return_index=True, return_counts=True)
+    repeated, coarse = int(np.count_nonzero(count > 1)), 2 * np.unique(y).size < count.size
+    if coarse or repeated < max(TWICE_ROWS, TWICE_SHARE * count.size):
+        return []
+    again = y.size - count.size
+    if again <= CHANCE * _alike_by_rounding(point, y, first):
+        return []
+    said = "readings repeat others to the last digit, with their conditions: check that they were not entered twice"
+    return [Doubt(f"{again} {said}")]
+
+
+def _alike_by_rounding(point: np.ndarray, y: np.ndarray, different: np.ndarray) -> float:
+    """Pairs of readings at one point expected to be alike, as those that are ``different`` scatter by few last digits.
+
+    Two normal numbers of one sd lie in the same cell of a fine grid with a chance of its step over 2 sqrt(pi) sd.
+    """
+    own, values = point[different], y[different]
+    size = np.bincount(own)
+    mean = np.bincount(own, values) / np.maximum(size, 1)
+    free = int(np.sum(np.maximum(size - 1, 0)))
+    if free == 0:
+        return 0.0
+    sd = np.sqrt(np.sum((values - mean[own]) ** 2) / free)
+    step = float(np.min(np.diff(np.unique(y))))
+    n = np.bincount(point)
+    return float(np.sum(n * (n - 1) / 2.0) * min(step / (2.0 * np.sqrt(np.pi) * sd), 1.0))
+
+
+def _numbered(values: np.ndarray) -> np.ndarray:
+    return np.unique(values, return_inverse=True)[1]
+
+
+def _parts(case: Case, rows: Table) -> list[str]:
+    """Rigs of a part that are compared with the whole model."""
+    whole = np.setdiff1d(rows["rig"], case.kind.part_rigs) if "rig" in rows else np.array([])
+    if whole.size < 2:
+        return []
+    known = f"only as {' or '.join(case.kind.part_rigs)}" if case.kind.part_rigs else "for no case of this kind"
+    return [
+        f"readings of the rigs {', '.join(whole.tolist())} are all compared with the whole base model: a part rig is "
+        f"modelled {known}"
+    ]
+
+
+def _setups(case: Case, rows: Table) -> list[str]:
+    """Set-ups of which nothing says how much they differ."""
+    if "setup" not in rows or setups_differ(case):
+        return []
+    count = np.unique(rows["setup"]).size
+    if count < 2:
+        return []
+    return [
+        f"{count} set-ups are taken to read alike: how much a set-up is off as a whole is for noise.setup_relative or "
+        "noise.setup_absolute to say"
+    ]
+
+
+def _thin(case: Case, y: np.ndarray, forward: Forward) -> list[str]:
+    """Viscosities so low that the equation of the base model is used beyond its range."""
+    if case.quantity != "viscosity_mPa_s":
+        return []
+    kinematic = 1e-3 * np.abs(y) / np.broadcast_to(forward.inputs["oil_density"], (y.size, 1))[:, 0]
+    low = int(np.count_nonzero(kinematic < THINNEST_D341))
+    if not low:
+        return []
+    return [
+        f"{low} of {y.size} readings are below {1e6 * THINNEST_D341:g} mm2/s, where ASTM D341 has further terms that "
+        "the base model leaves out: what is missing there may be those"
+    ]
+
+
+def _scarce(y: np.ndarray) -> list[str]:
+    """Readings too few for a name."""
+    return [f"only {y.size} readings: expect ties and wide intervals"] if y.size < SCARCE else []
+
+
+def _more_than_put_in(case: Case, rows: Table, y: np.ndarray) -> list[str]:
+    """Losses of gears above the power that the pinion takes in."""
+    if case.quantity != "power_loss_W":
+        return []
+    put_in = rows["torque_Nm"] * rows["speed_rpm"] * np.pi / 30.0
+    above = int(np.count_nonzero((y > put_in) & ~gears_out(rows)))
+    if 2 * above <= y.size:
+        return []
+    said = f"{above} of {y.size} losses are above the power put in, torque times speed"
+    return [Doubt(f"{said}: check the units of torque_Nm, speed_rpm and power_loss_W")]
+
+
+def _of_one_sign(case: Case, rows: Table, y: np.ndarray) -> list[str]:
+    """Friction of a drive that has the same sign in both directions."""
+    if case.kind.name != "friction_map":
+        return []
+    speed = drive_speed(rows)
+    forth, back = y[speed > 0.0], y[speed < 0.0]
+    if min(forth.size, back.size) < FEWEST or np.any(np.sign(y) != np.sign(y[0])):
+        return []
+    one, other = float(np.median(forth)), float(np.median(back))
+    said = f"{case.quantity} keeps its sign when the drive turns back"
+    if abs(one - other) > ALIKE * abs(one + other):
+        return [f"{said}: right where a payload outweighs friction, else the sign was lost"]
+    return [Doubt(f"{said}, and its size: friction turns with the speed, so check that its sign was not lost")]
+
+
+def _sliding(rows: Table) -> list[str]:
+    """Slide-roll ratios that look like percent."""
+    most = np.abs(rows["slide_roll_ratio"]).max() if "slide_roll_ratio" in rows else 0.0
+    if most <= MOST_SLIDING:
+        return []
+    said = f"slide_roll_ratio reaches {most:g} where 2 is pure sliding: check that it is not in percent"
+    return [Doubt(said)]
+
+
+def _contradicting(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str]:
+    """Readings at equal conditions that scatter far more than the stated noise."""
+    group = nearly_repeated(case, rows)
+    if group is None or not is_stated(case, rows):
+        return []
+    repeats = pooled_sd(_without_drift(case, rows, y, base, group), group)
+    typical = float(np.median(seen_noise(case, rows, y)[0]))
+    if repeats <= CONTRADICTING * typical:
+        return []
+    unit = "" if case.kind.logarithmic else f" {unit_of(case.quantity)}".rstrip()
+    unread = next((n.partition(IGNORED)[2] for n in case.notes if IGNORED in n and MEANT in n), "")
+    advice = "if they belong to several assemblies or sweeps, name these in a column setup"
+    advice = f"a condition may stand in a column that is ignored: {unread}" if unread else advice
+    said = f"they scatter by {repeats:.3g}{unit} where the stated noise is {typical:.3g}{unit}; {advice}"
+    return [Doubt(f"readings at equal conditions contradict each other: {said}")]
+
+
+def _stuck(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str]:
+    """A value that repeats exactly in many rows although their conditions differ, while other readings vary."""
+    values, counts = np.unique(y, return_counts=True)
+    most = int(np.argmax(counts))
+    if values.size < 2 or counts[most] < max(STUCK_ROWS, STUCK_SHARE * y.size):
+        return []
+    same = y == values[most]
+    span = float(np.ptp(base[same]))
+    if span <= max(STUCK_STEPS * float(np.min(np.diff(values))), STUCK_SPAN * float(np.median(np.abs(base)))):
+        return []
+    names = [c.name for c in case.kind.columns if c.name in rows and c.name not in PASSING]
+    varied = [name for name in names if np.unique(rows[name][same]).size > 1]
+    if not varied:
+        return []
+    runs = [str(run) for run in rows["run"][same][:STUCK_ROWS]]
+    more = "" if len(runs) == counts[most] else ", ..."
+    said = f"{counts[most]} of {y.size} readings are exactly {values[most]:g} though {', '.join(varied)} vary"
+    return [Doubt(f"{said}: check for a channel that was stuck or filled in (runs {', '.join(runs)}{more})")]
+
+
+def _misread(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, told: np.ndarray) -> list[str]:
+    """Single readings that are off by a power of ten or by their sign, held against what the others suggest.
+
+    Those of which it is ``told`` already that their sign is wrong are left out.
+    """
+    used = np.abs(base) > 0
+    if used.sum() < FEWEST:
+        return []
+    expected = np.abs(base) * float(np.median(np.abs(y[used] / base[used])))
+    used &= expected > 0
+    large = used & (np.abs(y) > TOO_LARGE * expected)
+    large &= np.abs(y) > ALONE * np.max(np.abs(y[~large]), initial=0.0)
+    found = [(large, "far larger than what the others suggest there: check unit and decimal point")]
+    if case.kind.is_unsigned(case.quantity):
+        least, most = (share * expected for share in AS_LARGE)
+        wrong = used & (y < -NEGATIVE_SIGMAS * _sds(case, rows, y)) & (-y > least) & (-y < most)
+        if wrong.sum() <= max(1.0, NEGATIVE_SHARE * y.size):
+            found.append((wrong & ~told, "negative where the others suggest a positive one as large: check the sign"))
+    return [
+        Doubt(f"run {rows['run'][i]} reads {y[i]:g} where the others suggest {expected[i]:.3g}: {words}")
+        for which, words in found
+        for i in np.flatnonzero(which)[:STUCK_ROWS]
+    ]
+
+
+def _sds(case: Case, rows: Table, y: np.ndarray) -> np.ndarray:
+    """What a reading scatters by, as stated; else a twentieth of the usual one."""
+    return noise(case, rows, y)[0] if is_stated(case, rows) else np.full(y.size, UNSTATED * float(np.median(np.abs(y))))
+
+
+def _warm(rows: Table) -> list[str]:
+    """Temperatures that are all hotter than oils are, as those of a room are in kelvin."""
+    name = next((n for n in ("oil_temperature_C", "temperature_C") if n in rows), None)
+    if name is None or not np.all(rows[name] > ranges()["conditions.oil_temperature_C"].usual[1]):
+        return []
+    lowest = float(rows[name].min())
+    return [Doubt(f"{name} is {lowest:g} or more in all rows: check that it is not in kelvin")]
+
+
+def _beyond_the_oil(case: Case, rows: Table) -> list[str]:
+    """Temperatures far from both at which the oil's viscosity is told, as those in degrees Fahrenheit are."""
+    oil = case.system.lubricant
+    if oil is None or oil.temperature_C is None or "oil_temperature_C" not in rows:
+        return []
+    low, high = sorted(oil.temperature_C)
+    coldest, hottest = float(rows["oil_temperature_C"].min()), float(rows["oil_temperature_C"].max())
+    if low - FAR_FROM_OIL <= coldest and hottest <= high + FAR_FROM_OIL:
+        return []
+    far = hottest if hottest > high + FAR_FROM_OIL else coldest
+    said = f"oil_temperature_C has {far:g}, far from the {low:g} and {high:g} of [lubricant]: viscosity is extrapolated"
+    factor, added = UNITS["C"]["degF"]
+    least, most = (factor * value + added for value in (coldest, hottest))
+    if not (low - FAR_FROM_OIL <= least and most <= high + FAR_FROM_OIL):
+        return [said]
+    other = f"{coldest:g} to {hottest:g} °F would be {least:.3g} to {most:.3g} °C"
+    return [Doubt(f"{said}; {other}: is it in that unit?")]
+
+
+def _backwards(rows: Table) -> list[str]:
+    """A time that falls from one row to the next, as that of a clock which starts anew at every step."""
+    falls = np.flatnonzero(np.diff(rows["time_s"]) < 0.0) + 1 if "time_s" in rows else np.array([], dtype=int)
+    if not falls.size:
+        return []
+    times = "1 place" if falls.size == 1 else f"{falls.size} places"
+    first = f"time_s runs backwards in {times}, first at run {rows['run'][falls[0]]}"
+    return [Doubt(f"{first}: check that it is no clock that restarts at every step, and that rows are in order")]
+
+
+def _without_drift(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, group: np.ndarray) -> np.ndarray:
+    """Readings less the base model, and less what of repeats goes steadily with the programme."""
+    left = np.log(y / base) if case.kind.logarithmic else y - base
+    place = next((rows[name] for name in ("sequence", "time_s") if name in rows), None)
+    if place is None or np.ptp(place) == 0.0:
+        return left
+    grown = (place - place.min()) / np.ptp(place) * (1.0 if case.kind.logarithmic else base)
+    count = np.bincount(group)
+    within, apart = (x - (np.bincount(group, weights=x) / count)[group] for x in (left, grown))
+    spread = float(apart @ apart)
+    return left - grown * (float(apart @ within) / spread) if spread > 0.0 else left
+
+
+def _repeats(case: Case, rows: Table, y: np.ndarray) -> float:
+    return noise_from_repeats(case, rows, np.log(y) if case.kind.logarithmic else y)
+
+
+def _noise_source(case: Case, rows: Table, y: np.ndarray) -> list[str]:
+    """Where the scatter of a reading comes from when the recording does not state it."""
+    if is_stated(case, rows):
+        return []
+    source = "repeats" if _repeats(case, rows, y) > 0 else "the fit"
+    return [f"no noise given: the standard deviation of a reading is estimated from {source}"]

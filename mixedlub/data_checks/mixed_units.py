@@ -1,0 +1,261 @@
+"""Columns in another unit than their name says, or in two: what is a power of ten off, as a whole or in part."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from mixedlub.case.folder import Case
+from mixedlub.case.forward import Forward
+from mixedlub.kinds.disc import contact_inputs
+from mixedlub.laws.contact import line_hertz_pressure, point_hertz_pressure
+from mixedlub.schema.ranges import beyond_usual
+from mixedlub.schema.table import Table
+
+SLIPS: Mapping[float, str] = {
+    1e2: "a hundred times",
+    1e-2: "a hundredth of",
+    1e3: "a thousand times",
+    1e-3: "a thousandth of",
+    1e6: "a million times",
+    1e-6: "a millionth of",
+}
+WITHIN = 2.0
+"""How far a slip of the unit may be off its power of ten: the base model itself is that good."""
+PART = 0.1
+"""Share of the readings from which some that are off together are no wild ones."""
+TEN = 10.0
+"""A power that physics may stand for as well: readings of both parts must be mixed among the conditions."""
+MIXED = 0.5
+"""Share of the smaller part from which its readings stand among the others, by their nearest neighbours."""
+CLEAR, CLEAR_MIXED = 0.5, 0.25
+"""Share of what the parts are apart that the gap between them is: less where conditions do not part them."""
+POWERS = (1e1, 1e2, 1e3, 1e6)
+LEVELS, NEAR, ALIKE = 3, 0.02, 0.15
+"""Levels of a condition that come again a power of ten higher, how near they are, and the readings there."""
+WARM, LOW_PRESSURE = 20.0, 100.0
+"""Temperature (degC) and pressure (MPa) at which oils flow as they are used."""
+HARD, YIELDS = 50e9, 0.025
+"""Reduced modulus from which bodies are metals, ceramics or glass, and the share of it at which those yield: bearings
+are rated to 4.2 GPa, 0.018 of that of steel (ISO 76); polymers bear more of theirs."""
+APART = 1.5
+"""How much the base model changes between them at least; and the gap between two parts, beside those in them."""
+
+
+def of_another_unit(case: Case, y: np.ndarray, base: np.ndarray, fewest: int) -> list[str]:
+    """Readings that are a power of ten off the base model, or of the other sign."""
+    both = (np.abs(base) > 0) & (np.abs(y) > 0)
+    if both.sum() < fewest:
+        return []
+    ratio = float(np.median(np.abs(y[both] / base[both])))
+    found = [
+        f"readings are about {words} what the base model gives: check the unit of {case.quantity}"
+        for slip, words in SLIPS.items()
+        if slip / WITHIN < ratio < slip * WITHIN
+    ]
+    if np.mean(base[both] * y[both] < 0) > 0.5:
+        found.append("most readings have the other sign than the base model: check the sign")
+    return found
+
+
+def of_two_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewest: int) -> list[str]:
+    """Readings of which a part is a power of ten off the others, beside the base model."""
+    used = (np.abs(base) > 0) & (np.abs(y) > 0)
+    if used.sum() < fewest:
+        return []
+    ratio = np.log10(np.abs(y[used] / base[used]))
+    upper, gap = _upper_part(ratio)
+    if min(upper.sum(), (~upper).sum()) < PART * used.sum():
+        return []
+    apart = float(np.median(ratio[upper]) - np.median(ratio[~upper]))
+    slips = [np.log10(slip) for slip in (TEN, *SLIPS) if slip > 1.0]
+    slip = min(slips, key=lambda slip: abs(apart - slip))
+    if abs(apart - slip) >= np.log10(WITHIN):
+        return []
+    kept = rows.take(used)
+    mixed = _are_mixed(_places(case, kept), upper)
+    if gap < (CLEAR_MIXED if mixed else CLEAR) * apart or (slip == 1.0 and not mixed):
+        return []
+    lower = f"{int((~upper).sum())} readings are about {10**apart:.2g} times smaller"
+    names = [case.quantity, *(name for name in _sizes(case, kept) if _parted_alike(np.abs(kept[name]), upper))]
+    one = f"{names[0]} is" if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]} are each"
+    return [f"{lower}, beside the base model, than the others: check that {one} in one unit"]
+
+
+def conditions_of_two_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str]:
+    """Conditions whose levels come again a power of ten higher, where readings are as if they were the same."""
+    found = []
+    for name in _sizes(case, rows):
+        size = np.abs(rows[name])
+        power = _power_between(case, rows, name, y, base) if np.all(size > 0.0) else None
+        if power is not None:
+            count = int(_upper_part(np.log10(size))[0].sum())
+            found.append(
+                f"{count} of {size.size} values of {name} are {power:g} times the others where readings and other "
+                f"conditions are alike: check that {name} is in one unit"
+            )
+    return found
+
+
+def of_odd_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewest: int, scarce: int) -> list[str]:
+    """Every sentence about units; readings are ``scarce`` where too few are there to part them."""
+    return [
+        *beyond_usual_sizes(rows, y, case.quantity),
+        *too_thick(rows, y, case.quantity),
+        *too_hard_pressed(case, rows),
+        *of_another_unit(case, y, base, fewest),
+        *(conditions_of_two_units(case, rows, y, base) or of_two_units(case, rows, y, base, scarce)),
+    ]
+
+
+def beyond_usual_sizes(rows: Table, y: np.ndarray, quantity: str) -> list[str]:
+    """Columns whose largest size is beyond that of any rig, with the unit in which it would be usual."""
+    columns = {**rows.columns, quantity: y}
+    said = (
+        beyond_usual(f"recordings.{name}", float(np.max(np.abs(columns[name]))), f"the largest {name}")
+        for name in SIZED
+        if name in columns
+    )
+    return [text for text in said if text]
+
+
+def too_thick(rows: Table, y: np.ndarray, quantity: str) -> list[str]:
+    """Viscosities that are all above those of oils, though not all were read in the cold or under high pressure."""
+    if quantity != "viscosity_mPa_s" or rows["temperature_C"].max() < WARM:
+        return []
+    if "pressure_MPa" in rows and rows["pressure_MPa"].min() > LOW_PRESSURE:
+        return []
+    said = beyond_usual(f"recordings.{quantity}", float(np.min(y)), f"the smallest {quantity}")
+    return [said] if said else []
+
+
+def too_hard_pressed(case: Case, rows: Table) -> list[str]:
+    """Loads under which hard bodies of a contact would yield many times over."""
+    contact = case.system.contact
+    if contact is None or "load_N" not in rows:
+        return []
+    values = contact_inputs(contact, rows)
+    load = np.max(rows["load_N"])
+    if contact.geometry == "line":
+        width = values.get("contact_width")
+        pressure = line_hertz_pressure(load / width, values["radius"], values["reduced_modulus"]) if width else 0.0
+    else:
+        radius = values["radius"]
+        pressure = point_hertz_pressure(load, radius, values["transverse_radius"], values["reduced_modulus"])
+    said = f"the largest load_N, {load:g}, would press the bodies"
+    return _yielding(said, float(pressure), values["reduced_modulus"], "load_N and the radii in [contact]")
+
+
+def teeth_too_hard_pressed(case: Case, rows: Table, forward: Forward) -> list[str]:
+    """Torques under which flanks would yield many times over."""
+    if case.system.gears is None or "torque_Nm" not in rows:
+        return []
+    pressure, modulus = (np.max(forward.base(name)) for name in ("hertz_pressure", "reduced_modulus"))
+    said = f"the largest torque_Nm, {np.max(np.abs(rows['torque_Nm'])):g}, would press the flanks"
+    return _yielding(said, pressure, modulus, "torque_Nm, and module and face width in [gears]")
+
+
+def _yielding(said: str, pressure: float, modulus: float, cause: str) -> list[str]:
+    """That a pressure (Pa) is one under which hard bodies of this reduced modulus (Pa) would yield."""
+    if modulus < HARD or pressure <= YIELDS * modulus:
+        return []
+    limit = f"with {1e-9 * pressure:.3g} GPa, where hard ones yield below {1e-9 * YIELDS * modulus:.2g} GPa"
+    return [f"{said} {limit}: check the unit of {cause}"]
+
+
+SIZED = ("entrainment_speed_m_s", "sliding_speed_m_s", "film_thickness_nm")
+"""Columns that have a usual size on all rigs; loads, torques and speeds of shafts are those of the machine."""
+
+
+def _power_between(case: Case, rows: Table, name: str, y: np.ndarray, base: np.ndarray) -> float | None:
+    """The power of ten between two parts of a condition that are otherwise alike, reading and all."""
+    log = np.log10(np.abs(rows[name]))
+    upper, gap = _upper_part(log)
+    inner = max((_largest_gap(log[part]) for part in (upper, ~upper) if part.any()), default=0.0)
+    if min(upper.sum(), (~upper).sum()) < LEVELS or gap < np.log10(APART) + inner:
+        return None
+    for power in POWERS:
+        values = np.where(upper, rows[name] / power, rows[name])
+        places = _places(case, Table({**rows.columns, name: values}))
+        one, other = np.flatnonzero(upper), np.flatnonzero(~upper)
+        few, many = (one, other) if one.size <= other.size else (other, one)
+        off, nearest = cKDTree(places[many]).query(places[few])
+        near = off <= NEAR
+        if near.mean() < MIXED or np.unique(values[few[near]]).size < LEVELS:
+            continue
+        pairs = few[near], many[nearest[near]]
+        if _apart(y, *pairs) < ALIKE and _apart(base, *pairs) > np.log(APART):
+            return power
+    return None
+
+
+def _apart(values: np.ndarray, one: np.ndarray, other: np.ndarray) -> float:
+    """By how much two rows of a pair differ in size, as a logarithm: the middle of all."""
+    sizes = np.maximum(np.abs(values), 1e-300)
+    return float(np.median(np.abs(np.log(sizes[one] / sizes[other]))))
+
+
+def _upper_part(values: np.ndarray) -> tuple[np.ndarray, float]:
+    """Which values lie above the widest gap between neighbours, and how wide it is.
+
+    >>> upper, gap = _upper_part(np.array([3.0, 1.0, 1.5, 3.2]))
+    >>> upper.tolist(), gap
+    ([True, False, False, True], 1.5)
+    """
+    ranked = np.sort(values)
+    cut = int(np.argmax(np.diff(ranked))) + 1 if values.size > 1 else 0
+    return values >= ranked[cut], _largest_gap(values)
+
+
+def _largest_gap(values: np.ndarray) -> float:
+    return float(np.max(np.diff(np.sort(values)), initial=0.0))
+
+
+def _parted_alike(sizes: np.ndarray, upper: np.ndarray) -> bool:
+    """Whether a gap of half a decade or more parts a condition as the readings are parted."""
+    if np.any(sizes <= 0.0):
+        return False
+    high, gap = _upper_part(np.log10(sizes))
+    return gap >= 0.5 and (np.array_equal(high, upper) or np.array_equal(high, ~upper))
+
+
+def _sizes(case: Case, rows: Table) -> list[str]:
+    """Conditions that are told by their size: no names, times, angles or temperatures."""
+    names = [column.name for column in case.kind.columns if column.form != "name" and column.name in rows]
+    return [name for name in names if not name.endswith(("_s", "_deg", "_C")) or name.endswith("_m_s")]
+
+
+def _places(case: Case, rows: Table) -> np.ndarray:
+    """Conditions of each row on axes from 0 to 1, by logarithm where they span decades; a time only where it is one."""
+    axes = [np.zeros(len(rows))]
+    for column in case.kind.columns:
+        if column.name not in rows or (column.name == "time_s" and not column.required):
+            continue
+        values = rows[column.name]
+        if values.dtype.kind in "US":
+            axes.extend((values == name).astype(float) for name in np.unique(values))
+            continue
+        size = np.abs(values)
+        if size.min() > 0.0 and size.max() > 3.0 * size.min():
+            axes.append((values > 0.0).astype(float))
+            values = np.log(size)
+        axes.append((values - values.min()) / (np.ptp(values) or 1.0))
+    return np.column_stack(axes)
+
+
+def _are_mixed(places: np.ndarray, upper: np.ndarray) -> bool:
+    """Whether points of the smaller part have one of the other part as near as any other of their own.
+
+    >>> x = np.linspace(0.0, 1.0, 20)[:, None]
+    >>> _are_mixed(x, np.arange(20) % 2 == 0), _are_mixed(x, x[:, 0] > 0.6)
+    (True, False)
+    """
+    small = upper if 2 * upper.sum() <= upper.size else ~upper
+    points = np.unique(places[small].round(9), axis=0)
+    if len(points) < LEVELS:
+        return False
+    own = cKDTree(points).query(points, k=[2])[0][:, 0]
+    other = cKDTree(places[~small].round(9)).query(points)[0]
+    return bool(np.mean(other <= own) >= MIXED)

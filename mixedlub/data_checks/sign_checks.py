@@ -1,0 +1,76 @@
+"""Readings of both signs where one is right: equal conditions have one friction."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mixedlub.case.folder import Case
+from mixedlub.kinds.friction_map import drive_speed
+from mixedlub.recording.conditions import jitters
+from mixedlub.recording.set_points import near_values
+from mixedlub.schema.table import Table
+
+CLOCKS = ("sequence", "time_s")
+AS_LARGE = (0.67, 1.5)
+"""Of another sign and otherwise the same: the size of one over that of the other."""
+SMALL, FEW_SMALL = 0.5, 0.1
+"""Readings that scatter about zero have more than this share below half of their middle size."""
+SHOWN = 5
+
+
+def of_other_sign(case: Case, rows: Table, y: np.ndarray, sd: np.ndarray) -> np.ndarray:
+    """Readings that have the other sign than some as large at the same conditions; ``sd`` is what is told from zero."""
+    group, moves = _points(case, rows), _moves(case, rows)
+    wrong = _against_others(y, group, moves & (np.abs(y) > sd))
+    size = np.abs(y[moves & np.isin(group, np.unique(group[wrong]))])
+    about_zero = size.size > 0 and np.mean(size < SMALL * np.median(size)) > FEW_SMALL
+    return np.zeros(y.size, bool) if about_zero else wrong
+
+
+def both_signs(case: Case, rows: Table, y: np.ndarray, wrong: np.ndarray) -> list[str]:
+    """A sentence on readings whose sign is ``wrong``."""
+    count = int(wrong.sum())
+    if not count:
+        return []
+    sign = "negative" if np.all(y[wrong] < 0.0) else "positive" if np.all(y[wrong] > 0.0) else "of the other sign"
+    listed = ", ".join(map(str, rows["run"][wrong][:SHOWN].tolist())) + (", ..." if count > SHOWN else "")
+    said = f"{count} reading{' is' if count == 1 else 's are'} {sign} where others at the same conditions are as large"
+    channels = f"the signs of {case.quantity} and of the speed" if case.kind.name == "friction_map" else "the sign"
+    return [f"{case.quantity} has both signs: {said} with the opposite one: check {channels} (runs {listed})"]
+
+
+def _against_others(y: np.ndarray, group: np.ndarray, large: np.ndarray) -> np.ndarray:
+    """Readings of the rarer sign of their group, negative ones of as many, beside one as large of the other.
+
+    >>> y = np.array([0.1, -0.1, 0.11, 0.1, -0.01, -0.2])
+    >>> np.flatnonzero(_against_others(y, np.array([0, 0, 0, 1, 1, 2]), np.ones(6, bool))).tolist()
+    [1]
+    """
+    wrong = np.zeros(y.size, bool)
+    for one in np.unique(group[large & (y < 0.0)]):
+        inside = np.flatnonzero(large & (group == one))
+        up, down = inside[y[inside] > 0.0], inside[y[inside] < 0.0]
+        rarer, others = (up, down) if 0 < up.size < down.size else (down, up)
+        if others.size:
+            share = np.abs(y[rarer]) / np.median(np.abs(y[others]))
+            wrong[rarer[(share > AS_LARGE[0]) & (share < AS_LARGE[1])]] = True
+    return wrong
+
+
+def _points(case: Case, rows: Table) -> np.ndarray:
+    """Number of the place of each reading: alike where its conditions are, but for jitter and the time."""
+    keys = [np.zeros(len(rows), dtype=int)]
+    for name in (*(column.name for column in case.kind.columns), "rig", "setup"):
+        if name not in rows or name in CLOCKS:
+            continue
+        values = rows[name]
+        if values.dtype.kind in "US":
+            keys.append(np.unique(values, return_inverse=True)[1].reshape(-1))
+        elif not jitters(name, values):
+            keys.append(near_values(values))
+    return np.unique(np.column_stack(keys), axis=0, return_inverse=True)[1].reshape(-1)
+
+
+def _moves(case: Case, rows: Table) -> np.ndarray:
+    """Readings whose friction has a direction: a drive that stands is held either way."""
+    return drive_speed(rows) != 0.0 if case.kind.name == "friction_map" else np.ones(len(rows), bool)

@@ -1,0 +1,1 @@
+"""From weights to an answer: tests, probabilities, cross-validation, location, next tests."""

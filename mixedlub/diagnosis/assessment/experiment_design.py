@@ -1,0 +1,148 @@
+"""Which test to run next: the conditions whose outcome would tell the remaining explanations apart best."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from mixedlub.diagnosis.assessment.posterior import Key, Posterior
+from mixedlub.diagnosis.assessment.prediction import Prediction, Refined, Rows, refine
+from mixedlub.diagnosis.search.search import Search
+from mixedlub.recording.conditions import held_at
+from mixedlub.recording.set_points import roundest, set_points
+from mixedlub.schema.table import Column, Table
+
+MOST = 600
+"""Conditions that are looked at."""
+SEED = 1
+LEAST = 1e-12
+"""Smallest probability of an explanation: its logarithm is taken."""
+WORTH, RIVALS = 0.01, 5
+"""Probability from which an explanation is worth a test, and how many are told apart at once."""
+COUNTED = 0.05
+"""Least weight of a rival in the choice of a test: one that is nearly excluded is still to be excluded."""
+TESTS = 3
+"""Tests that are proposed."""
+NODES = 21
+"""Gauss-Hermite nodes of the integral over a reading."""
+
+
+@dataclass(frozen=True)
+class NextTest:
+    """Conditions to run, the explanations they separate, and the information expected."""
+
+    conditions: dict[str, float | str]
+    separates: tuple[str, ...]
+    expected_bits: float
+
+
+def next_tests(
+    found: Search, judged: Posterior, refined: dict[Key, Refined], columns: list[Column], varied: list[str]
+) -> tuple[NextTest, ...]:
+    """The tests whose outcomes tell most, apart from one another; with one explanation left, against the runner-up."""
+    keys = [k for k in refined if judged.weights[k] > WORTH]
+    if len(keys) < 2:
+        runner = next((k for k in judged.weights if not isinstance(k, str) and k not in keys and k in found.fits), None)
+        if runner is None:
+            return ()
+        refined = {**refined, runner: refine(found, found.fits[runner])}
+        keys = [*keys, runner]
+    keys = keys[:RIVALS]
+    case = found.problem.case
+    table = candidates(found.problem.rows, columns, case.kind.limits(case.system), varied)
+    rows = Rows(found, table)
+    predictions = [rows.of_fit(refined[k]) for k in keys]
+    weights = np.array([judged.weights[k] for k in keys])
+    finite = np.isfinite(np.array([p.mean + p.variance for p in predictions])).all(axis=0)
+    # Improbable rivals count for the choice, not for what it is said to tell.
+    worth = np.where(finite, expected_bits(np.maximum(weights, COUNTED), predictions, rows.sd), 0.0)
+    bits = np.where(finite, expected_bits(weights, predictions, rows.sd), 0.0)
+    chosen: list[NextTest] = []
+    for i in np.argsort(worth)[::-1]:
+        values = {c.name: table[c.name][i] for c in columns}
+        conditions: dict[str, float | str] = {
+            name: str(x) if isinstance(x, str) else float(f"{x:.6g}") for name, x in values.items()
+        }
+        if all(_apart(conditions, t.conditions) for t in chosen):
+            names = tuple("+".join(judged.names(k)) for k in keys)
+            chosen.append(NextTest(conditions, names, float(bits[i])))
+        if len(chosen) == TESTS:
+            break
+    return tuple(chosen)
+
+
+def _apart(a: dict[str, Any], b: dict[str, Any]) -> bool:
+    """Whether two tests differ in at least two conditions."""
+    return sum(a[name] != b[name] for name in a) >= 2
+
+
+def candidates(
+    table: Table,
+    conditions: list[Column],
+    limits: Mapping[str, tuple[float, float]] | None = None,
+    varied: Collection[str] | None = None,
+) -> Table:
+    """A grid over the recorded levels and a little beyond them, thinned to a few hundred conditions.
+
+    It keeps within the bounds of the columns, and within the ``limits`` of the rig. Conditions that are not ``varied``
+    (none given: all are) stay where they were, and those that only jitter at their set-point.
+
+    >>> share = Column("slide_roll_ratio", at_least=0.0, at_most=2.0)
+    >>> candidates(Table({"slide_roll_ratio": np.array([0.5, 1.9])}, ""), [share])["slide_roll_ratio"].tolist()
+    [0.3, 0.5, 1.9]
+    """
+    axes: list[np.ndarray] = []
+    for condition in conditions:
+        levels = np.unique(set_points(table[condition.name]))
+        at = held_at(condition.name, table[condition.name])
+        if at is not None:
+            levels = np.array([at])
+        elif varied is not None and condition.name not in varied and levels.dtype.kind not in "US":
+            levels = np.array([roundest(float(levels[0]), float(levels[-1]))])
+        if levels.dtype.kind not in "US" and levels.size > 1:
+            low, high = float(levels[0]), float(levels[-1])
+            wide = 0.25 * (high - low)
+            lowest, highest = (limits or {}).get(condition.name, (-np.inf, np.inf))
+            beyond = [low - wide if low < 0 else max(low - wide, 0.6 * low), high + wide]
+            inner = levels if levels.size <= 4 else np.quantile(levels, [0.0, 0.33, 0.67, 1.0])
+            levels = np.unique(
+                np.concatenate([inner, [x for x in beyond if condition.allows(x) and lowest <= x <= highest]])
+            )
+        axes.append(levels if levels.size <= 8 else levels[np.linspace(0, levels.size - 1, 8).astype(int)])
+    grid = list(product(*axes))
+    if len(grid) > MOST:
+        # At random: every so many would go round with the levels of a condition, and miss some of them.
+        kept = np.random.default_rng(SEED).choice(len(grid), MOST, replace=False)
+        grid = [grid[i] for i in np.sort(kept)]
+    columns = {condition.name: np.array([row[i] for row in grid]) for i, condition in enumerate(conditions)}
+    columns["run"] = np.arange(1, len(grid) + 1)
+    if "sequence" in table:
+        columns["sequence"] = np.ones(len(grid))
+    return Table(columns, "next tests")
+
+
+def expected_bits(weights: np.ndarray, predictions: list[Prediction], sd: np.ndarray) -> np.ndarray:
+    """Mutual information of one reading with the explanation, in bits, for every candidate.
+
+    >>> near = Prediction(np.zeros(1), np.zeros(1), np.zeros(1))
+    >>> far = Prediction(np.full(1, 50.0), np.zeros(1), np.zeros(1))
+    >>> expected_bits(np.array([0.5, 0.5]), [near, far], np.ones(1)).round(3).tolist()
+    [1.0]
+    """
+    share = np.maximum(weights, LEAST)
+    share = share / share.sum()
+    mean = np.array([p.mean for p in predictions])
+    spread = np.sqrt(np.array([p.variance for p in predictions]) + sd**2)
+    node, mass = np.polynomial.hermite_e.hermegauss(NODES)
+    mass = mass / mass.sum()
+    gain = np.zeros(mean.shape[1])
+    for m in range(len(share)):
+        y = mean[m] + spread[m] * node[:, None]
+        log = -0.5 * ((y[None] - mean[:, None]) / spread[:, None]) ** 2 - np.log(spread)[:, None]
+        mixed = np.logaddexp.reduce(log + np.log(share)[:, None, None], axis=0)
+        gain += share[m] * (mass[:, None] * (log[m] - mixed)).sum(axis=0)
+    return np.maximum(gain, 0.0) / np.log(2.0)

@@ -1,0 +1,53 @@
+"""Conditions that lie beyond those recorded, where a prediction extrapolates."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mixedlub.case.folder import SHOWN, Case
+from mixedlub.diagnosis.labels import amount
+from mixedlub.schema.table import Column, Table
+
+OF_SPAN, OF_END, OF_LOWEST = 0.1, 0.02, 0.25
+"""A condition is beyond when it is past an end by a tenth of the span and 2 % of the end, or below 3/4 of the lowest.
+
+What only wanders about its set point is not.
+"""
+
+
+def beyond_recorded(case: Case, wanted: Table | None) -> list[str]:
+    """A sentence on the wanted runs that lie beyond the recorded conditions, each with what is beyond, if any do."""
+    rows = case.recordings
+    if wanted is None or rows is None:
+        return []
+    said: dict[int, list[str]] = {}
+    for column in case.kind.columns:
+        if column.name in wanted and column.name in rows:
+            for run, words in _beyond(column, wanted, rows):
+                said.setdefault(run, []).append(words)
+    if not said:
+        return []
+    listed = [f"run {run}: {', '.join(words)}" for run, words in list(said.items())[:SHOWN]]
+    more = f"; and {len(said) - SHOWN} more runs" if len(said) > SHOWN else ""
+    return [
+        f"{len(said)} of {len(wanted)} conditions to predict lie beyond what was recorded; their intervals hold only "
+        f"if the laws go on as they do within it ({'; '.join(listed)}{more})"
+    ]
+
+
+def _beyond(column: Column, wanted: Table, rows: Table) -> Iterator[tuple[int, str]]:
+    """Runs whose value of a column is beyond the recorded ones, with the words for it."""
+    name, values = column.name, wanted[column.name]
+    if column.form == "name":
+        for i in np.flatnonzero(~np.isin(values, rows[name])):
+            yield int(wanted["run"][i]), f"{name} {values[i]}, never recorded"
+        return
+    low, high = float(np.min(rows[name])), float(np.max(rows[name]))
+    least, most = (max(OF_SPAN * (high - low), OF_END * abs(end)) for end in (low, high))
+    if low > 0.0:
+        least = min(least, OF_LOWEST * low)
+    for i in np.flatnonzero((values < low - least) | (values > high + most)):
+        ends = amount(low, name) if low == high else f"{low:.4g} to {amount(high, name)}"
+        yield int(wanted["run"][i]), f"{name} {amount(float(values[i]), name)}, recorded {ends}"

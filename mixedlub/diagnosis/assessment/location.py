@@ -1,0 +1,99 @@
+"""Where simulation and recording part: which readings, and the range of conditions they share."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from mixedlub.diagnosis.assessment.posterior import Key
+from mixedlub.diagnosis.discrepancy.local import TURNED
+from mixedlub.diagnosis.problem import effects_of
+from mixedlub.diagnosis.search.search import CLOCKS, Search
+from mixedlub.recording.conditions import PASSING
+from mixedlub.recording.set_points import set_points
+from mixedlub.schema.table import Table
+
+NOWHERE = 1e-9
+"""Mismatch in sigmas below which there is none."""
+LARGE = 0.5
+"""Share of the largest mismatch from which a reading is one of those to be marked off."""
+CUTS, LEVELS = 3, 12
+"""Conditions that are cut at most, and ends of a cut that are tried along one."""
+BETTER = 0.02
+"""Gain in F-score that another cut has to bring."""
+
+
+@dataclass(frozen=True, eq=False)
+class Region:
+    """Conditions joined by "and", and which readings they hold."""
+
+    where: tuple[dict[str, Any], ...]
+    inside: np.ndarray
+
+
+def region(table: Table, columns: list[str], size: np.ndarray) -> Region:
+    """The box of conditions that best marks off the readings with the largest mismatch.
+
+    ``size`` is the mismatch of each reading in sigmas. Up to three conditions are cut, each cut kept only
+    if it marks the large readings off better (F-score).
+    """
+    absolute = np.abs(size)
+    top = float(absolute.max(initial=0.0))
+    if top < NOWHERE:
+        return Region((), np.ones(absolute.size, bool))
+    large = absolute >= max(LARGE * top, np.median(absolute))
+    inside = np.ones(absolute.size, bool)
+    chosen: dict[str, dict[str, Any]] = {}
+    score = _f_score(inside, large)
+    for _ in range(CUTS):
+        best: tuple[float, str, dict[str, Any], np.ndarray] | None = None
+        for name in columns:
+            if name in chosen:
+                continue
+            for cut, mask in _cuts(name, table[name]):
+                value = _f_score(inside & mask, large)
+                if best is None or value > best[0]:
+                    best = (value, name, cut, mask)
+        if best is None or best[0] < score + BETTER:
+            break
+        score, name, cut, mask = best
+        chosen[name] = cut
+        inside &= mask
+    return Region(tuple(chosen.values()), inside)
+
+
+def passed_by(found: Search, verdict: Key) -> list[str]:
+    """What tells the time, where the answer goes with that: a place may be a stretch of the programme."""
+    if isinstance(verdict, str):
+        return [name for name in PASSING if name in found.unknown.best.axes]
+    timed = any(CLOCKS.intersection(e.reads) for e in effects_of(verdict))
+    return [name for name in PASSING if timed and name != TURNED]
+
+
+def _cuts(name: str, values: np.ndarray) -> list[tuple[dict[str, Any], np.ndarray]]:
+    levels = np.unique(values)
+    if levels.size < 2:
+        return []
+    if values.dtype.kind in "US":
+        return [({"column": name, "values": [str(level)]}, values == level) for level in levels]
+    points = set_points(values)
+    levels = np.unique(points)
+    if levels.size > LEVELS:
+        levels = np.unique(np.quantile(points, np.linspace(0.0, 1.0, LEVELS)))
+    found = []
+    for i, low in enumerate(levels):
+        for j in range(i, levels.size):
+            if i == 0 and j == levels.size - 1:
+                continue
+            mask = (points >= low) & (points <= levels[j])
+            if not mask.any():
+                continue
+            found.append(({"column": name, "low": float(values[mask].min()), "high": float(values[mask].max())}, mask))
+    return found
+
+
+def _f_score(found: np.ndarray, wanted: np.ndarray) -> float:
+    both = float((found & wanted).sum())
+    return 2.0 * both / max(float(found.sum() + wanted.sum()), 1.0)

@@ -1,0 +1,363 @@
+"""What can be said of a mismatch without a name: the stage that can absorb it, and the shortest power law."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations, product
+from math import comb
+
+import numpy as np
+
+from mixedlub.chain.model import Model
+from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.diagnosis.discrepancy.modulated import log_slope
+from mixedlub.diagnosis.discrepancy.smooth import FACTORS, SIZES
+from mixedlub.diagnosis.inference.map_fit import covariance, linear_fit, whitening
+from mixedlub.diagnosis.labels import number, words_of
+from mixedlub.diagnosis.search.search import Search
+from mixedlub.schema.units import unit_of
+
+EXPONENTS = tuple(s * Fraction(n, m) for n, m in ((1, 3), (1, 2), (2, 3), (1, 1), (2, 1)) for s in (1, -1))
+CHAIN = ("film_ratio", "slide_roll_ratio", "hertz_pressure", "viscosity", "entrainment_speed", "sliding_speed")
+SLOTS = (
+    ("film", ("film_thickness",)),
+    ("shear", ("shear_stress",)),
+    ("contact", ("area_ratio",)),
+    ("boundary", ("boundary_friction",)),
+    ("load", ("load_share", "line_load")),
+    ("loss", ("power_loss", "tangential_friction", "friction")),
+)
+ALIKE = 0.999
+"""Cosine of two quantities from which they are one at these conditions."""
+BEAM = 12
+"""Forms that are kept and made longer at each step."""
+CELLS = 4_000_000
+MOST_BLOCKS = 6
+RELATIVE, TURNING = 0, 2
+"""Places among the carriers: the base model's reading, one, and the direction of motion where there are two."""
+MOST_READINGS = 1500
+"""Readings that forms are tried on."""
+SEED = 1
+GAIN = 3.0
+"""Log evidence that a form has to gain to be told."""
+WORTH = 0.7
+"""Error on levels left out, as a share of that without the form, from which it is no description."""
+
+
+@dataclass(frozen=True)
+class Absorbed:
+    """How well a smooth free factor on one quantity of the chain explains the mismatch (log evidence over none)."""
+
+    stage: str
+    quantity: str
+    evidence: float
+
+
+@dataclass(frozen=True, eq=False)
+class Law:
+    """A power law of the mismatch: coefficient times the product of (quantity over its middle) to exponents.
+
+    ``relative`` laws are a share of the calibrated base model's reading, others have its unit. ``shape`` is the
+    product (times the base model's reading where relative) for each reading, ``observed`` what the recording
+    has beyond the base model at the law's calibration; their ratio is the coefficient but for noise. Errors on
+    levels left out are in sigmas of a single reading. ``odd`` laws turn their sign with the direction of motion.
+    """
+
+    factors: tuple[tuple[str, Fraction], ...]
+    middles: tuple[float, ...]
+    relative: bool
+    coefficient: float
+    sd: float
+    unit: str
+    evidence: float
+    heldout_before: float
+    heldout_after: float
+    shape: np.ndarray
+    observed: np.ndarray
+    odd: bool
+
+    @property
+    def text(self) -> str:
+        """The law as a line of text."""
+        head = (
+            f"{number(self.coefficient)} {self.unit}".rstrip()
+            if not self.relative
+            else f"{number(self.coefficient)} × base"
+        )
+        parts = [f"({_words(name)}/{_middle(name, x)})^{_power(b)}" for (name, b), x in self._items]
+        sign = ", in the direction of motion" if self.odd else ""
+        return "missing part = " + " × ".join([head, *parts]) + sign
+
+    @property
+    def _items(self) -> list[tuple[tuple[str, Fraction], float]]:
+        return list(zip(self.factors, self.middles, strict=True))
+
+
+@dataclass(frozen=True)
+class Unnamed:
+    """The stages that absorb the mismatch at all, best first, and the power law, if one holds on levels left out."""
+
+    stages: tuple[Absorbed, ...]
+    law: Law | None
+
+
+def unnamed(found: Search) -> Unnamed:
+    """Describe a mismatch for which the catalogue has no name."""
+    stages = tuple(stage for stage in absorbing_stages(found) if stage.evidence > 0.0)
+    return Unnamed(stages, power_law(found))
+
+
+def absorbing_stages(found: Search) -> tuple[Absorbed, ...]:
+    """Weigh a smooth free factor on one quantity a stage, linearised at the calibrated base model."""
+    problem, none = found.problem, found.none
+    base = np.hstack([none.slopes, problem.shared])
+    plain = linear_fit(none.anchor, base, found.unknown.fit.weight).evidence
+    smooth = found.space.columns(found.values, 0.7)
+    calibrated = problem.run((), none.z)
+    weighed = []
+    for stage, names in SLOTS:
+        for name in names:
+            slope = log_slope(problem, calibrated, name)
+            if slope is None or not np.isfinite(slope).all() or not slope.any():
+                continue
+            own = smooth * (slope / problem.sd)[:, None]
+            each = [
+                linear_fit(none.anchor, np.hstack([base, size * own]), found.unknown.fit.weight).evidence
+                for size in FACTORS
+            ]
+            weighed.append(Absorbed(stage, name, float(np.logaddexp.reduce(each) - np.log(len(each)) - plain)))
+            break
+    return tuple(sorted(weighed, key=lambda a: -a.evidence))
+
+
+def features(found: Search) -> dict[str, np.ndarray]:
+    """Positive quantities that vary over the recording, one number a reading; look-alikes of earlier ones left out."""
+    case, rows, forward = found.problem.case, found.problem.rows, found.problem.forward
+    every: dict[str, np.ndarray] = {}
+    for column in case.kind.columns:
+        if column.form != "name" and column.name in rows and not column.name.endswith("_C"):
+            every[column.name] = np.abs(np.asarray(rows[column.name], dtype=float))
+    inputs = found.problem.run((), found.none.z).record.inputs
+    made = set(inputs) | {name for name, _ in forward.chain}
+    parts = [name for name in (*CHAIN[1:], "film_thickness", "composite_roughness") if name in made]
+    state = Model(forward.chain, tuple(inputs), tuple(parts))(inputs) if parts else {}
+    if "film_thickness" in state and "composite_roughness" in state:
+        state["film_ratio"] = state["film_thickness"] / state["composite_roughness"]
+    for name in CHAIN:
+        if name in state and name not in every:
+            value = np.atleast_2d(np.asarray(state[name], dtype=float)).mean(axis=-1)
+            every[name] = np.broadcast_to(value, (len(rows),))
+    kept: dict[str, np.ndarray] = {}
+    for name, value in every.items():
+        if not (np.isfinite(value).all() and (value > 0).all()) or np.ptp(np.log(value)) < 0.05:
+            continue
+        shape = _standard(np.log(value))
+        if all(abs(np.mean(shape * _standard(np.log(other)))) < ALIKE for other in kept.values()):
+            kept[name] = value
+    return kept
+
+
+def _standard(values: np.ndarray) -> np.ndarray:
+    return np.asarray((values - values.mean()) / values.std())
+
+
+@dataclass(frozen=True, eq=False)
+class _Search:
+    """Everything a power law is weighed with: logarithms of the features, the linearised base, the target."""
+
+    names: tuple[str, ...]
+    logs: np.ndarray
+    share: np.ndarray
+    fixed: np.ndarray
+    target: np.ndarray
+    weight: np.ndarray
+
+    def take(self, rows: np.ndarray) -> _Search:
+        return _Search(
+            self.names, self.logs[rows], self.share[rows], self.fixed[rows], self.target[rows], self.weight[rows]
+        )
+
+    def columns(self, powers: np.ndarray, carrier: np.ndarray) -> np.ndarray:
+        """One column in sigmas a form: product of powers, times one of the carriers; shape (forms, rows)."""
+        return self.share.T[carrier] * np.exp(np.clip(powers @ self.logs.T, -30.0, 30.0))
+
+    def evidence(self, powers: np.ndarray, carrier: np.ndarray) -> np.ndarray:
+        """Log evidence of each form over nothing, its amplitude averaged over SIZES."""
+        whitened = whitening(self.fixed, self.weight)
+        found = np.empty(len(powers))
+        step = max(1, CELLS // self.target.size)
+        for start in range(0, len(powers), step):
+            part = slice(start, start + step)
+            each = self.columns(powers[part], carrier[part])
+            each = each / np.sqrt(np.mean(each**2, axis=1))[:, None]
+            seen = whitened(each)
+            power = np.einsum("ij,ij->i", seen, each)
+            along = (seen @ self.target) ** 2
+            square = np.array(SIZES)[:, None] ** 2
+            grown = 1.0 + square * np.maximum(power, 0.0)
+            value = 0.5 * (square * along / grown - np.log(grown))
+            found[part] = np.logaddexp.reduce(value, axis=0) - np.log(len(SIZES))
+        return found
+
+    def best(self) -> tuple[float, np.ndarray, int]:
+        """The form with the highest posterior, and its carrier: two factors at once, a third added to the leaders."""
+        count = len(self.names)
+        leaders: list[tuple[float, np.ndarray, int]] = []
+        for size in range(3):
+            leaders += self._weigh(_all_powers(count, size), size)
+        leaders.sort(key=lambda item: -item[0])
+        thirds = [
+            _with(powers, place, b)
+            for _, powers, _ in leaders[:BEAM]
+            if np.count_nonzero(powers) == 2
+            for place in range(count)
+            if powers[place] == 0
+            for b in EXPONENTS
+        ]
+        if thirds:
+            leaders += self._weigh(np.unique(np.array(thirds), axis=0), 3)
+        return max(leaders, key=lambda item: item[0])
+
+    def _weigh(self, powers: np.ndarray, size: int) -> list[tuple[float, np.ndarray, int]]:
+        """Forms of a size with their log posterior; every further factor halves the prior of the whole size."""
+        if not len(powers):
+            return []
+        count = self.share.shape[1]
+        every, carrier = np.tile(powers, (count, 1)), np.repeat(np.arange(count), len(powers))
+        forms = comb(len(self.names), size) * (2 * len(EXPONENTS)) ** size
+        score = self.evidence(every, carrier) - np.log(count * forms)
+        order = np.argsort(-score, kind="stable")[:BEAM]
+        return [(float(score[i]), every[i], int(carrier[i])) for i in order]
+
+
+def _all_powers(count: int, size: int) -> np.ndarray:
+    """Exponents of every form with ``size`` factors, shape (forms, count).
+
+    >>> _all_powers(3, 0).shape, _all_powers(3, 1).shape, _all_powers(3, 2).shape
+    ((1, 3), (30, 3), (300, 3))
+    """
+    values = [float(b) for b in EXPONENTS]
+    rows = []
+    for places in combinations(range(count), size):
+        grid = np.array(list(product(values, repeat=size))).reshape(len(values) ** size, size)
+        powers = np.zeros((len(grid), count))
+        powers[:, list(places)] = grid
+        rows.append(powers)
+    return np.vstack(rows) if rows else np.zeros((0, count))
+
+
+def _with(powers: np.ndarray, place: int, b: Fraction) -> np.ndarray:
+    changed = powers.copy()
+    changed[place] = float(b)
+    return changed
+
+
+def power_law(found: Search) -> Law | None:
+    """The shortest power law that predicts whole levels it was not fitted to; None where there is none.
+
+    The law is chosen anew in every fold; it must lower the held-out error clearly over all folds, and in most
+    of the conditions whose levels are left out in turn.
+    """
+    values = features(found)
+    if not values:
+        return None
+    problem, none = found.problem, found.none
+    names = tuple(values)
+    middles = np.array([float(f"{np.exp(np.mean(np.log(v))):.2g}") for v in values.values()])
+    logs = np.log(np.array(list(values.values())).T / middles)
+    one = problem.sd * problem.unit_size(found.none.prediction)
+    level = problem.level(none.prediction)
+    share = np.column_stack([level, np.ones_like(level), *_turning(found)]) / one[:, None]
+    fixed = np.hstack([none.slopes, problem.shared])
+    whole = _Search(names, logs, share, fixed, none.anchor, found.unknown.fit.weight)
+    count = min(problem.y.size, MOST_READINGS)
+    thin = np.sort(np.random.default_rng(SEED).choice(problem.y.size, count, replace=False))
+    every = whole.take(thin)
+    score, powers, carrier = every.best()
+    if score < GAIN:
+        return None
+    before, after, wins = _held_out(found, every, thin)
+    if after > WORTH * before or not wins:
+        return None
+    in_single = float(np.sqrt(problem.together))
+    own = whole.columns(powers[None], np.array([carrier]))[0]
+    coefficient, sd, c = _coefficient(whole, own)
+    chosen = np.flatnonzero(powers)
+    exponent = {float(b): b for b in EXPONENTS}
+    return Law(
+        factors=tuple((names[i], exponent[powers[i]]) for i in chosen),
+        middles=tuple(float(middles[i]) for i in chosen),
+        relative=carrier == RELATIVE,
+        coefficient=coefficient,
+        sd=sd,
+        unit=unit_of(problem.case.quantity),
+        evidence=score,
+        heldout_before=in_single * before,
+        heldout_after=in_single * after,
+        shape=own * one,
+        observed=(whole.target - fixed @ c[:-1]) * one,
+        odd=carrier == TURNING,
+    )
+
+
+def _turning(found: Search) -> list[np.ndarray]:
+    """The direction of motion of every reading as a sign, where both were run."""
+    speed = found.problem.forward.inputs.get("drive_speed")
+    if speed is None or np.ptp(np.sign(speed)) == 0.0:
+        return []
+    return [np.broadcast_to(np.sign(speed)[:, 0], found.problem.y.shape)]
+
+
+def _coefficient(every: _Search, own: np.ndarray) -> tuple[float, float, np.ndarray]:
+    """Coefficient of a column, its sd and all coefficients, the prior of the coefficient wide open."""
+    scale = SIZES[-1] / np.sqrt(np.mean(own**2))
+    columns = np.column_stack([every.fixed, own * scale])
+    fit = linear_fit(every.target, columns, every.weight)
+    spread = covariance(columns, fit.weight)
+    coefficients = fit.coefficients.copy()
+    coefficients[-1] *= scale
+    return float(coefficients[-1]), float(np.sqrt(spread[-1, -1]) * scale), coefficients
+
+
+def _held_out(found: Search, every: _Search, thin: np.ndarray) -> tuple[float, float, bool]:
+    """Rms error in sigmas on levels left out, without a law and with one chosen on the others; do most splits win."""
+    squares: list[tuple[float, float]] = []
+    for axis, values in zip(found.space.axes, found.values, strict=True):
+        levels, label = np.unique(values[thin], return_inverse=True)
+        if levels.size < 3 or axis.name == "sequence":
+            continue
+        label = label * min(levels.size, MOST_BLOCKS) // levels.size
+        left = np.zeros((2, every.target.size))
+        for k in range(int(label.max()) + 1):
+            out = label == k
+            train, test = every.take(~out), every.take(out)
+            plain = linear_fit(train.target, train.fixed, train.weight)
+            left[0, out] = test.target - test.fixed @ plain.coefficients
+            _, powers, carrier = train.best()
+            by = np.array([carrier])
+            _, _, c = _coefficient(train, train.columns(powers[None], by)[0])
+            left[1, out] = test.target - np.column_stack([test.fixed, test.columns(powers[None], by)[0]]) @ c
+        mean = (every.weight * left**2).sum(axis=1) / every.weight.sum()
+        squares.append((float(mean[0]), float(mean[1])))
+    if not squares:
+        return 0.0, 0.0, False
+    total = np.mean(np.array(squares), axis=0)
+    wins = sum(after < before for before, after in squares)
+    return float(np.sqrt(total[0])), float(np.sqrt(total[1])), wins >= 0.75 * len(squares)
+
+
+def _words(name: str) -> str:
+    return "film ratio" if name == "film_ratio" else words_of(name)
+
+
+def _middle(name: str, value: float) -> str:
+    """The middle of a quantity with its unit, as the law is written."""
+    unit = unit_of(name) if unit_of(name) else GLOSSARY[name].unit if name in GLOSSARY else "-"
+    if unit == "Pa":
+        return f"{number(value * 1e-9)} GPa"
+    return number(value) if unit in ("-", "") else f"{number(value)} {unit}"
+
+
+def _power(b: Fraction) -> str:
+    return str(b) if b.denominator == 1 and b > 0 else f"({b})"

@@ -1,0 +1,1 @@
+"""The mismatch that no effect of the catalogue explains."""

@@ -1,0 +1,122 @@
+"""What an unnamed mismatch may ride on: the reading, nothing, or one quantity of the chain times a free factor."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from mixedlub.case.forward import Forward, Run
+from mixedlub.chain.effect import Effect, Normal, Parameter
+from mixedlub.chain.model import Model
+from mixedlub.diagnosis.problem import STEP, Problem
+from mixedlub.recording.conditions import clock_of
+from mixedlub.schema.table import Table
+
+READING, NOTHING = "reading", "nothing"
+LATE = "late_temperature"
+"""What readings would be at the temperature of a step before, less what they are: nothing that rides on it varies."""
+WARMTH = ("oil_temperature_C", "temperature_C")
+QUANTITIES = ("film_thickness", "shear_stress", "area_ratio", "boundary_friction", "line_load", "running_friction")
+LEAST = 1e-9
+
+Carriers = Mapping[str, np.ndarray]
+
+
+@dataclass(frozen=True)
+class Typical:
+    """Sizes over a recording by which a mismatch is counted: medians of reading over sd and of sd."""
+
+    share: float
+    sd: float
+
+    @classmethod
+    def of(cls, problem: Problem, base: Run) -> Typical:
+        """Those of a recording under a run of the base model."""
+        share = _share(problem, base)
+        return cls(float(np.median(share[share > 0.0])) if share.any() else 1.0, float(np.median(problem.sd)))
+
+
+def carriers(problem: Problem, base: Run, typical: Typical) -> dict[str, np.ndarray]:
+    """Sigmas by which each reading moves: for a share of itself, for one typical sd, for a factor e on a quantity.
+
+    ``base`` is a run of the base model. Quantities on which no reading hangs are left out.
+    """
+    every = {name: carrier(problem, base, typical, name) for name in (READING, NOTHING, LATE, *QUANTITIES)}
+    return {name: each for name, each in every.items() if np.max(np.abs(each)) > LEAST}
+
+
+def carrier(problem: Problem, base: Run, typical: Typical, name: str) -> np.ndarray:
+    """One of the carriers; zero where the reading does not hang on it or has no finite answer."""
+    if name == NOTHING:
+        return typical.sd / problem.sd
+    if name == LATE:
+        return np.nan_to_num(late(problem, base) / problem.sd)
+    if name == READING:
+        return np.nan_to_num(_share(problem, base) / typical.share)
+    slope = log_slope(problem, base, name)
+    return np.zeros(problem.y.size) if slope is None else np.nan_to_num(slope / problem.sd, posinf=0.0, neginf=0.0)
+
+
+def late(problem: Problem, base: Run) -> np.ndarray:
+    """Change of the readings if the oil still were as warm as one usual step before; zero where no order is told.
+
+    What was recorded tells how warm it was before a row, whichever table holds that; after a pause the step is a
+    small part of what the temperature has changed by since.
+    """
+    rows, order = problem.rows, clock_of(problem.rows)
+    name = next((n for n in WARMTH if n in rows and np.ptp(rows[n]) > 0.0), None)
+    if order is None or name is None:
+        return np.zeros(problem.y.size)
+    every = [rows]
+    if problem.case.recordings is not None and clock_of(problem.case.recordings) is not None:
+        every.append(problem.case.recordings)
+    clock, first = np.unique(np.concatenate([clock_of(t) for t in every]), return_index=True)
+    warmth = np.concatenate([t[name] for t in every])[first]
+    before = np.maximum(np.searchsorted(clock, order) - 1, 0)
+    gap = np.maximum(order - clock[before], np.median(np.diff(clock)))
+    step = (warmth[before] - rows[name]) * np.median(np.diff(clock)) / gap
+    table = Table({**rows.columns, name: rows[name] + step}, rows.source)
+    there = Forward(problem.case, table, float(problem.forward.inputs["reading_scale"]))
+    values = {name: move.value for name, move in base.applied.items()}
+    return problem.seen(there.predict(values)) - base.prediction
+
+
+def _share(problem: Problem, base: Run) -> np.ndarray:
+    """Change of what is compared when a reading grows by the factor e, in sigmas, to first order."""
+    if problem.case.kind.logarithmic:
+        return 1.0 / problem.sd
+    return np.abs(base.prediction) / problem.sd
+
+
+def log_slope(problem: Problem, base: Run, name: str) -> np.ndarray | None:
+    """Change of the readings, as compared, with the logarithm of a quantity of the chain, all along the path.
+
+    ``base`` is a run of the base model. None where the chain lacks the quantity.
+    """
+    forward, inputs = problem.forward, base.record.inputs
+    if name not in forward.inputs and name not in {step for step, _ in forward.chain}:
+        return None
+    model = Model(forward.chain, tuple(inputs), ("reading",), (_free_factor(name),))
+    moved = np.asarray(model(inputs, {"free_factor": {"log_factor": STEP}})["reading"])
+    slope = (moved - np.asarray(base.record.wanted["reading"])) / STEP * forward.scale
+    return np.asarray(np.broadcast_to(slope, (problem.y.size, 1))[:, 0] / problem.unit_size(base.prediction))
+
+
+def _free_factor(name: str) -> Effect:
+    def factor(quantity: np.ndarray, *, log_factor: float) -> np.ndarray:
+        return quantity * np.exp(log_factor)
+
+    return Effect(
+        id="free_factor",
+        law=factor,
+        stage="property",
+        acts_on=(name,),
+        reads=(),
+        parameters=(Parameter("log_factor", "-", Normal(0.0, 1.0), "logarithm of the free factor", null=0.0),),
+        equation="",
+        source="",
+        fingerprint={},
+        separated_by="",
+    )

@@ -1,0 +1,335 @@
+"""Most probable parameters of an explanation and its evidence, with readings that may be outliers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mixedlub.case.forward import Run
+from mixedlub.diagnosis.problem import REACH, Explanation, Problem
+
+OUTLIER_SHARE = 0.01
+"""Readings that are wrong before anything is known of them: one in a hundred, as rigs that are looked after have."""
+OUTLIER_WIDTH = 10.0
+"""Half-width of the wrong ones in sigmas: clearly beyond noise, or it would be noise."""
+BOUND = 5.0
+"""Usual residuals beyond which a reading is bounded while a fit is still far off."""
+SAME = 0.1
+"""Standard deviations of the prior within which fits from several starts have come to one place."""
+BETTER, PATIENCE = 2.0, 3
+"""How far laws may gain more by a step than their slopes promise, once so many steps have come out of the worst."""
+PARTS = (1.0, 0.5, 0.25, 0.1, 0.0)
+"""Parts of the way to the coordinates of linearised laws that are tried."""
+NINETY = 1.6449
+"""Half-width of a 90 % interval in standard deviations."""
+_LOG_IN = np.log1p(-OUTLIER_SHARE)
+_LOG_OUT = np.log(OUTLIER_SHARE / OUTLIER_WIDTH * np.sqrt(2.0 / np.pi))
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """An explanation at its most probable coordinates ``z``.
+
+    ``residual`` is (y - prediction)/sd less ``common``, the errors shared within set-ups; ``slopes`` its negative
+    derivative with respect to z, ``weight`` the precision of each reading after the chance that it is an outlier,
+    ``evidence`` the Laplace estimate of the log marginal likelihood (up to a constant common to all explanations
+    of a problem).
+    """
+
+    explanation: Explanation
+    z: np.ndarray
+    prediction: np.ndarray
+    residual: np.ndarray
+    common: np.ndarray
+    slopes: np.ndarray
+    weight: np.ndarray
+    evidence: float
+
+    def in_sigmas(self, scale: np.ndarray, evidence: float) -> Fit:
+        """The same fit counted in other sigmas, ``scale`` times as many a reading."""
+        residual = self.residual * scale
+        weight = log_likelihood(residual)[1]
+        slopes, common = self.slopes * scale[:, None], self.common * scale
+        return replace(self, residual=residual, common=common, slopes=slopes, weight=weight, evidence=evidence)
+
+    def at(self, problem: Problem, explanation: Explanation, z: np.ndarray) -> Fit:
+        """Another explanation at coordinates at which nothing was fitted, at the weights of these readings."""
+        run = problem.run(explanation, z)
+        residual = (problem.y - run.prediction) / problem.sd - self.common
+        slopes = problem.jacobian(explanation, z, run)
+        return replace(self, explanation=explanation, z=z, prediction=run.prediction, residual=residual, slopes=slopes)
+
+    @property
+    def anchor(self) -> np.ndarray:
+        """Residual of the linearised model at the middle of the prior."""
+        return self.residual + self.common + self.slopes @ self.z
+
+
+def log_likelihood(residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Log density of residuals under normal noise with rare Cauchy errors, and each one's precision weight.
+
+    The wide errors have no scale that a reading could be far beyond, so one wild reading does not pull the fit.
+
+    >>> bool(log_likelihood(np.array([8.0]))[1][0] < 0.02)
+    True
+    """
+    inside, outside = _log_parts(residual)
+    total = np.logaddexp(inside, outside)
+    chance = np.exp(outside - total)
+    return total, 1.0 - chance * (1.0 - 2.0 / (OUTLIER_WIDTH**2 + residual**2))
+
+
+def _log_parts(residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Log density as good reading and as outlier, both with the same constant left out."""
+    return _LOG_IN - 0.5 * residual**2, _LOG_OUT - np.log1p((residual / OUTLIER_WIDTH) ** 2)
+
+
+def outlier_chance(residual: np.ndarray) -> np.ndarray:
+    """Probability that each residual came from the wide errors.
+
+    >>> outlier_chance(np.array([0.0, 6.0])).round(3).tolist()
+    [0.001, 1.0]
+    """
+    inside, outside = _log_parts(residual)
+    return np.exp(outside - np.logaddexp(inside, outside))
+
+
+@dataclass(frozen=True, eq=False)
+class Linear:
+    """A linear model at its most probable coefficients."""
+
+    evidence: float
+    coefficients: np.ndarray
+    residual: np.ndarray
+    weight: np.ndarray
+
+
+def linear_fit(target: np.ndarray, columns: np.ndarray, weight: np.ndarray | None = None, rounds: int = 30) -> Linear:
+    """Coefficients with standard-normal priors of ``target ~ columns``, outliers weighted down as they show."""
+    coefficients = np.zeros(columns.shape[1])
+    w = np.ones(target.size) if weight is None else weight
+    eye = np.eye(columns.shape[1])
+    for _ in range(rounds):
+        scaled = columns * w[:, None]
+        curvature = eye + columns.T @ scaled
+        found = np.linalg.solve(curvature, scaled.T @ target)
+        residual = target - columns @ found
+        value, new = log_likelihood(residual)
+        done = np.max(np.abs(new - w)) < 1e-3
+        coefficients, w = found, new
+        if done:
+            break
+    log_det = np.linalg.slogdet(curvature)[1]
+    evidence = float(value.sum() - 0.5 * coefficients @ coefficients - 0.5 * log_det)
+    return Linear(evidence, coefficients, residual, w)
+
+
+def covariance(columns: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Of coordinates with standard-normal priors and these columns (slopes in sigmas), at the weights of the readings.
+
+    >>> covariance(np.ones((3, 1)), np.ones(3)).tolist()
+    [[0.25]]
+    """
+    return np.linalg.inv(np.eye(columns.shape[1]) + columns.T @ (columns * weight[:, None]))
+
+
+def whitening(columns: np.ndarray, weight: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
+    """What multiplies rows by the inverse covariance of noise, and of columns with standard-normal priors, together.
+
+    >>> whitening(np.ones((2, 1)), np.ones(2))(np.array([[1.0, 1.0], [1.0, -1.0]])).round(3).tolist()
+    [[0.333, 0.333], [1.0, -1.0]]
+    """
+    weighted = columns * weight[:, None]
+    inner = covariance(columns, weight)
+
+    def whitened(rows: np.ndarray) -> np.ndarray:
+        scaled = rows * weight
+        return np.asarray(scaled - ((scaled @ columns) @ inner) @ weighted.T)
+
+    return whitened
+
+
+def map_fit(
+    problem: Problem, explanation: Explanation, start: np.ndarray, *, warm: bool = False, least: float = -np.inf
+) -> Fit:
+    """Gauss-Newton with damping to the most probable coordinates, then Laplace's evidence.
+
+    Unless the start is ``warm``, least squares come first, with only those readings bounded that are far beyond the
+    others: from afar every reading looks like an outlier. A climb that after some steps is not in sight of the
+    ``least`` evidence is given up where it stands.
+    """
+    state = _started(problem, explanation, start)
+    return _topped(problem, explanation, state if warm else _neared(problem, explanation, state), least)
+
+
+def map_fits(problem: Problem, explanation: Explanation, starts: Sequence[np.ndarray]) -> list[Fit]:
+    """`map_fit` from several starts; those that least squares bring to one place climb on together."""
+    found: list[Fit] = []
+    places: list[np.ndarray] = []
+    for start in starts:
+        state = _neared(problem, explanation, _started(problem, explanation, start))
+        if all(np.max(np.abs(state.z - z)) > SAME for z in places):
+            places.append(state.z)
+            found.append(_topped(problem, explanation, state))
+    return found
+
+
+def _started(problem: Problem, explanation: Explanation, start: np.ndarray) -> _State:
+    shared = np.zeros(problem.shared.shape[1])
+    return _State.at(problem, explanation, np.clip(start, -REACH, REACH), shared, likelihood=log_likelihood)
+
+
+def _neared(problem: Problem, explanation: Explanation, state: _State) -> _State:
+    """Where least squares lead from afar."""
+    first = bounded((problem.y - state.run.prediction) / problem.sd)
+    return _climb(problem, explanation, state, first, tolerance=0.5)
+
+
+def _topped(problem: Problem, explanation: Explanation, state: _State, least: float = -np.inf) -> Fit:
+    """The most probable coordinates, and Laplace's evidence there."""
+    state = _climb(problem, explanation, state, log_likelihood, tolerance=2e-3, least=least)
+    columns = np.hstack([state.slopes, problem.shared])
+    curvature = np.eye(columns.shape[1]) + columns.T @ (columns * state.weight[:, None])
+    evidence = -state.cost - 0.5 * float(np.linalg.slogdet(curvature)[1])
+    prediction = state.run.prediction
+    common = problem.shared @ state.shared
+    residual = (problem.y - prediction) / problem.sd - common
+    return Fit(explanation, state.z, prediction, residual, common, state.slopes, state.weight, evidence)
+
+
+def settled(
+    problem: Problem,
+    explanation: Explanation,
+    start: np.ndarray,
+    wanted: np.ndarray,
+    common: np.ndarray,
+    columns_at: Callable[[np.ndarray], np.ndarray],
+    weight: np.ndarray,
+) -> tuple[np.ndarray, Linear]:
+    """Coordinates as far from ``start`` towards the ``wanted`` ones as the laws themselves gain by.
+
+    The wanted ones are those of the linearised laws, which must not be taken at their word where a law curves much.
+    ``columns_at`` gives, for a prediction, the columns that are fitted beside it; with them comes their fit.
+    """
+    best: tuple[np.ndarray, Linear] | None = None
+    least = np.inf
+    for part in PARTS:
+        z = np.clip(start + part * (wanted - start), -REACH, REACH)
+        prediction = problem.predict(explanation, z)
+        left = (problem.y - prediction) / problem.sd - common
+        if not np.isfinite(left).all():
+            continue
+        linear = linear_fit(left, columns_at(prediction), weight)
+        squares = float(z @ z + linear.coefficients @ linear.coefficients)
+        cost = 0.5 * squares - float(log_likelihood(linear.residual)[0].sum())
+        if cost < least:
+            best, least = (z, linear), cost
+    assert best is not None
+    return best
+
+
+Likelihood = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+
+def bounded(start: np.ndarray) -> Likelihood:
+    """Log density and weights of residuals as by Huber: normal up to several times what is usual among ``start``.
+
+    >>> density, weight = bounded(np.zeros(9))(np.array([2.0, 40.0]))
+    >>> density.tolist(), weight.tolist()
+    ([-2.0, -187.5], [1.0, 0.125])
+    """
+    usual = 1.4826 * float(np.median(np.abs(start))) if np.isfinite(start).all() else np.inf
+    bound = BOUND * max(usual, 1.0)
+
+    def likelihood(residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        size = np.maximum(np.abs(residual), 1e-12)
+        inside = np.minimum(size, bound)
+        return -inside * (size - 0.5 * inside), np.minimum(1.0, bound / size)
+
+    return likelihood
+
+
+@dataclass(frozen=True, eq=False)
+class _State:
+    z: np.ndarray
+    shared: np.ndarray
+    run: Run
+    slopes: np.ndarray
+    cost: float
+    weight: np.ndarray
+
+    @classmethod
+    def at(
+        cls, problem: Problem, explanation: Explanation, z: np.ndarray, shared: np.ndarray, likelihood: Likelihood
+    ) -> _State:
+        run = problem.run(explanation, z)
+        cost, weight = _cost(problem, run.prediction, z, shared, likelihood)
+        return cls(z, shared, run, problem.jacobian(explanation, z, run), cost, weight)
+
+
+def _climb(
+    problem: Problem,
+    explanation: Explanation,
+    state: _State,
+    likelihood: Likelihood,
+    *,
+    tolerance: float,
+    least: float = -np.inf,
+) -> _State:
+    """Damped Gauss-Newton steps until the gain falls below the tolerance, or too much is lacking to the least."""
+    z, shared, run, slopes = state.z, state.shared, state.run, state.slopes
+    cost, weight = _cost(problem, run.prediction, z, shared, likelihood)
+    damping = 1e-2
+    for step_number in range(20):
+        columns = np.hstack([slopes, problem.shared])
+        scaled = columns * weight[:, None]
+        curvature = np.eye(columns.shape[1]) + columns.T @ scaled
+        residual = (problem.y - run.prediction) / problem.sd - problem.shared @ shared
+        slope = scaled.T @ residual - np.concatenate([z, shared])
+        _hold_at_bounds(curvature, slope, z)
+        if step_number >= PATIENCE and _in_sight(cost, slope, curvature) < least:
+            break
+        for _ in range(8):
+            step = np.linalg.solve(curvature + damping * np.diag(np.diag(curvature)), slope)
+            step *= min(1.0, 2.0 / max(np.max(np.abs(step[: z.size]), initial=0.0), 1e-12))
+            moved = np.clip(z + step[: z.size], -REACH, REACH)
+            moved_shared = shared + step[z.size :]
+            tried = problem.run(explanation, moved, run)
+            new_cost, new_weight = _cost(problem, tried.prediction, moved, moved_shared, likelihood)
+            if np.isfinite(new_cost) and new_cost <= cost:
+                break
+            damping = max(damping * 6.0, 1e-3)
+        else:
+            break
+        gain = cost - new_cost
+        z, shared, run, cost, weight = moved, moved_shared, tried, new_cost, new_weight
+        damping = max(damping / 5.0, 1e-9)
+        slopes = problem.jacobian(explanation, z, run)
+        if gain < tolerance:
+            break
+    return _State(z, shared, run, slopes, cost, weight)
+
+
+def _in_sight(cost: float, slope: np.ndarray, curvature: np.ndarray) -> float:
+    """Log evidence that a climb may come to, with BETTER times the gain that the linearised laws promise."""
+    gain = 0.5 * float(slope @ np.linalg.solve(curvature, slope))
+    return BETTER * gain - cost - 0.5 * float(np.linalg.slogdet(curvature)[1])
+
+
+def _hold_at_bounds(curvature: np.ndarray, slope: np.ndarray, z: np.ndarray) -> None:
+    """Take coordinates that press against their bound out of the step, in place; the others then go their full way."""
+    held = np.flatnonzero((np.abs(z) >= REACH) & (slope[: z.size] * z > 0))
+    slope[held] = 0.0
+    curvature[held, :] = 0.0
+    curvature[:, held] = 0.0
+    curvature[held, held] = 1.0
+
+
+def _cost(
+    problem: Problem, prediction: np.ndarray, z: np.ndarray, shared: np.ndarray, likelihood: Likelihood
+) -> tuple[float, np.ndarray]:
+    residual = (problem.y - prediction) / problem.sd - problem.shared @ shared
+    value, weight = likelihood(residual)
+    return float(-value.sum() + 0.5 * z @ z + 0.5 * shared @ shared), weight

@@ -1,1 +1,0 @@
-"""What a recording itself says: its conditions, its noise, and whether it is what it says it is."""

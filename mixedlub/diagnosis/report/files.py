@@ -1,0 +1,89 @@
+"""Diagnose a case and write the answer into a folder."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from mixedlub.atomic import writing
+from mixedlub.diagnosis.assessment.power_law import Unnamed, unnamed
+from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.report.text import words
+from mixedlub.diagnosis.report.text.answer import as_json, predictions_csv
+from mixedlub.diagnosis.search.search import Progress
+
+XML = '<?xml version="1.0" encoding="utf-8" standalone="no"?>\n'
+
+
+def diagnose(
+    case_folder: Path,
+    out: Path,
+    predict: Path | None = None,
+    exclude: Sequence[str] = (),
+    level: float = 0.01,
+    progress: Progress = lambda text: None,
+) -> Diagnosis:
+    """Work out what the simulation of a case lacks and write the answer into ``out``.
+
+    Written are diagnosis.json, predictions.csv, report.txt, report.html and figures/. They replace
+    those of an earlier answer when all are written, and the same case gives the same bytes.
+    """
+    found = diagnose_case(case_folder, predict, exclude, level, progress)
+    progress("drawing")
+    write(files(found), out)
+    return found
+
+
+def files(d: Diagnosis) -> dict[str, str]:
+    """Everything the answer consists of, by file name."""
+    from mixedlub.diagnosis.report import html
+    from mixedlub.diagnosis.report.figures import figures
+    from mixedlub.diagnosis.report.figures.style import as_drawn
+
+    extra = unnamed(d.found) if any(key == "unknown" for key in d.posterior.tied) else None
+    parts = words.sections(d, extra)
+    drawings = {name: as_drawn(figure) for name, figure in figures.all_figures(d, extra).items()}
+    return {
+        "diagnosis.json": json.dumps({**as_json(d), **_unnamed_record(extra)}, indent=1, ensure_ascii=False) + "\n",
+        "predictions.csv": predictions_csv(d),
+        "report.txt": words.as_text(f"Diagnosis of {d.case.name}", parts),
+        "report.html": html.render(d, parts, drawings),
+        **{f"figures/{name}.svg": XML + drawing for name, drawing in drawings.items()},
+    }
+
+
+def _unnamed_record(extra: Unnamed | None) -> dict[str, Any]:
+    """What is known of an unnamed mismatch, as an entry of the answer."""
+    if extra is None:
+        return {}
+    law = extra.law
+    return {
+        "unknown": {
+            "stages": [
+                {"stage": s.stage, "quantity": s.quantity, "log_evidence_over_none": s.evidence} for s in extra.stages
+            ],
+            "empirical_form": None
+            if law is None
+            else {
+                "text": law.text,
+                "relative": law.relative,
+                "coefficient": law.coefficient,
+                "coefficient_sd": law.sd,
+                "exponents": {name: float(b) for name, b in law.factors},
+                "heldout_before": law.heldout_before,
+                "heldout_after": law.heldout_after,
+            },
+        }
+    }
+
+
+def write(contents: Mapping[str, str], out: Path) -> None:
+    """All files of an answer; drawings of an earlier one give way to these."""
+    out.mkdir(parents=True, exist_ok=True)
+    with writing(out) as aside:
+        for name, text in contents.items():
+            path = aside / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8", newline="\n")

@@ -1,0 +1,158 @@
+"""The answer as other programs read it: `diagnosis.json` and `predictions.csv`."""
+
+from __future__ import annotations
+
+import csv
+import io
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from mixedlub.chain.effect import Prior
+from mixedlub.diagnosis.assessment.prediction import Refined
+from mixedlub.diagnosis.diagnose import Diagnosis, Predicted
+from mixedlub.diagnosis.inference.map_fit import NINETY
+from mixedlub.diagnosis.problem import effects_of
+from mixedlub.diagnosis.report.text.location_text import located
+from mixedlub.diagnosis.report.text.next_test_text import beyond
+
+
+def as_json(d: Diagnosis) -> dict[str, Any]:
+    """The answer by the schema mixedlub-diagnosis/1."""
+    verdict = d.posterior.names(d.posterior.verdict)
+    return {
+        "schema": "mixedlub-diagnosis/1",
+        "case": d.case.name,
+        "mismatch": {
+            "detected": d.test.detected,
+            "p_value": d.test.p_value,
+            "level": d.test.level,
+            "chi2_before": d.test.chi2_before,
+            "rows": d.test.rows,
+        },
+        "verdict": verdict,
+        "probabilities": d.posterior.inclusion(d.found),
+        "tied": [d.posterior.names(key) for key in d.posterior.tied],
+        "stage": d.posterior.stages(),
+        "location": {
+            "rows": {
+                str(int(run)): float(z) for run, z in zip(d.recorded.table["run"], d.recorded.mismatch_z, strict=True)
+            },
+            "where": list(d.region.where),
+            "text": located(d),
+        },
+        "effects": effect_records(d),
+        "calibration": calibration_record(d),
+        "fit": {
+            "noise_rms": float(np.sqrt(np.mean(verdict_residual(d)[d.counted] ** 2))),
+            "heldout_before": d.heldout.before,
+            "heldout_after": d.heldout.after,
+            "split": d.heldout.split,
+            "folds": d.heldout.folds,
+        },
+        "outlier_runs": d.outlier_runs,
+        "next_tests": [
+            {
+                "conditions": t.conditions,
+                "separates": list(t.separates),
+                "expected_bits": t.expected_bits,
+                "text": "; ".join((*beyond(t.conditions, d.recorded.table), separating_text(t.separates))),
+            }
+            for t in d.next_tests
+        ],
+        "warnings": list(d.warnings),
+        **({} if d.check is None else {"check": asdict(d.check)}),
+    }
+
+
+def verdict_fit(d: Diagnosis) -> Refined:
+    """The refined fit of the verdict; of the calibrated base where the verdict is unknown."""
+    key = d.posterior.verdict
+    return d.refined[() if isinstance(key, str) else key]
+
+
+def verdict_residual(d: Diagnosis) -> np.ndarray:
+    """(recorded - fitted)/sd of a single reading after the verdict."""
+    unknown = d.posterior.verdict == "unknown"
+    left = d.found.unknown.fit.residual if unknown else verdict_fit(d).residual
+    return d.found.problem.of_one(left)
+
+
+def effect_records(d: Diagnosis) -> list[dict[str, Any]]:
+    """The verdict's effects with their fitted parameters."""
+    if isinstance(d.posterior.verdict, str):
+        return []
+    refined = verdict_fit(d)
+    spread = refined.spread
+    place = d.found.problem.calibration_size
+    records = []
+    for e in d.found.problem.effects(refined.fit.explanation):
+        parameters = []
+        for p in e.parameters:
+            value, low, high = _told(refined, p.prior, place, spread[place])
+            parameters.append({"name": p.name, "unit": p.unit, "value": value, "low90": low, "high90": high})
+            place += 1
+        record = {"id": e.id, "parameters": parameters, "source": e.source, "equation": e.equation}
+        laws = [{"law": c.law, "log_odds": c.log_odds} for c in d.contained if c.effect == e.id]
+        records.append({**record, "contains": laws} if laws else record)
+    return records
+
+
+def calibration_record(d: Diagnosis) -> dict[str, dict[str, float]]:
+    """Calibrated inputs under the verdict, with 90 % intervals."""
+    if d.posterior.verdict == "unknown":
+        unknown = d.found.unknown
+        z, spread = unknown.z, np.sqrt(np.diag(unknown.covariance))
+    else:
+        refined = verdict_fit(d)
+        z, spread = refined.z, refined.spread
+    record = {}
+    for i, c in enumerate(d.found.problem.forward.calibrations):
+        value, low, high = interval(c.parameter.prior, z[i], spread[i])
+        record[c.name] = {"value": value, "low90": low, "high90": high}
+    return record
+
+
+def interval(prior: Prior, z: float, spread: float) -> tuple[float, float, float]:
+    """Value and 90 % interval of a parameter from its standard-normal coordinate."""
+    ends = (prior.value(float(z - NINETY * spread)), prior.value(float(z + NINETY * spread)))
+    return prior.value(float(z)), min(ends), max(ends)
+
+
+def _told(refined: Refined, prior: Prior, index: int, spread: float) -> tuple[float, float, float]:
+    """The same of a coordinate of a fit; that of a place from all places where it may stand."""
+    for stands in refined.places:
+        if stands.index == index:
+            low, value, high = (prior.value(stands.at(share)) for share in (0.05, 0.5, 0.95))
+            return value, low, high
+    return interval(prior, refined.z[index], spread)
+
+
+def separating_text(names: tuple[str, ...]) -> str:
+    """What the catalogue says about telling the named effects apart."""
+    ids = [part for name in names for part in name.split("+") if part not in ("none", "unknown")]
+    return "; ".join(dict.fromkeys(f"{e.id}: {e.separated_by}" for e in effects_of(tuple(ids))))
+
+
+def predictions_csv(d: Diagnosis) -> str:
+    """Predictions of the recorded and the wanted rows, each run once."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["run", "base", "calibrated", "predicted", "low90", "high90", "mismatch_z"])
+    written: set[int] = set()
+    for p in (d.recorded, d.wanted):
+        if p is not None:
+            writer.writerows(_rows(p, written))
+    return text.getvalue()
+
+
+def _rows(p: Predicted, written: set[int]) -> list[list[str]]:
+    rows = []
+    for i, run in enumerate(p.table["run"].tolist()):
+        if run in written:
+            continue
+        written.add(run)
+        numbers = (p.base[i], p.calibrated[i], p.predicted[i], p.low90[i], p.high90[i], p.mismatch_z[i])
+        rows.append([str(run), *(f"{v:.9g}" for v in numbers)])
+    return rows

@@ -1,0 +1,189 @@
+"""The verdict in a few sentences, with what speaks against believing it."""
+
+from __future__ import annotations
+
+from mixedlub.data_checks.audit import SCARCE, Doubt
+from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.labels import STAGE_WORDS, effect_words, explanation_words
+from mixedlub.diagnosis.problem import effects_of
+
+CONTRADICTION = "readings at equal conditions contradict each other"
+"""How the warning begins after which an unnamed mismatch is no finding."""
+NO_ANSWER = (
+    "No answer: every reading counts as wrong, whatever is taken to explain it. Look first at the units and scales of "
+    "all columns; what follows tells nothing of the rig."
+)
+MOST_TIED = 5
+"""Tied explanations that are named."""
+LEAST_P = 1e-300
+
+
+def chance(p: float) -> str:
+    """A probability as it is said: neither certain nor impossible.
+
+    >>> chance(0.853), chance(0.9999), chance(0.001)
+    ('0.85', 'above 0.99', 'below 0.01')
+    """
+    share = hundredths(p)
+    return "above 0.99" if share > 99 else "below 0.01" if share < 1 else f"{share / 100:.2f}"
+
+
+def percent(p: float) -> str:
+    """The same in percent.
+
+    >>> percent(0.853), percent(0.9999), percent(0.001)
+    ('85 %', '>99 %', '<1 %')
+    """
+    share = hundredths(p)
+    return ">99 %" if share > 99 else "<1 %" if share < 1 else f"{share} %"
+
+
+def hundredths(p: float) -> int:
+    """A probability in hundredths, rounded once for all that say it: 0 and 100 are said as less and as more.
+
+    >>> [hundredths(p) for p in (0.0049, 0.0055, 0.9945, 0.9951)]
+    [0, 1, 99, 100]
+    """
+    return round(100.0 * p)
+
+
+def p_words(p: float) -> str:
+    """The p-value of the mismatch test as it is said everywhere.
+
+    >>> p_words(0.0042), p_words(1e-304)
+    ('0.0042', 'below 1e-300')
+    """
+    return f"{p:.2g}" if p > LEAST_P else f"below {LEAST_P:.0e}"
+
+
+def doubts(d: Diagnosis) -> tuple[str, ...]:
+    """Warnings that question the whole answer, as they stand above it."""
+    return tuple(f"Caution: {text}." for text in d.warnings if isinstance(text, Doubt))
+
+
+def lesser(d: Diagnosis) -> tuple[str, ...]:
+    """The other warnings."""
+    return tuple(text for text in d.warnings if not isinstance(text, Doubt))
+
+
+def headline(d: Diagnosis) -> str:
+    """The verdict in one sentence; where readings are few or all wrong, after one that says so."""
+    count = d.readings.size
+    said = _verdict(d)
+    if d.posterior.verdict == "unknown" and any(text.startswith(CONTRADICTION) for text in d.warnings):
+        said = f"R{CONTRADICTION[1:]}: mend instrument or set-up before anything is named. {said}"
+    if count < SCARCE:
+        said = f"Only {count} readings: take this as a hint, not as a finding. {said}"
+    return f"{NO_ANSWER} {said}" if (d.outlier_chance > 0.5).all() else said
+
+
+def _verdict(d: Diagnosis) -> str:
+    judged = d.posterior
+    common = _common(d)
+    if common:
+        return _beside(d, common)
+    if len(judged.tied) > 1:
+        named = [f"{explanation_words(judged.names(k))} ({chance(judged.weights[k])})" for k in judged.tied[:MOST_TIED]]
+        rest = _rest(d)
+        if judged.verdict == ():
+            others = _listed([*named[1:], *rest], "or")
+            return (
+                f"No mismatch beyond noise: nothing needs to be missing ({chance(judged.weights[()])}). A tie all the "
+                f"same, for beside noise and calibration these readings cannot exclude {others}."
+            )
+        return f"A tie: the readings cannot decide between {_listed([*named, *rest], 'and')}."
+    p = chance(judged.weights[judged.verdict])
+    if judged.verdict == ():
+        return f"Nothing is missing that these readings could show: the calibrated model explains them ({p})."
+    if judged.verdict == "unknown":
+        count = len(d.excluded)
+        which = f"of those weighed explains ({count} left out on request)" if count else "of the catalogue explains"
+        return f"Something is missing that no one effect {which}, nor any two tried together (probability {p})."
+    assert not isinstance(judged.verdict, str)
+    effects = effects_of(judged.verdict)
+    free = [effect_words(e.id) for e in effects if e.free_form]
+    physics = [effect_words(e.id) for e in effects if e.stage != "measurement" and not e.free_form]
+    faults = [effect_words(e.id) for e in effects if e.stage == "measurement"]
+    if not physics and not free:
+        return f"No physics is missing; the instrument is at fault: {' and '.join(faults)} (probability {p})."
+    parts = [f"Missing physics: {' and '.join(physics)}"] if physics else []
+    if free:
+        parts.append(f"{'a' if parts else 'A'} change of free form, its cause not named: {' and '.join(free)}")
+    if faults:
+        parts.append(f"a fault of the instrument: {' and '.join(faults)}")
+    return f"{'; and '.join(parts)} (probability {p})."
+
+
+def _rest(d: Diagnosis) -> list[str]:
+    """Tied explanations that are not named, as one item of the list."""
+    more = len(d.posterior.tied) - MOST_TIED
+    return [f"{more} less probable one{'s' if more > 1 else ''}"] if more > 0 else []
+
+
+def _common(d: Diagnosis) -> list[str]:
+    """Effects that are in every one of several tied explanations."""
+    named = [set(k) for k in d.posterior.tied if not isinstance(k, str)]
+    return sorted(set.intersection(*named)) if len(named) == len(d.posterior.tied) > 1 else []
+
+
+def _beside(d: Diagnosis, common: list[str]) -> str:
+    """A tie all of whose explanations share something, and the readings leave open what comes beside it."""
+    judged, inclusion = d.posterior, d.posterior.inclusion(d.found)
+    shared = " and ".join(f"{effect_words(name)} ({chance(inclusion[name])})" for name in common)
+    each = []
+    for key in judged.tied[:MOST_TIED]:
+        beside = [name for name in judged.names(key) if name not in common]
+        p = chance(judged.weights[key])
+        each.append(f"with {explanation_words(beside)} ({p})" if beside else f"alone ({p})")
+    one = len(common) == 1
+    return (
+        f"{shared[:1].upper()}{shared[1:]} {'is' if one else 'are'} in every explanation left. A tie: the readings "
+        f"cannot decide whether {'it comes' if one else 'they come'} {_listed([*each, *_rest(d)], 'or')}."
+    )
+
+
+def _listed(items: list[str], last: str) -> str:
+    """Items with semicolons, the last one joined by a word.
+
+    >>> _listed(["a", "b and c", "d"], "or")
+    'a; b and c; or d'
+    """
+    return items[0] if len(items) == 1 else f"{'; '.join(items[:-1])}; {last} {items[-1]}"
+
+
+def standing(d: Diagnosis) -> list[str]:
+    """How probable the parts of the answer are by themselves, and where in the chain they act."""
+    judged = d.posterior
+    said = _each(d, set(_common(d)))
+    stages = {name: p for name, p in judged.stages().items() if p >= 0.05}
+    if judged.verdict != () and stages:
+        ranked = sorted(stages.items(), key=lambda item: -item[1])
+        said.append("Where in the chain: " + ", ".join(f"{STAGE_WORDS[s]} {chance(p)}" for s, p in ranked) + ".")
+    return said
+
+
+def _each(d: Diagnosis, told: set[str]) -> list[str]:
+    """How probable the effects of the answer are in any company, where that differs from the answer as a whole."""
+    judged = d.posterior
+    if isinstance(judged.verdict, str):
+        return []
+    every, own = judged.inclusion(d.found), chance(judged.weights[judged.verdict])
+    names = [name for name in judged.verdict if name not in told and chance(every[name]) != own]
+    if not names:
+        return []
+    whole = "Each probability is that of an answer" if len(judged.tied) > 1 else "The probability is that of the answer"
+    each = " and ".join(f"{effect_words(name)} has {chance(every[name])}" for name in names)
+    return [f"{whole} just as it stands; in any company {each}."]
+
+
+def probability_words(d: Diagnosis, name: str) -> str:
+    """How probable one effect of the verdict is, and with what it was counted."""
+    key = d.posterior.verdict
+    assert not isinstance(key, str)
+    own, every = chance(d.posterior.weights[key]), chance(d.posterior.inclusion(d.found)[name])
+    if own == every:
+        return f"probability {every}"
+    if len(key) == 1:
+        return f"probability {own} alone, {every} alone or with a second effect"
+    beside = explanation_words([other for other in key if other != name])
+    return f"probability {own} together with {beside}, {every} in any company"

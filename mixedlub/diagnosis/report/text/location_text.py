@@ -1,0 +1,89 @@
+"""Where simulation and recording part, in words."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.labels import number, range_text
+from mixedlub.diagnosis.report.text.outlier_text import reading_conditions
+
+NOWHERE = "Nowhere: the calibrated base model agrees with the readings within their noise."
+SPREAD = (
+    "The model without it has the answer's calibration here. “Before” in the figures is another one: the base model "
+    "calibrated as if nothing were missing. That spreads its shortfall over all conditions, so that signs there may "
+    "differ from these."
+)
+LEVEL = (
+    "No name holds the calibration: it may have taken up what is alike at all readings, and the mismatch may as well "
+    "lie elsewhere, with the other sign."
+)
+TURNED = 0.2
+"""Share of readings whose sign in the figures is another one, from which that is explained."""
+EVEN = 0.3
+"""Share that stays of a mismatch when its signs cancel, below which neither sign is told."""
+
+
+def where(d: Diagnosis) -> tuple[str, ...]:
+    """The place of the mismatch, its largest reading, and why signs in the figures may differ."""
+    if d.posterior.verdict == ():
+        return ()
+    z = _mismatch(d)
+    most = int(np.argmax(np.abs(z)))
+    run, conditions = int(d.recorded.table["run"][most]), reading_conditions(d, most)
+    said: tuple[str, ...] = (located(d), f"Largest at run {run} ({conditions}): {z[most]:+.1f} sigma.")
+    if d.posterior.verdict == "unknown" and d.found.problem.calibration_size and not d.region.inside.all():
+        said = (*said, LEVEL)
+    turned = np.sign(d.residuals[0]) != np.sign(z)
+    return (*said, SPREAD) if turned.mean() > TURNED else said
+
+
+def located(d: Diagnosis) -> str:
+    """Where the rig reads other than the model without the answer, which way, and how much there and elsewhere."""
+    z, inside = _mismatch(d), d.region.inside
+    if not z.any():
+        return NOWHERE
+    place = ", ".join(range_text(cut) for cut in d.region.where)
+    there = f"Above all at {place}: there" if place else "Everywhere:"
+    sign = _direction(z[inside], d.recorded.predicted[inside])
+    share = 100.0 * float(np.median(_share(d.missing[1], d.recorded.predicted)[inside]))
+    elsewhere = f" Elsewhere {_rms(z[~inside]):.1f} sigma." if (~inside).any() else ""
+    return (
+        f"{there} the rig reads {sign} than the model without it, by {_rms(z[inside]):.1f} sigma (rms), "
+        f"{number(share)} % of the larger of the two in the median.{elsewhere}"
+    )
+
+
+def _mismatch(d: Diagnosis) -> np.ndarray:
+    """The mismatch of each reading in sigmas; what is wrong with a reading itself is none."""
+    return np.where(d.counted, d.recorded.mismatch_z, 0.0)
+
+
+def _direction(z: np.ndarray, predicted: np.ndarray) -> str:
+    """Whether readings are more or less than expected, or larger or smaller where some are negative.
+
+    >>> _direction(np.array([2.0, 3.0]), np.ones(2)), _direction(np.array([2.0, -3.0]), np.array([1.0, -1.0]))
+    ('more', 'more in size, either sign,')
+    >>> _direction(np.array([-2.0, -3.0]), -np.ones(2))
+    'more in size'
+    """
+    whole = max(float(np.sum(np.abs(z))), 1e-300)
+    size = float(z @ np.sign(predicted))
+    ways = ((float(z.sum()), ""), (size, " in size, either sign,")) if predicted.max() > 0.0 else ((size, " in size"),)
+    for way, how in ways:
+        if abs(way) >= EVEN * whole:
+            return f"{'more' if way > 0.0 else 'less'}{how}"
+    return "now more and now less"
+
+
+def _share(lacking: np.ndarray, predicted: np.ndarray) -> np.ndarray:
+    """What is missing over the larger of the reading and the model without it: either may be all but 0.
+
+    >>> _share(np.array([3.0, -0.09]), np.array([4.0, 0.0])).tolist()
+    [0.75, 1.0]
+    """
+    return np.abs(lacking) / np.maximum(np.maximum(np.abs(predicted), np.abs(predicted - lacking)), 1e-300)
+
+
+def _rms(values: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(values**2)))

@@ -1,0 +1,81 @@
+"""What the answer says of single readings, and of the channel that was kept back."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.labels import conditions_text, number, words_of
+from mixedlub.schema.units import unit_of
+
+MUCH = 1.5
+
+
+def reading_conditions(d: Diagnosis, row: int) -> str:
+    """The conditions of one reading in words."""
+    table = d.recorded.table
+    named: dict[str, float | str] = {}
+    for column in d.case.kind.columns:
+        if column.name in table:
+            value = table[column.name][row]
+            named[column.name] = str(value) if column.form == "name" else float(value)
+    return conditions_text(named)
+
+
+def checked_channel(d: Diagnosis) -> tuple[str, ...]:
+    """The channel that was kept back from every fit, in a sentence."""
+    check = d.check
+    if check is None:
+        return ()
+    name = words_of(check.column)
+    if check.correlation is None:
+        return (f"The channel {name} does not move or is too short: it tells nothing.",)
+    return (
+        f"The predicted readings go with {name}, which was kept back from every fit, with a correlation of "
+        f"{check.correlation:+.3f} over {check.n} readings.",
+    )
+
+
+def steadied_noise(d: Diagnosis) -> tuple[str, ...]:
+    """That stated standard deviations were taken together with their like, where it changed them much."""
+    stated = d.recorded.table.columns.get(f"{d.case.quantity}_sd")
+    if stated is None:
+        return ()
+    size = np.abs(d.readings) if d.case.kind.logarithmic else 1.0
+    most = float(np.exp(np.max(np.abs(np.log(d.found.problem.one_sd * size / stated)))))
+    if most < MUCH:
+        return ()
+    return (
+        "The stated standard deviations jump between like readings, as those of few tests do: each was taken "
+        f"together with its like, which moved them by up to a factor {number(most)}.",
+    )
+
+
+def outliers(d: Diagnosis) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
+    """The readings that are more probably wrong than right: sentences and a table."""
+    rows = np.flatnonzero(d.outlier_chance > 0.5)
+    if not rows.size:
+        return (), ()
+    unit = unit_of(d.case.quantity) or "-"
+    table = [("run", f"recorded ({unit})", f"predicted ({unit})", "off by", "conditions")]
+    y = d.readings
+    for i in rows[:12]:
+        off = (y[i] - d.recorded.predicted[i]) / d.recorded.sd[i]
+        table.append(
+            (
+                str(int(d.recorded.table["run"][i])),
+                number(y[i]),
+                number(d.recorded.predicted[i]),
+                f"{off:+.1f} sigma",
+                reading_conditions(d, int(i)),
+            )
+        )
+    more = f" The first {len(table) - 1}:" if rows.size > 12 else ""
+    count = "One reading is" if rows.size == 1 else f"{rows.size} readings are"
+    said = [f"{count} more probably wrong than right, and counted for little.{more}"]
+    for i in rows.tolist():
+        excess, sd = float(y[i] - d.recorded.predicted[i]), float(d.recorded.sd[i])
+        fault = d.case.kind.reading_fault(d.recorded.table, i, excess, sd)
+        if fault is not None:
+            said.append(f"Run {int(d.recorded.table['run'][i])}: {fault}.")
+    return tuple(said), tuple(table)

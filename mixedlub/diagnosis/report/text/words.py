@@ -1,0 +1,243 @@
+"""The answer in plain words, on one page: the same sentences in the text and on the page."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from mixedlub.chain.effect import Effect
+from mixedlub.diagnosis.assessment.identifiability import confusion
+from mixedlub.diagnosis.assessment.power_law import Absorbed, Unnamed
+from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.discrepancy.modulated import NOTHING, READING
+from mixedlub.diagnosis.labels import (
+    STAGE_WORDS,
+    effect_words,
+    number,
+    with_names,
+    words_of,
+)
+from mixedlub.diagnosis.problem import effects_of
+from mixedlub.diagnosis.report.text.alternatives import AS_IF_NOTHING, resembling
+from mixedlub.diagnosis.report.text.headline import doubts, headline, lesser, p_words, probability_words, standing
+from mixedlub.diagnosis.report.text.location_text import where
+from mixedlub.diagnosis.report.text.nearest_effect import nearest_name
+from mixedlub.diagnosis.report.text.next_test_text import box_place, next_test, standing_place, wave_period
+from mixedlub.diagnosis.report.text.outlier_text import checked_channel, outliers, steadied_noise
+from mixedlub.diagnosis.report.text.tables import calibration, parameters
+from mixedlub.report.plain import plain_equation
+
+WIDTH = 88
+REFITTED = "Parameters were refitted without each level; what the answer is was settled with all of them."
+ANSWER = "Answer"
+MISMATCH = "Is there a mismatch beyond noise and calibration?"
+WHERE = "Where?"
+LEFT_OUT = "What was left out?"
+BEST_TIED = "What was left out? Best of the tied candidates"
+UNNAMED = "If it is something unknown"
+ALIKE = "What else could it be?"
+GAIN = "How much better is it on conditions it did not fit?"
+APART = 3.0
+"""Nats from which one quantity is told from another."""
+NATS = (
+    f"A nat is a factor 2.7 in the odds: below about {APART:g} nats these readings do not tell the quantities apart, "
+    "and the two answers may name different ones."
+)
+CHECK = "Does a channel that was not fitted agree?"
+OUTLIERS = "Outlier readings"
+CALIBRATION = "What calibration was moved to"
+NEXT = "Next test"
+
+
+@dataclass(frozen=True)
+class Section:
+    """A question, the sentences that answer it, and a table (first row its head) where numbers are asked for.
+
+    ``heading`` stands over it where the bare question would mislead, ``alarms`` above the first sentence; ``items``
+    are a list that the last sentence announces.
+    """
+
+    title: str
+    sentences: tuple[str, ...]
+    table: tuple[tuple[str, ...], ...] = ()
+    heading: str = ""
+    alarms: tuple[str, ...] = ()
+    items: tuple[str, ...] = ()
+
+
+def sections(d: Diagnosis, unnamed: Unnamed | None = None) -> list[Section]:
+    """The whole answer, question by question."""
+    resemblance, separating = resembling(d, confusion(d.found))
+    found = [
+        Section(ANSWER, (headline(d), *standing(d)), alarms=doubts(d)),
+        Section(MISMATCH, (*_mismatch(d), *steadied_noise(d))),
+        Section(WHERE, where(d)),
+        _left_out(d),
+        *([_unnamed(d, unnamed)] if unnamed is not None else []),
+        Section(ALIKE, resemblance, items=separating),
+        Section(GAIN, _gain(d)),
+        Section(CHECK, checked_channel(d)),
+        Section(OUTLIERS, *outliers(d)),
+        Section(CALIBRATION, *calibration(d)),
+        Section(NEXT, next_test(d)),
+        Section("Warnings", lesser(d)),
+    ]
+    return [s for s in found if s.sentences or s.table or s.items]
+
+
+def as_text(title: str, parts: Iterable[Section]) -> str:
+    """Sections as plain text, wrapped."""
+    lines = [title, "=" * len(title)]
+    for part in parts:
+        lines += ["", (part.heading or part.title).upper()]
+        for sentence in (*part.alarms, *part.sentences):
+            lines += _wrapped(sentence, "  ") or [""]
+        for item in part.items:
+            lines += _wrapped(item, "  - ")
+        if part.table:
+            widths = [max(len(row[i]) for row in part.table) for i in range(len(part.table[0]))]
+            lines += [
+                "    " + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+                for row in part.table
+            ]
+    return "\n".join(lines) + "\n"
+
+
+def _wrapped(text: str, start: str) -> list[str]:
+    return textwrap.wrap(text, WIDTH, initial_indent=start, subsequent_indent=" " * len(start), break_long_words=False)
+
+
+def _mismatch(d: Diagnosis) -> tuple[str, ...]:
+    test = d.test
+    alarm = (
+        "The test asks whether what is left goes with conditions or as an effect would, not for its chi-square alone. "
+        f"It is wrong in {100 * test.level:g} % of the cases in which nothing is missing."
+    )
+    kept = d.counted
+    squares = d.found.problem.of_one(d.found.none.residual) ** 2
+    strain = float(d.found.none.z @ d.found.none.z)
+    without = "" if kept.all() else ", outliers left out"
+    left = number(float(squares[kept].sum()) + strain)
+    chi2 = f"chi-square {left} for {int(kept.sum())} readings after calibration{without}{_noise(d)}"
+    size = p_words(test.p_value)
+    size = f"p {size}" if size[0].isalpha() else f"p = {size}"
+    if test.lenient:
+        size += " even with the noise that this would need" if d.noise_stated else ", the noise left open"
+    if test.detected:
+        return (f"Yes ({size}; {chi2}).", alarm)
+    return (f"None that can be told from noise ({size}; {chi2}).", alarm)
+
+
+def _noise(d: Diagnosis) -> str:
+    """Whose noise a chi-square is of, where the recording states none."""
+    if d.noise_stated:
+        return ""
+    beside = AS_IF_NOTHING if d.posterior.verdict == () else "beside what is missing"
+    return f"; the noise was estimated {beside}"
+
+
+def _left_out(d: Diagnosis) -> Section:
+    judged = d.posterior
+    if isinstance(judged.verdict, str) or judged.verdict == ():
+        return Section(LEFT_OUT, ())
+    sentences: list[str] = []
+    for e in effects_of(judged.verdict):
+        sentences += [
+            f"{with_names(effect_words(e.id))}, {probability_words(d, e.id)}, in {STAGE_WORDS[e.stage]}: {e.summary}",
+            equation_sentence(e),
+            f"Source: {e.source}",
+            *(c.text for c in d.contained if c.effect == e.id),
+            f"To make sure: {e.separated_by}.",
+        ]
+    untold, table = parameters(d)
+    return Section(LEFT_OUT, (*sentences, *untold), table, heading=BEST_TIED if len(judged.tied) > 1 else "")
+
+
+def equation_sentence(e: Effect) -> str:
+    """The equation of an effect as a sentence of the text."""
+    return f"Equation: {plain_equation(e.equation)}"
+
+
+def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
+    law = unnamed.law
+    shape = d.found.unknown.best
+    along = " and ".join(words_of(name) for name in shape.axes) or "all conditions together"
+    said = [f"Of all forms tried, the most probable {_form(d, along)}."]
+    said += nearest_name(d)
+    if unnamed.stages and not told_apart(unnamed.stages):
+        alike = [words_of(found.quantity) for found in unnamed.stages]
+        said.append(
+            "These readings do not tell which quantity could take it up if a factor there were free to vary with every "
+            f"condition: {', '.join(alike[:-1])} and {alike[-1]} do alike."
+        )
+    elif unnamed.stages:
+        best, *others = unnamed.stages
+        worse = [f"{words_of(o.quantity)} {best.evidence - o.evidence:.1f} nats worse" for o in others[:3]]
+        said.append(
+            "Another question is which quantity could take it up if a factor there were free to vary with every "
+            f"condition: best {words_of(best.quantity)}{_stage(best)}{'; ' if worse else ''}{'; '.join(worse)}."
+        )
+        if worse:
+            said.append(NATS)
+    if law is None:
+        said.append(
+            "No simple law: no power law of conditions or film quantities predicts levels it was not fitted to."
+        )
+    else:
+        said.append(
+            f"Shortest form found, empirical (a description, not physics): {law.text}. On whole levels left out, of "
+            f"one condition after another, the error falls from {law.heldout_before:.2f} to {law.heldout_after:.2f} "
+            "sigma."
+        )
+    return Section(UNNAMED, tuple(said))
+
+
+def told_apart(stages: Sequence[Absorbed]) -> bool:
+    """Whether some of the quantities that could take up a mismatch are worse at it than others.
+
+    >>> told_apart([Absorbed("boundary", "boundary_friction", 90.0), Absorbed("boundary", "friction", 89.9)])
+    False
+    """
+    ranked = [found.evidence for found in stages]
+    return len(ranked) == 1 or max(ranked, default=0.0) - min(ranked, default=0.0) >= APART
+
+
+def _form(d: Diagnosis, along: str) -> str:
+    """The most probable form of a mismatch without a name, as a predicate."""
+    shape = d.found.unknown.best
+    if shape.form == "delay":
+        return "goes with the temperature of the reading before: oil or parts had not reached the one that was told"
+    if shape.form == "box":
+        return f"is a shift where {box_place(d)}, as {_carried(shape.carrier)}"
+    if shape.form == "smooth":
+        named = [d.found.space.axes[d.found.space.place(name)].named for name in shape.axes]
+        how = "varies smoothly with" if not any(named) else "differs between" if all(named) else "varies with"
+        return f"{how} {along}, as {_carried(shape.carrier)}"
+    if shape.form == "wave":
+        return f"is a wave with a period of {wave_period(d)} in {along}"
+    return f"is a {shape.form} at {standing_place(d)}, as {_carried(shape.carrier)}"
+
+
+def _carried(carrier: str) -> str:
+    outside = {READING: "a share of the reading", NOTHING: "an addition to the reading"}
+    return outside.get(carrier, f"a factor on {words_of(carrier)}")
+
+
+def _stage(found: Absorbed) -> str:
+    stage = STAGE_WORDS[found.stage]
+    return "" if stage == words_of(found.quantity) else f" ({stage})"
+
+
+def _gain(d: Diagnosis) -> tuple[str, ...]:
+    kept = d.heldout
+    split = kept.split
+    for axis in d.found.space.axes:
+        split = split.replace(axis.name, words_of(axis.name))
+    how = f"({split}, {kept.folds} folds; 1 is noise)"
+    if d.posterior.verdict == ():
+        return (f"Calibration alone predicts left-out levels to {kept.before:.2f} sigma {how}.",)
+    change = f"from {kept.before:.2f} sigma with calibration alone to {kept.after:.2f} sigma with the answer {how}."
+    if kept.after > 0.95 * kept.before:
+        return (f"Not better: {change} Do not extrapolate it.", REFITTED)
+    return (f"{change[:1].upper()}{change[1:]}", REFITTED)

@@ -1,0 +1,1 @@
+"""Every explanation fitted and weighed, under the noise that the readings have."""

@@ -1,1 +1,0 @@
-"""Every explanation tried and weighed, under the noise that the readings have."""

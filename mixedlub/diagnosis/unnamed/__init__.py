@@ -1,1 +1,0 @@
-"""The mismatch that no effect of the catalogue is."""

@@ -1,0 +1,77 @@
+"""What calibration may move: a few inputs of the base model, each with the case's own uncertainty."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from mixedlub.chain.effect import LogNormal, Normal, Parameter
+from mixedlub.schema import system_file
+
+Inputs = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """One movable input: its prior, and what a value does to the chain's inputs."""
+
+    parameter: Parameter
+    apply: Callable[[Inputs, float], dict[str, Any]]
+    nominal: float
+    needs: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        """The name under which the answer reports it."""
+        return self.parameter.name
+
+
+def _scaled(*names: str, power: int = 1) -> Callable[[Inputs, float], dict[str, Any]]:
+    def apply(inputs: Inputs, value: float) -> dict[str, Any]:
+        return {name: inputs[name] * value**power for name in names}
+
+    return apply
+
+
+def _replaced(name: str) -> Callable[[Inputs, float], dict[str, Any]]:
+    def apply(inputs: Inputs, value: float) -> dict[str, Any]:
+        return {name: value}
+
+    return apply
+
+
+def _factor(name: str, spread: float, meaning: str, *inputs: str, power: int = 1) -> Calibration:
+    parameter = Parameter(name, "-", LogNormal(1.0, spread), f"factor on {meaning}")
+    return Calibration(parameter, _scaled(*inputs, power=power), 1.0, inputs)
+
+
+def calibrations(system: system_file.System) -> tuple[Calibration, ...]:
+    """The movable inputs of a case: those whose uncertainty is above zero."""
+    sd = system.uncertainty
+    boundary = Parameter(
+        "boundary_friction",
+        "-",
+        Normal(system.boundary_friction, sd.boundary_friction),
+        "friction coefficient of touching asperities",
+    )
+    return tuple(
+        entry
+        for entry, spread in (
+            (
+                Calibration(boundary, _replaced("boundary_friction"), system.boundary_friction, ("boundary_friction",)),
+                sd.boundary_friction,
+            ),
+            (_factor("viscosity", sd.viscosity, "viscosity", "viscosity"), sd.viscosity),
+            (
+                _factor("pressure_viscosity", sd.pressure_viscosity, "pressure-viscosity", "pressure_viscosity"),
+                sd.pressure_viscosity,
+            ),
+            (_factor("eyring_stress", sd.eyring_stress, "Eyring stress", "eyring_stress"), sd.eyring_stress),
+            (
+                _factor("roughness", sd.roughness, "Rq of all surfaces", "m0", "m2", "m4", power=2),
+                sd.roughness,
+            ),
+        )
+        if spread > 0
+    )

@@ -1,0 +1,210 @@
+"""An oil that nobody named: what calibration may move, and by how much."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from mixedlub.chain.effect import LogNormal, Normal, Parameter
+from mixedlub.kinds.calibration import Calibration
+from mixedlub.laws.oil import from_d341, to_d341
+from mixedlub.rig import build
+from mixedlub.rig.lubricant import Lubricant
+from mixedlub.schema import system_file
+from mixedlub.schema.table import CaseWarning, Table
+
+VISCOSITY_SPREAD = 1.0
+PRESSURE_SPREAD = 0.35
+SLOPE_SPREAD = 0.5
+DENSITY_SPREAD = 0.04
+PRESSURE_SLOPE_SPREAD = 0.4
+PRESSURE_BOW_SPREAD = 0.25
+"""Of ln alpha, over 100 K to either side: ISO/TR 15144 has 0.2 beyond a line, powers of viscosity up to 0.5."""
+BOW_SPREAD = 0.04
+"""Of ln viscosity, over 50 K to either side: what fits of oils after Vogel have beyond a line of ASTM D341."""
+FIFTY_KELVIN, HUNDRED_KELVIN = 50.0, 100.0
+THINNEST, THICKEST = 0.4e-6, 1.0
+"""Kinematic viscosities (m^2/s) between which the ordinate of D341 is used."""
+LEVEL = "viscosity_level"
+"""What the level was moved to, for the slope that is turned about it."""
+FALLS = ("temperature_viscosity", "known_fall", "fall_from_first")
+"""What else of an oil hangs on how its viscosity falls with temperature."""
+
+
+def missing(system: system_file.System) -> tuple[str, ...]:
+    """Which of the properties that calibration can move nothing is known about: not given, no uncertainty stated."""
+    section, sd = system.lubricant or system_file.Lubricant(), system.uncertainty
+    gaps = (
+        ("viscosity", section.kinematic_viscosity_mm2_s is None and sd.viscosity == 0),
+        ("pressure_viscosity", section.pressure_viscosity_per_GPa is None and sd.pressure_viscosity == 0),
+    )
+    return tuple(name for name, gap in gaps if gap)
+
+
+def moved(oil: Lubricant, pivot: float, level: float = 1.0, slope: float = 1.0) -> Lubricant:
+    """The oil with its kinematic viscosity at the pivot (K) and its slope in ASTM D341 multiplied.
+
+    Both act on the ordinate of D341, so that together they give every oil that keeps to it and is not thinner than
+    THINNEST at the pivot, where the ordinate ends.
+
+    >>> oil = Lubricant("oil", (313.15, 373.15), (34e-6, 7.2e-6), (15e-9, 13e-9), 850.0, 6.5e-4, 5e6, 0.14, 2000.0)
+    >>> flat = moved(oil, 313.15, slope=0.5)
+    >>> [round(nu * 1e6, 1) for nu in flat.kinematic_viscosity]
+    [34.0, 14.3]
+    """
+    at_pivot = oil.viscosity(np.array(pivot)) / oil.density(np.array(pivot))
+    before, after = to_d341(at_pivot), to_d341(np.maximum(level * at_pivot, THINNEST))
+    known = (to_d341(np.array(nu)) for nu in oil.kinematic_viscosity)
+    lowest, highest = to_d341(np.array([THINNEST, THICKEST]))
+    first, second = (float(from_d341(np.clip(after + slope * (z - before), lowest, highest))) for z in known)
+    return replace(oil, kinematic_viscosity=(first, second))
+
+
+def calibrations(system: system_file.System, temperature: np.ndarray, *, level: float = 1.0) -> tuple[Calibration, ...]:
+    """Broad priors for what ``missing`` names; ``temperature`` (K) is that of the recording.
+
+    ``level`` is the factor on the assumed viscosity that the readings suggest, already in the inputs.
+    Where the recording spans temperatures, the slopes against temperature are unknown as well.
+    """
+    gaps = missing(system)
+    if gaps:
+        warnings.warn(
+            f"the oil's {' and '.join(g.replace('_', '-') for g in gaps)} not given: fitted with broad priors, "
+            "so what follows rests on these data and not on known properties of the oil",
+            CaseWarning,
+            stacklevel=2,
+        )
+    found = []
+    pivot = pivot_of(temperature)
+    spans = np.ptp(temperature) > 2.0
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", CaseWarning)
+        oil = build.lubricant(system.lubricant)
+    if "viscosity" in gaps:
+        parameter = Parameter("viscosity", "-", LogNormal(level, VISCOSITY_SPREAD), "factor on the assumed viscosity")
+        found.append(Calibration(parameter, _shifted(oil, pivot, level), level, ("viscosity", "oil_temperature")))
+        if spans:
+            slope = Parameter(
+                "viscosity_slope", "-", LogNormal(1.0, SLOPE_SPREAD), "factor on the assumed ASTM D341 slope"
+            )
+            found.append(Calibration(slope, _turned(oil, pivot, level), 1.0, ("viscosity", "oil_temperature")))
+            bow = Parameter(
+                "viscosity_bow",
+                "-",
+                Normal(0.0, BOW_SPREAD),
+                "what ln viscosity has 50 K from the middle beyond the line of ASTM D341",
+            )
+            found.append(Calibration(bow, _bowed(pivot), 0.0, ("viscosity", "oil_temperature")))
+            density = Parameter(
+                "density", "-", LogNormal(1.0, DENSITY_SPREAD), "factor on the density between the two viscosities"
+            )
+            found.append(Calibration(density, _scaled("viscosity", 1.0), 1.0, ("viscosity",)))
+    if "pressure_viscosity" in gaps:
+        parameter = Parameter(
+            "pressure_viscosity", "-", LogNormal(1.0, PRESSURE_SPREAD), "factor on the assumed pressure-viscosity"
+        )
+        found.append(Calibration(parameter, _scaled("pressure_viscosity", 1.0), 1.0, ("pressure_viscosity",)))
+        if spans:
+            low, high = oil.pressure_coefficient(np.array([pivot, pivot + HUNDRED_KELVIN]))
+            usual = float(high / low - 1.0)
+            fall = Parameter(
+                "pressure_viscosity_slope",
+                "-",
+                Normal(usual, PRESSURE_SLOPE_SPREAD),
+                "relative change of pressure-viscosity over 100 K, linear in temperature",
+            )
+            found.append(Calibration(fall, _tilted(usual, pivot), usual, ("pressure_viscosity", "oil_temperature")))
+            bend = Parameter(
+                "pressure_viscosity_bow",
+                "-",
+                Normal(0.0, PRESSURE_BOW_SPREAD),
+                "what ln pressure-viscosity has 100 K from the middle beyond that line",
+            )
+            found.append(Calibration(bend, _bent(pivot), 0.0, ("pressure_viscosity", "oil_temperature")))
+    return tuple(found)
+
+
+def pivot_of(temperature: np.ndarray) -> float:
+    """The temperature (K) about which an unnamed oil's slope is turned."""
+    return float(np.exp(np.mean(np.log(temperature))))
+
+
+def level_of(recorded: Table, quantity: str, guess: np.ndarray) -> float:
+    """Factor that brings a guess of the readings to their middle, for priors scaled by the data."""
+    if quantity not in recorded:
+        return 1.0
+    ratio = np.abs(recorded[quantity]) / guess
+    return float(np.exp(np.median(np.log(ratio[ratio > 0])))) if (ratio > 0).any() else 1.0
+
+
+def _scaled(name: str, nominal: float) -> Any:
+    def apply(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
+        return {name: inputs[name] * (value / nominal)}
+
+    return apply
+
+
+def _shifted(oil: Lubricant, pivot: float, nominal: float) -> Any:
+    def apply(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
+        change = _exchanged(inputs, moved(oil, pivot, nominal), moved(oil, pivot, value))
+        return {**change, LEVEL: value}
+
+    return apply
+
+
+def _turned(oil: Lubricant, pivot: float, nominal: float) -> Any:
+    def apply(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
+        level = inputs.get(LEVEL, nominal)
+        return _exchanged(inputs, moved(oil, pivot, level), moved(oil, pivot, level, value))
+
+    return apply
+
+
+def _bowed(pivot: float) -> Any:
+    """Viscosity, and its fall with temperature, of an oil whose line in ASTM D341 is a parabola."""
+
+    def bow(kelvin: Any) -> Any:
+        return ((kelvin - pivot) / FIFTY_KELVIN) ** 2
+
+    def apply(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
+        at = inputs["oil_temperature"]
+        changed = {"viscosity": inputs["viscosity"] * np.exp(value * bow(at))}
+        if "temperature_viscosity" in inputs:
+            steeper = -2.0 * value * (at - pivot) / FIFTY_KELVIN**2
+            changed["temperature_viscosity"] = inputs["temperature_viscosity"] + steeper
+        if "known_fall" in inputs:
+            first, second = (bow(inputs[f"{which}_known_temperature"]) for which in ("first", "second"))
+            changed["known_fall"] = inputs["known_fall"] + value * (first - second)
+            changed["fall_from_first"] = inputs["fall_from_first"] + value * (first - bow(at))
+        return changed
+
+    return apply
+
+
+def _exchanged(inputs: Mapping[str, Any], old: Lubricant, new: Lubricant) -> dict[str, Any]:
+    """Viscosity, and its fall with temperature, of another oil."""
+    at = inputs["oil_temperature"]
+    changed = {"viscosity": inputs["viscosity"] * (new.viscosity(at) / old.viscosity(at))}
+    other = new.inputs(at)
+    return changed | {name: other[name] for name in FALLS if name in inputs}
+
+
+def _tilted(usual: float, pivot: float) -> Any:
+    def apply(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
+        rise = (inputs["oil_temperature"] - pivot) / HUNDRED_KELVIN
+        turned = np.maximum(1.0 + value * rise, 0.05) / np.maximum(1.0 + usual * rise, 0.05)
+        return {"pressure_viscosity": inputs["pressure_viscosity"] * turned}
+
+    return apply
+
+
+def _bent(pivot: float) -> Any:
+    def apply(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
+        rise = (inputs["oil_temperature"] - pivot) / HUNDRED_KELVIN
+        return {"pressure_viscosity": inputs["pressure_viscosity"] * np.exp(value * rise**2)}
+
+    return apply

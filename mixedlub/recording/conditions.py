@@ -1,0 +1,272 @@
+"""Smooth functions of the test conditions, as columns: what an unnamed mismatch may look like."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from mixedlub.case.folder import Case
+from mixedlub.case.forward import Forward
+from mixedlub.recording.set_points import roundest
+from mixedlub.schema.table import Table
+
+NODES = 12
+"""Nodes of the functions along a condition, at most: what is finer is a wave, a peak or a step."""
+PASSING = ("sequence", "time_s", "position_deg")
+"""Conditions that only pass on: where they start from is no size."""
+SMOOTHEST = 4
+"""How many functions of a number go into products with those of another condition."""
+JITTER = 1e-6
+"""Keeps the kernel of close nodes invertible."""
+LEAST = 1e-300
+HELD = 0.01
+"""A condition that spans less than this share of its size was held: what it wanders is no variation to learn from."""
+ROLLING = 0.02
+"""Slide-roll ratio up to which a film is one of pure rolling: it takes less than a twentieth of what heats it."""
+WANDERS, WANDERS_K, MOVES = 0.1, 6.0, 0.005
+"""One that spans less than the first, or so many kelvin, was held if the base model moves by less than the last."""
+MOSTLY = 0.9
+"""Share of the readings that lie about a set-point where the others are a start-up."""
+SERIES = 400
+"""Readings from which a table is a logged series: nobody sets so many conditions by hand."""
+HEAD = 0.005
+"""Share of a series from which a logarithm of time is told apart: a start-up is shorter."""
+LOST_AFTER = 2.0
+"""Periods beyond a record after which a wave is out of step, as its period is not known that well."""
+
+
+@dataclass(frozen=True, eq=False)
+class Coordinate:
+    """One condition scaled to 0..1, or a name; ``nodes`` are the places its functions are anchored at.
+
+    A condition ``folded`` at a size has both signs, and on either side goes by the logarithm beyond that size. What
+    lies below the ``floor`` of one that goes by the logarithm is one place.
+    """
+
+    name: str
+    nodes: np.ndarray
+    low: float = 0.0
+    span: float = 1.0
+    logarithmic: bool = False
+    folded: float = 0.0
+    floor: float = LEAST
+
+    @property
+    def named(self) -> bool:
+        """Whether the condition is a name, not a number."""
+        return self.nodes.dtype.kind in "US"
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The lowest and the highest value."""
+        low, high = self.low, self.low + self.span
+        return (float(np.exp(low)), float(np.exp(high))) if self.logarithmic else (low, high)
+
+    def scale(self, values: np.ndarray) -> np.ndarray:
+        """Values on the 0..1 axis."""
+        seen = np.maximum(values, self.floor) if self.logarithmic else values
+        return (unrolled(seen, self.logarithmic, self.folded) - self.low) / self.span
+
+    def wave(self, values: np.ndarray, waves: float) -> np.ndarray:
+        """A cosine and a sine that go through ``waves`` periods from the lowest to the highest value."""
+        low, high = self.ends
+        turn = 2.0 * np.pi * waves * (values - low) / (high - low)
+        return np.column_stack([np.cos(turn), np.sin(turn)]) * self.kept(values, waves)[:, None]
+
+    def kept(self, values: np.ndarray, waves: float) -> np.ndarray:
+        """Share of a wave that is foretold: one within the record, and none a few periods beyond it."""
+        low, high = self.ends
+        beyond = np.maximum(np.maximum(low - values, values - high), 0.0) * waves / (high - low)
+        return np.exp(-((beyond / LOST_AFTER) ** 2))
+
+    def about(self, values: np.ndarray, at: float, width: float) -> np.ndarray:
+        """A bell about a value, ``width`` a share of the range, or without width a step there.
+
+        Of a condition with both signs there is one on either side.
+        """
+        x = self.scale(values)
+        sides = (1.0, -1.0) if self.folded and at else (1.0,)
+        off = [side * (x - self.scale(np.array(side * at))) for side in sides]
+        return np.column_stack([np.exp(-0.5 * (d / width) ** 2) if width else (d >= 0.0).astype(float) for d in off])
+
+    def functions(self, values: np.ndarray, length: float) -> np.ndarray:
+        """Columns whose random combination is a smooth function of the condition, variance one."""
+        if self.named:
+            return (values[:, None] == self.nodes[None, :]).astype(float)
+        nodes = self.nodes
+        kernel = _kernel(nodes, nodes, length)
+        size, vectors = np.linalg.eigh(kernel + JITTER * np.eye(nodes.size))
+        keep = size > 1e-3 * size.max()
+        return _kernel(self.scale(values), nodes, length) @ (vectors[:, keep] / np.sqrt(size[keep]))[:, ::-1]
+
+
+def unrolled(values: np.ndarray, logarithmic: bool, folded: float) -> np.ndarray:
+    """Values as they are, by their logarithm, or by that on either side of zero.
+
+    >>> unrolled(np.array([-99.0, 0.0, 1.0]), False, 1.0).round(3).tolist()
+    [-4.605, 0.0, 0.693]
+    """
+    if folded:
+        return np.asarray(np.sign(values) * np.log1p(np.abs(values) / folded))
+    return np.log(values) if logarithmic else values
+
+
+def clock_of(rows: Table, ties: bool = False) -> np.ndarray | None:
+    """What tells the order in which readings were taken; None where nothing does, or not of every one.
+
+    With ``ties`` several may have one time, as where a logger writes whole seconds.
+
+    >>> log = Table({"time_s": np.array([0.0, 1.0, 1.0, 2.0])}, "log")
+    >>> clock_of(log), clock_of(log, ties=True).tolist()
+    (None, [0.0, 1.0, 1.0, 2.0])
+    """
+    clock = next((rows[name] for name in ("sequence", "time_s") if name in rows), None)
+    if clock is None:
+        return None
+    times = np.unique(clock).size
+    return clock if times == clock.size or (ties and 2 * times > clock.size) else None
+
+
+def is_held(name: str, levels: np.ndarray) -> bool:
+    """Whether a condition was held: it spans next to nothing of its size.
+
+    >>> is_held("oil_temperature_C", np.array([31.0, 32.3])), is_held("speed_rpm", np.array([500.0, 520.0]))
+    (True, False)
+    """
+    if levels.dtype.kind in "US" or name in PASSING:
+        return False
+    size = levels + 273.15 if name.endswith("temperature_C") else levels
+    return float(np.ptp(size)) <= HELD * float(np.max(np.abs(size)))
+
+
+def _rolls(name: str, levels: np.ndarray, case: Case) -> bool:
+    """Whether sliding is what is left of it in pure rolling, where a film's thickness is read."""
+    return case.quantity == "film_thickness_nm" and name == "slide_roll_ratio" and bool(np.abs(levels).max() <= ROLLING)
+
+
+def jitters(name: str, values: np.ndarray) -> bool:
+    """Whether values lie within a tenth of their size and hardly one comes again, as what is measured about one does.
+
+    Temperatures lie within a few kelvin.
+
+    >>> jitters("load_N", np.array([19.9, 20.1, 20.3, 19.7])), jitters("load_N", np.array([20.0, 21.0, 20.0, 21.0]))
+    (True, False)
+    """
+    if values.dtype.kind in "US" or name in PASSING or 2 * np.unique(values).size <= values.size:
+        return False
+    if name.endswith("temperature_C"):
+        return bool(np.ptp(values) <= WANDERS_K)
+    return bool(np.ptp(values) <= WANDERS * np.max(np.abs(values)))
+
+
+def held_at(name: str, values: np.ndarray) -> float | None:
+    """The set-point about which nearly all readings of a condition only jitter; None where it was varied, or repeats.
+
+    What is rare and far from it, as a start-up, is no set-point to return to.
+
+    >>> load = np.concatenate([[4.9, 12.0], 50.0 + 0.01 * np.arange(-20, 20)])
+    >>> held_at("load_N", load), held_at("load_N", np.arange(42.0)), held_at("load_N", np.full(42, 50.0))
+    (50.0, None, None)
+    """
+    if values.dtype.kind in "US" or name in PASSING:
+        return None
+    off = np.abs(values - np.median(values))
+    near = values[
+        off <= (0.5 * WANDERS_K if name.endswith("temperature_C") else 0.5 * WANDERS * abs(np.median(values)))
+    ]
+    many = jitters(name, near) or np.unique(near).size > NODES
+    if near.size < MOSTLY * values.size or not many:
+        return None
+    return roundest(*(float(np.quantile(near, share)) for share in (0.25, 0.75)))
+
+
+def _wanders(name: str, case: Case, table: Table, forward: Forward) -> bool:
+    """Whether a condition only wandered about its set-point: little, and hardly moving a base model that reads it."""
+    if name not in table or not jitters(name, table[name]):
+        return False
+    steady = Table({**table.columns, name: np.full(len(table), np.median(table[name]))}, table.source)
+    here, there = forward.predict(), Forward(case, steady).predict()
+    return 0.0 < float(np.max(np.abs(there - here))) <= MOVES * float(np.median(np.abs(here)))
+
+
+def _kernel(a: np.ndarray, b: np.ndarray, length: float) -> np.ndarray:
+    return np.exp(-0.5 * ((a[:, None] - b[None, :]) / length) ** 2)
+
+
+@dataclass(frozen=True, eq=False)
+class Coordinates:
+    """The conditions of a case along which its readings were varied."""
+
+    axes: tuple[Coordinate, ...]
+
+    def place(self, name: str) -> int:
+        """Which of the axes a condition is."""
+        return [axis.name for axis in self.axes].index(name)
+
+    def values(self, case: Case, table: Table, forward: Forward) -> list[np.ndarray]:
+        """The conditions of a table, one array an axis."""
+        every = raw_coordinates(case, table, forward)
+        return [every[axis.name] for axis in self.axes]
+
+    def columns(
+        self, values: list[np.ndarray], length: float, only: tuple[str, ...] = (), interactions: bool = False
+    ) -> np.ndarray:
+        """Function columns over some axes or all, with products of pairs if wanted; total variance about one."""
+        blocks = [
+            (axis.functions(v, length), None if axis.named else SMOOTHEST)
+            for axis, v in zip(self.axes, values, strict=True)
+            if not only or axis.name in only
+        ]
+        found = [block for block, _ in blocks]
+        if interactions:
+            for (first, few), (second, some) in combinations(blocks, 2):
+                a, b = first[:, :few], second[:, :some]
+                found.append((a[:, :, None] * b[:, None, :]).reshape(a.shape[0], -1))
+        return np.hstack(found) / np.sqrt(len(found))
+
+
+def raw_coordinates(case: Case, table: Table, forward: Forward) -> dict[str, np.ndarray]:
+    """Condition columns of a table, the surfaces as a pair and as a composite roughness."""
+    found: dict[str, np.ndarray] = {}
+    names = [c for c in case.kind.columns if c.form == "name" and c.name in table]
+    for column in case.kind.columns:
+        if column.form != "name" and column.name in table:
+            found[column.name] = np.asarray(table[column.name], dtype=float)
+    if names:
+        label = table[names[0].name].astype(str)
+        for column in names[1:]:
+            label = np.char.add(np.char.add(label, " / "), table[column.name].astype(str))
+        found["surfaces"] = label
+    if "m0" in forward.inputs:
+        found["composite_roughness_um"] = np.broadcast_to(np.sqrt(forward.inputs["m0"])[:, 0] * 1e6, len(table))
+    if "sequence" in table:
+        found["sequence"] = np.asarray(table["sequence"], dtype=float)
+    return found
+
+
+def coordinates(case: Case, table: Table, forward: Forward) -> Coordinates:
+    """The axes along which a recording varies; what was held counts only where nothing else varies."""
+    every = {name: np.unique(values) for name, values in raw_coordinates(case, table, forward).items()}
+    varied = {name: levels for name, levels in every.items() if levels.size > 1}
+    held = [k for k, v in varied.items() if is_held(k, v) or _rolls(k, v, case) or _wanders(k, case, table, forward)]
+    swept = {k: v for k, v in varied.items() if k not in held}
+    axes = []
+    for name, levels in (swept or varied).items():
+        if levels.dtype.kind in "US":
+            axes.append(Coordinate(name, levels))
+            continue
+        logarithmic = bool(levels[0] > 0 and levels[-1] / levels[0] > 3.0 and name != "sequence")
+        both = levels[0] < 0.0 < levels[-1] and name not in PASSING
+        folded = float(np.abs(levels[levels != 0.0]).min()) if both else 0.0
+        # Decades of time that hold next to no readings are those of the start-up.
+        series = name in PASSING and logarithmic and levels.size >= SERIES
+        floor = float(levels[int(HEAD * levels.size)]) if series else LEAST
+        x = unrolled(np.maximum(levels, floor) if logarithmic else levels, logarithmic, folded)
+        low, span = float(x[0]), float(x[-1] - x[0])
+        nodes = (x - low) / span
+        if nodes.size > NODES:
+            nodes = np.linspace(0.0, 1.0, NODES)
+        axes.append(Coordinate(name, nodes, low, span, logarithmic, folded, floor))
+    return Coordinates(tuple(axes))

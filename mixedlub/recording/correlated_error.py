@@ -1,0 +1,83 @@
+"""Noise that wanders in time: neighbouring readings are off by much the same, and the farther apart the less."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mixedlub.recording.conditions import clock_of
+from mixedlub.schema.table import Table
+
+EACH, MOST = 3, 48
+"""Readings to each of its columns, and how many there are at most: what goes faster is noise of single readings."""
+STEPS = 20
+
+
+@dataclass(frozen=True)
+class Wander:
+    r"""An error that wanders, ``size`` times as large as the noise of a single reading, none if zero.
+
+    Its covariance is :math:`s^2 e^{-|q - q'|/l}` with q the share of the record and l the ``length``: an
+    Ornstein-Uhlenbeck process, which readings at equal steps show as an autoregression of order one (G. E. Uhlenbeck,
+    L. S. Ornstein, Phys. Rev. 36 (1930) 823). The record is from ``start`` over ``span`` on its clock.
+    """
+
+    size: float = 0.0
+    length: float = 1.0
+    start: float = 0.0
+    span: float = 1.0
+    count: int = 1
+
+    @classmethod
+    def over(cls, clock: np.ndarray, size: float, length: float) -> Wander:
+        """One over the record of a clock, followed by as many columns as its readings can tell."""
+        count = max(min(clock.size // EACH, MOST), 1)
+        return cls(size, length, float(clock.min()), float(np.ptp(clock)), count)
+
+    @property
+    def whole(self) -> float:
+        """Standard deviation of a reading with it, in that of a single one without."""
+        return float(np.hypot(1.0, self.size))
+
+    @property
+    def lasts(self) -> float:
+        """After what time on the clock it is forgotten."""
+        return self.length * self.span
+
+    def columns(self, rows: Table) -> np.ndarray:
+        """Columns (n, m), in the noise of a single reading, with standard-normal coefficients."""
+        clock = clock_of(rows, ties=True) if self.size else None
+        if clock is None:
+            return np.zeros((len(rows), 0))
+        return self.size * wandering((clock - self.start) / self.span, self.length, self.count)
+
+
+STILL = Wander()
+"""No error that wanders."""
+
+
+def wandering(share: np.ndarray, length: float, count: int) -> np.ndarray:
+    r"""The first components of what wanders over shares 0 to 1, each times its standard deviation; variance one in all.
+
+    .. math:: \sqrt{\lambda}\,\frac{\cos(\omega x)}{\sqrt{(1 + \sin\omega/\omega)/2}},\quad
+              \lambda = \frac{2 l}{1 + (\omega l)^2},\quad x = q - \tfrac12
+
+    and sines with a minus sign between them; omega = m pi + 2 arctan(1/(omega l)). Karhunen-Loeve expansion of the
+    exponential covariance: R. G. Ghanem, P. D. Spanos, Stochastic Finite Elements, Springer (1991), section 2.3. So few
+    components that they lack some of the variance are what wanders a little more smoothly, and carry all of it.
+
+    >>> columns = wandering(np.array([0.2, 0.5, 0.6]), 0.2, 400)
+    >>> (columns @ columns.T)[1].round(2).tolist()   # exp(-1.5), 1, exp(-0.5)
+    [0.22, 1.0, 0.61]
+    """
+    order = np.arange(count)
+    omega = np.pi * (order + 1.0)
+    for _ in range(STEPS):
+        over = omega - np.pi * order - 2.0 * np.arctan(1.0 / (omega * length))
+        omega = omega - over / (1.0 + 2.0 * length / (1.0 + (omega * length) ** 2))
+    even = order % 2 == 0
+    phase = omega * (share[:, None] - 0.5)
+    variance = 2.0 * length / (1.0 + (omega * length) ** 2)
+    square = 0.5 * (1.0 + np.where(even, 1.0, -1.0) * np.sin(omega) / omega)
+    return np.where(even, np.cos(phase), np.sin(phase)) * np.sqrt(variance / (square * variance.sum()))

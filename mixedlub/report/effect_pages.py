@@ -1,0 +1,235 @@
+"""The catalogue as text: what an effect is, how it shows, what it is confused with, which test separates it.
+
+Everything comes from the effect's own file or is computed on the standard rigs of `mixedlub.case.reference_rigs`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from textwrap import fill
+
+import numpy as np
+
+from mixedlub.case import reference_rigs
+from mixedlub.chain.effect import Effect, catalogue, find
+from mixedlub.chain.model import Model
+from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.report.plain import plain_equation, plain_symbol, with_symbol
+
+RIGS = tuple(reference_rigs.CONDITIONS)
+ALIKE = 0.95
+"""Cosine of two signatures above which the standard rig cannot tell them apart."""
+
+NEGLIGIBLE = 0.02
+"""Change of the share, over its largest size, below which a condition is said not to matter."""
+
+_WIDTH = 100
+_INDENT = 16
+_RIG_INDENT = 20
+
+
+def shown(effect: Effect) -> dict[str, float]:
+    """Parameter values that show the effect: the middle of each prior, one sd up it where the middle is null."""
+    middle = effect.middle
+    return {p.name: p.prior.value(1.0) if middle[p.name] == p.null else middle[p.name] for p in effect.parameters}
+
+
+@cache
+def share(effect_id: str, rig: str) -> np.ndarray | None:
+    """What the effect adds to each reading of a standard rig over the reading; None where it cannot act."""
+    forward = reference_rigs.forward(rig)
+    effect = next((e for e in forward.effects() if e.id == effect_id), None)
+    if effect is None:
+        return None
+    base = forward.predict()
+    return (forward.predict(None, {effect_id: shown(effect)}) - base) / base
+
+
+def changes(effect: Effect, rig: str) -> dict[str, float]:
+    """Change of the effect's share from the lowest to the highest levels of each condition, over its largest size.
+
+    Conditions are those varied on the rig, by their size where they have a direction, and the quantities that the
+    effect's fingerprint names beside them; for what moves with the programme, its place in that alone.
+    """
+    found = share(effect.id, rig)
+    if found is None or not found.any():
+        return {}
+    if "sequence" in effect.reads:
+        place = np.ravel(reference_rigs.forward(rig).inputs["sequence"])
+        sides = {"sequence": (place < 0.2, place > 0.8)}
+    else:
+        sides = _sides(effect, rig)
+    largest = np.abs(found).max()
+    return {c: float((found[high].mean() - found[low].mean()) / largest) for c, (low, high) in sides.items()}
+
+
+def _sides(effect: Effect, rig: str) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Rows at the lowest and at the highest levels of each condition."""
+    forward = reference_rigs.forward(rig)
+    sides = {}
+    for condition, (column, _) in reference_rigs.CONDITIONS[rig].items():
+        values = forward.table[column]
+        if condition == "surfaces":
+            sides["roughness"] = (values == "superfinished", values == "coarse")
+        elif condition != "sequence":
+            sides[condition] = _thirds(values)
+    made = {name for name, _ in forward.chain} | set(forward.inputs)
+    named = [q for q in effect.fingerprint if q in made and q not in sides]
+    states = Model(forward.chain, tuple(forward.inputs), named)(forward.inputs)
+    rows = (len(forward.table), 1)
+    return sides | {q: _thirds(v[:, 0]) for q, v in states.items() if np.shape(v) == rows and np.ptp(v) > 0}
+
+
+def _thirds(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Rows in the lowest and in the highest third of the levels, at least one of them."""
+    size = np.abs(values)
+    levels = np.unique(size)
+    some = max(len(levels) // 3, 1)
+    return size <= levels[some - 1], size >= levels[-some]
+
+
+def fingerprint(effect: Effect, rig: str) -> dict[str, str]:
+    """Sign of `changes`: how the effect's share of the reading moves as each condition grows."""
+    return {c: "0" if abs(v) < NEGLIGIBLE else "+" if v > 0 else "-" for c, v in changes(effect, rig).items()}
+
+
+@cache
+def signatures(rig: str) -> Mapping[str, tuple[np.ndarray, float]]:
+    """The `signature` of each effect at the values that are shown, of those that the rig shows at all."""
+    forward = reference_rigs.forward(rig)
+    base = forward.predict()
+    changes = {effect.id: share(effect.id, rig) for effect in forward.effects()}
+    found = {name: signature(change * base, rig) for name, change in changes.items() if change is not None}
+    return {name: (vector, left) for name, (vector, left) in found.items() if left > 0.0}
+
+
+def signature(change: np.ndarray, rig: str) -> tuple[np.ndarray, float]:
+    """A change of the readings, in standard deviations, as far as calibration cannot imitate it.
+
+    A unit vector over the rows, and the share of the whole change that is left after projecting out one column
+    an input that calibration may move.
+    """
+    sd, inputs = _calibrated(rig)
+    whole = change / sd
+    left = whole - inputs @ (inputs.T @ whole)
+    size = float(np.linalg.norm(left))
+    return (left / size, size / float(np.linalg.norm(whole))) if size > 0.0 else (left, 0.0)
+
+
+@cache
+def _calibrated(rig: str) -> tuple[np.ndarray, np.ndarray]:
+    """Noise of the standard rig's readings, and an orthonormal basis of what calibration does to them."""
+    forward = reference_rigs.forward(rig)
+    base = forward.predict()
+    noise = forward.case.system.recording.noise
+    assert noise is not None
+    sd = np.hypot(noise.relative * base, noise.absolute)
+    moved = [forward.predict({c.name: c.parameter.prior.value(0.5)}) - base for c in forward.calibrations]
+    inputs, _ = np.linalg.qr((np.array(moved) / sd).T)
+    return sd, inputs
+
+
+def lookalikes(effect_id: str, rig: str) -> dict[str, float]:
+    """Other effects whose signature on the standard rig has a cosine above 0.95 with this one's, nearest first."""
+    known = signatures(rig)
+    if effect_id not in known:
+        return {}
+    own = known[effect_id][0]
+    cosines = {other: float(own @ vector) for other, (vector, _) in known.items() if other != effect_id}
+    alike = {other: c for other, c in cosines.items() if abs(c) > ALIKE}
+    return dict(sorted(alike.items(), key=lambda item: -abs(item[1])))
+
+
+def effects_text(effect_id: str | None = None) -> str:
+    """The page of one effect, or the table of all of them."""
+    return _table() if effect_id is None else _page(find((effect_id,))[0])
+
+
+def _table() -> str:
+    effects = tuple(catalogue().values())
+    lines = [f"{len(effects)} effects. `mixedlub effects ID` shows one."]
+    widest = max(len(e.id) for e in effects)
+    stage = ""
+    for e in effects:
+        if e.stage != stage:
+            stage = e.stage
+            lines += ["", stage]
+        lines.append(f"  {e.id:{widest}}  {e.summary}")
+    return "\n".join(lines)
+
+
+def _page(effect: Effect) -> str:
+    acted = (", ".join(filter(None, (_letter(name), _unit(GLOSSARY[name].unit).strip()))) for name in effect.acts_on)
+    parts = [
+        f"{effect.id}: {effect.summary}",
+        "",
+        _entry("stage", effect.stage),
+        _entry("changes", ", ".join(map(with_symbol, effect.acts_on, acted))),
+        _entry("reads", ", ".join(with_symbol(name, _letter(name)) for name in effect.reads) or "nothing else"),
+        _entry("equation", plain_equation(effect.equation)),
+        _entry("source", effect.source),
+    ]
+    if effect.valid:
+        ranges = (
+            f"{name} {low:g} to {high:g}{_unit(GLOSSARY[name].unit)}" for name, (low, high) in effect.valid.items()
+        )
+        parts.append(_entry("valid", "; ".join(ranges)))
+    if effect.kinds:
+        parts.append(_entry("recordings", ", ".join(effect.kinds)))
+    if effect.odds < 1.0:
+        parts.append(_entry("prior odds", f"{effect.odds:g} of those of an effect that is missing as often as most"))
+    if effect.likelier:
+        name, beyond, times = effect.likelier
+        parts.append(_entry("more often", f"{times:g} times as often where {name} is beyond {beyond:g}"))
+    if effect.exact:
+        parts.append(_entry("form", "exact: it is the effect's definition and does not bend in a fit"))
+    parts += ["", "parameters"]
+    labels = [f"  {with_symbol(p.name, plain_equation(p.symbol))}" for p in effect.parameters]
+    indent = max(_INDENT, 2 + max(map(len, labels)))
+    for p, label in zip(effect.parameters, labels, strict=True):
+        off = "" if p.null is None else f"; off at {p.null:g}"
+        off += f"; free in recordings of {', '.join(p.kinds)}" if p.kinds else ""
+        parts.append(_entry(label, f"{p.meaning}; {p.prior}{_unit(p.unit)}{off}", indent))
+    for law, values in effect.contains.items():
+        at = ", ".join(f"{name} {value:g}" for name, value in values.items())
+        parts.append(_entry("contains", f"the law of {law}, at {at}"))
+    parts += ["", *_on_rigs(effect), "", _entry("separated by", effect.separated_by)]
+    return "\n".join(parts)
+
+
+def _on_rigs(effect: Effect) -> list[str]:
+    lines = ["on the standard rig of each kind of recording"]
+    for rig in RIGS:
+        found = share(effect.id, rig)
+        if found is None or not found.any():
+            continue
+        low, middle, high = (f"{100 * v:.3g}" for v in np.quantile(found, (0.0, 0.5, 1.0)))
+        signs = ", ".join(f"{condition} {sign}" for condition, sign in fingerprint(effect, rig).items())
+        alike = ", ".join(f"{other} ({c:+.2f})" for other, c in lookalikes(effect.id, rig).items())
+        about = {
+            f"  {rig}": f"{low} to {high} % of the reading, half of them below {middle} %",
+            "    fingerprint": f"share of the reading with growing {signs}" if signs else "none",
+            "    looks like": alike or "no other, after calibration",
+        }
+        if effect.id in signatures(rig):
+            about["    calibration"] = f"leaves {100 * signatures(rig)[effect.id][1]:.0f} % of it"
+        lines += [_entry(name, text, _RIG_INDENT) for name, text in about.items()]
+    shares = {rig: share(effect.id, rig) for rig in RIGS}
+    unable = ", ".join(rig for rig, found in shares.items() if found is None)
+    hidden = ", ".join(rig for rig, found in shares.items() if found is not None and not found.any())
+    lines += [_entry("  cannot act", f"on {unable}", _RIG_INDENT)] if unable else []
+    return [*lines, _entry("  shows nothing", f"on {hidden}", _RIG_INDENT)] if hidden else lines
+
+
+def _unit(unit: str) -> str:
+    return {"-": "", "*": " unit of the channel"}.get(unit, f" {unit}")
+
+
+def _letter(quantity: str) -> str:
+    symbol = GLOSSARY[quantity].symbol
+    return "" if symbol == "-" else plain_symbol(symbol)
+
+
+def _entry(name: str, text: str, indent: int = _INDENT) -> str:
+    return fill(text, _WIDTH, initial_indent=f"{name:{indent}}", subsequent_indent=" " * indent, break_long_words=False)

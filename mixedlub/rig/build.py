@@ -1,0 +1,225 @@
+"""From the sections of `system.toml` to the objects that compute: gears, lubricant, surfaces, in SI."""
+
+from __future__ import annotations
+
+import tomllib
+import warnings
+from collections.abc import Collection
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mixedlub.gear import GearPair, LdpSharing, RigidSharing, Sharing, TableSharing
+from mixedlub.laws.oil import ZERO_CELSIUS
+from mixedlub.rig.lubricant import Lubricant
+from mixedlub.rig.surface import Surface
+from mixedlub.schema import system_file
+from mixedlub.schema.table import CaseWarning, Column, read_table
+from profiles import SHIPPED, shipped
+from profiles.errors import InputError, nearest
+from profiles.profile import Profile
+
+if TYPE_CHECKING:
+    from roughness import Moments
+
+SHIPPED_MARK = "shipped:"
+"""Before the name of a trace that comes with the package."""
+
+
+def gear_pair(section: system_file.Gears) -> GearPair:
+    """The gear pair of a ``[gears]`` section."""
+    tips = section.tip_diameter_mm
+    return GearPair(
+        teeth=section.teeth,
+        normal_module=section.normal_module_mm * 1e-3,
+        pressure_angle=float(np.radians(section.pressure_angle_deg)),
+        helix_angle=float(np.radians(section.helix_angle_deg)),
+        profile_shift=section.profile_shift,
+        tip_radius=None if tips is None else (tips[0] * 0.5e-3, tips[1] * 0.5e-3),
+        centre_distance=None if section.centre_distance_mm is None else section.centre_distance_mm * 1e-3,
+        face_width=section.face_width_mm * 1e-3,
+        youngs_modulus=(section.youngs_modulus_GPa[0] * 1e9, section.youngs_modulus_GPa[1] * 1e9),
+        poisson_ratio=section.poisson_ratio,
+    )
+
+
+def sharing(section: system_file.LoadSharing, folder: Path) -> Sharing:
+    """How the load divides between tooth pairs, by ``load_sharing``."""
+    if section.table is not None:
+        columns = (
+            Column("torque_Nm", above=0.0),
+            Column("roll_angle_deg"),
+            Column("load_share", at_least=0.0, at_most=1.5),
+        )
+        file = named_file(folder, section.table, "gears.load_sharing.table")
+        table = read_table(file, columns, key=("torque_Nm", "roll_angle_deg"))
+        return TableSharing(
+            torque=table["torque_Nm"],
+            roll_angle=np.radians(table["roll_angle_deg"]),
+            share=table["load_share"],
+            source=str(file),
+        )
+    if section.model == "rigid":
+        return RigidSharing()
+    return LdpSharing(
+        tip_relief=(section.tip_relief_um[0] * 1e-6, section.tip_relief_um[1] * 1e-6),
+        relief_length=(section.relief_length_mm[0] * 1e-3, section.relief_length_mm[1] * 1e-3),
+        lead_crown=section.lead_crown_um * 1e-6,
+        misalignment=section.misalignment_um * 1e-6,
+    )
+
+
+def named_file(folder: Path, name: str, key: str) -> Path:
+    """A file named in a case or study, relative to its folder."""
+    path = folder / name
+    if not path.is_file():
+        near = sorted(p.name for p in path.parent.glob("*") if p.is_file())
+        hint = f"; {nearest(path.name, near)}" if near else "; the file that names it may say where it comes from"
+        raise InputError(f"no such file in {folder}{hint}", where=key, value=name)
+    return path
+
+
+@cache
+def named_bases() -> dict[str, dict[str, Any]]:
+    """Typical oils by base stock, each number with its source in the file."""
+    return tomllib.loads(files("mixedlub.rig").joinpath("lubricants.toml").read_text(encoding="utf-8"))
+
+
+def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = ()) -> Lubricant:
+    """The oil; what the section leaves open comes from its base stock, with a warning that says so.
+
+    Keys that are ``unread`` in a kind of recording are not warned of.
+    """
+    section = section or system_file.Lubricant()
+    known = {k: v for k, v in section.model_dump().items() if v is not None and k not in ("name", "base")}
+    base = named_bases()[section.base or "mineral"]
+    assumed = [key for key in base if key not in known and key != "source" and key not in unread]
+    if assumed:
+        stock = section.base or "mineral (assumed)"
+        listed = ", ".join(f"{key} = {base[key]}" for key in assumed)
+        warnings.warn(
+            f"lubricant: {listed} not given; taken as typical of base {stock}",
+            CaseWarning,
+            stacklevel=2,
+        )
+    full = {**base, **known}
+    t1, t2 = full["temperature_C"]
+    nu1, nu2 = full["kinematic_viscosity_mm2_s"]
+    if t1 == t2:
+        raise InputError("the two temperatures must differ", where="lubricant.temperature_C", value=(t1, t2))
+    if (nu2 - nu1) * (t2 - t1) >= 0:
+        raise InputError(
+            "viscosity must fall with temperature",
+            where="lubricant.kinematic_viscosity_mm2_s",
+            value=(nu1, nu2),
+        )
+    a1, a2 = full["pressure_viscosity_per_GPa"]
+    return Lubricant(
+        name=section.name,
+        temperature=(t1 + ZERO_CELSIUS, t2 + ZERO_CELSIUS),
+        kinematic_viscosity=(nu1 * 1e-6, nu2 * 1e-6),
+        pressure_viscosity=(a1 * 1e-9, a2 * 1e-9),
+        density_15=full["density_15C_kg_m3"],
+        density_change=full["density_change_per_K"],
+        eyring_stress=full["eyring_stress_MPa"] * 1e6,
+        conductivity=full["thermal_conductivity_W_mK"],
+        heat_capacity=full["specific_heat_J_kgK"],
+    )
+
+
+def _trace(named: str, folder: Path, key: str) -> Profile:
+    """A shipped trace, or one from a file relative to the folder."""
+    from profiles.read import read
+
+    if not named.startswith(SHIPPED_MARK):
+        return read(named_file(folder, named, key))
+    wanted = named.removeprefix(SHIPPED_MARK)
+    if wanted not in SHIPPED:
+        raise InputError(f"no such shipped trace; {nearest(wanted, SHIPPED)}", where=key, value=named)
+    return shipped(wanted)
+
+
+def flank_profile(name: str, section: system_file.SurfaceSection, folder: Path) -> Profile:
+    """The roughness profile of a surface that names a trace, prepared as `mixedlub profile` does.
+
+    Cut-offs are those of its section; without any, a profile that its file says is filtered stays as it is.
+    A short cut-off of fewer than two points is left out, as the trace does not show such waves.
+    """
+    return _prepared(name, section, _trace(section.profile or "", folder, f"surfaces.{name}.profile"))
+
+
+def _prepared(name: str, section: system_file.SurfaceSection, trace: Profile) -> Profile:
+    from roughness import evaluation_profile
+
+    if "cutoff" in trace.cutoffs and section.cutoff_mm is None and section.short_cutoff_um is None:
+        return evaluation_profile(trace, form=section.form or "line", edges=section.edges, outliers=section.outliers)
+    band = {"cutoff_mm": section.cutoff_mm or 0.8, "short_cutoff_um": section.short_cutoff_um or 2.5}
+    assumed = [f"{key} = {value:g}" for key, value in band.items() if getattr(section, key) is None]
+    if assumed:
+        warnings.warn(f"surfaces.{name}: {', '.join(assumed)} assumed", CaseWarning, stacklevel=2)
+    short: float | None = band["short_cutoff_um"] * 1e-6
+    if band["short_cutoff_um"] * 1e-6 < 2.0 * trace.spacing:
+        short = None
+        warnings.warn(
+            f"surfaces.{name}: no short cut-off: {band['short_cutoff_um']:g} um is below two points of the trace, so "
+            f"slope and curvature are those of its spacing, {trace.spacing * 1e6:.3g} um",
+            CaseWarning,
+            stacklevel=2,
+        )
+    return evaluation_profile(
+        trace,
+        form=section.form or "line",
+        cutoff=band["cutoff_mm"] * 1e-3,
+        short_cutoff=short,
+        edges=section.edges,
+        outliers=section.outliers,
+    )
+
+
+def _moments_of_trace(name: str, section: system_file.SurfaceSection, folder: Path) -> Moments:
+    """Moments of the trace of a surface; what is wrong with the trace is said with the surface's name."""
+    from roughness import moments
+    from roughness.guards import trace_warnings
+
+    try:
+        trace = _trace(section.profile or "", folder, f"surfaces.{name}.profile")
+        profile = _prepared(name, section, trace)
+        found = moments(profile)
+        for text in trace_warnings(profile, found, raw=trace):
+            warnings.warn(f"surfaces.{name}: {text}", CaseWarning, stacklevel=2)
+        return found
+    except InputError as error:
+        if error.where.startswith("surfaces."):
+            raise
+        raise InputError(error.rule, where=f"surfaces.{name}: {error.where}", value=error.value) from None
+
+
+def surface(name: str, section: system_file.SurfaceSection, folder: Path) -> Surface:
+    """One surface, from its moments or from the trace it names."""
+    if section.profile is None:
+        m0, m2, m4 = section.m0_um2 or 0.0, section.m2 or 0.0, section.m4_per_um2 or 0.0
+        m0, m4 = m0 * 1e-12, m4 * 1e12
+    else:
+        found = _moments_of_trace(name, section, folder)
+        m0, m2, m4 = found.m0, found.m2, found.m4
+    if m0 * m4 < 1.5 * m2**2:
+        warnings.warn(
+            f"surfaces.{name}: Nayak alpha is {m0 * m4 / m2**2:.2f}, below the 1.5 of any isotropic Gaussian surface",
+            CaseWarning,
+            stacklevel=2,
+        )
+    coating = section.coating
+    return Surface(
+        name=name,
+        m0=m0,
+        m2=m2,
+        m4=m4,
+        coating_thickness=0.0 if coating is None else coating.thickness_um * 1e-6,
+        coating_conductivity=2.0 if coating is None else coating.thermal_conductivity_W_mK,
+        conductivity=section.thermal_conductivity_W_mK,
+        density=section.density_kg_m3,
+        heat_capacity=section.specific_heat_J_kgK,
+    )

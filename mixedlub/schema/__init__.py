@@ -1,0 +1,1 @@
+"""What files may say: keys and columns, their ranges, units and messages."""

@@ -1,0 +1,243 @@
+"""Tables of readings and conditions: CSV in, columns out, every wrong cell named."""
+
+from __future__ import annotations
+
+import csv
+import difflib
+import re
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from mixedlub.schema.ranges import meant
+from mixedlub.schema.units import fits, split, target_of, unit_of
+from profiles.errors import InputError, nearest
+
+
+class CaseWarning(UserWarning):
+    """Something in the input was assumed, ignored or replaced; the user should know."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """What a column holds: a number within bounds, a whole number, or a name (one of ``names`` if there are any).
+
+    Where a number may be ``blank`` an empty cell is nan.
+    """
+
+    name: str
+    form: str = "number"
+    above: float = -np.inf
+    at_least: float = -np.inf
+    at_most: float = np.inf
+    required: bool = True
+    names: tuple[str, ...] = ()
+    blank: bool = False
+
+    def allows(self, value: float) -> bool:
+        """Whether a number lies within the bounds."""
+        return value > self.above and self.at_least <= value <= self.at_most
+
+    def parse(self, text: str, where: str) -> float | int | str:
+        """The cell's value, or an error that names the place."""
+        text = text.strip()
+        if self.form == "name":
+            if not text:
+                raise InputError(f"{self.name} must name something", where=where, value=text)
+            if self.names and text not in self.names:
+                raise InputError(f"no such name in system.toml; {nearest(text, self.names)}", where=where, value=text)
+            return text
+        if self.blank and is_missing(text):
+            return float("nan")
+        try:
+            value = float(text)
+        except ValueError:
+            raise InputError(f"{self.name} must be a number", where=where, value=text) from None
+        if not np.isfinite(value):
+            raise InputError(f"{self.name} must be a finite number", where=where, value=text)
+        if not self.allows(value):
+            low = value <= self.above
+            rule = f"be above {self.above:g}" if low else f"lie between {self.at_least:g} and {self.at_most:g}"
+            other = meant(self.name, value, self.at_least, self.at_most) if np.isfinite(self.at_most) else ""
+            raise InputError(f"{self.name} must {rule}" + (f"; {other}" if other else ""), where=where, value=value)
+        if self.form == "whole":
+            if value != int(value):
+                raise InputError(f"{self.name} must be a whole number", where=where, value=text)
+            if abs(value) >= LARGEST:
+                raise InputError(f"{self.name} must be a whole number below {LARGEST}", where=where, value=text)
+            return int(value)
+        return value
+
+
+LARGEST = 2**53
+"""Whole numbers are told apart up to here."""
+PRINTED_MINUS = re.compile(r"(?:(?<=\d[eE])|(?<![\w)]))\u2212(?=[\d.,])")
+BLANK = ("", "-", "--", "---", "\u2013", "\u2014", "nan", "na", "n/a", "n.a.", "#n/a", "#nv", "null", "none")
+"""What an empty cell of a table may read, in small letters."""
+RUN = Column("run", "whole")
+BOOKKEEPING = (
+    Column("rig", "name", required=False),
+    Column("sequence", at_least=0.0, at_most=1.0, required=False),
+    Column("setup", "name", required=False),
+)
+
+
+@dataclass(frozen=True)
+class Table:
+    """Columns of equal length by name; ``ignored`` are headers of the file that are not among them."""
+
+    columns: Mapping[str, np.ndarray]
+    source: str = "table"
+    ignored: tuple[str, ...] = ()
+
+    def __len__(self) -> int:
+        return len(next(iter(self.columns.values())))
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.columns
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self.columns[name]
+
+    def take(self, rows: np.ndarray) -> Table:
+        """The rows of a mask or index."""
+        return Table({name: column[rows] for name, column in self.columns.items()}, self.source)
+
+
+def is_missing(cell: str) -> bool:
+    """Whether a cell says that there is no value.
+
+    >>> [is_missing(cell) for cell in ("", "n/a", " - ", "NaN", "0", "-1", "abc")]
+    [True, True, True, True, False, False, False]
+    """
+    return cell.strip().lower() in BLANK
+
+
+def with_hyphens(text: str) -> str:
+    """Text whose numbers have the minus that they are read with, where a printed one (U+2212) stands before them.
+
+    >>> with_hyphens("\u22120.5;1.2e\u22123;m s\u22121")
+    '-0.5;1.2e-3;m s\u22121'
+    """
+    return PRINTED_MINUS.sub("-", text)
+
+
+def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] = ("run",)) -> Table:
+    """Read a CSV with the given columns, those of the ``key`` unique together; others are ignored with a warning."""
+    where = str(path)
+    try:
+        text = with_hyphens(path.read_text(encoding="utf-8-sig"))
+    except FileNotFoundError:
+        raise InputError("no such file", where=where) from None
+    except UnicodeDecodeError:
+        raise InputError("is not text in UTF-8", where=where) from None
+    except OSError as error:
+        raise InputError(f"cannot be read ({error.strerror})", where=where) from None
+    if "\0" in text:
+        raise InputError("is not a text table", where=where)
+    try:
+        reader = csv.reader(text.splitlines())
+        lines = [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
+    except csv.Error as error:
+        raise InputError(f"is not a comma-separated table ({error})", where=where) from None
+    if len(lines) < 2:
+        raise InputError("needs a header line and at least one row", where=where)
+    header = [cell.strip() for cell in lines[0][1]]
+    separator = next((mark for mark in (";", "\t") if len(header) == 1 and mark in header[0]), None)
+    if separator is not None:
+        raise InputError("columns are separated by commas, numbers have a decimal point", where=where, value=separator)
+    doubled = {name for name in header if name and header.count(name) > 1}
+    if doubled:
+        raise InputError("column appears twice", where=where, value=sorted(doubled)[0])
+    known = {c.name: c for c in columns}
+    unknown = [name for name in header if name and name not in known]
+    for column in columns:
+        if column.required and column.name not in header:
+            raise InputError(f"column {column.name!r} is missing{_instead(column, unknown)}", where=f"{where}: header")
+    if unknown:
+        absent = [column for column in columns if column.name not in header]
+        converted = [other for column in absent if (other := _other_unit(column, unknown))]
+        listed = [name if name in converted else _with_nearest(name, absent) for name in unknown]
+        told = f"; {_CONVERTED} ({', '.join(converted)})" if converted else ""
+        warnings.warn(
+            f"{path.name}: {IGNORED}{', '.join(listed)}{told}",
+            CaseWarning,
+            stacklevel=2,
+        )
+    cells = _parse(lines, header, known, where)
+    together = list(zip(*(cells[name].tolist() for name in key), strict=True))
+    if len(set(together)) < len(together):
+        first = {values: row for row, values in reversed(list(enumerate(together)))}
+        again = next(row for row, values in enumerate(together) if first[values] < row)
+        value, named = together[again], " and ".join(key)
+        place = f"{where}: line {lines[again + 1][0]}, {named}"
+        rule = f"{named} must be unique" + (" together" if len(key) > 1 else "")
+        raise InputError(rule, where=place, value=value[0] if len(key) == 1 else value)
+    return Table(cells, path.name, tuple(unknown))
+
+
+IGNORED = "columns ignored because they are not known: "
+MEANT = "nearest known"
+"""How the note of a column that is ignored begins, and what stands in it where it may be one that is known."""
+_CONVERTED = "units are not converted here; `mixedlub import` does"
+
+
+def _instead(column: Column, unknown: list[str]) -> str:
+    """What the file has where a column is missing: the same in another unit, a name like it, or other names.
+
+    >>> _instead(Column("speed_rpm"), ["sped_rpm", "colour"]), _instead(Column("speed_rpm"), ["speed_rad_s"])
+    ("; the file has 'sped_rpm'", "; the file has 'speed_rad_s': units are not converted here; `mixedlub import` does")
+    """
+    if not unknown:
+        return ""
+    other = _other_unit(column, unknown)
+    if other:
+        return f"; the file has {other!r}: {_CONVERTED}"
+    close = difflib.get_close_matches(column.name, unknown, n=1, cutoff=0.5)
+    return (
+        f"; the file has {close[0]!r}" if close else f"; the file has {', '.join(map(repr, unknown))}, not known here"
+    )
+
+
+def _with_nearest(name: str, absent: list[Column]) -> str:
+    """An ignored column with the one that it may be: of the columns that are not there, one in its unit or like it.
+
+    >>> _with_nearest("load_Nm", [Column("load_N"), Column("torque_Nm"), Column("motor_torque_Nm")])
+    "load_Nm (nearest known: 'torque_Nm')"
+    >>> _with_nearest("colour", [Column("torque_Nm")]), _with_nearest("surface2", [Column("surface_2")])
+    ('colour', "surface2 (nearest known: 'surface_2')")
+    >>> _with_nearest("power_loss_sd", [Column("power_loss_W_sd")])
+    "power_loss_sd (nearest known: 'power_loss_W_sd')"
+    """
+    unit = unit_of(name)
+    known = [c.name for c in absent if c.name.endswith("_sd") == name.endswith("_sd")]
+    alike = [other for other in known if unit and unit_of(other) == unit]
+    close = difflib.get_close_matches(name, alike or known, n=1, cutoff=0.0 if alike else 0.8)
+    return f"{name} ({MEANT}: {close[0]!r})" if close else name
+
+
+def _other_unit(column: Column, unknown: list[str]) -> str | None:
+    """The header that is the column in another unit, one that the import converts."""
+    for name in unknown:
+        unit, target = split(name)[1], target_of(name)
+        if target is not None and target.name == column.name and unit and fits(unit, target.unit):
+            return name
+    return None
+
+
+def _parse(
+    lines: list[tuple[int, list[str]]], header: list[str], known: Mapping[str, Column], where: str
+) -> dict[str, np.ndarray]:
+    cells: dict[str, list[float | int | str]] = {name: [] for name in header if name in known}
+    for number, row in lines[1:]:
+        if len(row) != len(header):
+            raise InputError(
+                f"has {len(row)} cells where the header has {len(header)}", where=f"{where}: line {number}"
+            )
+        for name, cell in zip(header, row, strict=True):
+            if name in known:
+                cells[name].append(known[name].parse(cell, f"{where}: line {number}, {name}"))
+    return {name: np.array(values) for name, values in cells.items()}

@@ -1,0 +1,115 @@
+"""What a run leaves on disk while it works: one Parquet file a block, so that a killed run goes on.
+
+A block's file is written aside and renamed, so it is whole or absent. The folder's name carries the study's
+fingerprint: parts of another study, or of other code, are never taken for this one's.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import shutil
+from collections.abc import Iterator, Sequence
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+import mixedlub
+import roughness
+from mixedlub.study.batch import CHECKS, OUTPUTS, Block, Found
+from mixedlub.study.plan import Plan
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+
+def fingerprint(plan: Plan) -> str:
+    """A hash of every number and every line of code the results depend on."""
+    digest = hashlib.sha256(_code().encode())
+    for name in sorted(plan.inputs):
+        value = np.ascontiguousarray(plan.inputs[name], dtype=float)
+        digest.update(f"{name}{value.shape}".encode())
+        digest.update(value.tobytes())
+    chosen = [plan.options.model_dump(), {k: dict(v) for k, v in plan.parameters.items()}, plan.shape]
+    digest.update(json.dumps(chosen, sort_keys=True).encode())
+    return digest.hexdigest()
+
+
+@cache
+def _code() -> str:
+    digest = hashlib.sha256(np.__version__.encode())
+    for package in (mixedlub, roughness):
+        for path in sorted(Path(package.__path__[0]).rglob("*.py")):
+            digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def parts_folder(out: Path, plan: Plan) -> Path:
+    """Where the blocks of this study are kept until it is done."""
+    return out / f".parts-{fingerprint(plan)[:16]}"
+
+
+def kept(folder: Path, todo: list[Block]) -> Iterator[tuple[Block, Found]]:
+    """Blocks that an earlier run finished."""
+    if not folder.is_dir():
+        return
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    for block in todo:
+        path = folder / block_name(block)
+        if not path.is_file():
+            continue
+        try:
+            table = pq.read_table(path)
+        except (OSError, pa.ArrowInvalid):
+            continue
+        shape = tuple(s.stop - s.start for s in block)
+        if table.num_rows == np.prod(shape) and set(table.column_names) == {*OUTPUTS, *CHECKS}:
+            yield block, {name: table[name].to_numpy().reshape(shape) for name in (*OUTPUTS, *CHECKS)}
+
+
+def keep(folder: Path, block: Block, found: Found) -> None:
+    """Save one finished block."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / block_name(block)
+    aside = path.with_suffix(f".{os.getpid()}")
+    table = pa.table({name: floats(values) for name, values in found.items()})
+    pq.write_table(table, aside, compression="none", use_dictionary=False)
+    aside.replace(path)
+
+
+def floats(values: np.ndarray) -> pa.Array:
+    """A column of numbers, made without the detour over pandas that ``pa.array`` imports it for."""
+    import pyarrow as pa
+
+    flat = np.ascontiguousarray(values, dtype=float).ravel()
+    return pa.Array.from_buffers(pa.float64(), flat.size, [None, pa.py_buffer(flat)])
+
+
+def words(names: Sequence[str], times: int) -> pa.Array:
+    """A column of names, each repeated so many times; made as `floats`."""
+    import pyarrow as pa
+
+    encoded = [name.encode() for name in names]
+    ends = np.cumsum(np.repeat([len(e) for e in encoded], times), dtype=np.int32)
+    offsets = pa.py_buffer(np.concatenate([np.zeros(1, np.int32), ends]))
+    data = pa.py_buffer(b"".join(e * times for e in encoded))
+    return pa.StringArray.from_buffers(ends.size, offsets, data)
+
+
+def clear(out: Path) -> None:
+    """Remove the blocks of finished and abandoned runs."""
+    for folder in out.glob(".parts-*"):
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def block_name(block: Block) -> str:
+    """File name of a block: its ranges."""
+    return "_".join(f"{s.start}-{s.stop}" for s in block) + ".parquet"

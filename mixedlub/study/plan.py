@@ -1,0 +1,226 @@
+"""A study made ready to run: surfaces paired, gears meshed, inputs laid out by axis."""
+
+from __future__ import annotations
+
+import itertools
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mixedlub.case.folder import noted
+from mixedlub.chain.effect import Effect, find, known_in
+from mixedlub.chain.model import Model, available
+from mixedlub.gear import GearPair, Mesh, mesh
+from mixedlub.kinds.gear_pair import motion_inputs
+from mixedlub.laws.load import LEAST_SHARE
+from mixedlub.rig import build
+from mixedlub.rig.lubricant import Lubricant
+from mixedlub.rig.plausibility import far_off
+from mixedlub.rig.surface import Surface, paired
+from mixedlub.schema import system_file
+from mixedlub.study.options import study_chain
+from mixedlub.study.schema import Options, Pairings, StudyFile
+from profiles.errors import InputError, nearest
+
+AXES = ("pairing", "oil_temperature", "torque", "speed")
+WANTED = (
+    "power_loss",
+    "area_ratio",
+    "film_thickness",
+    "composite_roughness",
+    "hertz_pressure",
+    "separation",
+    "summit_density",
+    "summit_radius",
+    "summit_sigma",
+)
+
+Parameters = Mapping[str, Mapping[str, float]]
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """All that computing needs, in a form that travels to other machines.
+
+    ``inputs`` hold SI arrays of up to five axes (pairing, oil temperature, torque, speed, mesh), length one
+    on each axis they do not depend on; ``shape`` is the number of levels of the first four, ``points`` of
+    the last.
+    """
+
+    inputs: Mapping[str, Any]
+    options: Options
+    parameters: Parameters
+    shape: tuple[int, int, int, int]
+    points: int
+
+    def model(self) -> Model:
+        """The chain under the options with the effects switched on."""
+        effects = find(sorted(self.parameters)) if self.parameters else ()
+        return Model(study_chain(self.options), tuple(self.inputs), WANTED, effects)
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """A study file, read and resolved; ``notes`` say what had to be assumed."""
+
+    name: str
+    file: StudyFile
+    folder: Path
+    pair: GearPair
+    mesh: Mesh
+    oil: Lubricant
+    surfaces: Mapping[str, Surface]
+    pairings: tuple[tuple[str, str], ...]
+    effects: tuple[Effect, ...]
+    plan: Plan
+    notes: tuple[str, ...] = ()
+
+    @property
+    def conditions(self) -> int:
+        """Rows of the result."""
+        return int(np.prod(self.plan.shape))
+
+
+def read_study(path: Path, file: StudyFile | None = None) -> Study:
+    """Read a study file and lay it out; traces are read relative to its folder.
+
+    ``file`` takes the place of what the file says: a study altered in Python.
+    """
+    if path.is_dir():
+        raise InputError("is a folder; a study is one TOML file", where=str(path))
+    if file is None:
+        file = system_file.parse(StudyFile, system_file.read_toml(path), str(path))
+    notes: list[str] = []
+    try:
+        with noted(notes), np.errstate(all="ignore"):
+            study = _resolve(path.stem, file, path.parent)
+        _check_finite(study)
+        doubtful = tuple(odd.text for odd in far_off(file, path.parent, study.surfaces))
+    except InputError as error:
+        placed = system_file.in_file(error, str(path))
+        if str(path) in str(placed):
+            raise placed from None
+        raise InputError(str(error), where=str(path)) from None
+    return replace(study, notes=(*notes, *doubtful))
+
+
+def _check_finite(study: Study) -> None:
+    """Refuse a study with an input that is not finite, and say at which of its levels."""
+    levels = study.file.conditions
+    columns = ("", "oil_temperature_C", "torque_Nm", "speed_rpm")
+    for name, value in study.plan.inputs.items():
+        if not np.all(np.isfinite(value)):
+            axes = zip(columns, np.argwhere(~np.isfinite(value))[0], np.shape(value))
+            place = ", ".join(f"{c} {getattr(levels, c)[i]:g}" for c, i, n in axes if c and n > 1) or "all of them"
+            said = f"the study's numbers give no finite {name.replace('_', ' ')}; look for one far out of range"
+            raise InputError(said, where=f"conditions: {place}")
+
+
+def counted(count: int, thing: str) -> str:
+    """A number of things in words.
+
+    >>> counted(1, "speed"), counted(6, "speed")
+    ('1 speed', '6 speeds')
+    """
+    return f"{count} {thing}{'' if count == 1 else 's'}"
+
+
+def factors(study: Study) -> tuple[str, ...]:
+    """What is combined with what in a study, each with its number of levels."""
+    things = ("pairing", "oil temperature", "torque", "speed")
+    pairings, oil, torque, speed = map(counted, study.plan.shape, things)
+    return (pairings, torque, speed, oil)
+
+
+def pairings_of(section: Pairings | None, known: Mapping[str, object]) -> tuple[tuple[str, str], ...]:
+    """Pinion and gear surface of each pairing; every unordered pair where nothing is said.
+
+    >>> pairings_of(None, {"a": 0, "b": 0})
+    (('a', 'a'), ('a', 'b'), ('b', 'b'))
+    """
+    section = section or Pairings(every=tuple(known))
+    for place in ("every", "pinion", "gear"):
+        for name in getattr(section, place) or ():
+            if name not in known:
+                raise InputError(f"no such surface; {nearest(name, known)}", where=f"pairings.{place}", value=name)
+    if section.every is not None:
+        return tuple(itertools.combinations_with_replacement(section.every, 2))
+    return tuple(itertools.product(section.pinion or (), section.gear or ()))
+
+
+def _resolve(name: str, file: StudyFile, folder: Path) -> Study:
+    chosen = pairings_of(file.pairings, file.surfaces)
+    used = dict.fromkeys(s for both in chosen for s in both)
+    idle = [s for s in file.surfaces if s not in used]
+    if idle:
+        warnings.warn(f"surfaces in no pairing: {', '.join(idle)}", UserWarning, stacklevel=2)
+    pair = build.gear_pair(file.gears)
+    share = build.sharing(file.gears.load_sharing, folder)
+    options = file.options
+    points = mesh(pair, share, points=options.path_points, slices=options.face_slices)
+    oil = build.lubricant(file.lubricant)
+    surfaces = {s: build.surface(s, file.surfaces[s], folder.resolve()) for s in used}
+    inputs = {
+        **_condition_inputs(file, pair, points, oil),
+        **_pairing_inputs([(surfaces[a], surfaces[b]) for a, b in chosen]),
+        "boundary_friction": file.boundary_friction,
+    }
+    effects, parameters = _effects(file, inputs)
+    levels = file.conditions
+    shape = (len(chosen), len(levels.oil_temperature_C), len(levels.torque_Nm), len(levels.speed_rpm))
+    plan = Plan(inputs, options, parameters, shape, points.position.size)
+    return Study(name, file, folder, pair, points, oil, surfaces, chosen, effects, plan)
+
+
+def _condition_inputs(file: StudyFile, pair: GearPair, points: Mesh, oil: Lubricant) -> dict[str, Any]:
+    """Inputs that all pairings share."""
+    levels, options = file.conditions, file.options
+    of_gear = options.conditions_of == "gear"
+    torques = np.array(levels.torque_Nm) / (pair.gear_ratio if of_gear else 1.0)
+    speeds = np.array(levels.speed_rpm) * (np.pi / 30.0) * (pair.gear_ratio if of_gear else 1.0)
+    temperature = np.array(levels.oil_temperature_C) + build.ZERO_CELSIUS + options.bulk_temperature_rise_K
+    torque = torques.reshape(1, 1, -1, 1, 1)
+    speed = speeds.reshape(1, 1, 1, -1, 1)
+    share = points.load_share(torques)
+    mean = points.weight * points.face_fraction * (share > LEAST_SHARE)
+    return {
+        **motion_inputs(points, torque, speed),
+        **oil.inputs(temperature.reshape(1, -1, 1, 1, 1)),
+        "oil_temperature": temperature.reshape(1, -1, 1, 1, 1),
+        "load_share": share[None, None, :, None, :],
+        "mean_weight": (mean / mean.sum(axis=-1, keepdims=True))[None, None, :, None, :],
+        "mean_sliding_speed": pair.end_mean_sliding * pair.base_radius[0] * speed,
+    }
+
+
+def _pairing_inputs(pairs: list[tuple[Surface, Surface]]) -> dict[str, np.ndarray]:
+    both = paired([a for a, _ in pairs], [b for _, b in pairs])
+    return {name: values.reshape(-1, 1, 1, 1, 1) for name, values in both.items()}
+
+
+def _effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, ...], dict[str, dict[str, float]]]:
+    """The effects switched on, each parameter at its given value or the middle of its prior."""
+    if not file.effects:
+        return (), {}
+    known = known_in("gear_pair")
+    effects = tuple(known[e.id] for e in find(sorted(file.effects)))
+    parameters: dict[str, dict[str, float]] = {}
+    for e in effects:
+        if not available(e, study_chain(file.options), tuple(inputs), "power_loss", "gear_pair"):
+            raise InputError("this effect cannot act on the power loss of a study", where=f"effects.{e.id}")
+        values = e.middle
+        for name, value in file.effects[e.id].items():
+            if name not in values:
+                raise InputError(
+                    f"no such parameter of {e.id}; {nearest(name, values)}", where=f"effects.{e.id}", value=name
+                )
+            prior = next(p.prior for p in e.parameters if p.name == name)
+            if value < 0 <= prior.value(-np.inf):
+                raise InputError("must not be negative", where=f"effects.{e.id}.{name}", value=value)
+            values[name] = value
+        parameters[e.id] = values
+    return effects, parameters

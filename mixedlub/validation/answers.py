@@ -1,0 +1,135 @@
+"""What was asked and what was answered: one truth and one diagnosis a case, read from their folders."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mixedlub.validation.build import read_columns
+from mixedlub.validation.planted import MEASUREMENT
+from profiles.errors import InputError
+
+IDENTIFIABLE = 9.0
+
+
+@dataclass(frozen=True)
+class Truth:
+    """The sealed answer to a case; arrays run over all its readings, visible and withheld.
+
+    ``within`` is whether the catalogue's laws can become those that are hidden; None where nothing is or none says.
+    """
+
+    case: str
+    group: str
+    label: frozenset[str]
+    visibility: float
+    identifiable: bool
+    mimic: bool
+    small: bool
+    outliers: frozenset[int]
+    theta: dict[str, float]
+    run: np.ndarray
+    withheld: np.ndarray
+    values: np.ndarray
+    base: np.ndarray
+    sd: np.ndarray
+    within: bool | None = None
+
+    @property
+    def off(self) -> np.ndarray:
+        """How far the base model at the true calibration is off, in sds."""
+        return (self.values - self.base) / self.sd
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a tool said of a case: names, probabilities, flagged runs, and predictions by run."""
+
+    case: str
+    verdict: frozenset[str]
+    tied: tuple[frozenset[str], ...]
+    probabilities: dict[str, float]
+    detected: bool
+    outliers: frozenset[int]
+    location: dict[int, float]
+    calibration: dict[str, tuple[float, float]]
+    run: np.ndarray
+    calibrated: np.ndarray
+    predicted: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    seconds: float = float("nan")
+
+
+def silent(truth: Truth) -> Answer:
+    """What a tool that broke down on a case is taken to have said: nothing, and every reading wrong."""
+    nothing, base = frozenset({"no answer"}), truth.base
+    wrong = frozenset(int(run) for run in truth.run[~truth.withheld])
+    return Answer(truth.case, nothing, (nothing,), {}, True, wrong, {}, {}, truth.run, base, base, base, base)
+
+
+def _names(label: Any) -> frozenset[str]:
+    return frozenset([label] if isinstance(label, str) else label)
+
+
+def read_truth(folder: Path) -> Truth:
+    """The truth beside a case; a battery without classes or identifiability has them worked out."""
+    told = json.loads((folder / "truth.json").read_text(encoding="utf-8"))
+    rows = {name: np.array(values) for name, values in told["rows"].items()}
+    label = _names(told["label"])
+    group = told.get("class")
+    if group is None:
+        single = "measurement" if label <= MEASUREMENT else "single"
+        group = "none" if label == {"none"} else "unknown" if label == {"unknown"} else single
+        group = "pair" if len(label) > 1 else group
+    forms = [one["within"] for one in told.get("info", ()) if "within" in one]
+    least = min(told["alternatives"].values(), default=np.inf) - told.get("own", 0.0)
+    return Truth(
+        case=folder.name,
+        group=group,
+        label=label,
+        visibility=float(told["info"][0].get("snr", np.nan)) if told.get("info") else 0.0,
+        identifiable=bool(told.get("identifiable", label == {"none"} or least > IDENTIFIABLE)),
+        mimic=bool(told.get("mimic", False)),
+        small=bool(told.get("small", False)),
+        outliers=frozenset(told["outliers"]),
+        theta=told["theta"],
+        run=rows["run"],
+        withheld=rows["withheld"].astype(bool),
+        values=rows["truth"],
+        base=rows["base"],
+        sd=rows["sd"],
+        within=all(forms) if forms else None,
+    )
+
+
+def read_answer(folder: Path) -> Answer:
+    """``diagnosis.json`` and ``predictions.csv`` of one case, and from ``seconds.json`` how long it took."""
+    for name in ("diagnosis.json", "predictions.csv"):
+        if not (folder / name).exists():
+            raise InputError(f"{name} is missing: the case was not answered", where=str(folder))
+    said = json.loads((folder / "diagnosis.json").read_text(encoding="utf-8"))
+    table = read_columns(folder / "predictions.csv")
+    timed = folder / "seconds.json"
+    return Answer(
+        case=folder.name,
+        verdict=_names(said["verdict"]),
+        tied=tuple(_names(one) for one in said.get("tied", [said["verdict"]])),
+        probabilities={name: float(p) for name, p in said["probabilities"].items()},
+        detected=bool(said["mismatch"]["detected"]),
+        outliers=frozenset(said.get("outlier_runs", [])),
+        location={int(run): float(z) for run, z in said.get("location", {}).get("rows", {}).items()},
+        calibration={
+            name: (float(value["low90"]), float(value["high90"])) for name, value in said.get("calibration", {}).items()
+        },
+        run=table["run"],
+        calibrated=table["calibrated"],
+        predicted=table["predicted"],
+        low=table["low90"],
+        high=table["high90"],
+        seconds=float(json.loads(timed.read_text(encoding="utf-8"))) if timed.exists() else float("nan"),
+    )

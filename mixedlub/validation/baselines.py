@@ -1,0 +1,291 @@
+"""What an engineer would use instead, on the same cases and in the same files, so that the same scores apply.
+
+Each baseline has the signature of the diagnosis: a case folder in, a folder of answers out. All start from
+this package's own base model, recalibrated under the stated priors.
+"""
+
+from __future__ import annotations
+
+import json
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+
+from mixedlub.validation.build import PRIORS, SURFACE_COLUMNS, Case, read_case, rig_of
+from mixedlub.validation.deal import COARSE
+from mixedlub.validation.explain import calibrated, descend
+from mixedlub.validation.measures import FLOOR
+from mixedlub.validation.planted import NAMED
+from mixedlub.validation.rig import Rig, readings
+from profiles.errors import InputError
+
+ROUNDS = 20
+
+
+def refuse_without_learners() -> None:
+    """An error where scikit-learn is missing, without which there are no baselines."""
+    _learner("base")
+
+
+def _learner(name: str) -> ModuleType:
+    """A module of scikit-learn, or what to install."""
+    import importlib
+
+    try:
+        return importlib.import_module(f"sklearn.{name}")
+    except ModuleNotFoundError as error:
+        rule = (
+            "the baselines need scikit-learn: pip install 'mixedlub[proof]'; --quick --cases N does without baselines"
+        )
+        raise InputError(rule, where="proof") from error
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A case recalibrated: rows recorded first, then those to predict."""
+
+    name: str
+    rig: Rig
+    recorded: np.ndarray
+    run: np.ndarray
+    sd: np.ndarray
+    value: np.ndarray
+    slopes: np.ndarray
+    z: np.ndarray
+    base: np.ndarray
+    case: Case
+    spoiled: np.ndarray
+
+    @property
+    def seen(self) -> int:
+        return len(self.recorded)
+
+    @property
+    def good(self) -> np.ndarray:
+        """Places of the recorded rows that are no outliers."""
+        return np.flatnonzero(~self.spoiled)
+
+    @property
+    def residual(self) -> np.ndarray:
+        """Recorded minus calibrated over the sd, at the good rows."""
+        return ((self.recorded - self.value[: self.seen]) / self.sd[: self.seen])[self.good]
+
+    @property
+    def squares(self) -> float:
+        """Chi-square of the recalibrated base model with the prior penalty."""
+        return float(self.residual @ self.residual + self.z @ self.z)
+
+    @property
+    def calibration_sd(self) -> np.ndarray:
+        """Sd that the calibration's uncertainty leaves on every row."""
+        part = self.slopes[self.good] / self.sd[self.good, None]
+        covariance = np.linalg.inv(part.T @ part + np.eye(len(PRIORS)))
+        return np.sqrt(np.einsum("ij,jk,ik->i", self.slopes, covariance, self.slopes))
+
+
+def recalibrate(folder: Path) -> Fitted:
+    """Base model fitted to the recordings of a case under the priors, twice: outliers of the first fit go."""
+    seen = read_case(folder)
+    table = folder / "conditions.csv"
+    asked = read_case(folder, "conditions.csv").columns if table.exists() else {}
+    quantity = seen.settings["recording"]["quantity"]
+    recorded = seen.columns[quantity]
+    names = [name for name in seen.columns if name != quantity]
+    columns = {name: np.concatenate([seen.columns[name], asked.get(name, [])]) for name in names}
+    case = Case(seen.settings, columns, seen.share)
+    rig = rig_of(case, COARSE)
+    noise = case.settings["recording"]["noise"]
+    count = len(recorded)
+    base = readings(rig, case.nominal)
+    sd = np.sqrt((noise["relative"] * np.concatenate([recorded, base[count:]])) ** 2 + noise["absolute"] ** 2)
+
+    def model(z: np.ndarray) -> np.ndarray:
+        return readings(rig, calibrated(case.nominal, case.priors, z))
+
+    spoiled = np.zeros(count, dtype=bool)
+    z, limit = np.zeros(len(PRIORS)), np.full(len(PRIORS), 6.0)
+    for _ in range(2):
+
+        def residual(z: np.ndarray, weight: np.ndarray = ~spoiled / sd[:count]) -> np.ndarray:
+            return np.concatenate([(model(z)[:count] - recorded) * weight, z])
+
+        z, _ = descend(residual, z, -limit, limit)
+        left = (recorded - model(z)[:count]) / sd[:count]
+        usual = max(1.4826 * float(np.median(np.abs(left - np.median(left)))), 1.0)
+        spoiled = np.abs(left - np.median(left)) > 5 * usual
+    value = model(z)
+    slopes = np.array([(model(z + 1e-4 * e) - value) / 1e-4 for e in np.eye(len(PRIORS))]).T
+    return Fitted(folder.name, rig, recorded, columns["run"], sd, value, slopes, z, base, case, spoiled)
+
+
+def _features(fitted: Fitted) -> np.ndarray:
+    """Logarithms of the conditions and of the composite roughness, temperature as it is, all standardised."""
+    columns = fitted.case.columns
+    names = [n for n in columns if n not in ("run", "setup", "rig", *SURFACE_COLUMNS[fitted.case.kind])]
+    table = [columns[n] if n in ("oil_temperature_C", "sequence") else np.log(columns[n].astype(float)) for n in names]
+    matrix = np.column_stack([*table, np.log(fitted.rig.moments[:, 0])]).astype(float)
+    return (matrix - matrix.mean(axis=0)) / np.maximum(matrix.std(axis=0), 1e-9)
+
+
+def write_answer(
+    fitted: Fitted,
+    out: Path,
+    probabilities: dict[str, float],
+    explanations: Sequence[Sequence[str]],
+    predicted: np.ndarray,
+    extra_sd: np.ndarray | float = 0.0,
+    base: np.ndarray | None = None,
+) -> None:
+    """The two files of an answer: verdict first, mismatch against ``base`` or the calibrated model."""
+    import pandas as pd
+
+    out.mkdir(parents=True, exist_ok=True)
+    everything = dict.fromkeys((*NAMED, "none", "unknown"), FLOOR) | probabilities
+    mismatch = (predicted - (fitted.value if base is None else base)) / fitted.sd
+    verdict = list(explanations[0])
+    spread = np.sqrt(fitted.sd**2 + fitted.calibration_sd**2 + extra_sd**2)
+    told = {
+        "schema": "mixedlub-diagnosis/1",
+        "case": fitted.name,
+        "mismatch": {"detected": verdict != ["none"], "chi2_before": fitted.squares, "rows": fitted.seen},
+        "verdict": verdict,
+        "tied": [list(names) for names in explanations],
+        "probabilities": {name: float(np.clip(p, FLOOR, 1 - FLOOR)) for name, p in everything.items()},
+        "location": {
+            "rows": {str(run): float(z) for run, z in zip(fitted.run[: fitted.seen], mismatch)},
+        },
+        "calibration": {},
+        "outlier_runs": [int(run) for run in fitted.run[: fitted.seen][fitted.spoiled]],
+    }
+    table = {
+        "run": fitted.run,
+        "base": fitted.base,
+        "calibrated": fitted.value,
+        "predicted": predicted,
+        "low90": predicted - 1.645 * spread,
+        "high90": predicted + 1.645 * spread,
+        "mismatch_z": mismatch,
+    }
+    pd.DataFrame(table).to_csv(out / "predictions.csv", index=False)
+    (out / "diagnosis.json").write_text(json.dumps(told, indent=1), encoding="utf-8")
+
+
+def _nameless(fitted: Fitted, out: Path, nats: float, predicted: np.ndarray, extra_sd: np.ndarray) -> None:
+    """The answer of a method without names: evidence for a mismatch (nats), shared evenly between the ids.
+
+    A fifth goes to unknown, which is also what it says when a mismatch is likelier than not.
+    """
+    something = float(1 / (1 + np.exp(-np.clip(nats, -30, 30))))
+    ids = [name for name, effect in NAMED.items() if effect.occurs_on(fitted.rig)]
+    shared = dict.fromkeys(ids, 0.9 * something / len(ids))
+    shared |= {"unknown": 0.2 * something, "none": 1 - something}
+    verdict = "unknown" if something > 0.5 else "none"
+    write_answer(fitted, out, shared, [[verdict]], predicted, extra_sd)
+
+
+def recalibration_only(folder: Path, out: Path) -> None:
+    """The base model recalibrated: says unknown where its chi-square is beyond chance, names nothing."""
+    from scipy.stats import chi2
+
+    fitted = recalibrate(folder)
+    tail = float(chi2.logsf(fitted.squares, len(fitted.good)))
+    _nameless(fitted, out, -tail + np.log(0.01), fitted.value, np.zeros_like(fitted.value))
+
+
+def gaussian_process(folder: Path, out: Path) -> None:
+    """Kennedy-O'Hagan-like: a Gaussian process over the conditions on what recalibration leaves."""
+    process = _learner("gaussian_process")
+    kernels = _learner("gaussian_process.kernels")
+    fitted = recalibrate(folder)
+    x = _features(fitted)
+    kernel = kernels.ConstantKernel(1.0, (1e-3, 1e4)) * kernels.RBF(np.ones(x.shape[1]), (0.2, 30.0))
+    machine = process.GaussianProcessRegressor(kernel, alpha=1.0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        machine.fit(x[fitted.good], fitted.residual)
+        mean, sd = machine.predict(x, return_std=True)
+    count = len(fitted.good)
+    null = -0.5 * float(fitted.residual @ fitted.residual) - 0.5 * count * np.log(2 * np.pi)
+    fee = 0.5 * len(kernel.theta) * np.log(count)
+    evidence = float(machine.log_marginal_likelihood_value_) - null - fee
+    _nameless(fitted, out, evidence, fitted.value + mean * fitted.sd, sd * fitted.sd)
+
+
+def gradient_boosting(folder: Path, out: Path) -> None:
+    """Boosted trees over the conditions on what recalibration leaves; evidence from five-fold prediction."""
+    ensemble, selection = _learner("ensemble"), _learner("model_selection")
+    fitted = recalibrate(folder)
+    x = _features(fitted)
+    known, left = x[fitted.good], fitted.residual
+    machine = ensemble.GradientBoostingRegressor(
+        n_estimators=100, max_depth=3, learning_rate=0.08, subsample=0.8, random_state=0
+    )
+    folds = selection.KFold(5, shuffle=True, random_state=0)
+    guessed = selection.cross_val_predict(machine, known, left, cv=folds)
+    evidence = 0.5 * float(left @ left - (left - guessed) @ (left - guessed)) - 3.0
+    machine.fit(known, left)
+    doubt = np.sqrt(max(float(np.mean((left - guessed) ** 2)) - 1.0, 0.0))
+    predicted = fitted.value + machine.predict(x) * fitted.sd
+    _nameless(fitted, out, evidence, predicted, doubt * fitted.sd)
+
+
+def _signatures(fitted: Fitted) -> tuple[list[str], np.ndarray]:
+    """Names and signatures (rows by effects, in sds) of every effect at half its usual strength."""
+    at = calibrated(fitted.case.nominal, fitted.case.priors, fitted.z)
+    names, columns = [], []
+    for name, effect in NAMED.items():
+        if effect.occurs_on(fitted.rig):
+            usual = {knob.name: 0.5 * sum(knob.typical) for knob in effect.knobs}
+            usual["strength"] *= 0.5
+            extra = (readings(fitted.rig, at, [effect.hide(usual)]) - fitted.value) / fitted.sd
+            if np.linalg.norm(extra[fitted.good]) > 1e-6:
+                names.append(name)
+                columns.append(extra)
+    return names, np.array(columns).T
+
+
+def sparse_regression(folder: Path, out: Path) -> None:
+    """Cross-validated lasso on linearised effect signatures; probabilities are bootstrap selection rates.
+
+    The library is the generator's own, which flatters this baseline; the calibration is projected out first.
+    """
+    linear = _learner("linear_model")
+    fitted = recalibrate(folder)
+    names, extra = _signatures(fitted)
+    slopes = fitted.slopes / fitted.sd[:, None]
+    known, rows = slopes[fitted.good], fitted.good
+    taken = np.linalg.solve(known.T @ known + np.eye(known.shape[1]), known.T @ extra[rows])
+    cleared = extra - slopes @ taken
+    x = cleared / np.linalg.norm(cleared[rows], axis=0) * np.sqrt(len(rows))
+    train, left = x[rows], fitted.residual
+    rng = np.random.default_rng(fitted.seen)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        ceiling = np.max(np.abs(train.T @ left)) / len(rows)
+        grid = ceiling * np.geomspace(1.0, 1e-3, 40)
+        search = linear.LassoCV(alphas=grid, cv=5, fit_intercept=False, max_iter=4000)
+        search.fit(train, left)
+        chosen = np.zeros(len(names))
+        for _ in range(ROUNDS):
+            drawn = rng.integers(0, len(rows), len(rows))
+            machine = linear.Lasso(alpha=search.alpha_, fit_intercept=False, max_iter=4000)
+            machine.fit(train[drawn], left[drawn])
+            chosen += np.abs(machine.coef_) > 0.1
+    rates = chosen / ROUNDS
+    found = dict(zip(names, rates.tolist()))
+    found["none"] = float(np.prod(1 - rates))
+    predicted = fitted.value + x @ search.coef_ * fitted.sd
+    likely = sorted(name for name in names if found[name] > 0.5) or ["none"]
+    write_answer(fitted, out, found, [likely], predicted)
+
+
+BASELINES: dict[str, Callable[[Path, Path], None]] = {
+    "recalibration only": recalibration_only,
+    "Gaussian process": gaussian_process,
+    "gradient boosting": gradient_boosting,
+    "sparse regression": sparse_regression,
+}

@@ -1,0 +1,123 @@
+"""What is measured of one answered case: pure functions of its truth and its answer."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mixedlub.validation.answers import Answer, Truth
+from mixedlub.validation.planted import MEASUREMENT
+from profiles.errors import InputError
+
+FLOOR = 1e-4
+SETTLED = frozenset({"none", "unknown"})
+
+
+def log_score(truth: Truth, answer: Answer, ids: Sequence[str]) -> float:
+    """Sum over ids of the log probability given to what is so (in the label or not), floored at 1e-4."""
+    total = 0.0
+    for name in ids:
+        p = float(np.clip(answer.probabilities.get(name, FLOOR), FLOOR, 1 - FLOOR))
+        total += np.log(p if name in truth.label else 1 - p)
+    return total
+
+
+def auroc(score: np.ndarray, positive: np.ndarray) -> float:
+    """Chance that a positive has a higher score than a negative, ties counting half.
+
+    >>> auroc(np.array([0.1, 0.9, 0.5, 0.5]), np.array([False, True, True, False]))
+    0.875
+    """
+    from scipy.stats import rankdata
+
+    n = int(positive.sum())
+    rank = rankdata(score)[positive].sum() - n * (n + 1) / 2
+    return float(rank / (n * (len(score) - n)))
+
+
+def location_auroc(truth: Truth, answer: Answer) -> float:
+    """AUROC of |mismatch_z| against readings off by more than one sd; nan where a class has under a tenth."""
+    asked = ~truth.withheld & ~np.isin(truth.run, list(truth.outliers))
+    off = np.abs(truth.off[asked]) > 1
+    if not 0.1 <= off.mean() <= 0.9:
+        return float("nan")
+    found = np.array([abs(answer.location.get(int(run), 0.0)) for run in truth.run[asked]])
+    return auroc(found, off)
+
+
+def _withheld(truth: Truth, answer: Answer, column: np.ndarray) -> np.ndarray:
+    """A column of the predictions at the withheld runs, in the truth's order; every one must be there."""
+    place = {int(run): i for i, run in enumerate(answer.run)}
+    wanted = truth.run[truth.withheld]
+    missing = [int(run) for run in wanted if int(run) not in place]
+    if missing:
+        raise InputError("withheld runs have no prediction", where=truth.case, value=missing[:5])
+    return np.asarray(column[[place[int(run)] for run in wanted]])
+
+
+def held_out(truth: Truth, answer: Answer) -> tuple[float, float]:
+    """Rms error in sds at withheld conditions against the noise-free truth: of predicted, of calibrated."""
+    target, sd = truth.values[truth.withheld], truth.sd[truth.withheld]
+    errors = [(_withheld(truth, answer, column) - target) / sd for column in (answer.predicted, answer.calibrated)]
+    return float(np.sqrt(np.mean(errors[0] ** 2))), float(np.sqrt(np.mean(errors[1] ** 2)))
+
+
+def coverage(truth: Truth, answer: Answer) -> float:
+    """Chance that a new reading at the withheld conditions falls into the 90 % predictive intervals."""
+    from scipy.special import ndtr
+
+    target, sd = truth.values[truth.withheld], truth.sd[truth.withheld]
+    low, high = (_withheld(truth, answer, column) for column in (answer.low, answer.high))
+    return float(np.mean(ndtr((high - target) / sd) - ndtr((low - target) / sd)))
+
+
+def right(truth: Truth, answer: Answer) -> bool:
+    """The verdict is the truth."""
+    return answer.verdict == truth.label
+
+
+def tied(truth: Truth, answer: Answer) -> bool:
+    """The verdict is the truth, or the truth is among the explanations tied with it."""
+    return answer.verdict == truth.label or truth.label in answer.tied
+
+
+def crossed(truth: Truth, answer: Answer) -> bool:
+    """An instrument fault called physics, or physics called an instrument fault."""
+    named = answer.verdict - SETTLED
+    if truth.label <= MEASUREMENT:
+        return bool(named - MEASUREMENT)
+    return bool(named & MEASUREMENT)
+
+
+def spoiled(truth: Truth) -> int:
+    """How many readings were spoiled."""
+    return len(truth.outliers)
+
+
+def clean(truth: Truth) -> int:
+    """How many of the readings handed over are good."""
+    return int((~truth.withheld).sum()) - len(truth.outliers)
+
+
+def outliers_found(truth: Truth, answer: Answer) -> float:
+    """Share of the spoiled readings that were flagged."""
+    return len(truth.outliers & answer.outliers) / spoiled(truth)
+
+
+def outliers_false(truth: Truth, answer: Answer) -> float:
+    """Share of the good readings that were flagged."""
+    return len(answer.outliers - truth.outliers) / clean(truth)
+
+
+def held_ratio(truth: Truth, answer: Answer) -> float:
+    """Error of predicted over error of calibrated at withheld conditions."""
+    predicted, calibrated = held_out(truth, answer)
+    return predicted / calibrated if calibrated > 0 else float("nan")
+
+
+def calibration_covers(truth: Truth, answer: Answer) -> float:
+    """Share of the calibration's 90 % intervals that hold the true value."""
+    known = {name.removesuffix("_scale"): value for name, value in truth.theta.items()}
+    hits = [low <= known[name] <= high for name, (low, high) in answer.calibration.items() if name in known]
+    return float(np.mean(hits)) if hits else float("nan")

@@ -1,0 +1,164 @@
+"""Shear-stage effects: film heating, limiting stress, coating insulation, contact creep."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from mixedlub.validation.planted.kinds import DISC, Concealed, Knob, strength
+from mixedlub.validation.rig import KELVIN, ROELANDS_PRESSURE, Contact
+
+SWEEPS = 9
+
+
+def flash(c: Contact, friction: np.ndarray | float) -> np.ndarray:
+    """Average flash rise (K), semi-elliptic source: 0.542 mu w v_s/[B (sqrt u1 + sqrt u2) sqrt b]."""
+    solid = c.rig.solid
+    effusivity = np.sqrt(solid.conductivity * solid.density * solid.specific_heat)
+    spread = np.sqrt(np.abs(c.rig.speed_1)) + np.sqrt(np.abs(c.rig.speed_2))
+    heat = 0.542 * friction * c.line_load * c.sliding
+    return np.asarray(heat / (effusivity * spread * np.sqrt(c.half_width)))
+
+
+def _heated(c: Contact, at_rest: np.ndarray | float, per_stress: np.ndarray) -> Contact:
+    """The Eyring stress in balance with the rise it causes, at_rest + per_stress tau, by Newton from below.
+
+    The stress falls with the rise along a convex curve, so the steps never overshoot.
+    """
+    level = np.log(c.viscosity) + 9.67
+    absolute = c.temperature + KELVIN - 138.0
+    slope = c.rig.oil.thinning_at(c.temperature) * absolute / level
+    pressed = (1 + c.pressure / ROELANDS_PRESSURE) ** (c.pressure_viscosity * ROELANDS_PRESSURE / level)
+    rate = c.viscosity * c.sliding / (c.film * c.eyring_stress)
+    warmer = np.zeros_like(c.stress)
+    for _ in range(SWEEPS):
+        eased = level * pressed * (1 + warmer / absolute) ** (-slope)
+        driven = rate * np.exp(eased - level)
+        stress = c.eyring_stress * np.arcsinh(driven)
+        fall = c.eyring_stress * driven / np.sqrt(1 + driven**2) * eased * slope / (absolute + warmer)
+        warmer = warmer + (at_rest + per_stress * stress - warmer) / (1 + per_stress * fall)
+    return replace(c, stress=stress)
+
+
+def film_heating(c: Contact, strength: float) -> Contact:
+    """Crook-Archard mean rise: flash of the walls by the whole friction plus q h/(12 k) across the film."""
+    walls = flash(c, 1.0)
+    inside = c.sliding * c.film / (12 * c.rig.oil.conductivity)
+    dry = strength * walls * c.boundary_friction * c.area
+    return _heated(c, dry, strength * (walls * (1 - c.area) / c.pressure + inside))
+
+
+def limiting_shear_stress(c: Contact, strength: float) -> Contact:
+    """Bair-Winer ceiling: tau_L [1 - exp(-tau/tau_L)], tau_L = 0.045/strength of the mean Hertz pressure."""
+    if strength <= 0:
+        return c
+    ceiling = 0.045 / strength * 0.25 * np.pi * c.pressure
+    return replace(c, stress=ceiling * -np.expm1(-c.stress / ceiling))
+
+
+def limiting_stress_in_hot_oil(c: Contact, strength: float, fall: float) -> Contact:
+    """Gecim-Winer: tau_L tanh(tau/tau_L), tau_L = (0.045/strength) (1 - fall (T - 40 C)) of the mean Hertz pressure.
+
+    Bair and Winer find limits that fall with temperature (1/K); at 40 C the coefficient is that of a mineral oil.
+    Meant for -20 to 150 C, beyond which a fifth of the limit is kept. Both are cited from memory; 0.045 and the size
+    of the fall were not checked against them.
+    """
+    if strength <= 0:
+        return c
+    left = np.maximum(1 - fall * (c.temperature - 40.0), 0.2)
+    ceiling = 0.045 / strength * left * 0.25 * np.pi * c.pressure
+    return replace(c, stress=ceiling * np.tanh(c.stress / ceiling))
+
+
+def coating_insulation(c: Contact, strength: float) -> Contact:
+    """A layer holds back its half of the heat: rise (q/2)(t/k) a coated flank, lagging in short contacts."""
+    resistance = c.rig.coating_resistance
+    layer_heat = 3e6
+    coated = np.zeros_like(c.temperature) if c.rig.coated is None else c.rig.coated
+    conductivity = 2.0
+    lag = (resistance * conductivity) ** 2 * layer_heat / conductivity
+    filled = -np.expm1(-2 * c.half_width / (c.entrainment * max(lag, 1e-12)))
+
+    return _heated(c, 0.0, strength * 0.5 * c.sliding * resistance * coated * filled)
+
+
+def contact_creep(c: Contact, strength: float) -> Contact:
+    """Elastic give of the bodies takes up small slips: tau [1 - exp(-slip/(0.004 strength))]."""
+    if strength <= 0:
+        return c
+    slip = c.sliding / c.entrainment
+    return replace(c, stress=c.stress * -np.expm1(-slip / (0.004 * strength)))
+
+
+def contact_creep_polach(c: Contact, strength: float) -> Contact:
+    """Polach: tau (2/pi) [g/(1 + g^2) + arctan g], g = slip/(0.004 strength)."""
+    if strength <= 0:
+        return c
+    grip = c.sliding / c.entrainment / (0.004 * strength)
+    return replace(c, stress=c.stress * 2 / np.pi * (grip / (1 + grip**2) + np.arctan(grip)))
+
+
+EFFECTS = (
+    Concealed(
+        "film_heating",
+        "shear",
+        "shear",
+        film_heating,
+        (strength(0.0, 4.0, (0.5, 1.2)),),
+        "Crook 1961, Archard 1959",
+        -1,
+    ),
+    Concealed(
+        "limiting_shear_stress",
+        "shear",
+        "shear",
+        limiting_shear_stress,
+        (strength(0.0, 3.0, (0.6, 1.3)),),
+        "Bair and Winer 1979",
+        -1,
+    ),
+    Concealed(
+        "limiting_shear_stress",
+        "shear",
+        "shear",
+        limiting_stress_in_hot_oil,
+        (strength(0.0, 3.0, (0.6, 1.3)), Knob("fall", 0.0, 0.006, (0.002, 0.006))),
+        "Gecim and Winer 1980, falling with temperature",
+        -1,
+    ),
+    Concealed(
+        "coating_insulation",
+        "shear",
+        "shear",
+        coating_insulation,
+        (strength(0.0, 6.0, (0.7, 1.5)),),
+        "series resistance with thermal lag",
+        -1,
+        possible=lambda rig: rig.coating_resistance > 0,
+        rarity=0.6,
+    ),
+    Concealed(
+        "contact_creep",
+        "shear",
+        "shear",
+        contact_creep,
+        (strength(0.0, 12.0, (1.0, 4.0)),),
+        "exponential creep law of rolling contact",
+        -1,
+        DISC,
+        rarity=0.5,
+        within=True,
+    ),
+    Concealed(
+        "contact_creep",
+        "shear",
+        "shear",
+        contact_creep_polach,
+        (strength(0.0, 12.0, (1.0, 4.0)),),
+        "Polach 2005",
+        -1,
+        DISC,
+        rarity=0.5,
+    ),
+)

@@ -1,0 +1,135 @@
+"""How an oil may thicken as it cools, other than by ASTM D341: laws that go through two known viscosities."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from mixedlub.validation.planted.kinds import Knob, strength
+from mixedlub.validation.rig import Contact, Oil, Rig
+from mixedlub.validation.rigs.stage import Form
+
+KELVIN = 273.15
+Pair = tuple[float, float]
+Law = Callable[[np.ndarray, Pair, Pair], np.ndarray]
+"""Viscosity (Pa s) at temperatures (C), from the two known temperatures (C) and the viscosities there (Pa s)."""
+Scale = Callable[[np.ndarray], np.ndarray]
+
+
+def _through(scale: Scale, celsius: np.ndarray, known: Pair, viscosity: Pair) -> np.ndarray:
+    """Viscosity whose logarithm is a straight line in a scale of temperature, through both known points."""
+    first, second = scale(np.array(known))
+    slope = np.log(viscosity[0] / viscosity[1]) / (first - second)
+    return np.asarray(viscosity[0] * np.exp(slope * (scale(celsius) - first)))
+
+
+def vogel(celsius: np.ndarray, known: Pair, viscosity: Pair, divergence: float) -> np.ndarray:
+    """eta = A exp(B/(T - T0)), T0 the ``divergence`` in kelvin (Vogel 1921, Fulcher 1925, Tammann and Hesse 1926).
+
+    At rest the law of Williams, Landel and Ferry, as Yasutomi, Bair and Winer 1984 have it, is the same: T0 = Tg - C2,
+    B = ln(10) C1 C2.
+    """
+    return _through(lambda t: 1 / (t + KELVIN - divergence), celsius, known, viscosity)
+
+
+def slotte(celsius: np.ndarray, known: Pair, viscosity: Pair, above: float) -> np.ndarray:
+    """eta = c/(a + t)^n, t in C and ``above`` the a (Slotte, Ann. Phys. 250 (1881) 13)."""
+    return _through(lambda t: -np.log(t + above), celsius, known, viscosity)
+
+
+def andrade(celsius: np.ndarray, known: Pair, viscosity: Pair) -> np.ndarray:
+    """eta = A exp(B/T) (Andrade, Nature 125 (1930) 309): a liquid far from its glass, thin in the cold."""
+    return _through(lambda t: 1 / (t + KELVIN), celsius, known, viscosity)
+
+
+def reynolds(celsius: np.ndarray, known: Pair, viscosity: Pair) -> np.ndarray:
+    """eta = A exp(-b T) (Reynolds, Phil. Trans. R. Soc. 177 (1886) 157), found with olive oil near room warmth.
+
+    Oils bend away from it: it is too thick between the known temperatures and too thin beyond them on either side.
+    Cited from memory; none of his constants is taken.
+
+    >>> round(float(reynolds(np.array(50.0), (40.0, 60.0), (0.04, 0.01))), 6)
+    0.02
+    """
+    return _through(lambda t: -t, celsius, known, viscosity)
+
+
+def mistold(oil: Oil, celsius: np.ndarray, error: float) -> np.ndarray:
+    """Viscosity over that of the data sheet where its second viscosity is ``error`` too low, both by ASTM D341.
+
+    >>> oil = Oil((40.0, 100.0), (30e-6, 6.2e-6), (18e-9, 14e-9))
+    >>> [round(float(ratio), 6) for ratio in mistold(oil, np.array([40.0, 100.0]), 0.05)]
+    [1.0, 1.05]
+    """
+    first, second = oil.kinematic
+    meant = replace(oil, kinematic=(first, second * (1 + error)))
+    return np.asarray(meant.kinematic_at(celsius) / oil.kinematic_at(celsius))
+
+
+WHOLE = strength(0.0, 1.3, (0.9, 1.05))
+DIVERGENCE = Knob("divergence", 150.0, 200.0, (155.0, 195.0))
+ABOVE = Knob("above", 30.0, 90.0, (40.0, 60.0))
+MISTOLD_BY = strength(-4.0, 6.0, (0.6, 2.0))
+VOGEL, SLOTTE, ANDRADE = "Vogel 1921, Fulcher 1925, Tammann 1926", "Slotte 1881", "Andrade 1930"
+REYNOLDS, MISTOLD = "Reynolds 1886", "second viscosity mistold"
+
+
+def tells_laws_apart(celsius: np.ndarray, known: Pair) -> bool:
+    """At one temperature, or at the known two, all laws differ by no more than a factor on the viscosity."""
+    levels = set(np.unique(celsius))
+    return len(levels) > 1 and not levels <= set(known)
+
+
+def _cooled(c: Contact, strength: float, law: Law) -> Contact:
+    """The oil of the data sheet keeps its two viscosities and follows another law, ``strength`` of the way."""
+    oil = c.rig.oil
+    first, second = oil.viscosity_at(np.array(oil.temperature))
+    ratio = law(c.temperature, oil.temperature, (first, second)) / oil.viscosity_at(c.temperature)
+    return replace(c, viscosity=c.viscosity * ratio**strength)
+
+
+def cooled_by_vogel(c: Contact, strength: float, divergence: float) -> Contact:
+    """Vogel, Fulcher and Tammann; T0 in kelvin."""
+    return _cooled(c, strength, partial(vogel, divergence=divergence))
+
+
+def cooled_by_slotte(c: Contact, strength: float, above: float) -> Contact:
+    """Slotte's power of the temperature over ``above`` C below the freezing point."""
+    return _cooled(c, strength, partial(slotte, above=above))
+
+
+def cooled_by_andrade(c: Contact, strength: float) -> Contact:
+    return _cooled(c, strength, andrade)
+
+
+def cooled_by_reynolds(c: Contact, strength: float) -> Contact:
+    return _cooled(c, strength, reynolds)
+
+
+def cooled_as_mistold(c: Contact, strength: float) -> Contact:
+    """The second viscosity of the data sheet is 5 % strength too low."""
+    return replace(c, viscosity=c.viscosity * mistold(c.rig.oil, c.temperature, 0.05 * strength))
+
+
+def of_contacts(rig: Rig) -> tuple[Form, ...]:
+    """Forms for a lubricated contact, where its temperatures can tell them from a factor on the viscosity."""
+    if not tells_laws_apart(rig.temperature, rig.oil.temperature):
+        return ()
+    return (
+        Form("viscosity_temperature_law", "oil", cooled_by_vogel, (WHOLE, DIVERGENCE), VOGEL, within=True),
+        Form("viscosity_temperature_law", "oil", cooled_by_slotte, (WHOLE, ABOVE), SLOTTE),
+        Form("viscosity_temperature_law", "oil", cooled_by_andrade, (WHOLE,), ANDRADE, within=True),
+        Form("viscosity_temperature_law", "oil", cooled_by_reynolds, (WHOLE,), REYNOLDS, within=True),
+        Form("viscosity_temperature_law", "oil", cooled_as_mistold, (MISTOLD_BY,), MISTOLD),
+    )
+
+
+def of_unnamed(rig: Rig, labelled: bool) -> tuple[Form, ...]:
+    """Those of an oil without a data sheet: all where two viscosities are told, else none mistold and at four baths."""
+    forms = of_contacts(rig)
+    if labelled:
+        return forms
+    return tuple(f for f in forms if f.law is not cooled_as_mistold) if len(np.unique(rig.temperature)) > 3 else ()

@@ -1,0 +1,393 @@
+"""Scores of a tool's answers to a battery: every figure that the proof is judged by, with its goal."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass, replace
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+from mixedlub.validation.answers import Answer, Truth
+from mixedlub.validation.measures import (
+    SETTLED,
+    calibration_covers,
+    clean,
+    coverage,
+    crossed,
+    held_ratio,
+    location_auroc,
+    log_score,
+    outliers_false,
+    outliers_found,
+    right,
+    spoiled,
+    tied,
+)
+from mixedlub.validation.planted import NAMED
+from profiles.errors import InputError
+
+BINS = (0.0, 0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.98, 1.0)
+VISIBILITIES = (0.0, 5.0, 8.0, 11.0, 15.0, 20.0, 25.0, np.inf)
+Pair = tuple[Truth, Answer]
+
+
+INF = float("inf")
+
+
+def at_least(value: float) -> tuple[float, float]:
+    return (value, INF)
+
+
+def at_most(value: float) -> tuple[float, float]:
+    return (-INF, value)
+
+
+@dataclass(frozen=True)
+class Row:
+    """One figure: its value, what it counts, a 90 % interval, and the goal."""
+
+    key: str
+    text: str
+    value: float
+    count: int
+    low: float
+    high: float
+    goal: tuple[float, float] | None
+
+    @property
+    def met(self) -> bool | None:
+        """Whether the value lies inside the goal; None without a goal or without anything counted."""
+        if self.goal is None or not np.isfinite(self.value):
+            return None
+        return bool(self.goal[0] <= self.value <= self.goal[1])
+
+
+@dataclass(frozen=True)
+class Score:
+    """All figures of one tool on one battery, and what its diagrams are drawn from."""
+
+    tool: str
+    rows: tuple[Row, ...]
+    reliability: tuple[tuple[float, float, float, int], ...]
+    identification: tuple[tuple[float, float, float, int], ...]
+    confusion: dict[str, dict[str, int]]
+
+    def __getitem__(self, key: str) -> Row:
+        return next(row for row in self.rows if row.key == key)
+
+    def above(self, rivals: Sequence[Score]) -> Score:
+        """The same score with the best log score among its rivals as the goal of its own."""
+        best = max(rival["log_score"].value for rival in rivals)
+        rows = [replace(row, goal=at_least(best)) if row.key == "log_score" else row for row in self.rows]
+        return replace(self, rows=tuple(rows))
+
+    def text(self) -> str:
+        """The table as plain text, one figure a line."""
+        lines = [f"{self.tool}", f"{'figure':58s} {'value':>8s} {'90 %':>17s} {'n':>5s}  goal"]
+        for row in self.rows:
+            goal = "" if row.goal is None else _goal(row.goal)
+            mark = {True: "met", False: "NOT met", None: ""}[row.met]
+            span = f"[{row.low:.3g}, {row.high:.3g}]" if np.isfinite(row.low) else ""
+            value = f"{row.value:.3g}" if np.isfinite(row.value) else "-"
+            lines.append(f"{row.text:58s} {value:>8s} {span:>17s} {row.count:5d}  {goal:12s} {mark}")
+        return "\n".join(line.rstrip() for line in lines) + "\n"
+
+    def save(self, file: Path) -> None:
+        rows = [{**asdict(row), "met": row.met} for row in self.rows]
+        told = {**asdict(self), "rows": rows}
+        file.write_text(json.dumps(_finite(told), indent=1, allow_nan=False), encoding="utf-8")
+
+
+def _finite(value: object) -> object:
+    """The same data with what JSON cannot say (nan, infinity) as null."""
+    if isinstance(value, dict):
+        return {key: _finite(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_finite(item) for item in value]
+    if isinstance(value, float) and not np.isfinite(value):
+        return None
+    return value
+
+
+def _goal(goal: tuple[float, float]) -> str:
+    low, high = goal
+    if not np.isfinite(high):
+        return f">= {low:.3g}"
+    return f"{low:g} to {high:g}" if np.isfinite(low) and low > 0 else f"<= {high:.3g}"
+
+
+def _claims(pairs: Sequence[Pair]) -> list[tuple[float, bool]]:
+    """Every probability given, and whether what it speaks of is so."""
+    return [(p, name in truth.label) for truth, answer in pairs for name, p in answer.probabilities.items()]
+
+
+def _ratio(hits: Sequence[float]) -> float:
+    return float(np.mean(hits)) if len(hits) else float("nan")
+
+
+@dataclass(frozen=True)
+class Figure:
+    """How one row is made: which cases count, what is measured of each, how they are put together.
+
+    A ``share`` counts what is so or not so: one thing a case, or ``weight`` of them.
+    """
+
+    key: str
+    text: str
+    counts: Callable[[Truth, Answer], bool]
+    measure: Callable[[Truth, Answer], float]
+    goal: tuple[float, float] | None = None
+    how: str = "mean"
+    weight: Callable[[Truth], int] | None = None
+
+
+def _any(truth: Truth, answer: Answer) -> bool:
+    return True
+
+
+def _spoiled(truth: Truth, answer: Answer) -> bool:
+    return bool(truth.outliers)
+
+
+def _in(*groups: str) -> Callable[[Truth, Answer], bool]:
+    return lambda truth, answer: truth.group in groups
+
+
+def _clear(*groups: str) -> Callable[[Truth, Answer], bool]:
+    return lambda truth, answer: truth.group in groups and truth.identifiable
+
+
+def _formed(within: bool, clear: bool) -> Callable[[Truth, Answer], bool]:
+    """Single physical effects by whether the catalogue's laws can become the hidden ones."""
+    return lambda truth, answer: (
+        truth.group == "single" and truth.within is within and (truth.identifiable or not clear)
+    )
+
+
+def _named_unknown(truth: Truth, answer: Answer) -> float:
+    return float("unknown" in answer.verdict)
+
+
+def _both(truth: Truth, answer: Answer) -> float:
+    return float(truth.label <= answer.verdict)
+
+
+def _detected(truth: Truth, answer: Answer) -> float:
+    return float(answer.detected)
+
+
+def _seconds(truth: Truth, answer: Answer) -> float:
+    return answer.seconds
+
+
+def _explanations(truth: Truth, answer: Answer) -> float:
+    return float(len(answer.tied))
+
+
+def _distinct(truth: Truth, answer: Answer) -> bool:
+    return truth.group == "unknown" and truth.identifiable and not truth.mimic
+
+
+def _glaring(truth: Truth, answer: Answer) -> bool:
+    return truth.group == "unknown" and truth.identifiable and truth.visibility >= 12
+
+
+ONE, SOME = ("single", "measurement"), ("single", "measurement", "pair")
+HIDDEN = (*SOME, "unknown")
+FIGURES: tuple[Figure, ...] = (
+    Figure("right", "right verdict, one effect, identifiable", _clear(*ONE), right, at_least(0.95), how="share"),
+    Figure("right_physics", "  of these physics", _clear("single"), right, how="share"),
+    Figure("right_within", "    their law one that the catalogue can become", _formed(True, True), right, how="share"),
+    Figure("right_beyond", "    their law another", _formed(False, True), right, how="share"),
+    Figure("right_fault", "  of these instrument faults", _clear("measurement"), right, how="share"),
+    Figure("tied", "right or honestly tied, one effect, all", _in(*ONE), tied, at_least(0.98), how="share"),
+    Figure(
+        "tied_within", "  physics, their law one that the catalogue can become", _formed(True, False), tied, how="share"
+    ),
+    Figure("tied_beyond", "  physics, their law another", _formed(False, False), tied, how="share"),
+    Figure("ties", "explanations named where one effect is hidden", _in(*ONE), _explanations),
+    Figure("pair_both", "both effects of a pair named", _in("pair"), _both, at_least(0.85), how="share"),
+    Figure("pair_exact", "pair named exactly", _in("pair"), right, how="share"),
+    Figure("none", "none where nothing is missing", _in("none"), right, at_least(0.98), how="share"),
+    Figure("false_alarm", "mismatch detected where nothing is missing", _in("none"), _detected, how="share"),
+    Figure("power", "mismatch detected where one effect is hidden", _in(*ONE), _detected, how="share"),
+    Figure(
+        "unknown", "unknown where so and identifiable", _clear("unknown"), _named_unknown, at_least(0.90), how="share"
+    ),
+    Figure("unknown_distinct", "  of these, not made to mimic", _distinct, _named_unknown, how="share"),
+    Figure("unknown_clear", "  of these, clearly visible (12 or more)", _glaring, _named_unknown, how="share"),
+    Figure(
+        "outliers_found",
+        "outlier readings found",
+        _spoiled,
+        outliers_found,
+        at_least(0.95),
+        how="share",
+        weight=spoiled,
+    ),
+    Figure(
+        "outliers_false",
+        "good readings flagged as outliers",
+        _any,
+        outliers_false,
+        at_most(0.005),
+        "share",
+        clean,
+    ),
+    Figure("crossed", "fault called physics or physics fault", _clear(*ONE), crossed, at_most(0.02), how="share"),
+    Figure(
+        "held_out",
+        "withheld: error of predicted over calibrated",
+        _in(*SOME),
+        held_ratio,
+        at_most(0.25),
+        "median",
+    ),
+    Figure("held_out_unknown", "  outside the catalogue", _in("unknown"), held_ratio, how="median"),
+    Figure("held_out_none", "  where nothing is missing", _in("none"), held_ratio, how="median"),
+    Figure("coverage", "90 % predictive intervals cover", _any, coverage, (0.85, 0.95)),
+    Figure("coverage_hidden", "  where something is hidden", _in(*HIDDEN), coverage),
+    Figure("calibration", "90 % intervals of the calibration cover", _any, calibration_covers),
+    Figure("location", "location AUROC", _in(*HIDDEN), location_auroc, at_least(0.85)),
+    Figure("seconds", "seconds a case, median", _any, _seconds, at_most(10.0), "median"),
+    Figure("slowest", "seconds a case, worst", _any, _seconds, at_most(30.0), "max"),
+)
+HALVES = (("right_within", "right_beyond"), ("tied_within", "tied_beyond"))
+"""Figures that are told where both halves count something."""
+
+
+def _once(truth: Truth) -> int:
+    return 1
+
+
+def _reduce(values: np.ndarray, weights: np.ndarray, how: str) -> float:
+    if not len(values):
+        return float("nan")
+    if how == "median":
+        return float(np.median(values))
+    return float(np.max(values) if how == "max" else np.average(values, weights=weights))
+
+
+def _interval(values: np.ndarray, weights: np.ndarray, how: str) -> tuple[float, float]:
+    """90 % interval: Wilson's for a share, else by bootstrap over cases.
+
+    A bootstrap of nothing but hits has no width. Readings of a case go wrong together, which Wilson's does not know:
+    where cases count for several, the interval reaches as far as either.
+    """
+    if how != "share":
+        return _bootstrap(values, weights, how)
+    if not len(values):
+        return float("nan"), float("nan")
+    low, high = wilson(round(float(values @ weights)), round(float(weights.sum())))
+    if np.all(weights == 1.0) or len(values) < 2:
+        return low, high
+    first, last = _bootstrap(values, weights, how)
+    return min(low, first), max(high, last)
+
+
+def wilson(hits: int, of: int) -> tuple[float, float]:
+    """Wilson's 90 % score interval of a proportion.
+
+    Source: E. B. Wilson, J. Am. Stat. Assoc. 22 (1927) 209.
+
+    >>> [round(end, 3) for end in wilson(20, 20)]   # 1 / (1 + 1.645^2 / 20)
+    [0.881, 1.0]
+    """
+    from scipy.stats import binomtest
+
+    low, high = binomtest(hits, of).proportion_ci(0.90, "wilson")
+    return float(low), float(high)
+
+
+def _bootstrap(values: np.ndarray, weights: np.ndarray, how: str) -> tuple[float, float]:
+    """90 % bootstrap interval over cases, from a fixed seed."""
+    if len(values) < 2 or how == "max":
+        return float("nan"), float("nan")
+    rng = np.random.default_rng(len(values))
+    picks = rng.integers(0, len(values), (400, len(values)))
+    drawn = [_reduce(values[pick], weights[pick], how) for pick in picks]
+    low, high = np.quantile(drawn, [0.05, 0.95])
+    return float(low), float(high)
+
+
+def score(pairs: Sequence[Pair], tool: str = "mixedlub diagnose", ids: Sequence[str] = tuple(NAMED)) -> Score:
+    """Every figure of a battery answered by a tool; goals as the project set them.
+
+    ``ids`` are the effects that the log score asks about: those the battery can hide.
+    """
+    if not pairs:
+        raise InputError("there is no answered case to score", where=tool)
+    rows = []
+    for figure in FIGURES:
+        values = np.array([float(figure.measure(*pair)) for pair in pairs if figure.counts(*pair)])
+        weight = figure.weight or _once
+        weights = np.array([float(weight(truth)) for truth, answer in pairs if figure.counts(truth, answer)])
+        known = np.isfinite(values)
+        values, weights = values[known], weights[known]
+        value, span = _reduce(values, weights, figure.how), _interval(values, weights, figure.how)
+        rows.append(Row(figure.key, figure.text, value, int(weights.sum()), *span, figure.goal))
+    alone = {name for halves in HALVES for name in halves if not all(r.count for r in rows if r.key in halves)}
+    rows = [row for row in rows if row.key not in alone]
+    rows += _probability_rows(pairs, ids)
+    return Score(tool, tuple(rows), _reliability(pairs), _identification(pairs), _confusion(pairs))
+
+
+def _probability_rows(pairs: Sequence[Pair], ids: Sequence[str]) -> list[Row]:
+    """Log score over all ids, claims above 0.9, and the calibration error of the probabilities."""
+    asked = [*ids, *sorted(SETTLED)]
+    logs = np.array([log_score(truth, answer, asked) for truth, answer in pairs])
+    bold = np.array([float(so) for p, so in _claims(pairs) if p > 0.9])
+    some = [(p, so) for p, so in _claims(pairs) if p > 0.02]
+    bins = np.digitize([p for p, _ in some], np.linspace(0, 1, 11)[1:-1])
+    error = 0.0
+    for place in np.unique(bins):
+        inside = [some[i] for i in np.flatnonzero(bins == place)]
+        gap = np.mean([p for p, _ in inside]) - np.mean([so for _, so in inside])
+        error += len(inside) / len(some) * abs(float(gap))
+    return [
+        Row("log_score", "log score of the probabilities, a case", float(logs.mean()), len(logs),
+            *_interval(logs, np.ones_like(logs), "mean"), None),
+        Row("claims", "claims above 0.9 that are right", _ratio(list(bold)), len(bold),
+            *_interval(bold, np.ones_like(bold), "share"), (0.90, INF)),
+        Row("calibration_error", "expected calibration error, probabilities over 0.02", error, len(some),
+            float("nan"), float("nan"), None),
+    ]  # fmt: skip
+
+
+def _reliability(pairs: Sequence[Pair]) -> tuple[tuple[float, float, float, int], ...]:
+    """Bins of the probabilities given: lower edge, mean probability, share that was so, count."""
+    claims = _claims(pairs)
+    given = np.array([p for p, _ in claims])
+    so = np.array([float(is_so) for _, is_so in claims])
+    table = []
+    for low, high in pairwise(BINS):
+        inside = (given >= low) & ((given < high) | (high == 1.0))
+        if inside.any():
+            table.append((low, float(given[inside].mean()), float(so[inside].mean()), int(inside.sum())))
+    return tuple(table)
+
+
+def _identification(pairs: Sequence[Pair]) -> tuple[tuple[float, float, float, int], ...]:
+    """Single effects by visibility: lower edge, mean visibility, share named rightly, count."""
+    singles = [(truth.visibility, right(truth, answer)) for truth, answer in pairs if truth.group in ONE]
+    table = []
+    for low, high in pairwise(VISIBILITIES):
+        inside = [(seen, named) for seen, named in singles if low <= seen < high]
+        if inside:
+            seen, named = (float(np.mean(column)) for column in zip(*inside))
+            table.append((low, seen, named, len(inside)))
+    return tuple(table)
+
+
+def _confusion(pairs: Sequence[Pair]) -> dict[str, dict[str, int]]:
+    """True label by verdict, for none, unknown and single effects; verdicts of several effects are joined."""
+    table: dict[str, dict[str, int]] = {}
+    for truth, answer in pairs:
+        if truth.group != "pair":
+            row = table.setdefault("+".join(sorted(truth.label)), {})
+            said = "+".join(sorted(answer.verdict))
+            row[said] = row.get(said, 0) + 1
+    return table
