@@ -8,7 +8,7 @@ import numpy as np
 
 from mixedlub.case.folder import read_case, read_conditions
 from mixedlub.case.forward import Forward
-from mixedlub.chain.effect import find
+from mixedlub.effects import find
 
 CASE = Path(__file__).with_name("case")
 CONDITIONS = ("torque_Nm", "speed_rpm", "oil_temperature_C", "pinion_surface", "gear_surface")

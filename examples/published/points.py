@@ -14,8 +14,8 @@ import numpy as np
 
 from mixedlub.case.folder import read_case
 from mixedlub.case.forward import Forward
-from mixedlub.chain.effect import find
 from mixedlub.chain.model import Model
+from mixedlub.effects import find
 from mixedlub.rig import build
 from mixedlub.schema import system_file
 from mixedlub.schema.table import Table

@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 
 from mixedlub.case.folder import Case, noted
-from mixedlub.chain.effect import Effect, known_in
+from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Model, Parameters, Record, available
+from mixedlub.effects import known_in
 from mixedlub.kinds.calibration import Calibration, calibrations
 from mixedlub.kinds.kind import SCALE, ageing, varies
 from mixedlub.schema.table import Table

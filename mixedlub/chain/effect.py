@@ -2,124 +2,18 @@
 
 from __future__ import annotations
 
-import importlib
 import inspect
-import pkgutil
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cache
-from importlib.metadata import entry_points
-from math import copysign, erf, erfc, exp, log, sinh, sqrt
-from statistics import NormalDist
 from types import MappingProxyType
 
 import numpy as np
 
+from mixedlub.chain.priors import Prior
 from mixedlub.chain.quantities import GLOSSARY
-from profiles.errors import InputError, nearest
+from profiles.errors import nearest
 
 STAGES = ("film", "shear", "contact", "boundary", "load", "loss", "property", "measurement")
-
-
-@dataclass(frozen=True)
-class Normal:
-    """A normal prior: what either sign may have."""
-
-    mean: float
-    sd: float
-
-    def value(self, z: float) -> float:
-        """The value that lies ``z`` standard deviations up the prior."""
-        return self.mean + self.sd * z
-
-    def __str__(self) -> str:
-        return f"{self.mean:g} ± {self.sd:g}"
-
-
-@dataclass(frozen=True)
-class Wide:
-    """A prior of either sign with wide wings: usually about ``scale``, now and then ten times that."""
-
-    scale: float
-
-    def value(self, z: float) -> float:
-        """The value that lies ``z`` standard deviations up the prior."""
-        return self.scale * sinh(z)
-
-    def __str__(self) -> str:
-        return f"about 0 ± {self.scale:g}, wide wings"
-
-
-@dataclass(frozen=True)
-class LogNormal:
-    """A lognormal prior: positive, known to within a factor; ``spread`` is the sd of its logarithm."""
-
-    median: float
-    spread: float
-
-    def value(self, z: float) -> float:
-        """The value that lies ``z`` standard deviations up the prior."""
-        return self.median * exp(min(self.spread * z, 60.0))
-
-    def __str__(self) -> str:
-        return f"{self.median:g} ×/÷ {exp(self.spread):.2g}"
-
-
-@dataclass(frozen=True)
-class EitherSign:
-    """A lognormal prior of either sign: the size is known to within a factor, and nothing small is meant."""
-
-    median: float
-    spread: float
-
-    def value(self, z: float) -> float:
-        """The value that lies ``z`` standard deviations up the prior; zero in the middle, between the two signs.
-
-        >>> prior = EitherSign(200.0, 0.25)
-        >>> [round(prior.value(z)) for z in (-0.6745, -0.1, 0.0, 0.1, 0.6745)]   # quartiles at the medians
-        [-200, -141, 0, 141, 200]
-        """
-        if z == 0.0:
-            return 0.0
-        size, normal = min(abs(z), 37.0) / sqrt(2.0), NormalDist()
-        inner = normal.inv_cdf(erf(size)) if size < 0.7 else -normal.inv_cdf(erfc(size))
-        return copysign(self.median * exp(min(self.spread * inner, 60.0)), z)
-
-    def __str__(self) -> str:
-        return f"±{self.median:g} ×/÷ {exp(self.spread):.2g}"
-
-
-@dataclass(frozen=True)
-class Between:
-    """A prior that is even between two bounds."""
-
-    low: float
-    high: float
-
-    def value(self, z: float) -> float:
-        """The value that lies ``z`` standard deviations up the prior."""
-        return self.low + (self.high - self.low) * NormalDist().cdf(z)
-
-    def __str__(self) -> str:
-        return f"even in {self.low:g} to {self.high:g}"
-
-
-@dataclass(frozen=True)
-class BetweenLog:
-    """A prior whose logarithm is even between two bounds: the order of magnitude is all that is known."""
-
-    low: float
-    high: float
-
-    def value(self, z: float) -> float:
-        """The value that lies ``z`` standard deviations up the prior."""
-        return self.low * exp(log(self.high / self.low) * NormalDist().cdf(z))
-
-    def __str__(self) -> str:
-        return f"even in order of magnitude, {self.low:g} to {self.high:g}"
-
-
-Prior = Normal | Wide | LogNormal | EitherSign | Between | BetweenLog
 
 
 @dataclass(frozen=True)
@@ -218,7 +112,8 @@ class Effect:
         return {**self.held, **{p.name: p.prior.value(float(x)) for p, x in zip(self.parameters, z, strict=True)}}
 
 
-_registry: dict[str, Effect] = {}
+REGISTRY: dict[str, Effect] = {}
+"""Effects by id, as their modules were imported; `mixedlub.effects.catalogue` imports them all."""
 
 
 def effect(
@@ -279,9 +174,9 @@ def effect(
         for held, values in (contains or {}).items():
             if not values.keys() <= set(keywords):
                 raise TypeError(f"{where}: {held!r} fixes {sorted(values)}, not all of them parameters")
-        if law.__name__ in _registry and _registry[law.__name__].law.__module__ != law.__module__:
-            raise TypeError(f"{where}: already defined in {_registry[law.__name__].law.__module__}")
-        _registry[law.__name__] = Effect(
+        if law.__name__ in REGISTRY and REGISTRY[law.__name__].law.__module__ != law.__module__:
+            raise TypeError(f"{where}: already defined in {REGISTRY[law.__name__].law.__module__}")
+        REGISTRY[law.__name__] = Effect(
             id=law.__name__,
             law=law,
             stage=stage,
@@ -305,36 +200,3 @@ def effect(
         return law
 
     return register
-
-
-@cache
-def catalogue() -> Mapping[str, Effect]:
-    """Every effect by id: those of the package and those other packages offer as ``mixedlub.effects``."""
-    import mixedlub.effects as rooms
-
-    for found in pkgutil.iter_modules(rooms.__path__):
-        importlib.import_module(f"{rooms.__name__}.{found.name}")
-    for point in entry_points(group="mixedlub.effects"):
-        point.load()
-    order = sorted(_registry.values(), key=lambda e: (STAGES.index(e.stage), e.id))
-    return MappingProxyType({e.id: e for e in order})
-
-
-@cache
-def known_in(kind: str) -> Mapping[str, Effect]:
-    """The catalogue with only those parameters that are free in a kind of recording."""
-    return MappingProxyType(
-        {
-            e.id: e.holding({p.name: p.off for p in e.parameters if p.kinds and kind not in p.kinds})
-            for e in catalogue().values()
-        }
-    )
-
-
-def find(ids: list[str] | tuple[str, ...]) -> tuple[Effect, ...]:
-    """Effects by id, or an error naming the nearest known one."""
-    known = catalogue()
-    for name in ids:
-        if name not in known:
-            raise InputError(f"no such effect; {nearest(name, known)}", where="effect", value=name)
-    return tuple(known[name] for name in ids)

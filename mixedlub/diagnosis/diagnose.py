@@ -10,7 +10,6 @@ import numpy as np
 
 from mixedlub.case.folder import Case, hidden, read_case, read_conditions, refuse_used_runs
 from mixedlub.case.forward import Forward
-from mixedlub.chain.effect import find
 from mixedlub.data_checks.audit import audit
 from mixedlub.diagnosis.assessment.answer_checks import against, likelier_notes, scatter_notes, unsure_odds
 from mixedlub.diagnosis.assessment.check_channel import Check, check_channel
@@ -28,6 +27,7 @@ from mixedlub.diagnosis.assessment.verdict import judge
 from mixedlub.diagnosis.labels import effect_words
 from mixedlub.diagnosis.search.noise_selection import weighed
 from mixedlub.diagnosis.search.search import Progress, Search
+from mixedlub.effects import find
 from mixedlub.schema.table import Table
 
 

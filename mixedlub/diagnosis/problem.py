@@ -10,7 +10,8 @@ import numpy as np
 
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward, Run
-from mixedlub.chain.effect import Effect, catalogue, known_in
+from mixedlub.chain.effect import Effect
+from mixedlub.effects import catalogue, known_in
 from mixedlub.recording.correlated_error import STILL, Wander
 from mixedlub.recording.noise import seen_noise
 from mixedlub.schema.table import Table

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from mixedlub.chain.effect import Between, LogNormal, Parameter, effect
+from mixedlub.chain.effect import Parameter, effect
+from mixedlub.chain.priors import Between, LogNormal
 from mixedlub.laws.drag import bearing_asperity_share, palmgren_idle_torque, palmgren_load_torque
 
 _SIZE = 1.25

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from mixedlub.chain.effect import Between, LogNormal, Normal, Parameter, effect
+from mixedlub.chain.effect import Parameter, effect
+from mixedlub.chain.priors import Between, LogNormal, Normal
 from mixedlub.laws.mixture import tallian_friction
 
 

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from mixedlub.chain.effect import Between, LogNormal, Parameter, effect
+from mixedlub.chain.effect import Parameter, effect
+from mixedlub.chain.priors import Between, LogNormal
 
 FRICTION, PRESSURE = 0.05, 1e9
 """Friction coefficient and Hertz pressure (Pa) at which the slip of full sliding is given."""

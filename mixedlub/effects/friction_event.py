@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from mixedlub.chain.effect import Between, BetweenLog, LogNormal, Normal, Parameter, effect
+from mixedlub.chain.effect import Parameter, effect
+from mixedlub.chain.priors import Between, BetweenLog, LogNormal, Normal
 
 TENTHS = 2.0 * np.log(9.0)
 """From 10 to 90 % of a logistic step."""

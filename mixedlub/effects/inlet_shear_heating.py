@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from mixedlub.chain.effect import Between, LogNormal, Parameter, effect
+from mixedlub.chain.effect import Parameter, effect
+from mixedlub.chain.priors import Between, LogNormal
 
 USUAL = 0.005
 """Hertz pressure over the reduced modulus at which the published factors are much alike."""

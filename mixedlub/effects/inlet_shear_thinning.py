@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from mixedlub.chain.effect import Between, BetweenLog, Parameter, effect
+from mixedlub.chain.effect import Parameter, effect
+from mixedlub.chain.priors import Between, BetweenLog
 
 REFERENCE = 0.01
 MOST_OF_BASES, THICKENED = 200.0, 0.2

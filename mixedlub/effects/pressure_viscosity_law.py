@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from mixedlub.chain.effect import BetweenLog, LogNormal, Normal, Parameter, effect
+from mixedlub.chain.effect import Parameter, effect
+from mixedlub.chain.priors import BetweenLog, LogNormal, Normal
 from mixedlub.laws.oil import roelands_coefficient, roelands_viscosity
 
 WARM = 313.15

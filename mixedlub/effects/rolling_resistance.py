@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from mixedlub.chain.effect import Between, LogNormal, Parameter, effect
+from mixedlub.chain.effect import Parameter, effect
+from mixedlub.chain.priors import Between, LogNormal
 
 _PIVOT, _MATERIAL = 3e-11, 3000.0
 """Speed and material group at which both laws of the source give the same."""

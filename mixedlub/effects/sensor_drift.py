@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from mixedlub.chain.effect import Between, Parameter, Wide, effect
+from mixedlub.chain.effect import Parameter, effect
+from mixedlub.chain.priors import Between, Wide
 
 STEADY = 1e-9
 """Settling below which a drift is the straight line that it becomes."""

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from mixedlub.chain.effect import Between, Normal, Parameter, effect
+from mixedlub.chain.effect import Parameter, effect
+from mixedlub.chain.priors import Between, Normal
 from mixedlub.laws.contact import area_per_overlap
 from roughness.integrals import area_integral
 

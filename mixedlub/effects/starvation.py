@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from mixedlub.chain.effect import BetweenLog, LogNormal, Parameter, Wide, effect
+from mixedlub.chain.effect import Parameter, effect
+from mixedlub.chain.priors import BetweenLog, LogNormal, Wide
 
 USUAL = 1e9
 LEAST, MOST = 1e-300, 60.0

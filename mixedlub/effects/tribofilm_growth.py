@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from mixedlub.chain.effect import LogNormal, Parameter, Wide, effect
+from mixedlub.chain.effect import Parameter, effect
+from mixedlub.chain.priors import LogNormal, Wide
 
 SOFTNESS = 0.2
 

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from mixedlub.chain.effect import Between, Normal, Parameter, Wide, effect
+from mixedlub.chain.effect import Parameter, effect
+from mixedlub.chain.priors import Between, Normal, Wide
 
 WARM = 313.15
 KELVIN = 100.0

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from mixedlub.chain.effect import Normal, Parameter, effect
+from mixedlub.chain.effect import Parameter, effect
+from mixedlub.chain.priors import Normal
 
 TERMS = 12
 

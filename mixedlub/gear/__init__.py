@@ -2,8 +2,8 @@
 
 from mixedlub.gear.distribution import LdpSharing, LoadDistribution, transmission_error
 from mixedlub.gear.geometry import GearPair
-from mixedlub.gear.mesh import ROUNDED, Mesh, at_roll_angle, mesh
-from mixedlub.gear.sharing import LoadShareWarning, RigidSharing, Sharing, TableSharing
+from mixedlub.gear.mesh import ROUNDED, Mesh, Sharing, at_roll_angle, mesh
+from mixedlub.gear.sharing import LoadShareWarning, RigidSharing, TableSharing
 
 __all__ = [
     "ROUNDED",

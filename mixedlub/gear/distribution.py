@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mixedlub.gear.checks import torques_above_zero
 from mixedlub.gear.compliance import (
     bending_compliance,
     foundation_compliance,
@@ -25,7 +26,7 @@ from mixedlub.gear.contact_solver import share_out
 from mixedlub.gear.geometry import GearPair, Pair, number, two, whole
 from mixedlub.gear.modifications import Modifications
 from mixedlub.gear.plate import Plate, tapered_plate
-from mixedlub.gear.sharing import contact_limits, torques_above_zero
+from mixedlub.gear.sharing import contact_limits
 from mixedlub.gear.tooth import tooth
 from profiles.errors import InputError, nearest
 

@@ -11,15 +11,32 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Protocol
 
 import numpy as np
 
+from mixedlub.gear.checks import column, torques_above_zero
 from mixedlub.gear.geometry import GearPair, whole
-from mixedlub.gear.sharing import Sharing, column, torques_above_zero
 from profiles.errors import InputError
 
 ROUNDED = 0.005
 """How far beyond the path of contact, over its length, a recorded roll angle may lie: ends are rounded."""
+
+
+class Sharing(Protocol):
+    """What a mesh needs of a way to share the load."""
+
+    def default_slices(self, pair: GearPair) -> int:
+        """Slices across the face when the caller names no number."""
+
+    def check(self, pair: GearPair) -> tuple[str, ...]:
+        """Refuse a gear pair this sharing cannot serve; else what a reader should know, one line each."""
+
+    def breakpoints(self, pair: GearPair) -> np.ndarray:
+        """Positions (m) where the share may kink or jump."""
+
+    def load_share(self, mesh: Mesh, torque: np.ndarray) -> np.ndarray:
+        """Share of the base-tangent force at each point, shape ``torque.shape + (M,)``."""
 
 
 @dataclass(frozen=True, eq=False)

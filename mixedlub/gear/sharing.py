@@ -10,16 +10,13 @@ import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
+from mixedlub.gear.checks import column
 from mixedlub.gear.geometry import GearPair
+from mixedlub.gear.mesh import Mesh
 from profiles.errors import InputError
-
-if TYPE_CHECKING:
-    from mixedlub.gear.mesh import Mesh
-
 
 COVERED = 0.98
 """Share of the path of contact that a table covers but for the rounding of its ends."""
@@ -31,34 +28,6 @@ OFTEN, OFTEN_OFF = 0.8, 0.05
 
 class LoadShareWarning(UserWarning):
     """A share was used outside the torques it was given for."""
-
-
-class Sharing(Protocol):
-    """What a mesh needs of a way to share the load."""
-
-    def default_slices(self, pair: GearPair) -> int:
-        """Slices across the face when the caller names no number."""
-
-    def check(self, pair: GearPair) -> tuple[str, ...]:
-        """Refuse a gear pair this sharing cannot serve; else what a reader should know, one line each."""
-
-    def breakpoints(self, pair: GearPair) -> np.ndarray:
-        """Positions (m) where the share may kink or jump."""
-
-    def load_share(self, mesh: Mesh, torque: np.ndarray) -> np.ndarray:
-        """Share of the base-tangent force at each point, shape ``torque.shape + (M,)``."""
-
-
-def torques_above_zero(torque: object) -> np.ndarray:
-    """Torques (Nm) as an array of the shape given, each finite and above zero."""
-    try:
-        torques = np.asarray(torque, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError("torques are numbers in Nm", where="torque_Nm", value=torque) from None
-    wrong = ~(np.isfinite(torques) & (torques > 0))
-    if np.any(wrong):
-        raise InputError("a torque is finite and above zero", where="torque_Nm", value=float(torques[wrong].flat[0]))
-    return torques
 
 
 def contact_limits(pair: GearPair) -> np.ndarray:
@@ -297,16 +266,3 @@ def _others(affected: Sequence[bool]) -> str:
     """
     more = sum(map(bool, affected)) - 1
     return f" (so at {more} more torque{'s' if more > 1 else ''})" if more > 0 else ""
-
-
-def column(key: str, values: object) -> np.ndarray:
-    """A finite one-dimensional copy of a column of a table."""
-    try:
-        column = np.array(values, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError("a column of numbers is needed", where=key, value=values) from None
-    if column.ndim != 1 or column.size == 0:
-        raise InputError("a column of numbers is needed", where=key, value=column.shape)
-    if not np.all(np.isfinite(column)):
-        raise InputError("every row needs a finite number", where=key, value=int(np.argmin(np.isfinite(column))))
-    return column

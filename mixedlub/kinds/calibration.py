@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from mixedlub.chain.effect import LogNormal, Normal, Parameter
+from mixedlub.chain.effect import Parameter
+from mixedlub.chain.priors import LogNormal, Normal
 from mixedlub.schema import system_file
 
 Inputs = Mapping[str, Any]

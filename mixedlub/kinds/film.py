@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub.chain.effect import LogNormal, Normal, Parameter
+from mixedlub.chain.effect import Parameter
 from mixedlub.chain.model import Chain
+from mixedlub.chain.priors import LogNormal, Normal
 from mixedlub.kinds import oil_priors
 from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.disc import COLUMNS, contact_inputs

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub.chain.effect import LogNormal, Parameter
+from mixedlub.chain.effect import Parameter
 from mixedlub.chain.model import Chain
+from mixedlub.chain.priors import LogNormal
 from mixedlub.kinds import disc, oil_priors
 from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, inverse_load, programme

@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.chain.effect import BetweenLog, LogNormal, Normal, Parameter
+from mixedlub.chain.effect import Parameter
 from mixedlub.chain.model import Chain
+from mixedlub.chain.priors import BetweenLog, LogNormal, Normal
 from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out, inverse_load, programme
 from mixedlub.laws import drive

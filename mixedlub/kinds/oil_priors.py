@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.chain.effect import LogNormal, Normal, Parameter
+from mixedlub.chain.effect import Parameter
+from mixedlub.chain.priors import LogNormal, Normal
 from mixedlub.kinds.calibration import Calibration
 from mixedlub.laws.oil import from_d341, to_d341
 from mixedlub.rig import build

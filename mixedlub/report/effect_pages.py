@@ -12,9 +12,10 @@ from textwrap import fill
 import numpy as np
 
 from mixedlub.case import reference_rigs
-from mixedlub.chain.effect import Effect, catalogue, find
+from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Model
 from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.effects import catalogue, find
 from mixedlub.report.plain import plain_equation, plain_symbol, with_symbol
 
 RIGS = tuple(reference_rigs.CONDITIONS)

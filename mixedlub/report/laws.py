@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from html import escape
 
-from mixedlub.chain.effect import find
 from mixedlub.chain.model import Model
+from mixedlub.effects import find
 from mixedlub.report.equations import equation
 
 _INLINE = re.compile(r":math:`([^`]+)`")

@@ -6,7 +6,9 @@ import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Protocol, cast
+
+from pydantic import BaseModel
 
 from mixedlub.gear import TableSharing
 from mixedlub.rig import build
@@ -14,9 +16,6 @@ from mixedlub.rig.surface import Surface
 from mixedlub.schema import ranges, system_file
 from mixedlub.schema.table import CaseWarning
 from profiles.errors import InputError
-
-if TYPE_CHECKING:
-    from mixedlub.study.schema import StudyFile
 
 BANDWIDTH = (1.0 - 1e-6, 1e5)
 """Nayak's m0 m4/m2^2: no profile has less than 1 (Cauchy and Schwarz), none of two scales apart by 300 more."""
@@ -32,11 +31,19 @@ class Odd:
     grave: bool = True
 
 
-def far_off(
-    file: system_file.System | StudyFile, folder: Path, surfaces: Mapping[str, Surface] | None = None
-) -> Iterator[Odd]:
+class DescribesRig(Protocol):
+    """A parsed file, of a case or a study, that describes gears and surfaces."""
+
+    @property
+    def gears(self) -> system_file.Gears | None: ...
+
+    @property
+    def surfaces(self) -> Mapping[str, system_file.SurfaceSection]: ...
+
+
+def far_off(file: DescribesRig, folder: Path, surfaces: Mapping[str, Surface] | None = None) -> Iterator[Odd]:
     """What is odd in a file; ``surfaces`` where they have been read already."""
-    yield from map(Odd, ranges.unusual(file))
+    yield from map(Odd, ranges.unusual(cast(BaseModel, file)))
     if file.gears is not None:
         pair, share = build.gear_pair(file.gears), build.sharing(file.gears.load_sharing, folder)
         said = share.check(pair)

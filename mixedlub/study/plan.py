@@ -12,8 +12,9 @@ from typing import Any
 import numpy as np
 
 from mixedlub.case.folder import noted
-from mixedlub.chain.effect import Effect, find, known_in
+from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Model, available
+from mixedlub.effects import find, known_in
 from mixedlub.gear import GearPair, Mesh, mesh
 from mixedlub.kinds.gear_pair import motion_inputs
 from mixedlub.laws.load import LEAST_SHARE

@@ -9,9 +9,10 @@ import numpy as np
 
 from mixedlub.case import reference_rigs
 from mixedlub.case.forward import Forward
-from mixedlub.chain.effect import Effect, catalogue
+from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Chain, Model
 from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.effects import catalogue
 
 RIGS = tuple(reference_rigs.CONDITIONS)
 LEVELS = {

@@ -10,10 +10,12 @@ from typing import Any
 
 import pytest
 
-from mixedlub.chain.effect import LogNormal, Parameter, effect
+from mixedlub.chain.effect import Parameter, effect
+from mixedlub.chain.priors import LogNormal
 
 FOREIGN = '''
-from mixedlub.chain.effect import LogNormal, Parameter, effect
+from mixedlub.chain.effect import Parameter, effect
+from mixedlub.chain.priors import LogNormal
 
 @effect(
     stage="loss",

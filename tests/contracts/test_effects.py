@@ -10,9 +10,10 @@ from time import perf_counter
 import numpy as np
 import pytest
 
-from mixedlub.chain.effect import Effect, catalogue, known_in
+from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Model
 from mixedlub.chain.quantities import GLOSSARY, dimension
+from mixedlub.effects import catalogue, known_in
 from mixedlub.report.effect_pages import effects_text, fingerprint, lookalikes
 from mixedlub.report.plain import plain_equation
 from profiles.errors import InputError

@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import pytest
 
-from mixedlub.chain.effect import Effect, catalogue
+from mixedlub.chain.effect import Effect
 from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.effects import catalogue
 from mixedlub.report.effect_pages import effects_text
 from mixedlub.report.equations import equation as drawn
 from mixedlub.report.plain import plain_equation, with_symbol

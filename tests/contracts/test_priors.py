@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from mixedlub.chain.effect import EitherSign
+from mixedlub.chain.priors import EitherSign
 from tests.contracts.rigs import EFFECTS
 
 SIZE = EitherSign(200.0, 0.25)

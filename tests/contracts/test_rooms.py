@@ -11,30 +11,12 @@ import mixedlub
 
 HOME = Path(mixedlub.__file__).parent
 ROOMS = {
-    "": [
-        "version",
-        "atomic",
-        "laws",
-        "chain",
-        "effects",
-        "gear",
-        "schema",
-        "rig",
-        "kinds",
-        "case",
-        "recording",
-        "data_checks",
-        "study",
-        "report",
-        "diagnosis",
-        "importers",
-        "validation",
-        "commands",
-        "cli",
-        "__main__",
-    ],
-    "diagnosis": ["problem", "labels", "inference", "discrepancy", "search", "assessment", "diagnose", "report"],
-    "diagnosis/report": ["text", "figures", "html", "files"],
+    "": (
+        *("version", "atomic", "laws", "chain", "effects", "gear", "schema", "rig", "kinds", "case", "recording"),
+        *("data_checks", "study", "report", "diagnosis", "importers", "validation", "commands", "cli", "__main__"),
+    ),
+    "diagnosis": ("problem", "labels", "inference", "discrepancy", "search", "assessment", "diagnose", "report"),
+    "diagnosis/report": ("text", "figures", "html", "files"),
 }
 """By folder, its rooms and loose modules, each behind those that it may import."""
 ALONE = "validation"
@@ -47,7 +29,7 @@ MODULES = {
 
 @cache
 def imported(module: str) -> set[str]:
-    """Modules of the package that a module imports anywhere but for type hints."""
+    """Modules of the package that a module imports anywhere, type hints among them."""
     found = set()
     for node in ast.walk(ast.parse(MODULES[module].read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):

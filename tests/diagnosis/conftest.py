@@ -11,9 +11,9 @@ import pytest
 
 from mixedlub.case.folder import read_case, read_conditions
 from mixedlub.case.forward import Forward
-from mixedlub.chain.effect import catalogue
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.report.files import files
+from mixedlub.effects import catalogue
 
 OIL = """
 [lubricant]

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from mixedlub.case.folder import read_case
-from mixedlub.chain.effect import catalogue
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.labels import number
 from mixedlub.diagnosis.report.text import tables, words
 from mixedlub.diagnosis.report.text.answer import calibration_record
+from mixedlub.effects import catalogue
 from mixedlub.importers import write_case
 
 from .test_words import judged, section

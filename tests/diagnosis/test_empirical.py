@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mixedlub.chain.effect import catalogue
 from mixedlub.diagnosis.assessment.power_law import absorbing_stages, features, power_law
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.effects import catalogue
 
 
 @pytest.fixture(scope="module")

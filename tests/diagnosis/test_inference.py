@@ -9,7 +9,6 @@ import pytest
 
 from mixedlub.case.forward import Run
 from mixedlub.case.reference_rigs import case, forward
-from mixedlub.chain.effect import catalogue
 from mixedlub.diagnosis.assessment.mismatch_test import mismatch_test
 from mixedlub.diagnosis.assessment.posterior import posterior
 from mixedlub.diagnosis.diagnose import Diagnosis
@@ -17,6 +16,7 @@ from mixedlub.diagnosis.inference.map_fit import Fit, linear_fit, map_fit, outli
 from mixedlub.diagnosis.inference.reference_evidence import importance_evidence
 from mixedlub.diagnosis.problem import Explanation, Problem
 from mixedlub.diagnosis.search import search as searching
+from mixedlub.effects import catalogue
 from mixedlub.recording.conditions import coordinates
 from mixedlub.recording.noise import noise_from_repeats, noise_from_smoothness
 

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from mixedlub.chain.effect import catalogue
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.report.text import location_text, next_test_text, words
+from mixedlub.effects import catalogue
 
 
 def test_without_a_name_the_place_may_be_the_other_end(unnamed: Diagnosis, offset: Diagnosis) -> None:

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from mixedlub.case.forward import Forward
-from mixedlub.chain.effect import catalogue
 from mixedlub.data_checks.audit import Doubt, doubts
 from mixedlub.diagnosis.assessment.identifiability import confusion
 from mixedlub.diagnosis.assessment.posterior import Key
@@ -19,6 +18,7 @@ from mixedlub.diagnosis.report.text.answer import as_json
 from mixedlub.diagnosis.report.text.headline import CONTRADICTION
 from mixedlub.diagnosis.report.text.nearest_effect import nearest
 from mixedlub.diagnosis.report.text.tables import _reaching_nothing
+from mixedlub.effects import catalogue
 from mixedlub.schema.table import Table
 
 from .test_words import judged, told

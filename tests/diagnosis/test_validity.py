@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.case import reference_rigs
-from mixedlub.chain.effect import catalogue, find
 from mixedlub.data_checks.audit import Doubt
 from mixedlub.diagnosis.assessment.validity import beyond_range, outside, unpublished
 from mixedlub.diagnosis.problem import Problem
+from mixedlub.effects import catalogue, find
 
 CREEP = find(["contact_creep"])
 ROWS = {"slide_roll_ratio": np.array([[0.02], [0.4], [0.9], [1.2]])}

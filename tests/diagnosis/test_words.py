@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mixedlub.chain.effect import Normal, Parameter, catalogue
+from mixedlub.chain.effect import Parameter
+from mixedlub.chain.priors import Normal
 from mixedlub.data_checks.audit import SCARCE, Doubt, audit
 from mixedlub.diagnosis.assessment.answer_checks import against
 from mixedlub.diagnosis.assessment.experiment_design import NextTest
@@ -20,6 +21,7 @@ from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.report import html
 from mixedlub.diagnosis.report.text import location_text, tables, words
 from mixedlub.diagnosis.report.text.answer import as_json, effect_records
+from mixedlub.effects import catalogue
 from mixedlub.report.equations import equation
 from mixedlub.report.plain import plain_equation
 

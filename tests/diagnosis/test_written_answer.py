@@ -12,10 +12,11 @@ from typing import Any
 
 import pytest
 
-from mixedlub.chain.effect import STAGES, catalogue
+from mixedlub.chain.effect import STAGES
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.report.files import diagnose, write
 from mixedlub.diagnosis.report.text.answer import as_json, predictions_csv
+from mixedlub.effects import catalogue
 
 
 def number(value: Any) -> bool:

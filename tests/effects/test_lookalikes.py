@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.case import reference_rigs
-from mixedlub.chain.effect import catalogue
+from mixedlub.effects import catalogue
 from mixedlub.report.effect_pages import lookalikes, shown, signature, signatures
 
 

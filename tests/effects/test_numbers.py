@@ -7,7 +7,7 @@ import pytest
 from scipy import integrate, optimize, stats
 
 from mixedlub.case import reference_rigs
-from mixedlub.chain.effect import catalogue
+from mixedlub.effects import catalogue
 from mixedlub.effects.asperity_plasticity import asperity_plasticity
 from mixedlub.effects.dynamic_load import dynamic_load
 from mixedlub.effects.elastic_hysteresis import elastic_hysteresis

@@ -11,7 +11,7 @@ import pytest
 
 from mixedlub.case.folder import Case, read_case
 from mixedlub.case.forward import Forward
-from mixedlub.chain.effect import catalogue
+from mixedlub.effects import catalogue
 from mixedlub.importers import write_case
 
 BALL = {"geometry": "point", "radius_mm": [9.525, float("inf")], "youngs_modulus_GPa": [207.0, 75.0]}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mixedlub.case.forward import Forward
-from mixedlub.chain.effect import catalogue
+from mixedlub.effects import catalogue
 
 from .conftest import BALL, OIL, system
 

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mixedlub.chain.effect import catalogue
 from mixedlub.diagnosis.diagnose import diagnose_case
 from mixedlub.diagnosis.report.text.answer import as_json
 from mixedlub.diagnosis.report.text.words import as_text, sections
+from mixedlub.effects import catalogue
 from mixedlub.importers import write_case
 
 PER_CENT = 9.84e-5

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from mixedlub.chain.effect import known_in
 from mixedlub.diagnosis.diagnose import diagnose_case
 from mixedlub.diagnosis.inference.change_points import anywhere, places, sudden_places
 from mixedlub.diagnosis.report.text.answer import effect_records
+from mixedlub.effects import known_in
 
 from .test_planted import ROLL, SMOOTH, film, planted_event
 

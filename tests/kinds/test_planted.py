@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from mixedlub.case.forward import Forward
-from mixedlub.chain.effect import catalogue
 from mixedlub.diagnosis.assessment.power_law import power_law
 from mixedlub.diagnosis.diagnose import diagnose_case
+from mixedlub.effects import catalogue
 from mixedlub.schema.table import Table
 
 from .conftest import BALL, OIL, TIME, drive, least_squares, noisy, system

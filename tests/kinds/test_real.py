@@ -8,7 +8,7 @@ import pytest
 
 from mixedlub.case.folder import read_case
 from mixedlub.case.forward import Forward
-from mixedlub.chain.effect import catalogue
+from mixedlub.effects import catalogue
 
 from .conftest import least_squares
 

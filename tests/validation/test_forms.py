@@ -14,7 +14,9 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from mixedlub.chain.effect import Between, BetweenLog, Effect, LogNormal, known_in
+from mixedlub.chain.effect import Effect
+from mixedlub.chain.priors import Between, BetweenLog, LogNormal
+from mixedlub.effects import known_in
 from mixedlub.validation.build import chosen, rig_of
 from mixedlub.validation.design import draw_disc, draw_gear
 from mixedlub.validation.planted import FORMS

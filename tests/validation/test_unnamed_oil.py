@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 from mixedlub.case.folder import read_case
 from mixedlub.case.forward import Forward
-from mixedlub.chain.effect import Normal
+from mixedlub.chain.priors import Normal
 from mixedlub.cli import app
 from mixedlub.validation.answers import read_truth
 from mixedlub.validation.build import oil_of

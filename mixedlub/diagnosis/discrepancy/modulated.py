@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.case.forward import Forward, Run
-from mixedlub.chain.effect import Effect, Normal, Parameter
+from mixedlub.chain.effect import Effect, Parameter
 from mixedlub.chain.model import Model
+from mixedlub.chain.priors import Normal
 from mixedlub.diagnosis.problem import STEP, Problem
 from mixedlub.recording.conditions import clock_of
 from mixedlub.schema.table import Table

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.chain.effect import Prior
+from mixedlub.chain.priors import Prior
 from mixedlub.diagnosis.assessment.prediction import Refined
 from mixedlub.diagnosis.diagnose import Diagnosis, Predicted
 from mixedlub.diagnosis.inference.map_fit import NINETY

@@ -9,7 +9,8 @@ import numpy as np
 
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
-from mixedlub.chain.effect import Between, BetweenLog, Effect, Parameter, Prior
+from mixedlub.chain.effect import Effect, Parameter
+from mixedlub.chain.priors import Between, BetweenLog, Prior
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import effect_words, in_reach, number, with_names
@@ -78,7 +79,7 @@ def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
 def _far(prior: Prior, unit: str) -> str:
     """How a parameter stands that is far outside of what its prior holds for usual, with what that is.
 
-    >>> from mixedlub.chain.effect import Normal
+    >>> from mixedlub.chain.priors import Normal
     >>> _far(Normal(0.0, 0.1), "-"), _far(Between(0.0, 0.05), "1/K")
     ('far outside of what is usual (-0.164 to 0.164)', 'at the end of what it may be (0 to 0.05)')
     """
