@@ -39,7 +39,7 @@ def test_effect_of_another_package_appears_in_the_catalogue(tmp_path: Path) -> N
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: fans\nVersion: 1.0\n", encoding="utf-8")
     (info / "entry_points.txt").write_text("[mixedlub.effects]\nfans = fans\n", encoding="utf-8")
     code = (
-        "from mixedlub.chain.effect import catalogue; from mixedlub.report.effect_pages import effects_text, share;"
+        "from mixedlub.effects import catalogue; from mixedlub.report.effect_pages import effects_text, share;"
         "print(catalogue()['cooling_fan'].summary); print('cooling_fan' in effects_text());"
         "print((share('cooling_fan', 'gear_pair') > 0).all())"
     )
