@@ -2,16 +2,16 @@
 
 from pathlib import Path
 
-from mixedlub.study import read_study, run_study
+import mixedlub as ml
 
-results = run_study(read_study(Path(__file__).with_name("study_21_pairings.toml")))
-data = results.dataset().set_index(pairing=["pinion_surface", "gear_surface"]).sel(oil_temperature=60)
-loss = data["power_loss"]
+results = ml.study.run(Path(__file__).with_name("study_21_pairings.toml"))
+data = results.to_xarray().set_index(pairing=["pinion_surface", "gear_surface"]).sel(oil_temperature_C=60)
+loss = data["power_loss_W"]
 
 print("Power loss (W) at 100 Nm, against 0450 / 0450")
-for rpm in loss.speed.values:
-    rough = float(loss.sel(pairing=("0450", "0450"), torque=100, speed=rpm))
-    one = float(loss.sel(pairing=("0036", "0450"), torque=100, speed=rpm))
-    both = float(loss.sel(pairing=("0036", "0036"), torque=100, speed=rpm))
+for rpm in loss.speed_rpm.values:
+    rough = float(loss.sel(pairing=("0450", "0450"), torque_Nm=100, speed_rpm=rpm))
+    one = float(loss.sel(pairing=("0036", "0450"), torque_Nm=100, speed_rpm=rpm))
+    both = float(loss.sel(pairing=("0036", "0036"), torque_Nm=100, speed_rpm=rpm))
     saved = f"one flank smooth {one:6.1f} ({one / rough - 1:+.0%}), both {both:6.1f} ({both / rough - 1:+.0%})"
     print(f"{rpm:6.0f} rpm: {rough:6.1f}; {saved}")

@@ -31,14 +31,14 @@ HEAT = {
 MODELS: tuple[dict[str, dict[str, float]], ...] = ({}, HEAT)
 ROUGH, SMOOTH = "ground / ground", "superfinished / superfinished"
 CHANGES = (
-    ("20 to 95 m/s, ground", "-28 %", {"pairing": ROUGH, "speed": 0}, {"pairing": ROUGH, "speed": -1}),
+    ("20 to 95 m/s, ground", "-28 %", {"pairing": ROUGH, "speed_rpm": 0}, {"pairing": ROUGH, "speed_rpm": -1}),
     ("ground to superfinished, all speeds", "-30 %", {"pairing": ROUGH}, {"pairing": SMOOTH}),
-    ("1900 to 4000 Nm, 100 °C, ground", "-3 %", {"pairing": ROUGH, "torque": 0}, {"pairing": ROUGH, "torque": 1}),
+    ("1900 to 4000 Nm, 100 °C, ground", "-3 %", {"pairing": ROUGH, "torque_Nm": 0}, {"pairing": ROUGH, "torque_Nm": 1}),
     (
         "oil 80 to 120 °C, 1900 Nm, ground",
         "+1 %",
-        {"pairing": ROUGH, "torque": 0, "oil_temperature": 0},
-        {"pairing": ROUGH, "torque": 0, "oil_temperature": 2},
+        {"pairing": ROUGH, "torque_Nm": 0, "oil_temperature_C": 0},
+        {"pairing": ROUGH, "torque_Nm": 0, "oil_temperature_C": 2},
     ),
 )
 FULL_TORQUE = 71.7
@@ -61,7 +61,7 @@ def fast_gears() -> Iterator[Row]:
     friction = []
     for effects in MODELS:
         study = read_study(file, system_file.parse(StudyFile, {**raw, "effects": effects}, str(file)))
-        friction.append(run_study(study).dataset()["mean_friction"])
+        friction.append(run_study(study).to_xarray()["mean_friction"])
     for stated, measured, before, after in CHANGES:
         base, heat = (_percent(_mean(f, after) / _mean(f, before)) for f in friction)
         yield f"A: mean friction, {stated}", measured, base, heat

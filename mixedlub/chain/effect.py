@@ -5,14 +5,18 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from textwrap import fill
 from types import MappingProxyType
 
 import numpy as np
 
+from mixedlub.chain.plain_text import plain_equation, plain_symbol, with_symbol
 from mixedlub.chain.priors import Prior
 from mixedlub.chain.quantities import GLOSSARY
 from profiles.errors import nearest
 
+WIDTH, INDENT = 80, 16
+"""Characters of a line of a page, and of the names before its texts."""
 STAGES = ("film", "shear", "contact", "boundary", "load", "loss", "property", "measurement")
 
 
@@ -45,6 +49,12 @@ class Parameter:
         """The null; the middle of the prior where there is none."""
         return self.prior.value(0.0) if self.null is None else self.null
 
+    def described(self) -> str:
+        """Its meaning, prior and unit, the value that switches it off, and where it is free."""
+        off = "" if self.null is None else f"; off at {self.null:g}"
+        free = f"; free in recordings of {', '.join(self.kinds)}" if self.kinds else ""
+        return f"{self.meaning}; {self.prior}{_unit(self.unit)}{off}{free}"
+
     @property
     def typical(self) -> tuple[float, float]:
         """The middle 80 % of the prior."""
@@ -52,7 +62,7 @@ class Parameter:
         return (low, high)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Effect:
     """A law that changes one quantity of the chain, with all that is to be known about it."""
 
@@ -107,9 +117,59 @@ class Effect:
         """Every parameter at the middle of its prior."""
         return {p.name: p.prior.value(0.0) for p in self.parameters}
 
+    def page(self) -> str:
+        """What the declaration says, as text: equation, source, range, parameters with priors, separating test."""
+        acted = (", ".join(filter(None, (_letter(n), _unit(GLOSSARY[n].unit).strip()))) for n in self.acts_on)
+        ranges = (f"{n} {low:g} to {high:g}{_unit(GLOSSARY[n].unit)}" for n, (low, high) in self.valid.items())
+        odds = f"{self.odds:g} of those of an effect that is missing as often as most" if self.odds < 1.0 else ""
+        exact = "exact: it is the effect's definition and does not bend in a fit" if self.exact else ""
+        more = "{1:g} times as often where {2} is beyond {0:g}"
+        parts = {
+            "stage": self.stage,
+            "changes": ", ".join(map(with_symbol, self.acts_on, acted)),
+            "reads": ", ".join(with_symbol(name, _letter(name)) for name in self.reads) or "nothing else",
+            "equation": plain_equation(self.equation),
+            "source": self.source,
+            "valid": "; ".join(ranges),
+            "recordings": ", ".join(self.kinds),
+            "prior odds": odds,
+            "more often": more.format(*self.likelier[1:], self.likelier[0]) if self.likelier else "",
+            "form": exact,
+        }
+        said = [entry(name, text) for name, text in parts.items() if text]
+        labels = [f"  {with_symbol(p.name, plain_equation(p.symbol))}" for p in self.parameters]
+        indent = max(INDENT, 2 + max(map(len, labels), default=0))
+        numbers = [entry(label, p.described(), indent) for p, label in zip(self.parameters, labels, strict=True)]
+        laws = [
+            entry("contains", f"the law of {law}, at " + ", ".join(f"{n} {v:g}" for n, v in values.items()))
+            for law, values in self.contains.items()
+        ]
+        head = f"{self.id}: {self.summary}"
+        tail = entry("separated by", self.separated_by)
+        return "\n".join([head, "", *said, "", "parameters", *numbers, *laws, "", tail])
+
+    __repr__ = page
+
     def values(self, z: np.ndarray) -> dict[str, float]:
         """Parameter values at standard-normal coordinates of the prior."""
         return {**self.held, **{p.name: p.prior.value(float(x)) for p, x in zip(self.parameters, z, strict=True)}}
+
+
+def entry(name: str, text: str, indent: int = INDENT) -> str:
+    """A line of a page: a name and its text, wrapped."""
+    begin, rest = f"{name:{indent}}", " " * indent
+    return fill(
+        text, WIDTH, initial_indent=begin, subsequent_indent=rest, break_long_words=False, break_on_hyphens=False
+    )
+
+
+def _unit(unit: str) -> str:
+    return {"-": "", "*": " unit of the channel"}.get(unit, f" {unit}")
+
+
+def _letter(quantity: str) -> str:
+    symbol = GLOSSARY[quantity].symbol
+    return "" if symbol == "-" else plain_symbol(symbol)
 
 
 REGISTRY: dict[str, Effect] = {}

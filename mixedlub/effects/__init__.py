@@ -42,3 +42,16 @@ def find(ids: list[str] | tuple[str, ...]) -> tuple[Effect, ...]:
         if name not in known:
             raise InputError(f"no such effect; {nearest(name, known)}", where="effect", value=name)
     return tuple(known[name] for name in ids)
+
+
+def page(effect_id: str) -> Effect:
+    """One effect, which prints as its page; an error names the nearest known one.
+
+    >>> import mixedlub as ml
+    >>> print(repr(ml.effects.page("starvation")).splitlines()[0])
+    starvation: Too little oil reaches the inlet above a certain viscosity times speed, and the film falls behind.
+    """
+    return find((effect_id,))[0]
+
+
+__all__ = ["Effect", "catalogue", "find", "known_in", "page"]

@@ -67,6 +67,11 @@ class Mesh:
     face_position: np.ndarray
     notes: tuple[str, ...]
 
+    @property
+    def contact_width(self) -> np.ndarray:
+        """Width (m) of the contact that each point stands for, and that its share of the load rests on: one slice."""
+        return self.face_fraction * self.pair.face_width
+
     def load_share(self, torque: object) -> np.ndarray:
         """Share of T1/r_b1 that each point's slice carries, shape ``torque.shape + (M,)``; torque in Nm.
 

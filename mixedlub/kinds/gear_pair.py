@@ -57,7 +57,7 @@ def motion_inputs(points: Mesh, torque: np.ndarray, speed: np.ndarray) -> Inputs
         "torque": torque,
         "pinion_speed": speed,
         "transmitted_force": torque / pair.base_radius[0],
-        "contact_width": points.face_fraction * pair.face_width,
+        "contact_width": points.contact_width,
         "reduced_modulus": pair.reduced_modulus,
         **gear_inputs(points, speed),
     }

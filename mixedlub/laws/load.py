@@ -10,6 +10,9 @@ LEAST_SHARE = 1e-6
 def gear_line_load(load_share: np.ndarray, transmitted_force: np.ndarray, contact_width: np.ndarray) -> np.ndarray:
     r"""Normal force per length on one tooth contact (N/m), :math:`w = s\,T_1 / (r_{b1} b)` (spur).
 
+    ``contact_width`` is the width that carries the share: the face, or one slice of it where a mesh is sliced
+    (`gear.Mesh.contact_width`); with the whole face and the share of one slice, the result is too small.
+
     A point that carries nothing (relief, edge of a misaligned flank) is given a millionth of the force, so that
     its film and friction stay finite; its share in any sum of forces or power is still zero.
 

@@ -7,16 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cache
-from textwrap import fill
 
 import numpy as np
 
 from mixedlub.case import reference_rigs
-from mixedlub.chain.effect import Effect
+from mixedlub.chain.effect import Effect, entry
 from mixedlub.chain.model import Model
-from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.effects import catalogue, find
-from mixedlub.report.plain import plain_equation, plain_symbol, with_symbol
 
 RIGS = tuple(reference_rigs.CONDITIONS)
 ALIKE = 0.95
@@ -25,8 +22,6 @@ ALIKE = 0.95
 NEGLIGIBLE = 0.02
 """Change of the share, over its largest size, below which a condition is said not to matter."""
 
-_WIDTH = 100
-_INDENT = 16
 _RIG_INDENT = 20
 
 
@@ -161,42 +156,7 @@ def _table() -> str:
 
 
 def _page(effect: Effect) -> str:
-    acted = (", ".join(filter(None, (_letter(name), _unit(GLOSSARY[name].unit).strip()))) for name in effect.acts_on)
-    parts = [
-        f"{effect.id}: {effect.summary}",
-        "",
-        _entry("stage", effect.stage),
-        _entry("changes", ", ".join(map(with_symbol, effect.acts_on, acted))),
-        _entry("reads", ", ".join(with_symbol(name, _letter(name)) for name in effect.reads) or "nothing else"),
-        _entry("equation", plain_equation(effect.equation)),
-        _entry("source", effect.source),
-    ]
-    if effect.valid:
-        ranges = (
-            f"{name} {low:g} to {high:g}{_unit(GLOSSARY[name].unit)}" for name, (low, high) in effect.valid.items()
-        )
-        parts.append(_entry("valid", "; ".join(ranges)))
-    if effect.kinds:
-        parts.append(_entry("recordings", ", ".join(effect.kinds)))
-    if effect.odds < 1.0:
-        parts.append(_entry("prior odds", f"{effect.odds:g} of those of an effect that is missing as often as most"))
-    if effect.likelier:
-        name, beyond, times = effect.likelier
-        parts.append(_entry("more often", f"{times:g} times as often where {name} is beyond {beyond:g}"))
-    if effect.exact:
-        parts.append(_entry("form", "exact: it is the effect's definition and does not bend in a fit"))
-    parts += ["", "parameters"]
-    labels = [f"  {with_symbol(p.name, plain_equation(p.symbol))}" for p in effect.parameters]
-    indent = max(_INDENT, 2 + max(map(len, labels)))
-    for p, label in zip(effect.parameters, labels, strict=True):
-        off = "" if p.null is None else f"; off at {p.null:g}"
-        off += f"; free in recordings of {', '.join(p.kinds)}" if p.kinds else ""
-        parts.append(_entry(label, f"{p.meaning}; {p.prior}{_unit(p.unit)}{off}", indent))
-    for law, values in effect.contains.items():
-        at = ", ".join(f"{name} {value:g}" for name, value in values.items())
-        parts.append(_entry("contains", f"the law of {law}, at {at}"))
-    parts += ["", *_on_rigs(effect), "", _entry("separated by", effect.separated_by)]
-    return "\n".join(parts)
+    return "\n".join([effect.page(), "", *_on_rigs(effect)])
 
 
 def _on_rigs(effect: Effect) -> list[str]:
@@ -215,22 +175,9 @@ def _on_rigs(effect: Effect) -> list[str]:
         }
         if effect.id in signatures(rig):
             about["    calibration"] = f"leaves {100 * signatures(rig)[effect.id][1]:.0f} % of it"
-        lines += [_entry(name, text, _RIG_INDENT) for name, text in about.items()]
+        lines += [entry(name, text, _RIG_INDENT) for name, text in about.items()]
     shares = {rig: share(effect.id, rig) for rig in RIGS}
     unable = ", ".join(rig for rig, found in shares.items() if found is None)
     hidden = ", ".join(rig for rig, found in shares.items() if found is not None and not found.any())
-    lines += [_entry("  cannot act", f"on {unable}", _RIG_INDENT)] if unable else []
-    return [*lines, _entry("  shows nothing", f"on {hidden}", _RIG_INDENT)] if hidden else lines
-
-
-def _unit(unit: str) -> str:
-    return {"-": "", "*": " unit of the channel"}.get(unit, f" {unit}")
-
-
-def _letter(quantity: str) -> str:
-    symbol = GLOSSARY[quantity].symbol
-    return "" if symbol == "-" else plain_symbol(symbol)
-
-
-def _entry(name: str, text: str, indent: int = _INDENT) -> str:
-    return fill(text, _WIDTH, initial_indent=f"{name:{indent}}", subsequent_indent=" " * indent, break_long_words=False)
+    lines += [entry("  cannot act", f"on {unable}", _RIG_INDENT)] if unable else []
+    return [*lines, entry("  shows nothing", f"on {hidden}", _RIG_INDENT)] if hidden else lines

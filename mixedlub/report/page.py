@@ -76,7 +76,7 @@ def content(results: Results) -> dict[str, Any]:
         "options": option_rows(file.options),
         "effects": [(e, study.plan.parameters[e.id]) for e in study.effects],
         "laws": list(laws_used(study.plan.model())),
-        "definitions": [(column, DEFINITIONS[name][1]) for name, (column, _) in COLUMNS.items()],
+        "definitions": [(column, DEFINITIONS[name]) for name, (column, _) in COLUMNS.items()],
         "fingerprint": fingerprint(study.plan),
         "versions": f"mixedlub {installed_version()}, NumPy {np.__version__}, Python {sys.version.split()[0]}",
     }

@@ -1,6 +1,25 @@
 """The full factorial: every pairing of surfaces at every torque, speed and oil temperature."""
 
+from __future__ import annotations
+
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
 from mixedlub.study.plan import Study, counted, factors, read_study
 from mixedlub.study.results import Results, run_study
 
-__all__ = ["Results", "Study", "counted", "factors", "read_study", "run_study"]
+
+def run(study: Study | str | PathLike[str], **how: Any) -> Results:
+    """Run a study, given as its file or as one that was read; ``how`` are the keywords of `run_study`.
+
+    >>> import mixedlub as ml
+    >>> ml.study.run("nowhere.toml")
+    Traceback (most recent call last):
+    ...
+    profiles.errors.InputError: nowhere.toml: no such file
+    """
+    return run_study(study if isinstance(study, Study) else read_study(Path(study)), **how)
+
+
+__all__ = ["Results", "Study", "counted", "factors", "read_study", "run", "run_study"]

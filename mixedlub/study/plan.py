@@ -27,7 +27,6 @@ from mixedlub.study.options import study_chain
 from mixedlub.study.schema import Options, Pairings, StudyFile
 from profiles.errors import InputError, nearest
 
-AXES = ("pairing", "oil_temperature", "torque", "speed")
 WANTED = (
     "power_loss",
     "area_ratio",

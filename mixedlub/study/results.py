@@ -10,12 +10,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.schema.units import unit_of
 from mixedlub.study import batch, checkpoint
 from mixedlub.study.batch import CHECKS, OUTPUTS
-from mixedlub.study.plan import AXES, Study
+from mixedlub.study.plan import Study
 from profiles.errors import InputError
 
 if TYPE_CHECKING:
+    import pandas as pd
     import pyarrow as pa
     import xarray as xr
 
@@ -30,17 +32,19 @@ COLUMNS = {
 """Column of each output, and the factor from SI to its unit."""
 
 DEFINITIONS = {
-    "power_loss": ("W", "power lost in the mesh, mean over a mesh cycle"),
-    "mean_friction": ("-", "power loss over the path integral of load times sliding speed"),
-    "area_ratio": ("-", "boundary area ratio, plain mean over the path of contact as far as it carries load"),
-    "film_thickness": ("m", "film thickness, plain mean over the path of contact as far as it carries load"),
-    "film_parameter": ("-", "mean film thickness over composite roughness"),
-    "composite_roughness": ("m", GLOSSARY["composite_roughness"].meaning),
-    "asperity_load_ratio": ("-", "pressure elastic asperities would carry over mean Hertz pressure, thinnest film"),
-    "largest_area_ratio": ("-", "boundary area ratio at the thinnest film of the path"),
+    "power_loss": "power lost in the mesh, mean over a mesh cycle",
+    "mean_friction": "power loss over the path integral of load times sliding speed",
+    "area_ratio": "boundary area ratio, plain mean over the path of contact as far as it carries load",
+    "film_thickness": "film thickness, plain mean over the path of contact as far as it carries load",
+    "film_parameter": "mean film thickness over composite roughness",
+    "composite_roughness": GLOSSARY["composite_roughness"].meaning,
+    "asperity_load_ratio": "pressure elastic asperities would carry over mean Hertz pressure, thinnest film",
+    "largest_area_ratio": "boundary area ratio at the thinnest film of the path",
 }
-"""Unit and meaning of each output."""
+"""Meaning of each output."""
 
+LEVELS = ("oil_temperature_C", "torque_Nm", "speed_rpm")
+"""Conditions of a study in the order of the axes of its arrays."""
 _ROWS = 200_000
 _REPEATING = ["pinion_surface", "gear_surface", "torque_Nm", "speed_rpm", "oil_temperature_C"]
 
@@ -55,8 +59,8 @@ class Results:
     def __getitem__(self, name: str) -> np.ndarray:
         return self.values[name]
 
-    def dataset(self) -> xr.Dataset:
-        """The labelled result, in SI, with units and meanings as attributes."""
+    def to_xarray(self) -> xr.Dataset:
+        """The result as labelled arrays: the columns of the table over pairing and conditions, with meanings."""
         import xarray as xr
 
         levels = self.study.file.conditions
@@ -64,15 +68,19 @@ class Results:
             "pairing": [f"{a} / {b}" for a, b in self.study.pairings],
             "pinion_surface": ("pairing", [a for a, _ in self.study.pairings]),
             "gear_surface": ("pairing", [b for _, b in self.study.pairings]),
-            "oil_temperature": ("oil_temperature", list(levels.oil_temperature_C), {"units": "degC"}),
-            "torque": ("torque", list(levels.torque_Nm), {"units": "N m"}),
-            "speed": ("speed", list(levels.speed_rpm), {"units": "rpm"}),
+            **{name: (name, list(getattr(levels, name)), {"units": unit_of(name)}) for name in LEVELS},
         }
         variables = {
-            name: (AXES, values, {"units": DEFINITIONS[name][0], "long_name": DEFINITIONS[name][1]})
-            for name, values in self.values.items()
+            column: (("pairing", *LEVELS), self.values[name] * scale, _described(name, column))
+            for name, (column, scale) in {**COLUMNS, **{name: (name, 1.0) for name in CHECKS}}.items()
         }
         return xr.Dataset(variables, coordinates, {"title": self.study.file.title})
+
+    def to_pandas(self) -> pd.DataFrame:
+        """The rows of the table that `write` writes."""
+        import pandas as pd
+
+        return pd.concat([table.to_pandas() for table in self.tables()], ignore_index=True)
 
     def tables(self) -> Iterator[pa.Table]:
         """The rows as tables of bounded size, pairing by pairing."""
@@ -115,6 +123,11 @@ class Results:
             for writer in (csv_writer, parquet_writer):
                 if writer is not None:
                     writer.close()
+
+
+def _described(name: str, column: str) -> dict[str, str]:
+    """Unit and meaning of a variable."""
+    return {"units": unit_of(column) or "-", "long_name": DEFINITIONS[name]}
 
 
 def run_study(

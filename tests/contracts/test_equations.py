@@ -8,11 +8,11 @@ from dataclasses import replace
 import pytest
 
 from mixedlub.chain.effect import Effect
+from mixedlub.chain.plain_text import plain_equation, with_symbol
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.effects import catalogue
 from mixedlub.report.effect_pages import effects_text
 from mixedlub.report.equations import equation as drawn
-from mixedlub.report.plain import plain_equation, with_symbol
 from tests.contracts.rigs import EFFECTS
 
 each = pytest.mark.parametrize("effect", EFFECTS, ids=[e.id for e in EFFECTS])

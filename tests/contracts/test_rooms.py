@@ -13,7 +13,8 @@ HOME = Path(mixedlub.__file__).parent
 ROOMS = {
     "": (
         *("version", "atomic", "laws", "chain", "effects", "gear", "schema", "rig", "kinds", "case", "recording"),
-        *("data_checks", "study", "report", "diagnosis", "importers", "validation", "commands", "cli", "__main__"),
+        *("data_checks", "study", "report", "diagnosis", "importers", "api", "validation"),
+        *("commands", "cli", "__main__"),
     ),
     "diagnosis": ("problem", "labels", "inference", "discrepancy", "search", "assessment", "diagnose", "report"),
     "diagnosis/report": ("text", "figures", "html", "files"),

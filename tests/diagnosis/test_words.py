@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from mixedlub.chain.effect import Parameter
+from mixedlub.chain.plain_text import plain_equation
 from mixedlub.chain.priors import Normal
 from mixedlub.data_checks.audit import SCARCE, Doubt, audit
 from mixedlub.diagnosis.assessment.answer_checks import against
@@ -23,7 +24,6 @@ from mixedlub.diagnosis.report.text import location_text, tables, words
 from mixedlub.diagnosis.report.text.answer import as_json, effect_records
 from mixedlub.effects import catalogue
 from mixedlub.report.equations import equation
-from mixedlub.report.plain import plain_equation
 
 
 def told(d: Diagnosis) -> dict[str, str]:

@@ -66,22 +66,20 @@ def test_rows_and_labelled_result_agree(results, tmp_path):
 
     results.write(tmp_path / "r.csv", tmp_path / "r.parquet")
     row = pq.read_table(tmp_path / "r.parquet").to_pylist()[17]
-    data = results.dataset().set_index(pairing=["pinion_surface", "gear_surface"])
+    data = results.to_xarray().set_index(pairing=["pinion_surface", "gear_surface"])
     one = data.sel(
         pairing=(row["pinion_surface"], row["gear_surface"]),
-        torque=row["torque_Nm"],
-        speed=row["speed_rpm"],
-        oil_temperature=row["oil_temperature_C"],
+        **{name: row[name] for name in ("torque_Nm", "speed_rpm", "oil_temperature_C")},
     )
-    for name, (column, scale) in COLUMNS.items():
-        assert float(one[name]) * scale == row[column]
+    for column, _ in COLUMNS.values():
+        assert float(one[column]) == row[column]
 
 
 def test_labelled_result_carries_units_and_meanings(results):
-    data = results.dataset()
-    assert data["power_loss"].dims == ("pairing", "oil_temperature", "torque", "speed")
-    for name, (unit, meaning) in DEFINITIONS.items():
-        assert data[name].attrs == {"units": unit, "long_name": meaning}
+    data = results.to_xarray()
+    assert data["power_loss_W"].dims == ("pairing", "oil_temperature_C", "torque_Nm", "speed_rpm")
+    assert data["film_thickness_um"].attrs == {"units": "µm", "long_name": DEFINITIONS["film_thickness"]}
+    assert data["asperity_load_ratio"].attrs["units"] == "-"
 
 
 def test_mean_friction_is_loss_over_the_integral_of_load_and_sliding(results):

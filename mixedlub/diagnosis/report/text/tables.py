@@ -10,12 +10,12 @@ import numpy as np
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
 from mixedlub.chain.effect import Effect, Parameter
+from mixedlub.chain.plain_text import plain_equation, with_symbol
 from mixedlub.chain.priors import Between, BetweenLog, Prior
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import effect_words, in_reach, number, with_names
 from mixedlub.diagnosis.report.text.answer import effect_records, interval, verdict_fit
-from mixedlub.report.plain import plain_equation, with_symbol
 from mixedlub.schema.table import CaseWarning, Table
 from mixedlub.schema.units import unit_of
 

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from mixedlub.chain.effect import Effect
+from mixedlub.chain.plain_text import plain_equation
 from mixedlub.diagnosis.assessment.identifiability import confusion
 from mixedlub.diagnosis.assessment.power_law import Absorbed, Unnamed
 from mixedlub.diagnosis.diagnose import Diagnosis
@@ -26,7 +27,6 @@ from mixedlub.diagnosis.report.text.nearest_effect import nearest_name
 from mixedlub.diagnosis.report.text.next_test_text import box_place, next_test, standing_place, wave_period
 from mixedlub.diagnosis.report.text.outlier_text import checked_channel, outliers, steadied_noise
 from mixedlub.diagnosis.report.text.tables import calibration, parameters
-from mixedlub.report.plain import plain_equation
 
 WIDTH = 88
 REFITTED = "Parameters were refitted without each level; what the answer is was settled with all of them."

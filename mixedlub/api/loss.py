@@ -1,0 +1,143 @@
+"""Power loss of a gear pair over conditions, and the contact along its path, as labelled arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mixedlub.chain.model import Model
+from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.schema.system_file import Gears, Lubricant, SurfaceSection, parse
+from mixedlub.study.options import study_chain
+from mixedlub.study.plan import Study, read_study
+from mixedlub.study.results import run_study
+from mixedlub.study.schema import StudyFile
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from numpy.typing import ArrayLike
+
+Surfaces = SurfaceSection | Sequence[SurfaceSection]
+ALONG_PATH = {
+    "path_weight": ("path_weight", 1.0),
+    "load_share": ("load_share", 1.0),
+    "line_load": ("line_load_N_mm", 1e-3),
+    "radius": ("radius_mm", 1e3),
+    "entrainment_speed": ("entrainment_speed_m_s", 1.0),
+    "sliding_speed": ("sliding_speed_m_s", 1.0),
+    "hertz_pressure": ("hertz_pressure_MPa", 1e-6),
+    "film_thickness": ("film_thickness_um", 1e6),
+    "composite_roughness": ("composite_roughness_um", 1e6),
+    "area_ratio": ("boundary_area_ratio", 1.0),
+    "shear_stress": ("shear_stress_MPa", 1e-6),
+    "fluid_friction": ("fluid_friction", 1.0),
+    "friction": ("friction", 1.0),
+}
+"""Quantities of a contact point, each with the name that carries its unit and the factor from SI to it."""
+
+
+def power_loss(
+    gears: Gears,
+    oil: Lubricant,
+    surfaces: Surfaces,
+    *,
+    torque_Nm: ArrayLike,
+    speed_rpm: ArrayLike,
+    oil_temperature_C: ArrayLike,
+    boundary_friction: float = 0.1,
+    options: Mapping[str, Any] | None = None,
+    effects: Mapping[str, Mapping[str, float]] | None = None,
+) -> xr.Dataset:
+    """Power lost by a gear pair at every combination of torque, speed (both of the pinion) and oil temperature.
+
+    ``surfaces`` are those of pinion and gear, or one for both. A condition given as a list becomes a dimension of the
+    result; ``options`` and ``effects`` are those of a study file. The variables are the columns of a study's table.
+
+    >>> import mixedlub as ml
+    >>> pair = ml.gear_pair(teeth=(17, 26), normal_module_mm=4.2333, pressure_angle_deg=22.5, face_width_mm=14.0)
+    >>> ground = ml.surface(m0_um2=0.137, m2=0.0031, m4_per_um2=0.0021)
+    >>> loss = ml.power_loss(
+    ...     pair, ml.oil("mineral"), ground, torque_Nm=[50, 100, 150], speed_rpm=1500, oil_temperature_C=60
+    ... )
+    >>> loss["power_loss_W"].dims, loss["power_loss_W"].attrs["units"]
+    (('torque_Nm',), 'W')
+    """
+    conditions = {"torque_Nm": torque_Nm, "speed_rpm": speed_rpm, "oil_temperature_C": oil_temperature_C}
+    study = _study(gears, oil, surfaces, conditions, boundary_friction, options, effects)
+    grid = run_study(study).to_xarray().isel(pairing=0, drop=True)
+    single = {name: 0 for name, values in conditions.items() if np.ndim(values) == 0}
+    return grid.isel(single)
+
+
+def along_path(
+    gears: Gears,
+    oil: Lubricant,
+    surfaces: Surfaces,
+    *,
+    torque_Nm: float,
+    speed_rpm: float,
+    oil_temperature_C: float,
+    boundary_friction: float = 0.1,
+    options: Mapping[str, Any] | None = None,
+    effects: Mapping[str, Mapping[str, float]] | None = None,
+) -> xr.Dataset:
+    """Load, film, contact and friction of one tooth pair along its path of contact, at one condition.
+
+    The dimension is the pinion's roll angle; with a sliced face, that and the place across the face.
+
+    >>> import mixedlub as ml
+    >>> pair = ml.gear_pair(teeth=(17, 26), normal_module_mm=4.2333, pressure_angle_deg=22.5, face_width_mm=14.0)
+    >>> ground = ml.surface(m0_um2=0.137, m2=0.0031, m4_per_um2=0.0021)
+    >>> path = ml.along_path(pair, ml.oil("mineral"), ground, torque_Nm=100, speed_rpm=1500, oil_temperature_C=60)
+    >>> path["friction"].dims, float(path["load_share"].max())
+    (('roll_angle_deg',), 1.0)
+    """
+    import xarray as xr
+
+    conditions = {"torque_Nm": torque_Nm, "speed_rpm": speed_rpm, "oil_temperature_C": oil_temperature_C}
+    study = _study(gears, oil, surfaces, conditions, boundary_friction, options, effects)
+    model = Model(study_chain(study.file.options), tuple(study.plan.inputs), tuple(ALONG_PATH), study.effects)
+    with np.errstate(all="ignore"):
+        state = model(study.plan.inputs, study.plan.parameters)
+    points = study.mesh
+    shape = (points.position.size // points.slices, points.slices)
+    angle = np.degrees(points.roll_angle).reshape(shape)[:, 0]
+    face = 1e3 * points.face_position.reshape(shape)[0]
+    variables = {
+        column: (
+            ("roll_angle_deg", "face_position_mm"),
+            np.broadcast_to(state[name], (1, 1, 1, 1, points.position.size)).reshape(shape) * factor,
+            {"long_name": GLOSSARY[name].meaning},
+        )
+        for name, (column, factor) in ALONG_PATH.items()
+    }
+    found = xr.Dataset(variables, {"roll_angle_deg": angle, "face_position_mm": face}, conditions)
+    return found.isel(face_position_mm=0, drop=True) if points.slices == 1 else found
+
+
+def _study(
+    gears: Gears,
+    oil: Lubricant,
+    surfaces: Surfaces,
+    conditions: Mapping[str, ArrayLike],
+    boundary_friction: float,
+    options: Mapping[str, Any] | None,
+    effects: Mapping[str, Mapping[str, float]] | None,
+) -> Study:
+    """A study of one pairing; traces are read from the current folder."""
+    pinion, gear = (surfaces, surfaces) if isinstance(surfaces, SurfaceSection) else surfaces
+    file = {
+        "schema": "mixedlub-study/1",
+        "boundary_friction": boundary_friction,
+        "gears": gears,
+        "lubricant": oil,
+        "surfaces": {"pinion": pinion, "gear": gear},
+        "pairings": {"pinion": ["pinion"], "gear": ["gear"]},
+        "conditions": {name: np.atleast_1d(np.asarray(values)).tolist() for name, values in conditions.items()},
+        "options": dict(options or {}),
+        "effects": {name: dict(values) for name, values in (effects or {}).items()},
+    }
+    return read_study(Path("power_loss"), parse(StudyFile, file, "power_loss"))
