@@ -13,7 +13,7 @@ import numpy as np
 from mixedlub.gear import ROUNDED
 from mixedlub.kinds import Kind, kind
 from mixedlub.schema import system_file
-from mixedlub.schema.table import BOOKKEEPING, RUN, CaseWarning, Column, Table, read_table
+from mixedlub.schema.table import BOOKKEEPING, RUN, CaseWarning, Column, Table, check_column, read_table, sd_column
 from profiles.errors import InputError, nearest
 
 SHOWN = 5
@@ -174,11 +174,9 @@ def _rounded(column: Column, low: float, high: float) -> Column:
 def _measured(found: Kind, system: system_file.System, required: bool) -> tuple[Column, ...]:
     """The recorded quantity, its standard deviation, and the check channel."""
     quantity = system.recording.quantity
-    reading = Column(quantity, above=0.0 if found.logarithmic else -np.inf, required=required)
-    columns = [reading, Column(f"{quantity}_sd", at_least=0.0, required=False, blank=True)]
-    if system.recording.check is not None:
-        columns.append(Column(system.recording.check, required=False, blank=True))
-    return tuple(columns)
+    (reading,) = (replace(column, required=required) for column in found.readings if column.name == quantity)
+    check = system.recording.check
+    return (reading, sd_column(quantity), *([] if check is None else [check_column(check)]))
 
 
 __all__ = ["Case", "CaseWarning", "hidden", "noted", "read_case", "read_conditions", "refuse_used_runs"]

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from mixedlub.schema.units import dimension
+
 
 @dataclass(frozen=True)
 class Quantity:
@@ -21,37 +23,6 @@ class Quantity:
     def dimension(self) -> tuple[int, int, int, int]:
         """Powers of kilogram, metre, second and kelvin."""
         return dimension(self.unit)
-
-
-_BASE = {
-    "kg": (1, 0, 0, 0),
-    "m": (0, 1, 0, 0),
-    "s": (0, 0, 1, 0),
-    "K": (0, 0, 0, 1),
-    "N": (1, 1, -2, 0),
-    "Pa": (1, -1, -2, 0),
-    "J": (1, 2, -2, 0),
-    "W": (1, 2, -3, 0),
-    "rad": (0, 0, 0, 0),
-    "-": (0, 0, 0, 0),
-    "1": (0, 0, 0, 0),
-}
-
-
-def dimension(unit: str) -> tuple[int, int, int, int]:
-    """Powers of kilogram, metre, second and kelvin of a unit such as ``W/(m K)``.
-
-    >>> dimension("Pa s"), dimension("1/m^2"), dimension("W/(m K)")
-    ((1, -1, -1, 0), (0, -2, 0, 0), (1, 1, -3, -1))
-    """
-    over, _, under = unit.partition("/")
-    powers = [0, 0, 0, 0]
-    for side, sign in ((over, 1), (under.strip("()"), -1)):
-        for word in side.split():
-            base, _, power = word.partition("^")
-            for i, p in enumerate(_BASE[base]):
-                powers[i] += sign * p * int(power or 1)
-    return (powers[0], powers[1], powers[2], powers[3])
 
 
 _TABLE = """

@@ -9,10 +9,11 @@ from collections.abc import Iterable, Sequence
 from mixedlub.importers.dates import is_dated
 from mixedlub.importers.pace import TIME, counted
 from mixedlub.importers.sheet import Cells, are_numbers
+from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, WEIGHED, target_of
 from mixedlub.kinds import friction_map
 from mixedlub.kinds import kind as kind_of
 from mixedlub.schema.system_file import KINDS
-from mixedlub.schema.units import BY_NAME, TEXT_COLUMNS, WEIGHED, fits, is_unit, split, target_of, words_of
+from mixedlub.schema.units import fits, is_unit, split, words_of
 
 ENOUGH = 0.4
 """Likeness from which a header is offered; a unit that fits, or names in the cells, make up for other words."""

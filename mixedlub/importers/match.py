@@ -14,25 +14,11 @@ from mixedlub.importers.kinematics import MADE, other_surface
 from mixedlub.importers.likely import either, is_logarithm, likely_headers, likely_spread, likeness
 from mixedlub.importers.sheet import Cells, are_numbers
 from mixedlub.importers.spare import spare_headers, spare_notes, spare_questions
+from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, WEIGHED, Target, is_of_another, target_of, unknown_unit
 from mixedlub.importers.write import toml_value
 from mixedlub.kinds import Kind
-from mixedlub.schema.table import BOOKKEEPING, Column, is_missing
-from mixedlub.schema.units import (
-    BY_NAME,
-    TEXT_COLUMNS,
-    WEIGHED,
-    Target,
-    change_to,
-    fits,
-    is_of_another,
-    open_units,
-    split,
-    target_of,
-    tidy,
-    units_of,
-    unknown_unit,
-    words_of,
-)
+from mixedlub.schema.table import BOOKKEEPING, Column, check_column, is_missing, sd_column
+from mixedlub.schema.units import change_to, fits, open_units, split, tidy, units_of, words_of
 from profiles.errors import InputError, nearest
 
 COLUMNS = "import.columns."
@@ -72,9 +58,9 @@ def wanted(kind: Kind, quantity: str, answers: Answers) -> tuple[Column, ...]:
         *kind.columns,
         *kind.channels,
         Column(quantity),
-        Column(f"{quantity}_sd", at_least=0.0, required=False, blank=True),
+        sd_column(quantity),
         *BOOKKEEPING,
-        *([Column(str(check), required=False, blank=True)] if check else []),
+        *([check_column(str(check))] if check else []),
     )
 
 

@@ -11,7 +11,8 @@ import numpy as np
 
 from mixedlub.importers.draft import Answers, Question
 from mixedlub.importers.sheet import COUNTED, Cells, are_numbers
-from mixedlub.schema.units import BY_NAME, Target, change_to, fits, rounded, split, words_of
+from mixedlub.importers.vocabulary import BY_NAME, Target
+from mixedlub.schema.units import change_to, fits, rounded, split, words_of
 from profiles.errors import InputError
 
 TIME = "time_s"

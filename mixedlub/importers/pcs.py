@@ -13,8 +13,9 @@ from mixedlub.importers.match import COLUMNS, target_for
 from mixedlub.importers.sheet import not_above_zero
 from mixedlub.importers.spare import spare_notes, spare_questions
 from mixedlub.importers.steps import STEP, Step, steps_of, without_gaps
+from mixedlub.importers.vocabulary import BY_NAME, convert
 from mixedlub.kinds import kind as kind_of
-from mixedlub.schema.units import BY_NAME, convert, rounded, split
+from mixedlub.schema.units import rounded, split
 from profiles.errors import InputError, nearest
 
 SAID = re.compile(r"^Number of steps (completed|in profile):\t(\d+)", re.MULTILINE)

@@ -10,8 +10,9 @@ from datetime import datetime
 import numpy as np
 
 from mixedlub.importers.sheet import count, is_number, places
+from mixedlub.importers.vocabulary import BY_NAME, convert, target_of
 from mixedlub.schema.table import is_missing
-from mixedlub.schema.units import BY_NAME, convert, rounded, split, target_of
+from mixedlub.schema.units import rounded, split
 from profiles.errors import InputError
 
 STEP = re.compile(r'^Step (\d+)(?: "[^"]*")? started at (\d\d/\d\d/\d{4} \d\d:\d\d(?::\d\d)?)')

@@ -6,8 +6,9 @@ import numpy as np
 
 from mixedlub.importers.draft import WARNING, Answers, Draft, kind_told, questions_of, refuse_unknown
 from mixedlub.importers.sheet import count, places
+from mixedlub.importers.vocabulary import BY_NAME, convert, target_of
 from mixedlub.schema.table import Column
-from mixedlub.schema.units import BY_NAME, convert, rounded, target_of
+from mixedlub.schema.units import rounded
 from profiles.errors import InputError
 
 WANTED = ("temperature_C", "viscosity_mPa_s", "time_s")

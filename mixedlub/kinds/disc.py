@@ -8,7 +8,7 @@ import numpy as np
 
 from mixedlub.chain.base_models import LINE, POINT
 from mixedlub.chain.model import Chain
-from mixedlub.kinds import oil_priors
+from mixedlub.kinds import columns, oil_priors
 from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, inverse_load
 from mixedlub.kinds.surfaces import pair_of_surfaces
@@ -17,16 +17,11 @@ from mixedlub.laws.contact import reduced_modulus
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig import build
 from mixedlub.schema import system_file
-from mixedlub.schema.table import Column, Table
+from mixedlub.schema.table import Table
 from profiles.errors import InputError
 
-COLUMNS = (
-    Column("load_N", above=0.0),
-    Column("entrainment_speed_m_s", above=0.0),
-    Column("slide_roll_ratio", at_least=-200.0, at_most=200.0),
-    Column("oil_temperature_C", at_least=-60.0, at_most=300.0),
-)
-SURFACES = (Column("surface_1", "name"), Column("surface_2", "name"))
+COLUMNS = (columns.LOAD, columns.ENTRAINMENT_SPEED, columns.SLIDE_ROLL_RATIO, columns.OIL_TEMPERATURE)
+SURFACES = (columns.surface("surface_1"), columns.surface("surface_2"))
 
 
 def reading(tangential_friction: np.ndarray) -> np.ndarray:
@@ -99,7 +94,7 @@ def chain(system: system_file.System, table: Table) -> Chain:
 
 KIND = Kind(
     name="disc",
-    quantities=("friction_coefficient",),
+    readings=(columns.FRICTION,),
     columns=(*COLUMNS, *SURFACES),
     sections=("contact", "lubricant", "surfaces"),
     chain=chain,

@@ -10,7 +10,7 @@ import numpy as np
 from mixedlub.chain.effect import Parameter
 from mixedlub.chain.model import Chain
 from mixedlub.chain.priors import LogNormal, Normal
-from mixedlub.kinds import oil_priors
+from mixedlub.kinds import columns, oil_priors
 from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.disc import COLUMNS, contact_inputs
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, programme, varies
@@ -33,8 +33,18 @@ EXPONENT_SPREAD, LINE_EXPONENT_SPREAD, LINE_LOAD_SPREAD = 0.015, 0.03, 0.3
 KNOWN_OIL, UNNAMED_OIL = 0.5, 1.0
 """How far the film of a ball may be on its way from the regression to the formula for all regimes."""
 
-TIME = Column("time_s", required=False)
-FRINGE_ORDER = Column("fringe_order", at_least=0.0, required=False)
+FRINGE_ORDER = Column(
+    "fringe_order",
+    at_least=0.0,
+    required=False,
+    meaning="interference order that the instrument counted",
+    words=("order", "fringe order"),
+)
+FILM_THICKNESS = Column(
+    "film_thickness_nm",
+    meaning="central film thickness",
+    words=("average film", "film thickness", "film", "central film thickness"),
+)
 
 
 def reading(film_thickness: np.ndarray) -> np.ndarray:
@@ -175,10 +185,11 @@ def reading_fault(recorded: Table, row: int, excess: float, sd: float) -> str | 
 
 KIND = Kind(
     name="film",
-    quantities=("film_thickness_nm",),
-    columns=(*COLUMNS, TIME),
+    readings=(FILM_THICKNESS,),
+    columns=(*COLUMNS, columns.TIME),
     channels=(FRINGE_ORDER,),
     sections=("contact",),
+    uses=("lubricant",),
     chain=chain,
     inputs=inputs,
     extra_calibration=extra_calibration,

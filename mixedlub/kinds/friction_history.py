@@ -11,15 +11,15 @@ import numpy as np
 from mixedlub.chain.effect import Parameter
 from mixedlub.chain.model import Chain
 from mixedlub.chain.priors import LogNormal
-from mixedlub.kinds import disc, oil_priors
+from mixedlub.kinds import columns, disc, oil_priors
 from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, inverse_load, programme
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.schema import system_file
-from mixedlub.schema.table import CaseWarning, Column, Table
+from mixedlub.schema.table import CaseWarning, Table
 
 COLUMNS = (
-    Column("time_s"),
+    replace(columns.TIME, required=True),
     *(replace(c, required=False) for c in (*disc.COLUMNS, *disc.SURFACES)),
 )
 NEEDED = tuple(c.name for c in (*disc.COLUMNS, *disc.SURFACES))
@@ -122,9 +122,10 @@ def chain(system: system_file.System, table: Table) -> Chain:
 
 KIND = Kind(
     name="friction_history",
-    quantities=("friction_coefficient",),
+    readings=(columns.FRICTION,),
     columns=COLUMNS,
     sections=(),
+    uses=("contact", "lubricant", "surfaces"),
     chain=chain,
     inputs=inputs,
     extra_calibration=extra_calibration,

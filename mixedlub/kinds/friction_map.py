@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ import numpy as np
 from mixedlub.chain.effect import Parameter
 from mixedlub.chain.model import Chain
 from mixedlub.chain.priors import BetweenLog, LogNormal, Normal
+from mixedlub.kinds import columns
 from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out, inverse_load, programme
 from mixedlub.laws import drive
@@ -22,15 +24,59 @@ from profiles.errors import InputError
 
 SPEEDS = ("speed_rpm", "sliding_speed_m_s")
 LOADS = ("load_N", "torque_Nm")
+
+
+def _of_drive(column: Column, meaning: str) -> Column:
+    """A column of a drive, which may run either way and idle."""
+    return replace(column, above=-np.inf, required=False, meaning=meaning)
+
+
 COLUMNS = (
-    *(Column(name, required=False) for name in SPEEDS),
-    *(Column(name, required=False) for name in LOADS),
-    Column("oil_temperature_C", at_least=-100.0, at_most=400.0, required=False),
-    Column("additive_percent", at_least=0.0, at_most=100.0, required=False),
-    Column("position_deg", required=False),
-    Column("time_s", required=False),
+    _of_drive(columns.SPEED, "signed speed of the drive; this or sliding_speed_m_s"),
+    Column(
+        "sliding_speed_m_s",
+        required=False,
+        meaning="signed sliding speed; this or speed_rpm",
+        words=("sliding speed",),
+    ),
+    _of_drive(columns.LOAD, "load on the drive"),
+    _of_drive(columns.TORQUE, "torque that loads the drive"),
+    replace(
+        columns.OIL_TEMPERATURE,
+        at_least=-100.0,
+        at_most=400.0,
+        required=False,
+        meaning="temperature of oil or grease",
+    ),
+    Column(
+        "additive_percent",
+        at_least=0.0,
+        at_most=100.0,
+        required=False,
+        meaning="content of an additive",
+        words=("additive", "additive content", "additive concentration"),
+    ),
+    Column(
+        "position_deg",
+        required=False,
+        meaning="angle the drive has turned",
+        words=("position", "angle", "shaft angle"),
+    ),
+    columns.TIME,
 )
-MOTOR_TORQUE = Column("motor_torque_Nm", required=False)
+FRICTION_TORQUE = Column(
+    "friction_torque_Nm",
+    meaning="friction torque of the drive",
+    words=("friction torque", "torque loss", "loss torque", "drag torque", "frictional torque"),
+    hints=("loss", "drag"),
+)
+FRICTION = replace(columns.FRICTION, meaning="friction over load, signed with the speed")
+MOTOR_TORQUE = Column(
+    "motor_torque_Nm",
+    required=False,
+    meaning="torque that the controller computes from the motor current",
+    words=("motor torque",),
+)
 """No condition of the test: friction is what it has above the torque at the shaft."""
 LARGE, LEAST_SHARE = 0.95, 0.3
 BEYOND = 2.5
@@ -239,7 +285,7 @@ def chain(system: system_file.System, table: Table) -> Chain:
 
 KIND = Kind(
     name="friction_map",
-    quantities=("friction_torque_Nm", "friction_coefficient"),
+    readings=(FRICTION_TORQUE, FRICTION),
     columns=COLUMNS,
     sections=(),
     chain=chain,

@@ -9,6 +9,7 @@ import numpy as np
 
 from mixedlub.chain.base_models import GEAR_LOSS
 from mixedlub.gear import Mesh, mesh
+from mixedlub.kinds import columns
 from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws.oil import ZERO_CELSIUS
@@ -19,12 +20,13 @@ from mixedlub.schema.table import CaseWarning, Column, Table
 PATH_POINTS = 24
 
 CONDITIONS = (
-    Column("torque_Nm", above=0.0),
-    Column("speed_rpm", above=0.0),
-    Column("oil_temperature_C", at_least=-60.0, at_most=300.0),
-    Column("pinion_surface", "name"),
-    Column("gear_surface", "name"),
+    columns.TORQUE,
+    columns.SPEED,
+    columns.OIL_TEMPERATURE,
+    columns.surface("pinion_surface"),
+    columns.surface("gear_surface"),
 )
+POWER_LOSS = Column("power_loss_W", meaning="power lost", words=("power loss", "loss"))
 
 
 def reading(power_loss: np.ndarray) -> np.ndarray:
@@ -118,7 +120,7 @@ def inputs(system: system_file.System, folder: Path, table: Table, recorded: Tab
 
 KIND = Kind(
     name="gear_pair",
-    quantities=("power_loss_W",),
+    readings=(POWER_LOSS,),
     columns=CONDITIONS,
     sections=("gears", "lubricant", "surfaces"),
     chain=lambda system, table: (*GEAR_LOSS, ("reading", reading)),

@@ -25,6 +25,9 @@ UNSIGNED = ("power_loss_W", "friction_coefficient", "film_thickness_nm")
 class Kind:
     """Columns of a row, sections of the system it needs, the chain that predicts its reading.
 
+    ``readings`` are the columns of which a recording holds one; ``uses`` are sections that the kind computes with
+    where they are given, beyond those that it needs.
+
     ``inputs(system, folder, table, recorded)`` gives the chain's inputs as arrays of shape (rows, points),
     one of the two of length one where a quantity does not depend on it; the chain ends in ``reading``,
     shape (rows, 1), in SI. ``recorded`` is the recording of the case, from which typical sizes (the largest
@@ -41,7 +44,7 @@ class Kind:
     """
 
     name: str
-    quantities: tuple[str, ...]
+    readings: tuple[Column, ...]
     columns: tuple[Column, ...]
     sections: tuple[str, ...]
     chain: Callable[[system_file.System, Table], Chain]
@@ -54,6 +57,12 @@ class Kind:
     completed: Callable[[Table, Table], Table] = lambda table, recorded: table
     limits: Callable[[system_file.System], Mapping[str, tuple[float, float]]] = lambda system: {}
     nominal: Mapping[str, str] = field(default_factory=dict)
+    uses: tuple[str, ...] = ()
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """Names of the columns, one of which a recording holds as its reading."""
+        return tuple(column.name for column in self.readings)
 
     def is_unsigned(self, quantity: str) -> bool:
         """Whether readings are positive but for their noise; friction maps carry a sign."""

@@ -8,6 +8,7 @@ import numpy as np
 
 from mixedlub.chain.base_models import GEAR_CONTACT
 from mixedlub.gear import GearPair, Mesh, Sharing, at_roll_angle
+from mixedlub.kinds import columns
 from mixedlub.kinds.gear_pair import CONDITIONS, motion_inputs
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, inverse_of
 from mixedlub.kinds.surfaces import pair_of_surfaces
@@ -16,6 +17,7 @@ from mixedlub.rig import build
 from mixedlub.schema import system_file
 from mixedlub.schema.table import Column, Table
 
+ROLL_ANGLE = Column("roll_angle_deg", meaning="roll angle of the contact on the pinion", words=("roll angle",))
 LEAST_SHARE = 0.05
 """Of a tooth pair's load, where it comes into mesh: a force over less is no friction coefficient."""
 
@@ -77,8 +79,8 @@ def limits(system: system_file.System) -> dict[str, tuple[float, float]]:
 
 KIND = Kind(
     name="mesh_friction",
-    quantities=("friction_coefficient",),
-    columns=(*CONDITIONS, Column("roll_angle_deg")),
+    readings=(columns.FRICTION,),
+    columns=(*CONDITIONS, ROLL_ANGLE),
     sections=("gears", "lubricant", "surfaces"),
     chain=lambda system, table: (*GEAR_CONTACT, ("reading", reading)),
     inputs=inputs,

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from mixedlub.chain.model import Chain
-from mixedlub.kinds import oil_priors
+from mixedlub.kinds import columns, oil_priors
 from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, programme
 from mixedlub.laws import oil
@@ -22,10 +22,24 @@ UNREAD = ("eyring_stress_MPa", "thermal_conductivity_W_mK", "specific_heat_J_kgK
 """Properties of an oil that its viscosity does not hang on."""
 
 COLUMNS = (
-    Column("temperature_C", at_least=-100.0, at_most=400.0),
-    Column("pressure_MPa", at_least=0.0, at_most=5000.0, required=False),
-    Column("time_s", required=False),
+    Column(
+        "temperature_C",
+        at_least=-100.0,
+        at_most=400.0,
+        meaning="temperature of the sample",
+        words=("temperature", "temp"),
+    ),
+    Column(
+        "pressure_MPa",
+        at_least=0.0,
+        at_most=5000.0,
+        required=False,
+        meaning="pressure on the sample; ambient where there is no such column",
+        words=("pressure",),
+    ),
+    columns.TIME,
 )
+VISCOSITY = Column("viscosity_mPa_s", above=0.0, meaning="dynamic viscosity", words=("viscosity", "dynamic viscosity"))
 
 
 def reading(contact_viscosity: np.ndarray) -> np.ndarray:
@@ -98,9 +112,10 @@ def chain(system: system_file.System, table: Table) -> Chain:
 
 KIND = Kind(
     name="viscosity",
-    quantities=("viscosity_mPa_s",),
+    readings=(VISCOSITY,),
     columns=COLUMNS,
     sections=(),
+    uses=("lubricant",),
     chain=chain,
     inputs=inputs,
     extra_calibration=extra_calibration,

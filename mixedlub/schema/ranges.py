@@ -13,27 +13,7 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel
 
-from mixedlub.schema.units import UNITS, unit_of, without_unit
-
-OTHER_UNITS: Mapping[str, Mapping[str, tuple[float, float]]] = {
-    **{ending: UNITS[ending] for ending in ("C", "deg", "m_s", "nm")},
-    "mPa_s": {"uPa s": (1e-3, 0.0)},
-    "": {"%": (0.01, 0.0)},
-    "MPa": {unit: UNITS["MPa"][unit] for unit in ("Pa", "kPa", "GPa")},
-    "GPa": {"Pa": (1e-9, 0.0), "MPa": (1e-3, 0.0), "TPa": (1e3, 0.0)},
-    "per_GPa": {"1/Pa": (1e9, 0.0), "1/MPa": (1e3, 0.0)},
-    "mm2_s": {"m2/s": (1e6, 0.0), "cm2/s": (1e2, 0.0)},
-    "mm": {"m": (1e3, 0.0), "um": (1e-3, 0.0)},
-    "um": {"m": (1e6, 0.0), "mm": (1e3, 0.0), "nm": (1e-3, 0.0)},
-    "um2": {"m2": (1e12, 0.0), "mm2": (1e6, 0.0), "nm2": (1e-6, 0.0)},
-    "per_um2": {"1/m2": (1e-12, 0.0), "1/mm2": (1e-6, 0.0), "1/nm2": (1e6, 0.0)},
-    "kg_m3": {"g/cm3": (1e3, 0.0)},
-    "per_K": {"%/K": (0.01, 0.0)},
-    "W_mK": {"mW/(m K)": (1e-3, 0.0)},
-    "J_kgK": {"kJ/(kg K)": (1e3, 0.0)},
-}
-"""By the ending of a name: other units that numbers are met in; factor to its own unit and what is added."""
-
+from mixedlub.schema.units import SLIPS, read_as, unit_of
 
 NO_SHARES = ("poisson_ratio", "sequence")
 """Numbers without a unit that nobody gives in percent."""
@@ -89,11 +69,12 @@ def meant(name: str, value: object, low: float, high: float) -> str:
     """
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not np.isfinite(value) or name in NO_SHARES:
         return ""
-    ending = name.removeprefix(without_unit(name)).removeprefix("_")
-    for unit, (factor, added) in OTHER_UNITS.get(ending, {}).items():
-        inside = low <= value * factor + added <= high
-        if inside and (factor, added) != (1.0, 0.0):
-            return f"{value:.6g} {unit} would be {value * factor + added:.4g} {unit_of(name)}".rstrip() + ASKED
+    for unit, (factor, added) in SLIPS.get(read_as(name), {}).items():
+        if low <= value * factor + added <= high:
+            return (
+                f"{value:.6g} {unit.replace('.', ' ')} would be {value * factor + added:.4g} {unit_of(name)}".rstrip()
+                + ASKED
+            )
     return ""
 
 

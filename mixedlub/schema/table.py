@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from mixedlub.schema.ranges import meant
-from mixedlub.schema.units import fits, split, target_of, unit_of
+from mixedlub.schema.units import fits, read_as, split, unit_of, words_of
 from profiles.errors import InputError, nearest
 
 
@@ -25,7 +25,8 @@ class CaseWarning(UserWarning):
 class Column:
     """What a column holds: a number within bounds, a whole number, or a name (one of ``names`` if there are any).
 
-    Where a number may be ``blank`` an empty cell is nan.
+    Where a number may be ``blank`` an empty cell is nan. ``words`` are those under which instruments write it, and
+    ``hints`` others that may mean it.
     """
 
     name: str
@@ -36,6 +37,9 @@ class Column:
     required: bool = True
     names: tuple[str, ...] = ()
     blank: bool = False
+    meaning: str = ""
+    words: tuple[str, ...] = ()
+    hints: tuple[str, ...] = ()
 
     def allows(self, value: float) -> bool:
         """Whether a number lies within the bounds."""
@@ -77,12 +81,29 @@ LARGEST = 2**53
 PRINTED_MINUS = re.compile(r"(?:(?<=\d[eE])|(?<![\w)]))\u2212(?=[\d.,])")
 BLANK = ("", "-", "--", "---", "\u2013", "\u2014", "nan", "na", "n/a", "n.a.", "#n/a", "#nv", "null", "none")
 """What an empty cell of a table may read, in small letters."""
-RUN = Column("run", "whole")
+RUN = Column("run", "whole", meaning="number of the reading, each once")
 BOOKKEEPING = (
-    Column("rig", "name", required=False),
-    Column("sequence", at_least=0.0, at_most=1.0, required=False),
-    Column("setup", "name", required=False),
+    Column("rig", "name", required=False, meaning="which rig or part of it; all share the calibration"),
+    Column(
+        "sequence",
+        at_least=0.0,
+        at_most=1.0,
+        required=False,
+        meaning="place in the test programme, 0 at its start and 1 at its end",
+    ),
+    Column("setup", "name", required=False, meaning="assembly or campaign; readings of one set-up share an error"),
 )
+
+
+def sd_column(quantity: str) -> Column:
+    """The standard deviations of the readings."""
+    meaning = "standard deviation of each reading; 0 or empty: not given; it overrides recording.noise"
+    return Column(f"{quantity}_sd", at_least=0.0, required=False, blank=True, meaning=meaning)
+
+
+def check_column(name: str) -> Column:
+    """A second channel."""
+    return Column(name, required=False, blank=True, meaning="the column that recording.check names: never fitted")
 
 
 @dataclass(frozen=True)
@@ -222,8 +243,8 @@ def _with_nearest(name: str, absent: list[Column]) -> str:
 def _other_unit(column: Column, unknown: list[str]) -> str | None:
     """The header that is the column in another unit, one that the import converts."""
     for name in unknown:
-        unit, target = split(name)[1], target_of(name)
-        if target is not None and target.name == column.name and unit and fits(unit, target.unit):
+        unit = split(name)[1]
+        if unit and words_of(name) in (split(column.name)[0], *column.words) and fits(unit, read_as(column.name)):
             return name
     return None
 

@@ -1,134 +1,190 @@
-"""Names with units: what the ending of a name stands for, and which column of a case a header means."""
+"""The one table of units: what the ending of a name stands for, the units that are read for it, and conversions."""
 
 from __future__ import annotations
 
+import math
 import re
-from dataclasses import dataclass
+from collections.abc import Mapping
+from fractions import Fraction
+from functools import cache
 
 import numpy as np
 
-from profiles.errors import InputError
+from profiles.units import METRES
 
-UNITS: dict[str, dict[str, tuple[float, float]]] = {
-    "m_s": {"m/s": (1.0, 0.0), "mm/s": (1e-3, 0.0), "um/s": (1e-6, 0.0)},
-    "N": {
-        "N": (1.0, 0.0),
-        "uN": (1e-6, 0.0),
-        "mN": (1e-3, 0.0),
-        "kN": (1e3, 0.0),
-        "lbf": (4.4482216152605, 0.0),
-        **dict.fromkeys(("gf", "g"), (9.80665e-3, 0.0)),
-        **dict.fromkeys(("kgf", "kg"), (9.80665, 0.0)),
-    },
-    "C": {
-        "degC": (1.0, 0.0),
-        "C": (1.0, 0.0),
-        "K": (1.0, -273.15),
-        "degF": (5.0 / 9.0, -160.0 / 9.0),
-        "F": (5.0 / 9.0, -160.0 / 9.0),
-    },
-    "rpm": {
-        **dict.fromkeys(("rpm", "1/min", "r/min", "U/min", "rev/min"), (1.0, 0.0)),
-        "rad/s": (30.0 / np.pi, 0.0),
-        "deg/s": (1.0 / 6.0, 0.0),
-        **dict.fromkeys(("rev/s", "rps", "U/s"), (60.0, 0.0)),
-    },
-    "Nm": {
-        "N.m": (1.0, 0.0),
-        "mN.m": (1e-3, 0.0),
-        "N.mm": (1e-3, 0.0),
-        "N.cm": (1e-2, 0.0),
-        "kN.m": (1e3, 0.0),
-        **dict.fromkeys(("lbf.ft", "lb.ft", "ft.lbf", "ft.lb"), (1.3558179483314004, 0.0)),
-        **dict.fromkeys(("lbf.in", "lb.in", "in.lbf", "in.lb"), (0.1129848290276167, 0.0)),
-    },
-    "nm": {"nm": (1.0, 0.0), "um": (1e3, 0.0)},
-    "mPa_s": {"mPa.s": (1.0, 0.0), "cP": (1.0, 0.0), "Pa.s": (1e3, 0.0)},
-    "MPa": {
-        "MPa": (1.0, 0.0),
-        "Pa": (1e-6, 0.0),
-        "kPa": (1e-3, 0.0),
-        "GPa": (1e3, 0.0),
-        "bar": (0.1, 0.0),
-        "atm": (0.101325, 0.0),
-        "psi": (6.894757293168361e-3, 0.0),
-    },
-    "s": {"s": (1.0, 0.0), "min": (60.0, 0.0), "h": (3600.0, 0.0)},
-    "m": {"m": (1.0, 0.0), "mm": (1e-3, 0.0), "km": (1e3, 0.0)},
-    "cycle": {"cycle": (1.0, 0.0), "cycles": (1.0, 0.0)},
-    "W": {"W": (1.0, 0.0), "kW": (1e3, 0.0)},
-    "deg": {"deg": (1.0, 0.0), "rad": (180.0 / np.pi, 0.0)},
-    "ratio": {"-": (1.0, 0.0), "1": (1.0, 0.0), "%": (0.01, 0.0)},
-    "percent": {"%": (1.0, 0.0), "-": (100.0, 0.0), "1": (100.0, 0.0)},
+Powers = tuple[int, int, int, int]
+"""Powers of kilogram, metre, second and kelvin."""
+
+BASES: Mapping[str, Powers] = {
+    **{"kg": (1, 0, 0, 0), "m": (0, 1, 0, 0), "s": (0, 0, 1, 0), "K": (0, 0, 0, 1)},
+    **dict.fromkeys(("1", "-", "rad", "cycle"), (0, 0, 0, 0)),
 }
-"""What each unit of a case's columns may be given in, and of what is counted for time: factor and what is added."""
+NAMED: Mapping[str, tuple[str | int | Fraction, str]] = {
+    **{name: (str(size), "m") for name, size in METRES.items() if name != "m"},
+    "ft": (12, "in"),
+    "min": (60, "s"),
+    "h": (3600, "s"),
+    "g": ("1e-3", "kg"),
+    "N": (1, "kg.m/s2"),
+    "gf": ("9.80665e-3", "N"),
+    "kgf": ("9.80665", "N"),
+    "lbf": ("4.4482216152605", "N"),
+    "J": (1, "N.m"),
+    "W": (1, "J/s"),
+    "Pa": (1, "N/m2"),
+    "P": ("0.1", "Pa.s"),
+    "bar": ("1e5", "Pa"),
+    "atm": (101325, "Pa"),
+    "psi": (1, "lbf/in2"),
+    "deg": (Fraction(math.pi) / 180, "rad"),
+    "rev": (360, "deg"),
+    "rpm": (1, "rev/min"),
+    "%": ("0.01", "1"),
+    "degC": (1, "K"),
+    "degF": ("5/9", "K"),
+}
+"""Units by others, as exact numbers: conversions are rounded once."""
+PREFIXES = {"T": 12, "G": 9, "M": 6, "k": 3, "c": -2, "m": -3, "u": -6, "n": -9}
+ZEROS = {"degC": Fraction("273.15"), "degF": Fraction("459.67") * Fraction(5, 9)}
+"""Zero points of scales of temperature (K)."""
+
+_TABLE = """
+# ending | shown    | units that a column is read in, a spelling = the unit it is | units that a slip is recognised in
+m_s      | m/s      | m/s, mm/s, um/s                                             | mm/s, um/s
+N        | N        | N, uN, mN, kN, lbf, gf, g=gf, kgf, kg=kgf
+C        | °C       | degC, C=degC, K, degF, F=degF                               | K, degF
+rpm      | rpm      | rpm, 1/min=rpm, r/min=rpm, U/min=rpm, rev/min, rad/s, deg/s, rev/s, rps=rev/s, U/s=rev/s
+Nm       | N m      | N.m, mN.m, N.mm, N.cm, kN.m, lbf.ft, lb.ft=lbf.ft, ft.lbf, ft.lb=lbf.ft, lbf.in, lb.in=lbf.in, \
+in.lbf, in.lb=lbf.in
+nm       | nm       | nm, um                                                      | um
+mPa_s    | mPa s    | mPa.s, cP, Pa.s                                             | uPa.s
+MPa      | MPa      | MPa, Pa, kPa, GPa, bar, atm, psi                            | Pa, kPa, GPa
+s        | s        | s, min, h
+m        | m        | m, mm, km
+cycle    |          | cycle, cycles=cycle
+W        | W        | W, kW
+deg      | °        | deg, rad                                                    | rad
+ratio    |          | -, 1, %                                                     | %
+percent  | %        | %, -, 1
+GPa      | GPa      |                                                             | Pa, MPa, TPa
+per_GPa  | 1/GPa    |                                                             | 1/Pa, 1/MPa
+mm2_s    | mm²/s    |                                                             | m2/s, cm2/s
+mm       | mm       |                                                             | m, um
+um       | µm       |                                                             | m, mm, nm
+um2      | µm²      |                                                             | m2, mm2, nm2
+per_um2  | 1/µm²    |                                                             | 1/m2, 1/mm2, 1/nm2
+kg_m3    | kg/m³    |                                                             | g/cm3
+per_K    | 1/K      |                                                             | %/K
+W_mK     | W/(m K)  |                                                             | mW/(m.K)
+J_kgK    | J/(kg K) |                                                             | kJ/(kg.K)
+Pa_s     | Pa s
+mm_s     | mm/s
+rad_s    | rad/s
+deg_s    | °/s
+mNm      | mN m
+degC     | °C
+degF     | °F
+F        | °F
+lbft     | lb ft
+ftlb     | ft lb
+"""
+_AS_WRITTEN = ("lbf", "kgf", "kg", "g", "psi", "kPa", "bar", "atm", "kN", "kW", "min", "K", "km", "h")
+"""Endings of headers that are the unit itself."""
 UNSURE: dict[str, dict[str, tuple[str, ...]]] = {"rpm": {"1/s": ("rev/s", "rad/s")}}
 """By the unit of a column: what is written for more than one unit, and those."""
-WEIGHED = {"g": "grams-force of 9.80665 mN", "kg": "kilograms-force of 9.80665 N"}
-"""Units of mass that a load is given in, and what they then are."""
-KINEMATIC = ("mm2/s", "cst", "st", "m2/s", "cm2/s")
-"""Units, in small letters, in which viscosity is divided by density."""
 SIGNS = str.maketrans({**dict.fromkeys("µμ", "u"), **dict.fromkeys("·⋅*", "."), **dict.fromkeys("⁻−", "-")})
 SIGNS |= str.maketrans({"°": "deg", "¹": "1", "²": "2", "³": "3", "^": ""})
 """Signs of units as the table writes them."""
 
 
-ENDINGS = {
-    "per_GPa": "1/GPa",
-    "per_um2": "1/µm²",
-    "per_K": "1/K",
-    "kg_m3": "kg/m³",
-    "mm2_s": "mm²/s",
-    "mPa_s": "mPa s",
-    "Pa_s": "Pa s",
-    "mm_s": "mm/s",
-    "rad_s": "rad/s",
-    "deg_s": "°/s",
-    "m_s": "m/s",
-    "W_mK": "W/(m K)",
-    "J_kgK": "J/(kg K)",
-    "um2": "µm²",
-    "mNm": "mN m",
-    "Nm": "N m",
-    "percent": "%",
-    "degC": "°C",
-    "C": "°C",
-    "degF": "°F",
-    "F": "°F",
-    "lbft": "lb ft",
-    "ftlb": "ft lb",
-    "deg": "°",
-    "um": "µm",
-    **{
-        unit: unit
-        for unit in (
-            "lbf",
-            "kgf",
-            "kg",
-            "g",
-            "psi",
-            "MPa",
-            "GPa",
-            "kPa",
-            "bar",
-            "atm",
-            "nm",
-            "mm",
-            "rpm",
-            "kN",
-            "kW",
-            "min",
-            "K",
-            "N",
-            "W",
-            "km",
-            "m",
-            "s",
-            "h",
-        )
-    },
-}
-"""Ending of a name and the unit it stands for, longer endings before those they end in."""
+@cache
+def measure(unit: str) -> tuple[Fraction, Powers]:
+    """Size of a unit in SI and its powers of kilogram, metre, second and kelvin; KeyError where it is not known.
+
+    >>> measure("mW/(m K)"), measure("1/GPa")
+    ((Fraction(1, 1000), (1, 1, -3, -1)), (Fraction(1, 1000000000), (-1, 1, 2, 0)))
+    """
+    size, powers = Fraction(1), [0, 0, 0, 0]
+    over, _, under = unit.replace("^", "").replace(".", " ").partition("/")
+    for side, sign in ((over, 1), (under.strip("()"), -1)):
+        for word in side.split():
+            name, power = re.fullmatch(r"(1|\D+)(\d*)", word).groups()  # type: ignore[union-attr]
+            one, own = _named(name)
+            size *= one ** (sign * int(power or 1))
+            powers = [p + sign * int(power or 1) * q for p, q in zip(powers, own, strict=True)]
+    return size, (powers[0], powers[1], powers[2], powers[3])
+
+
+def _named(name: str) -> tuple[Fraction, Powers]:
+    if name in BASES:
+        return Fraction(1), BASES[name]
+    if name in NAMED:
+        times, unit = NAMED[name]
+        size, powers = measure(unit)
+        return Fraction(times) * size, powers
+    size, powers = measure(name[1:])
+    return Fraction(10) ** PREFIXES[name[0]] * size, powers
+
+
+def dimension(unit: str) -> Powers:
+    """Powers of kilogram, metre, second and kelvin of a unit such as ``W/(m K)``.
+
+    >>> dimension("Pa s"), dimension("1/m^2"), dimension("W/(m K)")
+    ((1, -1, -1, 0), (0, -2, 0, 0), (1, 1, -3, -1))
+    """
+    return measure(unit)[1]
+
+
+def change(unit: str, wanted: str) -> tuple[float, float]:
+    """Factor and what is added, from one unit to another of the same dimension.
+
+    >>> change("kPa", "MPa"), change("K", "degC"), change("um2", "mm2")
+    ((0.001, 0.0), (1.0, -273.15), (1e-06, 0.0))
+    """
+    (size, powers), (own, others) = measure(unit), measure(wanted)
+    assert powers == others, (unit, wanted)
+    added = (ZEROS.get(unit, Fraction(0)) - ZEROS.get(wanted, Fraction(0))) / own
+    return float(size / own), float(added)
+
+
+def tidy(unit: str) -> str:
+    """A unit as the table writes it.
+
+    >>> tidy("µm"), tidy("°C"), tidy("N·m"), tidy("N m"), tidy("Pa s"), tidy("ft-lb")
+    ('um', 'degC', 'N.m', 'N.m', 'Pa.s', 'ft.lb')
+    >>> tidy("min⁻¹"), tidy("rad s^-1"), tidy("° / s"), tidy("mm².s⁻¹")
+    ('1/min', 'rad/s', 'deg/s', 'mm2/s')
+    """
+    plain = re.sub(r"\s*/\s*", "/", unit.strip().translate(SIGNS))
+    plain = re.sub(r"(?<=[a-z])-(?=[a-z])|\s+", ".", plain)
+    return re.sub(r"(?:(.+)\.)?(s|min|h)-1", lambda found: f"{found[1] or 1}/{found[2]}", plain)
+
+
+Changes = dict[str, tuple[float, float]]
+"""By a unit as it is written: factor to another, and what is added."""
+
+
+def _read() -> tuple[dict[str, str], dict[str, Changes], dict[str, Changes]]:
+    shown: dict[str, str] = {ending: ending for ending in _AS_WRITTEN}
+    read: dict[str, Changes] = {}
+    slips: dict[str, Changes] = {}
+    for row in _TABLE.splitlines():
+        if not row or row.startswith("#"):
+            continue
+        ending, unit, *cells = (cell.strip() for cell in row.split("|"))
+        shown[ending] = unit
+        for table, cell in zip((read, slips), cells):
+            units = (written.partition("=") for written in filter(None, cell.split(", ")))
+            found = {written: change(meant or written, tidy(unit) or "1") for written, _, meant in units}
+            if found:
+                table[ending] = found
+    longest_first = sorted(filter(shown.get, shown), key=len, reverse=True)
+    return {ending: shown[ending] for ending in longest_first}, read, slips
+
+
+ENDINGS, UNITS, SLIPS = _read()
+"""By the ending of a name, longer ones first: the unit as it is shown; units that a column is read in (of a number
+without a unit: ``ratio``); units in which a number out of its range may have been given."""
 
 
 def unit_of(name: str) -> str:
@@ -137,7 +193,7 @@ def unit_of(name: str) -> str:
     >>> unit_of("oil_temperature_C"), unit_of("kinematic_viscosity_mm2_s"), unit_of("m4_per_um2"), unit_of("teeth")
     ('°C', 'mm²/s', '1/µm²', '')
     """
-    return ENDINGS.get(_ending(name), "")
+    return ENDINGS.get(ending_of(name), "")
 
 
 def without_unit(name: str) -> str:
@@ -146,71 +202,17 @@ def without_unit(name: str) -> str:
     >>> without_unit("oil_temperature_C"), without_unit("teeth")
     ('oil_temperature', 'teeth')
     """
-    return name.removesuffix(f"_{_ending(name)}")
+    return name.removesuffix(f"_{ending_of(name)}")
 
 
-def _ending(name: str) -> str:
+def ending_of(name: str) -> str:
+    """The ending of a name that stands for its unit; empty where it has none."""
     return next((ending for ending in ENDINGS if name.endswith(f"_{ending}")), "")
 
 
-@dataclass(frozen=True)
-class Target:
-    """A column of a case, its unit, the headers under which instruments write it, and others that may mean it."""
-
-    name: str
-    unit: str
-    spoken: tuple[str, ...]
-    offered: tuple[str, ...] = ()
-
-
-TARGETS = (
-    Target("load_N", "N", ("load", "ball load", "pin load", "normal load", "normal force"), ("fn", "fz")),
-    Target("entrainment_speed_m_s", "m_s", ("rolling speed", "entrainment speed", "mean speed")),
-    Target("sliding_speed_m_s", "m_s", ("sliding speed",)),
-    Target(
-        "slide_roll_ratio",
-        "ratio",
-        ("srr", "slide roll ratio", "slide to roll ratio", "slide/roll", "slide/roll ratio"),
-    ),
-    Target(
-        "oil_temperature_C", "C", ("oil temperature", "oil temp", "lubricant temperature", "lube temp", "lube rtd temp")
-    ),
-    Target("temperature_C", "C", ("temperature", "temp")),
-    Target("pressure_MPa", "MPa", ("pressure",)),
-    Target("time_s", "s", ("test time", "elapsed time", "timestamp", "time", "step time")),
-    Target("speed_rpm", "rpm", ("speed", "motor speed", "rotational speed")),
-    Target("torque_Nm", "Nm", ("torque", "load torque", "pinion torque")),
-    Target("motor_torque_Nm", "Nm", ("motor torque",)),
-    Target(
-        "friction_torque_Nm",
-        "Nm",
-        ("friction torque", "torque loss", "loss torque", "drag torque", "frictional torque"),
-        ("loss", "drag"),
-    ),
-    Target(
-        "friction_coefficient",
-        "ratio",
-        (
-            "traction coeff",
-            "friction coefficient",
-            "cof",
-            "friction coeff",
-            "traction coefficient",
-            "coefficient of friction",
-            "coeff. of friction",
-            *("mu", "µ", "μ"),
-        ),
-    ),
-    Target("film_thickness_nm", "nm", ("average film", "film thickness", "film", "central film thickness")),
-    Target("viscosity_mPa_s", "mPa_s", ("viscosity", "dynamic viscosity")),
-    Target("power_loss_W", "W", ("power loss", "loss")),
-    Target("roll_angle_deg", "deg", ("roll angle",)),
-    Target("position_deg", "deg", ("position", "angle", "shaft angle")),
-    Target("fringe_order", "ratio", ("order", "fringe order")),
-    Target("additive_percent", "percent", ("additive", "additive content", "additive concentration")),
-)
-BY_NAME = {t.name: t for t in TARGETS}
-TEXT_COLUMNS = ("rig", "setup", "surface_1", "surface_2", "pinion_surface", "gear_surface")
+def read_as(column: str) -> str:
+    """The row of UNITS that the numbers of a column are read by."""
+    return ending_of(column) or "ratio"
 
 
 def split(header: str) -> tuple[str, str | None]:
@@ -232,27 +234,6 @@ def words_of(header: str) -> str:
     ('cof', 'test time', 'friction coeff')
     """
     return re.sub(r"^[a-z]+\.(?=\S)", "", split(header)[0]).rstrip(".")
-
-
-def target_of(header: str) -> Target | None:
-    """The column that a header means, by the words instruments use; an exact column name is itself."""
-    if header.strip() in BY_NAME:
-        return BY_NAME[header.strip()]
-    words = words_of(header)
-    return next((t for t in TARGETS if words in t.spoken), None)
-
-
-def tidy(unit: str) -> str:
-    """A unit as the table writes it.
-
-    >>> tidy("µm"), tidy("°C"), tidy("N·m"), tidy("N m"), tidy("Pa s"), tidy("ft-lb")
-    ('um', 'degC', 'N.m', 'N.m', 'Pa.s', 'ft.lb')
-    >>> tidy("min⁻¹"), tidy("rad s^-1"), tidy("° / s"), tidy("mm².s⁻¹")
-    ('1/min', 'rad/s', 'deg/s', 'mm2/s')
-    """
-    plain = re.sub(r"\s*/\s*", "/", unit.strip().translate(SIGNS))
-    plain = re.sub(r"(?<=[a-z])-(?=[a-z])|\s+", ".", plain)
-    return re.sub(r"(?:(.+)\.)?(s|min|h)-1", lambda found: f"{found[1] or 1}/{found[2]}", plain)
 
 
 def change_to(unit: str, wanted: str) -> tuple[float, float] | None:
@@ -308,44 +289,6 @@ def units_of(wanted: str) -> tuple[str, ...]:
 def is_unit(text: str) -> bool:
     """Whether a text is one of the units that are read."""
     return any(fits(text, wanted) for wanted in UNITS)
-
-
-def is_of_another(unit: str, target: Target) -> bool:
-    """Whether a unit is one of another quantity than a column's; a kinematic viscosity is still one of viscosity.
-
-    >>> is_of_another("mPa s", BY_NAME["friction_coefficient"]), is_of_another("mm2/s", BY_NAME["viscosity_mPa_s"])
-    (True, False)
-    """
-    if tidy(unit).lower() in KINEMATIC:
-        return target.unit != "mPa_s"
-    return is_unit(unit) and not fits(unit, target.unit)
-
-
-def unknown_unit(unit: str, target: Target) -> str:
-    """Why a unit is not taken as that of a column, and what could be."""
-    meant = open_units(unit, target.unit)
-    if meant:
-        return f"as unit of {target.name} leaves open which is meant; say {' or '.join(meant)}"
-    if target.unit == "mPa_s" and tidy(unit).lower() in KINEMATIC:
-        hint = "this is a kinematic viscosity: in mm²/s, times the density in g/cm³, it is in mPa s"
-    else:
-        hint = f"it could be {', '.join(units_of(target.unit))}"
-    return f"unit of {target.name} is not known; {hint}"
-
-
-def convert(values: np.ndarray, unit: str, target: Target, where: str) -> np.ndarray:
-    """Values in the unit of the target's column, free of the last digits that only conversion made.
-
-    >>> convert(np.array([1.5]), "mm/s", BY_NAME["entrainment_speed_m_s"], "file").tolist()
-    [0.0015]
-    >>> 300.1 - 273.15, convert(np.array([300.1]), "K", BY_NAME["temperature_C"], "file").tolist()
-    (26.950000000000045, [26.95])
-    """
-    change = change_to(unit, target.unit)
-    if change is None:
-        raise InputError(unknown_unit(unit, target), where=where, value=unit)
-    factor, added = change
-    return values if change == (1.0, 0.0) else rounded(values * factor + added, abs(added))
 
 
 DIGITS = 15

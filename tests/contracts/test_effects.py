@@ -13,9 +13,10 @@ import pytest
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Model
 from mixedlub.chain.plain_text import plain_equation
-from mixedlub.chain.quantities import GLOSSARY, dimension
+from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.effects import catalogue, known_in
 from mixedlub.report.effect_pages import effects_text, fingerprint, lookalikes
+from mixedlub.schema.units import dimension
 from profiles.errors import InputError
 from tests.contracts.rigs import DISSIPATED, EFFECTS, RIGS, acting, apply, cases, moved, on_rigs, rig, states
 

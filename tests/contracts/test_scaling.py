@@ -15,7 +15,8 @@ import pytest
 import mixedlub.laws
 from mixedlub.chain import base_models
 from mixedlub.chain.effect import Effect
-from mixedlub.chain.quantities import GLOSSARY, dimension
+from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.schema.units import dimension
 from roughness import mccool
 from tests.contracts.rigs import EFFECTS, RIGS, moved, states
 

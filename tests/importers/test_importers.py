@@ -5,8 +5,9 @@ import pytest
 
 from mixedlub.case.folder import read_case
 from mixedlub.importers import import_files
+from mixedlub.importers.vocabulary import convert, target_of
 from mixedlub.importers.wizard import run
-from mixedlub.schema.units import convert, split, target_of
+from mixedlub.schema.units import split
 from profiles.errors import InputError
 
 BALL = {"radius_mm": [9.525, float("inf")], "youngs_modulus_GPa": [207.0, 75.0], "poisson_ratio": [0.3, 0.22]}

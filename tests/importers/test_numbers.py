@@ -5,8 +5,8 @@ import pytest
 
 from mixedlub.case.folder import read_case
 from mixedlub.importers import import_files
+from mixedlub.importers.vocabulary import BY_NAME, convert
 from mixedlub.importers.wizard import run
-from mixedlub.schema.units import BY_NAME, convert
 
 HISTORY = {"kind": "friction_history"}
 

@@ -8,7 +8,7 @@ from mixedlub.cli import main
 from mixedlub.importers import import_files
 from mixedlub.importers.likely import likely_headers, likely_kind
 from mixedlub.importers.plain import draft
-from mixedlub.schema.units import TARGETS
+from mixedlub.importers.vocabulary import TARGETS
 from profiles.errors import InputError
 
 RIG8 = """# rig 8, campaign 3

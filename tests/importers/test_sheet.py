@@ -5,7 +5,8 @@ import pytest
 
 from mixedlub.importers.plain import draft
 from mixedlub.importers.sheet import read_sheet
-from mixedlub.schema.units import BY_NAME, convert, split
+from mixedlub.importers.vocabulary import BY_NAME, convert
+from mixedlub.schema.units import split
 from profiles.errors import InputError
 
 PIN = """Data file\t\tPIN.TSV

@@ -6,7 +6,8 @@ import pytest
 from mixedlub.importers import import_files
 from mixedlub.importers.likely import likely_headers, likely_kind
 from mixedlub.importers.plain import draft
-from mixedlub.schema.units import BY_NAME, FORMS, UNITS, change_to, convert
+from mixedlub.importers.vocabulary import BY_NAME, convert
+from mixedlub.schema.units import FORMS, UNITS, change_to
 from profiles.errors import InputError
 
 KNOWN = sorted({form for forms in FORMS.values() for form in forms})

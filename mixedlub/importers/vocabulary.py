@@ -1,0 +1,80 @@
+"""What instruments call the columns of a case: words of headers, and units as they are written there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mixedlub.kinds import kind
+from mixedlub.schema.system_file import KINDS
+from mixedlub.schema.table import BOOKKEEPING
+from mixedlub.schema.units import change_to, fits, is_unit, open_units, read_as, rounded, tidy, units_of, words_of
+from profiles.errors import InputError
+
+WEIGHED = {"g": "grams-force of 9.80665 mN", "kg": "kilograms-force of 9.80665 N"}
+"""Units of mass that a load is given in, and what they then are."""
+KINEMATIC = ("mm2/s", "cst", "st", "m2/s", "cm2/s")
+"""Units, in small letters, in which viscosity is divided by density."""
+
+
+@dataclass(frozen=True)
+class Target:
+    """A column of a case, its unit, the headers under which instruments write it, and others that may mean it."""
+
+    name: str
+    unit: str
+    spoken: tuple[str, ...]
+    offered: tuple[str, ...] = ()
+
+
+_COLUMNS = {c.name: c for k in map(kind, KINDS) for c in (*BOOKKEEPING, *k.columns, *k.channels, *k.readings)}
+TARGETS = tuple(Target(c.name, read_as(c.name), c.words, c.hints) for c in _COLUMNS.values() if c.words)
+BY_NAME = {t.name: t for t in TARGETS}
+TEXT_COLUMNS = tuple(c.name for c in _COLUMNS.values() if c.form == "name")
+
+
+def target_of(header: str) -> Target | None:
+    """The column that a header means, by the words instruments use; an exact column name is itself."""
+    if header.strip() in BY_NAME:
+        return BY_NAME[header.strip()]
+    words = words_of(header)
+    return next((t for t in TARGETS if words in t.spoken), None)
+
+
+def is_of_another(unit: str, target: Target) -> bool:
+    """Whether a unit is one of another quantity than a column's; a kinematic viscosity is still one of viscosity.
+
+    >>> is_of_another("mPa s", BY_NAME["friction_coefficient"]), is_of_another("mm2/s", BY_NAME["viscosity_mPa_s"])
+    (True, False)
+    """
+    if tidy(unit).lower() in KINEMATIC:
+        return target.unit != "mPa_s"
+    return is_unit(unit) and not fits(unit, target.unit)
+
+
+def unknown_unit(unit: str, target: Target) -> str:
+    """Why a unit is not taken as that of a column, and what could be."""
+    meant = open_units(unit, target.unit)
+    if meant:
+        return f"as unit of {target.name} leaves open which is meant; say {' or '.join(meant)}"
+    if target.unit == "mPa_s" and tidy(unit).lower() in KINEMATIC:
+        hint = "this is a kinematic viscosity: in mm²/s, times the density in g/cm³, it is in mPa s"
+    else:
+        hint = f"it could be {', '.join(units_of(target.unit))}"
+    return f"unit of {target.name} is not known; {hint}"
+
+
+def convert(values: np.ndarray, unit: str, target: Target, where: str) -> np.ndarray:
+    """Values in the unit of the target's column, free of the last digits that only conversion made.
+
+    >>> convert(np.array([1.5]), "mm/s", BY_NAME["entrainment_speed_m_s"], "file").tolist()
+    [0.0015]
+    >>> 300.1 - 273.15, convert(np.array([300.1]), "K", BY_NAME["temperature_C"], "file").tolist()
+    (26.950000000000045, [26.95])
+    """
+    change = change_to(unit, target.unit)
+    if change is None:
+        raise InputError(unknown_unit(unit, target), where=where, value=unit)
+    factor, added = change
+    return values if change == (1.0, 0.0) else rounded(values * factor + added, abs(added))
