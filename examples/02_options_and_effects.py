@@ -3,7 +3,7 @@
 import tomllib
 from pathlib import Path
 
-from mixedlub.schema import system_file
+from mixedlub.schema import toml_file
 from mixedlub.study import read_study, run_study
 from mixedlub.study.schema import StudyFile
 
@@ -21,7 +21,7 @@ CHANGES = {
 raw = tomllib.loads(SOURCE.read_text(encoding="utf-8"))
 print(f"{'':24}{'mean friction':>22}{'largest loss (W)':>20}")
 for name, change in CHANGES.items():
-    file = system_file.parse(StudyFile, {**raw, **change}, name)
+    file = toml_file.parse(StudyFile, {**raw, **change}, name)
     results = run_study(read_study(SOURCE, file))
     friction = results["mean_friction"]
     print(f"{name:24}{friction.min():12.4f} to {friction.max():.4f}{results['power_loss'].max():18.1f}")

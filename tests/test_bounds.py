@@ -3,49 +3,51 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any, get_args, get_origin
 
 import pytest
 
 from mixedlub.kinds import kind
-from mixedlub.schema import ranges, system_file
+from mixedlub.schema import ranges, system_file, toml_file
+from mixedlub.schema.section import Section, plain, tables
 from mixedlub.schema.system_file import KINDS
-from mixedlub.study.schema import Conditions
+from mixedlub.study.schema import StudyFile
 from profiles.errors import InputError
 
-FREE = {"gears.teeth", "recording.noise.absolute", "recording.noise.setup_absolute"}
-"""Numbers without a row: whole numbers that the geometry judges, and those in the unit of the reading."""
+FREE = {"gears.teeth"}
+"""Numbers without a row: the geometry judges them."""
 
 RECORDED = "recordings."
 """Before the names of columns, which bound themselves: their rows hold what is usual."""
 
 
-def numeric_keys(model: type[system_file.Section], place: str = "") -> set[str]:
-    """Keys of a model, and of the models in it, that hold numbers."""
-    found = set()
-    for name, field in model.model_fields.items():
-        inside = system_file._flatten((field.annotation,))
-        tables = [a for a in inside if system_file._is_model(a)]
-        for table in tables:
-            found |= numeric_keys(table, f"{place}{name}.")
-        if not tables and {float, int} & set(inside):
-            found.add(f"{place}{name}")
-    return found
+def numbers_in(annotation: Any) -> bool:
+    """Whether a key holds numbers, by itself or in a list."""
+    of = plain(annotation)
+    return of in (int, float) or (get_origin(of) is tuple and numbers_in(get_args(of)[0]))
 
 
-def test_every_number_of_a_case_and_of_the_conditions_of_a_study_has_its_row() -> None:
-    keys = numeric_keys(system_file.System) | numeric_keys(Conditions, "conditions.")
+def test_every_number_of_a_file_has_its_row_and_every_row_its_number() -> None:
+    keys = {
+        f"{table.name}.{key.name}".lstrip(".") if key.range is None else key.range.key
+        for file in (system_file.System, StudyFile)
+        for table in tables(file)
+        for key in table.fields
+        if numbers_in(key.type)
+    }
     assert keys - FREE == {key for key in ranges.ranges() if not key.startswith(RECORDED)}
+
+
+@pytest.mark.parametrize("file", [system_file.System, StudyFile])
+def test_a_key_has_the_row_of_its_own_place(file: type[Section]) -> None:
+    for table in tables(file):
+        for key in table.fields:
+            assert key.range is None or key.range.key == f"{table.name}.{key.name}".lstrip(".")
 
 
 def test_rows_of_recordings_are_columns_of_a_kind() -> None:
     columns = {c for k in KINDS for c in (*(column.name for column in kind(k).columns), *kind(k).quantities)}
     assert {key.removeprefix(RECORDED) for key in ranges.ranges() if key.startswith(RECORDED)} <= columns
-
-
-def test_each_section_looks_up_its_own_rows() -> None:
-    places = {s.place for s in system_file.Section.__subclasses__() if s.place}
-    tables = {key.rpartition(".")[0] for key in ranges.ranges()} - {"", RECORDED.rstrip(".")}
-    assert tables <= places
 
 
 @pytest.mark.parametrize("key", ranges.ranges())
@@ -89,7 +91,7 @@ SLIPS = [
 @pytest.mark.parametrize(("section", "key", "value", "said"), SLIPS)
 def test_a_slip_of_the_unit_is_refused_with_the_unit_that_fits(section, key, value, said) -> None:
     with pytest.raises(InputError) as refused:
-        system_file.parse(system_file.System, system(section, key, value), "system.toml")
+        toml_file.parse(system_file.System, system(section, key, value), "system.toml")
     place = {"": key, "surfaces": f"surfaces.a.{key}"}.get(section, f"{section}.{key}")
     assert str(refused.value).startswith(f"system.toml: {place}: ")
     assert said in str(refused.value)
@@ -112,7 +114,7 @@ ODD_BUT_RIGHT = [
 
 @pytest.mark.parametrize(("section", "key", "value"), ODD_BUT_RIGHT)
 def test_an_unusual_rig_is_neither_refused_nor_doubted(section, key, value) -> None:
-    found = system_file.parse(system_file.System, system(section, key, value), "system.toml")
+    found = toml_file.parse(system_file.System, system(section, key, value), "system.toml")
     assert list(ranges.unusual(found)) == []
 
 
@@ -136,7 +138,7 @@ FAR_OFF = [
 
 @pytest.mark.parametrize(("section", "key", "value", "said"), FAR_OFF)
 def test_a_possible_number_far_from_any_rig_is_doubted_with_what_is_usual(section, key, value, said) -> None:
-    found = system_file.parse(system_file.System, system(section, key, value), "system.toml")
+    found = toml_file.parse(system_file.System, system(section, key, value), "system.toml")
     (doubt,) = ranges.unusual(found)
     assert said in doubt
 
@@ -144,10 +146,10 @@ def test_a_possible_number_far_from_any_rig_is_doubted_with_what_is_usual(sectio
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), "50", True])
 def test_what_is_no_finite_number_is_refused(value) -> None:
     with pytest.raises(InputError, match=r"system\.toml: lubricant\.eyring_stress_MPa: "):
-        system_file.parse(system_file.System, system("lubricant", "eyring_stress_MPa", value), "system.toml")
+        toml_file.parse(system_file.System, system("lubricant", "eyring_stress_MPa", value), "system.toml")
 
 
 def test_practice_cases_lie_within_what_is_usual(shared: Path) -> None:
     for folder in sorted((shared / "cases").glob("case_*")):
-        found = system_file.parse(system_file.System, system_file.read_toml(folder / "system.toml"), folder.name)
+        found = toml_file.parse(system_file.System, toml_file.read_toml(folder / "system.toml"), folder.name)
         assert list(ranges.unusual(found)) == []

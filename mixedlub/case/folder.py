@@ -12,7 +12,7 @@ import numpy as np
 
 from mixedlub.gear import ROUNDED
 from mixedlub.kinds import Kind, kind
-from mixedlub.schema import system_file
+from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.table import BOOKKEEPING, RUN, CaseWarning, Column, Table, check_column, read_table, sd_column
 from profiles.errors import InputError, nearest
 
@@ -58,7 +58,7 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
     if not folder.is_dir():
         raise InputError("no such case folder", where=str(folder))
     file = folder / "system.toml"
-    system = system_file.parse(system_file.System, system_file.read_toml(file), str(file))
+    system = toml_file.parse(system_file.System, toml_file.read_toml(file), str(file))
     found = kind(system.kind)
     for section in found.sections:
         if not getattr(system, section):

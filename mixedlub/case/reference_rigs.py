@@ -12,7 +12,7 @@ import numpy as np
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
 from mixedlub.kinds import kind
-from mixedlub.schema import system_file
+from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.table import Table
 
 OIL = {
@@ -169,7 +169,7 @@ def case(name: str) -> Case:
         "uncertainty": UNCERTAINTY,
         "recording": {"quantity": quantity, "noise": {"relative": 0.01, "absolute": absolute}},
     }
-    parsed = system_file.parse(system_file.System, system, f"standard {name}")
+    parsed = toml_file.parse(system_file.System, system, f"standard {name}")
     return Case(f"standard_{name}", Path("."), parsed, kind(name), None, None, ())
 
 

@@ -1,4 +1,4 @@
-"""`mixedlub kinds`: the format of a case in words."""
+"""`mixedlub kinds`: the formats of a case and of a study file in words."""
 
 from __future__ import annotations
 
@@ -13,12 +13,14 @@ EXAMPLE = "mixedlub kinds disc"
 
 
 def command(
-    kind: Annotated[str | None, typer.Argument(metavar="KIND", help="One kind; all of them when left out.")] = None,
+    kind: Annotated[
+        str | None, typer.Argument(metavar="KIND", help="One kind, or `study`; all kinds when left out.")
+    ] = None,
 ) -> None:
-    """The format of a case: what each kind records.
+    """The format of a case, kind by kind, or of a study file.
 
-    Columns of recordings.csv and keys of system.toml, with unit, default, allowed values and meaning.
+    Columns of recordings.csv and keys of system.toml, or of a study, with unit, default, allowed values and meaning.
     """
-    from mixedlub.case.format_reference import kinds_text
+    from mixedlub.report.format_reference import kinds_text
 
     say(kinds_text(kind))

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from typing import Any
 
 from mixedlub.importers.draft import EVERY
-from mixedlub.importers.keys import MODELS, WORDS
-from mixedlub.importers.needs import INSTEAD
-from mixedlub.schema import system_file
+from mixedlub.schema import system_file, toml_file
+from mixedlub.schema.section import examples, tables
 from profiles.errors import InputError
 
-NOISE = "recording.noise"
 BARE = re.compile(r"[-+.\deinf]+(\s*,\s*[-+.\deinf]+)+")
 """Numbers with commas between, as a list is typed without its brackets."""
 
@@ -37,16 +34,10 @@ def refuse_wrong(key: str, value: Any) -> None:
     if key == EVERY.key and (not isinstance(value, int) or isinstance(value, bool) or value < 1):
         raise InputError("must be a whole number of at least 1", where=key, value=value)
     section, _, last = key.rpartition(".")
-    model = system_file.Noise if section == NOISE else MODELS.get(section)
-    if model is None or last not in model.model_fields:
+    found = next((t for t in tables(system_file.System) if section and t.name == section), None)
+    if found is None or last not in found.model.model_fields:
         return
-    words = {} if section == NOISE else WORDS[section]
-    others = {
-        other: tomllib.loads(f"value = {example}")["value"]
-        for other, (example, meaning) in words.items()
-        if not meaning.startswith(INSTEAD)
-    }
     try:
-        system_file.parse(model, {**others, last: value}, section)
+        toml_file.parse(found.model, {**examples(found.model), last: value}, section)
     except InputError as error:
         raise InputError(error.rule, where=key, value=value) from None

@@ -10,9 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.importers.keys import WORDS
 from mixedlub.kinds import kind as kind_of
-from mixedlub.schema.system_file import KINDS
+from mixedlub.schema.section import table
+from mixedlub.schema.system_file import KINDS, System
+from mixedlub.schema.toml_file import toml_value
 from profiles.errors import InputError, nearest
 
 Answers = Mapping[str, Any]
@@ -87,8 +88,9 @@ class Draft:
 
 
 def _question(section: str, key: str, needed: bool) -> Question:
-    example, meaning = WORDS[section][key]
-    return Question(f"{section}.{key}", meaning[:1].upper() + meaning[1:], example, needed)
+    described = table(System, section)[key]
+    words = described.words
+    return Question(f"{section}.{key}", words[:1].upper() + words[1:], toml_value(described.example), needed)
 
 
 CONTACT = (
@@ -96,17 +98,15 @@ CONTACT = (
     replace(_question("contact", "youngs_modulus_GPa", True), blank="[MODULUS, MODULUS]"),
     replace(_question("contact", "poisson_ratio", True), blank="[RATIO, RATIO]"),
 )
-FORM = replace(_question("contact", "geometry", True), among=("line", "point"), blank='"LINE OR POINT"')
+FORMS = tuple(table(System, "contact")["geometry"].values)
+FORM = replace(_question("contact", "geometry", True), among=FORMS, blank=f'"{" OR ".join(FORMS).upper()}"')
 WIDTH = replace(_question("contact", "width_mm", True), blank="WIDTH")
 OIL = tuple(
     _question("lubricant", key, False)
     for key in ("name", "temperature_C", "kinematic_viscosity_mm2_s", "pressure_viscosity_per_GPa")
 )
 EVERY = Question("import.every", "Keep one reading of how many", "10", needed=False)
-NOISE = (
-    Question("recording.noise.relative", "Noise of a reading, one sd as a share of it", "0.02", needed=False),
-    Question("recording.noise.absolute", "Noise of a reading, one sd in its unit", "0.0", needed=False),
-)
+NOISE = tuple(_question("recording.noise", key, False) for key in ("relative", "absolute"))
 
 
 def questions_of(kind: str) -> tuple[Question, ...]:

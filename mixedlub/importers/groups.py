@@ -15,8 +15,8 @@ import numpy as np
 from mixedlub.importers.dates import is_dated
 from mixedlub.importers.draft import Answers
 from mixedlub.importers.sheet import Cells, Sheet, are_numbers, is_number
-from mixedlub.importers.write import toml_value
 from mixedlub.schema.table import Table, is_missing
+from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import split, words_of
 from profiles.errors import InputError, nearest
 

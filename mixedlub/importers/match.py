@@ -15,9 +15,9 @@ from mixedlub.importers.likely import either, is_logarithm, likely_headers, like
 from mixedlub.importers.sheet import Cells, are_numbers
 from mixedlub.importers.spare import spare_headers, spare_notes, spare_questions
 from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, WEIGHED, Target, is_of_another, target_of, unknown_unit
-from mixedlub.importers.write import toml_value
 from mixedlub.kinds import Kind
 from mixedlub.schema.table import BOOKKEEPING, Column, check_column, is_missing, sd_column
+from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import change_to, fits, open_units, split, tidy, units_of, words_of
 from profiles.errors import InputError, nearest
 

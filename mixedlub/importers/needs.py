@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 import inspect
-import tomllib
 from collections.abc import Iterator, Mapping, Set
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from pydantic import BaseModel, ValidationError
 
 from mixedlub.case.defaults import BROAD, broadly_fitted, gears_taken, oil_taken
-from mixedlub.importers.keys import HEAD, MODELS, WORDS, Words
-from mixedlub.importers.write import toml_key, toml_value
 from mixedlub.kinds import kind as kind_of
 from mixedlub.kinds.calibration import calibrations
 from mixedlub.schema import system_file
+from mixedlub.schema.section import Key, Section, needed, table
 from mixedlub.schema.table import Table
-
-INSTEAD = "instead of"
+from mixedlub.schema.toml_file import toml_key, toml_value
 
 
 @dataclass(frozen=True)
@@ -31,24 +27,24 @@ class Gap:
     required: bool
     needed: tuple[str, ...]
     assumed: Mapping[str, str]
-    words: Words
+    keys: Mapping[str, Key]
 
     def comments(self) -> Iterator[str]:
         """Lines to put into the file: each is taken by deleting its mark of comment."""
         if self.absent:
             yield f"# [{self.table}]" + ("  # needed" if self.required else "")
         for key in (*self.needed, *self.assumed):
-            example, meaning = self.words[key]
-            left_out = self.assumed.get(key)
-            said = f"needed: {meaning}" if key in self.needed else meaning
-            yield f"# {key} = {example}  # {said}" + (f"; {left_out} where left out" if left_out else "")
+            described, left_out = self.keys[key], self.assumed.get(key)
+            said = f"needed: {described.words}" if key in self.needed else described.words
+            said += f"; {left_out} where left out" if left_out else ""
+            yield f"# {key} = {toml_value(described.example)}  # {said}"
 
     @property
     def blocking(self) -> str:
         """What is needed, in one line."""
         if not self.needed:
             return f"[{self.table}] with what is known; the rest is taken as typical"
-        other = [key for key in self.assumed if self.words[key][1].startswith(INSTEAD)]
+        other = [key for key in self.assumed if self.keys[key].is_alternative]
         return f"[{self.table}] with {', '.join(self.needed)}" + (f"; or with {', '.join(other)}" if other else "")
 
     def open(self, taken: Mapping[str, str]) -> str:
@@ -62,12 +58,11 @@ def gaps(system: system_file.System, columns: Mapping[str, np.ndarray]) -> tuple
     """What a case of the system's kind computes with and the system does not say; the rows name the surfaces."""
     rules = kind_of(system.kind)
     reads = _reads(system, columns)
-    head = {k: w for k, w in HEAD.items() if k not in system.model_fields_set}
-    if "boundary_friction" not in reads:
-        head.pop("boundary_friction", None)
+    head = _keys("")
+    open_ones = [k for k, key in head.items() if not key.required and k not in system.model_fields_set]
     broad = broadly_fitted(system, columns)
-    usual = {k: BROAD if k in broad else _default(system_file.System, k) for k in head}
-    found = [Gap("", False, False, (), usual, HEAD)]
+    usual = {k: BROAD if k in broad else _default(head[k]) for k in open_ones if k in ("description", *reads)}
+    found = [Gap("", False, False, (), usual, head)]
     wanted = [s for s in ("gears", "contact", "lubricant") if s in rules.sections]
     if "viscosity" in reads and "lubricant" not in wanted:
         wanted.append("lubricant")
@@ -77,8 +72,9 @@ def gaps(system: system_file.System, columns: Mapping[str, np.ndarray]) -> tuple
         found.append(_gap("surfaces", f"surfaces.{toml_key(name)}", None, True))
     stated = system.uncertainty.model_fields_set
     movable = {c.name for c in _movable(system) if set(c.needs) <= reads} - stated
-    uncertain = {k: BROAD if k in broad else "known exactly" for k in WORDS["uncertainty"] if k in movable}
-    found.append(Gap("uncertainty", not stated, False, (), uncertain, WORDS["uncertainty"]))
+    movables = _keys("uncertainty")
+    uncertain = {k: BROAD if k in broad else "known exactly" for k in movables if k in movable}
+    found.append(Gap("uncertainty", not stated, False, (), uncertain, movables))
     own_noise = {"noise"} if f"{system.recording.quantity}_sd" in columns else set()
     found.append(_gap("recording", "recording", system.recording, False, own_noise))
     return tuple(gap for gap in found if gap.needed or gap.assumed)
@@ -105,34 +101,25 @@ def undescribed(system: system_file.System, columns: Mapping[str, np.ndarray]) -
     return sorted(names - set(system.surfaces))
 
 
-def _gap(section: str, table: str, given: BaseModel | None, required: bool, known: Set[str] = frozenset()) -> Gap:
+def _keys(section: str) -> dict[str, Key]:
+    """The keys of a table of system.toml; at the top those that are no tables."""
+    found = table(system_file.System, section)
+    return {key.name: key for key in (found.fields if section else found.keys)}
+
+
+def _gap(section: str, name: str, given: Section | None, required: bool, known: Set[str] = frozenset()) -> Gap:
     """Keys of a section that are not given; those are needed without which the examples of the others are refused."""
-    model, words = MODELS[section], WORDS[section]
+    keys = _keys(section)
     said = known if given is None else known | given.model_fields_set
-    examples = {k: _parsed(e) for k, (e, meaning) in words.items() if not meaning.startswith(INSTEAD)}
-    needed = tuple(
-        k for k in examples if given is None and not _valid(model, {o: v for o, v in examples.items() if o != k})
-    )
-    assumed = {k: _default(model, k) for k in words if k not in said and k not in needed}
-    return Gap(table, given is None, required and given is None, needed, assumed, words)
+    lacking = needed(table(system_file.System, section).model) if given is None else ()
+    assumed = {k: _default(key) for k, key in keys.items() if k not in said and k not in lacking}
+    return Gap(name, given is None, required and given is None, lacking, assumed, keys)
 
 
-def _parsed(example: str) -> Any:
-    return tomllib.loads(f"value = {example}")["value"]
-
-
-def _valid(model: type[BaseModel], data: Mapping[str, Any]) -> bool:
-    try:
-        model.model_validate(data)
-    except ValidationError:
-        return False
-    return True
-
-
-def _default(model: type[BaseModel], key: str) -> str:
+def _default(key: Key) -> str:
     """The value taken where a key is left out, as TOML; empty where the meaning says it."""
-    value = model.model_fields[key].default
-    return "" if value is None or value == "" or isinstance(value, BaseModel) else toml_value(value)
+    value = key.field.default
+    return "" if value is None or value == "" or isinstance(value, Section) else toml_value(value)
 
 
 def told(found: tuple[Gap, ...], file: str, system: system_file.System) -> Iterator[str]:

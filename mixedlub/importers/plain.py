@@ -19,11 +19,11 @@ from mixedlub.importers.pace import TIME, in_seconds, target_in
 from mixedlub.importers.runs import header_of_runs, runs_of
 from mixedlub.importers.sheet import Cells, Sheet, not_above_zero, read_sheet, whole
 from mixedlub.importers.vocabulary import convert
-from mixedlub.importers.write import toml_value
 from mixedlub.kinds import Kind
 from mixedlub.kinds import kind as kind_of
 from mixedlub.schema.system_file import KINDS
 from mixedlub.schema.table import Column
+from mixedlub.schema.toml_file import toml_value
 from profiles.errors import InputError, nearest
 
 

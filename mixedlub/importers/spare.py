@@ -9,8 +9,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from mixedlub.importers.draft import Question
 from mixedlub.importers.likely import likely_headers
 from mixedlub.importers.sheet import Cells, are_numbers
-from mixedlub.importers.write import toml_value
 from mixedlub.schema.table import Column
+from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import split, words_of
 
 SLIP = "slide_roll_ratio"

@@ -22,7 +22,7 @@ from mixedlub.importers.pace import TIME
 from mixedlub.importers.readable import refuse_unreadable
 from mixedlub.importers.runs import together
 from mixedlub.importers.write import write_case
-from mixedlub.schema import system_file
+from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.table import CaseWarning, with_hyphens
 from profiles.errors import InputError, nearest
 from profiles.readers.numbers import decoded
@@ -125,7 +125,7 @@ def run(
 
     ``ask`` is None where nobody is there to answer; then missing answers are an error that lists them.
     """
-    answers = flat(system_file.read_toml(answers_file)) if answers_file is not None else {}
+    answers = flat(toml_file.read_toml(answers_file)) if answers_file is not None else {}
     answers.update(parse_setting(s) for s in settings)
     files, shares = _apart(files)
     answers = with_share(answers, shares)
@@ -151,7 +151,7 @@ def run(
     if refusal:
         say(f"{WARNING}diagnose cannot use this case as it stands: {refusal}")
     say(f"{folder}: a case of kind {draft.kind} that records {draft.quantity}")
-    system = system_file.parse(system_file.System, system_file.read_toml(folder / "system.toml"), "system.toml")
+    system = toml_file.parse(system_file.System, toml_file.read_toml(folder / "system.toml"), "system.toml")
     for line in told(gaps(system, draft.columns), str(folder / "system.toml"), system):
         say(line)
     return folder
@@ -254,7 +254,7 @@ def _write(
     for section, facts in draft.system.items():
         system[section] = {**facts, **system.get(section, {})}
     system["recording"] = {"quantity": draft.quantity, **system.get("recording", {})}
-    checked = system_file.parse(system_file.System, {"schema": SCHEMA, **system}, "answers")
+    checked = toml_file.parse(system_file.System, {"schema": SCHEMA, **system}, "answers")
     every = answers.get(EVERY.key, 1)
     refuse_wrong(EVERY.key, every)
     columns = {name: values[::every] for name, values in draft.columns.items()}

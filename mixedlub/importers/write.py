@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import re
 import shutil
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -13,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from mixedlub.atomic import writing
+from mixedlub.schema.toml_file import toml_key, toml_value
 from profiles.errors import InputError
 
 Comments = Mapping[str, Sequence[str]]
@@ -151,25 +151,3 @@ def _table(data: Mapping[str, Any], place: str, comments: Comments, written: set
             plain = not v or any(not isinstance(x, Mapping) for x in v.values()) or comments.get(name)
             text += (f"\n[{name}]\n" if plain else "") + inner
     return text
-
-
-def toml_key(name: str) -> str:
-    """A key as TOML writes it.
-
-    >>> toml_key("ground"), toml_key("Ra 0.4")
-    ('ground', '"Ra 0.4"')
-    """
-    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else toml_value(name)
-
-
-def toml_value(value: Any) -> str:
-    """A plain value or a list as TOML writes it."""
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, str):
-        escaped = value.replace("\\", "\\\\").replace('"', '\\"').replace("\n", " ")
-        return f'"{escaped}"'
-    if isinstance(value, list | tuple):
-        return "[" + ", ".join(toml_value(v) for v in value) + "]"
-    number = float(value)
-    return str(int(value)) if isinstance(value, int) else repr(number)

@@ -22,9 +22,9 @@ from mixedlub.report.surfaces import (
     surface_rows,
     traced,
 )
+from mixedlub.schema.section import FileTable
 from mixedlub.study import counted, factors
 from mixedlub.study.checkpoint import fingerprint
-from mixedlub.study.options import MEANINGS
 from mixedlub.study.results import COLUMNS, DEFINITIONS, Results
 from mixedlub.study.schema import Options
 from mixedlub.version import installed_version
@@ -156,8 +156,9 @@ def option_rows(options: Options) -> list[tuple[str, str, str, bool]]:
     """Option, choice, what it means, whether it is the default."""
     standard = Options()
     rows = []
-    for name, chosen in options.model_dump().items():
-        meaning = MEANINGS.get(name, {}).get(chosen, _PLAIN.get(name, ""))
+    for key in FileTable(Options, "", "options").fields:
+        name, chosen = key.name, getattr(options, key.name)
+        meaning = key.values.get(chosen, key.meaning)
         shown = (
             "as the load sharing needs"
             if chosen is None
@@ -167,13 +168,6 @@ def option_rows(options: Options) -> list[tuple[str, str, str, bool]]:
         )
         rows.append((name, shown, meaning, chosen == getattr(standard, name)))
     return rows
-
-
-_PLAIN = {
-    "bulk_temperature_rise_K": "by how much the oil at the contact's inlet is warmer than the oil temperature",
-    "path_points": "quadrature points along the path of contact, about",
-    "face_slices": "slices across the face",
-}
 
 
 __all__ = ["Drawn", "content", "write_page"]

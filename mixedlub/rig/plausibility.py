@@ -6,9 +6,6 @@ import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol, cast
-
-from pydantic import BaseModel
 
 from mixedlub.gear import TableSharing
 from mixedlub.rig import build
@@ -31,19 +28,9 @@ class Odd:
     grave: bool = True
 
 
-class DescribesRig(Protocol):
-    """A parsed file, of a case or a study, that describes gears and surfaces."""
-
-    @property
-    def gears(self) -> system_file.Gears | None: ...
-
-    @property
-    def surfaces(self) -> Mapping[str, system_file.SurfaceSection]: ...
-
-
-def far_off(file: DescribesRig, folder: Path, surfaces: Mapping[str, Surface] | None = None) -> Iterator[Odd]:
+def far_off(file: system_file.RigFile, folder: Path, surfaces: Mapping[str, Surface] | None = None) -> Iterator[Odd]:
     """What is odd in a file; ``surfaces`` where they have been read already."""
-    yield from map(Odd, ranges.unusual(cast(BaseModel, file)))
+    yield from map(Odd, ranges.unusual(file))
     if file.gears is not None:
         pair, share = build.gear_pair(file.gears), build.sharing(file.gears.load_sharing, folder)
         said = share.check(pair)

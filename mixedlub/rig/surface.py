@@ -10,17 +10,17 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Surface:
-    """One surface in SI: profile moments, optional coating, thermal properties of the body (steel unless told)."""
+    """One surface in SI: profile moments, coating (thickness 0: none), thermal properties of the body."""
 
     name: str
     m0: float
     m2: float
     m4: float
-    coating_thickness: float = 0.0
-    coating_conductivity: float = 2.0
-    conductivity: float = 46.0
-    density: float = 7800.0
-    heat_capacity: float = 470.0
+    coating_thickness: float
+    coating_conductivity: float
+    conductivity: float
+    density: float
+    heat_capacity: float
 
 
 def paired(first: Sequence[Surface], second: Sequence[Surface], coated: bool = False) -> dict[str, np.ndarray]:

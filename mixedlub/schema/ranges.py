@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -12,17 +12,19 @@ from typing import Any
 
 import numpy as np
 from pydantic import BaseModel
+from pydantic.fields import FieldInfo
 
 from mixedlub.schema.units import SLIPS, read_as, unit_of
 
-NO_SHARES = ("poisson_ratio", "sequence")
+NO_SHARES = ("poisson_ratio", "sequence", "path_points", "face_slices")
 """Numbers without a unit that nobody gives in percent."""
 
 
 @dataclass(frozen=True)
 class Range:
-    """Lowest and highest possible value, lowest and highest usual one; ends are within."""
+    """Lowest and highest possible value of a key, lowest and highest usual one; ends are within."""
 
+    key: str
     possible: tuple[float, float]
     usual: tuple[float, float]
 
@@ -39,7 +41,7 @@ def ranges() -> Mapping[str, Range]:
     def walk(place: str, table: Mapping[str, Any]) -> None:
         for key, value in table.items():
             if "usual" in value:
-                found[f"{place}{key}"] = Range(tuple(value["possible"]), tuple(value["usual"]))
+                found[f"{place}{key}"] = Range(f"{place}{key}", tuple(value["possible"]), tuple(value["usual"]))
             else:
                 walk(f"{place}{key}.", value)
 
@@ -47,14 +49,9 @@ def ranges() -> Mapping[str, Range]:
     return found
 
 
-def key_of(place: Sequence[Any]) -> str:
-    """The key of the table that a place in a file has, without entries of lists and the names of surfaces.
-
-    >>> key_of(("surfaces", "ground", "coating", "thickness_um")), key_of(("gears", "teeth", 1))
-    ('surfaces.coating.thickness_um', 'gears.teeth')
-    """
-    named = [part for part in place if isinstance(part, str)]
-    return ".".join(named[:1] + named[2:] if named[:1] == ["surfaces"] else named)
+def range_of(field: FieldInfo) -> Range | None:
+    """The range that a field of a file has."""
+    return next((m for m in field.metadata if isinstance(m, Range)), None)
 
 
 def meant(name: str, value: object, low: float, high: float) -> str:
@@ -89,8 +86,6 @@ def broken(key: str, value: object) -> str:
     >>> broken("lubricant.temperature_C", (40.0, 373.15))
     'entry 2 must be from -150 to 300 °C; 373.15 K would be 100 °C: is it in that unit?'
     """
-    if key not in ranges() or value is None:
-        return ""
     (low, high), name = ranges()[key].possible, key.rpartition(".")[2]
     for place, entry in _entries(value):
         if not low <= entry <= high:
@@ -125,19 +120,13 @@ def beyond_usual(key: str, value: float, place: str) -> str:
 
 def unusual(table: BaseModel, place: tuple[str, ...] = ()) -> Iterator[str]:
     """What is far from any rig in a validated file: possible numbers outside the usual ranges, one a key."""
-    for name in type(table).model_fields:
-        yield from _unusual(getattr(table, name), (*place, name))
-
-
-def _unusual(value: Any, place: tuple[str, ...]) -> Iterator[str]:
-    if isinstance(value, BaseModel):
-        yield from unusual(value, place)
-    elif isinstance(value, dict):
-        for name, inner in value.items():
-            yield from _unusual(inner, (*place, name))
-    elif key_of(place) in ranges() and value is not None:
-        where = ".".join(place)
-        said = (
-            beyond_usual(key_of(place), entry, f"{where}, {words}".rstrip(", ")) for words, entry in _entries(value)
-        )
-        yield from islice(filter(None, said), 1)
+    for name, field in type(table).model_fields.items():
+        value, within = getattr(table, name), range_of(field)
+        if within is not None and value is not None:
+            where = ".".join((*place, name))
+            said = (beyond_usual(within.key, x, f"{where}, {words}".rstrip(", ")) for words, x in _entries(value))
+            yield from islice(filter(None, said), 1)
+        named = value.items() if isinstance(value, dict) else [("", value)]
+        for inner, section in named:
+            if isinstance(section, BaseModel):
+                yield from unusual(section, (*place, name, *filter(None, [inner])))

@@ -1,76 +1,42 @@
-"""What `system.toml` may say: one class a section, validated once, every error with its place."""
+"""What `system.toml` may say: one class a table, each key described by its field, its range in `ranges.toml`."""
 
 from __future__ import annotations
 
 import re
-import tomllib
-from itertools import chain
-from pathlib import Path
-from typing import Annotated, Any, ClassVar, Literal, TypeVar
+from typing import Annotated, Literal, get_args
 
-from pydantic import (
-    BaseModel,
-    BeforeValidator,
-    ConfigDict,
-    Field,
-    ValidationError,
-    ValidationInfo,
-    field_validator,
-    model_validator,
-)
+from pydantic import Field, model_validator
 
-from mixedlub.schema import messages, ranges
-from profiles.errors import InputError, nearest
+from mixedlub.schema.section import Float, Number, Section, Whole, choices, tables, with_ranges
+from profiles.errors import InputError
 
-T = TypeVar("T", bound=BaseModel)
+KindName = Literal["gear_pair", "mesh_friction", "disc", "film", "friction_history", "friction_map", "viscosity"]
+KINDS: tuple[str, ...] = get_args(KindName)
 
-
-def _number(value: Any) -> Any:
-    if isinstance(value, (bool, str)):
-        raise ValueError("must be a number")
-    return value
-
-
-def _whole(value: Any) -> Any:
-    if isinstance(value, (bool, str)):
-        raise ValueError("must be a whole number")
-    return value
-
-
-Float = Annotated[float, BeforeValidator(_number)]
-Number = Annotated[Float, Field(allow_inf_nan=False)]
-NotNegative = Annotated[Float, Field(ge=0, allow_inf_nan=False)]
-Whole = Annotated[int, BeforeValidator(_whole)]
-KINDS = ("gear_pair", "mesh_friction", "disc", "film", "friction_history", "friction_map", "viscosity")
-
-
-class Section(BaseModel):
-    """A table of the file: unknown keys are errors, values never change, and lie within the bounds of `ranges.toml`.
-
-    ``place`` is where the bounds of its keys stand there.
-    """
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-    place: ClassVar[str] = ""
-
-    @field_validator("*")
-    @classmethod
-    def _possible(cls, value: Any, info: ValidationInfo) -> Any:
-        broken = ranges.broken(f"{cls.place}.{info.field_name}".lstrip("."), value)
-        if broken:
-            raise ValueError(broken)
-        return value
+Pair = tuple[Number, Number]
 
 
 class LoadSharing(Section):
-    place = "gears.load_sharing"
-
-    table: str | None = None
-    model: Literal["ldp", "rigid"] | None = None
-    tip_relief_um: tuple[Number, Number] = (0.0, 0.0)
-    relief_length_mm: tuple[Number, Number] = (0.0, 0.0)
-    lead_crown_um: Number = 0.0
-    misalignment_um: Number = 0.0
+    table: str | None = Field(
+        default=None,
+        description="CSV of torque_Nm, roll_angle_deg, load_share; this or model",
+        examples=["load_share.csv"],
+        json_schema_extra={"alternative": True},
+    )
+    model: Literal["ldp", "rigid"] | None = Field(
+        default=None,
+        description="how the load divides between tooth pairs; this or table",
+        examples=["ldp"],
+        json_schema_extra=choices(ldp="elastic teeth", rigid="equal shares of the pairs in contact"),
+    )
+    tip_relief_um: Pair = Field(default=(0.0, 0.0), description='model "ldp": tip relief', examples=[[15, 15]])
+    relief_length_mm: Pair = Field(
+        default=(0.0, 0.0), description='model "ldp": length of the relief along the profile', examples=[[2, 2]]
+    )
+    lead_crown_um: Number = Field(
+        default=0.0, description='model "ldp": crown over the face, both flanks together', examples=[3.0]
+    )
+    misalignment_um: Number = Field(default=0.0, description='model "ldp": misalignment over the face width')
 
     @model_validator(mode="after")
     def _table_or_model(self) -> LoadSharing:
@@ -80,29 +46,39 @@ class LoadSharing(Section):
 
 
 class Gears(Section):
-    place = "gears"
-
-    teeth: tuple[Whole, Whole]
-    normal_module_mm: Number
-    pressure_angle_deg: Number = 20.0
-    helix_angle_deg: Number = 0.0
-    profile_shift: tuple[Number, Number] = (0.0, 0.0)
-    tip_diameter_mm: tuple[Number, Number] | None = None
-    centre_distance_mm: Number | None = None
-    face_width_mm: Number
-    youngs_modulus_GPa: tuple[Number, Number] = (206.0, 206.0)
-    poisson_ratio: tuple[Number, Number] = (0.3, 0.3)
-    load_sharing: LoadSharing = LoadSharing(model="rigid")
+    teeth: tuple[Whole, Whole] = Field(description="numbers of teeth, pinion (driving) and gear", examples=[[17, 26]])
+    normal_module_mm: Number = Field(description="normal module", examples=[4.2333333])
+    pressure_angle_deg: Number = Field(default=20.0, description="normal pressure angle", examples=[22.5])
+    helix_angle_deg: Number = Field(default=0.0, description="helix angle at the pitch circle")
+    profile_shift: Pair = Field(default=(0.0, 0.0), description="profile shift over module")
+    tip_diameter_mm: Pair | None = Field(
+        default=None, description="tip diameters; left out: standard addendum", examples=[[80.5, 118.4]]
+    )
+    centre_distance_mm: Number | None = Field(
+        default=None, description="working centre distance; left out: from the profile shift", examples=[91.0]
+    )
+    face_width_mm: Number = Field(description="common face width", examples=[14.0])
+    youngs_modulus_GPa: Pair = Field(default=(206.0, 206.0), description="Young's moduli")
+    poisson_ratio: Pair = Field(default=(0.3, 0.3), description="Poisson's ratios")
+    load_sharing: LoadSharing = Field(
+        default=LoadSharing(model="rigid"),
+        description='how the load divides between tooth pairs; left out: { model = "rigid" }',
+        examples=[{"model": "ldp", "tip_relief_um": [15, 15], "relief_length_mm": [2, 2]}],
+    )
 
 
 class Contact(Section):
-    place = "contact"
-
-    geometry: Literal["line", "point"] = "line"
-    radius_mm: tuple[Float, Float]
-    width_mm: Number | None = None
-    youngs_modulus_GPa: tuple[Number, Number] = (206.0, 206.0)
-    poisson_ratio: tuple[Number, Number] = (0.3, 0.3)
+    geometry: Literal["line", "point"] = Field(
+        default="line",
+        description="form of the contact",
+        json_schema_extra=choices(line="cylinders", point="a ball"),
+    )
+    radius_mm: tuple[Float, Float] = Field(description="radii of the two bodies; inf is flat", examples=[[20.0, 25.4]])
+    width_mm: Number | None = Field(
+        default=None, description="width of a line contact, which needs it; a point contact has none", examples=[6.0]
+    )
+    youngs_modulus_GPa: Pair = Field(default=(206.0, 206.0), description="Young's moduli of the two bodies")
+    poisson_ratio: Pair = Field(default=(0.3, 0.3), description="Poisson's ratios of the two bodies")
 
     @model_validator(mode="after")
     def _line_has_width(self) -> Contact:
@@ -112,44 +88,84 @@ class Contact(Section):
 
 
 class Lubricant(Section):
-    place = "lubricant"
-
-    name: str = "unnamed oil"
-    base: Literal["mineral", "pao", "ester", "pag"] | None = None
-    temperature_C: tuple[Number, Number] | None = None
-    kinematic_viscosity_mm2_s: tuple[Number, Number] | None = None
-    pressure_viscosity_per_GPa: tuple[Number, Number] | None = None
-    density_15C_kg_m3: Number | None = None
-    density_change_per_K: Number | None = None
-    eyring_stress_MPa: Number | None = None
-    thermal_conductivity_W_mK: Number | None = None
-    specific_heat_J_kgK: Number | None = None
+    name: str = Field(default="unnamed oil", description="name of the oil, for the report", examples=["sample oil"])
+    base: Literal["mineral", "pao", "ester", "pag"] | None = Field(
+        default=None,
+        description="base stock, whose typical oil fills what is left out; left out: mineral",
+        examples=["mineral"],
+        json_schema_extra=choices(
+            mineral="mineral oil", pao="polyalphaolefin", ester="synthetic ester", pag="polyalkylene glycol"
+        ),
+    )
+    temperature_C: Pair | None = Field(
+        default=None, description="two temperatures, at which the next two keys are given", examples=[[40.0, 100.0]]
+    )
+    kinematic_viscosity_mm2_s: Pair | None = Field(
+        default=None, description="kinematic viscosity there; ASTM D341 between and beyond", examples=[[30.0, 6.2]]
+    )
+    pressure_viscosity_per_GPa: Pair | None = Field(
+        default=None,
+        description="pressure-viscosity coefficient there; linear between and beyond",
+        examples=[[18.0, 14.0]],
+    )
+    density_15C_kg_m3: Number | None = Field(default=None, description="density at 15 °C", examples=[850.0])
+    density_change_per_K: Number | None = Field(
+        default=None, description="relative fall of the density", examples=[7e-4]
+    )
+    eyring_stress_MPa: Number | None = Field(default=None, description="Eyring stress of the film", examples=[5.0])
+    thermal_conductivity_W_mK: Number | None = Field(
+        default=None, description="thermal conductivity of the oil", examples=[0.14]
+    )
+    specific_heat_J_kgK: Number | None = Field(default=None, description="specific heat of the oil", examples=[2000.0])
 
 
 class Coating(Section):
-    place = "surfaces.coating"
-
-    name: str = "coating"
-    thickness_um: Number
-    thermal_conductivity_W_mK: Number
+    name: str = Field(default="coating", description="name of the coating, for the report", examples=["DLC"])
+    thickness_um: Number = Field(description="thickness of the coating", examples=[3.0])
+    thermal_conductivity_W_mK: Number = Field(description="thermal conductivity of the coating", examples=[2.0])
 
 
 class SurfaceSection(Section):
-    place = "surfaces"
-
-    m0_um2: Number | None = None
-    m2: Number | None = None
-    m4_per_um2: Number | None = None
-    profile: str | None = None
-    cutoff_mm: Number | None = None
-    short_cutoff_um: Number | None = None
-    form: str | None = None
-    edges: Annotated[bool, Field(strict=True)] = True
-    outliers: Number | None = None
-    coating: Coating | None = None
-    thermal_conductivity_W_mK: Number = 46.0
-    density_kg_m3: Number = 7800.0
-    specific_heat_J_kgK: Number = 470.0
+    m0_um2: Number | None = Field(
+        default=None,
+        description="variance of the heights of the profile; the three moments, or a profile",
+        examples=[0.137],
+    )
+    m2: Number | None = Field(default=None, description="variance of the slopes of the profile", examples=[0.0031])
+    m4_per_um2: Number | None = Field(
+        default=None, description="variance of the curvatures of the profile", examples=[0.0021]
+    )
+    profile: str | None = Field(
+        default=None,
+        description="instead of the moments: file of a trace, relative to this file, or shipped:NAME",
+        examples=["profiles/ground.csv"],
+        json_schema_extra={"alternative": True},
+    )
+    cutoff_mm: Number | None = Field(
+        default=None, description="long cut-off of a trace; left out: 0.8, or the trace's own", examples=[0.8]
+    )
+    short_cutoff_um: Number | None = Field(
+        default=None, description="short cut-off of a trace; left out: 2.5, or the trace's own", examples=[2.5]
+    )
+    form: str | None = Field(
+        default=None,
+        description="form taken off a trace: line (left out), none, mean, circle, polynomial-N, involute-MM",
+        examples=["line"],
+    )
+    edges: Annotated[bool, Field(strict=True)] = Field(
+        default=True, description="true: chamfers and falling ends are cut off a trace", examples=[False]
+    )
+    outliers: Number | None = Field(
+        default=None, description="a trace is masked beyond so many robust standard deviations", examples=[5.0]
+    )
+    coating: Coating | None = Field(
+        default=None,
+        description="only where there is one",
+        examples=[{"name": "DLC", "thickness_um": 3.0, "thermal_conductivity_W_mK": 2.0}],
+    )
+    thermal_conductivity_W_mK: Number = Field(default=46.0, description="thermal conductivity of the body")
+    density_kg_m3: Number = Field(default=7800.0, description="density of the body")
+    specific_heat_J_kgK: Number = Field(default=470.0, description="specific heat of the body")
 
     @model_validator(mode="after")
     def _moments_or_profile(self) -> SurfaceSection:
@@ -162,22 +178,42 @@ class SurfaceSection(Section):
 
 
 class Uncertainty(Section):
-    place = "uncertainty"
-
-    boundary_friction: Number = 0.0
-    viscosity: Number = 0.0
-    pressure_viscosity: Number = 0.0
-    eyring_stress: Number = 0.0
-    roughness: Number = 0.0
+    boundary_friction: Number = Field(default=0.0, description="of the boundary friction, absolute", examples=[0.012])
+    viscosity: Number = Field(
+        default=0.0, description="of the viscosity, relative; one factor for the case", examples=[0.06]
+    )
+    pressure_viscosity: Number = Field(
+        default=0.0,
+        description="of the pressure-viscosity coefficient, relative; one factor for the case",
+        examples=[0.06],
+    )
+    eyring_stress: Number = Field(
+        default=0.0, description="of the Eyring stress, relative; one factor for the case", examples=[0.15]
+    )
+    roughness: Number = Field(default=0.0, description="of Rq, relative; one factor for all surfaces", examples=[0.04])
 
 
 class Noise(Section):
-    place = "recording.noise"
-
-    relative: Number = 0.0
-    absolute: NotNegative = 0.0
-    setup_relative: Number = 0.0
-    setup_absolute: NotNegative = 0.0
+    relative: Number = Field(
+        default=0.0,
+        description="standard deviation of a reading over its size; its square adds to that of the next key",
+        examples=[0.01],
+    )
+    absolute: Number = Field(
+        default=0.0,
+        description="standard deviation of a reading, in its unit",
+        examples=[0.3],
+        json_schema_extra={"unit": "as read"},
+    )
+    setup_relative: Number = Field(
+        default=0.0,
+        description="standard deviation of the error shared within a set-up, over the reading",
+    )
+    setup_absolute: Number = Field(
+        default=0.0,
+        description="standard deviation of the error shared within a set-up, in the unit of the reading",
+        json_schema_extra={"unit": "as read"},
+    )
 
     @property
     def of_single(self) -> bool:
@@ -191,68 +227,56 @@ class Noise(Section):
 
 
 class Recording(Section):
-    place = "recording"
-
     quantity: Literal[
         "power_loss_W", "friction_coefficient", "film_thickness_nm", "friction_torque_Nm", "viscosity_mPa_s"
-    ]
-    includes: str = ""
-    ambient_temperature_C: Number = 25.0
-    check: str | None = None
-    noise: Noise | None = None
+    ] = Field(description="the column that the rig recorded", examples=["power_loss_W"])
+    includes: str = Field(
+        default="",
+        description="what the reading contains beside the contact, free text",
+        examples=["bearings and seals"],
+    )
+    ambient_temperature_C: Number = Field(default=25.0, description="temperature around the rig")
+    check: str | None = Field(
+        default=None,
+        description="column of a second channel: never fitted, compared afterwards",
+        examples=["track_coverage_percent"],
+    )
+    noise: Noise | None = Field(
+        default=None,
+        description="scatter of the readings; left out: estimated from repeats, else from the fit",
+        examples=[{"relative": 0.01, "absolute": 0.3}],
+    )
 
 
-class System(Section):
+class RigFile(Section):
+    """What a case and a study both say of a rig."""
+
+    boundary_friction: Number = Field(default=0.1, description="friction coefficient of touching asperities")
+    description: str = Field(default="", description="free text", examples=["rig, oil, campaign"])
+    gears: Gears | None = Field(default=None, description="two entries: pinion, gear")
+    lubricant: Lubricant | None = Field(
+        default=None, description="what is left out is typical of the base stock, and a warning says so"
+    )
+    surfaces: dict[str, SurfaceSection] = Field(
+        default={}, description="one table a surface; NAME as in the other tables"
+    )
+
+
+class System(RigFile):
     """Everything the engineer knows about the rig."""
 
-    schema_: Literal["mixedlub-case/1"] = Field(alias="schema")
-    kind: Literal["gear_pair", "mesh_friction", "disc", "film", "friction_history", "friction_map", "viscosity"]
-    boundary_friction: Number = 0.1
-    description: str = ""
-    gears: Gears | None = None
-    contact: Contact | None = None
-    lubricant: Lubricant | None = None
-    surfaces: dict[str, SurfaceSection] = {}
-    uncertainty: Uncertainty = Uncertainty()
-    recording: Recording
+    schema_: Literal["mixedlub-case/1"] = Field(
+        alias="schema", description="format of the file", examples=["mixedlub-case/1"]
+    )
+    kind: KindName = Field(description="what was recorded", examples=["gear_pair"])
+    contact: Contact | None = Field(default=None, description="two entries: first and second body")
+    uncertainty: Uncertainty = Field(
+        default=Uncertainty(), description="one standard deviation of what calibration may move; 0: known"
+    )
+    recording: Recording = Field(description="what was read, and how well")
 
 
-def read_toml(path: Path) -> dict[str, Any]:
-    """The file's content, or an error saying why it is not TOML."""
-    try:
-        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except FileNotFoundError:
-        raise InputError("no such file", where=str(path)) from None
-    except OSError as error:
-        raise InputError(f"cannot be read ({error.strerror})", where=str(path)) from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise InputError(f"is not readable as TOML ({error})", where=str(path)) from None
-
-
-def parse(model: type[T], data: dict[str, Any], where: str) -> T:
-    """The validated section; the first error becomes a message that names place, value and rule."""
-    try:
-        return model.model_validate(data)
-    except ValidationError as error:
-        raise _refused(model, error.errors(), where) from None
-
-
-def _refused(model: type[BaseModel], errors: list[Any], where: str) -> InputError:
-    """What to say of the errors: another kind of file first, then unknown keys, which explain missing ones."""
-    other = (e for e in errors if e["loc"] == ("schema",) and e["type"] == "literal_error")
-    unknown = (e for e in errors if e["type"] == "extra_forbidden")
-    first = next(chain(other, unknown), errors[0])
-    *table, last = first["loc"] or ("",)
-    if first["type"] == "extra_forbidden":
-        hint = nearest(str(last), _known_keys(model, tuple(table)))
-        return InputError(f"key is not known; {hint}", where=f"{where}: {messages.place(first['loc'])}")
-    if first["type"] == "missing" and isinstance(last, int):
-        needed = 1 + max(e["loc"][-1] for e in errors if e["loc"][:-1] == tuple(table))
-        said = f"needs {messages.counted(needed)}, not {last}"
-        return InputError(said, where=f"{where}: {messages.place(table)}", value=first["input"])
-    shown = None if first["type"] == "missing" or isinstance(first["input"], dict) else first["input"]
-    place = f"{where}: {messages.place(first['loc'])}" if first["loc"] else where
-    return InputError(messages.rule(first), where=place, value=shown)
+with_ranges(System)
 
 
 def in_file(error: InputError, file: str) -> InputError:
@@ -262,34 +286,9 @@ def in_file(error: InputError, file: str) -> InputError:
     system.toml: gears.teeth: [5, 60]: teeth interfere
     """
     key = re.split(r"[.,\[]", error.where)[0]
-    tables: dict[str, type[Section]] = {"": System, "gears.": Gears, "gears.load_sharing.": LoadSharing}
-    for table, section in tables.items():
-        if key in section.model_fields and (table == "" or key == error.where):
-            return InputError(error.rule, where=f"{file}: {table}{error.where}", value=error.value)
+    for table in tables(System):
+        own = table.name in ("gears", "gears.load_sharing") and key == error.where
+        if key in table.model.model_fields and (not table.name or own):
+            place = f"{table.name}.{error.where}".lstrip(".")
+            return InputError(error.rule, where=f"{file}: {place}", value=error.value)
     return error
-
-
-def _known_keys(model: type[BaseModel], place: tuple[Any, ...]) -> list[str]:
-    """Keys allowed at a place of the nested tables."""
-    from typing import get_args
-
-    current: Any = model
-    for part in place:
-        fields = getattr(current, "model_fields", {})
-        annotation = fields[part].annotation if part in fields else current
-        options = [a for a in (annotation, *_flatten(get_args(annotation))) if _is_model(a)]
-        named = [a for a in options if a.__name__ == part]
-        if named or options:
-            current = (named or options)[0]
-    fields = getattr(current, "model_fields", {})
-    return [f.alias or name for name, f in fields.items()]
-
-
-def _flatten(args: tuple[Any, ...]) -> list[Any]:
-    from typing import get_args
-
-    return [inner for a in args for inner in (a, *_flatten(get_args(a)))]
-
-
-def _is_model(a: Any) -> bool:
-    return isinstance(a, type) and issubclass(a, BaseModel)

@@ -106,36 +106,3 @@ def study_chain(options: Options) -> Chain:
         if replacement is not None:
             chosen[replacement[0]] = replacement[1]
     return tuple((name, chosen.get(name, law)) for name, law in GEAR_LOSS)
-
-
-MEANINGS: dict[str, dict[object, str]] = {
-    "film": {
-        "dowson_toyoda_central": "central film of Dowson and Toyoda (which the paper calls minimum)",
-        "dowson_higginson_minimum": "minimum film of Dowson and Higginson",
-    },
-    "viscosity_law": {
-        "roelands": "viscosity in the contact by Roelands",
-        "barus": "viscosity in the contact by Barus (far too high above 0.3 GPa)",
-    },
-    "viscosity_pressure": {
-        "maximum": "viscosity taken at the largest Hertz pressure",
-        "mean": "viscosity taken at the mean Hertz pressure",
-    },
-    "effective_viscosity": {
-        "asinh": "effective viscosity such that the stress is tau0 asinh(eta v_s/(h tau0))",
-        "secant": "effective viscosity eta/cosh(tau_m/tau0), which caps the stress at tau0",
-    },
-    "contact_pressure": {
-        "maximum": "film friction is shear stress over the largest Hertz pressure",
-        "mean": "film friction is shear stress over the mean Hertz pressure",
-    },
-    "averaging": {
-        "mesh_integral": "power loss by the integral of friction times load times sliding speed over the path",
-        "paper": "power loss by the paper's separate averages, its eq. 3 and 4",
-    },
-    "conditions_of": {
-        "pinion": "torque and speed are the pinion's",
-        "gear": "torque and speed are the gear's",
-    },
-}
-"""What each choice means, in words for the page."""

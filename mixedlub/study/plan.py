@@ -22,7 +22,7 @@ from mixedlub.rig import build
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.plausibility import far_off
 from mixedlub.rig.surface import Surface, paired
-from mixedlub.schema import system_file
+from mixedlub.schema import system_file, toml_file
 from mixedlub.study.options import study_chain
 from mixedlub.study.schema import Options, Pairings, StudyFile
 from profiles.errors import InputError, nearest
@@ -93,7 +93,7 @@ def read_study(path: Path, file: StudyFile | None = None) -> Study:
     if path.is_dir():
         raise InputError("is a folder; a study is one TOML file", where=str(path))
     if file is None:
-        file = system_file.parse(StudyFile, system_file.read_toml(path), str(path))
+        file = toml_file.parse(StudyFile, toml_file.read_toml(path), str(path))
     notes: list[str] = []
     try:
         with noted(notes), np.errstate(all="ignore"):

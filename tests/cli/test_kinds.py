@@ -4,18 +4,20 @@ import re
 import shutil
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, get_args, get_origin
 
 import numpy as np
 import pytest
 
 from mixedlub.case import folder
-from mixedlub.case.format_reference import MEANINGS, USED, kinds_text, sections
 from mixedlub.cli import main
 from mixedlub.kinds import kind
-from mixedlub.schema import system_file
+from mixedlub.report.format_reference import kinds_text
+from mixedlub.schema import system_file, toml_file
+from mixedlub.schema.section import examples, tables
 from mixedlub.schema.system_file import KINDS
 from mixedlub.schema.table import BOOKKEEPING, RUN, Column, Table
+from mixedlub.study.schema import StudyFile
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "case"
 PAGE = (EXAMPLE / "README.md").read_text(encoding="utf-8")
@@ -48,36 +50,51 @@ def test_every_column_of_a_kind_is_told(name):
         system = system_file.System.model_construct(recording=recording, surfaces={})
         for column in folder._columns(kind(name), system, measured=True):
             shown = column.name.replace(f"{quantity}_sd", "READING_sd")
-            (line,) = [text for text in lines if text.split()[:1] == [shown] and text.startswith("  ")][:1]
+            (line,) = [text for text in lines if re.match(rf" {{2,4}}{shown} ", text)][:1]
             assert ("optional" in line) == (not column.required), line
 
 
-def keys(model: type[system_file.Section], place: str = "") -> set[str]:
-    """Keys of a model and of the models in it, walked by trying what pydantic knows of each field."""
-    found = set()
-    for name, field in model.model_fields.items():
-        inner = [a for a in system_file._flatten((field.annotation,)) if system_file._is_model(a)]
-        own = f"{place}{field.alias or name}"
-        for table in inner:
-            found |= keys(table, f"{own}{'.NAME' if own == 'surfaces' else ''}.")
-        if not inner:
-            found.add(own)
-    return found
+@pytest.mark.parametrize("file", [system_file.System, StudyFile])
+def test_every_key_of_a_file_is_described(file):
+    for table in tables(file):
+        assert table.meaning or not table.title
+        for key in table.fields:
+            assert key.meaning
+            options = get_args(key.type) if get_origin(key.type) is Literal else ()
+            assert set(key.values) == set(options) or (not key.values and key.required), f"{table.name}.{key.name}"
 
 
-def test_every_key_of_a_case_is_told_with_its_meaning():
-    told = {f"{table}.{key}".lstrip(".") for table, rows in sections().items() for key, _, _ in rows}
-    assert told == keys(system_file.System)
-    assert told <= set(MEANINGS)
+@pytest.mark.parametrize("file", [system_file.System, StudyFile])
+def test_examples_go_together(file):
+    for table in tables(file):
+        found = examples(table.model)
+        if {key.name for key in table.fields if key.required} <= set(found):
+            assert table.model.model_validate(found)
 
 
-def test_no_meaning_is_told_of_what_is_not_there():
-    columns = {c.name for name in KINDS for c in (*kind(name).columns, *kind(name).channels)}
-    columns |= {f"{name}.{c.name}" for name in KINDS for c in kind(name).columns}
-    readings = {q for name in KINDS for q in kind(name).quantities}
-    readings |= {f"{name}.{q}" for name in KINDS for q in kind(name).quantities}
-    known = {RUN.name, *(c.name for c in BOOKKEEPING), "READING_sd", "CHECK"} | columns | readings
-    assert set(MEANINGS) <= known | keys(system_file.System) | set(sections())
+def test_every_column_is_described():
+    for name in KINDS:
+        found = kind(name)
+        for column in (RUN, *BOOKKEEPING, *found.columns, *found.channels, *found.readings):
+            assert column.meaning, f"{name}: {column.name}"
+
+
+def test_a_column_has_the_same_words_in_every_kind():
+    words = {}
+    for column in (c for name in KINDS for c in (*kind(name).columns, *kind(name).readings)):
+        assert words.setdefault(column.name, column.words) == column.words
+
+
+def test_every_key_of_a_study_is_told(capsys):
+    assert main(["kinds", "study"]) == 0
+    said = capsys.readouterr().out
+    for table in tables(StudyFile):
+        assert not table.title or f"\n[{table.title}]" in said
+        for key in table.keys:
+            assert re.search(rf"\n  {key.name} ", said), f"{table.name}.{key.name}"
+            assert all(re.search(rf'\n      "{value}" +\w', said) for value in key.values)
+    assert re.search(r"bulk_temperature_rise_K +K +0 +-100 to 200\n", said)
+    assert re.search(r"torque_Nm +N m +required +list of 1e-09 to 1e\+09\n", said)
 
 
 @pytest.mark.parametrize(
@@ -86,9 +103,12 @@ def test_no_meaning_is_told_of_what_is_not_there():
         ("disc", r"load_N +N +required +above 0 "),
         ("disc", r"slide_roll_ratio +- +required +-200 to 200 "),
         ("film", r"film_thickness_nm +nm +reading "),
-        ("gear_pair", r"pressure_angle_deg +° +20 +6 to 44 "),
-        ("gear_pair", r"thermal_conductivity_W_mK +W/\(m K\) +required +0.01 to 10000 +of the coating"),
-        ("gear_pair", r'model +- +"ldp", "rigid" '),
+        ("gear_pair", r"pressure_angle_deg +° +20 +6 to 44\n"),
+        (
+            "gear_pair",
+            r"conductivity_W_mK +W/\(m K\) +required +0.01 to 10000\s+thermal conductivity of the c",
+        ),
+        ("gear_pair", r'model +- +one of these [^"]*"ldp" +elastic teeth\s+"rigid" '),
         ("viscosity", r"pressure_MPa +MPa +optional +0 to 5000 "),
     ],
 )
@@ -104,8 +124,9 @@ def test_only_the_sections_of_the_kind_are_told():
     assert "[surfaces.NAME]" not in said
 
 
-def test_no_line_is_wider_than_a_page():
-    assert max(map(len, kinds_text().splitlines())) <= 120
+@pytest.mark.parametrize("name", [None, *KINDS, "study"])
+def test_no_line_is_wider_than_a_terminal(name):
+    assert max(map(len, kinds_text(name).splitlines())) <= 80
 
 
 def test_an_unknown_kind_gets_the_nearest(capsys):
@@ -137,17 +158,19 @@ def test_the_sections_told_are_those_that_are_computed_with(name):
     columns["run"] = np.arange(3)
     columns[found.quantities[0]] = np.array([0.1, 0.11, 0.12])
     table = Table(columns)
-    data = system_file.read_toml(EXAMPLE / "system.toml")
+    data = toml_file.read_toml(EXAMPLE / "system.toml")
     data["contact"] = {"geometry": "point", "radius_mm": [10.0, 20.0]}
-    watched = Watched(system_file.parse(system_file.System, data, "system.toml"))
+    watched = Watched(toml_file.parse(system_file.System, data, "system.toml"))
     found.inputs(watched, EXAMPLE, table, table)
     found.chain(watched, table)
     found.extra_calibration(watched, table)
-    assert watched.asked & {"gears", "contact", "lubricant", "surfaces"} == {*found.sections, *USED.get(name, ())}
+    assert watched.asked & {"gears", "contact", "lubricant", "surfaces"} == {*found.sections, *found.uses}
 
 
 def test_a_column_that_changes_changes_the_page(monkeypatch):
-    changed = replace(kind("film"), columns=(Column("load_N", at_least=2.0, at_most=3.0, required=False),))
-    monkeypatch.setattr("mixedlub.case.format_reference.kind", lambda name: changed if name == "film" else kind(name))
+    changed = replace(
+        kind("film"), columns=(Column("load_N", at_least=2.0, at_most=3.0, required=False, meaning="load"),)
+    )
+    monkeypatch.setattr("mixedlub.report.format_reference.kind", lambda name: changed if name == "film" else kind(name))
     assert re.search(r"load_N +N +optional +2 to 3 ", kinds_text("film"))
     assert kinds_text() != block("text").rstrip("\n")

@@ -10,9 +10,9 @@ from mixedlub.importers import import_files
 from mixedlub.importers.likely import likely_headers, likely_kind
 from mixedlub.importers.match import wanted
 from mixedlub.importers.plain import draft
-from mixedlub.importers.write import toml_value
 from mixedlub.kinds import kind as kind_of
 from mixedlub.schema.system_file import KINDS
+from mixedlub.schema.toml_file import toml_value
 from profiles.errors import InputError
 
 DRIVE = {"kind": "friction_map", "recording.quantity": "friction_torque_Nm"}

@@ -7,7 +7,7 @@ from mixedlub.case.folder import read_case
 from mixedlub.cli import main
 from mixedlub.importers import import_files, write_case
 from mixedlub.importers.wizard import run
-from mixedlub.schema import system_file
+from mixedlub.schema import toml_file
 from profiles.errors import InputError
 
 TABLE = "temperature_C,viscosity_mPa_s\n40,30\n100,5\n"
@@ -129,4 +129,4 @@ def test_a_write_that_fails_leaves_the_case_as_it_was(table, tmp_path, monkeypat
 def test_names_that_toml_must_quote_are_read_back(tmp_path):
     surface = {"m0_um2": 0.1, "m2": 0.002, "m4_per_um2": 0.003}
     folder = write_case(tmp_path / "case", {**VISCOSITY, "surfaces": {"Ra 0.4 ground": surface}}, READINGS)
-    assert "Ra 0.4 ground" in system_file.read_toml(folder / "system.toml")["surfaces"]
+    assert "Ra 0.4 ground" in toml_file.read_toml(folder / "system.toml")["surfaces"]

@@ -3,9 +3,9 @@
 import pytest
 
 from mixedlub.case.folder import read_case
-from mixedlub.case.format_reference import kinds_text
 from mixedlub.importers import import_files
 from mixedlub.importers.wizard import run
+from mixedlub.report.format_reference import kinds_text
 from mixedlub.schema.table import CaseWarning
 from profiles.errors import InputError
 
@@ -103,7 +103,7 @@ def test_a_friction_of_zero_is_taken_and_named(file, tmp_path):
     assert "t.csv: 2 readings of friction_coefficient at zero or below, taken as read: lines 2, 5" in said
     table = read_case(tmp_path / "case").recordings
     assert table["friction_coefficient"].tolist() == [0.0, 0.11, 0.12, -0.001, 0.11, 0.1]
-    assert "friction over load, positive but for noise" in kinds_text("friction_history")
+    assert "friction over load, positive but for noise" in " ".join(kinds_text("friction_history").split())
 
 
 @pytest.mark.parametrize("quantity", ["friction_coefficient", "friction_torque_Nm"])

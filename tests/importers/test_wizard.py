@@ -94,7 +94,7 @@ BODIES = {
     "surface_1": ["import.values.surface_1=ground"],
     "surface_2": ['import.values.surface_2="ground"'],
     "Unit": ["-", "-"],
-    "Line": ["line"],
+    "Form": ["line"],
     "Width": ["6"],
     "Radii": ["20, 25.4"],
     "Young": ["206, 75"],
@@ -112,10 +112,10 @@ def test_lists_may_be_typed_without_brackets_and_columns_told_as_one_value(file,
 def test_a_wrong_answer_is_asked_again_at_once(file, tmp_path):
     replies = {
         **BODIES,
-        "Line": ["cube", "line"],
+        "Form": ["cube", "line"],
         "Radii": ["20", "20, 25.4"],
         "surface_1": ["gruond", "import.values.surface_1=ground"],
-        "Noise of a reading, one sd as a share": ["-1", "0.02"],
+        "Standard deviation of a reading over": ["-1", "0.02"],
     }
     said = answered(file(DISCS), tmp_path / "case", NAMED, replies)
     for wrong in ("contact.geometry: 'cube': must be 'line' or 'point'", "contact.radius_mm: 20: must be a list"):

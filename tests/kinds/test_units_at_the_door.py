@@ -2,7 +2,7 @@
 
 import pytest
 
-from mixedlub.schema import system_file
+from mixedlub.schema import system_file, toml_file
 from profiles.errors import InputError
 
 
@@ -19,4 +19,4 @@ from profiles.errors import InputError
 )
 def test_another_unit_is_refused(section: type, values: dict[str, object], key: str) -> None:
     with pytest.raises(InputError, match=key):
-        system_file.parse(section, values, "system.toml")
+        toml_file.parse(section, values, "system.toml")

@@ -4,8 +4,6 @@ import numpy as np
 import pytest
 
 from mixedlub.study import read_study, run_study
-from mixedlub.study.options import MEANINGS
-from mixedlub.study.schema import Options
 
 
 def results(write_study, **options):
@@ -75,10 +73,3 @@ def test_bulk_temperature_rise_is_hotter_oil(write_study):
     warmer = results(write_study, bulk_temperature_rise_K=30.0)
     base = results(write_study)
     assert warmer["power_loss"][:, 0] == pytest.approx(base["power_loss"][:, 1], rel=1e-12)
-
-
-def test_every_choice_is_explained():
-    for name, field in Options.model_fields.items():
-        choices = getattr(field.annotation, "__args__", ())
-        if choices and all(isinstance(c, str) for c in choices):
-            assert set(MEANINGS[name]) == set(choices), name

@@ -1,0 +1,191 @@
+"""The formats of files as text: columns of each kind of case, keys of `system.toml` and of a study file.
+
+All of it comes from where columns and keys are declared: the kinds, and the classes of the files.
+"""
+
+from __future__ import annotations
+
+import importlib
+import re
+import textwrap
+from collections.abc import Iterator, Sequence
+from typing import Any, Literal, get_args, get_origin
+
+import numpy as np
+
+from mixedlub.kinds import Kind, kind
+from mixedlub.schema.section import FileTable, Key, plain, tables
+from mixedlub.schema.system_file import KINDS, System
+from mixedlub.schema.table import BOOKKEEPING, RUN, Column, check_column, sd_column
+from mixedlub.schema.toml_file import toml_value
+from mixedlub.schema.units import unit_of
+from mixedlub.study.schema import StudyFile
+from profiles.errors import InputError, nearest
+
+WIDTH = 80
+"""Columns of a terminal."""
+LEAST = 22
+"""Columns that a meaning needs to stand beside its key: some three words."""
+STUDY = "study"
+EVERY_CASE = ("", "uncertainty", "recording")
+"""Tables of `system.toml` that do not depend on its kind."""
+_GAP = "  "
+
+Row = tuple[str, ...]
+"""Facts that stand in columns, and last the meaning."""
+
+
+def kinds_text(name: str | None = None) -> str:
+    """The format of one kind of case, of all of them, or of a study file."""
+    if name == STUDY:
+        return "\n".join(_study())
+    if name is not None and name not in KINDS:
+        known = (*KINDS, STUDY)
+        raise InputError(f"no such kind; {nearest(name, known)}", where="KIND", value=name)
+    chosen = [kind(n) for n in (KINDS if name is None else (name,))]
+    taken = {*EVERY_CASE, *(section for k in chosen for section in (*k.sections, *k.uses))}
+    lines = [] if name else [f"{len(KINDS)} kinds of case. `mixedlub kinds KIND` shows one, with the keys it takes;"]
+    lines += [] if name else ["`mixedlub kinds study` shows the keys of a study file."]
+    for k in chosen:
+        lines += ["", *_kind(k)]
+    lines += ["", "columns of every kind (conditions.csv has all but the reading)", *_aligned(_common())]
+    lines += ["", "keys of system.toml: unit, default, what is allowed, meaning"]
+    for table in tables(System):
+        if table.name.split(".")[0] in taken:
+            lines += ["", *_title(table), *(_users(table) if name is None else ()), *_keys(table)]
+    return "\n".join(lines).lstrip("\n")
+
+
+def _study() -> Iterator[str]:
+    yield "keys of a study file: unit, default, what is allowed, meaning"
+    for table in tables(StudyFile):
+        yield from ("", *_title(table), *_keys(table))
+
+
+def _kind(k: Kind) -> Iterator[str]:
+    about = (importlib.import_module(f"mixedlub.kinds.{k.name}").__doc__ or "").splitlines()[0]
+    yield from _wrapped(f"{k.name}: {about[:1].lower()}{about[1:].rstrip('.')}", 0, 2)
+    used = f"; uses where given {_named(k.uses)}" if k.uses else ""
+    yield from _wrapped(f"needs {_named(k.sections) or 'no section but [recording]'}{used}", 2, 4)
+    if k.part_rigs:
+        rigs = " or ".join(k.part_rigs)
+        yield from _wrapped(f"readings of the rig {rigs} are compared with a part of the base model", 2, 4)
+    one = "reading" if len(k.readings) == 1 else "one of these"
+    rows = [_column(c) for c in (*k.columns, *k.channels)]
+    yield from _aligned([*rows, *(_column(c, needed=one) for c in k.readings)], indent=4)
+
+
+def _named(sections: Sequence[str]) -> str:
+    """Tables as they are written in the file.
+
+    >>> _named(["contact", "surfaces"])
+    '[contact] [surfaces.NAME]'
+    """
+    titles = {table.name: table.title for table in tables(System)}
+    return " ".join(f"[{titles[section]}]" for section in sections)
+
+
+def _common() -> list[Row]:
+    sd, check = sd_column("READING"), check_column("CHECK")
+    return [*map(_column, (RUN, *BOOKKEEPING)), _column(sd, unit="as read"), _column(check, unit="any")]
+
+
+def _column(c: Column, needed: str = "", unit: str = "") -> Row:
+    unit = "" if c.form == "name" else unit or unit_of(c.name) or "-"
+    return c.name, unit, needed or ("required" if c.required else "optional"), _bounds(c), c.meaning
+
+
+def _bounds(c: Column) -> str:
+    if c.form != "number":
+        return {"whole": "whole number"}.get(c.form, c.form)
+    if np.isfinite(c.above):
+        return f"above {c.above:g}"
+    return _span(c.at_least, c.at_most)
+
+
+def _span(low: float, high: float, number: str = "number") -> str:
+    """What lies between two ends.
+
+    >>> _span(0.0, 1.0), _span(0.0, np.inf), _span(-np.inf, np.inf)
+    ('0 to 1', 'from 0', 'number')
+    """
+    if not np.isfinite(low):
+        return number
+    return f"{low:g} to {high:g}" if np.isfinite(high) else f"from {low:g}"
+
+
+def _title(table: FileTable) -> Iterator[str]:
+    if not table.title:
+        yield "top of the file"
+        return
+    yield from _wrapped(f"[{table.title}]  {table.meaning}", 0, 4)
+
+
+def _users(table: FileTable) -> Iterator[str]:
+    """Which kinds need a table and which use it."""
+    needed = [n for n in KINDS if table.name in kind(n).sections]
+    used = [n for n in KINDS if table.name in kind(n).uses]
+    for word, names in (("needed by", needed), ("used where given by", used)):
+        if names:
+            yield from _wrapped(f"{word} {', '.join(names)}", 2, 4)
+
+
+def _keys(table: FileTable) -> Iterator[str]:
+    """The keys of a table; below them the meaning of each value of those that have few."""
+    for key, lines in zip(table.keys, _blocks([_key(key) for key in table.keys], 2), strict=True):
+        yield from lines
+        yield from _aligned([(toml_value(value), meaning) for value, meaning in key.values.items()], indent=6)
+
+
+def _key(key: Key) -> Row:
+    allowed, numeric = _allowed(key.type, key)
+    unit = (key.unit or "-") if numeric else ""
+    default = "required" if key.required else _default(key.field.get_default(call_default_factory=True))
+    return key.name, unit, default, allowed, key.meaning
+
+
+def _allowed(annotation: Any, key: Key) -> tuple[str, bool]:
+    """What a key may hold, and whether that is numbers."""
+    of = plain(annotation)
+    entries = get_args(of)
+    if get_origin(of) is tuple:
+        one, numeric = _allowed(entries[0], key)
+        return f"list of {one}" if entries[-1] is ... else f"[{one}] x {len(entries)}", numeric
+    if get_origin(of) is Literal:
+        return ("one of these" if key.values else "see above" if len(entries) > 1 else toml_value(entries[0])), False
+    if get_origin(of) is dict:
+        return "tables", False
+    if of in (bool, str):
+        return {bool: "true, false", str: "text"}[of], False
+    ends = (-np.inf, np.inf) if key.range is None else key.range.possible
+    return _span(*ends, number="whole number" if of is int else "number"), True
+
+
+def _default(value: Any) -> str:
+    """A value taken where a key is left out, as TOML in the fewest digits.
+
+    >>> _default((206.0, 0.05)), _default(None), _default(1.5)
+    ('[206, 0.05]', '-', '1.5')
+    """
+    return "-" if value is None else re.sub(r"\.0(?=[,\]]|$)", "", toml_value(value))
+
+
+def _wrapped(text: str, indent: int, hanging: int) -> list[str]:
+    return textwrap.wrap(
+        text, WIDTH, initial_indent=" " * indent, subsequent_indent=" " * hanging, break_on_hyphens=False
+    )
+
+
+def _aligned(rows: Sequence[Row], indent: int = 2) -> list[str]:
+    return [line for lines in _blocks(rows, indent) for line in lines]
+
+
+def _blocks(rows: Sequence[Row], indent: int) -> Iterator[list[str]]:
+    """The lines of each row, its facts in columns; meanings stand beside them, or below where that leaves no room."""
+    widths = [max(map(len, cells)) for cells in zip(*rows, strict=True)][:-1]
+    beside = indent + sum(widths) + len(_GAP) * len(widths)
+    below = WIDTH - beside < LEAST
+    for *facts, meaning in rows:
+        start = " " * indent + _GAP.join(f"{cell:{width}}" for cell, width in zip(facts, widths, strict=True))
+        lines = _wrapped(meaning, *(2 * [indent + 4 if below else beside]))
+        yield [start.rstrip(), *lines] if below else [start + lines[0][len(start) :], *lines[1:]]

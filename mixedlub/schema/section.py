@@ -1,0 +1,211 @@
+"""A table of a TOML file as a class whose fields describe its keys: type, default, meaning, example and range."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from types import NoneType, UnionType
+from typing import Annotated, Any, Union, get_args, get_origin
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, ValidationInfo, field_validator
+from pydantic.fields import FieldInfo
+
+from mixedlub.schema.ranges import Range, broken, range_of, ranges
+from mixedlub.schema.units import unit_of
+
+
+def _number(value: Any) -> Any:
+    if isinstance(value, (bool, str)):
+        raise ValueError("must be a number")
+    return value
+
+
+def _whole(value: Any) -> Any:
+    if isinstance(value, (bool, str)):
+        raise ValueError("must be a whole number")
+    return value
+
+
+Float = Annotated[float, BeforeValidator(_number)]
+Number = Annotated[Float, Field(allow_inf_nan=False)]
+Whole = Annotated[int, BeforeValidator(_whole)]
+NAME = "NAME"
+"""Stands for the name that a table is given in the file."""
+
+
+class Section(BaseModel):
+    """A table of a file: unknown keys are errors, values never change and lie within the range of their field."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    @field_validator("*")
+    @classmethod
+    def _possible(cls, value: Any, info: ValidationInfo) -> Any:
+        within = range_of(cls.model_fields[str(info.field_name)])
+        rule = "" if within is None or value is None else broken(within.key, value)
+        if rule:
+            raise ValueError(rule)
+        return value
+
+
+@dataclass(frozen=True)
+class Key:
+    """A key as its field describes it; ``table`` is the dotted name of the table that it belongs to."""
+
+    table: str
+    name: str
+    field: FieldInfo
+
+    @property
+    def type(self) -> Any:
+        """What it holds: a class, or a tuple, dictionary or choice of such."""
+        return plain(self.field.annotation)
+
+    @property
+    def required(self) -> bool:
+        """Whether a table without it is refused."""
+        return self.field.is_required()
+
+    @property
+    def meaning(self) -> str:
+        """What it is, in words without its unit."""
+        return self.field.description or ""
+
+    @property
+    def example(self) -> Any:
+        """A value that fits those of the other keys of its table; None where it has none of its own."""
+        if self.field.examples:
+            return self.field.examples[0]
+        return None if self.required or isinstance(self.field.default, BaseModel) else self.field.default
+
+    @property
+    def unit(self) -> str:
+        """Its unit; empty where it has none."""
+        return str(self._extra.get("unit", unit_of(self.name)))
+
+    @property
+    def words(self) -> str:
+        """Its meaning with its unit, or with its values."""
+        more = unit_of(self.name) or ", ".join(f"{value}: {meaning}" for value, meaning in self.values.items())
+        what, mark, rest = self.meaning.partition(";")
+        return f"{what} ({more}){mark}{rest}" if more else self.meaning
+
+    @property
+    def values(self) -> Mapping[str, str]:
+        """The meaning of each value, where there are few."""
+        return dict(self._extra.get("values", {}))
+
+    @property
+    def is_alternative(self) -> bool:
+        """Whether it takes the place of other keys, so that their examples do not go with its own."""
+        return bool(self._extra.get("alternative"))
+
+    @property
+    def range(self) -> Range | None:
+        """Its possible and usual values, entry by entry where it is a list."""
+        return range_of(self.field)
+
+    @property
+    def _extra(self) -> dict[str, Any]:
+        extra = self.field.json_schema_extra
+        return extra if isinstance(extra, dict) else {}
+
+
+@dataclass(frozen=True)
+class FileTable:
+    """A table of a file: the class of its keys, its meaning, and its dotted name with NAME for names of the user."""
+
+    model: type[Section]
+    meaning: str
+    title: str
+
+    @property
+    def name(self) -> str:
+        """The dotted name without names of the user."""
+        return self.title.replace(f".{NAME}", "")
+
+    @property
+    def fields(self) -> tuple[Key, ...]:
+        """All its keys, tables within it among them."""
+        return tuple(Key(self.name, f.alias or name, f) for name, f in self.model.model_fields.items())
+
+    def __getitem__(self, name: str) -> Key:
+        """The key of a name."""
+        return next(key for key in self.fields if key.name == name)
+
+    @property
+    def keys(self) -> tuple[Key, ...]:
+        """Its keys but for tables within it, those first that it must have."""
+        return tuple(sorted((k for k in self.fields if section_in(k.type) is None), key=lambda k: not k.required))
+
+
+def choices(**meanings: str) -> dict[str, Any]:
+    """What a field says of the meaning of each of its values."""
+    return {"values": meanings}
+
+
+def plain(annotation: Any) -> Any:
+    """A type without what is annotated to it and without None.
+
+    >>> plain(Number | None), plain(Annotated[tuple[int, ...], Field(min_length=1)])
+    (<class 'float'>, tuple[int, ...])
+    """
+    origin = get_origin(annotation)
+    if origin is Annotated:
+        return plain(get_args(annotation)[0])
+    if origin in (Union, UnionType):
+        (one,) = (a for a in get_args(annotation) if a is not NoneType)
+        return plain(one)
+    return annotation
+
+
+def section_in(annotation: Any) -> type[Section] | None:
+    """The class of the table, or of the tables by name, that a type stands for."""
+    found = plain(annotation)
+    if get_origin(found) is dict:
+        found = get_args(found)[1]
+    return found if isinstance(found, type) and issubclass(found, Section) else None
+
+
+def tables(model: type[Section], meaning: str = "", title: str = "") -> Iterator[FileTable]:
+    """A table (the whole file has an empty title) and all those within it."""
+    own = FileTable(model, meaning, title)
+    yield own
+    for key in own.fields:
+        inner = section_in(key.type)
+        if inner is not None:
+            named = f".{NAME}" if get_origin(key.type) is dict else ""
+            yield from tables(inner, key.meaning, f"{title}.{key.name}".lstrip(".") + named)
+
+
+def table(file: type[Section], name: str) -> FileTable:
+    """The table of a file that has a dotted name, without names of the user; StopIteration where there is none."""
+    return next(found for found in tables(file) if found.name == name)
+
+
+def with_ranges(file: type[Section]) -> None:
+    """Give every key of a file its range from the table of ranges."""
+    for key in (key for table in tables(file) for key in table.fields):
+        found = ranges().get(f"{key.table}.{key.name}".lstrip("."))
+        if found is not None and key.range is None:
+            key.field.metadata.append(found)
+
+
+def examples(model: type[Section]) -> dict[str, Any]:
+    """Examples of all keys of a table that go together."""
+    keys = FileTable(model, "", "").fields
+    return {key.name: key.example for key in keys if key.example is not None and not key.is_alternative}
+
+
+def needed(model: type[Section]) -> tuple[str, ...]:
+    """Keys of a table without which the examples of the others are refused."""
+    every = examples(model)
+    return tuple(key for key in every if not _is_valid(model, {k: v for k, v in every.items() if k != key}))
+
+
+def _is_valid(model: type[Section], data: Mapping[str, Any]) -> bool:
+    try:
+        model.model_validate(data)
+    except ValidationError:
+        return False
+    return True

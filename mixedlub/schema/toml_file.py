@@ -1,0 +1,92 @@
+"""TOML files: read, validated with every error at its place, and values as they are written."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from itertools import chain
+from pathlib import Path
+from typing import Any, TypeVar
+
+from pydantic import ValidationError
+
+from mixedlub.schema import messages
+from mixedlub.schema.section import Section, section_in
+from profiles.errors import InputError, nearest
+
+T = TypeVar("T", bound=Section)
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """The file's content, or an error saying why it is not TOML."""
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except FileNotFoundError:
+        raise InputError("no such file", where=str(path)) from None
+    except OSError as error:
+        raise InputError(f"cannot be read ({error.strerror})", where=str(path)) from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise InputError(f"is not readable as TOML ({error})", where=str(path)) from None
+
+
+def parse(model: type[T], data: Mapping[str, Any], where: str) -> T:
+    """The validated section; the first error becomes a message that names place, value and rule."""
+    try:
+        return model.model_validate(data)
+    except ValidationError as error:
+        raise _refused(model, error.errors(), where) from None
+
+
+def _refused(model: type[Section], errors: list[Any], where: str) -> InputError:
+    """What to say of the errors: another kind of file first, then unknown keys, which explain missing ones."""
+    other = (e for e in errors if e["loc"] == ("schema",) and e["type"] == "literal_error")
+    unknown = (e for e in errors if e["type"] == "extra_forbidden")
+    first = next(chain(other, unknown), errors[0])
+    *table, last = first["loc"] or ("",)
+    if first["type"] == "extra_forbidden":
+        hint = nearest(str(last), _known_keys(model, table))
+        return InputError(f"key is not known; {hint}", where=f"{where}: {messages.place(first['loc'])}")
+    if first["type"] == "missing" and isinstance(last, int):
+        needed = 1 + max(e["loc"][-1] for e in errors if e["loc"][:-1] == tuple(table))
+        said = f"needs {messages.counted(needed)}, not {last}"
+        return InputError(said, where=f"{where}: {messages.place(table)}", value=first["input"])
+    shown = None if first["type"] == "missing" or isinstance(first["input"], dict) else first["input"]
+    place = f"{where}: {messages.place(first['loc'])}" if first["loc"] else where
+    return InputError(messages.rule(first), where=place, value=shown)
+
+
+def _known_keys(model: type[Section], place: Sequence[Any]) -> list[str]:
+    """Keys allowed at a place of the nested tables."""
+    for part in place:
+        field = model.model_fields.get(part)
+        model = (None if field is None else section_in(field.annotation)) or model
+    return [field.alias or name for name, field in model.model_fields.items()]
+
+
+def toml_key(name: str) -> str:
+    """A key as TOML writes it.
+
+    >>> toml_key("ground"), toml_key("Ra 0.4")
+    ('ground', '"Ra 0.4"')
+    """
+    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else toml_value(name)
+
+
+def toml_value(value: Any) -> str:
+    """A plain value, a list or a table in one line as TOML writes it.
+
+    >>> toml_value([17, 26.0, float("inf")]), toml_value({"model": "ldp", "lead_crown_um": 3})
+    ('[17, 26.0, inf]', '{ model = "ldp", lead_crown_um = 3 }')
+    """
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        escaped = value.replace("\\", "\\\\").replace('"', '\\"').replace("\n", " ")
+        return f'"{escaped}"'
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(toml_value(v) for v in value) + "]"
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{toml_key(k)} = {toml_value(v)}" for k, v in value.items()) + " }" if value else "{}"
+    number = float(value)
+    return str(int(value)) if isinstance(value, int) else repr(number)
