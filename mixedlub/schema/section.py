@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from types import NoneType, UnionType
-from typing import Annotated, Any, Union, get_args, get_origin
+from typing import Annotated, Any, Union, cast, get_args, get_origin
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, ValidationInfo, field_validator
 from pydantic.fields import FieldInfo
@@ -31,6 +31,26 @@ Number = Annotated[Float, Field(allow_inf_nan=False)]
 Whole = Annotated[int, BeforeValidator(_whole)]
 NAME = "NAME"
 """Stands for the name that a table is given in the file."""
+
+
+def key(
+    meaning: str,
+    default: Any = ...,
+    *,
+    example: Any = None,
+    values: Mapping[str, str] | None = None,
+    unit: str = "",
+    alternative: bool = False,
+    **constraints: Any,
+) -> Any:
+    """A field that describes a key; without a default the key must be given.
+
+    ``example`` is a value that fits the examples of the other keys, the default where none is given; ``values`` is
+    the meaning of each value of a choice; an ``alternative`` takes the place of other keys.
+    """
+    extra: dict[str, Any] = {"values": dict(values or {}), "unit": unit, "alternative": alternative}
+    examples = None if example is None else [example]
+    return Field(default=default, description=meaning, examples=examples, json_schema_extra=extra, **constraints)
 
 
 class Section(BaseModel):
@@ -81,7 +101,7 @@ class Key:
     @property
     def unit(self) -> str:
         """Its unit; empty where it has none."""
-        return str(self._extra.get("unit", unit_of(self.name)))
+        return self._extra["unit"] or unit_of(self.name)
 
     @property
     def words(self) -> str:
@@ -93,12 +113,12 @@ class Key:
     @property
     def values(self) -> Mapping[str, str]:
         """The meaning of each value, where there are few."""
-        return dict(self._extra.get("values", {}))
+        return self._extra["values"]
 
     @property
     def is_alternative(self) -> bool:
         """Whether it takes the place of other keys, so that their examples do not go with its own."""
-        return bool(self._extra.get("alternative"))
+        return self._extra["alternative"]
 
     @property
     def range(self) -> Range | None:
@@ -107,8 +127,7 @@ class Key:
 
     @property
     def _extra(self) -> dict[str, Any]:
-        extra = self.field.json_schema_extra
-        return extra if isinstance(extra, dict) else {}
+        return cast(dict[str, Any], self.field.json_schema_extra)
 
 
 @dataclass(frozen=True)
@@ -137,11 +156,6 @@ class FileTable:
     def keys(self) -> tuple[Key, ...]:
         """Its keys but for tables within it, those first that it must have."""
         return tuple(sorted((k for k in self.fields if section_in(k.type) is None), key=lambda k: not k.required))
-
-
-def choices(**meanings: str) -> dict[str, Any]:
-    """What a field says of the meaning of each of its values."""
-    return {"values": meanings}
 
 
 def plain(annotation: Any) -> Any:

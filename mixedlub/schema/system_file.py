@@ -7,7 +7,7 @@ from typing import Annotated, Literal, get_args
 
 from pydantic import Field, model_validator
 
-from mixedlub.schema.section import Float, Number, Section, Whole, choices, tables, with_ranges
+from mixedlub.schema.section import Float, Number, Section, Whole, key, tables, with_ranges
 from profiles.errors import InputError
 
 KindName = Literal["gear_pair", "mesh_friction", "disc", "film", "friction_history", "friction_map", "viscosity"]
@@ -17,26 +17,19 @@ Pair = tuple[Number, Number]
 
 
 class LoadSharing(Section):
-    table: str | None = Field(
-        default=None,
-        description="CSV of torque_Nm, roll_angle_deg, load_share; this or model",
-        examples=["load_share.csv"],
-        json_schema_extra={"alternative": True},
+    table: str | None = key(
+        "CSV of torque_Nm, roll_angle_deg, load_share; this or model", None, example="load_share.csv", alternative=True
     )
-    model: Literal["ldp", "rigid"] | None = Field(
-        default=None,
-        description="how the load divides between tooth pairs; this or table",
-        examples=["ldp"],
-        json_schema_extra=choices(ldp="elastic teeth", rigid="equal shares of the pairs in contact"),
+    model: Literal["ldp", "rigid"] | None = key(
+        "how the load divides between tooth pairs; this or table",
+        None,
+        example="ldp",
+        values={"ldp": "elastic teeth", "rigid": "equal shares of the pairs in contact"},
     )
-    tip_relief_um: Pair = Field(default=(0.0, 0.0), description='model "ldp": tip relief', examples=[[15, 15]])
-    relief_length_mm: Pair = Field(
-        default=(0.0, 0.0), description='model "ldp": length of the relief along the profile', examples=[[2, 2]]
-    )
-    lead_crown_um: Number = Field(
-        default=0.0, description='model "ldp": crown over the face, both flanks together', examples=[3.0]
-    )
-    misalignment_um: Number = Field(default=0.0, description='model "ldp": misalignment over the face width')
+    tip_relief_um: Pair = key('model "ldp": tip relief', (0.0, 0.0), example=[15, 15])
+    relief_length_mm: Pair = key('model "ldp": length of the relief along the profile', (0.0, 0.0), example=[2, 2])
+    lead_crown_um: Number = key('model "ldp": crown over the face, both flanks together', 0.0, example=3.0)
+    misalignment_um: Number = key('model "ldp": misalignment over the face width', 0.0)
 
     @model_validator(mode="after")
     def _table_or_model(self) -> LoadSharing:
@@ -46,39 +39,31 @@ class LoadSharing(Section):
 
 
 class Gears(Section):
-    teeth: tuple[Whole, Whole] = Field(description="numbers of teeth, pinion (driving) and gear", examples=[[17, 26]])
-    normal_module_mm: Number = Field(description="normal module", examples=[4.2333333])
-    pressure_angle_deg: Number = Field(default=20.0, description="normal pressure angle", examples=[22.5])
-    helix_angle_deg: Number = Field(default=0.0, description="helix angle at the pitch circle")
-    profile_shift: Pair = Field(default=(0.0, 0.0), description="profile shift over module")
-    tip_diameter_mm: Pair | None = Field(
-        default=None, description="tip diameters; left out: standard addendum", examples=[[80.5, 118.4]]
+    teeth: tuple[Whole, Whole] = key("numbers of teeth, pinion (driving) and gear", example=[17, 26])
+    normal_module_mm: Number = key("normal module", example=4.2333333)
+    pressure_angle_deg: Number = key("normal pressure angle", 20.0, example=22.5)
+    helix_angle_deg: Number = key("helix angle at the pitch circle", 0.0)
+    profile_shift: Pair = key("profile shift over module", (0.0, 0.0))
+    tip_diameter_mm: Pair | None = key("tip diameters; left out: standard addendum", None, example=[80.5, 118.4])
+    centre_distance_mm: Number | None = key(
+        "working centre distance; left out: by the profile shift", None, example=91.0
     )
-    centre_distance_mm: Number | None = Field(
-        default=None, description="working centre distance; left out: from the profile shift", examples=[91.0]
-    )
-    face_width_mm: Number = Field(description="common face width", examples=[14.0])
-    youngs_modulus_GPa: Pair = Field(default=(206.0, 206.0), description="Young's moduli")
-    poisson_ratio: Pair = Field(default=(0.3, 0.3), description="Poisson's ratios")
-    load_sharing: LoadSharing = Field(
-        default=LoadSharing(model="rigid"),
-        description='how the load divides between tooth pairs; left out: { model = "rigid" }',
-        examples=[{"model": "ldp", "tip_relief_um": [15, 15], "relief_length_mm": [2, 2]}],
+    face_width_mm: Number = key("common face width", example=14.0)
+    youngs_modulus_GPa: Pair = key("Young's moduli", (206.0, 206.0))
+    poisson_ratio: Pair = key("Poisson's ratios", (0.3, 0.3))
+    load_sharing: LoadSharing = key(
+        'how the load divides between tooth pairs; left out: { model = "rigid" }',
+        LoadSharing(model="rigid"),
+        example={"model": "ldp", "tip_relief_um": [15, 15], "relief_length_mm": [2, 2]},
     )
 
 
 class Contact(Section):
-    geometry: Literal["line", "point"] = Field(
-        default="line",
-        description="form of the contact",
-        json_schema_extra=choices(line="cylinders", point="a ball"),
-    )
-    radius_mm: tuple[Float, Float] = Field(description="radii of the two bodies; inf is flat", examples=[[20.0, 25.4]])
-    width_mm: Number | None = Field(
-        default=None, description="width of a line contact, which needs it; a point contact has none", examples=[6.0]
-    )
-    youngs_modulus_GPa: Pair = Field(default=(206.0, 206.0), description="Young's moduli of the two bodies")
-    poisson_ratio: Pair = Field(default=(0.3, 0.3), description="Poisson's ratios of the two bodies")
+    geometry: Literal["line", "point"] = key("form of contact", "line", values={"line": "cylinders", "point": "a ball"})
+    radius_mm: tuple[Float, Float] = key("radii of the two bodies; inf is flat", example=[20.0, 25.4])
+    width_mm: Number | None = key("width of a line contact, which needs it; a point has none", None, example=6.0)
+    youngs_modulus_GPa: Pair = key("Young's moduli of the two bodies", (206.0, 206.0))
+    poisson_ratio: Pair = key("Poisson's ratios of the two bodies", (0.3, 0.3))
 
     @model_validator(mode="after")
     def _line_has_width(self) -> Contact:
@@ -88,84 +73,61 @@ class Contact(Section):
 
 
 class Lubricant(Section):
-    name: str = Field(default="unnamed oil", description="name of the oil, for the report", examples=["sample oil"])
-    base: Literal["mineral", "pao", "ester", "pag"] | None = Field(
-        default=None,
-        description="base stock, whose typical oil fills what is left out; left out: mineral",
-        examples=["mineral"],
-        json_schema_extra=choices(
-            mineral="mineral oil", pao="polyalphaolefin", ester="synthetic ester", pag="polyalkylene glycol"
-        ),
+    name: str = key("name of the oil, for the report", "unnamed oil", example="sample oil")
+    base: Literal["mineral", "pao", "ester", "pag"] | None = key(
+        "base stock, whose typical oil fills what is left out; left out: mineral",
+        None,
+        example="mineral",
+        values={
+            "mineral": "mineral oil",
+            "pao": "polyalphaolefin",
+            "ester": "synthetic ester",
+            "pag": "polyalkylene glycol",
+        },
     )
-    temperature_C: Pair | None = Field(
-        default=None, description="two temperatures, at which the next two keys are given", examples=[[40.0, 100.0]]
+    temperature_C: Pair | None = key("two temperatures, those of the next two keys", None, example=[40.0, 100.0])
+    kinematic_viscosity_mm2_s: Pair | None = key(
+        "kinematic viscosity there; ASTM D341 between and beyond", None, example=[30.0, 6.2]
     )
-    kinematic_viscosity_mm2_s: Pair | None = Field(
-        default=None, description="kinematic viscosity there; ASTM D341 between and beyond", examples=[[30.0, 6.2]]
+    pressure_viscosity_per_GPa: Pair | None = key(
+        "pressure-viscosity coefficient there; linear between and beyond", None, example=[18.0, 14.0]
     )
-    pressure_viscosity_per_GPa: Pair | None = Field(
-        default=None,
-        description="pressure-viscosity coefficient there; linear between and beyond",
-        examples=[[18.0, 14.0]],
-    )
-    density_15C_kg_m3: Number | None = Field(default=None, description="density at 15 °C", examples=[850.0])
-    density_change_per_K: Number | None = Field(
-        default=None, description="relative fall of the density", examples=[7e-4]
-    )
-    eyring_stress_MPa: Number | None = Field(default=None, description="Eyring stress of the film", examples=[5.0])
-    thermal_conductivity_W_mK: Number | None = Field(
-        default=None, description="thermal conductivity of the oil", examples=[0.14]
-    )
-    specific_heat_J_kgK: Number | None = Field(default=None, description="specific heat of the oil", examples=[2000.0])
+    density_15C_kg_m3: Number | None = key("density at 15 °C", None, example=850.0)
+    density_change_per_K: Number | None = key("relative fall of the density", None, example=7e-4)
+    eyring_stress_MPa: Number | None = key("Eyring stress of the film", None, example=5.0)
+    thermal_conductivity_W_mK: Number | None = key("thermal conductivity of the oil", None, example=0.14)
+    specific_heat_J_kgK: Number | None = key("specific heat of the oil", None, example=2000.0)
 
 
 class Coating(Section):
-    name: str = Field(default="coating", description="name of the coating, for the report", examples=["DLC"])
-    thickness_um: Number = Field(description="thickness of the coating", examples=[3.0])
-    thermal_conductivity_W_mK: Number = Field(description="thermal conductivity of the coating", examples=[2.0])
+    name: str = key("name of the coating, for the report", "coating", example="DLC")
+    thickness_um: Number = key("thickness of the coating", example=3.0)
+    thermal_conductivity_W_mK: Number = key("thermal conductivity of the coating", example=2.0)
 
 
 class SurfaceSection(Section):
-    m0_um2: Number | None = Field(
-        default=None,
-        description="variance of the heights of the profile; the three moments, or a profile",
-        examples=[0.137],
+    m0_um2: Number | None = key("variance of the heights; all three moments, or a profile", None, example=0.137)
+    m2: Number | None = key("variance of the slopes of the profile", None, example=0.0031)
+    m4_per_um2: Number | None = key("variance of the curvatures of the profile", None, example=0.0021)
+    profile: str | None = key(
+        "instead of the moments: file of a trace, relative to this file, or shipped:NAME",
+        None,
+        example="profiles/ground.csv",
+        alternative=True,
     )
-    m2: Number | None = Field(default=None, description="variance of the slopes of the profile", examples=[0.0031])
-    m4_per_um2: Number | None = Field(
-        default=None, description="variance of the curvatures of the profile", examples=[0.0021]
+    cutoff_mm: Number | None = key("long cut-off of a trace; left out: 0.8, or its own", None, example=0.8)
+    short_cutoff_um: Number | None = key("short cut-off of a trace; left out: 2.5, or its own", None, example=2.5)
+    form: str | None = key(
+        "form taken off a trace: line (left out), none, mean, circle, polynomial-N, involute-MM", None, example="line"
     )
-    profile: str | None = Field(
-        default=None,
-        description="instead of the moments: file of a trace, relative to this file, or shipped:NAME",
-        examples=["profiles/ground.csv"],
-        json_schema_extra={"alternative": True},
+    edges: Annotated[bool, Field(strict=True)] = key("true: chamfers and falling ends are cut off", True, example=False)
+    outliers: Number | None = key("a trace is masked beyond so many robust standard deviations", None, example=5.0)
+    coating: Coating | None = key(
+        "only where there is one", None, example={"name": "DLC", "thickness_um": 3.0, "thermal_conductivity_W_mK": 2.0}
     )
-    cutoff_mm: Number | None = Field(
-        default=None, description="long cut-off of a trace; left out: 0.8, or the trace's own", examples=[0.8]
-    )
-    short_cutoff_um: Number | None = Field(
-        default=None, description="short cut-off of a trace; left out: 2.5, or the trace's own", examples=[2.5]
-    )
-    form: str | None = Field(
-        default=None,
-        description="form taken off a trace: line (left out), none, mean, circle, polynomial-N, involute-MM",
-        examples=["line"],
-    )
-    edges: Annotated[bool, Field(strict=True)] = Field(
-        default=True, description="true: chamfers and falling ends are cut off a trace", examples=[False]
-    )
-    outliers: Number | None = Field(
-        default=None, description="a trace is masked beyond so many robust standard deviations", examples=[5.0]
-    )
-    coating: Coating | None = Field(
-        default=None,
-        description="only where there is one",
-        examples=[{"name": "DLC", "thickness_um": 3.0, "thermal_conductivity_W_mK": 2.0}],
-    )
-    thermal_conductivity_W_mK: Number = Field(default=46.0, description="thermal conductivity of the body")
-    density_kg_m3: Number = Field(default=7800.0, description="density of the body")
-    specific_heat_J_kgK: Number = Field(default=470.0, description="specific heat of the body")
+    thermal_conductivity_W_mK: Number = key("thermal conductivity of the body", 46.0)
+    density_kg_m3: Number = key("density of the body", 7800.0)
+    specific_heat_J_kgK: Number = key("specific heat of the body", 470.0)
 
     @model_validator(mode="after")
     def _moments_or_profile(self) -> SurfaceSection:
@@ -178,41 +140,23 @@ class SurfaceSection(Section):
 
 
 class Uncertainty(Section):
-    boundary_friction: Number = Field(default=0.0, description="of the boundary friction, absolute", examples=[0.012])
-    viscosity: Number = Field(
-        default=0.0, description="of the viscosity, relative; one factor for the case", examples=[0.06]
+    boundary_friction: Number = key("of the boundary friction, absolute", 0.0, example=0.012)
+    viscosity: Number = key("of the viscosity, relative; one factor for the case", 0.0, example=0.06)
+    pressure_viscosity: Number = key(
+        "of the pressure-viscosity coefficient, relative; one factor for the case", 0.0, example=0.06
     )
-    pressure_viscosity: Number = Field(
-        default=0.0,
-        description="of the pressure-viscosity coefficient, relative; one factor for the case",
-        examples=[0.06],
-    )
-    eyring_stress: Number = Field(
-        default=0.0, description="of the Eyring stress, relative; one factor for the case", examples=[0.15]
-    )
-    roughness: Number = Field(default=0.0, description="of Rq, relative; one factor for all surfaces", examples=[0.04])
+    eyring_stress: Number = key("of the Eyring stress, relative; one factor for the case", 0.0, example=0.15)
+    roughness: Number = key("of Rq, relative; one factor for all surfaces", 0.0, example=0.04)
 
 
 class Noise(Section):
-    relative: Number = Field(
-        default=0.0,
-        description="standard deviation of a reading over its size; its square adds to that of the next key",
-        examples=[0.01],
+    relative: Number = key(
+        "standard deviation of a reading over its size; its square adds to that of the next key", 0.0, example=0.01
     )
-    absolute: Number = Field(
-        default=0.0,
-        description="standard deviation of a reading, in its unit",
-        examples=[0.3],
-        json_schema_extra={"unit": "as read"},
-    )
-    setup_relative: Number = Field(
-        default=0.0,
-        description="standard deviation of the error shared within a set-up, over the reading",
-    )
-    setup_absolute: Number = Field(
-        default=0.0,
-        description="standard deviation of the error shared within a set-up, in the unit of the reading",
-        json_schema_extra={"unit": "as read"},
+    absolute: Number = key("standard deviation of a reading, in its unit", 0.0, example=0.3, unit="as read")
+    setup_relative: Number = key("standard deviation of the error shared within a set-up, over the reading", 0.0)
+    setup_absolute: Number = key(
+        "standard deviation of the error shared within a set-up, in the unit of the reading", 0.0, unit="as read"
     )
 
     @property
@@ -229,51 +173,37 @@ class Noise(Section):
 class Recording(Section):
     quantity: Literal[
         "power_loss_W", "friction_coefficient", "film_thickness_nm", "friction_torque_Nm", "viscosity_mPa_s"
-    ] = Field(description="the column that the rig recorded", examples=["power_loss_W"])
-    includes: str = Field(
-        default="",
-        description="what the reading contains beside the contact, free text",
-        examples=["bearings and seals"],
+    ] = key("the column that the rig recorded", example="power_loss_W")
+    includes: str = key("what the reading contains beside the contact, free text", "", example="bearings and seals")
+    ambient_temperature_C: Number = key("temperature around the rig", 25.0)
+    check: str | None = key(
+        "column of a second channel: never fitted, compared afterwards", None, example="track_coverage_percent"
     )
-    ambient_temperature_C: Number = Field(default=25.0, description="temperature around the rig")
-    check: str | None = Field(
-        default=None,
-        description="column of a second channel: never fitted, compared afterwards",
-        examples=["track_coverage_percent"],
-    )
-    noise: Noise | None = Field(
-        default=None,
-        description="scatter of the readings; left out: estimated from repeats, else from the fit",
-        examples=[{"relative": 0.01, "absolute": 0.3}],
+    noise: Noise | None = key(
+        "scatter of the readings; left out: estimated from repeats, else from the fit",
+        None,
+        example={"relative": 0.01, "absolute": 0.3},
     )
 
 
 class RigFile(Section):
     """What a case and a study both say of a rig."""
 
-    boundary_friction: Number = Field(default=0.1, description="friction coefficient of touching asperities")
-    description: str = Field(default="", description="free text", examples=["rig, oil, campaign"])
-    gears: Gears | None = Field(default=None, description="two entries: pinion, gear")
-    lubricant: Lubricant | None = Field(
-        default=None, description="what is left out is typical of the base stock, and a warning says so"
-    )
-    surfaces: dict[str, SurfaceSection] = Field(
-        default={}, description="one table a surface; NAME as in the other tables"
-    )
+    boundary_friction: Number = key("friction coefficient of touching asperities", 0.1)
+    description: str = key("free text", "", example="rig, oil, campaign")
+    gears: Gears | None = key("two entries: pinion, gear", None)
+    lubricant: Lubricant | None = key("what is left out is typical of the base stock, and a warning says so", None)
+    surfaces: dict[str, SurfaceSection] = key("one table a surface; NAME as in the other tables", {})
 
 
 class System(RigFile):
     """Everything the engineer knows about the rig."""
 
-    schema_: Literal["mixedlub-case/1"] = Field(
-        alias="schema", description="format of the file", examples=["mixedlub-case/1"]
-    )
-    kind: KindName = Field(description="what was recorded", examples=["gear_pair"])
-    contact: Contact | None = Field(default=None, description="two entries: first and second body")
-    uncertainty: Uncertainty = Field(
-        default=Uncertainty(), description="one standard deviation of what calibration may move; 0: known"
-    )
-    recording: Recording = Field(description="what was read, and how well")
+    schema_: Literal["mixedlub-case/1"] = key("format of the file", example="mixedlub-case/1", alias="schema")
+    kind: KindName = key("what was recorded", example="gear_pair")
+    contact: Contact | None = key("two entries: first and second body", None)
+    uncertainty: Uncertainty = key("one standard deviation of what calibration may move; 0: known", Uncertainty())
+    recording: Recording = key("what was read, and how well")
 
 
 with_ranges(System)

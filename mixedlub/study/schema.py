@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
-from mixedlub.schema.section import Number, Section, Whole, choices, with_ranges
+from mixedlub.schema.section import Number, Section, Whole, key, table, with_ranges
 from mixedlub.schema.system_file import Gears, RigFile, SurfaceSection
 
 MOST_LEVELS = 100_000
@@ -41,14 +41,9 @@ Names = Annotated[tuple[str, ...], Field(min_length=1)]
 class Conditions(Section):
     """The factorial: every torque at every speed and oil temperature."""
 
-    torque_Nm: Numbers = Field(description="torques on the pinion", examples=[[50, 100, 150]])
-    speed_rpm: Numbers = Field(
-        description="speeds of the pinion",
-        examples=[{"from": 500, "to": 3000, "count": 6}],
-    )
-    oil_temperature_C: Numbers = Field(
-        description="temperatures of the oil where it enters the contact", examples=[[60]]
-    )
+    torque_Nm: Numbers = key("torques on the pinion", example=[50, 100, 150])
+    speed_rpm: Numbers = key("speeds of the pinion", example={"from": 500, "to": 3000, "count": 6})
+    oil_temperature_C: Numbers = key("temperatures of the oil where it enters the contact", example=[60])
 
     @model_validator(mode="after")
     def _each_once(self) -> Conditions:
@@ -63,23 +58,15 @@ class Conditions(Section):
 class Pairings(Section):
     """Which surface meets which: ``every`` unordered pair of some, or ``pinion`` list against ``gear`` list."""
 
-    every: Names | None = Field(
-        default=None,
-        description="surfaces of which every pair is taken, each with itself too; or pinion and gear",
-        examples=[["ground", "polished"]],
+    every: Names | None = key(
+        "surfaces of which every pair is taken, each with itself too; or pinion and gear",
+        None,
+        example=["ground", "polished"],
     )
-    pinion: Names | None = Field(
-        default=None,
-        description="surfaces of the pinion, each against each of gear",
-        examples=[["ground"]],
-        json_schema_extra={"alternative": True},
+    pinion: Names | None = key(
+        "surfaces of the pinion, each against each of gear", None, example=["ground"], alternative=True
     )
-    gear: Names | None = Field(
-        default=None,
-        description="surfaces of the gear",
-        examples=[["polished"]],
-        json_schema_extra={"alternative": True},
-    )
+    gear: Names | None = key("surfaces of the gear", None, example=["polished"], alternative=True)
 
     @model_validator(mode="after")
     def _one_way(self) -> Pairings:
@@ -94,91 +81,85 @@ class Pairings(Section):
 class Options(Section):
     """Readings of the model on which its authors leave room; the defaults are those of the base model."""
 
-    film: Literal["dowson_toyoda_central", "dowson_higginson_minimum"] = Field(
-        default="dowson_toyoda_central",
-        description="law of the film thickness",
-        json_schema_extra=choices(
-            dowson_toyoda_central="central film of Dowson and Toyoda (which the paper calls minimum)",
-            dowson_higginson_minimum="minimum film of Dowson and Higginson",
-        ),
+    film: Literal["dowson_toyoda_central", "dowson_higginson_minimum"] = key(
+        "law of the film thickness",
+        "dowson_toyoda_central",
+        values={
+            "dowson_toyoda_central": "central film of Dowson and Toyoda (which the paper calls minimum)",
+            "dowson_higginson_minimum": "minimum film of Dowson and Higginson",
+        },
     )
-    viscosity_law: Literal["roelands", "barus"] = Field(
-        default="roelands",
-        description="law of the viscosity under pressure",
-        json_schema_extra=choices(
-            roelands="viscosity in the contact by Roelands",
-            barus="viscosity in the contact by Barus (far too high above 0.3 GPa)",
-        ),
+    viscosity_law: Literal["roelands", "barus"] = key(
+        "law of the viscosity under pressure",
+        "roelands",
+        values={
+            "roelands": "viscosity in the contact by Roelands",
+            "barus": "viscosity in the contact by Barus (far too high above 0.3 GPa)",
+        },
     )
-    viscosity_pressure: Literal["maximum", "mean"] = Field(
-        default="maximum",
-        description="pressure at which the viscosity is taken",
-        json_schema_extra=choices(
-            maximum="viscosity taken at the largest Hertz pressure", mean="viscosity taken at the mean Hertz pressure"
-        ),
+    viscosity_pressure: Literal["maximum", "mean"] = key(
+        "pressure at which the viscosity is taken",
+        "maximum",
+        values={
+            "maximum": "viscosity taken at the largest Hertz pressure",
+            "mean": "viscosity taken at the mean Hertz pressure",
+        },
     )
-    effective_viscosity: Literal["asinh", "secant"] = Field(
-        default="asinh",
-        description="how the film thins under shear",
-        examples=["asinh"],
-        json_schema_extra=choices(
-            asinh="effective viscosity such that the stress is tau0 asinh(eta v_s/(h tau0))",
-            secant="effective viscosity eta/cosh(tau_m/tau0), which caps the stress at tau0",
-        ),
+    effective_viscosity: Literal["asinh", "secant"] = key(
+        "how the film thins under shear",
+        "asinh",
+        values={
+            "asinh": "effective viscosity such that the stress is tau0 asinh(eta v_s/(h tau0))",
+            "secant": "effective viscosity eta/cosh(tau_m/tau0), which caps the stress at tau0",
+        },
     )
-    contact_pressure: Literal["maximum", "mean"] = Field(
-        default="maximum",
-        description="pressure that the shear stress is divided by",
-        json_schema_extra=choices(
-            maximum="film friction is shear stress over the largest Hertz pressure",
-            mean="film friction is shear stress over the mean Hertz pressure",
-        ),
+    contact_pressure: Literal["maximum", "mean"] = key(
+        "pressure that the shear stress is divided by",
+        "maximum",
+        values={
+            "maximum": "film friction is shear stress over the largest Hertz pressure",
+            "mean": "film friction is shear stress over the mean Hertz pressure",
+        },
     )
-    averaging: Literal["mesh_integral", "paper"] = Field(
-        default="mesh_integral",
-        description="how the power loss is averaged over the path of contact",
-        json_schema_extra=choices(
-            mesh_integral="power loss by the integral of friction times load times sliding speed over the path",
-            paper="power loss by the paper's separate averages, its eq. 3 and 4",
-        ),
+    averaging: Literal["mesh_integral", "paper"] = key(
+        "how the power loss is averaged over the path of contact",
+        "mesh_integral",
+        values={
+            "mesh_integral": "power loss by the integral of friction times load times sliding speed over the path",
+            "paper": "power loss by the paper's separate averages, its eq. 3 and 4",
+        },
     )
-    conditions_of: Literal["pinion", "gear"] = Field(
-        default="pinion",
-        description="the wheel of the conditions",
-        json_schema_extra=choices(pinion="torque and speed are the pinion's", gear="torque and speed are the gear's"),
+    conditions_of: Literal["pinion", "gear"] = key(
+        "the wheel of the conditions",
+        "pinion",
+        values={"pinion": "torque and speed are the pinion's", "gear": "torque and speed are the gear's"},
     )
-    bulk_temperature_rise_K: Number = Field(
-        default=0.0,
-        description="by how much the oil at the contact's inlet is warmer than the oil temperature",
+    bulk_temperature_rise_K: Number = key(
+        "by how much the oil at the contact's inlet is warmer than the oil temperature", 0.0
     )
-    path_points: Whole = Field(default=48, description="quadrature points along the path of contact, about")
-    face_slices: Whole | None = Field(
-        default=None, description="slices across the face; left out: as the load sharing needs", examples=[1]
-    )
+    path_points: Whole = key("quadrature points along the path of contact, about", 48)
+    face_slices: Whole | None = key("slices across the face; left out: as the load sharing needs", None, example=1)
 
 
 class StudyFile(RigFile):
     """A study file."""
 
-    schema_: Literal["mixedlub-study/1"] = Field(
-        alias="schema", description="format of the file", examples=["mixedlub-study/1"]
+    schema_: Literal["mixedlub-study/1"] = key("format of the file", example="mixedlub-study/1", alias="schema")
+    title: str = key("title of the page", "Study", example="Ground against polished flanks")
+    gears: Gears = key(table(RigFile, "")["gears"].meaning)
+    surfaces: dict[str, SurfaceSection] = key(table(RigFile, "")["surfaces"].meaning, min_length=1)
+    pairings: Pairings | None = key(
+        "which surface runs against which; left out: every pair, each with itself too", None
     )
-    title: str = Field(default="Study", description="title of the page", examples=["Ground against polished flanks"])
-    gears: Gears = Field(description=RigFile.model_fields["gears"].description)
-    surfaces: dict[str, SurfaceSection] = Field(min_length=1, description=RigFile.model_fields["surfaces"].description)
-    pairings: Pairings | None = Field(
-        default=None, description="which surface runs against which; left out: every pair, each with itself too"
+    conditions: Conditions = key(
+        "every torque at every speed and oil temperature; each a list, or { from = LOW, to = HIGH, count = N }"
     )
-    conditions: Conditions = Field(
-        description="every torque at every speed and oil temperature; each a list, or "
-        "{ from = LOW, to = HIGH, count = N }"
-    )
-    options: Options = Field(default=Options(), description="readings of the model on which its authors leave room")
-    effects: dict[str, dict[str, Number]] = Field(
-        default_factory=dict,
-        description="EFFECT = { PARAMETER = VALUE }: physics beyond the base model, as `mixedlub effects` lists it; "
+    options: Options = key("readings of the model on which its authors leave room", Options())
+    effects: dict[str, dict[str, Number]] = key(
+        "EFFECT = { PARAMETER = VALUE }: physics beyond the base model, as `mixedlub effects` lists it; "
         "parameters left out: middle of their prior",
-        examples=[{"churning": {}}],
+        {},
+        example={"churning": {}},
     )
 
 
