@@ -34,19 +34,12 @@ def _of_drive(column: Column, meaning: str) -> Column:
 COLUMNS = (
     _of_drive(columns.SPEED, "signed speed of the drive; this or sliding_speed_m_s"),
     Column(
-        "sliding_speed_m_s",
-        required=False,
-        meaning="signed sliding speed; this or speed_rpm",
-        words=("sliding speed",),
+        "sliding_speed_m_s", required=False, meaning="signed sliding speed; this or speed_rpm", words=("sliding speed",)
     ),
     _of_drive(columns.LOAD, "load on the drive"),
     _of_drive(columns.TORQUE, "torque that loads the drive"),
     replace(
-        columns.OIL_TEMPERATURE,
-        at_least=-100.0,
-        at_most=400.0,
-        required=False,
-        meaning="temperature of oil or grease",
+        columns.OIL_TEMPERATURE, at_least=-100.0, at_most=400.0, required=False, meaning="temperature of oil or grease"
     ),
     Column(
         "additive_percent",
@@ -57,10 +50,7 @@ COLUMNS = (
         words=("additive", "additive content", "additive concentration"),
     ),
     Column(
-        "position_deg",
-        required=False,
-        meaning="angle the drive has turned",
-        words=("position", "angle", "shaft angle"),
+        "position_deg", required=False, meaning="angle the drive has turned", words=("position", "angle", "shaft angle")
     ),
     columns.TIME,
 )

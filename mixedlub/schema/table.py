@@ -183,11 +183,7 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] 
         converted = [other for column in absent if (other := _other_unit(column, unknown))]
         listed = [name if name in converted else _with_nearest(name, absent) for name in unknown]
         told = f"; {_CONVERTED} ({', '.join(converted)})" if converted else ""
-        warnings.warn(
-            f"{path.name}: {IGNORED}{', '.join(listed)}{told}",
-            CaseWarning,
-            stacklevel=2,
-        )
+        warnings.warn(f"{path.name}: {IGNORED}{', '.join(listed)}{told}", CaseWarning, stacklevel=2)
     cells = _parse(lines, header, known, where)
     together = list(zip(*(cells[name].tolist() for name in key), strict=True))
     if len(set(together)) < len(together):
