@@ -17,7 +17,7 @@ from mixedlub.case.forward import Forward
 from mixedlub.chain.model import Model
 from mixedlub.effects import find
 from mixedlub.rig import build
-from mixedlub.schema import system_file
+from mixedlub.schema import toml_file
 from mixedlub.schema.table import Table
 from mixedlub.study import read_study, run_study
 from mixedlub.study.schema import StudyFile
@@ -57,10 +57,10 @@ Row = tuple[str, str, str, str]
 def fast_gears() -> Iterator[Row]:
     """Helical gears up to 95 m/s: relative changes of the mean friction."""
     file = HERE / "high_speed_gears.toml"
-    raw = system_file.read_toml(file)
+    raw = toml_file.read_toml(file)
     friction = []
     for effects in MODELS:
-        study = read_study(file, system_file.parse(StudyFile, {**raw, "effects": effects}, str(file)))
+        study = read_study(file, toml_file.parse(StudyFile, {**raw, "effects": effects}, str(file)))
         friction.append(run_study(study).to_xarray()["mean_friction"])
     for stated, measured, before, after in CHANGES:
         base, heat = (_percent(_mean(f, after) / _mean(f, before)) for f in friction)

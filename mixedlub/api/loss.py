@@ -10,7 +10,8 @@ import numpy as np
 
 from mixedlub.chain.model import Model
 from mixedlub.chain.quantities import GLOSSARY
-from mixedlub.schema.system_file import Gears, Lubricant, SurfaceSection, parse
+from mixedlub.schema.system_file import Gears, Lubricant, SurfaceSection
+from mixedlub.schema.toml_file import parse
 from mixedlub.study.options import study_chain
 from mixedlub.study.plan import Study, read_study
 from mixedlub.study.results import run_study

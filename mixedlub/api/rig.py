@@ -5,7 +5,8 @@ from __future__ import annotations
 from os import PathLike
 from typing import Any
 
-from mixedlub.schema.system_file import Gears, Lubricant, SurfaceSection, parse
+from mixedlub.schema.system_file import Gears, Lubricant, SurfaceSection
+from mixedlub.schema.toml_file import parse
 
 
 def gear_pair(**keys: Any) -> Gears:
