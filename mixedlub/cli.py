@@ -14,7 +14,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import typer
 
 from mixedlub.commands import check, diagnose, effects, import_files, kinds, profile, prove, simulate, study
-from mixedlub.commands.console import drop_empty_folders, forget_folder, note, save_traceback, say, what_is_kept
+from mixedlub.commands.console import drop_empty_folders, forget_folder, note, save_traceback, say, tell, what_is_kept
+from mixedlub.schema.findings import FindingWarning
 from mixedlub.schema.messages import of_option
 from profiles.errors import InputError, nearest
 
@@ -58,8 +59,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     with warnings.catch_warnings():
         # What numbers overflow while far-off parameters are tried is not for the user.
         warnings.simplefilter("ignore", RuntimeWarning)
-        warnings.showwarning = lambda message, *rest, **named: note(str(message))
+        warnings.showwarning = _show
         return _run(spread_lists(list(sys.argv[1:] if arguments is None else arguments)))
+
+
+def _show(message: Warning | str, *rest: object, **named: object) -> None:
+    """What nobody collected, as a line for the user."""
+    tell([message.finding]) if isinstance(message, FindingWarning) else note(str(message))
 
 
 def _run(words: list[str]) -> int:

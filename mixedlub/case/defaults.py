@@ -10,6 +10,7 @@ import numpy as np
 from mixedlub.kinds import kind as kind_of
 from mixedlub.rig import build
 from mixedlub.schema import system_file
+from mixedlub.schema.findings import collected
 from mixedlub.schema.table import Table
 from profiles.errors import InputError
 
@@ -53,13 +54,11 @@ def broadly_fitted(system: system_file.System, columns: Mapping[str, np.ndarray]
 
     None where what is said of them is refused, which is told where the case is read.
     """
-    from mixedlub.case.folder import noted
-
     rules = kind_of(system.kind)
     if any(column.required and column.name not in columns for column in rules.columns):
         return set()
     try:
-        with noted([]):
+        with collected():
             return {entry.name for entry in rules.extra_calibration(system, Table(columns))}
     except InputError:
         return set()

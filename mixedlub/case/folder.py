@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -13,7 +10,8 @@ import numpy as np
 from mixedlub.gear import ROUNDED
 from mixedlub.kinds import Kind, kind
 from mixedlub.schema import system_file, toml_file
-from mixedlub.schema.table import BOOKKEEPING, RUN, CaseWarning, Column, Table, check_column, read_table, sd_column
+from mixedlub.schema.findings import Finding, collected, finding, listed, report
+from mixedlub.schema.table import BOOKKEEPING, RUN, Column, Table, check_column, read_table, sd_column
 from profiles.errors import InputError, nearest
 
 SHOWN = 5
@@ -30,27 +28,12 @@ class Case:
     kind: Kind
     recordings: Table | None
     conditions: Table | None
-    notes: tuple[str, ...]
+    notes: tuple[Finding, ...]
 
     @property
     def quantity(self) -> str:
         """Name of the column the rig recorded, with its unit."""
         return self.system.recording.quantity
-
-
-@contextmanager
-def noted(notes: list[str]) -> Iterator[None]:
-    """Collect the warnings meant for the user instead of printing them."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        yield
-    for w in caught:
-        text = str(w.message)
-        if issubclass(w.category, UserWarning):
-            if text not in notes:
-                notes.append(text)
-        else:
-            warnings.warn_explicit(w.message, w.category, w.filename, w.lineno)
 
 
 def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
@@ -70,10 +53,9 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
             where=f"{file}: recording.quantity",
             value=quantity,
         )
-    notes: list[str] = []
-    with noted(notes):
+    with collected() as notes:
         recordings = _read(folder / "recordings.csv", found, quantity, system, need_recordings)
-        _doubt_unknown_check(system.recording.check, recordings, file)
+        _report_missing_check(system.recording.check, recordings, file)
         conditions = _read(folder / "conditions.csv", found, None, system, False)
     return Case(folder.resolve().name, folder, system, found, recordings, conditions, tuple(notes))
 
@@ -83,12 +65,13 @@ def read_conditions(case: Case, path: Path) -> Table:
     return _sds_told(read_table(path, _columns(case.kind, case.system, False)), f"{case.quantity}_sd", path)
 
 
-def hidden(case: Case, wanted: Table | None) -> list[str]:
-    """Conditions that carry the run number of a reading taken at others: each run stands once in an answer."""
-    runs = ", ".join(map(str, _used_runs(case, wanted)))
+def hidden(case: Case, wanted: Table | None) -> list[Finding]:
+    """Conditions that have the run number of a reading at other conditions: an answer lists each run once."""
+    runs = _used_runs(case, wanted)
     if wanted is None or not runs:
         return []
-    return [f"{wanted.source}: not predicted, as readings at other conditions have the run: {runs}"]
+    text = f"not predicted, as readings at other conditions have the same run numbers: {', '.join(map(str, runs))}"
+    return [finding("run_number_reused", text, wanted.source)]
 
 
 def refuse_used_runs(case: Case, wanted: Table | None, path: Path) -> None:
@@ -124,18 +107,13 @@ def _read(path: Path, found: Kind, quantity: str | None, system: system_file.Sys
     return _sds_told(table, f"{system.recording.quantity}_sd", path)
 
 
-def _doubt_unknown_check(name: str | None, recordings: Table | None, file: Path) -> None:
-    """A warning where the second channel that a case names is no column of its recording: it may have been left out."""
+def _report_missing_check(name: str | None, recordings: Table | None, file: Path) -> None:
+    """Report a check channel that is no column of the recording: it may have been left out."""
     if name is None or recordings is None or name in recordings:
         return
-    told = f"{file}: recording.check: {name!r}: no such column in {recordings.source}, so nothing is compared with it"
     there = nearest(name, [*recordings.columns, *recordings.ignored])
-    warnings.warn(f"{told}; {there}", CaseWarning, stacklevel=2)
-
-
-def _listed(runs: np.ndarray) -> str:
-    more = f" and {runs.size - SHOWN} more" if runs.size > SHOWN else ""
-    return ", ".join(str(run) for run in runs[:SHOWN].tolist()) + more
+    text = f"{name!r}: no such column in {recordings.source}, so nothing is compared with it; {there}"
+    report(finding("check_column_missing", text, f"{file.name}, recording.check"))
 
 
 def _sds_told(table: Table, name: str, path: Path) -> Table:
@@ -146,13 +124,13 @@ def _sds_told(table: Table, name: str, path: Path) -> Table:
     if told.all():
         return table
     if not told.any():
-        note = f"{path.name}: {name} is 0 or left out everywhere: it says nothing of how much a reading scatters"
-        warnings.warn(note, CaseWarning, stacklevel=2)
+        text = "0 or left out everywhere, so it says nothing of the scatter of a reading and is ignored"
+        report(finding("sd_missing", text, f"{path.name}, {name}"))
         return replace(table, columns={k: v for k, v in table.columns.items() if k != name})
-    runs = _listed(table["run"][~told])
+    runs = listed(table["run"][~told].tolist(), SHOWN)
     middle = float(np.median(table[name][told]))
-    note = f"{path.name}: {name} is 0 or left out at run {runs}: taken as the median of the others, {middle:.3g}"
-    warnings.warn(note, CaseWarning, stacklevel=2)
+    text = f"0 or left out at run {runs}: taken as the median of the others, {middle:.3g}"
+    report(finding("sd_filled", text, f"{path.name}, {name}"))
     return replace(table, columns={**table.columns, name: np.where(told, table[name], middle)})
 
 
@@ -179,4 +157,4 @@ def _measured(found: Kind, system: system_file.System, required: bool) -> tuple[
     return (reading, sd_column(quantity), *([] if check is None else [check_column(check)]))
 
 
-__all__ = ["Case", "CaseWarning", "hidden", "noted", "read_case", "read_conditions", "refuse_used_runs"]
+__all__ = ["Case", "hidden", "read_case", "read_conditions", "refuse_used_runs"]

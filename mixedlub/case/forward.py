@@ -9,12 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.case.folder import Case, noted
+from mixedlub.case.folder import Case
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Model, Parameters, Record, available
 from mixedlub.effects import known_in
 from mixedlub.kinds.calibration import Calibration, calibrations
 from mixedlub.kinds.kind import SCALE, ageing, varies
+from mixedlub.schema.findings import collected
 from mixedlub.schema.table import Table
 from profiles.errors import InputError
 
@@ -50,8 +51,7 @@ class Forward:
     def __init__(self, case: Case, table: Table, reading_scale: float | None = None) -> None:
         self.case = case
         recorded = table if case.recordings is None else case.recordings
-        notes: list[str] = []
-        with noted(notes):
+        with collected() as notes:
             self.table = table = case.kind.completed(table, recorded)
             self.inputs: dict[str, Any] = case.kind.inputs(case.system, case.folder, table, recorded)
             if "sequence" in self.inputs:

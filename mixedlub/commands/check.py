@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 import typer
 
-from mixedlub.commands.console import case_folder, note, say, within_range
+from mixedlub.commands.console import case_folder, say, within_range
+from mixedlub.schema.findings import Finding, Severity, collected, grouped, of_severity
 from mixedlub.schema.units import unit_of
 from profiles.errors import InputError
 
@@ -33,8 +34,6 @@ def command(case: Annotated[Path, typer.Argument(metavar="CASE", help="Case fold
     with within_range(str(case)):
         found = read_case(case_folder(case), need_recordings=False)
         lines = list(understood(found))
-    for text in found.notes:
-        note(text)
     for line in lines:
         say(line)
 
@@ -42,17 +41,15 @@ def command(case: Annotated[Path, typer.Argument(metavar="CASE", help="Case fold
 def understood(case: Case) -> Iterator[str]:
     """The case in plain words, line by line."""
     from mixedlub.case.defaults import assumed
-    from mixedlub.case.folder import hidden, noted
+    from mixedlub.case.folder import hidden
 
     yield f"{case.name}: a case of kind {case.system.kind}, recording {case.quantity}."
     if case.system.description:
         yield f"  Described as: {case.system.description}"
-    notes = list(case.notes)
-    with noted(notes):
+    with collected() as told:
         bodies = list(_bodies(case))
         forward = _forward(case)
-    notes += [] if forward is None else [note for note in forward.notes if note not in notes]
-    notes += hidden(case, case.conditions)
+    found = [*case.notes, *told, *(() if forward is None else forward.notes), *hidden(case, case.conditions)]
     yield from bodies
     if forward is None:
         yield f"Boundary friction coefficient: {case.system.boundary_friction:g}."
@@ -60,10 +57,16 @@ def understood(case: Case) -> Iterator[str]:
         yield f"Boundary friction coefficient: {np.median(forward.inputs['boundary_friction']):.3g}."
     yield from _tables(case)
     yield from _uncertain(case, () if forward is None else forward.calibrations)
-    yield from _audit(case, forward)
-    notes += assumed(case, forward)
+    checked, refused = _checked(case, forward)
+    yield from refused
+    found = list(dict.fromkeys([*found, *checked]))
+    doubtful = grouped(of_severity(found, Severity.CAUTION, Severity.DOUBT))
+    if doubtful:
+        yield "Doubtful:"
+        yield from (f"  {one}." for one in doubtful)
+    notes = [*grouped(of_severity(found, Severity.NOTE)), *assumed(case, forward)]
     yield "Assumed:" if notes else "Assumed: nothing beyond what the files say."
-    yield from (f"  {text}" for text in notes)
+    yield from (f"  {one}" for one in notes)
 
 
 def _bodies(case: Case) -> Iterator[str]:
@@ -148,31 +151,29 @@ def _scatter(relative: float, absolute: float, case: Case) -> str:
     return f"{relative:g} of its value and {f'{absolute:g} {unit_of(case.quantity)}'.rstrip()}"
 
 
-def _audit(case: Case, forward: Forward | None) -> Iterator[str]:
-    """What is doubtful about system and readings, or why they cannot be diagnosed."""
+def _checked(case: Case, forward: Forward | None) -> tuple[list[Finding], list[str]]:
+    """Findings on system and readings, and why they cannot be diagnosed or predicted."""
     from mixedlub.case.forward import Forward
-    from mixedlub.data_checks.audit import doubts, system_doubts
+    from mixedlub.data_checks.audit import check_readings
     from mixedlub.diagnosis.assessment.extrapolation import beyond_recorded
     from mixedlub.importers.groups import pooled_in
+    from mixedlub.rig.plausibility import far_off
 
-    found = system_doubts(case)
+    found, refused = list(far_off(case.system, case.folder)), []
     if case.recordings is not None and forward is not None:
         readings = np.asarray(case.recordings[case.quantity], dtype=float)
         try:
-            found += doubts(case, case.recordings, readings, forward)
+            found += check_readings(case, case.recordings, readings, forward)
         except InputError as error:
-            yield f"Cannot be diagnosed: {error}."
+            refused.append(f"Cannot be diagnosed: {error}.")
     if case.recordings is not None and case.recordings.ignored:
         found += pooled_in(case.folder / "recordings.csv", case.recordings, case.quantity)
     if case.conditions is not None:
         try:
             Forward(case, case.conditions).nominal()
         except InputError as error:
-            yield f"Cannot be predicted: {error}."
-    if found:
-        yield "Doubtful:"
-        yield from (f"  {text}." for text in found)
-    yield from (f"To be predicted: {text}." for text in beyond_recorded(case, case.conditions))
+            refused.append(f"Cannot be predicted: {error}.")
+    return [*found, *beyond_recorded(case, case.conditions)], refused
 
 
 def _forward(case: Case) -> Forward | None:

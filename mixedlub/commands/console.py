@@ -5,10 +5,11 @@ from __future__ import annotations
 import sys
 import tempfile
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from mixedlub.schema.findings import Finding, grouped
 from profiles.errors import InputError
 
 _opened: list[Path] = []
@@ -95,6 +96,12 @@ def within_range(where: str) -> Iterator[None]:
 def say(text: str = "") -> None:
     """A line for the user."""
     print(text, flush=True)
+
+
+def tell(found: Iterable[Finding]) -> None:
+    """Findings on stderr, those of one kind as one."""
+    for one in grouped(found):
+        print(f"{one.severity}: {one}", file=sys.stderr, flush=True)
 
 
 def note(text: str) -> None:

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.console import busy, case_folder, note, output_folder, say, within_range
+from mixedlub.commands.console import busy, case_folder, output_folder, say, tell, within_range
 
 NAME = "diagnose"
 EXAMPLE = "mixedlub diagnose examples/case --out out/diagnose"
@@ -37,7 +37,6 @@ def command(
     folder = output_folder(out, NAME, case_folder(case).resolve().name)
     with busy("reading") as progress, within_range(str(case)):
         found = diagnose(case, folder, predict=predict, exclude=tuple(exclude or ()), level=level, progress=progress)
-    for text in found.case.notes:
-        note(text)
+    tell(found.case.notes)
     say((folder / "report.txt").read_text(encoding="utf-8"))
     say(f"written to {folder}")

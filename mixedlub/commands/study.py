@@ -11,7 +11,7 @@ from typing import Annotated
 import typer
 
 from mixedlub.atomic import writing
-from mixedlub.commands.console import note, output_folder, say, within_range
+from mixedlub.commands.console import note, output_folder, say, tell, within_range
 
 NAME = "study"
 EXAMPLE = "mixedlub study examples/study_21_pairings.toml --out out/study"
@@ -39,8 +39,7 @@ def command(
     with within_range(str(file)):
         study = read_study(file)
     folder = output_folder(out, NAME, study.name)
-    for text in study.notes:
-        note(text)
+    tell(study.notes)
     say(f"{study.file.title}: {' x '.join(factors(study))} = {counted(study.conditions, 'condition')}")
     start = time.perf_counter()
     with progress_bar("computing") as bar:
@@ -50,8 +49,7 @@ def command(
         )
     say(f"computed in {time.perf_counter() - start:.2f} s")
     warnings = out_of_range(results)
-    for text in warnings:
-        note(text)
+    tell(warnings)
     with writing(folder) as aside:
         results.write(aside / "results.csv", aside / "results.parquet")
         if figures:

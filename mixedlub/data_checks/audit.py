@@ -21,8 +21,9 @@ from mixedlub.recording.noise import (
     setups_differ,
 )
 from mixedlub.rig.plausibility import far_off
+from mixedlub.schema.findings import Finding, Severity, finding, listed
 from mixedlub.schema.ranges import ranges
-from mixedlub.schema.table import IGNORED, MEANT, Table
+from mixedlub.schema.table import Table
 from mixedlub.schema.units import UNITS, unit_of
 from profiles.errors import InputError
 
@@ -59,24 +60,13 @@ CONTRADICTING = 4.0
 """Times the stated noise from which the scatter of repeats contradicts it."""
 
 
-class Doubt(str):
-    """A warning that questions the answer as a whole, and so stands above it."""
-
-    __slots__ = ()
-
-
-def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]:
-    """What the user should know of the recording; an error where it cannot be what it is labelled."""
-    return [*system_doubts(case), *doubts(case, rows, y, forward), *_noise_source(case, rows, y)]
+def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[Finding]:
+    """Findings on the files and the readings; an error where the recording cannot be diagnosed."""
+    return [*far_off(case.system, case.folder), *check_readings(case, rows, y, forward), *_noise_source(case, rows, y)]
 
 
-def system_doubts(case: Case) -> list[str]:
-    """What in the files beside the readings is far from any rig."""
-    return [Doubt(odd.text) if odd.grave else odd.text for odd in far_off(case.system, case.folder)]
-
-
-def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str]:
-    """What speaks against the recording; an error where it cannot be diagnosed."""
+def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[Finding]:
+    """What is implausible in the readings and their conditions; an error where they cannot be diagnosed."""
     _readable(case, y)
     if all(np.unique(values).size == 1 for values in raw_coordinates(case, rows, forward).values()):
         where = str(case.folder / "recordings.csv")
@@ -89,8 +79,8 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
         *_setups(case, rows),
         *_scarce(y),
         *_thin(case, y, forward),
-        *map(Doubt, of_odd_units(case, rows, y, base, FEWEST, SCARCE)),
-        *map(Doubt, teeth_too_hard_pressed(case, rows, forward)),
+        *of_odd_units(case, rows, y, base, FEWEST, SCARCE),
+        *teeth_too_hard_pressed(case, rows, forward),
         *_more_than_put_in(case, rows, y),
         *_of_one_sign(case, rows, y),
         *_sliding(rows),
@@ -99,7 +89,7 @@ def doubts(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[str
         *_backwards(rows),
         *_stuck(case, rows, y, base),
         *_misread(case, rows, y, base, other_sign),
-        *map(Doubt, both_signs(case, rows, y, other_sign)),
+        *both_signs(case, rows, y, other_sign),
         *_contradicting(case, rows, y, base),
     ]
 
@@ -114,7 +104,7 @@ def _readable(case: Case, y: np.ndarray) -> None:
         raise InputError(f"readings {said}", where=where, value=float(np.median(y)))
 
 
-def _entered_twice(case: Case, rows: Table, y: np.ndarray) -> list[str]:
+def _entered_twice(case: Case, rows: Table, y: np.ndarray) -> list[Finding]:
     """Rows that repeat others in reading and conditions, more of them than rounding makes alike by chance."""
     named = [_numbered(values) for name, values in rows.columns.items() if name not in (*ORDER, case.quantity)]
     told = np.column_stack([np.zeros(y.size, dtype=int), *named])
@@ -127,8 +117,8 @@ def _entered_twice(case: Case, rows: Table, y: np.ndarray) -> list[str]:
     again = y.size - count.size
     if again <= CHANCE * _alike_by_rounding(point, y, first):
         return []
-    said = "readings repeat others to the last digit, with their conditions: check that they were not entered twice"
-    return [Doubt(f"{again} {said}")]
+    text = f"{again} readings repeat others to the last digit, with their conditions: check that none was entered twice"
+    return [finding("readings_entered_twice", text)]
 
 
 def _alike_by_rounding(point: np.ndarray, y: np.ndarray, different: np.ndarray) -> float:
@@ -152,32 +142,34 @@ def _numbered(values: np.ndarray) -> np.ndarray:
     return np.unique(values, return_inverse=True)[1]
 
 
-def _parts(case: Case, rows: Table) -> list[str]:
+def _parts(case: Case, rows: Table) -> list[Finding]:
     """Rigs of a part that are compared with the whole model."""
     whole = np.setdiff1d(rows["rig"], case.kind.part_rigs) if "rig" in rows else np.array([])
     if whole.size < 2:
         return []
     known = f"only as {' or '.join(case.kind.part_rigs)}" if case.kind.part_rigs else "for no case of this kind"
-    return [
+    text = (
         f"readings of the rigs {', '.join(whole.tolist())} are all compared with the whole base model: a part rig is "
         f"modelled {known}"
-    ]
+    )
+    return [finding("part_rigs_not_modelled", text)]
 
 
-def _setups(case: Case, rows: Table) -> list[str]:
+def _setups(case: Case, rows: Table) -> list[Finding]:
     """Set-ups of which nothing says how much they differ."""
     if "setup" not in rows or setups_differ(case):
         return []
     count = np.unique(rows["setup"]).size
     if count < 2:
         return []
-    return [
-        f"{count} set-ups are taken to read alike: how much a set-up is off as a whole is for noise.setup_relative or "
-        "noise.setup_absolute to say"
-    ]
+    text = (
+        f"{count} set-ups are treated as one: give the error that readings of one set-up share as noise.setup_relative "
+        "or noise.setup_absolute"
+    )
+    return [finding("setups_pooled", text)]
 
 
-def _thin(case: Case, y: np.ndarray, forward: Forward) -> list[str]:
+def _thin(case: Case, y: np.ndarray, forward: Forward) -> list[Finding]:
     """Viscosities so low that the equation of the base model is used beyond its range."""
     if case.quantity != "viscosity_mPa_s":
         return []
@@ -185,18 +177,21 @@ def _thin(case: Case, y: np.ndarray, forward: Forward) -> list[str]:
     low = int(np.count_nonzero(kinematic < THINNEST_D341))
     if not low:
         return []
-    return [
+    text = (
         f"{low} of {y.size} readings are below {1e6 * THINNEST_D341:g} mm2/s, where ASTM D341 has further terms that "
-        "the base model leaves out: what is missing there may be those"
-    ]
+        "the base model omits: a mismatch there may be due to these"
+    )
+    return [finding("viscosity_below_d341", text)]
 
 
-def _scarce(y: np.ndarray) -> list[str]:
-    """Readings too few for a name."""
-    return [f"only {y.size} readings: expect ties and wide intervals"] if y.size < SCARCE else []
+def _scarce(y: np.ndarray) -> list[Finding]:
+    """Readings too few to identify an effect."""
+    if y.size >= SCARCE:
+        return []
+    return [finding("readings_few", f"only {y.size} readings: expect ties and wide intervals")]
 
 
-def _more_than_put_in(case: Case, rows: Table, y: np.ndarray) -> list[str]:
+def _more_than_put_in(case: Case, rows: Table, y: np.ndarray) -> list[Finding]:
     """Losses of gears above the power that the pinion takes in."""
     if case.quantity != "power_loss_W":
         return []
@@ -205,10 +200,11 @@ def _more_than_put_in(case: Case, rows: Table, y: np.ndarray) -> list[str]:
     if 2 * above <= y.size:
         return []
     said = f"{above} of {y.size} losses are above the power put in, torque times speed"
-    return [Doubt(f"{said}: check the units of torque_Nm, speed_rpm and power_loss_W")]
+    text = f"{said}: check the units of torque_Nm, speed_rpm and power_loss_W"
+    return [finding("loss_above_input_power", text)]
 
 
-def _of_one_sign(case: Case, rows: Table, y: np.ndarray) -> list[str]:
+def _of_one_sign(case: Case, rows: Table, y: np.ndarray) -> list[Finding]:
     """Friction of a drive that has the same sign in both directions."""
     if case.kind.name != "friction_map":
         return []
@@ -219,20 +215,22 @@ def _of_one_sign(case: Case, rows: Table, y: np.ndarray) -> list[str]:
     one, other = float(np.median(forth)), float(np.median(back))
     said = f"{case.quantity} keeps its sign when the drive turns back"
     if abs(one - other) > ALIKE * abs(one + other):
-        return [f"{said}: right where a payload outweighs friction, else the sign was lost"]
-    return [Doubt(f"{said}, and its size: friction turns with the speed, so check that its sign was not lost")]
+        text = f"{said}: right if a payload outweighs friction, otherwise the sign was lost"
+        return [finding("sign_lost", text, severity=Severity.CAUTION)]
+    text = f"{said}, and its size: friction changes sign with the speed, so check that its sign was not lost"
+    return [finding("sign_lost", text)]
 
 
-def _sliding(rows: Table) -> list[str]:
+def _sliding(rows: Table) -> list[Finding]:
     """Slide-roll ratios that look like percent."""
     most = np.abs(rows["slide_roll_ratio"]).max() if "slide_roll_ratio" in rows else 0.0
     if most <= MOST_SLIDING:
         return []
-    said = f"slide_roll_ratio reaches {most:g} where 2 is pure sliding: check that it is not in percent"
-    return [Doubt(said)]
+    text = f"reaches {most:g} where 2 is pure sliding: check that it is not in percent"
+    return [finding("slide_roll_ratio_in_percent", text, "slide_roll_ratio")]
 
 
-def _contradicting(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str]:
+def _contradicting(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[Finding]:
     """Readings at equal conditions that scatter far more than the stated noise."""
     group = nearly_repeated(case, rows)
     if group is None or not is_stated(case, rows):
@@ -242,14 +240,14 @@ def _contradicting(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> 
     if repeats <= CONTRADICTING * typical:
         return []
     unit = "" if case.kind.logarithmic else f" {unit_of(case.quantity)}".rstrip()
-    unread = next((n.partition(IGNORED)[2] for n in case.notes if IGNORED in n and MEANT in n), "")
+    ignored = [note.place for note in case.notes if note.code == "column_near_known"]
     advice = "if they belong to several assemblies or sweeps, name these in a column setup"
-    advice = f"a condition may stand in a column that is ignored: {unread}" if unread else advice
+    advice = f"a condition may be in a column that is ignored: {'; '.join(ignored)}" if ignored else advice
     said = f"they scatter by {repeats:.3g}{unit} where the stated noise is {typical:.3g}{unit}; {advice}"
-    return [Doubt(f"readings at equal conditions contradict each other: {said}")]
+    return [finding("repeats_contradictory", f"readings at equal conditions contradict each other: {said}")]
 
 
-def _stuck(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str]:
+def _stuck(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[Finding]:
     """A value that repeats exactly in many rows although their conditions differ, while other readings vary."""
     values, counts = np.unique(y, return_counts=True)
     most = int(np.argmax(counts))
@@ -263,13 +261,13 @@ def _stuck(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str
     varied = [name for name in names if np.unique(rows[name][same]).size > 1]
     if not varied:
         return []
-    runs = [str(run) for run in rows["run"][same][:STUCK_ROWS]]
-    more = "" if len(runs) == counts[most] else ", ..."
+    runs = listed(rows["run"][same].tolist(), STUCK_ROWS)
     said = f"{counts[most]} of {y.size} readings are exactly {values[most]:g} though {', '.join(varied)} vary"
-    return [Doubt(f"{said}: check for a channel that was stuck or filled in (runs {', '.join(runs)}{more})")]
+    text = f"{said}: check for a channel that was stuck or filled in (runs {runs})"
+    return [finding("channel_stuck", text)]
 
 
-def _misread(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, told: np.ndarray) -> list[str]:
+def _misread(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, told: np.ndarray) -> list[Finding]:
     """Single readings that are off by a power of ten or by their sign, held against what the others suggest.
 
     Those of which it is ``told`` already that their sign is wrong are left out.
@@ -281,16 +279,16 @@ def _misread(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, told: np.
     used &= expected > 0
     large = used & (np.abs(y) > TOO_LARGE * expected)
     large &= np.abs(y) > ALONE * np.max(np.abs(y[~large]), initial=0.0)
-    found = [(large, "far larger than what the others suggest there: check unit and decimal point")]
+    found = [("reading_too_large", large, "check unit and decimal point")]
     if case.kind.is_unsigned(case.quantity):
         least, most = (share * expected for share in AS_LARGE)
         wrong = used & (y < -NEGATIVE_SIGMAS * _sds(case, rows, y)) & (-y > least) & (-y < most)
         if wrong.sum() <= max(1.0, NEGATIVE_SHARE * y.size):
-            found.append((wrong & ~told, "negative where the others suggest a positive one as large: check the sign"))
+            found.append(("reading_negative", wrong & ~told, "check the sign"))
     return [
-        Doubt(f"run {rows['run'][i]} reads {y[i]:g} where the others suggest {expected[i]:.3g}: {words}")
-        for which, words in found
-        for i in np.flatnonzero(which)[:STUCK_ROWS]
+        finding(code, f"reads {y[i]:g} where the others suggest {expected[i]:.3g}: {advice}", f"run {rows['run'][i]}")
+        for code, which, advice in found
+        for i in np.flatnonzero(which)
     ]
 
 
@@ -299,17 +297,17 @@ def _sds(case: Case, rows: Table, y: np.ndarray) -> np.ndarray:
     return noise(case, rows, y)[0] if is_stated(case, rows) else np.full(y.size, UNSTATED * float(np.median(np.abs(y))))
 
 
-def _warm(rows: Table) -> list[str]:
+def _warm(rows: Table) -> list[Finding]:
     """Temperatures that are all hotter than oils are, as those of a room are in kelvin."""
     name = next((n for n in ("oil_temperature_C", "temperature_C") if n in rows), None)
     if name is None or not np.all(rows[name] > ranges()["conditions.oil_temperature_C"].usual[1]):
         return []
     lowest = float(rows[name].min())
-    return [Doubt(f"{name} is {lowest:g} or more in all rows: check that it is not in kelvin")]
+    return [finding("temperature_in_kelvin", f"{lowest:g} or more in all rows: check that it is not in kelvin", name)]
 
 
-def _beyond_the_oil(case: Case, rows: Table) -> list[str]:
-    """Temperatures far from both at which the oil's viscosity is told, as those in degrees Fahrenheit are."""
+def _beyond_the_oil(case: Case, rows: Table) -> list[Finding]:
+    """Temperatures more than 30 K outside the two points of viscosity; often a column in degrees Fahrenheit."""
     oil = case.system.lubricant
     if oil is None or oil.temperature_C is None or "oil_temperature_C" not in rows:
         return []
@@ -318,23 +316,24 @@ def _beyond_the_oil(case: Case, rows: Table) -> list[str]:
     if low - FAR_FROM_OIL <= coldest and hottest <= high + FAR_FROM_OIL:
         return []
     far = hottest if hottest > high + FAR_FROM_OIL else coldest
-    said = f"oil_temperature_C has {far:g}, far from the {low:g} and {high:g} of [lubricant]: viscosity is extrapolated"
+    said = f"{far:g} is far from the {low:g} and {high:g} of [lubricant]: viscosity is extrapolated"
     factor, added = UNITS["C"]["degF"]
     least, most = (factor * value + added for value in (coldest, hottest))
     if not (low - FAR_FROM_OIL <= least and most <= high + FAR_FROM_OIL):
-        return [said]
+        return [finding("viscosity_extrapolated", said, "oil_temperature_C")]
     other = f"{coldest:g} to {hottest:g} °F would be {least:.3g} to {most:.3g} °C"
-    return [Doubt(f"{said}; {other}: is it in that unit?")]
+    return [finding("temperature_in_fahrenheit", f"{said}; {other}: is it in that unit?", "oil_temperature_C")]
 
 
-def _backwards(rows: Table) -> list[str]:
+def _backwards(rows: Table) -> list[Finding]:
     """A time that falls from one row to the next, as that of a clock which starts anew at every step."""
     falls = np.flatnonzero(np.diff(rows["time_s"]) < 0.0) + 1 if "time_s" in rows else np.array([], dtype=int)
     if not falls.size:
         return []
     times = "1 place" if falls.size == 1 else f"{falls.size} places"
-    first = f"time_s runs backwards in {times}, first at run {rows['run'][falls[0]]}"
-    return [Doubt(f"{first}: check that it is no clock that restarts at every step, and that rows are in order")]
+    first = f"runs backwards in {times}, first at run {rows['run'][falls[0]]}"
+    text = f"{first}: check that it is no clock that restarts at every step, and that rows are in order"
+    return [finding("time_backwards", text, "time_s")]
 
 
 def _without_drift(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, group: np.ndarray) -> np.ndarray:
@@ -354,9 +353,10 @@ def _repeats(case: Case, rows: Table, y: np.ndarray) -> float:
     return noise_from_repeats(case, rows, np.log(y) if case.kind.logarithmic else y)
 
 
-def _noise_source(case: Case, rows: Table, y: np.ndarray) -> list[str]:
+def _noise_source(case: Case, rows: Table, y: np.ndarray) -> list[Finding]:
     """Where the scatter of a reading comes from when the recording does not state it."""
     if is_stated(case, rows):
         return []
     source = "repeats" if _repeats(case, rows, y) > 0 else "the fit"
-    return [f"no noise given: the standard deviation of a reading is estimated from {source}"]
+    text = f"no noise given: the standard deviation of a reading is estimated from {source}"
+    return [finding("noise_estimated", text)]

@@ -11,6 +11,7 @@ from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
 from mixedlub.kinds.disc import contact_inputs
 from mixedlub.laws.contact import line_hertz_pressure, point_hertz_pressure
+from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.ranges import beyond_usual
 from mixedlub.schema.table import Table
 
@@ -44,23 +45,27 @@ APART = 1.5
 """How much the base model changes between them at least; and the gap between two parts, beside those in them."""
 
 
-def of_another_unit(case: Case, y: np.ndarray, base: np.ndarray, fewest: int) -> list[str]:
+def of_another_unit(case: Case, y: np.ndarray, base: np.ndarray, fewest: int) -> list[Finding]:
     """Readings that are a power of ten off the base model, or of the other sign."""
     both = (np.abs(base) > 0) & (np.abs(y) > 0)
     if both.sum() < fewest:
         return []
     ratio = float(np.median(np.abs(y[both] / base[both])))
     found = [
-        f"readings are about {words} what the base model gives: check the unit of {case.quantity}"
+        finding(
+            "readings_in_other_unit",
+            f"readings are about {words} what the base model gives: check the unit of {case.quantity}",
+        )
         for slip, words in SLIPS.items()
         if slip / WITHIN < ratio < slip * WITHIN
     ]
     if np.mean(base[both] * y[both] < 0) > 0.5:
-        found.append("most readings have the other sign than the base model: check the sign")
+        text = "most readings have the opposite sign to the base model: check the sign"
+        found.append(finding("sign_opposite_to_model", text))
     return found
 
 
-def of_two_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewest: int) -> list[str]:
+def of_two_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewest: int) -> list[Finding]:
     """Readings of which a part is a power of ten off the others, beside the base model."""
     used = (np.abs(base) > 0) & (np.abs(y) > 0)
     if used.sum() < fewest:
@@ -81,26 +86,28 @@ def of_two_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewes
     lower = f"{int((~upper).sum())} readings are about {10**apart:.2g} times smaller"
     names = [case.quantity, *(name for name in _sizes(case, kept) if _parted_alike(np.abs(kept[name]), upper))]
     one = f"{names[0]} is" if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]} are each"
-    return [f"{lower}, beside the base model, than the others: check that {one} in one unit"]
+    text = f"{lower}, relative to the base model, than the others: check that {one} in one unit"
+    return [finding("readings_in_two_units", text)]
 
 
-def conditions_of_two_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[str]:
-    """Conditions whose levels come again a power of ten higher, where readings are as if they were the same."""
+def conditions_of_two_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[Finding]:
+    """Columns that mix two units: levels repeat a power of ten higher while the readings agree."""
     found = []
     for name in _sizes(case, rows):
         size = np.abs(rows[name])
         power = _power_between(case, rows, name, y, base) if np.all(size > 0.0) else None
         if power is not None:
             count = int(_upper_part(np.log10(size))[0].sum())
-            found.append(
-                f"{count} of {size.size} values of {name} are {power:g} times the others where readings and other "
-                f"conditions are alike: check that {name} is in one unit"
+            text = (
+                f"{count} of {size.size} values are {power:g} times the others where readings and other conditions "
+                "agree: check that the column is in one unit"
             )
+            found.append(finding("condition_in_two_units", text, name))
     return found
 
 
-def of_odd_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewest: int, scarce: int) -> list[str]:
-    """Every sentence about units; readings are ``scarce`` where too few are there to part them."""
+def of_odd_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewest: int, scarce: int) -> list[Finding]:
+    """Everything implausible about units; readings are ``scarce`` where too few are there to part them."""
     return [
         *beyond_usual_sizes(rows, y, case.quantity),
         *too_thick(rows, y, case.quantity),
@@ -110,28 +117,27 @@ def of_odd_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewes
     ]
 
 
-def beyond_usual_sizes(rows: Table, y: np.ndarray, quantity: str) -> list[str]:
+def beyond_usual_sizes(rows: Table, y: np.ndarray, quantity: str) -> list[Finding]:
     """Columns whose largest size is beyond that of any rig, with the unit in which it would be usual."""
     columns = {**rows.columns, quantity: y}
-    said = (
-        beyond_usual(f"recordings.{name}", float(np.max(np.abs(columns[name]))), f"the largest {name}")
+    return [
+        found
         for name in SIZED
         if name in columns
-    )
-    return [text for text in said if text]
+        for found in beyond_usual(f"recordings.{name}", float(np.max(np.abs(columns[name]))), f"the largest {name}")
+    ]
 
 
-def too_thick(rows: Table, y: np.ndarray, quantity: str) -> list[str]:
+def too_thick(rows: Table, y: np.ndarray, quantity: str) -> list[Finding]:
     """Viscosities that are all above those of oils, though not all were read in the cold or under high pressure."""
     if quantity != "viscosity_mPa_s" or rows["temperature_C"].max() < WARM:
         return []
     if "pressure_MPa" in rows and rows["pressure_MPa"].min() > LOW_PRESSURE:
         return []
-    said = beyond_usual(f"recordings.{quantity}", float(np.min(y)), f"the smallest {quantity}")
-    return [said] if said else []
+    return beyond_usual(f"recordings.{quantity}", float(np.min(y)), f"the smallest {quantity}")
 
 
-def too_hard_pressed(case: Case, rows: Table) -> list[str]:
+def too_hard_pressed(case: Case, rows: Table) -> list[Finding]:
     """Loads under which hard bodies of a contact would yield many times over."""
     contact = case.system.contact
     if contact is None or "load_N" not in rows:
@@ -144,25 +150,29 @@ def too_hard_pressed(case: Case, rows: Table) -> list[str]:
     else:
         radius = values["radius"]
         pressure = point_hertz_pressure(load, radius, values["transverse_radius"], values["reduced_modulus"])
-    said = f"the largest load_N, {load:g}, would press the bodies"
-    return _yielding(said, float(pressure), values["reduced_modulus"], "load_N and the radii in [contact]")
+    return _yielding(
+        f"the largest load_N, {load:g}", float(pressure), values["reduced_modulus"], "load_N and the radii in [contact]"
+    )
 
 
-def teeth_too_hard_pressed(case: Case, rows: Table, forward: Forward) -> list[str]:
+def teeth_too_hard_pressed(case: Case, rows: Table, forward: Forward) -> list[Finding]:
     """Torques under which flanks would yield many times over."""
     if case.system.gears is None or "torque_Nm" not in rows:
         return []
     pressure, modulus = (np.max(forward.base(name)) for name in ("hertz_pressure", "reduced_modulus"))
-    said = f"the largest torque_Nm, {np.max(np.abs(rows['torque_Nm'])):g}, would press the flanks"
-    return _yielding(said, pressure, modulus, "torque_Nm, and module and face width in [gears]")
+    place = f"the largest torque_Nm, {np.max(np.abs(rows['torque_Nm'])):g}"
+    return _yielding(place, pressure, modulus, "torque_Nm, and module and face width in [gears]")
 
 
-def _yielding(said: str, pressure: float, modulus: float, cause: str) -> list[str]:
+def _yielding(place: str, pressure: float, modulus: float, cause: str) -> list[Finding]:
     """That a pressure (Pa) is one under which hard bodies of this reduced modulus (Pa) would yield."""
     if modulus < HARD or pressure <= YIELDS * modulus:
         return []
-    limit = f"with {1e-9 * pressure:.3g} GPa, where hard ones yield below {1e-9 * YIELDS * modulus:.2g} GPa"
-    return [f"{said} {limit}: check the unit of {cause}"]
+    text = (
+        f"the Hertz pressure would be {1e-9 * pressure:.3g} GPa, where hard bodies yield below "
+        f"{1e-9 * YIELDS * modulus:.2g} GPa: check the unit of {cause}"
+    )
+    return [finding("pressure_above_yield", text, place)]
 
 
 SIZED = ("entrainment_speed_m_s", "sliding_speed_m_s", "film_thickness_nm")

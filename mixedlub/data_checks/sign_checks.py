@@ -8,6 +8,7 @@ from mixedlub.case.folder import Case
 from mixedlub.kinds.friction_map import drive_speed
 from mixedlub.recording.conditions import jitters
 from mixedlub.recording.set_points import near_values
+from mixedlub.schema.findings import Finding, finding, listed
 from mixedlub.schema.table import Table
 
 CLOCKS = ("sequence", "time_s")
@@ -27,16 +28,17 @@ def of_other_sign(case: Case, rows: Table, y: np.ndarray, sd: np.ndarray) -> np.
     return np.zeros(y.size, bool) if about_zero else wrong
 
 
-def both_signs(case: Case, rows: Table, y: np.ndarray, wrong: np.ndarray) -> list[str]:
-    """A sentence on readings whose sign is ``wrong``."""
+def both_signs(case: Case, rows: Table, y: np.ndarray, wrong: np.ndarray) -> list[Finding]:
+    """Readings whose sign is ``wrong``."""
     count = int(wrong.sum())
     if not count:
         return []
     sign = "negative" if np.all(y[wrong] < 0.0) else "positive" if np.all(y[wrong] > 0.0) else "of the other sign"
-    listed = ", ".join(map(str, rows["run"][wrong][:SHOWN].tolist())) + (", ..." if count > SHOWN else "")
     said = f"{count} reading{' is' if count == 1 else 's are'} {sign} where others at the same conditions are as large"
     channels = f"the signs of {case.quantity} and of the speed" if case.kind.name == "friction_map" else "the sign"
-    return [f"{case.quantity} has both signs: {said} with the opposite one: check {channels} (runs {listed})"]
+    runs = f"run{'' if count == 1 else 's'} {listed(rows['run'][wrong].tolist(), SHOWN)}"
+    text = f"{case.quantity} has both signs: {said} with the opposite one: check {channels} ({runs})"
+    return [finding("sign_contradictory", text)]
 
 
 def _against_others(y: np.ndarray, group: np.ndarray, large: np.ndarray) -> np.ndarray:

@@ -28,6 +28,7 @@ from mixedlub.diagnosis.labels import effect_words
 from mixedlub.diagnosis.search.noise_selection import weighed
 from mixedlub.diagnosis.search.search import Progress, Search
 from mixedlub.effects import find
+from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.table import Table
 
 
@@ -47,7 +48,7 @@ class Diagnosis:
     heldout: HeldOut
     contained: tuple[Contained, ...]
     next_tests: tuple[NextTest, ...]
-    warnings: tuple[str, ...]
+    warnings: tuple[Finding, ...]
     excluded: tuple[str, ...] = ()
     noise_stated: bool = True
 
@@ -116,7 +117,7 @@ def diagnose_case(
     left_out = tuple(e.id for e in forward.effects() if e.id in exclude)
     if left_out:
         named = ", ".join(effect_words(name) for name in left_out)
-        warnings.append(f"left out on request, so neither named nor excluded: {named}")
+        warnings.append(finding("effects_left_out", f"left out on request, so neither named nor excluded: {named}"))
     if wanted is not None:
         there = Forward(case, wanted)
         there.nominal()
@@ -169,7 +170,7 @@ def _cautions(
     refined: dict[Key, Refined],
     predicted: np.ndarray,
     wrong: np.ndarray,
-) -> list[str]:
+) -> list[Finding]:
     """What speaks against the answer: its odds, what it writes off, ranges and parameters that no law has."""
     problem = found.problem
     case, rows = problem.case, problem.rows
@@ -185,9 +186,10 @@ def _cautions(
     return said + unpublished(problem.effects(judged.verdict), named.z[own], named.spread[own])
 
 
-def _completed(wanted: Table | None, rows: Table) -> tuple[Table | None, list[str]]:
-    """Conditions to predict with the place in the programme that recordings have: its end where none is given."""
+def _completed(wanted: Table | None, rows: Table) -> tuple[Table | None, list[Finding]]:
+    """Conditions to predict, at the end of the test programme where they have no place in it."""
     if wanted is None or "sequence" in wanted or "sequence" not in rows:
         return wanted, []
     columns = {**wanted.columns, "sequence": np.ones(len(wanted))}
-    return Table(columns, wanted.source), [f"{wanted.source} has no sequence: predicted for the end of the programme"]
+    text = "no column sequence: predicted for the end of the test programme"
+    return Table(columns, wanted.source), [finding("sequence_assumed", text, wanted.source)]

@@ -3,14 +3,13 @@
 from mixedlub.gear.distribution import LdpSharing, LoadDistribution, transmission_error
 from mixedlub.gear.geometry import GearPair
 from mixedlub.gear.mesh import ROUNDED, Mesh, Sharing, at_roll_angle, mesh
-from mixedlub.gear.sharing import LoadShareWarning, RigidSharing, TableSharing
+from mixedlub.gear.sharing import RigidSharing, TableSharing
 
 __all__ = [
     "ROUNDED",
     "GearPair",
     "LdpSharing",
     "LoadDistribution",
-    "LoadShareWarning",
     "Mesh",
     "RigidSharing",
     "Sharing",

@@ -28,6 +28,7 @@ from mixedlub.gear.modifications import Modifications
 from mixedlub.gear.plate import Plate, tapered_plate
 from mixedlub.gear.sharing import contact_limits
 from mixedlub.gear.tooth import tooth
+from mixedlub.schema.findings import Finding
 from profiles.errors import InputError, nearest
 
 if TYPE_CHECKING:
@@ -85,7 +86,7 @@ class LdpSharing:
         """Eleven resolve crown and misalignment of usual size."""
         return 11
 
-    def check(self, pair: GearPair) -> tuple[str, ...]:
+    def check(self, pair: GearPair) -> tuple[Finding, ...]:
         """Refuse helical pairs, reliefs longer than the path, bores outside the range of the ring law."""
         if pair.helix_angle != 0:
             raise InputError(

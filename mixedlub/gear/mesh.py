@@ -17,6 +17,7 @@ import numpy as np
 
 from mixedlub.gear.checks import column, torques_above_zero
 from mixedlub.gear.geometry import GearPair, whole
+from mixedlub.schema.findings import Finding
 from profiles.errors import InputError
 
 ROUNDED = 0.005
@@ -29,8 +30,8 @@ class Sharing(Protocol):
     def default_slices(self, pair: GearPair) -> int:
         """Slices across the face when the caller names no number."""
 
-    def check(self, pair: GearPair) -> tuple[str, ...]:
-        """Refuse a gear pair this sharing cannot serve; else what a reader should know, one line each."""
+    def check(self, pair: GearPair) -> tuple[Finding, ...]:
+        """Refuse a gear pair this sharing cannot serve; else what a reader should know of it."""
 
     def breakpoints(self, pair: GearPair) -> np.ndarray:
         """Positions (m) where the share may kink or jump."""
@@ -65,7 +66,7 @@ class Mesh:
     weight: np.ndarray
     face_fraction: np.ndarray
     face_position: np.ndarray
-    notes: tuple[str, ...]
+    notes: tuple[Finding, ...]
 
     @property
     def contact_width(self) -> np.ndarray:
@@ -151,7 +152,7 @@ def _lay_out(
     position: np.ndarray,
     weight: np.ndarray,
     slices: int,
-    notes: tuple[str, ...],
+    notes: tuple[Finding, ...],
 ) -> Mesh:
     """Repeat positions over the slices and work out kinematics there."""
     x = np.repeat(position, slices)

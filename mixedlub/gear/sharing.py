@@ -6,7 +6,6 @@ should know about it, and the share at the points of a mesh. The elastic one is 
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,18 +15,18 @@ import numpy as np
 from mixedlub.gear.checks import column
 from mixedlub.gear.geometry import GearPair
 from mixedlub.gear.mesh import Mesh
+from mixedlub.schema.findings import Finding, Severity, finding, report
 from profiles.errors import InputError
 
 COVERED = 0.98
 """Share of the path of contact that a table covers but for the rounding of its ends."""
 MEAN_OFF = 0.03
 """How far the shares of the pairs in contact may on average add up to another number than 1."""
+GRAVE_IMBALANCE = 0.1
+"""Shares that add up to 1 within that are what gear programs give under tip relief, or round."""
+PLACE = "load share table"
 OFTEN, OFTEN_OFF = 0.8, 0.05
 """So much of a base pitch must add up to 1 within that; beside a step of the share, between two rows, more is off."""
-
-
-class LoadShareWarning(UserWarning):
-    """A share was used outside the torques it was given for."""
 
 
 def contact_limits(pair: GearPair) -> np.ndarray:
@@ -79,7 +78,7 @@ class RigidSharing:
         """One for spur gears; the oblique lines of helical gears need several."""
         return 1 if pair.helix_angle == 0 else 16
 
-    def check(self, pair: GearPair) -> tuple[str, ...]:
+    def check(self, pair: GearPair) -> tuple[Finding, ...]:
         """Serves every gear pair."""
         return ()
 
@@ -104,7 +103,7 @@ class TableSharing:
     ``share`` of the base-tangent force T1/r_b1 that one tooth pair carries there. Used as it stands: linear
     in roll angle between the rows of a torque; beyond the first and last row their value is held for one row
     spacing and the share is zero further out. A torque without rows takes the nearest that has some, and
-    warns (``LoadShareWarning``). ``source`` is the file that messages name.
+    reports it (`torque_not_tabulated`). ``source`` is the file that messages name.
     """
 
     torque: np.ndarray
@@ -153,7 +152,7 @@ class TableSharing:
         """The table says nothing about the face: one."""
         return 1
 
-    def check(self, pair: GearPair) -> tuple[str, ...]:
+    def check(self, pair: GearPair) -> tuple[Finding, ...]:
         """Refuse helical pairs and tables of another gear or of a part; note ends left out and sums that are not 1."""
         if pair.helix_angle != 0:
             raise InputError(
@@ -165,7 +164,7 @@ class TableSharing:
             self._refuse_gap(pair, curve)
         return (*self._short(pair, curves), *self._unbalanced(pair, curves))
 
-    def imbalance(self, pair: GearPair) -> float:
+    def _imbalance(self, pair: GearPair) -> float:
         """How far the shares of the pairs in contact add up to another number than 1, on average over a base pitch.
 
         That of the torque where it is largest.
@@ -187,30 +186,33 @@ class TableSharing:
             where=self._at_column("roll_angle_deg"),
         )
 
-    def _short(self, pair: GearPair, curves: range) -> Iterator[str]:
+    def _short(self, pair: GearPair, curves: range) -> Iterator[Finding]:
         """Rows that end before the path of contact does, of the torque where they are shortest."""
         start, end = pair.path_start / pair.base_radius[0], pair.path_end / pair.base_radius[0]
         angles = [angle for _, angle, _ in self._curves]
         covered = [(min(angle[-1], end) - max(angle[0], start)) / (end - start) for angle in angles]
         worst = min(curves, key=lambda curve: covered[curve])
         if covered[worst] < COVERED:
-            yield (
-                f"load share table: the rows at {self._curves[worst][0]:g} Nm cover only {covered[worst]:.0%} of the "
-                f"path of contact ({np.degrees(start):.4g} to {np.degrees(end):.4g} deg); the share beyond is taken as "
-                f"none{_others([share < COVERED for share in covered])}"
+            text = (
+                f"the rows at {self._curves[worst][0]:g} Nm cover only {covered[worst]:.0%} of the path of contact "
+                f"({np.degrees(start):.4g} to {np.degrees(end):.4g} deg); beyond them the share is taken as 0"
+                f"{_others([share < COVERED for share in covered])}"
             )
+            yield finding("load_share_short", text, PLACE)
 
-    def _unbalanced(self, pair: GearPair, curves: range) -> Iterator[str]:
+    def _unbalanced(self, pair: GearPair, curves: range) -> Iterator[Finding]:
         """Shares that do not add up to the load, of the torque where they are furthest off."""
         sums = [self._sum_over_pairs(pair, curve) for curve in curves]
         off = [max(abs(s.mean() - 1.0) / MEAN_OFF, np.quantile(np.abs(s - 1.0), OFTEN) / OFTEN_OFF) for s in sums]
         worst = max(curves, key=lambda curve: off[curve])
         if off[worst] > 1.0:
             low, high, mean = sums[worst].min(), sums[worst].max(), sums[worst].mean()
-            yield (
-                f"load share table: at {self._curves[worst][0]:g} Nm the pairs in contact carry together {low:.2f} to "
-                f"{high:.2f} of the load, {mean:.3f} on average, where it should be 1{_others([o > 1.0 for o in off])}"
+            text = (
+                f"at {self._curves[worst][0]:g} Nm the pairs in contact carry together {low:.2f} to {high:.2f} of the "
+                f"load, {mean:.3f} on average, where it should be 1{_others([o > 1.0 for o in off])}"
             )
+            grave = self._imbalance(pair) > GRAVE_IMBALANCE
+            yield finding("load_share_sum", text, PLACE, Severity.DOUBT if grave else None)
 
     def _sum_over_pairs(self, pair: GearPair, curve: int) -> np.ndarray:
         """Shares of all pairs in contact added up, phase by phase."""
@@ -248,12 +250,9 @@ class TableSharing:
         missing = np.abs(tabulated[chosen] - torque) > 1e-6 * tabulated[chosen]
         if np.any(missing):
             asked, used = np.asarray(torque)[missing].flat[0], tabulated[chosen][missing].flat[0]
-            warnings.warn(
-                f"load share table: no rows at {asked:g} Nm, nearest torque {used:g} Nm used"
-                + (f" (and {int(missing.sum()) - 1} more torques)" if missing.sum() > 1 else ""),
-                LoadShareWarning,
-                stacklevel=3,
-            )
+            more = f" (and {int(missing.sum()) - 1} more torques)" if missing.sum() > 1 else ""
+            text = f"no rows at {asked:g} Nm, nearest torque {used:g} Nm used{more}"
+            report(finding("torque_not_tabulated", text, PLACE))
         curves = np.stack([self._at(i, mesh.roll_angle) for i in range(len(self._curves))])
         return curves[chosen] * mesh.face_fraction
 

@@ -8,9 +8,10 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from mixedlub.importers.dates import KEY, ORDERS, moments, resolution
-from mixedlub.importers.draft import WARNING, Answers
+from mixedlub.importers.draft import Answers, read_note
 from mixedlub.importers.pace import TIME
 from mixedlub.importers.sheet import Sheet, places
+from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.units import rounded, words_of
 from profiles.errors import InputError
 
@@ -28,14 +29,14 @@ def date_order(answers: Answers) -> str | None:
     return told
 
 
-def run_on(times: np.ndarray, header: str, sheet: Sheet, told: str | None = None) -> tuple[np.ndarray, str]:
-    """Seconds that run on where their clock starts anew, and what is said of it; nothing where it never falls.
+def run_on(times: np.ndarray, header: str, sheet: Sheet, told: str | None = None) -> tuple[np.ndarray, list[Finding]]:
+    """Seconds that run on where their clock starts anew, and a note on that; none where it never falls.
 
     ``told`` is which of day and month stands first in dates that leave it open.
     """
     falls = np.flatnonzero(np.diff(times) < 0.0) + 1
     if not falls.size:
-        return times, ""
+        return times, []
     where = places([sheet.lines[i] for i in falls])
     others = {h: cells for h, cells in sheet.cells.items() if h != header}
     step = next((h for h, cells in others.items() if STEPS.search(words_of(h)) and _tells(cells, falls)), None)
@@ -44,42 +45,42 @@ def run_on(times: np.ndarray, header: str, sheet: Sheet, told: str | None = None
         if not ways:
             continue
         order, whole, how = ways[0]
-        said = f"{sheet.name}: {TIME} starts anew in {where}, and runs on {how} {dated!r}"
+        said = f"{TIME} starts anew in {where}, and runs on {how} {dated!r}"
         if np.array_equal(whole, ways[-1][1]):
-            return whole, said
+            return whole, [read_note(said, sheet.name)]
         other = ORDERS[1 - ORDERS.index(order)]
         first = order.removesuffix(" first")
-        return whole, (
-            f"{WARNING}{said}, read with the {first} first, as that makes the shorter test; {KEY} = {other!r} says "
-            "otherwise"
-        )
+        said += f", read with the {first} first, as that makes the shorter test; {KEY} = {other!r} says otherwise"
+        return whole, [finding("date_order_assumed", said, sheet.name)]
     if step is None and not _begins_anew(times, falls):
-        return times, f"{WARNING}{sheet.name}: {TIME} runs backwards in {where}, and is left so: sort the rows first"
+        said = f"{TIME} runs backwards in {where}, and is left so: sort the rows first"
+        return times, [finding("clock_backwards", said, sheet.name)]
     ends = np.zeros(times.size)
     ends[falls] = times[falls - 1]
     elapsed = np.cumsum(ends)
-    said = f"{sheet.name}: {TIME} starts anew in {where}, "
+    said = f"{TIME} starts anew in {where}, "
     said += f"with {step!r}, " if step else ""
     said += "and runs on from there without the pauses between"
+    note = read_note(said, sheet.name)
     if step is None:
-        said = f"{WARNING}{said}; where rows are out of order, sort them first"
-    return rounded(times + elapsed, float(elapsed[-1])), said
+        note = finding("clock_restarted", f"{said}; where rows are out of order, sort them first", sheet.name)
+    return rounded(times + elapsed, float(elapsed[-1])), [note]
 
 
-def follow(parts: Sequence[tuple[str, np.ndarray]]) -> tuple[np.ndarray, list[str]]:
+def follow(parts: Sequence[tuple[str, np.ndarray]]) -> tuple[np.ndarray, list[Finding]]:
     """The seconds of several files one after the other: a clock that starts anew in one runs on from the one before."""
     (before, first), *rest = parts
-    found, said = [first], []
+    found = [first]
+    notes: list[Finding] = []
     for name, times in rest:
         end = float(found[-1][-1])
         if times[0] < end:
-            said.append(
-                f"{WARNING}{name}: {TIME} starts anew, and runs on from the end of {before} without the pause between"
-            )
+            said = f"{TIME} starts anew, and runs on from the end of {before} without the pause between"
+            notes.append(finding("clock_restarted", said, name))
             times = rounded(times + end, end)
         found.append(times)
         before = name
-    return np.concatenate(found), said
+    return np.concatenate(found), notes
 
 
 def _tells(cells: Sequence[str], falls: np.ndarray) -> bool:

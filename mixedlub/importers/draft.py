@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from mixedlub.kinds import kind as kind_of
+from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.section import table
 from mixedlub.schema.system_file import KINDS, System
 from mixedlub.schema.toml_file import toml_value
@@ -19,9 +20,6 @@ from profiles.errors import InputError, nearest
 Answers = Mapping[str, Any]
 """Answers by dotted key: keys of system.toml, or ``import.`` and what the importer itself asks."""
 
-
-WARNING = "warning: "
-"""How a note begins that tells of readings lost or in doubt."""
 
 PART = re.compile(r'"[^"]*"|[^.]+')
 """A part of a dotted key; a name with a point in it stands in quotes."""
@@ -82,7 +80,7 @@ class Draft:
     columns: Mapping[str, np.ndarray]
     system: Mapping[str, Any] = field(default_factory=dict)
     questions: tuple[Question, ...] = ()
-    notes: tuple[str, ...] = ()
+    notes: tuple[Finding, ...] = ()
     runs: np.ndarray | None = None
     """Numbers of the readings, where the file has them and each stands once."""
 
@@ -123,6 +121,11 @@ def contact_form(kind: str, answers: Answers) -> tuple[Question, ...]:
     if told or "contact" not in kind_of(kind).sections:
         return ()
     return (WIDTH,) if "contact.geometry" in answers else (FORM, WIDTH)
+
+
+def read_note(text: str, name: str = "") -> Finding:
+    """What an importer made of a file."""
+    return finding("file_read", text, name)
 
 
 def open_questions(draft: Draft, answers: Answers) -> tuple[Question, ...]:

@@ -15,6 +15,7 @@ import numpy as np
 from mixedlub.importers.dates import is_dated
 from mixedlub.importers.draft import Answers
 from mixedlub.importers.sheet import Cells, Sheet, are_numbers, is_number
+from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.table import Table, is_missing
 from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import split, words_of
@@ -62,30 +63,27 @@ def kept(sheet: Sheet, answers: Answers) -> tuple[Sheet, list[str]]:
     return sheet, notes
 
 
-def pooled(free: Cells, conditions: Collection[np.ndarray]) -> Iterator[str]:
-    """A line for every column that nothing is taken from and that tells things apart whose rows are then pooled.
+def pooled(free: Cells, conditions: Collection[np.ndarray], file: str) -> Iterator[Finding]:
+    """A finding for every column that nothing is taken from and that tells things apart whose rows are then pooled.
 
     ``free`` are the columns that nothing is taken from, ``conditions`` those under which the rows were read.
     """
     for header, cells in _telling_apart(free, conditions):
         value = toml_value(cells[0]) if not is_number(cells[0]) and re.search(r"[^\w-]", cells[0]) else cells[0]
-        yield (
-            f"{header!r} is not taken, so {_pooled(cells)}; to import one of them, say --set "
-            f"{shlex.quote(f'{ONLY}{header}={value}')}"
-        )
+        setting = shlex.quote(f"{ONLY}{header}={value}")
+        text = f"{header!r} is not taken, so {_pooled(cells)}; to import one of them, say --set {setting}"
+        yield finding("things_pooled", text, file)
 
 
-def pooled_in(path: Path, table: Table, quantity: str) -> Iterator[str]:
+def pooled_in(path: Path, table: Table, quantity: str) -> Iterator[Finding]:
     """The same of the columns of a case's table that are not read."""
     with path.open(encoding="utf-8-sig", newline="") as file:
         rows = [row for row in csv.reader(file) if any(cell.strip() for cell in row)]
     cells = {h.strip(): [cell.strip() for cell in values] for h, *values in zip(*rows, strict=True)}
     conditions = [v for name, v in table.columns.items() if name not in ("run", "sequence", quantity, f"{quantity}_sd")]
     for header, values in _telling_apart({h: cells[h] for h in table.ignored}, conditions):
-        yield (
-            f"{path.name}: {header!r} is not read, so {_pooled(values)}: keep the rows of one, or tell them apart in a "
-            "column setup"
-        )
+        advice = "keep the rows of one, or tell them apart in a column setup"
+        yield finding("things_pooled", f"{header!r} is not read, so {_pooled(values)}: {advice}", path.name)
 
 
 def _telling_apart(free: Cells, conditions: Collection[np.ndarray]) -> Iterator[tuple[str, Sequence[str]]]:

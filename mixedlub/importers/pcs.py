@@ -7,7 +7,7 @@ from collections.abc import Sequence, Set
 
 import numpy as np
 
-from mixedlub.importers.draft import WARNING, Answers, Draft, Question, kind_told, questions_of, refuse_unknown
+from mixedlub.importers.draft import Answers, Draft, Question, kind_told, questions_of, read_note, refuse_unknown
 from mixedlub.importers.likely import likely_spread
 from mixedlub.importers.match import COLUMNS, target_for
 from mixedlub.importers.sheet import not_above_zero
@@ -15,6 +15,7 @@ from mixedlub.importers.spare import spare_notes, spare_questions
 from mixedlub.importers.steps import STEP, Step, steps_of, without_gaps
 from mixedlub.importers.vocabulary import BY_NAME, convert
 from mixedlub.kinds import kind as kind_of
+from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.units import rounded, split
 from profiles.errors import InputError, nearest
 
@@ -32,7 +33,7 @@ TAKEN = {
 """Columns of each kind that these rigs record, the reading last."""
 SWEPT, SLIDING = ("entrainment_speed_m_s", "slide_roll_ratio"), "sliding_speed_m_s"
 SWEPT_NOTE = (
-    "{name}: speeds are swept within the steps, and taken as friction in time; --set 'kind=\"disc\"' takes the film "
+    "speeds are swept within the steps, and taken as friction in time; --set 'kind=\"disc\"' takes the film "
     "at each into account, --set 'kind=\"friction_map\"' makes it friction against sliding speed"
 )
 SWEPT_KIND = Question(
@@ -68,18 +69,18 @@ def without_cut_line(text: str) -> tuple[str, int | None]:
     return before + end, text.count("\n") + 1
 
 
-def _lost(text: str, name: str, cut: int | None) -> tuple[str, ...]:
+def _lost(text: str, name: str, cut: int | None) -> tuple[Finding, ...]:
     """What the file's own header counts and the file does not hold."""
     said = {which: int(count) for which, count in SAID.findall(text)}
     expected = said.get("completed", said.get("in profile", 0))
     held = sum(bool(STEP.match(line)) for line in text.splitlines())
     notes = []
     if held < expected:
-        notes.append(
-            f"{WARNING}{name}: holds {held} of the {expected} steps that its header counts; the rest is missing"
-        )
+        text = f"holds {held} of the {expected} steps that its header counts; the rest is missing"
+        notes.append(finding("file_incomplete", text, name))
     if cut is not None:
-        notes.append(f"{WARNING}{name}: line {cut} breaks off at the end of the file and is left out")
+        text = f"line {cut} breaks off at the end of the file and is left out"
+        notes.append(finding("file_incomplete", text, name))
     return tuple(notes)
 
 
@@ -98,9 +99,9 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     chosen = _chosen(held, kind)
     if not chosen:
         rule = f"no step with {'films' if kind == 'film' else 'films or friction coefficients'}"
-        raise InputError("; ".join([rule, *(note.removeprefix(WARNING) for note in lost)]), where=name)
+        raise InputError("; ".join([rule, *map(str, lost)]), where=name)
     types = " and ".join(dict.fromkeys(s.form for s in chosen))
-    notes = [f"{name}: {len(chosen)} of {len(held)} steps with readings taken, of type {types}"]
+    notes = [read_note(f"{len(chosen)} of {len(held)} steps with readings taken, of type {types}", name)]
     first = min(s.start for s in chosen)
     chosen, gaps = without_gaps(chosen, [*TAKEN[kind], *_beside(chosen, kind)], name)
     columns = {w: _together(chosen, w, name) for w in TAKEN[kind] if all(s.has(w) for s in chosen)}
@@ -123,14 +124,14 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
             }
         )
         questions = (*SURFACES, *questions)
-    notes += [SWEPT_NOTE.format(name=name)] if offered else []
+    notes += [read_note(SWEPT_NOTE, name)] if offered else []
     described = kind in ("film", "disc") or any(key.startswith("contact.") for key in answers)
     system = {"contact": {"geometry": "point"}} if described else {}
-    warned = [f"{WARNING}{name}: {gap}" for gap in gaps]
+    warned = [finding("rows_left_out", gap, name) for gap in gaps]
     lines = [line for s in chosen for line in s.lines]
     signed = not kind_of(kind).is_unsigned(quantity)
     low = [] if signed else not_above_zero(quantity, columns[quantity].tolist(), lines)
-    every = (*lost, *warned, *spread_said, *notes, *said, *(f"{name}: {note}" for note in low))
+    every = (*lost, *warned, *spread_said, *notes, *said, *(read_note(text, name) for text in low))
     return Draft(kind, quantity, columns, system, (*questions, *offers, *questions_of(kind), *offered), every)
 
 
@@ -191,7 +192,7 @@ def _sliding_speed(chosen: Sequence[Step], name: str) -> np.ndarray:
 
 def _spread(
     chosen: Sequence[Step], quantity: str, name: str, answers: Answers
-) -> tuple[dict[str, np.ndarray], Sequence[Question], Sequence[str]]:
+) -> tuple[dict[str, np.ndarray], Sequence[Question], Sequence[Finding]]:
     """The standard deviation of the reading where a header is told, else the question about one that may hold it."""
     column = f"{quantity}_sd"
     target, told = target_for(column), answers.get(COLUMNS + column)
@@ -204,12 +205,13 @@ def _spread(
         scattered: dict[str, list[str]] = {h: [] for h in held if any(np.any(s.columns[h] > 0.0) for s in chosen)}
         header = likely_spread(quantity, reading, scattered)
         spare = {} if header is None else {column: header}
-        return {}, spare_questions(spare, COLUMNS), [f"{WARNING}{name}: {note}" for note in spare_notes(spare, COLUMNS)]
+        notes = [finding("column_not_taken", text, name) for text in spare_notes(spare, COLUMNS)]
+        return {}, spare_questions(spare, COLUMNS), notes
     if told not in held:
         raise InputError(f"no such header; {nearest(str(told), held)}", where=COLUMNS + column, value=told)
     unit = split(str(told))[1] or ("-" if target.unit == "ratio" else "?")
     values = convert(np.concatenate([s.columns[told] for s in chosen]), unit, target, f"{name}: {told}")
-    return {column: values}, (), [f"{name}: {told!r} taken as {column}"]
+    return {column: values}, (), [read_note(f"{told!r} taken as {column}", name)]
 
 
 def _refuse_absent(columns: Set[str], name: str) -> None:
@@ -220,7 +222,7 @@ def _refuse_absent(columns: Set[str], name: str) -> None:
 
 def _temperature(
     chosen: tuple[Step, ...], name: str, answers: Answers
-) -> tuple[dict[str, np.ndarray], tuple[Question, ...], tuple[str, ...]]:
+) -> tuple[dict[str, np.ndarray], tuple[Question, ...], tuple[Finding, ...]]:
     """Oil temperature by the probe in the oil; a question where the two probes tell different stories."""
     probes: dict[str, np.ndarray] = {}
     for probe, words in PROBES.items():
@@ -238,7 +240,7 @@ def _temperature(
     if asked:
         if asked not in probes:
             raise InputError(f"must be one of {', '.join(probes)}", where="import.temperature", value=asked)
-        return {"oil_temperature_C": probes[asked]}, (), (f"{name}: temperature of the {asked} probe taken",)
+        return {"oil_temperature_C": probes[asked]}, (), (read_note(f"temperature of the {asked} probe taken", name),)
     if len(probes) == 2 and abs(np.median(probes["lube"]) - np.median(probes["pot"])) > DISAGREE_K:
         middle = {p: float(np.median(v)) for p, v in probes.items()}
         text = (
@@ -247,4 +249,4 @@ def _temperature(
         )
         return {}, (Question("import.temperature", text, '"pot"'),), ()
     probe = "lube" if "lube" in probes else "pot"
-    return {"oil_temperature_C": probes[probe]}, (), (f"{name}: temperature of the {probe} probe taken",)
+    return {"oil_temperature_C": probes[probe]}, (), (read_note(f"temperature of the {probe} probe taken", name),)

@@ -7,7 +7,7 @@ import numpy as np
 from mixedlub.importers.clock import date_order, run_on
 from mixedlub.importers.constant import constants, value_keys
 from mixedlub.importers.dates import KEY as DATES
-from mixedlub.importers.draft import WARNING, Answers, Draft, Question, contact_form, questions_of, refuse_unknown
+from mixedlub.importers.draft import Answers, Draft, Question, contact_form, questions_of, read_note, refuse_unknown
 from mixedlub.importers.groups import kept, only_keys, pooled
 from mixedlub.importers.kinematics import refuse_one_surface
 from mixedlub.importers.likely import likely_kind, likeness
@@ -21,6 +21,7 @@ from mixedlub.importers.sheet import Cells, Sheet, not_above_zero, read_sheet, w
 from mixedlub.importers.vocabulary import convert
 from mixedlub.kinds import Kind
 from mixedlub.kinds import kind as kind_of
+from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.system_file import KINDS
 from mixedlub.schema.table import Column
 from mixedlub.schema.toml_file import toml_value
@@ -68,7 +69,8 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
         for column, header in found.headers.items()
         if column not in asked
     }
-    paced = restarted = ""
+    paced = ""
+    restarted: list[Finding] = []
     if TIME in columns and TIME in found.units:
         columns[TIME], paced = in_seconds(columns[TIME], found.headers[TIME], found.units[TIME], answers)
     if TIME in columns:
@@ -82,19 +84,24 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     taken = [*(["run"] if runs is not None else []), *(c for c in columns if c in found.headers)]
     left = [h for h in sheet.cells if h not in found.headers.values() and h != header]
     conditions = [v for c, v in columns.items() if c not in (quantity, f"{quantity}_sd")]
-    mixed = pooled({h: sheet.cells[h] for h in left}, conditions)
+    mixed = pooled({h: sheet.cells[h] for h in left}, conditions, name)
+    read = [
+        *chosen,
+        f"{len(taken)} of {len(sheet.cells)} columns taken: {', '.join(taken)}",
+        *([f"not taken: {', '.join(left)}"] if left else []),
+        *([f"the same in all rows, as answered: {', '.join(fixed)}"] if fixed else []),
+        *([f"{sheet.left_out} left out: no part of the table"] if sheet.left_out else []),
+        *found.notes,
+        *([paced] if paced else []),
+    ]
     notes = [
-        *(f"{WARNING}{name}: {note}" for note in (*lost, *found.warned, *mixed)),
-        *(f"{name}: {note}" for note in chosen),
-        f"{name}: {len(taken)} of {len(sheet.cells)} columns taken: {', '.join(taken)}",
-        *([f"{name}: not taken: {', '.join(left)}"] if left else []),
-        *([f"{name}: the same in all rows, as told: {', '.join(fixed)}"] if fixed else []),
-        *([f"{name}: {sheet.left_out} left out: no part of the table"] if sheet.left_out else []),
-        *(f"{name}: {note}" for note in found.notes),
-        *([f"{name}: {paced}"] if paced else []),
-        *([restarted] if restarted else []),
-        *(f"{name}: {note}" for note in low),
-        *([anew] if anew else []),
+        *(finding("rows_left_out", text, name) for text in lost),
+        *(finding("column_not_taken", text, name) for text in found.warned),
+        *mixed,
+        *(read_note(text, name) for text in read),
+        *restarted,
+        *(read_note(text, name) for text in low),
+        *([read_note(anew)] if anew else []),
     ]
     return Draft(kind, quantity, columns, {}, rest, tuple(notes), runs)
 

@@ -6,10 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub.case.folder import Case, noted, read_case, read_conditions
+from mixedlub.case.folder import Case, read_case, read_conditions
 from mixedlub.kinds import kind as kind_of
 from mixedlub.rig import build
 from mixedlub.schema import system_file
+from mixedlub.schema.findings import collected
 from profiles.errors import InputError
 
 
@@ -20,7 +21,7 @@ def refuse_unreadable(folder: Path, system: system_file.System, complete: bool, 
     the place ``shown``, where the case would have appeared.
     """
     try:
-        with noted([]):
+        with collected():
             return (_whole(folder) if complete else _parts(folder, system)).replace(str(folder), str(shown))
     except InputError as error:
         told = system_file.in_file(error, str(folder / "system.toml"))
@@ -33,14 +34,14 @@ def refuse_unreadable(folder: Path, system: system_file.System, complete: bool, 
 
 def _whole(folder: Path) -> str:
     from mixedlub.case.forward import Forward
-    from mixedlub.data_checks.audit import doubts
+    from mixedlub.data_checks.audit import check_readings
 
     case = read_case(folder)
     assert case.recordings is not None
     _bodies(case.system, folder)
     forward = Forward(case, case.recordings)
     try:
-        doubts(case, case.recordings, np.asarray(case.recordings[case.quantity], dtype=float), forward)
+        check_readings(case, case.recordings, np.asarray(case.recordings[case.quantity], dtype=float), forward)
     except InputError as error:
         return str(error)
     return ""

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.importers.draft import WARNING, Answers, Draft, kind_told, questions_of, refuse_unknown
+from mixedlub.importers.draft import Answers, Draft, kind_told, questions_of, read_note, refuse_unknown
 from mixedlub.importers.sheet import count, places
 from mixedlub.importers.vocabulary import BY_NAME, convert, target_of
+from mixedlub.schema.findings import finding
 from mixedlub.schema.table import Column
 from mixedlub.schema.units import rounded
 from profiles.errors import InputError
@@ -46,9 +47,10 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     if not taken:
         raise InputError("no step with viscosity and temperature", where=name)
     columns = {w: np.concatenate(v) for w, v in parts.items()}
+    gone_rows = f"{count(len(lost), 'row')} left out, as a value is missing: {places(lost)}"
     notes = [
-        *([f"{WARNING}{name}: {count(len(lost), 'row')} left out, as a value is missing: {places(lost)}"] * bool(lost)),
-        f"{name}: {taken} steps taken, {left} left; time runs on from step to step without the pauses between",
+        *([finding("rows_left_out", gone_rows, name)] if lost else []),
+        read_note(f"{taken} steps taken, {left} left; time runs on from step to step without the pauses between", name),
     ]
     return Draft("viscosity", "viscosity_mPa_s", columns, {}, questions_of("viscosity"), tuple(notes))
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import tomllib
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
@@ -16,14 +15,15 @@ from mixedlub.importers.carried import carried, is_share, with_share
 from mixedlub.importers.checked import is_list, refuse_wrong
 from mixedlub.importers.clock import follow
 from mixedlub.importers.constant import VALUES
-from mixedlub.importers.draft import EVERY, WARNING, Draft, Question, Unanswered, flat, open_questions
+from mixedlub.importers.draft import EVERY, Draft, Question, Unanswered, flat, open_questions, read_note
 from mixedlub.importers.needs import gaps, told, undescribed
 from mixedlub.importers.pace import TIME
 from mixedlub.importers.readable import refuse_unreadable
 from mixedlub.importers.runs import together
 from mixedlub.importers.write import write_case
 from mixedlub.schema import system_file, toml_file
-from mixedlub.schema.table import CaseWarning, with_hyphens
+from mixedlub.schema.findings import Finding, Severity, finding, of_severity, report
+from mixedlub.schema.table import with_hyphens
 from profiles.errors import InputError, nearest
 from profiles.readers.numbers import decoded
 
@@ -48,12 +48,12 @@ def read(files: Sequence[Path], answers: Mapping[str, Any]) -> Draft:
         if (other.kind, other.quantity, set(other.columns)) != (first.kind, first.quantity, set(first.columns)):
             raise InputError("holds other columns than the first file; import it by itself", where=path.name)
     columns = {name: np.concatenate([d.columns[name] for d in drafts]) for name in first.columns}
-    restarted: list[str] = []
+    restarted: list[Finding] = []
     if TIME in columns:
         columns[TIME], restarted = follow([(path.name, d.columns[TIME]) for path, d in zip(files, drafts, strict=True)])
     questions = {q.key: q for d in drafts for q in d.questions}
     runs, anew = together([(path.name, d.runs) for path, d in zip(files, drafts, strict=True)])
-    notes = [*(note for d in drafts for note in d.notes), *restarted, *([anew] if anew else [])]
+    notes = [*(note for d in drafts for note in d.notes), *restarted, *([read_note(anew)] if anew else [])]
     return Draft(
         first.kind,
         first.quantity,
@@ -106,9 +106,8 @@ def import_files(files: Sequence[Path], out: Path, *, overwrite: bool = False, *
     if missing:
         raise Unanswered(missing)
     folder, _ = _write(draft, given, out, overwrite, _folders(None, files, out))
-    for note in draft.notes:
-        if note.startswith(WARNING):
-            warnings.warn(note.removeprefix(WARNING), CaseWarning, stacklevel=2)
+    for note in _warnings(draft):
+        report(note)
     return folder
 
 
@@ -145,16 +144,26 @@ def run(
         raise Unanswered(missing)
     folder, refusal = _write(draft, answers, out, overwrite, _folders(answers_file, files, out))
     for note in draft.notes:
-        say(note)
+        say(_line(note))
     for hint in _hints(draft, answers):
         say(hint)
     if refusal:
-        say(f"{WARNING}diagnose cannot use this case as it stands: {refusal}")
+        say(_line(finding("case_refused", f"diagnose cannot use this case as it is: {refusal}")))
     say(f"{folder}: a case of kind {draft.kind} that records {draft.quantity}")
     system = toml_file.parse(system_file.System, toml_file.read_toml(folder / "system.toml"), "system.toml")
     for line in told(gaps(system, draft.columns), str(folder / "system.toml"), system):
         say(line)
     return folder
+
+
+def _line(note: Finding) -> str:
+    """A finding as the command prints it; how a file was read stands without a mark."""
+    return str(note) if note.severity is Severity.NOTE else f"{note.severity}: {note}"
+
+
+def _warnings(draft: Draft) -> tuple[Finding, ...]:
+    """What is kept for `check` and `diagnose`: readings lost or in doubt, not how the files were read."""
+    return of_severity(draft.notes, Severity.CAUTION, Severity.DOUBT)
 
 
 def parse_setting(text: str) -> tuple[str, Any]:

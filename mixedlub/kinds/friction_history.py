@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,7 +15,8 @@ from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, inverse_load, programme
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.schema import system_file
-from mixedlub.schema.table import CaseWarning, Table
+from mixedlub.schema.findings import finding, report
+from mixedlub.schema.table import Table
 
 COLUMNS = (
     replace(columns.TIME, required=True),
@@ -49,12 +49,11 @@ def inputs(system: system_file.System, folder: Path, table: Table, recorded: Tab
         return {**disc.inputs(system, folder, table, recorded), **programme(table, recorded)}
     absent = [name for name in NEEDED if name not in table]
     if system.contact is not None and system.lubricant is not None and system.surfaces:
-        warnings.warn(
-            f"{table.source}: no {', '.join(absent)}, so film and asperities cannot be computed; "
-            "the base is one constant friction coefficient",
-            CaseWarning,
-            stacklevel=2,
+        text = (
+            f"no {', '.join(absent)}, so film and asperities cannot be computed; the base model is one constant "
+            "friction coefficient"
         )
+        report(finding("film_not_computed", text, table.source))
     return {
         **_conditions(table, recorded),
         **bookkeeping_inputs(system, table),

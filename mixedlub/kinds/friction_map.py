@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -19,7 +18,8 @@ from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, colu
 from mixedlub.laws import drive
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.schema import system_file
-from mixedlub.schema.table import CaseWarning, Column, Table
+from mixedlub.schema.findings import finding, report
+from mixedlub.schema.table import Column, Table
 from profiles.errors import InputError
 
 SPEEDS = ("speed_rpm", "sliding_speed_m_s")
@@ -173,12 +173,8 @@ def completed(table: Table, recorded: Table) -> Table:
         torque = table["torque_Nm"] + np.median(motor - recorded["torque_Nm"])
     else:
         torque = np.full(len(table), np.median(motor))
-        warnings.warn(
-            f"{table.source} has neither {MOTOR_TORQUE.name} nor torque_Nm: predicted for the motor's usual torque, "
-            f"{torque[0]:.3g} N m",
-            CaseWarning,
-            stacklevel=2,
-        )
+        text = f"no {MOTOR_TORQUE.name} and no torque_Nm: predicted for the motor's median torque, {torque[0]:.3g} N m"
+        report(finding("motor_torque_assumed", text, table.source))
     return Table({**table.columns, MOTOR_TORQUE.name: torque}, table.source)
 
 

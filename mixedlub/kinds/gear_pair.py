@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +14,8 @@ from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig import build
 from mixedlub.schema import system_file
-from mixedlub.schema.table import CaseWarning, Column, Table
+from mixedlub.schema.findings import finding, report
+from mixedlub.schema.table import Column, Table
 
 PATH_POINTS = 24
 
@@ -86,12 +86,11 @@ def without_gears(found: Inputs, table: Table) -> Inputs:
     out = gears_out(table)[:, None]
     if not out.any():
         return found
-    warnings.warn(
-        f"{int(out.sum())} rows of the rig {NO_GEARS}: compared with shafts alone, that is no loss of the mesh, of "
-        "wheels in oil or in air, and bearings that carry no tooth force",
-        CaseWarning,
-        stacklevel=2,
+    text = (
+        f"{int(out.sum())} rows are compared with the shafts alone: no loss of the mesh, of wheels in oil or in air, "
+        "and bearings without tooth force"
     )
+    report(finding("gears_absent", text, f"{table.source}, rig {NO_GEARS}"))
     return {
         **found,
         "path_weight": np.where(out, 0.0, found["path_weight"]),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
@@ -16,7 +15,8 @@ from mixedlub.laws.oil import from_d341, to_d341
 from mixedlub.rig import build
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.schema import system_file
-from mixedlub.schema.table import CaseWarning, Table
+from mixedlub.schema.findings import collected, finding, report
+from mixedlub.schema.table import Table
 
 VISCOSITY_SPREAD = 1.0
 PRESSURE_SPREAD = 0.35
@@ -73,17 +73,16 @@ def calibrations(system: system_file.System, temperature: np.ndarray, *, level: 
     """
     gaps = missing(system)
     if gaps:
-        warnings.warn(
-            f"the oil's {' and '.join(g.replace('_', '-') for g in gaps)} not given: fitted with broad priors, "
-            "so what follows rests on these data and not on known properties of the oil",
-            CaseWarning,
-            stacklevel=2,
+        named = " and ".join(g.replace("_", "-") for g in gaps)
+        text = (
+            f"{named} not given: fitted with broad priors, so the answer rests on these readings and not on known "
+            "properties of the oil"
         )
+        report(finding("oil_fitted", text, "lubricant"))
     found = []
     pivot = pivot_of(temperature)
     spans = np.ptp(temperature) > 2.0
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", CaseWarning)
+    with collected():
         oil = build.lubricant(system.lubricant)
     if "viscosity" in gaps:
         parameter = Parameter("viscosity", "-", LogNormal(level, VISCOSITY_SPREAD), "factor on the assumed viscosity")

@@ -22,6 +22,7 @@ from mixedlub.report.surfaces import (
     surface_rows,
     traced,
 )
+from mixedlub.schema.findings import Finding, grouped
 from mixedlub.schema.section import FileTable
 from mixedlub.study import counted, factors
 from mixedlub.study.checkpoint import fingerprint
@@ -32,7 +33,7 @@ from mixedlub.version import installed_version
 MOST_SURFACES = 12
 
 
-def write_page(results: Results, folder: Path, notes: Sequence[str]) -> None:
+def write_page(results: Results, folder: Path, notes: Sequence[Finding]) -> None:
     """``index.html`` and ``figures/`` in a folder."""
     from jinja2 import Environment
 
@@ -48,7 +49,7 @@ def write_page(results: Results, folder: Path, notes: Sequence[str]) -> None:
         shown.append({"name": drawn.name, "caption": drawn.caption, "svg": svg})
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(files("mixedlub.report").joinpath("template.html").read_text(encoding="utf-8"))
-    doubtful = [*notes, *not_gaussian(judged), *height_notes(profiles, judged)]
+    doubtful = grouped([*notes, *not_gaussian(judged), *height_notes(profiles, judged)])
     said = {"notes": doubtful, "provenance": provenance(study, profiles)}
     page = template.render(**content(results), **said, figures=shown)
     (folder / "index.html").write_text(page, encoding="utf-8")

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mixedlub.case.folder import noted
 from mixedlub.report.figures import Drawn
 from mixedlub.report.style import styled
 from mixedlub.rig.build import flank_profile
+from mixedlub.schema.findings import Finding, collected, finding
 from mixedlub.study.plan import Study
 from profiles import Profile
 from roughness.mccool import nayak_parameter, summit_density, summit_radius
@@ -44,7 +44,7 @@ def traced(study: Study) -> dict[str, Profile]:
     """The filtered profiles of the surfaces that come from traces, at most a figure full."""
     sections = {name: study.file.surfaces[name] for name in study.surfaces}
     named = [name for name, section in sections.items() if section.profile is not None][:SHOWN]
-    with noted([]):
+    with collected():
         profiles = {name: flank_profile(name, sections[name], study.folder.resolve()) for name in named}
     return {name: replace(profile, name=name) for name, profile in profiles.items()}
 
@@ -79,20 +79,20 @@ def judgement(profiles: Mapping[str, Profile]) -> Judged:
     return {name: normal_probability(profile) for name, profile in profiles.items()}
 
 
-def height_notes(profiles: Mapping[str, Profile], judged: Judged) -> list[str]:
+def height_notes(profiles: Mapping[str, Profile], judged: Judged) -> list[Finding]:
     """What `mixedlub profile` warns of in the numbers of each trace and in its heights being Gaussian."""
     from roughness import height_parameters, moments
     from roughness.guards import height_warnings
 
     return [
-        f"surfaces.{name}: {text}"
+        finding("trace_quality", text, f"surfaces.{name}")
         for name, profile in profiles.items()
         for text in height_warnings(profile, height_parameters(profile), moments(profile), judged[name])
     ]
 
 
-def not_gaussian(judged: Judged) -> list[str]:
-    """A sentence on surfaces whose heights are not those the asperity theory is made for."""
+def not_gaussian(judged: Judged) -> list[Finding]:
+    """Surfaces whose heights are not Gaussian, as the asperity theory assumes."""
     odd = [
         f"{name} ({result.verdict.replace('_', ' ')})"
         for name, result in judged.items()
@@ -100,7 +100,8 @@ def not_gaussian(judged: Judged) -> list[str]:
     ]
     if not odd:
         return []
-    return [f"the asperity theory takes Gaussian heights, which these surfaces do not have: {', '.join(odd)}"]
+    text = f"the asperity theory assumes Gaussian heights, which these surfaces do not have: {', '.join(odd)}"
+    return [finding("heights_not_gaussian", text)]
 
 
 def provenance(study: Study, profiles: Mapping[str, Profile]) -> list[tuple[str, str]]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import tomllib
-import warnings
 from collections.abc import Collection
 from functools import cache
 from importlib.resources import files
@@ -17,7 +16,8 @@ from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.surface import Surface
 from mixedlub.schema import system_file
-from mixedlub.schema.table import CaseWarning, Column, read_table
+from mixedlub.schema.findings import finding, report
+from mixedlub.schema.table import Column, read_table
 from profiles import SHIPPED, shipped
 from profiles.errors import InputError, nearest
 from profiles.profile import Profile
@@ -100,11 +100,7 @@ def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (
     if assumed:
         stock = section.base or "mineral (assumed)"
         listed = ", ".join(f"{key} = {base[key]}" for key in assumed)
-        warnings.warn(
-            f"lubricant: {listed} not given; taken as typical of base {stock}",
-            CaseWarning,
-            stacklevel=2,
-        )
+        report(finding("oil_typical", f"{listed} not given; taken as typical of base {stock}", "lubricant"))
     full = {**base, **known}
     t1, t2 = full["temperature_C"]
     nu1, nu2 = full["kinematic_viscosity_mm2_s"]
@@ -159,16 +155,15 @@ def _prepared(name: str, section: system_file.SurfaceSection, trace: Profile) ->
     band = {"cutoff_mm": section.cutoff_mm or 0.8, "short_cutoff_um": section.short_cutoff_um or 2.5}
     assumed = [f"{key} = {value:g}" for key, value in band.items() if getattr(section, key) is None]
     if assumed:
-        warnings.warn(f"surfaces.{name}: {', '.join(assumed)} assumed", CaseWarning, stacklevel=2)
+        report(finding("cutoff_assumed", f"{', '.join(assumed)} assumed", f"surfaces.{name}"))
     short: float | None = band["short_cutoff_um"] * 1e-6
     if band["short_cutoff_um"] * 1e-6 < 2.0 * trace.spacing:
         short = None
-        warnings.warn(
-            f"surfaces.{name}: no short cut-off: {band['short_cutoff_um']:g} um is below two points of the trace, so "
-            f"slope and curvature are those of its spacing, {trace.spacing * 1e6:.3g} um",
-            CaseWarning,
-            stacklevel=2,
+        text = (
+            f"short cut-off not applied: the spacing of the trace, {trace.spacing * 1e6:.3g} um, is too coarse for "
+            f"{band['short_cutoff_um']:g} um, so slope and curvature are those of the spacing"
         )
+        report(finding("short_cutoff_skipped", text, f"surfaces.{name}"))
     return evaluation_profile(
         trace,
         form=section.form or "line",
@@ -189,7 +184,7 @@ def _moments_of_trace(name: str, section: system_file.SurfaceSection, folder: Pa
         profile = _prepared(name, section, trace)
         found = moments(profile)
         for text in trace_warnings(profile, found, raw=trace):
-            warnings.warn(f"surfaces.{name}: {text}", CaseWarning, stacklevel=2)
+            report(finding("trace_quality", text, f"surfaces.{name}"))
         return found
     except InputError as error:
         if error.where.startswith("surfaces."):
@@ -206,11 +201,8 @@ def surface(name: str, section: system_file.SurfaceSection, folder: Path) -> Sur
         found = _moments_of_trace(name, section, folder)
         m0, m2, m4 = found.m0, found.m2, found.m4
     if m0 * m4 < 1.5 * m2**2:
-        warnings.warn(
-            f"surfaces.{name}: Nayak alpha is {m0 * m4 / m2**2:.2f}, below the 1.5 of any isotropic Gaussian surface",
-            CaseWarning,
-            stacklevel=2,
-        )
+        text = f"Nayak alpha is {m0 * m4 / m2**2:.2f}, below the 1.5 of any isotropic Gaussian surface"
+        report(finding("nayak_below_limit", text, f"surfaces.{name}"))
     coating = section.coating
     return Surface(
         name=name,

@@ -7,13 +7,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
-from itertools import islice
 from typing import Any
 
 import numpy as np
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
+from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.units import SLIPS, read_as, unit_of
 
 NO_SHARES = ("poisson_ratio", "sequence", "path_points", "face_slices")
@@ -103,29 +103,30 @@ def _entries(value: Any) -> Iterator[tuple[str, float]]:
         yield "", value
 
 
-def beyond_usual(key: str, value: float, place: str) -> str:
-    """What is unusual of a possible value, in words with the range that is usual; empty where nothing is.
+def beyond_usual(key: str, value: float, place: str) -> list[Finding]:
+    """That a possible value lies outside the usual range, with that range; nothing where it lies within.
 
-    >>> beyond_usual("lubricant.eyring_stress_MPa", 90.0, "lubricant.eyring_stress_MPa")
-    'lubricant.eyring_stress_MPa is 90, where rigs have 0.3 to 60 MPa: check the number and its unit'
+    >>> print(*beyond_usual("lubricant.eyring_stress_MPa", 90.0, "lubricant.eyring_stress_MPa"))
+    lubricant.eyring_stress_MPa: 90, where rigs have 0.3 to 60 MPa: check the number and its unit
     """
     low, high = ranges()[key].usual
     if low <= value <= high:
-        return ""
+        return []
     name = key.rpartition(".")[2]
     usual = f"at least {low:g}" if high == np.inf else f"{low:g} to {high:g}"
-    said = f"{place} is {value:.6g}, where rigs have {usual} {unit_of(name)}".rstrip()
-    return f"{said}: {meant(name, value, low, high).removesuffix(ASKED) or 'check the number and its unit'}"
+    unit = meant(name, value, low, high).removesuffix(ASKED) or "check the number and its unit"
+    said = f"{value:.6g}, where rigs have {usual} {unit_of(name)}".rstrip()
+    return [finding("value_unusual", f"{said}: {unit}", place)]
 
 
-def unusual(table: BaseModel, place: tuple[str, ...] = ()) -> Iterator[str]:
+def unusual(table: BaseModel, place: tuple[str, ...] = ()) -> Iterator[Finding]:
     """What is far from any rig in a validated file: possible numbers outside the usual ranges, one a key."""
     for name, field in type(table).model_fields.items():
         value, within = getattr(table, name), range_of(field)
         if within is not None and value is not None:
             where = ".".join((*place, name))
-            said = (beyond_usual(within.key, x, f"{where}, {words}".rstrip(", ")) for words, x in _entries(value))
-            yield from islice(filter(None, said), 1)
+            each = (beyond_usual(within.key, x, f"{where}, {words}".rstrip(", ")) for words, x in _entries(value))
+            yield from next(filter(None, each), [])
         named = value.items() if isinstance(value, dict) else [("", value)]
         for inner, section in named:
             if isinstance(section, BaseModel):

@@ -5,20 +5,16 @@ from __future__ import annotations
 import csv
 import difflib
 import re
-import warnings
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from mixedlub.schema.findings import Finding, finding, report
 from mixedlub.schema.ranges import meant
 from mixedlub.schema.units import fits, read_as, split, unit_of, words_of
 from profiles.errors import InputError, nearest
-
-
-class CaseWarning(UserWarning):
-    """Something in the input was assumed, ignored or replaced; the user should know."""
 
 
 @dataclass(frozen=True)
@@ -147,7 +143,7 @@ def with_hyphens(text: str) -> str:
 
 
 def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] = ("run",)) -> Table:
-    """Read a CSV with the given columns, those of the ``key`` unique together; others are ignored with a warning."""
+    """Read a CSV with the given columns, those of the ``key`` unique together; others are ignored and reported."""
     where = str(path)
     try:
         text = with_hyphens(path.read_text(encoding="utf-8-sig"))
@@ -180,10 +176,8 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] 
             raise InputError(f"column {column.name!r} is missing{_instead(column, unknown)}", where=f"{where}: header")
     if unknown:
         absent = [column for column in columns if column.name not in header]
-        converted = [other for column in absent if (other := _other_unit(column, unknown))]
-        listed = [name if name in converted else _with_nearest(name, absent) for name in unknown]
-        told = f"; {_CONVERTED} ({', '.join(converted)})" if converted else ""
-        warnings.warn(f"{path.name}: {IGNORED}{', '.join(listed)}{told}", CaseWarning, stacklevel=2)
+        for found in _ignored(path.name, unknown, absent):
+            report(found)
     cells = _parse(lines, header, known, where)
     together = list(zip(*(cells[name].tolist() for name in key), strict=True))
     if len(set(together)) < len(together):
@@ -196,9 +190,6 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] 
     return Table(cells, path.name, tuple(unknown))
 
 
-IGNORED = "columns ignored because they are not known: "
-MEANT = "nearest known"
-"""How the note of a column that is ignored begins, and what stands in it where it may be one that is known."""
 _CONVERTED = "units are not converted here; `mixedlub import` does"
 
 
@@ -219,21 +210,37 @@ def _instead(column: Column, unknown: list[str]) -> str:
     )
 
 
-def _with_nearest(name: str, absent: list[Column]) -> str:
-    """An ignored column with the one that it may be: of the columns that are not there, one in its unit or like it.
+def _ignored(file: str, unknown: list[str], absent: list[Column]) -> Iterator[Finding]:
+    """What to say of columns that are not known: those that may be a column which is ``absent`` one by one."""
+    converted = [other for column in absent if (other := _other_unit(column, unknown))]
+    others = []
+    for name in unknown:
+        close = None if name in converted else _nearest_absent(name, absent)
+        if name in converted:
+            yield finding("column_other_unit", f"column ignored: {_CONVERTED}", f"{file}, {name}")
+        elif close is not None:
+            yield finding("column_near_known", f"column ignored; nearest known: {close!r}", f"{file}, {name}")
+        else:
+            others.append(name)
+    if others:
+        yield finding("columns_unknown", f"columns ignored because they are not known: {', '.join(others)}", file)
 
-    >>> _with_nearest("load_Nm", [Column("load_N"), Column("torque_Nm"), Column("motor_torque_Nm")])
-    "load_Nm (nearest known: 'torque_Nm')"
-    >>> _with_nearest("colour", [Column("torque_Nm")]), _with_nearest("surface2", [Column("surface_2")])
-    ('colour', "surface2 (nearest known: 'surface_2')")
-    >>> _with_nearest("power_loss_sd", [Column("power_loss_W_sd")])
-    "power_loss_sd (nearest known: 'power_loss_W_sd')"
+
+def _nearest_absent(name: str, absent: list[Column]) -> str | None:
+    """The column that an ignored one may be: of those that the table lacks, one in its unit or with a name like it.
+
+    >>> _nearest_absent("load_Nm", [Column("load_N"), Column("torque_Nm"), Column("motor_torque_Nm")])
+    'torque_Nm'
+    >>> _nearest_absent("colour", [Column("torque_Nm")]), _nearest_absent("surface2", [Column("surface_2")])
+    (None, 'surface_2')
+    >>> _nearest_absent("power_loss_sd", [Column("power_loss_W_sd")])
+    'power_loss_W_sd'
     """
     unit = unit_of(name)
     known = [c.name for c in absent if c.name.endswith("_sd") == name.endswith("_sd")]
     alike = [other for other in known if unit and unit_of(other) == unit]
     close = difflib.get_close_matches(name, alike or known, n=1, cutoff=0.0 if alike else 0.8)
-    return f"{name} ({MEANT}: {close[0]!r})" if close else name
+    return close[0] if close else None
 
 
 def _other_unit(column: Column, unknown: list[str]) -> str | None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -11,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.case.folder import noted
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Model, available
 from mixedlub.effects import find, known_in
@@ -23,6 +21,7 @@ from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.plausibility import far_off
 from mixedlub.rig.surface import Surface, paired
 from mixedlub.schema import system_file, toml_file
+from mixedlub.schema.findings import Finding, collected, finding, report
 from mixedlub.study.options import study_chain
 from mixedlub.study.schema import Options, Pairings, StudyFile
 from profiles.errors import InputError, nearest
@@ -77,7 +76,7 @@ class Study:
     pairings: tuple[tuple[str, str], ...]
     effects: tuple[Effect, ...]
     plan: Plan
-    notes: tuple[str, ...] = ()
+    notes: tuple[Finding, ...] = ()
 
     @property
     def conditions(self) -> int:
@@ -94,12 +93,11 @@ def read_study(path: Path, file: StudyFile | None = None) -> Study:
         raise InputError("is a folder; a study is one TOML file", where=str(path))
     if file is None:
         file = toml_file.parse(StudyFile, toml_file.read_toml(path), str(path))
-    notes: list[str] = []
     try:
-        with noted(notes), np.errstate(all="ignore"):
+        with collected() as notes, np.errstate(all="ignore"):
             study = _resolve(path.stem, file, path.parent)
         _check_finite(study)
-        doubtful = tuple(odd.text for odd in far_off(file, path.parent, study.surfaces))
+        doubtful = tuple(far_off(file, path.parent, study.surfaces))
     except InputError as error:
         placed = system_file.in_file(error, str(path))
         if str(path) in str(placed):
@@ -157,7 +155,7 @@ def _resolve(name: str, file: StudyFile, folder: Path) -> Study:
     used = dict.fromkeys(s for both in chosen for s in both)
     idle = [s for s in file.surfaces if s not in used]
     if idle:
-        warnings.warn(f"surfaces in no pairing: {', '.join(idle)}", UserWarning, stacklevel=2)
+        report(finding("surfaces_unused", f"in no pairing: {', '.join(idle)}", "surfaces"))
     pair = build.gear_pair(file.gears)
     share = build.sharing(file.gears.load_sharing, folder)
     options = file.options

@@ -1,48 +1,51 @@
-"""Where the theory was asked for more than it can give: counted, and said with the result."""
+"""Conditions outside the range of the laws, counted."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.schema.findings import Finding, finding
 from mixedlub.study.results import Results
 from roughness.mccool import nayak_parameter
 
 
-def out_of_range(results: Results) -> tuple[str, ...]:
-    """Sentences about conditions outside the range of the laws; empty when there are none."""
-    return tuple(text for text in (_load_balance(results), _clipped(results), _bandwidth(results)) if text)
+def out_of_range(results: Results) -> tuple[Finding, ...]:
+    """Findings about conditions outside the range of the laws; none where all are within."""
+    return (*_load_balance(results), *_clipped(results), *_bandwidth(results))
 
 
-def _load_balance(results: Results) -> str:
+def _load_balance(results: Results) -> list[Finding]:
     ratio = results["asperity_load_ratio"]
     count = int((ratio > 1).sum())
     if not count:
-        return ""
-    return (
-        f"in {count} of {ratio.size} conditions ({_pairings(results, ratio > 1)}) elastic asperities at the film's gap "
-        f"would carry more than the Hertz pressure, up to {ratio.max():.3g} times its mean: the film does not give "
-        "way in this model, so the area ratio is there a geometric overlap, not an equilibrium"
+        return []
+    text = (
+        f"{count} of {ratio.size} conditions ({_pairings(results, ratio > 1)}) are outside the model's range: elastic "
+        f"asperities would carry up to {ratio.max():.3g} times the mean Hertz pressure, so the boundary area ratio and "
+        "the loss of these conditions are not quantitative"
     )
+    return [finding("asperities_overloaded", text)]
 
 
-def _clipped(results: Results) -> str:
+def _clipped(results: Results) -> list[Finding]:
     full = results["largest_area_ratio"] >= 1.0
     if not full.any():
-        return ""
+        return []
     count = f"in {int(full.sum())} of {full.size} conditions ({_pairings(results, full)})"
-    return f"{count} the boundary area ratio was held at 1"
+    return [finding("area_ratio_limited", f"{count} the boundary area ratio was limited to 1")]
 
 
-def _bandwidth(results: Results) -> str:
+def _bandwidth(results: Results) -> list[Finding]:
     moments = [np.asarray(results.study.plan.inputs[name]).ravel() for name in ("m0", "m2", "m4")]
     with np.errstate(divide="ignore", over="ignore"):
         low = nayak_parameter(*moments) < 1.5
     if not low.any():
-        return ""
-    return (
+        return []
+    text = (
         f"{int(low.sum())} of {low.size} pairings have a Nayak bandwidth below 1.5, which no isotropic Gaussian "
-        "surface has; it was held at 1.5"
+        "surface has; 1.5 was used"
     )
+    return [finding("bandwidth_limited", text)]
 
 
 def _pairings(results: Results, flagged: np.ndarray) -> str:

@@ -61,7 +61,11 @@ def differences(one: object, other: object, place: str = "") -> list[str]:
 def answer(folder: Path) -> dict[str, object]:
     """The numbers of an answer: its JSON without sentences, and its table of predictions."""
     told = json.loads((folder / "diagnosis.json").read_text(encoding="utf-8"))
-    numbers = {key: value for key, value in told.items() if key not in ("warnings", "next_tests", "location", "case")}
+    numbers = {
+        key: value
+        for key, value in told.items()
+        if key not in ("warnings", "findings", "next_tests", "location", "case")
+    }
     with (folder / "predictions.csv").open(encoding="utf-8", newline="") as file:
         rows = [
             {key: float(cell) if cell else None for key, cell in row.items() if key in PREDICTED}

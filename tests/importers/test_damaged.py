@@ -5,7 +5,7 @@ import pytest
 from mixedlub.case.folder import read_case
 from mixedlub.importers import import_files
 from mixedlub.importers.wizard import run
-from mixedlub.schema.table import CaseWarning
+from mixedlub.schema.findings import FindingWarning
 from profiles.errors import InputError
 
 BALL = ["contact.radius_mm=[9.525, inf]", "contact.youngs_modulus_GPa=[207, 75]", "contact.poisson_ratio=[0.3, 0.22]"]
@@ -63,7 +63,7 @@ def test_a_file_without_a_line_end_that_ends_with_a_whole_row_keeps_it(file, tmp
 
 def test_from_python_a_cut_file_is_a_warning(file, tmp_path):
     contact = {"radius_mm": [9.525, 20.0], "youngs_modulus_GPa": [207.0, 75.0], "poisson_ratio": [0.3, 0.22]}
-    with pytest.warns(CaseWarning, match="holds 1 of the 3 steps"):
+    with pytest.warns(FindingWarning, match="holds 1 of the 3 steps"):
         import_files([file(FILM[: FILM.index("Step 2")])], tmp_path / "case", contact=contact)
 
 

@@ -5,7 +5,7 @@ import pytest
 from mixedlub.case.folder import read_case
 from mixedlub.importers import import_files
 from mixedlub.importers.plain import draft
-from mixedlub.schema.table import CaseWarning
+from mixedlub.schema.findings import FindingWarning
 from profiles.errors import InputError
 
 MAP = {"kind": "friction_map", "recording.quantity": "friction_torque_Nm"}
@@ -78,7 +78,7 @@ def test_rows_are_kept_by_the_value_of_a_column(value, rows):
 
 def test_a_warning_leads_to_a_case_of_one_thing(file, tmp_path):
     path = file(table("oil name", "A 1", "B.2"))
-    with pytest.warns(CaseWarning, match="pooled"):
+    with pytest.warns(FindingWarning, match="pooled"):
         import_files([path], tmp_path / "all", **MAP)
     one = import_files([path], tmp_path / "one", **MAP, **{"import.only.oil name": "B.2"})
     assert read_case(one).recordings["friction_torque_Nm"].tolist() == [0.11, 0.21, 0.41]

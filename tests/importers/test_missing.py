@@ -6,7 +6,7 @@ from mixedlub.case.folder import read_case
 from mixedlub.importers import import_files
 from mixedlub.importers.wizard import run
 from mixedlub.report.format_reference import kinds_text
-from mixedlub.schema.table import CaseWarning
+from mixedlub.schema.findings import FindingWarning
 from profiles.errors import InputError
 
 FALLING_BODY = """# falling-body viscometer, sinker 6.30 mm
@@ -46,7 +46,7 @@ def test_a_row_without_a_condition_is_left_out_too(file, tmp_path):
 
 
 def test_from_python_rows_that_are_left_out_are_a_warning(file, tmp_path):
-    with pytest.warns(CaseWarning, match="1 row left out, as 'viscosity"):
+    with pytest.warns(FindingWarning, match="1 row left out, as 'viscosity"):
         import_files([file(FALLING_BODY.replace("@", "n/a"))], tmp_path / "case", **TOLD)
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from mixedlub.case.folder import read_case
 from mixedlub.importers import import_files
-from mixedlub.schema.table import CaseWarning
+from mixedlub.schema.findings import FindingWarning
 
 BALL = {"radius_mm": [9.525, float("inf")], "youngs_modulus_GPa": [207.0, 75.0], "poisson_ratio": [0.3, 0.22]}
 
@@ -75,7 +75,7 @@ def test_rheometer(recordings, tmp_path):
 def test_plain_table_with_units_as_suffixes(recordings, tmp_path):
     path = recordings / "ehd_film_31C_50N" / "film_vs_speed.csv"
     contact = {**BALL, "geometry": "point"}
-    with pytest.warns(CaseWarning, match="'film_sd_nm' is not taken; if it is film_thickness_nm_sd"):
+    with pytest.warns(FindingWarning, match="'film_sd_nm' is not taken; if it is film_thickness_nm_sd"):
         folder = import_files([path], tmp_path / "case", kind="film", contact=contact)
     table = read_case(folder).recordings
     speed, slip = tidy(path, "rolling_speed_mm_s", "slide_roll_ratio_percent")

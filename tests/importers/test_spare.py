@@ -6,7 +6,7 @@ from mixedlub.case.folder import read_case
 from mixedlub.importers import import_files
 from mixedlub.importers.plain import draft
 from mixedlub.importers.wizard import run
-from mixedlub.schema.table import CaseWarning
+from mixedlub.schema.findings import FindingWarning
 
 FALLING_BODY = """# falling-body viscometer
 T (degC),p (bar),density (kg/m3),viscosity (Pa s),remark
@@ -27,7 +27,7 @@ def path(tmp_path):
 
 def test_a_pressure_that_is_not_taken_is_warned_of_with_the_setting_that_takes_it(path, tmp_path):
     setting = 'import.columns.pressure_MPa="p (bar)"'
-    with pytest.warns(CaseWarning, match="'p .bar.' is not taken; if it is pressure_MPa, say --set") as caught:
+    with pytest.warns(FindingWarning, match="'p .bar.' is not taken; if it is pressure_MPa, say --set") as caught:
         import_files([path], tmp_path / "case", **TOLD)
     assert setting in str(caught[0].message)
     assert len(caught) == 1

@@ -1,4 +1,4 @@
-"""What speaks against an answer as a whole, and what the readings say of their noise."""
+"""What speaks against an answer as a whole, and what the readings show of their noise."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from math import comb
 import numpy as np
 
 from mixedlub.case.forward import Forward
-from mixedlub.data_checks.audit import Doubt
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut
 from mixedlub.diagnosis.assessment.posterior import Key, Posterior
 from mixedlub.diagnosis.labels import amount, effect_words, words_of
@@ -15,55 +14,47 @@ from mixedlub.diagnosis.search.noise_inflation import CLEAR, MOST, Raised, more,
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.recording.conditions import PASSING, clock_of
 from mixedlub.recording.set_points import set_points
+from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.table import Table
 from mixedlub.schema.units import unit_of
 
 MANY_WRONG = 0.1
 """Share of wrong readings from which the answer is doubted: ten times what is usual."""
 LEAST_STREAK, RARE = 3, 0.05
-"""Wrong readings in a row that are told of, where fewer such streaks than that would be there by chance."""
+"""Consecutive outliers that are reported, where fewer such streaks than that are expected by chance."""
 MOST_OF_LEVEL = 0.75
-"""Share of the readings of a level that a streak has to hold to be that level."""
+"""Share of the readings of a level from which a streak counts as that level."""
 WORTH_TELLING = 1.5
-"""Inflation of the variance from which it is told."""
+"""Inflation of the variance from which it is reported."""
 FAR_OFF = 3.0
-"""Error on levels left out, in sigmas of a reading, from which an answer foretells none."""
+"""Error on left-out levels, in sigmas of a reading, from which an answer does not predict them."""
 LARGE = 0.1
 """Share of a reading from which estimated noise is doubted."""
-UNFOLLOWED = (
-    "readings lie farther from every explanation than from their repeats: something is missing whose form none that "
-    "was tried follows"
-)
-NOT_NOISE = (
-    "either something is missing that no form tried follows, or what is stated is not the noise of a reading; what is "
-    "named below was found under noise that much larger"
-)
-QUIET = "readings scatter by less than half of the stated noise: with noise nearer to theirs more could be told"
 
 
-def likelier_notes(forward: Forward) -> list[str]:
-    """Effects that are missing more often than usual, by what is known before any reading is seen."""
-    return [
-        f"{words_of(e.likelier[0])} {float(forward.inputs[e.likelier[0]]):.3g}, beyond {e.likelier[1]:g}: "
-        f"{effect_words(e.id)} is taken as {forward.odds(e) / e.odds:.2g} times as usual, before any reading is seen; "
-        "how probable it is told to be rests on that"
-        for e in forward.effects()
-        if e.likelier and forward.odds(e) != e.odds
-    ]
+def likelier_notes(forward: Forward) -> list[Finding]:
+    """Effects whose prior odds are raised, by what is known before any reading is seen."""
+    found = []
+    for e in forward.effects():
+        if e.likelier and forward.odds(e) != e.odds:
+            name, beyond, _ = e.likelier
+            text = (
+                f"prior odds raised {forward.odds(e) / e.odds:.2g}-fold because the {words_of(name)}, "
+                f"{float(forward.inputs[name]):.3g}, exceeds {beyond:g}; the probability depends on this"
+            )
+            found.append(finding("prior_odds_raised", text, effect_words(e.id)))
+    return found
 
 
-def scatter_notes(found: Search, stated: bool, raised: Raised) -> list[str]:
-    """What the readings say of their noise, where that is not what the recording says."""
+def scatter_notes(found: Search, stated: bool, raised: Raised) -> list[Finding]:
+    """What the readings show of their noise, where that is not what the recording states."""
     lasting = found.problem.together
-    series = (
-        [f"what readings are off by lasts over several that follow one another: about {lasting:.2g} count as one here"]
-        if lasting > 1.0
-        else []
-    )
-    return [*series, *_wandering_notes(found), *_size_notes(found, stated, raised)]
+    text = f"residuals are autocorrelated: about {lasting:.2g} consecutive readings carry the information of one"
+    series = [finding("residuals_autocorrelated", text)] if lasting > 1.0 else []
+    return [*series, *_drift_notes(found), *_size_notes(found, stated, raised)]
 
 
-def _wandering_notes(found: Search) -> list[str]:
+def _drift_notes(found: Search) -> list[Finding]:
     wander, rows = found.problem.wander, found.problem.rows
     if not wander.size:
         return []
@@ -71,25 +62,31 @@ def _wandering_notes(found: Search) -> list[str]:
     over = (
         f"{100.0 * length:.2g} % of the programme" if "sequence" in rows else amount(float(f"{length:.2g}"), "time_s")
     )
-    return [
-        Doubt(
-            f"what readings are off by wanders, by {wander.size:.2g} times the noise of a single one, and is forgotten "
-            f"over about {over}; that counts as noise here, and no event of that size can be told from it"
-        )
-    ]
+    text = (
+        f"residuals drift slowly ({wander.size:.2g} times the noise of a reading, correlation time about {over}); the "
+        "drift is treated as noise, and events of that size cannot be distinguished from it"
+    )
+    return [finding("residuals_drift", text)]
 
 
-def _size_notes(found: Search, stated: bool, raised: Raised) -> list[str]:
+def _size_notes(found: Search, stated: bool, raised: Raised) -> list[Finding]:
     times = raised.times
     whole = times * found.problem.wander.whole
     if raised.share:
-        beside = f"readings scatter by {100.0 * raised.share:.2g} % of them beside the sds told, which may be those of"
-        return [Doubt(f"{beside} one setting; the noise was taken as that much larger")]
-    scatter = "readings scatter about {:.2g} times as much as stated, whatever is taken to explain them"
+        text = (
+            f"readings scatter {100.0 * raised.share:.2g} % more than the stated standard deviations, which may be "
+            "repeatability only; the noise was taken as that much larger"
+        )
+        return [finding("scatter_above_stated", text)]
+    scatter = "with every explanation tried, readings scatter about {:.2g} times as much as stated"
     if stated and whole > MOST:
-        return [Doubt(f"{scatter.format(whole)}: more than a stated noise is off by, so {NOT_NOISE}")]
+        text = (
+            f"{scatter.format(whole)}, which is too much for a wrongly stated noise: either an effect of another form "
+            "is present, or what is stated is not the noise of a reading; the answer was found under noise that large"
+        )
+        return [finding("scatter_unexplained", text)]
     if times > 1.0:
-        return [Doubt(f"{scatter.format(times)}: the noise was taken as that much larger")]
+        return [finding("scatter_above_stated", f"{scatter.format(times)}: the noise was taken as that much larger")]
     noise = found.problem.case.system.recording.noise
     if not stated and noise is not None:
         unit = unit_of(found.problem.case.quantity)
@@ -98,13 +95,19 @@ def _size_notes(found: Search, stated: bool, raised: Raised) -> list[str]:
         said = f"the noise of a reading was estimated as {' and '.join(parts)}"
         sd = found.problem.one_sd * found.problem.unit_size(found.problem.y)
         if np.median(sd) <= LARGE * np.median(np.abs(found.problem.level(found.problem.y))):
-            return [said]
-        return [
-            Doubt(f"{said}, more than rigs scatter by: rows may be of different things, or what is missing is in it")
-        ]
+            return [finding("noise_value_estimated", said)]
+        text = f"{said}, more than rigs have: rows may be of different things, or the noise contains what is missing"
+        return [finding("noise_estimate_large", text)]
     if stated and more(found)[0] > CLEAR:
-        return [Doubt(UNFOLLOWED)]
-    return [QUIET] if quiet(found) else []
+        text = (
+            "for every explanation tried, the residuals exceed the repeatability of the readings: an effect of another "
+            "form is present"
+        )
+        return [finding("form_not_found", text)]
+    text = (
+        "readings scatter by less than half of the stated noise: with a noise nearer to theirs the test could show more"
+    )
+    return [finding("scatter_below_stated", text)] if quiet(found) else []
 
 
 def against(
@@ -115,55 +118,62 @@ def against(
     predicted: np.ndarray,
     wrong: np.ndarray,
     at_one_place: bool = False,
-) -> list[str]:
-    """What speaks against the answer as a whole: readings written off, a form that holds nowhere else.
+) -> list[Finding]:
+    """What speaks against the answer as a whole: many outliers, or levels that it does not predict.
 
-    What stands ``at_one_place`` is not for other levels to foretell.
+    A mismatch ``at_one_place`` is not one that other levels could predict.
     """
     found = []
     if wrong.mean() > MANY_WRONG:
-        found.append(
-            f"{wrong.sum()} of {wrong.size} readings count as wrong: the noise may be taken too small, or the answer "
+        text = (
+            f"{wrong.sum()} of {wrong.size} readings are outliers: the noise may be taken too small, or the answer "
             "covers only a part of the recording"
         )
+        found.append(finding("outliers_many", text))
         turned = np.abs(y[wrong] + predicted[wrong]) < 0.3 * np.abs(y[wrong])
         if turned.mean() > 0.5:
-            found.append(f"{turned.sum()} of them have the size that is expected with the opposite sign")
+            text = f"{turned.sum()} of {wrong.sum()} outliers have the expected size with the opposite sign"
+            found.append(finding("outliers_opposite_sign", text))
     streak = in_a_row(rows, wrong, y - predicted)
     if streak:
-        found.append(
-            f"the {len(streak)} readings from run {streak[0]} to run {streak[-1]} count as wrong, follow one another "
-            "and lie on the same side: that is no chance, and the answer leaves it out"
+        text = (
+            f"the {len(streak)} readings are consecutive outliers on one side; this is not chance, and the answer does "
+            "not explain it"
         )
+        found.append(finding("outliers_consecutive", text, f"run {streak[0]} to run {streak[-1]}"))
     found += [
-        f"{level} count as wrong on one side: that is no chance, and the answer leaves it out"
-        for level in levels_off(rows, wrong, y - predicted)
+        finding(
+            "outliers_at_level",
+            f"{share} readings are outliers on one side; this is not chance, and the answer does not explain it",
+            level,
+        )
+        for level, share in levels_off(rows, wrong, y - predicted)
     ]
     if verdict != () and not at_one_place and kept.score < kept.score_before:
         answer = "the unnamed mismatch" if verdict == "unknown" else "the answer"
-        found.append(
-            f"{answer} predicts levels left out no better than calibration alone: outside the recorded conditions "
-            "rely on neither"
+        text = (
+            f"{answer} predicts left-out levels no better than calibration alone: outside the recorded conditions rely "
+            "on neither"
         )
+        found.append(finding("answer_not_predictive", text))
     elif verdict != () and not at_one_place and kept.after > FAR_OFF:
-        found.append(
-            f"the answer does not foretell levels that it has not seen: there it is off by {kept.after:.3g} sigma, "
-            "where 1 is noise; do not extrapolate it"
+        text = (
+            f"the answer predicts left-out levels poorly (rms {kept.after:.3g} sigma, 1 expected): do not extrapolate"
         )
-    return [Doubt(text) for text in found]
+        found.append(finding("answer_predicts_poorly", text))
+    return found
 
 
-def unsure_odds(judged: Posterior) -> list[str]:
-    """That the odds were taken as less sure, where levels left out asked for it clearly."""
+def unsure_odds(judged: Posterior) -> list[Finding]:
+    """That the probabilities were lowered, where left-out levels asked for it clearly."""
     if judged.inflation < WORTH_TELLING:
         return []
     times = np.sqrt(judged.inflation)
-    return [
-        Doubt(
-            f"levels left out lie {times:.2g} times as far off as noise and the other levels leave open: even the best "
-            "explanation is not the whole of it, so the odds between effects were taken as less sure"
-        )
-    ]
+    text = (
+        f"left-out levels are predicted {times:.2g} times worse than expected: the explanation is incomplete, and the "
+        "odds between effects were lowered"
+    )
+    return [finding("explanation_incomplete", text)]
 
 
 def in_a_row(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[int]:
@@ -190,8 +200,8 @@ def in_a_row(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[int]:
     return [] if _one_level(rows, streak) else [int(run) for run in rows["run"][streak]]
 
 
-def levels_off(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[str]:
-    """Levels of conditions nearly all of whose readings are wrong on one side, if chance would hardly make one.
+def levels_off(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[tuple[str, str]]:
+    """Levels nearly all of whose readings are wrong on one side, if chance would hardly make one, and how many are.
 
     None where all levels are like that.
     """
@@ -208,7 +218,7 @@ def levels_off(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[str]:
                 if by_chance <= RARE:
                     many = f"all {size[i]}" if off[i] == size[i] else f"{off[i]} of the {size[i]}"
                     at = points[i] if points.dtype.kind in "US" else amount(float(points[i]), name)
-                    found.append(f"{many} readings at {words_of(name)} {at}")
+                    found.append((f"{words_of(name)} {at}", many))
     return found
 
 

@@ -8,17 +8,18 @@ import numpy as np
 
 from mixedlub.case.folder import SHOWN, Case
 from mixedlub.diagnosis.labels import amount
+from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.table import Column, Table
 
 OF_SPAN, OF_END, OF_LOWEST = 0.1, 0.02, 0.25
 """A condition is beyond when it is past an end by a tenth of the span and 2 % of the end, or below 3/4 of the lowest.
 
-What only wanders about its set point is not.
+What only scatters about its set point is not.
 """
 
 
-def beyond_recorded(case: Case, wanted: Table | None) -> list[str]:
-    """A sentence on the wanted runs that lie beyond the recorded conditions, each with what is beyond, if any do."""
+def beyond_recorded(case: Case, wanted: Table | None) -> list[Finding]:
+    """The wanted runs that lie beyond the recorded conditions, each with what is beyond."""
     rows = case.recordings
     if wanted is None or rows is None:
         return []
@@ -31,10 +32,11 @@ def beyond_recorded(case: Case, wanted: Table | None) -> list[str]:
         return []
     listed = [f"run {run}: {', '.join(words)}" for run, words in list(said.items())[:SHOWN]]
     more = f"; and {len(said) - SHOWN} more runs" if len(said) > SHOWN else ""
-    return [
-        f"{len(said)} of {len(wanted)} conditions to predict lie beyond what was recorded; their intervals hold only "
-        f"if the laws go on as they do within it ({'; '.join(listed)}{more})"
-    ]
+    text = (
+        f"{len(said)} of {len(wanted)} conditions to predict are outside the recorded range; their intervals hold only "
+        f"if the laws also hold there ({'; '.join(listed)}{more})"
+    )
+    return [finding("prediction_extrapolates", text, wanted.source)]
 
 
 def _beyond(column: Column, wanted: Table, rows: Table) -> Iterator[tuple[int, str]]:

@@ -9,10 +9,10 @@ import numpy as np
 
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.quantities import GLOSSARY
-from mixedlub.data_checks.audit import Doubt
 from mixedlub.diagnosis.inference.map_fit import NINETY
 from mixedlub.diagnosis.labels import effect_words, number, words_of
 from mixedlub.diagnosis.problem import Explanation, Problem, effects_of
+from mixedlub.schema.findings import Finding, finding
 
 SLACK = 1e-6
 """Share of a bound that rounding may go beyond it."""
@@ -20,8 +20,8 @@ EXACTLY = 0.01
 """Of an exponent, how near one of a law at the end of its prior counts as that."""
 
 
-def beyond_range(problem: Problem, explanation: Explanation, z: np.ndarray) -> list[str]:
-    """A sentence for each quantity of a fit that lies outside what one of its effects was made for."""
+def beyond_range(problem: Problem, explanation: Explanation, z: np.ndarray) -> list[Finding]:
+    """A finding for each quantity of a fit that lies outside what one of its effects was made for."""
     record = problem.run(explanation, z).record
     state: dict[str, Any] = dict(record.inputs)
     for made in record.made:
@@ -29,12 +29,12 @@ def beyond_range(problem: Problem, explanation: Explanation, z: np.ndarray) -> l
     return outside(effects_of(explanation), state, problem.y.size)
 
 
-def unpublished(effects: Sequence[Effect], z: np.ndarray, spread: np.ndarray) -> list[str]:
-    """A sentence for each parameter outside what laws cited for its effect have; a doubt where none of them would do.
+def unpublished(effects: Sequence[Effect], z: np.ndarray, spread: np.ndarray) -> list[Finding]:
+    """A finding for each parameter outside the published laws of its effect; a doubt where its interval is as well.
 
     ``z`` and ``spread`` are the coordinates of the effects' parameters and their standard deviations.
     """
-    said: list[str] = []
+    found: list[Finding] = []
     every = [(e, p) for e in effects for p in e.parameters]
     for (e, p), at, sd in zip(every, z, spread, strict=True):
         if p.published is None:
@@ -45,18 +45,21 @@ def unpublished(effects: Sequence[Effect], z: np.ndarray, spread: np.ndarray) ->
         if least <= value <= most or any(low - EXACTLY <= exact <= high + EXACTLY for exact in named):
             continue
         cited = f"{number(least)} to {number(most)}"
-        found = f"{effect_words(e.id)}: {p.meaning} is {number(value)} (90 % {number(low)} to {number(high)})"
+        fitted = f"{p.meaning} is {number(value)} (90 % {number(low)} to {number(high)})"
         if low > most or high < least:
-            form = "read it as a change of that form, not as that cause"
-            said.append(Doubt(f"{found}; no law cited for it has that, they have {cited}: {form}"))
+            text = (
+                f"{fitted}, which no published law has ({cited}): take it as a change of that form, not as that cause"
+            )
+            found.append(finding("parameter_unpublished", text, effect_words(e.id)))
         else:
-            said.append(f"{found}; the laws cited for it have {cited}, and these readings allow those too")
-    return said
+            text = f"{fitted}; published laws have {cited}, which these readings also allow"
+            found.append(finding("parameter_beyond_published", text, effect_words(e.id)))
+    return found
 
 
-def outside(effects: Sequence[Effect], state: Mapping[str, Any], rows: int) -> list[str]:
+def outside(effects: Sequence[Effect], state: Mapping[str, Any], rows: int) -> list[Finding]:
     """The same for quantities by name, shaped (rows or 1, points); those that are not there are not judged."""
-    said = []
+    found = []
     for e in effects:
         for name in e.valid.keys() & state.keys():
             low, high = e.valid[name]
@@ -67,10 +70,11 @@ def outside(effects: Sequence[Effect], state: Mapping[str, Any], rows: int) -> l
             count = int(np.broadcast_to(off.any(axis=1), rows).sum())
             largest, smallest = float(values[off].max()), float(values[off].min())
             reach = f"up to {number(largest)}" if largest > high else f"down to {number(smallest)}"
-            unit = GLOSSARY[name].unit
-            said.append(
-                f"{effect_words(e.id)}: its law is made for {words_of(name)} {number(low)} to {number(high)}"
-                f"{'' if unit == '-' else f' {unit}'}; in {count} of {rows} readings that is {reach}, where its size "
-                "is an extrapolation"
+            unit = GLOSSARY[name].unit.removeprefix("-")
+            span = f"{number(low)} to {number(high)} {unit}".rstrip()
+            text = (
+                f"the law is valid for {words_of(name)} {span}; in {count} of {rows} readings it is {reach}, where the "
+                "law is extrapolated"
             )
-    return said
+            found.append(finding("law_extrapolated", text, effect_words(e.id)))
+    return found

@@ -16,6 +16,7 @@ from mixedlub.diagnosis.inference.map_fit import NINETY
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.report.text.location_text import located
 from mixedlub.diagnosis.report.text.next_test_text import beyond
+from mixedlub.schema.findings import as_records
 
 
 def as_json(d: Diagnosis) -> dict[str, Any]:
@@ -61,7 +62,8 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
             }
             for t in d.next_tests
         ],
-        "warnings": list(d.warnings),
+        "warnings": [str(one) for one in d.warnings],
+        "findings": as_records(d.warnings),
         **({} if d.check is None else {"check": asdict(d.check)}),
     }
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from mixedlub.data_checks.audit import SCARCE, Doubt
+from mixedlub.data_checks.audit import SCARCE
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import STAGE_WORDS, effect_words, explanation_words
 from mixedlub.diagnosis.problem import effects_of
+from mixedlub.schema.findings import Severity, grouped, of_severity
 
-CONTRADICTION = "readings at equal conditions contradict each other"
-"""How the warning begins after which an unnamed mismatch is no finding."""
 NO_ANSWER = (
     "No answer: every reading counts as wrong, whatever is taken to explain it. Look first at the units and scales of "
     "all columns; what follows tells nothing of the rig."
@@ -57,21 +56,22 @@ def p_words(p: float) -> str:
 
 
 def doubts(d: Diagnosis) -> tuple[str, ...]:
-    """Warnings that question the whole answer, as they stand above it."""
-    return tuple(f"Caution: {text}." for text in d.warnings if isinstance(text, Doubt))
+    """Findings that question the whole answer, as they are printed above it."""
+    return tuple(f"Doubtful: {one}." for one in grouped(of_severity(d.warnings, Severity.DOUBT)))
 
 
 def lesser(d: Diagnosis) -> tuple[str, ...]:
-    """The other warnings."""
-    return tuple(text for text in d.warnings if not isinstance(text, Doubt))
+    """The other findings, cautions first."""
+    others = (of_severity(d.warnings, severity) for severity in (Severity.CAUTION, Severity.NOTE))
+    return tuple(str(one) for found in others for one in grouped(found))
 
 
 def headline(d: Diagnosis) -> str:
     """The verdict in one sentence; where readings are few or all wrong, after one that says so."""
     count = d.readings.size
     said = _verdict(d)
-    if d.posterior.verdict == "unknown" and any(text.startswith(CONTRADICTION) for text in d.warnings):
-        said = f"R{CONTRADICTION[1:]}: mend instrument or set-up before anything is named. {said}"
+    if d.posterior.verdict == "unknown" and any(one.code == "repeats_contradictory" for one in d.warnings):
+        said = f"Readings at equal conditions contradict each other: check instrument and set-up first. {said}"
     if count < SCARCE:
         said = f"Only {count} readings: take this as a hint, not as a finding. {said}"
     return f"{NO_ANSWER} {said}" if (d.outlier_chance > 0.5).all() else said

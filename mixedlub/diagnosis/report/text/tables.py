@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -16,7 +15,8 @@ from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import effect_words, in_reach, number, with_names
 from mixedlub.diagnosis.report.text.answer import effect_records, interval, verdict_fit
-from mixedlub.schema.table import CaseWarning, Table
+from mixedlub.schema.findings import collected
+from mixedlub.schema.table import Table
 from mixedlub.schema.units import unit_of
 
 STRAINED = 2.0
@@ -223,8 +223,7 @@ def _given(case: Case) -> dict[str, str]:
     quantity, rows = case.quantity, case.recordings
     assert rows is not None
     doubled = Table({**rows.columns, quantity: 2.0 * rows[quantity]}, rows.source)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", CaseWarning)
+    with collected():
         here, there = (case.kind.extra_calibration(case.system, table) for table in (rows, doubled))
     return {
         c.name: " (assumed)" if c.nominal == moved.nominal else " (from the readings)"

@@ -1,0 +1,169 @@
+"""Findings: what a user should know of an input or a result, each with a code that programs can rely on."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+import warnings
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, replace
+from enum import StrEnum
+from functools import cache
+from importlib.resources import files
+
+SHOWN = 3
+"""Places that a group of findings lists; more make no reader look at more."""
+NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
+
+
+class Severity(StrEnum):
+    """How far a finding reaches, from the least on."""
+
+    NOTE = "note"
+    """Something was assumed, replaced or left out."""
+    CAUTION = "caution"
+    """A part of the input is implausible, or a part of the result is not reliable."""
+    DOUBT = "doubt"
+    """Every number that is computed is in question."""
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What a code stands for, and how far such a finding usually reaches."""
+
+    severity: Severity
+    meaning: str
+
+
+@cache
+def registered() -> Mapping[str, Kind]:
+    """The kinds of findings by code.
+
+    >>> registered()["columns_unknown"].severity
+    <Severity.NOTE: 'note'>
+    """
+    table = tomllib.loads(files("mixedlub.schema").joinpath("findings.toml").read_text(encoding="utf-8"))
+    return {code: Kind(Severity(entry["severity"]), entry["meaning"]) for code, entry in table.items()}
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing that a user should know: its kind, how far it reaches, the place it is about, what is to be said.
+
+    The place is a file, key, column or run; empty where the text is about the input or the result as a whole.
+
+    >>> str(finding("columns_unknown", "columns ignored: colour", "recordings.csv"))
+    'recordings.csv: columns ignored: colour'
+    >>> finding("colums_unknown", "columns ignored: colour")
+    Traceback (most recent call last):
+    ...
+    LookupError: 'colums_unknown' is no registered kind of finding (findings.toml)
+    """
+
+    code: str
+    severity: Severity
+    place: str
+    text: str
+
+    def __post_init__(self) -> None:
+        _kind(self.code)
+
+    def __str__(self) -> str:
+        return f"{self.place}: {self.text}" if self.place else self.text
+
+
+def finding(code: str, text: str, place: str = "", severity: Severity | None = None) -> Finding:
+    """A finding of a registered kind, of its usual severity where no other is given."""
+    return Finding(code, severity or _kind(code).severity, place, text)
+
+
+def _kind(code: str) -> Kind:
+    try:
+        return registered()[code]
+    except KeyError:
+        raise LookupError(f"{code!r} is no registered kind of finding (findings.toml)") from None
+
+
+class FindingWarning(UserWarning):
+    """Carries a finding out of code that returns something else."""
+
+    def __init__(self, found: Finding) -> None:
+        super().__init__(str(found))
+        self.finding = found
+
+
+def report(found: Finding) -> None:
+    """Hand a finding to whoever collects them; where nobody does, it is an ordinary Python warning."""
+    warnings.warn(FindingWarning(found), stacklevel=3)
+
+
+@contextmanager
+def collected() -> Iterator[list[Finding]]:
+    """The findings reported inside, each once, in place of warnings; other warnings pass.
+
+    >>> with collected() as found:
+    ...     report(finding("columns_unknown", "columns ignored: colour", "recordings.csv"))
+    >>> [one.code for one in found]
+    ['columns_unknown']
+    """
+    found: list[Finding] = []
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        yield found
+    for w in caught:
+        if isinstance(w.message, FindingWarning):
+            found += [w.message.finding] if w.message.finding not in found else []
+        else:
+            warnings.warn_explicit(w.message, w.category, w.filename, w.lineno)
+
+
+def of_severity(found: Iterable[Finding], *wanted: Severity) -> tuple[Finding, ...]:
+    """The findings that reach as far as wanted."""
+    return tuple(one for one in found if one.severity in wanted)
+
+
+def grouped(found: Iterable[Finding]) -> tuple[Finding, ...]:
+    """Findings of one kind that differ in place or number only as one, which lists the places.
+
+    >>> runs = [finding("reading_too_large", f"reads {y}, far above the others", f"run {y}") for y in (70, 80, 90)]
+    >>> print(*grouped(runs))
+    run 70: reads 70, far above the others; likewise run 80, run 90
+    >>> traces = [finding("cutoff_assumed", "cutoff_mm = 0.8 assumed", f"surfaces.{name}") for name in "abcde"]
+    >>> print(*grouped(traces))
+    surfaces.a, surfaces.b, surfaces.c and 2 more: cutoff_mm = 0.8 assumed
+    """
+    groups: dict[tuple[str, Severity, bool, str], list[Finding]] = {}
+    for one in found:
+        alike = (one.code, one.severity, bool(one.place), NUMBER.sub("#", one.text) if one.place else one.text)
+        groups.setdefault(alike, []).append(one)
+    return tuple(_as_one(group) for group in groups.values())
+
+
+def _as_one(group: Sequence[Finding]) -> Finding:
+    first, *others = group
+    places = list(dict.fromkeys(one.place for one in group))
+    if len(places) == 1:
+        return first
+    if all(one.text == first.text for one in others):
+        return replace(first, place=listed(places))
+    return replace(first, text=f"{first.text}; likewise {listed(places[1:])}")
+
+
+def listed(items: Sequence[object], most: int = SHOWN) -> str:
+    """The first items and how many more there are.
+
+    >>> listed([3, 4]), listed([1, 2, 3, 4, 5])
+    ('3, 4', '1, 2, 3 and 2 more')
+    """
+    more = len(items) - most
+    return ", ".join(map(str, items[:most])) + (f" and {more} more" if more > 0 else "")
+
+
+def as_records(found: Iterable[Finding]) -> list[dict[str, str]]:
+    """Findings as other programs read them.
+
+    >>> as_records([finding("columns_unknown", "columns ignored: colour", "recordings.csv")])[0]["severity"]
+    'note'
+    """
+    return [{**asdict(one), "severity": one.severity.value} for one in found]
