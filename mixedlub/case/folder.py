@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from mixedlub.case.import_file import read_import_file
 from mixedlub.gear import ROUNDED
 from mixedlub.kinds import Kind, kind
 from mixedlub.schema import system_file, toml_file
@@ -57,6 +58,7 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
         recordings = _read(folder / "recordings.csv", found, quantity, system, need_recordings)
         _report_missing_check(system.recording.check, recordings, file)
         conditions = _read(folder / "conditions.csv", found, None, system, False)
+    notes = [*read_import_file(folder), *notes]
     return Case(folder.resolve().name, folder, system, found, recordings, conditions, tuple(notes))
 
 

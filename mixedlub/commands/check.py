@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 import typer
 
-from mixedlub.commands.console import case_folder, say, within_range
+from mixedlub.commands.console import case_folder, say, tell, within_range
 from mixedlub.schema.findings import Finding, Severity, collected, grouped, of_severity
 from mixedlub.schema.units import unit_of
 from profiles.errors import InputError
@@ -34,6 +34,7 @@ def command(case: Annotated[Path, typer.Argument(metavar="CASE", help="Case fold
     with within_range(str(case)):
         found = read_case(case_folder(case), need_recordings=False)
         lines = list(understood(found))
+    tell(found.notes)
     for line in lines:
         say(line)
 

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path, PurePath
 from typing import Any
 
+from mixedlub.case.import_file import NAME
 from mixedlub.importers.draft import nested
 from mixedlub.rig.build import SHIPPED_MARK
 from profiles.errors import InputError, nearest
 
-OWN = ("system.toml", "recordings.csv", "conditions.csv")
+OWN = ("system.toml", "recordings.csv", "conditions.csv", NAME)
 SHARE_COLUMNS = {"torque_Nm", "roll_angle_deg", "load_share"}
 SHARE = "gears.load_sharing"
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub.case.import_file import NAME
 from mixedlub.importers import pcs, plain, trios
 from mixedlub.importers.carried import carried, is_share, with_share
 from mixedlub.importers.checked import is_list, refuse_wrong
@@ -20,7 +21,7 @@ from mixedlub.importers.needs import gaps, told, undescribed
 from mixedlub.importers.pace import TIME
 from mixedlub.importers.readable import refuse_unreadable
 from mixedlub.importers.runs import together
-from mixedlub.importers.write import write_case
+from mixedlub.importers.write import findings_toml, write_case
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, Severity, finding, of_severity, report
 from mixedlub.schema.table import with_hyphens
@@ -283,5 +284,8 @@ def _write(
     def read_back(folder: Path) -> None:
         refusals.append(refuse_unreadable(folder, checked, complete, out))
 
+    warned = _warnings(draft)
+    if warned or (out / NAME).exists():
+        files[NAME] = findings_toml(warned).encode()
     write_case(out, system, numbered, overwrite=overwrite, comments=comments, carried=files, check=read_back)
     return out, "".join(refusals)

@@ -5,13 +5,14 @@ from __future__ import annotations
 import csv
 import io
 import shutil
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from mixedlub.atomic import writing
+from mixedlub.schema.findings import Finding, as_records
 from mixedlub.schema.toml_file import toml_key, toml_value
 from profiles.errors import InputError
 
@@ -116,6 +117,24 @@ def cell(value: Any) -> Any:
         return value
     number = float(value)
     return "" if number != number else repr(number).removesuffix(".0")
+
+
+def findings_toml(found: Iterable[Finding]) -> str:
+    """Findings of an import as `import.toml` holds them.
+
+    >>> from mixedlub.schema.findings import finding
+    >>> print(findings_toml([finding("file_incomplete", "line 7 breaks off", "rig.txt")]), end="")
+    # What `mixedlub import` warned of. `check` and `diagnose` repeat it; delete what is settled.
+    <BLANKLINE>
+    [[finding]]
+    code = "file_incomplete"
+    severity = "caution"
+    place = "rig.txt"
+    text = "line 7 breaks off"
+    """
+    head = "# What `mixedlub import` warned of. `check` and `diagnose` repeat it; delete what is settled.\n"
+    tables = ("\n[[finding]]\n" + to_toml(record) for record in as_records(found))
+    return head + "".join(tables)
 
 
 def to_toml(data: Mapping[str, Any], place: str = "", *, comments: Comments | None = None) -> str:

@@ -15,12 +15,13 @@ Inputs = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class Calibration:
-    """One movable input: its prior, and what a value does to the chain's inputs."""
+    """One movable input: its prior, and what a value does to the chain's inputs; ``factor`` where it multiplies one."""
 
     parameter: Parameter
     apply: Callable[[Inputs, float], dict[str, Any]]
     nominal: float
     needs: tuple[str, ...]
+    factor: bool = False
 
     @property
     def name(self) -> str:
@@ -44,7 +45,7 @@ def _replaced(name: str) -> Callable[[Inputs, float], dict[str, Any]]:
 
 def _factor(name: str, spread: float, meaning: str, *inputs: str, power: int = 1) -> Calibration:
     parameter = Parameter(name, "-", LogNormal(1.0, spread), f"factor on {meaning}")
-    return Calibration(parameter, _scaled(*inputs, power=power), 1.0, inputs)
+    return Calibration(parameter, _scaled(*inputs, power=power), 1.0, inputs, factor=True)
 
 
 def calibrations(system: system_file.System) -> tuple[Calibration, ...]:

@@ -128,7 +128,7 @@ def _of_line(load: np.ndarray) -> Iterator[Calibration]:
 def _exponent(name: str, of: str, nominal: float, spread: float) -> Calibration:
     parameter = Parameter(name, "-", LogNormal(1.0, spread), f"factor on the film's exponent of {of}")
     change = f"{of}_exponent_change"
-    return Calibration(parameter, lambda inputs, value: {change: nominal * (value - 1.0)}, 1.0, (change,))
+    return Calibration(parameter, lambda inputs, value: {change: nominal * (value - 1.0)}, 1.0, (change,), factor=True)
 
 
 def _is_line(system: system_file.System) -> bool:

@@ -86,12 +86,16 @@ def calibrations(system: system_file.System, temperature: np.ndarray, *, level: 
         oil = build.lubricant(system.lubricant)
     if "viscosity" in gaps:
         parameter = Parameter("viscosity", "-", LogNormal(level, VISCOSITY_SPREAD), "factor on the assumed viscosity")
-        found.append(Calibration(parameter, _shifted(oil, pivot, level), level, ("viscosity", "oil_temperature")))
+        found.append(
+            Calibration(parameter, _shifted(oil, pivot, level), level, ("viscosity", "oil_temperature"), factor=True)
+        )
         if spans:
             slope = Parameter(
                 "viscosity_slope", "-", LogNormal(1.0, SLOPE_SPREAD), "factor on the assumed ASTM D341 slope"
             )
-            found.append(Calibration(slope, _turned(oil, pivot, level), 1.0, ("viscosity", "oil_temperature")))
+            found.append(
+                Calibration(slope, _turned(oil, pivot, level), 1.0, ("viscosity", "oil_temperature"), factor=True)
+            )
             bow = Parameter(
                 "viscosity_bow",
                 "-",
@@ -102,12 +106,14 @@ def calibrations(system: system_file.System, temperature: np.ndarray, *, level: 
             density = Parameter(
                 "density", "-", LogNormal(1.0, DENSITY_SPREAD), "factor on the density between the two viscosities"
             )
-            found.append(Calibration(density, _scaled("viscosity", 1.0), 1.0, ("viscosity",)))
+            found.append(Calibration(density, _scaled("viscosity", 1.0), 1.0, ("viscosity",), factor=True))
     if "pressure_viscosity" in gaps:
         parameter = Parameter(
             "pressure_viscosity", "-", LogNormal(1.0, PRESSURE_SPREAD), "factor on the assumed pressure-viscosity"
         )
-        found.append(Calibration(parameter, _scaled("pressure_viscosity", 1.0), 1.0, ("pressure_viscosity",)))
+        found.append(
+            Calibration(parameter, _scaled("pressure_viscosity", 1.0), 1.0, ("pressure_viscosity",), factor=True)
+        )
         if spans:
             low, high = oil.pressure_coefficient(np.array([pivot, pivot + HUNDRED_KELVIN]))
             usual = float(high / low - 1.0)

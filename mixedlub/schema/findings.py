@@ -12,6 +12,8 @@ from enum import StrEnum
 from functools import cache
 from importlib.resources import files
 
+from profiles.errors import nearest
+
 SHOWN = 3
 """Places that a group of findings lists; more make no reader look at more."""
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
@@ -58,7 +60,7 @@ class Finding:
     >>> finding("colums_unknown", "columns ignored: colour")
     Traceback (most recent call last):
     ...
-    LookupError: 'colums_unknown' is no registered kind of finding (findings.toml)
+    ValueError: 'colums_unknown': no such kind of finding; nearest known: 'columns_unknown'
     """
 
     code: str
@@ -82,7 +84,7 @@ def _kind(code: str) -> Kind:
     try:
         return registered()[code]
     except KeyError:
-        raise LookupError(f"{code!r} is no registered kind of finding (findings.toml)") from None
+        raise ValueError(f"{code!r}: no such kind of finding; {nearest(code, registered())}") from None
 
 
 class FindingWarning(UserWarning):
@@ -116,6 +118,11 @@ def collected() -> Iterator[list[Finding]]:
             found += [w.message.finding] if w.message.finding not in found else []
         else:
             warnings.warn_explicit(w.message, w.category, w.filename, w.lineno)
+
+
+def codes(found: Iterable[Finding]) -> list[str]:
+    """The kinds of findings, one each."""
+    return [one.code for one in found]
 
 
 def of_severity(found: Iterable[Finding], *wanted: Severity) -> tuple[Finding, ...]:

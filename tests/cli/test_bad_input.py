@@ -263,10 +263,10 @@ def test_simulate_writes_no_number_that_is_not_finite(tmp_path, capsys):
 
 def test_a_doubtful_number_is_told_by_check_and_simulate(tmp_path, capsys):
     case = spoilt(tmp_path, "system.toml", "face_width_mm = 14.0", "face_width_mm = 0.014")
-    doubt = "gears.face_width_mm is 0.014, where rigs have 0.1 to 2000 mm: 0.014 m would be 14 mm"
+    doubt = "gears.face_width_mm: 0.014, where rigs have 0.1 to 2000 mm: 0.014 m would be 14 mm"
     assert main(["check", str(case)]) == 0
     assert f"Doubtful:\n  {doubt}." in capsys.readouterr().out
-    assert f"note: {doubt}\n" in refused(capsys, "simulate", str(case), "--out", str(tmp_path / "o"))[1]
+    assert f"doubt: {doubt}\n" in refused(capsys, "simulate", str(case), "--out", str(tmp_path / "o"))[1]
 
 
 def test_a_run_that_stands_in_both_tables_keeps_its_reading(tmp_path, capsys):

@@ -33,7 +33,7 @@ def test_an_unnamed_oil_is_told_with_its_broad_priors(tmp_path, capsys):
     assert "fitted with a broad prior" in said
     assert "viscosity: 80 % within" in said
     assert "all inputs count as known" not in said
-    assert "rests on these data" in said.replace("\n", " ")
+    assert "fitted with broad priors" in said.replace("\n", " ")
 
 
 def test_a_friction_map_names_its_unknown_torques_and_its_own_noise(tmp_path, capsys):
@@ -79,7 +79,7 @@ def spoilt(folder: Path, change) -> Path:
             lambda y: [v * 1000 for v in y],
             "readings are about a thousand times what the base model gives: check the unit",
         ),
-        (lambda y: [-v for v in y], "most readings have the other sign than the base model: check the sign"),
+        (lambda y: [-v for v in y], "most readings have the opposite sign to the base model"),
         (lambda y: [33.3] * 20 + y[20:], "20 of 72 readings are exactly 33.3 though speed_rpm,"),
         (lambda y: y[:4], "Cannot be diagnosed: {case}/recordings.csv: power_loss_W: 4: needs at least 5 readings"),
     ],

@@ -10,10 +10,12 @@ import pytest
 
 from mixedlub.case.folder import Case, read_case
 from mixedlub.case.forward import Forward
-from mixedlub.data_checks.audit import Doubt, doubts, system_doubts
+from mixedlub.data_checks.audit import check_readings
 from mixedlub.gear import RigidSharing, at_roll_angle
 from mixedlub.importers import write_case
 from mixedlub.rig.build import gear_pair
+from mixedlub.rig.plausibility import far_off
+from mixedlub.schema.findings import Finding, Severity, codes
 from mixedlub.schema.table import Table
 from profiles.errors import InputError
 
@@ -26,11 +28,11 @@ def case(make_case: Callable[..., Path], tmp_path: Path) -> Case:
     return read_case(make_case(tmp_path / "case", "disc"))
 
 
-def told(case: Case, change: Change) -> list[str]:
+def told(case: Case, change: Change) -> list[Finding]:
     """What is said of the readings after a change."""
     assert case.recordings is not None
     y = change(np.array(case.recordings[case.quantity], dtype=float))
-    return doubts(case, case.recordings, y, Forward(case, case.recordings))
+    return check_readings(case, case.recordings, y, Forward(case, case.recordings))
 
 
 def first(count: int, value: float = 0.0333) -> Change:
@@ -44,8 +46,9 @@ def test_a_sound_recording_raises_no_doubt(case: Case) -> None:
 
 def test_a_value_in_a_fifth_of_the_rows_is_named_with_its_runs(case: Case) -> None:
     (note,) = told(case, first(15))
-    assert note.startswith("15 of 72 readings are exactly 0.0333 though ")
-    assert note.endswith("(runs 1, 2, 3, 4, 5, ...)")
+    assert note.code == "channel_stuck"
+    assert "15 of 72 readings are exactly 0.0333" in note.text
+    assert "(runs 1, 2, 3, 4, 5 and 10 more)" in note.text
 
 
 def test_a_value_in_fewer_rows_is_not(case: Case) -> None:
@@ -69,9 +72,8 @@ def test_equal_readings_at_equal_conditions_are_not_stuck(case: Case) -> None:
     assert case.recordings is not None
     again = case.recordings.take(np.array([*([0] * 20), *range(20, 72)]))
     y = np.array(again[case.quantity], dtype=float)
-    assert doubts(case, again, y, Forward(case, again)) == []
-    (note,) = told(case, first(20, y[0]))
-    assert "stuck" in note
+    assert check_readings(case, again, y, Forward(case, again)) == []
+    assert codes(told(case, first(20, y[0]))) == ["channel_stuck"]
 
 
 def test_equal_readings_where_the_model_gives_equal_ones_are_not_stuck(case: Case) -> None:
@@ -83,26 +85,28 @@ def test_equal_readings_where_the_model_gives_equal_ones_are_not_stuck(case: Cas
 
     assert case.recordings is not None
     y = first(15)(np.array(case.recordings[case.quantity], dtype=float))
-    assert doubts(case, case.recordings, y, Level(case, case.recordings)) == []
+    assert check_readings(case, case.recordings, y, Level(case, case.recordings)) == []
 
 
 def test_readings_in_percent_are_asked_about(case: Case) -> None:
     (note,) = told(case, lambda y: 100.0 * y)
-    assert "a hundred times what the base model gives" in note
+    assert note.code == "readings_in_other_unit"
+    assert "a hundred times" in note.text
 
 
 def test_slide_roll_ratios_in_percent_are_asked_about(case: Case) -> None:
     rows = case.recordings
     assert rows is not None
     rows = Table({**rows.columns, "slide_roll_ratio": 100.0 * rows["slide_roll_ratio"]})
-    notes = doubts(case, rows, np.array(rows[case.quantity], dtype=float), Forward(case, rows))
-    assert [note for note in notes if "slide_roll_ratio reaches" in note and "percent" in note]
+    notes = check_readings(case, rows, np.array(rows[case.quantity], dtype=float), Forward(case, rows))
+    assert "slide_roll_ratio_in_percent" in codes(notes)
 
 
 @pytest.mark.parametrize("factor", [0.6e-3, 1.0e-3, 1.7e-3])
 def test_a_slip_of_the_unit_shows_though_the_model_is_off(case: Case, factor: float) -> None:
     (note,) = told(case, lambda y: factor * y)
-    assert "a thousandth of what the base model gives" in note
+    assert note.code == "readings_in_other_unit"
+    assert "a thousandth of" in note.text
 
 
 @pytest.mark.parametrize("factor", [0.2, 0.05, 20.0])
@@ -118,8 +122,7 @@ def one(run: int, change: Change) -> Change:
 @pytest.mark.parametrize("factor", [100.0, 1000.0, -1000.0, 1e6])
 def test_a_single_reading_far_beyond_the_others_is_asked_about(case: Case, factor: float) -> None:
     (note,) = told(case, one(7, lambda y: factor * y))
-    assert note.startswith("run 7 reads ")
-    assert "check unit and decimal point" in note
+    assert (note.code, note.place) == ("reading_too_large", "run 7")
 
 
 @pytest.mark.parametrize("factor", [0.0, 0.3, 3.0, 8.0])
@@ -129,8 +132,7 @@ def test_a_misshapen_outlier_is_no_slip(case: Case, factor: float) -> None:
 
 def test_a_single_reading_of_the_wrong_sign_is_asked_about(case: Case) -> None:
     (note,) = told(case, one(7, lambda y: -y))
-    assert note.startswith("run 7 reads -")
-    assert note.endswith("check the sign")
+    assert (note.code, note.place) == ("reading_negative", "run 7")
 
 
 def test_readings_a_little_below_zero_are_not_asked_about(case: Case) -> None:
@@ -138,9 +140,7 @@ def test_readings_a_little_below_zero_are_not_asked_about(case: Case) -> None:
 
 
 def test_many_negative_readings_are_physics_or_an_offset_and_no_slip(case: Case) -> None:
-    assert not [
-        note for note in told(case, lambda y: np.where(np.arange(y.size) < 20, -y, y)) if "check the sign" in note
-    ]
+    assert "reading_negative" not in codes(told(case, lambda y: np.where(np.arange(y.size) < 20, -y, y)))
 
 
 def test_a_friction_map_reads_either_sign(tmp_path: Path) -> None:
@@ -155,20 +155,25 @@ def test_temperatures_of_a_room_in_kelvin_are_asked_about(case: Case) -> None:
     rows = case.recordings
     assert rows is not None
     kelvin = Table({**rows.columns, "oil_temperature_C": rows["oil_temperature_C"] * 0.0 + 298.15}, rows.source)
-    notes = doubts(case, kelvin, np.array(rows[case.quantity], dtype=float), Forward(case, rows))
-    assert [note for note in notes if "kelvin" in note]
+    notes = check_readings(case, kelvin, np.array(rows[case.quantity], dtype=float), Forward(case, rows))
+    assert "temperature_in_kelvin" in codes(notes)
+
+
+def implausible(folder: Path) -> list[Finding]:
+    """What is implausible in a case's files beside the readings."""
+    case = read_case(folder)
+    return list(far_off(case.system, case.folder))
 
 
 def test_what_is_far_off_in_the_system_stands_above_the_answer(make_case: Callable[..., Path], tmp_path: Path) -> None:
     folder = make_case(tmp_path / "case", "disc")
-    assert system_doubts(read_case(folder)) == []
+    assert implausible(folder) == []
     file = folder / "system.toml"
     text = file.read_text(encoding="utf-8")
     assert "boundary_friction = 0.1" in text
     file.write_text(text.replace("boundary_friction = 0.1", "boundary_friction = 1.0", 1), encoding="utf-8")
-    (note,) = system_doubts(read_case(folder))
-    assert isinstance(note, Doubt)
-    assert "boundary_friction is 1, where rigs have" in note
+    (note,) = implausible(folder)
+    assert (note.code, note.place, note.severity) == ("value_unusual", "boundary_friction", Severity.DOUBT)
 
 
 @pytest.mark.parametrize(("factor", "alarm"), [(0.5, True), (0.95, False)])
@@ -187,9 +192,10 @@ def test_shares_far_from_the_whole_load_question_the_answer_and_near_ones_are_no
     text = file.read_text(encoding="utf-8")
     assert text.count('model = "rigid"') == 1
     file.write_text(text.replace('model = "rigid"', 'table = "share.csv"'), encoding="utf-8")
-    (note,) = system_doubts(read_case(folder))
-    assert float(note.split(" on average")[0].split()[-1]) == pytest.approx(factor, abs=0.005)
-    assert isinstance(note, Doubt) == alarm
+    (note,) = implausible(folder)
+    assert note.code == "load_share_sum"
+    assert float(note.text.split(" on average")[0].split()[-1]) == pytest.approx(factor, abs=0.005)
+    assert (note.severity is Severity.DOUBT) == alarm
 
 
 @pytest.mark.parametrize(("column", "told"), [(0.03, False), (1e-4, True)])
@@ -205,32 +211,33 @@ def test_repeats_are_held_against_the_sds_in_the_column(
         1.0 + 0.2 * np.random.default_rng(1).standard_normal(twice["run"].size)
     )
     rows = Table({**twice, f"{case.quantity}_sd": np.full(twice["run"].size, column)}, "recordings.csv")
-    notes = doubts(case, rows, np.asarray(rows[case.quantity]), Forward(case, rows))
-    assert any("contradict each other" in note for note in notes) is told
+    notes = check_readings(case, rows, np.asarray(rows[case.quantity]), Forward(case, rows))
+    assert ("repeats_contradictory" in codes(notes)) is told
 
 
-def viscosities(folder: Path, thinnest: float, **recording: object) -> list[str]:
+def viscosities(folder: Path, thinnest: float, **recording: object) -> list[Finding]:
     """What is said of twelve viscosities of two samples down to ``thinnest``."""
     falling = np.geomspace(20.0, thinnest, 12)
     columns = {"temperature_C": np.linspace(20.0, 90.0, 12), "viscosity_mPa_s": falling, "setup": ["a", "b"] * 6}
     about = {"quantity": "viscosity_mPa_s", **recording}
     case = read_case(write_case(folder / "oil", {"kind": "viscosity", "recording": about}, columns))
     assert case.recordings is not None
-    return doubts(case, case.recordings, falling, Forward(case, case.recordings))
+    return check_readings(case, case.recordings, falling, Forward(case, case.recordings))
 
 
 def test_readings_below_the_range_of_the_equation_are_named(tmp_path: Path) -> None:
-    assert any("2 of 12 readings are below 2 mm2/s" in note for note in viscosities(tmp_path, 1.0))
-    assert not any("D341" in note for note in viscosities(tmp_path, 5.0))
+    (note,) = [note for note in viscosities(tmp_path, 1.0) if note.code == "viscosity_below_d341"]
+    assert "2 of 12 readings" in note.text
+    assert "viscosity_below_d341" not in codes(viscosities(tmp_path, 5.0))
 
 
 def test_set_ups_that_nothing_tells_apart_are_asked_about(tmp_path: Path) -> None:
     noise = {"relative": 0.01, "setup_relative": 0.02}
-    assert any(note.startswith("2 set-ups are taken to read alike") for note in viscosities(tmp_path, 5.0))
-    assert not any("set-ups" in note for note in viscosities(tmp_path, 5.0, noise=noise))
+    assert "setups_pooled" in codes(viscosities(tmp_path, 5.0))
+    assert "setups_pooled" not in codes(viscosities(tmp_path, 5.0, noise=noise))
 
 
-def entered_again(case: Case, count: int, change: Change = lambda y: y) -> list[str]:
+def entered_again(case: Case, count: int, change: Change = lambda y: y) -> list[Finding]:
     """What is said where the first rows stand in the table again, under new run numbers and a later place."""
     assert case.recordings is not None
     again = case.recordings.take(np.array([*range(72), *range(count)]))
@@ -238,18 +245,18 @@ def entered_again(case: Case, count: int, change: Change = lambda y: y) -> list[
     later = Table({**again.columns, "run": order + 1, "sequence": order / order[-1]}, again.source)
     y = change(np.array(later[case.quantity], dtype=float))
     rows = Table({**later.columns, case.quantity: y}, later.source)
-    return doubts(case, rows, y, Forward(case, rows))
+    return check_readings(case, rows, y, Forward(case, rows))
 
 
 def test_rows_that_were_entered_twice_are_counted(case: Case) -> None:
     (note,) = entered_again(case, 72)
-    assert isinstance(note, Doubt)
-    assert note.startswith("72 readings repeat others to the last digit, with their conditions")
+    assert (note.code, note.severity) == ("readings_entered_twice", Severity.DOUBT)
+    assert note.text.startswith("72 readings ")
 
 
 def test_few_rows_again_or_coarse_readings_are_not_taken_for_a_table_entered_twice(case: Case) -> None:
     assert entered_again(case, 3) == []
-    assert not any("last digit" in text for text in entered_again(case, 72, lambda y: np.round(y, 2)))
+    assert "readings_entered_twice" not in codes(entered_again(case, 72, lambda y: np.round(y, 2)))
 
 
 @pytest.mark.parametrize("places", [3, 9])
@@ -262,8 +269,8 @@ def test_repeats_that_are_alike_by_rounding_are_not_taken_for_a_table_entered_tw
     pasted = np.concatenate([np.arange(216), np.arange(60 if places > 3 else 0)]).astype(int)
     order = {"run": np.arange(1, pasted.size + 1), "sequence": np.linspace(0.0, 1.0, pasted.size)}
     table = Table({**rows.take(pasted).columns, **order, case.quantity: y[pasted]}, "recordings.csv")
-    notes = doubts(case, table, y[pasted], Forward(case, table))
-    assert any("last digit" in note for note in notes) is (places > 3)
+    notes = check_readings(case, table, y[pasted], Forward(case, table))
+    assert ("readings_entered_twice" in codes(notes)) is (places > 3)
 
 
 def test_readings_at_one_condition_are_refused_with_their_file(make_case: Callable[..., Path], tmp_path: Path) -> None:
@@ -276,7 +283,7 @@ def test_readings_at_one_condition_are_refused_with_their_file(make_case: Callab
     assert found.recordings is not None
     y = np.array(found.recordings[found.quantity], dtype=float)
     with pytest.raises(InputError, match="all readings were taken at the same conditions") as error:
-        doubts(found, found.recordings, y, Forward(found, found.recordings))
+        check_readings(found, found.recordings, y, Forward(found, found.recordings))
     assert error.value.where == str(folder / "recordings.csv")
 
 
@@ -285,10 +292,10 @@ def test_every_second_reading_in_kilowatts_is_told(offset_folder: Path) -> None:
     assert case.recordings is not None
     rows, y = case.recordings, np.array(case.recordings[case.quantity], dtype=float)
     y[::2] /= 1000.0
-    assert any("in one unit" in note for note in doubts(case, rows, y, Forward(case, rows)))
+    assert "readings_in_two_units" in codes(check_readings(case, rows, y, Forward(case, rows)))
     few = np.array(case.recordings[case.quantity], dtype=float)
     few[3] /= 1000.0
-    assert not any("in one unit" in note for note in doubts(case, rows, few, Forward(case, rows)))
+    assert "readings_in_two_units" not in codes(check_readings(case, rows, few, Forward(case, rows)))
 
 
 def test_losses_above_the_power_put_in_are_told(offset_folder: Path) -> None:
@@ -296,8 +303,9 @@ def test_losses_above_the_power_put_in_are_told(offset_folder: Path) -> None:
     assert case.recordings is not None
     y = np.array(case.recordings[case.quantity], dtype=float)
     light = Table({**case.recordings.columns, "torque_Nm": case.recordings["torque_Nm"] / 1000.0}, "recordings.csv")
-    assert any("above the power put in" in note for note in doubts(case, light, y, Forward(case, light)))
-    assert not any("put in" in note for note in doubts(case, case.recordings, y, Forward(case, case.recordings)))
+    assert "loss_above_input_power" in codes(check_readings(case, light, y, Forward(case, light)))
+    sound = check_readings(case, case.recordings, y, Forward(case, case.recordings))
+    assert "loss_above_input_power" not in codes(sound)
 
 
 @pytest.mark.parametrize(("payload", "told"), [(0.0, True), (3.0, False)])
@@ -307,9 +315,9 @@ def test_a_friction_that_lost_its_sign_is_told(tmp_path: Path, payload: float, t
     sections = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm"}}
     case = read_case(write_case(tmp_path / "c", sections, {"speed_rpm": speed, "friction_torque_Nm": friction}))
     assert case.recordings is not None
-    notes = doubts(case, case.recordings, friction, Forward(case, case.recordings))
-    assert any("sign was not lost" in note for note in notes if isinstance(note, Doubt)) is told
-    assert any("outweighs friction" in note for note in notes) is not told
+    notes = check_readings(case, case.recordings, friction, Forward(case, case.recordings))
+    (severity,) = [note.severity for note in notes if note.code == "sign_lost"]
+    assert severity is (Severity.DOUBT if told else Severity.CAUTION)
 
 
 @pytest.mark.parametrize(
@@ -317,13 +325,13 @@ def test_a_friction_that_lost_its_sign_is_told(tmp_path: Path, payload: float, t
     [
         (np.arange(72.0), ""),
         (np.arange(72) // 2.0, ""),
-        (np.arange(72.0) % 24, "time_s runs backwards in 2 places, first at run 25: "),
-        (np.r_[0.0, 2.0, 1.0, np.arange(3.0, 72.0)], "time_s runs backwards in 1 place, first at run 3: "),
+        (np.arange(72.0) % 24, "in 2 places, first at run 25: "),
+        (np.r_[0.0, 2.0, 1.0, np.arange(3.0, 72.0)], "in 1 place, first at run 3: "),
     ],
 )
 def test_a_time_that_runs_backwards_is_doubted(case: Case, times: np.ndarray, said: str) -> None:
     assert case.recordings is not None
     rows = Table({**case.recordings.columns, "time_s": times})
-    notes = doubts(case, rows, np.array(rows[case.quantity], dtype=float), Forward(case, rows))
-    found = [note for note in notes if "time_s" in note]
-    assert [isinstance(note, Doubt) and note.startswith(said) for note in found] == [True] * bool(said)
+    notes = check_readings(case, rows, np.array(rows[case.quantity], dtype=float), Forward(case, rows))
+    found = [note for note in notes if note.code == "time_backwards"]
+    assert [said in note.text for note in found] == [True] * bool(said)

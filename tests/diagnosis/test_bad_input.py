@@ -146,4 +146,4 @@ def test_columns_that_are_not_known_are_ignored_with_a_warning(folder: Path, exc
     spoilt = [lines[0] + ",humidity", *(line + ",55" for line in lines[1:])]
     path.write_text("\n".join(spoilt) + "\n", encoding="utf-8")
     found = diagnose_case(folder, exclude=excluded)
-    assert any("humidity" in w for w in found.warnings)
+    assert any(w.code == "columns_unknown" and "humidity" in w.text for w in found.warnings)

@@ -12,6 +12,7 @@ from mixedlub.diagnosis.assessment.answer_checks import against, in_a_row, level
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.recording.conditions import jitters
 from mixedlub.recording.noise import nearly_repeated
+from mixedlub.schema.findings import Finding, Severity, codes
 from mixedlub.schema.table import Table
 
 from ..kinds.conftest import make, system
@@ -20,7 +21,7 @@ from .test_inference import problem
 __all__ = ["make"]
 
 
-def told(offset: Diagnosis, wrong: np.ndarray) -> list[str]:
+def told(offset: Diagnosis, wrong: np.ndarray) -> list[Finding]:
     rows, predicted = offset.recorded.table, offset.recorded.predicted
     clock = Table({**rows.columns, "sequence": np.linspace(0.0, 1.0, len(rows))}, rows.source)
     y = predicted * np.where(wrong, 1.5, 1.0)
@@ -30,13 +31,14 @@ def told(offset: Diagnosis, wrong: np.ndarray) -> list[str]:
 def test_wrong_readings_that_follow_one_another_are_told_of(offset: Diagnosis) -> None:
     wrong = np.isin(np.arange(len(offset.recorded.table)), [3, 4, 5, 6])
     runs = offset.recorded.table["run"][wrong]
-    (note,) = [note for note in told(offset, wrong) if "follow one another" in note]
-    assert f"the 4 readings from run {runs[0]} to run {runs[-1]} count as wrong" in note
+    (note,) = [note for note in told(offset, wrong) if note.code == "outliers_consecutive"]
+    assert note.place == f"run {runs[0]} to run {runs[-1]}"
+    assert "the 4 readings" in note.text
 
 
 def test_wrong_readings_apart_are_not(offset: Diagnosis) -> None:
     wrong = np.isin(np.arange(len(offset.recorded.table)), [3, 14, 25, 36])
-    assert not [note for note in told(offset, wrong) if "follow one another" in note]
+    assert "outliers_consecutive" not in codes(told(offset, wrong))
 
 
 @pytest.mark.parametrize(
@@ -78,7 +80,7 @@ def test_a_level_written_off_on_one_side_is_told_of_by_name() -> None:
     rows = Table({"run": np.arange(1, 73), "torque_Nm": np.repeat([50.0, 100.0, 150.0], 24), "speed_rpm": speed})
     left = np.where(speed == 4000.0, -12.0, 0.3)
     wrong = (speed == 4000.0) & (np.arange(72) != 7)
-    assert levels_off(rows, wrong, left) == ["5 of the 6 readings at speed 4000 rpm"]
+    assert levels_off(rows, wrong, left) == [("speed 4000 rpm", "5 of the 6")]
     assert levels_off(rows, wrong, left * (-1.0) ** np.repeat(np.arange(6), 12)) == []
     assert levels_off(rows, wrong & (np.arange(72) < 36), left) == []
     assert levels_off(rows, np.isin(np.arange(72), [7, 20, 41]), left) == []
@@ -88,13 +90,13 @@ def test_a_level_about_its_set_point_is_one() -> None:
     celsius = np.repeat([40.0, 60.0, 80.0, 100.0], 6) + np.tile([0.1, -0.1, 0.0, 0.2, -0.2, 0.05], 4)
     rows = Table({"run": np.arange(1, 25), "oil_temperature_C": celsius})
     wrong = np.repeat([False, True, False, False], 6)
-    assert levels_off(rows, wrong, np.ones(24)) == ["all 6 readings at oil temperature 60 °C"]
+    assert levels_off(rows, wrong, np.ones(24)) == [("oil temperature 60 °C", "all 6")]
 
 
 def test_the_level_is_a_doubt_of_the_answer(offset: Diagnosis) -> None:
     wrong = offset.recorded.table["speed_rpm"] == 1500.0
-    (note,) = [note for note in told(offset, wrong) if "speed 1500 rpm" in note]
-    assert note.endswith("count as wrong on one side: that is no chance, and the answer leaves it out")
+    (note,) = [note for note in told(offset, wrong) if note.code == "outliers_at_level"]
+    assert (note.place, note.severity) == ("speed 1500 rpm", Severity.DOUBT)
 
 
 def test_a_channel_that_was_kept_back_is_no_condition(make) -> None:
@@ -107,7 +109,7 @@ def test_a_channel_that_was_kept_back_is_no_condition(make) -> None:
     columns = {"time_s": time, "friction_coefficient": friction, "coverage_percent": np.where(wrong, 100.0, 50.0)}
     d = diagnose_case(make(about, columns).folder)
     assert (d.outlier_chance[wrong] > 0.5).all()
-    assert not any("coverage" in text for text in d.warnings)
+    assert "outliers_at_level" not in codes(d.warnings)
 
 
 @pytest.mark.parametrize(("after", "told"), [(2.9, False), (12.93, True)])
@@ -116,5 +118,5 @@ def test_levels_that_the_answer_does_not_foretell_are_told_of(offset: Diagnosis,
     kept = replace(offset.heldout, after=after)
     right = np.zeros(len(rows), bool)
     said = against(offset.posterior.verdict, kept, rows, offset.readings, predicted, right)
-    assert any("does not foretell levels that it has not seen" in text for text in said) == told
+    assert ("answer_predicts_poorly" in codes(said)) == told
     assert not against((), kept, rows, offset.readings, predicted, right)

@@ -14,6 +14,7 @@ from mixedlub.data_checks.audit import audit
 from mixedlub.diagnosis.assessment.prediction import _noise_at
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.recording.noise import noise, noise_from_repeats, pooled_sd
+from mixedlub.schema.findings import codes
 from mixedlub.schema.table import Table
 
 
@@ -83,7 +84,7 @@ def test_the_source_of_the_noise_is_said(make_case: Callable[..., Path], tmp_pat
     assert case.recordings is not None
     y = np.asarray(case.recordings[case.quantity], dtype=float)
     notes = audit(case, case.recordings, y, Forward(case, case.recordings))
-    assert any("estimated from repeats" in note for note in notes)
+    assert any(note.code == "noise_estimated" and "repeats" in note.text for note in notes)
 
 
 def test_a_stated_noise_of_zero_is_none(make_case: Callable[..., Path], tmp_path: Path) -> None:
@@ -95,7 +96,7 @@ def test_a_stated_noise_of_zero_is_none(make_case: Callable[..., Path], tmp_path
     assert case.recordings is not None
     y = np.asarray(case.recordings[case.quantity], dtype=float)
     notes = audit(case, case.recordings, y, Forward(case, case.recordings))
-    assert any("estimated from the fit" in note for note in notes)
+    assert any(note.code == "noise_estimated" and "the fit" in note.text for note in notes)
 
 
 def with_stated(folder: Path, sd: np.ndarray) -> Case:
@@ -145,14 +146,14 @@ def test_sds_that_are_left_out_or_zero_are_those_of_the_others(make_case: Callab
     path.write_text("\n".join(rows) + "\n", encoding="utf-8")
     case = read_case(folder)
     assert taken(case) == pytest.approx(0.8, rel=1e-9)
-    assert any("0 or left out at run 2, 3, 4, 7, 8 and" in note for note in case.notes)
+    assert any(note.code == "sd_filled" and "run 2, 3, 4, 7, 8 and" in note.text for note in case.notes)
 
 
 def test_a_column_of_sds_that_says_nothing_is_none(make_case: Callable[..., Path], tmp_path: Path) -> None:
     case = with_stated(make_case(tmp_path / "case", "gear_pair"), np.zeros(20))
     assert case.recordings is not None
     assert "power_loss_W_sd" not in case.recordings
-    assert any("says nothing of how much a reading scatters" in note for note in case.notes)
+    assert "sd_missing" in codes(case.notes)
 
 
 def test_conditions_without_an_sd_of_their_own_are_predicted_all_the_same(

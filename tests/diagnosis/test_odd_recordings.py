@@ -10,11 +10,12 @@ import pytest
 
 from mixedlub.case.folder import read_case
 from mixedlub.case.forward import Forward
-from mixedlub.data_checks.audit import doubts
+from mixedlub.data_checks.audit import check_readings
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.importers import write_case
 from mixedlub.recording.conditions import is_held
 from mixedlub.recording.noise import steadied
+from mixedlub.schema.findings import codes
 
 from .conftest import left_out
 
@@ -109,9 +110,7 @@ def test_many_wrong_readings_are_told(make_case, tmp_path: Path) -> None:
         return [head, *(f"{c},{'-' if bad else ''}{y}" for (c, y), bad in zip(parts, wrong, strict=True))]
 
     found = edited(make_case(tmp_path, "disc"), rows=turned)
-    told = " ".join(found.warnings)
-    assert "count as wrong" in told
-    assert "opposite sign" in told
+    assert {"outliers_many", "outliers_opposite_sign"} <= set(codes(found.warnings))
 
 
 def test_time_since_an_epoch_is_not_held() -> None:
@@ -130,8 +129,10 @@ def test_a_load_under_another_name_is_asked_for_and_not_a_set_up(tmp_path: Path)
     path.write_text("\n".join(f"{a},{b}" for a, b in zip(lines, cells, strict=True)) + "\n", encoding="utf-8")
     case = read_case(folder)
     assert case.recordings is not None
-    assert any("not known: load_Nm (nearest known: 'torque_Nm')" in note for note in case.notes)
-    found = doubts(case, case.recordings, friction, Forward(case, case.recordings))
-    (said,) = [note for note in found if "contradict each other" in note]
-    assert said.endswith("a condition may stand in a column that is ignored: load_Nm (nearest known: 'torque_Nm')")
-    assert "setup" not in said
+    (ignored,) = [note for note in case.notes if note.code == "column_near_known"]
+    assert ignored.place == "recordings.csv, load_Nm"
+    assert "'torque_Nm'" in ignored.text
+    found = check_readings(case, case.recordings, friction, Forward(case, case.recordings))
+    (said,) = [note for note in found if note.code == "repeats_contradictory"]
+    assert said.text.endswith("ignored: recordings.csv, load_Nm")
+    assert "setup" not in said.text

@@ -11,10 +11,11 @@ import pytest
 
 from mixedlub.case.folder import read_case
 from mixedlub.case.forward import Forward
-from mixedlub.data_checks.audit import Doubt, doubts
+from mixedlub.data_checks.audit import check_readings
 from mixedlub.data_checks.mixed_units import of_two_units
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.importers import write_case
+from mixedlub.schema.findings import Finding, Severity, codes, of_severity
 from mixedlub.schema.table import Table
 
 BALL = {"geometry": "point", "radius_mm": [9.525, float("inf")], "youngs_modulus_GPa": [207.0, 75.0]}
@@ -25,16 +26,16 @@ SCATTER = 1.0 + 0.01 * np.random.default_rng(0).standard_normal(40)
 HALF, EVEN = np.arange(40) < 20, np.arange(40) % 2 == 0
 
 
-def told(folder: Path, system: dict[str, Any], columns: dict[str, Any], quantity: str) -> list[str]:
+def told(folder: Path, system: dict[str, Any], columns: dict[str, Any], quantity: str) -> list[Finding]:
     """The doubts about a recording."""
     case = read_case(write_case(folder / "case", {**system, "recording": {"quantity": quantity}}, columns))
     assert case.recordings is not None
     y = np.asarray(case.recordings[quantity], dtype=float)
-    found = doubts(case, case.recordings, y, Forward(case, case.recordings))
-    return [note for note in found if isinstance(note, Doubt)]
+    found = check_readings(case, case.recordings, y, Forward(case, case.recordings))
+    return list(of_severity(found, Severity.DOUBT))
 
 
-def film(folder: Path, oil: dict[str, Any] | None = None, **times: Any) -> list[str]:
+def film(folder: Path, oil: dict[str, Any] | None = None, **times: Any) -> list[Finding]:
     """Films of a sound rig, each column times a factor."""
     columns = {
         "load_N": np.repeat([10.0, 20.0, 10.0, 20.0], 10),
@@ -48,7 +49,7 @@ def film(folder: Path, oil: dict[str, Any] | None = None, **times: Any) -> list[
     return told(folder, {**system, "lubricant": oil} if oil else system, columns, "film_thickness_nm")
 
 
-def oil(folder: Path, factor: Any, celsius: np.ndarray | None = None, **columns: Any) -> list[str]:
+def oil(folder: Path, factor: Any, celsius: np.ndarray | None = None, **columns: Any) -> list[Finding]:
     celsius = np.tile(np.linspace(20.0, 90.0, 8), 5) if celsius is None else celsius
     viscosity = 200.0 * np.exp(-0.035 * (celsius - 20.0)) * SCATTER * factor
     columns = {"temperature_C": celsius, "viscosity_mPa_s": viscosity, **columns}
@@ -75,9 +76,8 @@ def test_readings_in_two_units_are_doubted(tmp_path: Path, which: np.ndarray, fa
         film(tmp_path / "film", film_thickness_nm=np.where(which, factor, 1.0)),
         oil(tmp_path / "oil", np.where(HALF, factor, 1.0)),
     ):
-        (note,) = [note for note in notes if "one unit" in note]
-        assert note.startswith("20 readings are about ")
-        assert note.endswith(" is in one unit")
+        (note,) = [note for note in notes if note.code == "readings_in_two_units"]
+        assert note.text.startswith("20 readings are ")
 
 
 def test_readings_ten_times_apart_along_a_condition_are_physics(tmp_path: Path) -> None:
@@ -88,20 +88,17 @@ def test_readings_ten_times_apart_along_a_condition_are_physics(tmp_path: Path) 
 @pytest.mark.parametrize("factor", [1000.0, 0.001])
 def test_a_condition_in_two_units_is_doubted_rather_than_the_reading(tmp_path: Path, factor: float) -> None:
     notes = film(tmp_path, entrainment_speed_m_s=np.where(HALF, factor, 1.0))
-    (note,) = [note for note in notes if "one unit" in note]
-    assert note == (
-        "20 of 40 values of entrainment_speed_m_s are 1000 times the others where readings and other conditions are "
-        "alike: check that entrainment_speed_m_s is in one unit"
-    )
+    (note,) = [note for note in notes if "_in_two_units" in note.code]
+    assert (note.code, note.place) == ("condition_in_two_units", "entrainment_speed_m_s")
+    assert note.text.startswith("20 of 40 values are 1000 times the others")
 
 
 def test_a_condition_with_other_levels_in_the_other_unit_is_named_beside_the_reading(tmp_path: Path) -> None:
     """Films follow the speeds as meant: half of them at speeds between those of the others, and in mm/s."""
     between = np.where(HALF, 1.2, 1.0)
     notes = film(tmp_path, entrainment_speed_m_s=between * np.where(HALF, 1000.0, 1.0), film_thickness_nm=between**0.67)
-    assert any(
-        note.endswith("check that film_thickness_nm and entrainment_speed_m_s are each in one unit") for note in notes
-    )
+    (note,) = [note for note in notes if note.code == "readings_in_two_units"]
+    assert "film_thickness_nm and entrainment_speed_m_s" in note.text
 
 
 def test_levels_that_come_again_tenfold_with_the_films_they_should_have_are_sound(tmp_path: Path) -> None:
@@ -111,49 +108,52 @@ def test_levels_that_come_again_tenfold_with_the_films_they_should_have_are_soun
 
 def test_speeds_in_millimetres_are_doubted_with_the_unit_they_are_in(tmp_path: Path) -> None:
     notes = film(tmp_path, entrainment_speed_m_s=1000.0)
-    assert (
-        "the largest entrainment_speed_m_s is 2000, where rigs have 1e-05 to 300 m/s: 2000 mm/s would be 2 m/s" in notes
-    )
+    (note,) = [note for note in notes if note.code == "value_unusual"]
+    assert note.place == "the largest entrainment_speed_m_s"
+    assert note.text.startswith("2000, where rigs have 1e-05 to 300 m/s: 2000 mm/s would be 2 m/s")
 
 
 def test_films_in_micrometres_are_doubted(tmp_path: Path) -> None:
-    (note,) = [note for note in film(tmp_path, film_thickness_nm=0.001) if "largest" in note]
-    assert note.startswith("the largest film_thickness_nm is 0.3")
-    assert "where rigs have 0.8 to 100000 nm: 0.3" in note
-    assert " um would be 3" in note
+    (note,) = [note for note in film(tmp_path, film_thickness_nm=0.001) if note.code == "value_unusual"]
+    assert note.place == "the largest film_thickness_nm"
+    assert "where rigs have 0.8 to 100000 nm: 0.3" in note.text
+    assert " um would be 3" in note.text
 
 
 def test_a_load_that_no_contact_bears_is_doubted(tmp_path: Path) -> None:
     (note,) = film(tmp_path, load_N=1000.0)
-    assert note.startswith("the largest load_N, 20000, would press the bodies with 5.27 GPa, where hard ones yield")
+    assert (note.code, note.place) == ("pressure_above_yield", "the largest load_N, 20000")
+    assert "5.27 GPa" in note.text
 
 
 def test_an_oil_thicker_than_oils_is_doubted_where_it_is_warm(tmp_path: Path) -> None:
     (note,) = oil(tmp_path / "warm", 1000.0)
-    assert note.startswith("the smallest viscosity_mPa_s is 17")
-    assert "where rigs have 0 to 5000 mPa s" in note
+    assert (note.code, note.place) == ("value_unusual", "the smallest viscosity_mPa_s")
     assert oil(tmp_path / "cold", 1000.0, np.tile(np.linspace(-40.0, 10.0, 8), 5)) == []
     pressed = oil(tmp_path / "pressed", 1000.0, pressure_MPa=np.full(40, 800.0))
-    assert not any("smallest" in note for note in pressed)
+    assert "value_unusual" not in codes(pressed)
 
 
-def gears(folder: Path, column: str, change: Any) -> list[str]:
+def gears(folder: Path, column: str, change: Any) -> list[Finding]:
     """The doubts about the example's gears, a column changed."""
     case = read_case(EXAMPLE)
     assert case.recordings is not None
     rows = Table({**case.recordings.columns, column: change(case.recordings[column])}, "recordings.csv")
     case = replace(case, recordings=rows)
-    return [str(note) for note in doubts(case, rows, rows[case.quantity], Forward(case, rows))]
+    return check_readings(case, rows, rows[case.quantity], Forward(case, rows))
 
 
 def test_torque_in_newton_millimetres_presses_the_flanks_too_hard() -> None:
-    assert any("press the flanks with 39.8 GPa" in note for note in gears(EXAMPLE, "torque_Nm", lambda t: 1000.0 * t))
-    assert not any("flanks" in note for note in gears(EXAMPLE, "torque_Nm", lambda t: 2.0 * t))
+    found = gears(EXAMPLE, "torque_Nm", lambda t: 1000.0 * t)
+    (note,) = [note for note in found if note.code == "pressure_above_yield"]
+    assert "39.8 GPa" in note.text
+    assert "pressure_above_yield" not in codes(gears(EXAMPLE, "torque_Nm", lambda t: 2.0 * t))
 
 
 def test_temperatures_in_fahrenheit_are_far_from_those_of_the_oil() -> None:
     (note,) = gears(EXAMPLE, "oil_temperature_C", lambda t: 1.8 * t + 32.0)
-    assert note.endswith("104 to 158 °F would be 40 to 70 °C: is it in that unit?")
+    assert note.code == "temperature_in_fahrenheit"
+    assert "104 to 158 °F would be 40 to 70 °C" in note.text
     (note,) = gears(EXAMPLE, "oil_temperature_C", lambda t: 40.0 + 10.0 / 3.0 * (t - 40.0))
-    assert note.endswith("far from the 40 and 100 of [lubricant]: viscosity is extrapolated")
+    assert note.code == "viscosity_extrapolated"
     assert not gears(EXAMPLE, "oil_temperature_C", lambda t: t + 20.0)

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import pytest
 
-from mixedlub.data_checks.audit import Doubt
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.report.html import _cards, render
 from mixedlub.diagnosis.report.text import words
 from mixedlub.diagnosis.report.text.headline import chance, percent
+from mixedlub.schema.findings import finding
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 
@@ -107,9 +107,9 @@ def test_bars_of_evidence_are_not_called_a_fitted_form(unnamed_files: dict[str, 
 
 
 def test_doubts_stand_above_the_headline_of_the_page(offset: Diagnosis) -> None:
-    doubtful = replace(offset, warnings=(Doubt("check the unit"),))
+    doubtful = replace(offset, warnings=(finding("readings_in_other_unit", "check the unit"),))
     page = render(doubtful, words.sections(doubtful), {})
-    assert page.index('<p class="alarm">Caution: check the unit.</p>') < page.index('<p class="verdict">')
+    assert page.index('<p class="alarm">Doubtful: check the unit.</p>') < page.index('<p class="verdict">')
 
 
 def test_list_and_heading_of_a_tie_stand_in_the_page(offset: Diagnosis) -> None:

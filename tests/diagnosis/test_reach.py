@@ -11,12 +11,13 @@ from mixedlub.case.folder import read_case, read_conditions, refuse_used_runs
 from mixedlub.cli import main
 from mixedlub.diagnosis.assessment.extrapolation import beyond_recorded
 from mixedlub.diagnosis.diagnose import diagnose_case
+from mixedlub.schema.findings import Finding
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "case"
 HEAD = "run,torque_Nm,speed_rpm,oil_temperature_C,pinion_surface,gear_surface\n"
 
 
-def said_of(tmp_path: Path, *rows: str) -> list[str]:
+def said_of(tmp_path: Path, *rows: str) -> list[Finding]:
     """What is told of conditions to predict for the example, recorded at 50 to 150 N m, 500 to 4000 rpm, 40 and 70."""
     path = tmp_path / "wanted.csv"
     path.write_text(HEAD + "\n".join(rows) + "\n", encoding="utf-8")
@@ -31,13 +32,14 @@ def test_every_condition_beyond_is_named_with_its_run(tmp_path: Path) -> None:
         "203,100,50,120,ground,ground",
     )
     (said,) = said_of(tmp_path, inside, torque, both)
-    assert said.startswith("2 of 3 conditions to predict lie beyond what was recorded")
+    assert (said.code, said.place) == ("prediction_extrapolates", "wanted.csv")
+    assert said.text.startswith("2 of 3 conditions")
     assert (
         "run 202: torque_Nm 1000 N m, recorded 50 to 150 N m; run 203: speed_rpm 50 rpm, recorded 500 to 4000 rpm"
-        in said
+        in said.text
     )
-    assert "oil_temperature_C 120 °C, recorded 40 to 70 °C" in said
-    assert "201" not in said
+    assert "oil_temperature_C 120 °C, recorded 40 to 70 °C" in said.text
+    assert "201" not in said.text
 
 
 def test_what_wanders_about_a_set_point_is_not_beyond(tmp_path: Path) -> None:
@@ -46,7 +48,7 @@ def test_what_wanders_about_a_set_point_is_not_beyond(tmp_path: Path) -> None:
 
 def test_many_runs_are_counted(tmp_path: Path) -> None:
     (said,) = said_of(tmp_path, *(f"{200 + i},1000,3000,55,ground,ground" for i in range(9)))
-    assert said.endswith("; and 4 more runs)")
+    assert said.text.endswith("; and 4 more runs)")
 
 
 def test_a_surface_that_was_never_recorded_is_beyond(tmp_path: Path) -> None:
@@ -56,7 +58,7 @@ def test_a_surface_that_was_never_recorded_is_beyond(tmp_path: Path) -> None:
     (case / "recordings.csv").write_text("\n".join(kept) + "\n", encoding="utf-8")
     found = read_case(case)
     (said,) = beyond_recorded(found, found.conditions)
-    assert "pinion_surface polished, never recorded" in said
+    assert "pinion_surface polished, never recorded" in said.text
 
 
 def test_the_answer_and_check_say_it(make_case, tmp_path: Path, excluded: tuple[str, ...], capsys) -> None:
@@ -65,7 +67,7 @@ def test_the_answer_and_check_say_it(make_case, tmp_path: Path, excluded: tuple[
     row = first.rsplit(",", 1)[0].replace("1,", "900,", 1).replace("1500.0", "90000.0")
     (folder / "conditions.csv").write_text(f"{head.rsplit(',', 1)[0]}\n{row}\n", encoding="utf-8")
     told = "run 900: load_N 90000 N, recorded 1500 to 6000 N"
-    assert sum(told in text for text in diagnose_case(folder, exclude=excluded).warnings) == 1
+    assert sum(told in note.text for note in diagnose_case(folder, exclude=excluded).warnings) == 1
     assert main(["check", str(folder)]) == 0
     assert told in capsys.readouterr().out
 

@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mixedlub.data_checks.audit import Doubt
 from mixedlub.diagnosis.assessment.mismatch_test import UNTOLD, _cost
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.search.noise_inflation import CLEAR, more
 from mixedlub.importers import write_case
+from mixedlub.schema.findings import Finding, codes
 
 from ..kinds.conftest import BALL
 
@@ -36,8 +36,8 @@ def restated(folder: Path, line: str) -> Path:
     return folder
 
 
-def told(d: Diagnosis) -> list[str]:
-    return [note for note in d.warnings if "scatter" in note]
+def told(d: Diagnosis) -> list[Finding]:
+    return [note for note in d.warnings if note.code.startswith("scatter_")]
 
 
 @pytest.fixture
@@ -59,7 +59,7 @@ def test_noise_as_stated_is_believed(complete: Diagnosis) -> None:
 def test_scatter_beyond_what_is_stated_is_no_mismatch(half: Callable[..., Path], excluded: tuple[str, ...]) -> None:
     d = diagnose_case(half(), exclude=excluded)
     (note,) = told(d)
-    times = float(note.split("about ")[1].split(" times")[0])
+    times = float(note.text.split("about ")[1].split(" times")[0])
     assert times == pytest.approx(2.0, rel=0.25)
     assert d.posterior.verdict == ()
     assert not d.test.detected
@@ -91,7 +91,7 @@ def test_noise_that_nobody_states_is_found_under_an_effect(
     d = diagnose_case(folder, exclude=excluded)
     assert np.median(d.found.problem.sd / d.readings) == pytest.approx(0.02, rel=0.25)
     assert d.posterior.verdict == ("sensor_gain",)
-    assert "the noise of a reading was estimated as" in " ".join(d.warnings)
+    assert "noise_value_estimated" in codes(d.warnings)
 
 
 def humming(conditions: dict[str, np.ndarray], base: np.ndarray) -> np.ndarray:
@@ -144,7 +144,7 @@ def test_repeats_bound_the_noise_of_very_many_readings(
     monkeypatch.setattr("mixedlub.diagnosis.search.search.MANY", 40)
     monkeypatch.setattr("mixedlub.diagnosis.search.search.SPREAD", 30)
     d = diagnose_case(folder, exclude=excluded)
-    assert not any("times as much as stated" in note for note in d.warnings)
+    assert told(d) == []
 
 
 def test_sds_of_one_setting_leave_out_a_share_of_the_reading(tmp_path: Path) -> None:
@@ -164,7 +164,7 @@ def test_sds_of_one_setting_leave_out_a_share_of_the_reading(tmp_path: Path) -> 
     sections = {"kind": "film", "contact": BALL, "recording": {"quantity": "film_thickness_nm"}}
     d = diagnose_case(write_case(tmp_path / "films", sections, columns))
     assert d.posterior.verdict == ()
-    assert any("beside the sds told" in text for text in d.warnings)
+    assert "scatter_above_stated" in codes(d.warnings)
     assert d.found.problem.one_sd[-1] == pytest.approx(0.02 * recorded[-1], rel=0.6)
 
 
@@ -193,6 +193,5 @@ def test_estimated_noise_that_no_rig_has_is_doubted(tmp_path: Path, scatter: flo
     columns = {"time_s": np.arange(40.0), "friction_coefficient": friction}
     system = {"kind": "friction_history", "recording": {"quantity": "friction_coefficient"}}
     d = diagnose_case(write_case(tmp_path / "case", system, columns))
-    (note,) = [note for note in d.warnings if "was estimated as" in note]
-    assert isinstance(note, Doubt) == doubted
-    assert ("rows may be of different things" in note) == doubted
+    assert ("noise_estimate_large" in codes(d.warnings)) == doubted
+    assert ("noise_value_estimated" in codes(d.warnings)) != doubted

@@ -7,6 +7,7 @@ import pytest
 from scipy.signal import lfilter
 
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.schema.findings import codes
 
 from ..kinds.conftest import make, system
 
@@ -34,7 +35,7 @@ def test_noise_that_lasts_is_no_mismatch(make, correlation: float) -> None:
     together = d.found.problem.together
     assert d.posterior.verdict == ()
     assert (together == 1.0) if correlation == 0.0 else (4.0 < together < 18.0)
-    assert any("lasts over several" in text for text in d.warnings) == (correlation > 0.0)
+    assert ("residuals_autocorrelated" in codes(d.warnings)) == (correlation > 0.0)
 
 
 def test_what_is_there_is_still_found_and_a_new_reading_scatters_as_one(make) -> None:

@@ -10,54 +10,55 @@ import pytest
 
 from mixedlub.case.folder import read_case
 from mixedlub.case.forward import Forward
-from mixedlub.data_checks.audit import Doubt, doubts
+from mixedlub.data_checks.audit import check_readings
 from mixedlub.importers import write_case
+from mixedlub.schema.findings import Finding
 
 SCATTER = 1.0 + 0.01 * np.random.default_rng(0).standard_normal(40)
 SPEED = np.tile(np.geomspace(1.0, 100.0, 10), 4)
+SIGNS = ("sign_contradictory", "sign_opposite_to_model", "sign_lost", "reading_negative")
 HALF = np.where(np.arange(40) < 20, 1.0, -1.0)
 
 
-def told(folder: Path, kind: str, quantity: str, columns: dict[str, Any]) -> list[str]:
-    """The sentence about signs, if there is one."""
+def told(folder: Path, kind: str, quantity: str, columns: dict[str, Any]) -> list[Finding]:
+    """What is found of signs, if anything."""
     sections = {"kind": kind, "recording": {"quantity": quantity}}
     case = read_case(write_case(folder / "case", sections, columns))
     assert case.recordings is not None
     y = np.asarray(case.recordings[quantity], dtype=float)
-    found = [note for note in doubts(case, case.recordings, y, Forward(case, case.recordings)) if "sign" in note]
-    assert all(isinstance(note, Doubt) for note in found)
-    return found
+    found = check_readings(case, case.recordings, y, Forward(case, case.recordings))
+    return [note for note in found if note.code in SIGNS]
 
 
-def history(folder: Path, friction: np.ndarray) -> list[str]:
+def history(folder: Path, friction: np.ndarray) -> list[Finding]:
     columns = {"time_s": 60.0 * np.arange(40), "friction_coefficient": friction}
     return told(folder, "friction_history", "friction_coefficient", columns)
 
 
-def drive(folder: Path, friction: np.ndarray, speed: np.ndarray = SPEED) -> list[str]:
+def drive(folder: Path, friction: np.ndarray, speed: np.ndarray = SPEED) -> list[Finding]:
     columns = {"speed_rpm": speed, "friction_torque_Nm": friction}
     return told(folder, "friction_map", "friction_torque_Nm", columns)
 
 
 def test_an_unsigned_friction_of_both_signs_is_doubted_with_its_runs(tmp_path: Path) -> None:
     (note,) = history(tmp_path, -0.1 * SCATTER * (-1.0) ** np.arange(40))
-    assert note == (
-        "friction_coefficient has both signs: 20 readings are negative where others at the same conditions are as "
-        "large with the opposite one: check the sign (runs 1, 3, 5, 7, 9, ...)"
-    )
+    assert note.code == "sign_contradictory"
+    assert "20 readings are negative" in note.text
+    assert "(runs 1, 3, 5, 7, 9 and 15 more)" in note.text
 
 
 def test_a_drive_that_reads_both_signs_at_one_speed_is_doubted(tmp_path: Path) -> None:
     (note,) = drive(tmp_path, SCATTER * (1.0 + 0.01 * SPEED) * np.where(np.arange(40) < 30, 1.0, -1.0))
-    assert "10 readings are negative" in note
-    assert "check the signs of friction_torque_Nm and of the speed (runs 31, " in note
+    assert note.code == "sign_contradictory"
+    assert "10 readings are negative" in note.text
+    assert "(runs 31, " in note.text
 
 
 def test_one_reading_of_the_other_sign_is_named(tmp_path: Path) -> None:
     flipped = np.where(np.arange(40) == 25, -1.0, 1.0)
     (note,) = drive(tmp_path, SCATTER * (1.0 + 0.01 * SPEED) * flipped)
-    assert "1 reading is negative" in note
-    assert "(runs 26)" in note
+    assert "1 reading is negative" in note.text
+    assert "(run 26)" in note.text
 
 
 def test_a_drive_turned_back_reads_either_sign(tmp_path: Path) -> None:
@@ -82,4 +83,4 @@ def test_the_same_at_other_loads_is_no_matter_of_signs(tmp_path: Path) -> None:
 
 def test_a_single_wrong_sign_is_told_once(tmp_path: Path) -> None:
     (note,) = history(tmp_path, 0.1 * SCATTER * np.where(np.arange(40) == 6, -1.0, 1.0))
-    assert note.endswith("(runs 7)")
+    assert note.text.endswith("(run 7)")

@@ -8,17 +8,17 @@ import numpy as np
 import pytest
 
 from mixedlub.case.forward import Forward
-from mixedlub.data_checks.audit import Doubt, doubts
+from mixedlub.data_checks.audit import check_readings
 from mixedlub.diagnosis.assessment.identifiability import confusion
 from mixedlub.diagnosis.assessment.posterior import Key
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.report.text import words
 from mixedlub.diagnosis.report.text.alternatives import resembling
 from mixedlub.diagnosis.report.text.answer import as_json
-from mixedlub.diagnosis.report.text.headline import CONTRADICTION
 from mixedlub.diagnosis.report.text.nearest_effect import nearest
 from mixedlub.diagnosis.report.text.tables import _reaching_nothing
 from mixedlub.effects import catalogue
+from mixedlub.schema.findings import codes, finding
 from mixedlub.schema.table import Table
 
 from .test_words import judged, told
@@ -43,7 +43,7 @@ def test_what_is_called_nearest_is_neither_rejected_nor_untestable(unnamed: Diag
 def test_effects_left_out_on_request_are_said(unnamed: Diagnosis) -> None:
     assert "windage" in unnamed.excluded
     assert "grease_shear_thinning" not in unnamed.excluded, "a drive alone has grease"
-    (said,) = [text for text in as_json(unnamed)["warnings"] if text.startswith("left out on request")]
+    (said,) = [record["text"] for record in as_json(unnamed)["findings"] if record["code"] == "effects_left_out"]
     assert "windage" in said
     assert said in words.as_text("", words.sections(unnamed)).replace("\n  ", " ")
     assert f"({len(unnamed.excluded)} left out on request)" in told(unnamed)[words.ANSWER]
@@ -56,18 +56,18 @@ def test_unknown_does_not_say_what_the_catalogue_lacks(unnamed: Diagnosis) -> No
 
 
 def test_contradicting_readings_come_before_an_unnamed_mismatch(unnamed: Diagnosis, offset: Diagnosis) -> None:
-    doubt = (Doubt(f"{CONTRADICTION}: they scatter by 135 nm"),)
+    doubt = (finding("repeats_contradictory", "they scatter by 135 nm"),)
     assert words.headline(replace(unnamed, warnings=doubt)).startswith("Readings at equal conditions contradict")
     assert "Readings at equal" not in words.headline(unnamed)
     assert "Readings at equal" not in words.headline(replace(offset, warnings=doubt))
 
 
-def test_the_audit_says_a_contradiction_in_these_words(offset: Diagnosis) -> None:
+def test_readings_that_contradict_each_other_are_found(offset: Diagnosis) -> None:
     rows = offset.found.problem.rows
     twice = {name: np.tile(values, 2) for name, values in rows.columns.items()}
     y = np.concatenate([offset.recorded.base, 2.0 * offset.recorded.base])
     table = Table({**twice, offset.case.quantity: y}, "recordings.csv")
-    assert any(text.startswith(CONTRADICTION) for text in doubts(offset.case, table, y, Forward(offset.case, table)))
+    assert "repeats_contradictory" in codes(check_readings(offset.case, table, y, Forward(offset.case, table)))
 
 
 def test_probability_of_the_answer_and_of_its_effects_stand_side_by_side(offset: Diagnosis) -> None:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.case import reference_rigs
-from mixedlub.data_checks.audit import Doubt
 from mixedlub.diagnosis.assessment.validity import beyond_range, outside, unpublished
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.effects import catalogue, find
+from mixedlub.schema.findings import Severity
 
 CREEP = find(["contact_creep"])
 ROWS = {"slide_roll_ratio": np.array([[0.02], [0.4], [0.9], [1.2]])}
@@ -16,14 +16,13 @@ ROWS = {"slide_roll_ratio": np.array([[0.02], [0.4], [0.9], [1.2]])}
 
 def test_readings_beyond_the_range_are_counted_and_the_reach_is_said() -> None:
     (said,) = outside(CREEP, ROWS, 4)
-    assert said.startswith(
-        "contact creep: its law is made for slide-roll ratio 0 to 0.5; in 2 of 4 readings that is up to 1.2"
-    )
+    assert (said.code, said.place) == ("law_extrapolated", "contact creep")
+    assert "slide-roll ratio 0 to 0.5; in 2 of 4 readings it is up to 1.2" in said.text
 
 
 def test_a_quantity_that_all_readings_share_counts_for_all() -> None:
     (said,) = outside(CREEP, {"slide_roll_ratio": np.array([[0.1, 0.7]])}, 9)
-    assert "in 9 of 9 readings" in said
+    assert "in 9 of 9 readings" in said.text
 
 
 def test_within_the_range_or_without_the_quantity_nothing_is_said() -> None:
@@ -38,7 +37,7 @@ def test_a_fit_is_judged_by_the_quantities_it_passes_through() -> None:
     problem = Problem.of(forward.case, forward.table, forward, y)
     z = np.zeros(problem.size(("contact_creep",)))
     (said,) = beyond_range(problem, ("contact_creep",), z)
-    assert f"in {y.size // 3} of {y.size} readings that is up to 0.6" in said
+    assert f"in {y.size // 3} of {y.size} readings it is up to 0.6" in said.text
     slow = problem.take(np.flatnonzero(forward.table["slide_roll_ratio"] < 0.5))
     assert beyond_range(slow, ("contact_creep",), z) == []
 
@@ -51,15 +50,14 @@ def fitted(strength: float, spread: float) -> tuple[np.ndarray, np.ndarray]:
 def test_powers_that_no_cited_law_has_are_a_doubt() -> None:
     """A jet that hits the wheel goes with the square of speed and not with viscosity; it was named with 1.00."""
     (said,) = unpublished(find(["churning"]), *fitted(-0.66, 0.1))
-    assert isinstance(said, Doubt)
-    assert said.startswith("churning: power of viscosity is 0.00")
-    assert "no law cited for it has that, they have 0.21 to 1" in said
+    assert (said.code, said.place, said.severity) == ("parameter_unpublished", "churning", Severity.DOUBT)
+    assert said.text.startswith("power of viscosity is 0.00")
+    assert "(0.21 to 1)" in said.text
 
 
 def test_powers_that_may_be_those_of_a_cited_law_are_no_doubt() -> None:
     (said,) = unpublished(find(["churning"]), *fitted(-0.5, 0.2))
-    assert not isinstance(said, Doubt)
-    assert "these readings allow those too" in said
+    assert (said.code, said.severity) == ("parameter_beyond_published", Severity.CAUTION)
 
 
 def test_a_power_of_another_law_that_it_contains_is_no_doubt() -> None:

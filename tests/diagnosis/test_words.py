@@ -11,7 +11,7 @@ import pytest
 from mixedlub.chain.effect import Parameter
 from mixedlub.chain.plain_text import plain_equation
 from mixedlub.chain.priors import Normal
-from mixedlub.data_checks.audit import SCARCE, Doubt, audit
+from mixedlub.data_checks.audit import SCARCE, audit
 from mixedlub.diagnosis.assessment.answer_checks import against
 from mixedlub.diagnosis.assessment.experiment_design import NextTest
 from mixedlub.diagnosis.assessment.posterior import Key, Posterior
@@ -24,6 +24,7 @@ from mixedlub.diagnosis.report.text import location_text, tables, words
 from mixedlub.diagnosis.report.text.answer import as_json, effect_records
 from mixedlub.effects import catalogue
 from mixedlub.report.equations import equation
+from mixedlub.schema.findings import Severity, codes, finding, of_severity
 
 
 def told(d: Diagnosis) -> dict[str, str]:
@@ -128,32 +129,32 @@ def test_each_effect_of_a_pair_has_its_company_named(offset: Diagnosis) -> None:
 
 
 def test_doubts_about_the_data_stand_above_the_headline(offset: Diagnosis) -> None:
-    slip, other = Doubt("readings are about a thousandth: check the unit"), "no noise given"
+    slip = finding("readings_in_other_unit", "readings are about a thousandth: check the unit")
+    other = finding("noise_estimated", "no noise given")
     found = words.sections(replace(offset, warnings=(slip, other)))
     text = words.as_text("Diagnosis", found)
-    assert text.index(f"Caution: {slip}.") < text.index(found[0].sentences[0][:40])
-    assert text.index(other) > text.index("WARNINGS")
-    assert text.count(slip) == 1
+    assert text.index(f"Doubtful: {slip}.") < text.index(found[0].sentences[0][:40])
+    assert text.index(str(other)) > text.index("WARNINGS")
+    assert text.count(str(slip)) == 1
 
 
 @pytest.mark.parametrize(
     ("change", "wanted"),
-    [(lambda y: y / 1000.0, "check the unit of power_loss_W"), (lambda y: -y, "check the sign")],
+    [(lambda y: y / 1000.0, "readings_in_other_unit"), (lambda y: -y, "sign_opposite_to_model")],
 )
 def test_wrong_unit_and_sign_are_doubts(
     offset: Diagnosis, change: Callable[[np.ndarray], np.ndarray], wanted: str
 ) -> None:
     rows = offset.found.problem.rows
     notes = audit(offset.case, rows, change(offset.recorded.base), offset.found.problem.forward)
-    assert [wanted in note for note in notes if isinstance(note, Doubt)] == [True]
+    assert codes(of_severity(notes, Severity.DOUBT)) == [wanted]
 
 
 def test_very_many_wrong_readings_are_a_doubt(offset: Diagnosis) -> None:
     wrong = np.arange(offset.readings.size) % 3 == 0
     rows, predicted = offset.recorded.table, offset.recorded.predicted
     notes = against(offset.posterior.verdict, offset.heldout, rows, offset.readings, predicted, wrong)
-    assert isinstance(notes[0], Doubt)
-    assert "readings count as wrong" in notes[0]
+    assert (notes[0].code, notes[0].severity) == ("outliers_many", Severity.DOUBT)
 
 
 def test_headline_of_few_readings_is_cautious(teeth: Diagnosis, offset: Diagnosis) -> None:

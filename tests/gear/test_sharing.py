@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mixedlub.gear import GearPair, RigidSharing, TableSharing, at_roll_angle, mesh
+from mixedlub.schema.findings import Severity, codes, collected
 from profiles.errors import InputError
 from tests.gear.pairs import FZG_C, HONG, NASA, TIPPED
 
@@ -161,8 +162,9 @@ class TestTable:
 
     def test_missing_torque_takes_the_nearest_and_warns(self):
         points = mesh(TIPPED, table())
-        with pytest.warns(match="no rows at 120 Nm, nearest torque 150 Nm used"):
+        with collected() as found:
             share = points.load_share(120.0)
+        assert codes(found) == ["torque_not_tabulated"]
         assert np.array_equal(share, points.load_share(150.0))
 
     def test_slices_share_evenly(self):
@@ -174,14 +176,16 @@ class TestTable:
         full = table((50.0,))
         short = TableSharing(full.torque[8:], full.roll_angle[8:], full.share[8:])
         points = mesh(TIPPED, short)
-        assert any("cover only" in note for note in points.notes)
+        assert "load_share_short" in codes(points.notes)
         assert points.load_share(50.0)[0] == 0
 
     def test_shares_that_do_not_add_up_are_noted(self):
         full = table((50.0,))
         half = TableSharing(full.torque, full.roll_angle, 0.5 * full.share)
         (note,) = mesh(TIPPED, half).notes
-        assert "at 50 Nm the pairs in contact carry together 0.48 to 0.53 of the load, 0.500 on average" in note
+        assert (note.code, note.severity) == ("load_share_sum", Severity.DOUBT)
+        assert "at 50 Nm" in note.text
+        assert "0.48 to 0.53 of the load, 0.500 on average" in note.text
         assert mesh(TIPPED, full).notes == ()
 
     @pytest.mark.parametrize("part", [slice(0, 3), slice(0, 30), slice(40, 61)])
@@ -195,7 +199,7 @@ class TestTable:
         full = table((50.0, 100.0, 150.0))
         half = TableSharing(full.torque, full.roll_angle, 0.5 * full.share)
         (note,) = mesh(TIPPED, half).notes
-        assert note.endswith("where it should be 1 (so at 2 more torques)")
+        assert note.text.endswith("(so at 2 more torques)")
 
     def test_steps_between_the_rows_of_rigid_teeth_are_not_noted(self):
         x = np.linspace(TIPPED.path_start, TIPPED.path_end, 31)
@@ -206,7 +210,8 @@ class TestTable:
         full = table((50.0,))
         assert mesh(TIPPED, TableSharing(full.torque, full.roll_angle, 1.02 * full.share)).notes == ()
         (note,) = mesh(TIPPED, TableSharing(full.torque, full.roll_angle, 1.05 * full.share)).notes
-        assert "1.050 on average" in note
+        assert (note.code, note.severity) == ("load_share_sum", Severity.CAUTION)
+        assert "1.050 on average" in note.text
 
     def test_the_rounding_of_the_ends_is_not_noted(self):
         full = table((50.0,))

@@ -6,6 +6,7 @@ import pytest
 from mixedlub.importers.dates import moments
 from mixedlub.importers.plain import draft
 from mixedlub.importers.wizard import read
+from mixedlub.schema.findings import Severity
 from profiles.errors import InputError
 
 HISTORY = {"kind": "friction_history", "import.units.friction_coefficient": "-"}
@@ -17,7 +18,9 @@ def history(header, *rows):
 
 def taken(text):
     found = draft(text, "t.csv", HISTORY)
-    return found.columns["time_s"].tolist(), [note for note in found.notes if "time_s" in note and "taken:" not in note]
+    return found.columns["time_s"].tolist(), [
+        note for note in found.notes if "time_s" in note.text and "taken:" not in note.text
+    ]
 
 
 def test_a_clock_that_runs_is_left_alone():
@@ -28,9 +31,8 @@ def test_a_clock_that_runs_is_left_alone():
 def test_a_clock_that_restarts_with_a_step_runs_on_from_its_end(header):
     times, (note,) = taken(history(header, "1,1", "1,60", "2,20", "2,60", "3,1"))
     assert times == [1.0, 60.0, 80.0, 120.0, 121.0]
-    assert note == (
-        f"t.csv: time_s starts anew in lines 4, 6, with {header!r}, and runs on from there without the pauses between"
-    )
+    assert (note.code, note.place) == ("file_read", "t.csv")
+    assert f"in lines 4, 6, with {header!r}" in note.text
 
 
 def test_dates_of_the_starts_keep_the_pauses():
@@ -38,7 +40,8 @@ def test_dates_of_the_starts_keep_the_pauses():
     rows += [f"4,23/03/2018 10:14:01,{t}" for t in (1, 2)]
     times, (note,) = taken(history("step,step_start", *rows))
     assert times == [1.0, 2.0, 121.0, 122.0]
-    assert note == "t.csv: time_s starts anew in line 4, and runs on from the starts in 'step_start'"
+    assert note.code == "file_read"
+    assert "in line 4, and runs on from the starts in 'step_start'" in note.text
 
 
 def test_day_and_month_are_those_that_make_the_shorter_test():
@@ -51,30 +54,30 @@ def test_dates_that_overlap_their_steps_are_not_believed():
     rows = ("2018-03-23 10:00:00,0", "2018-03-23 10:00:00,500", "2018-03-23 10:00:01,0", "2018-03-23 10:00:01,9")
     times, (note,) = taken(history("start", *rows))
     assert times == [0.0, 500.0, 500.0, 509.0]
-    assert "without the pauses" in note
+    assert "without the pauses" in note.text
 
 
 def test_a_fall_that_no_column_tells_of_is_warned_of():
     times, (note,) = taken(history("load_N", "9,0", "9,60", "9,120", "8,1", "8,60"))
     assert times == [0.0, 60.0, 120.0, 121.0, 180.0]
-    assert note.startswith("warning: t.csv: time_s starts anew in line 5, ")
-    assert note.endswith("; where rows are out of order, sort them first")
+    assert (note.code, note.place) == ("clock_restarted", "t.csv")
+    assert "in line 5, " in note.text
 
 
 @pytest.mark.parametrize("times", [(0, 40, 80, 30, 70), (5, 4, 3, 2, 1), (0, 60, 59, 120, 180), (0, 90, 10, 50, 30)])
 def test_a_time_that_only_runs_backwards_is_left_and_warned_of(times):
     kept, (note,) = taken(history("load_N", *(f"9,{t}" for t in times)))
     assert kept == list(times)
-    assert note.startswith("warning: t.csv: time_s runs backwards in line")
+    assert (note.code, note.place) == ("clock_backwards", "t.csv")
 
 
 def test_the_clock_of_a_later_file_runs_on_from_the_one_before(file):
     paths = [file(history("load_N", "9,0", "9,60"), name) for name in ("a.csv", "b.csv")]
     found = read(paths, HISTORY)
     assert found.columns["time_s"].tolist() == [0.0, 60.0, 60.0, 120.0]
-    assert (
-        "warning: b.csv: time_s starts anew, and runs on from the end of a.csv without the pause between" in found.notes
-    )
+    (note,) = [note for note in found.notes if note.code == "clock_restarted"]
+    assert note.place == "b.csv"
+    assert "a.csv" in note.text
 
 
 def test_files_whose_clocks_follow_each_other_are_left_alone(file):
@@ -131,24 +134,23 @@ def test_a_clock_that_goes_with_the_rows_puts_steps_in_their_place():
     rows = ("10:00:00,5", "10:00:10,15", "10:05:00,1", "10:05:08,9")
     times, (note,) = taken(history("clock", *(f"2018-03-23 {row}" for row in rows)))
     assert times == [5.0, 15.0, 305.0, 313.0]
-    assert note.endswith("runs on by the clock in 'clock'")
+    assert note.text.endswith("runs on by the clock in 'clock'")
 
 
 AMBIGUOUS = ("05/06/2019 22:00,0", "05/06/2019 22:00,3600", "05/07/2019 00:00,0", "05/07/2019 00:00,60")
 
 
 def test_a_day_that_could_be_the_month_is_told_with_the_answer_that_settles_it():
-    assert taken(history("started", *AMBIGUOUS))[1] == [
-        "warning: t.csv: time_s starts anew in line 4, and runs on from the starts in 'started', read with the month "
-        "first, as that makes the shorter test; import.dates = 'day first' says otherwise"
-    ]
+    (note,) = taken(history("started", *AMBIGUOUS))[1]
+    assert (note.code, note.place) == ("date_order_assumed", "t.csv")
+    assert "import.dates = 'day first'" in note.text
 
 
 @pytest.mark.parametrize(("order", "second"), [("month first", 7200.0), ("day first", 30 * 86400.0 - 22 * 3600.0)])
 def test_what_is_told_of_day_and_month_is_done(order, second):
     found = draft(history("started", *AMBIGUOUS), "t.csv", {**HISTORY, "import.dates": order})
     assert found.columns["time_s"][2] == second
-    assert not [note for note in found.notes if note.startswith("warning")]
+    assert not [note for note in found.notes if note.severity is Severity.CAUTION]
 
 
 def test_another_order_is_refused():
@@ -158,7 +160,7 @@ def test_another_order_is_refused():
 
 def test_dates_that_are_one_day_either_way_leave_nothing_open():
     rows = ("05/05/2019 22:00,0", "05/05/2019 22:00,3600", "05/05/2019 23:30,0", "05/05/2019 23:30,60")
-    assert not taken(history("started", *rows))[1][0].startswith("warning")
+    assert taken(history("started", *rows))[1][0].code != "date_order_assumed"
 
 
 @pytest.mark.parametrize("cell", ["2026-11-23 14:03:10 +2500", "2026-11-23 14:03:10+99:00", "2026-11-23 14:03:99"])

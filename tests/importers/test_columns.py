@@ -83,7 +83,7 @@ def test_a_unit_for_a_column_that_nothing_is_taken_as_is_refused():
 def test_a_unit_that_is_told_goes_before_that_of_the_header_and_is_said():
     found = draft("speed_rpm,friction_torque_Nm\n1,2\n3,4\n", "t.csv", {**DRIVE, "import.units.speed_rpm": "rev/s"})
     assert found.columns["speed_rpm"].tolist() == [60.0, 180.0]
-    assert "'speed_rpm' is taken to be in rev/s, as told" in " ".join(found.notes)
+    assert "'speed_rpm' is taken to be in rev/s, as told" in " ".join(map(str, found.notes))
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -166,7 +166,7 @@ def test_the_choice_between_headers_of_a_column_that_is_not_needed_is_said():
     text = "temperature_C,viscosity_mPa_s,Test Time (s),Step Time (s)\n40,30,1,1\n60,12,9,1\n"
     found = draft(text, "t.csv", {"kind": "viscosity"})
     assert found.columns["time_s"].tolist() == [1.0, 9.0]
-    assert "'Test Time (s)' taken as time_s, not 'Step Time (s)'" in " ".join(found.notes)
+    assert "'Test Time (s)' taken as time_s, not 'Step Time (s)'" in " ".join(map(str, found.notes))
 
 
 def test_a_header_that_is_told_serves_one_column_only():

@@ -36,7 +36,7 @@ def file(tmp_path):
 
 
 def test_a_whole_file_is_not_warned_of(file, tmp_path):
-    assert not any("warning" in line for line in said_of(file(FILM), BALL, tmp_path / "case"))
+    assert not any("caution" in line for line in said_of(file(FILM), BALL, tmp_path / "case"))
     assert len(read_case(tmp_path / "case").recordings) == 12
 
 
@@ -44,8 +44,8 @@ def test_a_file_cut_amid_a_line_says_what_is_lost(file, tmp_path):
     cut = FILM[: FILM.index("20.2\t") + 12]
     said = said_of(file(cut), BALL, tmp_path / "case")
     number = cut.count("\n") + 1
-    assert "warning: data.txt: holds 2 of the 3 steps that its header counts; the rest is missing" in said
-    assert f"warning: data.txt: line {number} breaks off at the end of the file and is left out" in said
+    assert "caution: data.txt: holds 2 of the 3 steps that its header counts; the rest is missing" in said
+    assert f"caution: data.txt: line {number} breaks off at the end of the file and is left out" in said
     table = read_case(tmp_path / "case").recordings
     assert table["film_thickness_nm"].tolist() == [20.5, 23.5, 26.5, 29.5, 40.5, 43.5]
     assert table["oil_temperature_C"].tolist() == [40.4] * 6
@@ -53,11 +53,11 @@ def test_a_file_cut_amid_a_line_says_what_is_lost(file, tmp_path):
 
 def test_a_file_cut_between_steps_says_so(file, tmp_path):
     said = said_of(file(FILM[: FILM.index("Step 2")]), BALL, tmp_path / "case")
-    assert "warning: data.txt: holds 1 of the 3 steps that its header counts; the rest is missing" in said
+    assert "caution: data.txt: holds 1 of the 3 steps that its header counts; the rest is missing" in said
 
 
 def test_a_file_without_a_line_end_that_ends_with_a_whole_row_keeps_it(file, tmp_path):
-    assert not any("warning" in line for line in said_of(file(FILM.rstrip("\n")), BALL, tmp_path / "case"))
+    assert not any("caution" in line for line in said_of(file(FILM.rstrip("\n")), BALL, tmp_path / "case"))
     assert len(read_case(tmp_path / "case").recordings) == 12
 
 

@@ -31,7 +31,7 @@ def said_of(path, out, told=TOLD):
 @pytest.mark.parametrize("cell", ABSENT)
 def test_a_row_without_its_reading_is_left_out_and_named(file, tmp_path, cell):
     said = said_of(file(FALLING_BODY.replace("@", cell)), tmp_path / "case")
-    assert "warning: t.csv: 1 row left out, as 'viscosity (Pa s)' is missing: line 5" in said
+    assert "caution: t.csv: 1 row left out, as 'viscosity (Pa s)' is missing: line 5" in said
     table = read_case(tmp_path / "case").recordings
     assert table["viscosity_mPa_s"].tolist() == [7.8811, 22.324, 7.2074, 2.0734]
     assert table["temperature_C"].tolist() == [40.0, 40.0, 75.0, 100.0]
@@ -40,8 +40,8 @@ def test_a_row_without_its_reading_is_left_out_and_named(file, tmp_path, cell):
 def test_a_row_without_a_condition_is_left_out_too(file, tmp_path):
     text = FALLING_BODY.replace("@", "0.0032").replace("\n40,500,", "\n40,,").replace("\n100,1,", "\nn/a,1,")
     said = said_of(file(text), tmp_path / "case")
-    assert "warning: t.csv: 1 row left out, as 'T (degC)' is missing: line 7" in said
-    assert "warning: t.csv: 1 row left out, as 'pressure (bar)' is missing: line 4" in said
+    assert "caution: t.csv: 1 row left out, as 'T (degC)' is missing: line 7" in said
+    assert "caution: t.csv: 1 row left out, as 'pressure (bar)' is missing: line 4" in said
     assert len(read_case(tmp_path / "case").recordings) == 3
 
 
@@ -78,7 +78,7 @@ def test_a_table_without_a_whole_row_is_refused(file, tmp_path):
 def test_a_row_of_a_rheometer_without_its_reading_is_left_out(file, tmp_path):
     text = "[step]\nHold\nViscosity\tStep time\tTemperature\nPa.s\ts\tdegC\n1\t1\t20\n--\t2\t20\n3\t3\t20\n"
     said = said_of(file(text, "r.txt"), tmp_path / "case", {})
-    assert "warning: r.txt: 1 row left out, as a value is missing: line 6" in said
+    assert "caution: r.txt: 1 row left out, as a value is missing: line 6" in said
     assert read_case(tmp_path / "case").recordings["time_s"].tolist() == [1.0, 3.0]
 
 
@@ -89,7 +89,7 @@ def test_a_row_of_a_traction_rig_without_its_reading_is_left_out(file, tmp_path)
     rows = "".join(f"{i}\t30.1\t200\t50\t60.0\t{'' if i == 3 else f'0.0{i}'}\t\n" for i in range(1, 8))
     text = f"Step 1 started at 03/04/2021 09:20:00\nStep type\tBOD_TIMED\tStep description\trub\n{HEAD}\n{rows}\n"
     said = said_of(file(text, "m.txt"), tmp_path / "case", {})
-    assert "warning: m.txt: 1 row left out, as 'Traction Coeff (-)' is missing: line 6" in said
+    assert "caution: m.txt: 1 row left out, as 'Traction Coeff (-)' is missing: line 6" in said
     table = read_case(tmp_path / "case").recordings
     assert table["friction_coefficient"].tolist() == [0.01, 0.02, 0.04, 0.05, 0.06, 0.07]
     assert table["time_s"].tolist() == [1.0, 2.0, 4.0, 5.0, 6.0, 7.0]

@@ -28,7 +28,7 @@ def test_cycles_are_seconds_by_what_one_takes(header):
     assert (question.key, repr(header) in question.text) == (CYCLE, True)
     found = draft(history(header), "t.csv", {**HISTORY, CYCLE: 2.5})
     assert found.columns["time_s"].tolist() == [25.0, 50.0, 100.0]
-    assert f"t.csv: time_s is {header!r} times 2.5 s a cycle" in found.notes
+    assert f"t.csv: time_s is {header!r} times 2.5 s a cycle" in map(str, found.notes)
 
 
 @pytest.mark.parametrize(
@@ -40,7 +40,7 @@ def test_a_distance_is_seconds_by_the_speed(header, metres):
     assert question.key == SPEED
     found = draft(history(header), "t.csv", {**HISTORY, SPEED: 0.5})
     assert found.columns["time_s"].tolist() == pytest.approx([20 * metres, 40 * metres, 80 * metres], rel=1e-14)
-    assert f"t.csv: time_s is {header!r} over 0.5 m/s" in found.notes
+    assert f"t.csv: time_s is {header!r} over 0.5 m/s" in map(str, found.notes)
 
 
 def test_the_unit_of_a_distance_is_asked_with_those_of_lengths_first():

@@ -158,7 +158,7 @@ def test_surfaces_that_are_the_same_in_all_rows_are_told_once(tmp_path, monkeypa
     assert "or import.values.pinion_surface=... if all rows have the same" in capsys.readouterr().err
     values = [f"import.values.{side}_surface=ground" for side in ("pinion", "gear")]
     assert main([*words, "--set", values[0], "--set", values[1]]) == 0
-    assert "t.csv: the same in all rows, as told: pinion_surface, gear_surface" in capsys.readouterr().out
+    assert "t.csv: the same in all rows, as answered: pinion_surface, gear_surface" in capsys.readouterr().out
     assert (tmp_path / "rig/recordings.csv").read_text(encoding="utf-8").splitlines()[
         1
     ] == "1,50,500,40,17,ground,ground"

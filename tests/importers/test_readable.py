@@ -97,7 +97,7 @@ def test_what_diagnose_would_refuse_is_said(rig, capsys):
     rig(t_dot_csv=HEADER + "".join(ROWS.splitlines(keepends=True)[:3]))
     assert imported() == 0
     said = capsys.readouterr().out
-    assert "warning: diagnose cannot use this case as it stands: rig/recordings.csv: power_loss_W: 3: needs at" in said
+    assert "caution: diagnose cannot use this case as it is: rig/recordings.csv: power_loss_W: 3: needs at" in said
 
 
 def test_a_place_in_the_programme_outside_it_is_refused_of_a_case_that_lacks_sections_too(rig, capsys):

@@ -32,7 +32,7 @@ def test_lines_before_and_after_the_table_are_left_out_and_said():
     sheet = read_sheet(PIN, "PIN.TSV")
     assert sheet.left_out == "lines 1 to 4 and line 9"
     assert sheet.lines == (6, 7, 8)
-    assert "lines 1 to 4 and line 9 left out" in " ".join(draft(PIN, "PIN.TSV", ANSWERS).notes)
+    assert "lines 1 to 4 and line 9 left out" in " ".join(map(str, draft(PIN, "PIN.TSV", ANSWERS).notes))
 
 
 def test_numbers_have_decimal_commas_and_the_clock_is_not_the_time():

@@ -6,7 +6,7 @@ from mixedlub.case.folder import read_case
 from mixedlub.importers import import_files
 from mixedlub.importers.plain import draft
 from mixedlub.importers.wizard import run
-from mixedlub.schema.findings import FindingWarning
+from mixedlub.schema.findings import FindingWarning, Severity
 
 FALLING_BODY = """# falling-body viscometer
 T (degC),p (bar),density (kg/m3),viscosity (Pa s),remark
@@ -67,26 +67,27 @@ def test_the_wizard_asks_whether_to_take_it(path, tmp_path, reply, taken):
 )
 def test_conditions_of_a_history_are_warned_of_by_their_units(header, column):
     text = f"time_s,cof,{header}\n1,0.1,1\n2,0.2,2\n3,0.15,3\n"
-    (warned,) = (note for note in draft(text, "t.csv", HISTORY).notes if note.startswith("warning"))
-    assert f"'{header}' is not taken; if it is {column}, say" in warned
+    (warned,) = (note for note in draft(text, "t.csv", HISTORY).notes if note.severity is Severity.CAUTION)
+    assert warned.code == "column_not_taken"
+    assert f"'{header}' is not taken; if it is {column}, say" in warned.text
 
 
 @pytest.mark.parametrize("header", ["Shear stress (Pa)", "Schubspannung (Pa)"])
 def test_a_stress_is_no_pressure(header):
     text = f"temperature_C,viscosity_mPa_s,{header}\n40,30,3\n60,12,1.2\n"
-    assert not any(note.startswith("warning") for note in draft(text, "t.csv", {"kind": "viscosity"}).notes)
+    assert not any(note.severity is Severity.CAUTION for note in draft(text, "t.csv", {"kind": "viscosity"}).notes)
 
 
 @pytest.mark.parametrize("header", ["density (kg/m3)", "remark", "wear (um)", "voltage", "friction_srr_3_to_8pct"])
 def test_what_no_column_is_like_is_no_warning(header):
     text = f"time_s,cof,{header}\n1,0.1,1\n2,0.2,2\n3,0.15,3\n"
-    assert not any(note.startswith("warning") for note in draft(text, "t.csv", HISTORY).notes)
+    assert not any(note.severity is Severity.CAUTION for note in draft(text, "t.csv", HISTORY).notes)
 
 
 @pytest.mark.parametrize("header", ["OelPump Speed (%)", "Humidity (%)", "Controller (%)"])
 def test_a_percentage_of_something_else_is_no_slip(header):
     text = f"time_s,cof,{header}\n1,0.1,100\n2,0.2,90\n3,0.15,100\n"
-    assert not any(note.startswith("warning") for note in draft(text, "t.csv", HISTORY).notes)
+    assert not any(note.severity is Severity.CAUTION for note in draft(text, "t.csv", HISTORY).notes)
 
 
 @pytest.mark.parametrize(
@@ -95,14 +96,15 @@ def test_a_percentage_of_something_else_is_no_slip(header):
 )
 def test_normal_forces_are_offered_as_the_load(header):
     text = f"time_s;cof;{header};Fx (g);OelPump Speed (%)\n1;0.1;199;20;100\n2;0.2;200;21;100\n3;0.15;201;20;90\n"
-    (warned,) = (note for note in draft(text, "t.csv", HISTORY).notes if note.startswith("warning"))
-    assert f"'{header}' is not taken; if it is load_N, say" in warned
+    (warned,) = (note for note in draft(text, "t.csv", HISTORY).notes if note.severity is Severity.CAUTION)
+    assert warned.code == "column_not_taken"
+    assert f"'{header}' is not taken; if it is load_N, say" in warned.text
 
 
 @pytest.mark.parametrize("header", ["Wear (g)", "Mass (kg)", "weight loss [g]", "Mass (Kg)"])
 def test_what_is_weighed_is_not_offered_as_the_load(header):
     text = f"time_s,cof,{header}\n1,0.1,1\n2,0.2,2\n3,0.15,3\n"
-    assert not any(note.startswith("warning") for note in draft(text, "t.csv", HISTORY).notes)
+    assert not any(note.severity is Severity.CAUTION for note in draft(text, "t.csv", HISTORY).notes)
 
 
 @pytest.mark.parametrize(
@@ -112,4 +114,4 @@ def test_what_is_weighed_is_not_offered_as_the_load(header):
 def test_a_load_in_units_of_mass_is_one_of_force_and_that_is_said(header, newton, said):
     found = draft(f"time_s,cof,{header}\n1,0.1,200\n2,0.2,100\n3,0.15,1\n", "t.csv", HISTORY)
     assert found.columns["load_N"].tolist() == pytest.approx([200.0 * newton, 100.0 * newton, newton], rel=1e-14)
-    assert f"'{header}' is taken to be a load in {said}" in " ".join(found.notes)
+    assert f"'{header}' is taken to be a load in {said}" in " ".join(map(str, found.notes))

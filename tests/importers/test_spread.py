@@ -4,6 +4,7 @@ import pytest
 
 from mixedlub.importers.likely import likely_headers
 from mixedlub.importers.plain import draft
+from mixedlub.schema.findings import Severity
 
 HISTORY = {"kind": "friction_history"}
 
@@ -15,7 +16,7 @@ def offered(told, *headers):
     asked = [q for q in found.questions if q.key == "import.columns.friction_coefficient_sd"]
     assert not any(q.needed for q in asked)
     assert "friction_coefficient_sd" not in found.columns
-    warned = [note for note in found.notes if note.startswith("warning")]
+    warned = [note for note in found.notes if note.severity is Severity.CAUTION]
     return [q.example for q in asked], warned
 
 
@@ -34,7 +35,7 @@ def test_the_sd_beside_a_reading_is_proposed_with_the_setting_that_takes_it(read
     told = {"import.columns.friction_coefficient": reading, "import.units.friction_coefficient": "-"}
     examples, (note,) = offered(told, reading, spread)
     assert examples == [f'"{spread}"']
-    assert f"'{spread}' is not taken; if it is friction_coefficient_sd, say --set" in note
+    assert f"'{spread}' is not taken; if it is friction_coefficient_sd, say --set" in note.text
 
 
 @pytest.mark.parametrize("spread", ["sd_speed", "film_sd_nm", "cof sd (rpm)", "sd_repeats"])

@@ -9,6 +9,7 @@ from mixedlub.case.folder import read_case
 from mixedlub.cli import main
 from mixedlub.importers import import_files
 from mixedlub.importers.wizard import read, run
+from mixedlub.schema.findings import Severity, codes
 from profiles.errors import InputError
 
 from .test_importers import EHD
@@ -157,8 +158,9 @@ def test_the_sd_beside_a_traction_is_offered_with_the_setting_that_takes_it(file
     found = read([file(with_spread(STRIBECK, header, 0.2))], {})
     assert [(q.example, q.needed) for q in found.questions if q.key == SD] == [(f'"{header}"', False)]
     assert "friction_coefficient_sd" not in found.columns
-    (note,) = [note for note in found.notes if "friction_coefficient_sd" in note]
-    assert note.startswith(f"warning: mtm.txt: {header!r} is not taken; if it is friction_coefficient_sd, say --set ")
+    (note,) = [note for note in found.notes if note.code == "column_not_taken"]
+    assert note.place == "mtm.txt"
+    assert f"{header!r} is not taken; if it is friction_coefficient_sd, say --set " in note.text
 
 
 def test_the_sd_of_a_film_is_offered(file):
@@ -174,13 +176,13 @@ def test_the_sd_of_a_film_is_offered(file):
 def test_the_sd_of_something_else_or_of_single_readings_is_not(file, header, value):
     found = read([file(with_spread(STRIBECK, header, value))], {})
     assert SD not in {q.key for q in found.questions}
-    assert not any("friction_coefficient_sd" in note for note in found.notes)
+    assert "column_not_taken" not in codes(found.notes)
 
 
 def test_an_sd_that_is_told_is_taken_in_its_unit(file):
     text = with_spread(STRIBECK, "Traction Coeff SD (%)", 0.2)
     found = read([file(text)], {SD: "Traction Coeff SD (%)"})
     assert found.columns["friction_coefficient_sd"].tolist() == [0.002] * 24
-    assert not any(note.startswith("warning") for note in found.notes)
+    assert not any(note.severity is Severity.CAUTION for note in found.notes)
     with pytest.raises(InputError, match=r"friction_coefficient_sd: 'SD': no such header; known: "):
         read([file(text)], {SD: "SD"})

@@ -107,7 +107,7 @@ def test_one_over_a_second_is_asked_about(unit, words):
     told = {**DRIVE, "import.columns.speed_rpm": header, "import.units.speed_rpm": "rad/s"}
     found = draft(drive(header), "t.csv", told)
     assert found.columns["speed_rpm"].tolist() == pytest.approx([30.0 / np.pi, 60.0 / np.pi])
-    assert "taken to be in rad/s, as told" in " ".join(found.notes)
+    assert "taken to be in rad/s, as told" in " ".join(map(str, found.notes))
 
 
 def test_one_over_a_second_that_is_told_is_refused_with_what_it_may_mean():

@@ -8,7 +8,7 @@ import pytest
 
 import profiles
 from mixedlub.cli import main
-from mixedlub.schema.findings import FindingWarning
+from mixedlub.schema.findings import collected
 from tests.profiles.test_manifest import FILES, SDF, X3P
 from tests.profiles.test_shipped import TABLE_1
 
@@ -162,8 +162,9 @@ def test_what_is_cut_off_a_trace_is_told_by_command_and_study(tmp_path, evaluate
     whole = evaluated(tmp_path / "fallen.csv", "--cutoff-mm", "0.8", "--no-edges")
     assert whole["parameters"]["Rt_um"] > 2 * cut["parameters"]["Rt_um"]
     named = {"profile": "fallen.csv", "cutoff_mm": 0.8, "short_cutoff_um": 2.5}
-    with pytest.warns(FindingWarning, match=r"surfaces\.worn: edges cut: 0 mm at the start, 0\.4"):
+    with collected() as found:
         made = surface("worn", SurfaceSection(**named), tmp_path)
+    assert [(note.code, note.place) for note in found] == [("trace_quality", "surfaces.worn")]
     assert made.m0 * 1e12 == pytest.approx(cut["moments"]["m0_um2"], rel=1e-9)
     made = surface("worn", SurfaceSection(**named, edges=False), tmp_path)
     assert made.m0 * 1e12 == pytest.approx(whole["moments"]["m0_um2"], rel=1e-9)
@@ -255,10 +256,9 @@ def test_a_study_tells_of_inferred_units_and_an_overruled_step_is_told_by_the_co
     trace = profiles.shipped("0258")
     rows = "".join(f"{x * 1e3:.6f},{z * 1e6:.4f}\n" for x, z in zip(trace.positions, trace.heights))
     (tmp_path / "bare.csv").write_text(rows)
-    with pytest.warns(
-        FindingWarning, match=r"surfaces\.bare: the file names no units; inferred from the numbers: posit"
-    ):
+    with collected() as found:
         surface("bare", SurfaceSection(profile="bare.csv", cutoff_mm=0.8, short_cutoff_um=2.5), tmp_path)
+    assert ("trace_quality", "surfaces.bare") in [(note.code, note.place) for note in found]
     out = str(tmp_path / "o")
     assert main(["profile", str(tmp_path / "bare.csv"), "--spacing", "0.3 um", "--no-figures", "--out", out]) == 0
     (tmp_path / "named.csv").write_text("x_mm,z_um\n" + rows)

@@ -92,12 +92,12 @@ def test_pinion_list_against_gear_list(write_study):
 
 def test_idle_surface_is_noted(write_study):
     study = read_study(write_study(pairings={"every": ["fine"]}))
-    assert any("mid, coarse" in note for note in study.notes)
+    assert any(note.code == "surfaces_unused" and "mid, coarse" in note.text for note in study.notes)
 
 
 def test_numbers_far_from_any_rig_are_noted(write_study):
     study = read_study(write_study(surfaces__fine__m0_um2=2000.0))
-    assert any("surfaces.fine.m0_um2 is 2000, where rigs have" in note for note in study.notes)
+    assert [note.place for note in study.notes if note.code == "value_unusual"] == ["surfaces.fine.m0_um2"]
     assert read_study(write_study(name="sound")).notes == ()
 
 

@@ -6,7 +6,7 @@ from mixedlub.data_checks.audit import SCARCE
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import STAGE_WORDS, effect_words, explanation_words
 from mixedlub.diagnosis.problem import effects_of
-from mixedlub.schema.findings import Severity, grouped, of_severity
+from mixedlub.schema.findings import Severity, codes, grouped, of_severity
 
 NO_ANSWER = (
     "No answer: every reading counts as wrong, whatever is taken to explain it. Look first at the units and scales of "
@@ -70,7 +70,7 @@ def headline(d: Diagnosis) -> str:
     """The verdict in one sentence; where readings are few or all wrong, after one that says so."""
     count = d.readings.size
     said = _verdict(d)
-    if d.posterior.verdict == "unknown" and any(one.code == "repeats_contradictory" for one in d.warnings):
+    if d.posterior.verdict == "unknown" and "repeats_contradictory" in codes(d.warnings):
         said = f"Readings at equal conditions contradict each other: check instrument and set-up first. {said}"
     if count < SCARCE:
         said = f"Only {count} readings: take this as a hint, not as a finding. {said}"

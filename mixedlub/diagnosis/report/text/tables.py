@@ -193,7 +193,7 @@ def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
         value, low, high = interval(c.parameter.prior, z[i], spread[i])
         name = with_names(c.name.replace("_", " "), first=False)
         meaning = c.parameter.meaning
-        if not meaning.startswith("factor on "):
+        if not c.factor:
             meaning = f"value{'' if c.parameter.unit == '-' else f' in {c.parameter.unit}'}: {meaning}"
         table.append(
             (

@@ -1,0 +1,22 @@
+"""`import.toml` in a case folder: what `mixedlub import` warned of, so that later commands repeat it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from mixedlub.schema.findings import Finding
+from mixedlub.schema.system_file import Section, parse, read_toml
+
+NAME = "import.toml"
+
+
+class ImportFile(Section):
+    """The file: one table ``[[finding]]`` a warning."""
+
+    finding: tuple[Finding, ...] = ()
+
+
+def read_import_file(folder: Path) -> tuple[Finding, ...]:
+    """What the import of a case warned of; nothing where the case was not imported."""
+    file = folder / NAME
+    return parse(ImportFile, read_toml(file), str(file)).finding if file.exists() else ()
