@@ -248,7 +248,7 @@ def test_an_optional_column_in_another_unit_is_said_to_be_one(tmp_path, capsys):
     )
     status, said = refused(capsys, "check", str(case))
     assert status == 0
-    assert f"not known: pressure_GPa; {CONVERTED} (pressure_GPa)" in said
+    assert f"recordings.csv, pressure_GPa: column ignored: {CONVERTED}" in said
 
 
 def test_simulate_writes_no_number_that_is_not_finite(tmp_path, capsys):
@@ -279,7 +279,7 @@ def test_a_run_that_stands_in_both_tables_keeps_its_reading(tmp_path, capsys):
     capsys.readouterr()
     status, said = refused(capsys, "simulate", str(case), "--out", str(tmp_path / "both"))
     assert status == 0
-    told = "conditions.csv: not predicted, as readings at other conditions have the run: 3"
+    told = "conditions.csv: not predicted, as readings at other conditions have the same run numbers: 3"
     assert told in said
     alone, both = ((tmp_path / d / "simulation.csv").read_text().splitlines() for d in ("alone", "both"))
     assert both[:-1] == alone

@@ -107,7 +107,8 @@ STAMPS = (
 def test_dates_are_read_as_instruments_write_them(one, other):
     times, (note,) = taken(history("started", f"{one},1", f"{one},2", f"{other},1", f"{other},2"))
     assert times == [1.0, 2.0, 121.0, 122.0]
-    assert note == "t.csv: time_s starts anew in line 4, and runs on from the starts in 'started'"
+    assert note.code == "file_read"
+    assert note.text.endswith("in line 4, and runs on from the starts in 'started'")
 
 
 def test_no_day_or_hour_is_made_up():
@@ -121,7 +122,7 @@ def test_a_step_shorter_than_the_stamps_tell_keeps_the_dates():
     rows += [f"23/03/2018 11:12,{t}" for t in (0, 10)]
     times, (note,) = taken(history("started", *rows))
     assert times == [0.0, 10.0, 10.0, 15.0, 3600.0, 3610.0]
-    assert note.endswith("and runs on from the starts in 'started'")
+    assert note.text.endswith("and runs on from the starts in 'started'")
 
 
 def test_a_step_so_short_that_the_clock_does_not_fall_after_it_keeps_the_dates():
