@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from mixedlub.schema.section import FileTable, Section
 
 NAME = "new"
-EXAMPLE = "mixedlub new study --out my_study"
+EXAMPLE = "mixedlub new study --out out/my_study"
 
 STUDY, CASE = "study", "case"
 KIND = "gear_pair"
