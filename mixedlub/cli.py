@@ -13,13 +13,13 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import typer
 
-from mixedlub.commands import check, diagnose, effects, import_files, kinds, profile, prove, simulate, study
+from mixedlub.commands import check, diagnose, effects, import_files, kinds, new, profile, prove, simulate, study
 from mixedlub.commands.console import drop_empty_folders, forget_folder, note, save_traceback, say, tell, what_is_kept
 from mixedlub.schema.findings import FindingWarning
 from mixedlub.schema.messages import of_option
 from profiles.errors import InputError, nearest
 
-COMMANDS = (profile, study, simulate, diagnose, check, import_files, kinds, effects, prove)
+COMMANDS = (profile, study, simulate, diagnose, check, import_files, new, kinds, effects, prove)
 
 GOING_ON = (study.NAME, prove.NAME)
 """Commands that keep what they did when they are stopped."""

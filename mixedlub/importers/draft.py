@@ -87,7 +87,8 @@ class Draft:
 
 def _question(section: str, key: str, needed: bool) -> Question:
     described = table(System, section)[key]
-    words = described.words
+    values = ", ".join(f"{value}: {meaning}" for value, meaning in described.values.items())
+    words = f"{described.words} ({values})" if values else described.words
     return Question(f"{section}.{key}", words[:1].upper() + words[1:], toml_value(described.example), needed)
 
 

@@ -15,7 +15,7 @@ from mixedlub.kinds.calibration import calibrations
 from mixedlub.schema import system_file
 from mixedlub.schema.section import Key, Section, needed, table
 from mixedlub.schema.table import Table
-from mixedlub.schema.toml_file import toml_key, toml_value
+from mixedlub.schema.toml_file import default_of, toml_key, toml_value
 
 
 @dataclass(frozen=True)
@@ -36,6 +36,7 @@ class Gap:
         for key in (*self.needed, *self.assumed):
             described, left_out = self.keys[key], self.assumed.get(key)
             said = f"needed: {described.words}" if key in self.needed else described.words
+            said += f": {' or '.join(map(toml_value, described.values))}" if described.values else ""
             said += f"; {left_out} where left out" if left_out else ""
             yield f"# {key} = {toml_value(described.example)}  # {said}"
 
@@ -61,7 +62,7 @@ def gaps(system: system_file.System, columns: Mapping[str, np.ndarray]) -> tuple
     head = _keys("")
     open_ones = [k for k, key in head.items() if not key.required and k not in system.model_fields_set]
     broad = broadly_fitted(system, columns)
-    usual = {k: BROAD if k in broad else _default(head[k]) for k in open_ones if k in ("description", *reads)}
+    usual = {k: BROAD if k in broad else default_of(head[k]) for k in open_ones if k in ("description", *reads)}
     found = [Gap("", False, False, (), usual, head)]
     wanted = [s for s in ("gears", "contact", "lubricant") if s in rules.sections]
     if "viscosity" in reads and "lubricant" not in wanted:
@@ -112,14 +113,8 @@ def _gap(section: str, name: str, given: Section | None, required: bool, known: 
     keys = _keys(section)
     said = known if given is None else known | given.model_fields_set
     lacking = needed(table(system_file.System, section).model) if given is None else ()
-    assumed = {k: _default(key) for k, key in keys.items() if k not in said and k not in lacking}
+    assumed = {k: default_of(key) for k, key in keys.items() if k not in said and k not in lacking}
     return Gap(name, given is None, required and given is None, lacking, assumed, keys)
-
-
-def _default(key: Key) -> str:
-    """The value taken where a key is left out, as TOML; empty where the meaning says it."""
-    value = key.field.default
-    return "" if value is None or value == "" or isinstance(value, Section) else toml_value(value)
 
 
 def told(found: tuple[Gap, ...], file: str, system: system_file.System) -> Iterator[str]:

@@ -96,7 +96,7 @@ class Key:
         """A value that fits those of the other keys of its table; None where it has none of its own."""
         if self.field.examples:
             return self.field.examples[0]
-        return None if self.required or isinstance(self.field.default, BaseModel) else self.field.default
+        return None if self.required or isinstance(self.field.default, (BaseModel, dict)) else self.field.default
 
     @property
     def unit(self) -> str:
@@ -105,10 +105,10 @@ class Key:
 
     @property
     def words(self) -> str:
-        """Its meaning with its unit, or with its values."""
-        more = unit_of(self.name) or ", ".join(f"{value}: {meaning}" for value, meaning in self.values.items())
+        """Its meaning with its unit."""
+        unit = unit_of(self.name)
         what, mark, rest = self.meaning.partition(";")
-        return f"{what} ({more}){mark}{rest}" if more else self.meaning
+        return f"{what} ({unit}){mark}{rest}" if unit else self.meaning
 
     @property
     def values(self) -> Mapping[str, str]:

@@ -193,7 +193,7 @@ class RigFile(Section):
     description: str = key("free text", "", example="rig, oil, campaign")
     gears: Gears | None = key("two entries: pinion, gear", None)
     lubricant: Lubricant | None = key("what is left out is typical of the base stock, and a warning says so", None)
-    surfaces: dict[str, SurfaceSection] = key("one table a surface; NAME as in the other tables", {})
+    surfaces: dict[str, SurfaceSection] = key("one table a surface, by the name that other tables use", {})
 
 
 class System(RigFile):
@@ -215,10 +215,10 @@ def in_file(error: InputError, file: str) -> InputError:
     >>> print(in_file(InputError("teeth interfere", where="teeth", value=[5, 60]), "system.toml"))
     system.toml: gears.teeth: [5, 60]: teeth interfere
     """
-    key = re.split(r"[.,\[]", error.where)[0]
+    name = re.split(r"[.,\[]", error.where)[0]
     for table in tables(System):
-        own = table.name in ("gears", "gears.load_sharing") and key == error.where
-        if key in table.model.model_fields and (not table.name or own):
+        own = table.name in ("gears", "gears.load_sharing") and name == error.where
+        if name in table.model.model_fields and (not table.name or own):
             place = f"{table.name}.{error.where}".lstrip(".")
             return InputError(error.rule, where=f"{file}: {place}", value=error.value)
     return error

@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 from pydantic import ValidationError
 
 from mixedlub.schema import messages
-from mixedlub.schema.section import Section, section_in
+from mixedlub.schema.section import Key, Section, section_in
 from profiles.errors import InputError, nearest
 
 T = TypeVar("T", bound=Section)
@@ -90,3 +90,10 @@ def toml_value(value: Any) -> str:
         return "{ " + ", ".join(f"{toml_key(k)} = {toml_value(v)}" for k, v in value.items()) + " }" if value else "{}"
     number = float(value)
     return str(int(value)) if isinstance(value, int) else repr(number)
+
+
+def default_of(key: Key) -> str:
+    """The value taken where a key is left out, as TOML; empty where there is none that says anything."""
+    value = key.field.default
+    silent = key.required or value in (None, "", {}) or isinstance(value, Section)
+    return "" if silent else toml_value(value)

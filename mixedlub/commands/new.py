@@ -1,0 +1,173 @@
+"""`mixedlub new`: a study file or a case folder to start from, which runs as it is."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Collection, Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from mixedlub.atomic import writing
+from mixedlub.commands.console import output_folder, say
+from profiles.errors import InputError, nearest
+
+if TYPE_CHECKING:
+    from mixedlub.schema.section import FileTable, Section
+
+NAME = "new"
+EXAMPLE = "mixedlub new study --out out/my_study"
+
+STUDY, CASE = "study", "case"
+KIND = "gear_pair"
+"""Kind of case that is made where none is asked for."""
+ROWS = 40
+"""Readings of a template: enough for `mixedlub diagnose`, few enough to look at."""
+NOISE = 0.01
+"""Standard deviation of the made-up readings over their size, as the rigs of the catalogue have it."""
+SURFACES = ("ground", "superfinished")
+"""Those of the reference rig that a template describes."""
+
+Given = Mapping[str, Any]
+"""Values by key; tables within tables."""
+
+
+def command(
+    what: Annotated[str, typer.Argument(metavar="study|case", help="What to start.")],
+    kind: Annotated[
+        str | None, typer.Option(metavar="KIND", help=f"Kind of case; default {KIND}. `mixedlub kinds` lists them.")
+    ] = None,
+    out: Annotated[Path | None, typer.Option(metavar="DIR", help="Folder to make; default out/new/WHAT.")] = None,
+) -> None:
+    """A study or a case to start from.
+
+    A template with the values of an example rig: what may be left out stands as a comment with its meaning. It runs as
+    it is; the readings of a case are made up by the base model.
+    """
+    if what not in (STUDY, CASE):
+        raise InputError(f"no such template; {nearest(what, (STUDY, CASE))}", where="what", value=what)
+    if what == STUDY and kind is not None:
+        raise InputError("a study has no kind; it is of a gear pair", where="--kind", value=kind)
+    files = {"study.toml": study_text()} if what == STUDY else case_files(kind or KIND)
+    for name in files:
+        if out is not None and (out / name).exists():
+            raise InputError("exists, and a template would replace it; name another --out", where=str(out / name))
+    folder = output_folder(out, NAME, what)
+    with writing(folder) as aside:
+        for name, text in files.items():
+            (aside / name).write_text(text, encoding="utf-8")
+    place, commands = (folder / "study.toml", ("study",)) if what == STUDY else (folder, ("check", "diagnose"))
+    say(f"{' and '.join(files)} in {folder}, with the numbers of an example: put your own in their place, then")
+    for name in commands:
+        say(f"  mixedlub {name} {place}")
+
+
+def study_text() -> str:
+    """A study of two surfaces, one by its moments and one by a shipped trace."""
+    from mixedlub.schema.section import examples
+    from mixedlub.study.schema import Conditions, StudyFile
+
+    rig = _reference("gear_pair")
+    first, second = SURFACES
+    given = {
+        "schema": "mixedlub-study/1",
+        "title": "Power loss of two surfaces",
+        **{section: rig[section] for section in ("gears", "lubricant")},
+        "surfaces": {
+            first: rig["surfaces"][first],
+            second: {"profile": "shipped:0036", "cutoff_mm": 0.8, "short_cutoff_um": 2.5},
+        },
+        "pairings": {"every": list(SURFACES)},
+        "conditions": examples(Conditions),
+    }
+    return "\n".join(_lines(StudyFile, given, tuple(StudyFile.model_fields))) + "\n"
+
+
+def case_files(kind: str) -> dict[str, str]:
+    """System and recording of a case: the reference rig of a kind, with readings of the base model."""
+    from mixedlub.kinds import kind as kind_of
+    from mixedlub.schema.system_file import KINDS, System
+
+    if kind not in KINDS:
+        raise InputError(f"no such kind; {nearest(kind, KINDS)}", where="--kind", value=kind)
+    found = kind_of(kind)
+    tables = ("uncertainty", "recording", *found.sections, *found.uses)
+    return {
+        "system.toml": "\n".join(_lines(System, _reference(kind), tables)) + "\n",
+        "recordings.csv": _recordings(kind),
+    }
+
+
+def _reference(kind: str) -> dict[str, Any]:
+    """What is said of the reference rig of a kind, two of its surfaces where it has any."""
+    from mixedlub.case import reference_rigs
+
+    given = reference_rigs.case(kind).system.model_dump(by_alias=True, exclude_unset=True)
+    return given | {"surfaces": {name: given["surfaces"][name] for name in SURFACES if name in given["surfaces"]}}
+
+
+def _recordings(kind: str) -> str:
+    """Readings of the base model, with noise, at some conditions of the reference rig; a history at one alone."""
+    import numpy as np
+
+    from mixedlub.case import reference_rigs
+    from mixedlub.case.forward import Forward
+
+    case, random = reference_rigs.case(kind), np.random.default_rng(0)
+    levels = {name: values for name, (_, values) in reference_rigs.CONDITIONS[kind].items()}
+    levels |= {"surfaces": SURFACES} if "surfaces" in levels else {}
+    if "sequence" in levels:
+        levels = {name: values if name == "sequence" else values[:1] for name, values in levels.items()}
+    table = reference_rigs.table(kind, **levels)
+    table = table.take(np.sort(random.permutation(len(table))[:ROWS]))
+    reading = Forward(case, table).predict() * (1.0 + NOISE * random.standard_normal(len(table)))
+    names = [c.name for c in (*case.kind.columns, *case.kind.channels) if c.name in table]
+    columns = {"run": np.arange(1, len(table) + 1), **{name: table[name] for name in names}, case.quantity: reading}
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns)
+    rows = zip(*columns.values(), strict=True)
+    writer.writerows([f"{v:.6g}" if isinstance(v, float) else v for v in row] for row in rows)
+    return text.getvalue()
+
+
+def _lines(file: type[Section], given: Given, wanted: Collection[str]) -> Iterator[str]:
+    """The tables of a file: keys with the values that are given, the others as comments with an example."""
+    from mixedlub.schema.section import tables
+    from mixedlub.schema.toml_file import toml_key
+
+    for table in tables(file):
+        if not table.title:
+            yield from _keys(table, given)
+        elif table.name in wanted:
+            here = given.get(table.name)
+            yield ""
+            if table.title != table.name:
+                for number, (name, values) in enumerate((here or {}).items()):
+                    yield from ([""] if number else [])
+                    yield from _table(f"{table.name}.{toml_key(name)}", table, values, optional=number == 0)
+            else:
+                yield from _table(table.name, table, here)
+
+
+def _table(title: str, table: FileTable, given: Given | None, *, optional: bool = True) -> Iterator[str]:
+    yield f"{'# ' if given is None else ''}[{title}]" + (f"  # {table.meaning}" if optional else "")
+    yield from _keys(table, given or {}, optional=optional)
+
+
+def _keys(table: FileTable, given: Given, *, optional: bool = True) -> Iterator[str]:
+    """The keys of a table, those that are given first; tables within it in one line."""
+    from mixedlub.schema.section import section_in
+    from mixedlub.schema.toml_file import default_of, toml_value
+
+    keys = [key for key in table.fields if section_in(key.type) is None or isinstance(key.example, Mapping)]
+    for key in sorted(keys, key=lambda key: key.name not in given):
+        left_out = f"; {default_of(key)} where left out" if default_of(key) else ""
+        if key.name in given:
+            yield f"{key.name} = {toml_value(given[key.name])}  # {key.words}"
+        elif optional:
+            yield f"# {key.name} = {toml_value(key.example)}  # {key.words}{left_out}"
+        if optional:
+            yield from (f"#   {toml_value(value)}: {meaning}" for value, meaning in key.values.items())
