@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from mixedlub.schema.findings import Finding
-from mixedlub.schema.system_file import Section, parse, read_toml
+from mixedlub.schema.section import Section
+from mixedlub.schema.toml_file import parse, read_toml
 
 NAME = "import.toml"
 
