@@ -72,12 +72,12 @@ def test_readings_that_contradict_each_other_are_found(offset: Diagnosis) -> Non
 
 def test_probability_of_the_answer_and_of_its_effects_stand_side_by_side(offset: Diagnosis) -> None:
     several: dict[Key, float] = {("sensor_offset",): 0.87, ("inlet_shear_heating", "sensor_offset"): 0.128}
-    clause = "just as it stands; in any company sensor offset has above 0.99."
-    assert f"The probability is that of the answer {clause}" in told(judged(offset, several, 1))[words.ANSWER]
-    assert "in any company" not in told(judged(offset, {("sensor_offset",): 0.97}, 1))[words.ANSWER]
+    clause = "Sensor offset: probability 0.87 alone, above 0.99 alone or with a second effect."
+    assert clause in told(judged(offset, several, 1))[words.ANSWER]
+    assert "alone" not in told(judged(offset, {("sensor_offset",): 0.97}, 1))[words.ANSWER]
     pair: dict[Key, float] = {("sensor_offset",): 0.5, ("churning",): 0.2, ("churning", "sensor_offset"): 0.1}
     said = told(judged(offset, pair, 2))[words.ANSWER]
-    assert "Each probability is that of an answer just as it stands; in any company sensor offset has 0.60." in said
+    assert "Sensor offset: probability 0.50 alone, 0.60 alone or with a second effect." in said
 
 
 def test_what_the_nearest_leaves_is_never_called_noise_alone(unnamed: Diagnosis) -> None:

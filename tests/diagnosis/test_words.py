@@ -89,10 +89,7 @@ def test_left_out_gives_equation_source_strength_and_interval(offset: Diagnosis)
 def test_tie_is_said_with_the_test_that_separates(offset: Diagnosis) -> None:
     pair: dict[Key, float] = {("sensor_offset",): 0.5, ("inlet_shear_heating",): 0.4}
     said = told(judged(offset, pair, 2))
-    assert (
-        "A tie: the readings cannot decide between sensor offset (0.50); and inlet shear heating (0.40)."
-        in said[words.ANSWER]
-    )
+    assert "A tie. Most probable: sensor offset (0.50). Not excluded: inlet shear heating (0.40)." in said[words.ANSWER]
     assert "To separate them: sensor offset: " in said[words.ALIKE]
 
 
@@ -125,7 +122,7 @@ def test_each_effect_of_a_pair_has_its_company_named(offset: Diagnosis) -> None:
     key: Key = next(k for k in offset.refined if len(k) == 2 and "sensor_offset" in k)
     other = next(n for n in key if n != "sensor_offset")
     said = told(judged(offset, {key: 0.6, **several}, 1))[words.LEFT_OUT]
-    assert f"Sensor offset, probability 0.60 together with {effect_words(other)}, 0.90 in any company" in said
+    assert f"Sensor offset, probability 0.60 together with {effect_words(other)}, 0.90 overall" in said
 
 
 def test_doubts_about_the_data_stand_above_the_headline(offset: Diagnosis) -> None:
@@ -178,16 +175,16 @@ def vague(d: Diagnosis, spread: float) -> Diagnosis:
 def test_parameters_that_readings_do_not_tell_are_marked(offset: Diagnosis, spread: float, marked: bool) -> None:
     left_out = section(vague(judged(offset, {("sensor_offset",): 0.97}, 1), spread), words.LEFT_OUT)
     assert len(left_out.table) == 2
-    assert all(row[-1].startswith("[as wide as before the readings] ") == marked for row in left_out.table[1:])
-    assert any("as wide as before the readings" in s for s in left_out.sentences) == marked
+    assert all(row[-1].startswith(f"[{tables.UNDETERMINED}] ") == marked for row in left_out.table[1:])
+    assert any(tables.UNDETERMINED in s for s in left_out.sentences) == marked
 
 
 def test_of_several_vague_parameters_only_their_combined_effect_is_known() -> None:
     heating, offset = catalogue()["boundary_film_temperature"], catalogue()["sensor_offset"]
     assert tables._untold(heating, []) == []
     assert tables._untold(heating, ["drop", "width"]) == [
-        "Boundary film temperature: the 90 % intervals of drop and width are as wide as before the readings. Only the "
-        "combined effect of the parameters is known."
+        "Boundary film temperature: drop and width are not determined by these readings. Only the combined effect of "
+        "the parameters is known."
     ]
     assert "combined" not in tables._untold(offset, ["offset"])[0]
 
@@ -236,7 +233,7 @@ def test_calibration_says_what_is_a_factor_and_what_a_value(complete: Diagnosis)
 
 
 def test_bits_and_nats_are_explained(offset: Diagnosis, unnamed: Diagnosis) -> None:
-    assert "1 bit would settle" in advised(offset, 0.5, speed_rpm=1000.0)
+    assert "1 bit decides" in advised(offset, 0.5, speed_rpm=1000.0)
     assert "A nat is a factor 2.7 in the odds" in told(unnamed)[words.UNNAMED]
 
 
@@ -244,15 +241,15 @@ def test_long_ties_are_cut_short(offset: Diagnosis) -> None:
     names = ("sensor_offset", "sensor_gain", "churning", "inlet_shear_heating")
     every: dict[Key, float] = {("unknown"): 0.3, (): 0.2, **{(n,): 0.1 for n in names}}
     said = words.headline(judged(offset, every, 6))
-    assert said.endswith("; and 1 less probable one.")
+    assert said.endswith("; 1 less probable one.")
     assert "inlet shear heating" not in said
 
 
 def test_what_tied_explanations_share_is_said(offset: Diagnosis) -> None:
     pair: dict[Key, float] = {("sensor_offset",): 0.6, ("inlet_shear_heating", "sensor_offset"): 0.39}
     said = told(judged(offset, pair, 2))[words.ANSWER]
-    assert "Sensor offset (0.99) is in every explanation left." in said
-    assert "whether it comes alone (0.60); or with inlet shear heating (0.39)." in said
+    assert "In every explanation left: sensor offset (0.99)." in said
+    assert "A tie in what acts as well: nothing else (0.60); inlet shear heating (0.39)." in said
 
 
 def test_unknown_is_said_with_place_and_stage(unnamed: Diagnosis) -> None:

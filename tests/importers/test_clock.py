@@ -113,7 +113,7 @@ def test_dates_are_read_as_instruments_write_them(one, other):
 
 def test_no_day_or_hour_is_made_up():
     for one, other in (("31/02/2026 10:00", "31/02/2026 10:02"), ("2026-01-31 13:00 AM", "2026-01-31 13:02 AM")):
-        assert "without the pauses" in taken(history("started", f"{one},0", f"{one},9", f"{other},0"))[1][0]
+        assert "without the pauses" in taken(history("started", f"{one},0", f"{one},9", f"{other},0"))[1][0].text
 
 
 def test_a_step_shorter_than_the_stamps_tell_keeps_the_dates():

@@ -121,7 +121,7 @@ def test_growing_friction_follows_the_coverage_that_was_not_fitted(typed):
     assert check is not None
     assert check.correlation > 0.95
     assert as_json(d)["check"] == {"column": "track_coverage_percent", "correlation": check.correlation, "n": 24}
-    assert "kept back from every fit" in said(d)
+    assert "not used in any fit" in said(d)
 
 
 def error_per_cent(d, prediction):
@@ -162,7 +162,7 @@ def test_oleic_acid_in_oils_is_resolved(typed):
     d = typed("friction_modifier_oils")
     assert d.test.detected
     assert all("friction_modifier_film" in ids for ids in named(d))
-    assert "jump between like readings" in said(d)
+    assert "vary irregularly" in said(d)
 
 
 def test_films_that_step_with_the_order_are_the_instrument(filed):

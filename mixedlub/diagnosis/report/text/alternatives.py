@@ -49,8 +49,8 @@ def _resemblance(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
         if others:
             listed = ", ".join(f"{effect_words(other)} ({cosine:.2f})" for other, cosine in list(others.items())[:3])
             said.append(
-                f"Its signature at these conditions is nearest to that of {listed} "
-                f"(1 would be the same; {effect_words(name)})."
+                f"At these conditions {effect_words(name)} looks most like {listed} (similarity of the signatures, 1 = "
+                "identical)."
             )
     # What is told as the nearest to a mismatch without a name shows here and is not simply rejected.
     near = nearest(d)
@@ -69,13 +69,11 @@ def _resemblance(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
         said.append(f"{why} (probability below {REJECTED:g} each{under}): {rejected}.")
     close = ", ".join(effect_words(name) for name in improbable if name in twins)
     if close:
-        said.append(
-            f"Improbable, but by size and strain rather than by form, for the signature is nearly the same: {close}."
-        )
+        said.append(f"Nearly the same signature, but they would need an implausible strength or calibration: {close}.")
     if unseen:
         said.append(
-            f"Not testable here (below {VISIBLE:g} sigma at usual strength once calibration adapts), so neither "
-            f"named nor excluded: {', '.join(_with_chance(name, every) for name in unseen)}."
+            f"This test cannot show them (below {VISIBLE:g} sigma at usual strength after recalibration), so they are "
+            f"neither named nor excluded: {', '.join(_with_chance(name, every) for name in unseen)}."
         )
     return tuple(said)
 

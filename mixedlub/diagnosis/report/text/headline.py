@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from mixedlub.data_checks.audit import SCARCE
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.labels import STAGE_WORDS, effect_words, explanation_words
+from mixedlub.diagnosis.labels import STAGE_WORDS, effect_words, explanation_words, with_names
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.schema.findings import Severity, codes, grouped, of_severity
 
@@ -89,9 +89,10 @@ def _verdict(d: Diagnosis) -> str:
             others = _listed([*named[1:], *rest], "or")
             return (
                 f"No mismatch beyond noise: nothing needs to be missing ({chance(judged.weights[()])}). A tie all the "
-                f"same, for beside noise and calibration these readings cannot exclude {others}."
+                f"same: these readings do not exclude {others}."
             )
-        return f"A tie: the readings cannot decide between {_listed([*named, *rest], 'and')}."
+        first, *others = named
+        return f"A tie. Most probable: {first}. Not excluded: {'; '.join([*others, *rest])}."
     p = chance(judged.weights[judged.verdict])
     if judged.verdict == ():
         return f"Nothing is missing that these readings could show: the calibrated model explains them ({p})."
@@ -127,19 +128,15 @@ def _common(d: Diagnosis) -> list[str]:
 
 
 def _beside(d: Diagnosis, common: list[str]) -> str:
-    """A tie all of whose explanations share something, and the readings leave open what comes beside it."""
+    """A tie all of whose explanations share something, and the readings leave open what acts as well."""
     judged, inclusion = d.posterior, d.posterior.inclusion(d.found)
     shared = " and ".join(f"{effect_words(name)} ({chance(inclusion[name])})" for name in common)
     each = []
     for key in judged.tied[:MOST_TIED]:
         beside = [name for name in judged.names(key) if name not in common]
         p = chance(judged.weights[key])
-        each.append(f"with {explanation_words(beside)} ({p})" if beside else f"alone ({p})")
-    one = len(common) == 1
-    return (
-        f"{shared[:1].upper()}{shared[1:]} {'is' if one else 'are'} in every explanation left. A tie: the readings "
-        f"cannot decide whether {'it comes' if one else 'they come'} {_listed([*each, *_rest(d)], 'or')}."
-    )
+        each.append(f"{explanation_words(beside) if beside else 'nothing else'} ({p})")
+    return f"In every explanation left: {shared}. A tie in what acts as well: {'; '.join([*each, *_rest(d)])}."
 
 
 def _listed(items: list[str], last: str) -> str:
@@ -158,12 +155,14 @@ def standing(d: Diagnosis) -> list[str]:
     stages = {name: p for name, p in judged.stages().items() if p >= 0.05}
     if judged.verdict != () and stages:
         ranked = sorted(stages.items(), key=lambda item: -item[1])
-        said.append("Where in the chain: " + ", ".join(f"{STAGE_WORDS[s]} {chance(p)}" for s, p in ranked) + ".")
+        said.append(
+            "Step of the model at fault: " + ", ".join(f"{STAGE_WORDS[s]} ({chance(p)})" for s, p in ranked) + "."
+        )
     return said
 
 
 def _each(d: Diagnosis, told: set[str]) -> list[str]:
-    """How probable the effects of the answer are in any company, where that differs from the answer as a whole."""
+    """How probable the effects of the answer are in all explanations, where that differs from the answer as a whole."""
     judged = d.posterior
     if isinstance(judged.verdict, str):
         return []
@@ -171,9 +170,7 @@ def _each(d: Diagnosis, told: set[str]) -> list[str]:
     names = [name for name in judged.verdict if name not in told and chance(every[name]) != own]
     if not names:
         return []
-    whole = "Each probability is that of an answer" if len(judged.tied) > 1 else "The probability is that of the answer"
-    each = " and ".join(f"{effect_words(name)} has {chance(every[name])}" for name in names)
-    return [f"{whole} just as it stands; in any company {each}."]
+    return [f"{with_names(effect_words(name))}: {probability_words(d, name)}." for name in names]
 
 
 def probability_words(d: Diagnosis, name: str) -> str:
@@ -186,4 +183,4 @@ def probability_words(d: Diagnosis, name: str) -> str:
     if len(key) == 1:
         return f"probability {own} alone, {every} alone or with a second effect"
     beside = explanation_words([other for other in key if other != name])
-    return f"probability {own} together with {beside}, {every} in any company"
+    return f"probability {own} together with {beside}, {every} overall"

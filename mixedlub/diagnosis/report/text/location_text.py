@@ -10,18 +10,14 @@ from mixedlub.diagnosis.report.text.outlier_text import reading_conditions
 
 NOWHERE = "Nowhere: the calibrated base model agrees with the readings within their noise."
 SPREAD = (
-    "The model without it has the answer's calibration here. “Before” in the figures is another one: the base model "
-    "calibrated as if nothing were missing. That spreads its shortfall over all conditions, so that signs there may "
-    "differ from these."
+    "These numbers have the calibration that was fitted together with the answer. “Before” in the figures is the base "
+    "model fitted alone, which spreads the mismatch over all conditions, so signs there can differ."
 )
-LEVEL = (
-    "No name holds the calibration: it may have taken up what is alike at all readings, and the mismatch may as well "
-    "lie elsewhere, with the other sign."
-)
+LEVEL = "Without a named cause, calibration may have absorbed a constant part; location and sign are then not unique."
 TURNED = 0.2
 """Share of readings whose sign in the figures is another one, from which that is explained."""
 EVEN = 0.3
-"""Share that stays of a mismatch when its signs cancel, below which neither sign is told."""
+"""Share that stays of a mismatch when its signs cancel, below which neither sign is named."""
 
 
 def where(d: Diagnosis) -> tuple[str, ...]:
@@ -47,10 +43,10 @@ def located(d: Diagnosis) -> str:
     there = f"Above all at {place}: there" if place else "Everywhere:"
     sign = _direction(z[inside], d.recorded.predicted[inside])
     share = 100.0 * float(np.median(_share(d.missing[1], d.recorded.predicted)[inside]))
-    elsewhere = f" Elsewhere {_rms(z[~inside]):.1f} sigma." if (~inside).any() else ""
+    elsewhere = f" Elsewhere {_rms(z[~inside]):.1f} times the noise." if (~inside).any() else ""
     return (
-        f"{there} the rig reads {sign} than the model without it, by {_rms(z[inside]):.1f} sigma (rms), "
-        f"{number(share)} % of the larger of the two in the median.{elsewhere}"
+        f"{there} the rig reads {sign} than the model without this cause, typically by {number(share)} % (rms "
+        f"{_rms(z[inside]):.1f} times the noise of a reading).{elsewhere}"
     )
 
 

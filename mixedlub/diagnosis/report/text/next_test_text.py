@@ -42,15 +42,15 @@ def next_test(d: Diagnosis) -> tuple[str, ...]:
             return ("It goes with time alone: run the programme again, in another order, and see whether it returns.",)
         return _refined(d)
     if not d.next_tests:
-        return ("No useful test: there is no second explanation to tell the first one from.",)
+        return ("No useful test: there is no second explanation to distinguish from the first.",)
     first = d.next_tests[0]
     if first.expected_bits < USELESS:
-        return ("No useful test: no single reading at these conditions or a little beyond would say more.",)
+        return ("No useful test: no single reading at these conditions or a little beyond would decide more.",)
     names = "; ".join(explanation_words(name.split("+")) for name in first.separates)
-    weak = ("No single reading would tell much more; the best would be:",) if first.expected_bits < WEAK else ()
+    weak = ("No single reading would decide much; the best one is:",) if first.expected_bits < WEAK else ()
     run = (
-        f"{to_run(first.conditions, d.recorded.table)}: {first.expected_bits:.2f} bit towards telling apart {names} "
-        "(1 bit would settle which of two equally probable ones is right)."
+        f"{to_run(first.conditions, d.recorded.table)}, to distinguish between {names}: {first.expected_bits:.2f} bit "
+        "(1 bit decides between two equally probable ones)."
     )
     return (*weak, run, *(f"{text[:1].upper()}{text[1:]}." for text in beyond(first.conditions, d.recorded.table)))
 

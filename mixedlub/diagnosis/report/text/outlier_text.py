@@ -1,4 +1,4 @@
-"""What the answer says of single readings, and of the channel that was kept back."""
+"""Outlier readings, and the check channel that was not used in any fit, in words."""
 
 from __future__ import annotations
 
@@ -23,21 +23,21 @@ def reading_conditions(d: Diagnosis, row: int) -> str:
 
 
 def checked_channel(d: Diagnosis) -> tuple[str, ...]:
-    """The channel that was kept back from every fit, in a sentence."""
+    """The correlation with the check channel, in a sentence."""
     check = d.check
     if check is None:
         return ()
     name = words_of(check.column)
     if check.correlation is None:
-        return (f"The channel {name} does not move or is too short: it tells nothing.",)
+        return (f"The channel {name} is constant or too short to compare with.",)
     return (
-        f"The predicted readings go with {name}, which was kept back from every fit, with a correlation of "
-        f"{check.correlation:+.3f} over {check.n} readings.",
+        f"The predicted readings correlate with {name}, which was not used in any fit: {check.correlation:+.3f} over "
+        f"{check.n} readings.",
     )
 
 
 def steadied_noise(d: Diagnosis) -> tuple[str, ...]:
-    """That stated standard deviations were taken together with their like, where it changed them much."""
+    """That stated standard deviations were shrunk towards those of similar readings, where it changed them much."""
     stated = d.recorded.table.columns.get(f"{d.case.quantity}_sd")
     if stated is None:
         return ()
@@ -46,8 +46,8 @@ def steadied_noise(d: Diagnosis) -> tuple[str, ...]:
     if most < MUCH:
         return ()
     return (
-        "The stated standard deviations jump between like readings, as those of few tests do: each was taken "
-        f"together with its like, which moved them by up to a factor {number(most)}.",
+        "The stated standard deviations vary irregularly, as estimates from few repeats do; they were shrunk towards "
+        f"those of neighbouring conditions, by up to a factor {number(most)}.",
     )
 
 

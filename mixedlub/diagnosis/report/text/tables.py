@@ -23,7 +23,7 @@ STRAINED = 2.0
 """Standard deviations from which an input counts as strained."""
 UNTOLD = 0.8
 """Share of the prior's 90 % interval from which a fitted one counts as no narrower, where the prior is normal."""
-AS_BEFORE = "as wide as before the readings"
+UNDETERMINED = "not determined by these readings"
 FAR = 3.0
 """Standard deviations of its prior from which a parameter is far outside of what is usual."""
 UNMOVED = 1e-6
@@ -68,7 +68,7 @@ def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
             name = with_symbol(p.name, plain_equation(p.symbol))
             far = _far(p.prior, p.unit) if abs(refined.z[i]) > FAR and not p.sudden else ""
             said += _stretched(e, p, far)
-            marks = [mark for mark, holds in ((AS_BEFORE, refined.spread[i] >= UNTOLD), (far, far)) if holds]
+            marks = [mark for mark, holds in ((UNDETERMINED, refined.spread[i] >= UNTOLD), (far, far)) if holds]
             mark = f"[{'; '.join(marks)}] " if marks else ""
             table.append(
                 (effect_words(e.id), name, value, f"{low} to {high}", unit, f"{mark}{_meaning(d, p, fitted['value'])}")
@@ -113,10 +113,9 @@ def _untold(e: Effect, vague: list[str]) -> list[str]:
     """What is known of an effect although some of its parameters are not."""
     if not vague:
         return []
-    many = "intervals" if len(vague) > 1 else "interval"
-    wide = f"the 90 % {many} of {' and '.join(vague)} {'are' if len(vague) > 1 else 'is'} {AS_BEFORE}"
+    wide = f"{' and '.join(vague)} {'are' if len(vague) > 1 else 'is'} {UNDETERMINED}"
     if len(e.parameters) == 1:
-        return [f"{with_names(effect_words(e.id))}: {wide}: its size is hardly known."]
+        return [f"{with_names(effect_words(e.id))}: {wide}."]
     return [f"{with_names(effect_words(e.id))}: {wide}. Only the combined effect of the parameters is known."]
 
 
