@@ -91,8 +91,7 @@ def _verdict(d: Diagnosis) -> str:
                 f"No mismatch beyond noise: nothing needs to be missing ({chance(judged.weights[()])}). A tie all the "
                 f"same: these readings do not exclude {others}."
             )
-        first, *others = named
-        return f"A tie. Most probable: {first}. Not excluded: {'; '.join([*others, *rest])}."
+        return f"A tie. Most probable: {named[0]}. Not excluded: {'; '.join([*named[1:], *rest])}."
     p = chance(judged.weights[judged.verdict])
     if judged.verdict == ():
         return f"Nothing is missing that these readings could show: the calibrated model explains them ({p})."
