@@ -22,7 +22,6 @@ SHARING = "rigid: the pairs in contact share equally"
 BROAD = "fitted with a broad prior"
 MINERAL = "mineral"
 """Base stock of an oil that nothing is said of."""
-STEEL = ("thermal_conductivity_W_mK", "density_kg_m3", "specific_heat_J_kgK")
 
 
 def gears_taken(section: system_file.Gears) -> dict[str, str]:
@@ -94,7 +93,8 @@ def _surfaces(system: system_file.System) -> Iterator[str]:
     """Bodies of steel, and traces levelled by a line, those alike in one line."""
     alike: dict[tuple[str, ...], list[str]] = {}
     for name, section in system.surfaces.items():
-        left = [f"{key} = {_shown(getattr(section, key))}" for key in STEEL if key in _open(section)]
+        defaults = {key: getattr(section, key) for key in _open(section)}
+        left = [f"{key} = {_shown(value)}" for key, value in defaults.items() if isinstance(value, float)]
         left += ['form = "line"'] if section.profile is not None and section.form is None else []
         alike.setdefault(tuple(left), []).append(name)
     for said, names in alike.items():
