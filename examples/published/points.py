@@ -16,7 +16,6 @@ from mixedlub.case.folder import read_case
 from mixedlub.case.forward import Forward
 from mixedlub.chain.model import Model
 from mixedlub.effects import find
-from mixedlub.rig import build
 from mixedlub.schema import toml_file
 from mixedlub.schema.table import Table
 from mixedlub.study import read_study, run_study
@@ -80,7 +79,7 @@ def nasa_rig() -> Iterator[Row]:
     """Spur gears of the NASA gear noise rig: the largest friction while one pair of teeth carries the load."""
     case = read_case(HERE / "nasa_rig", need_recordings=False)
     assert case.system.gears is not None
-    pair = build.gear_pair(case.system.gears)
+    pair = case.rig.gears
     single = np.linspace(pair.lowest_single_contact, pair.highest_single_contact, 41) / pair.base_radius[0]
     rows = [(speed, load) for speed in SPEEDS for load in LOADS]
     table = Table(

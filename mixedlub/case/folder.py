@@ -10,6 +10,7 @@ import numpy as np
 from mixedlub.case.import_file import read_import_file
 from mixedlub.gear import ROUNDED
 from mixedlub.kinds import Kind, kind
+from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, listed, report
 from mixedlub.schema.table import BOOKKEEPING, RUN, Column, Table, check_column, read_table, sd_column
@@ -27,6 +28,7 @@ class Case:
     folder: Path
     system: system_file.System
     kind: Kind
+    rig: Rig
     recordings: Table | None
     conditions: Table | None
     notes: tuple[Finding, ...]
@@ -59,7 +61,7 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
         _report_missing_check(system.recording.check, recordings, file)
         conditions = _read(folder / "conditions.csv", found, None, system, False)
     notes = [*read_import_file(folder), *notes]
-    return Case(folder.resolve().name, folder, system, found, recordings, conditions, tuple(notes))
+    return Case(folder.resolve().name, folder, system, found, Rig(system, folder), recordings, conditions, tuple(notes))
 
 
 def read_conditions(case: Case, path: Path) -> Table:

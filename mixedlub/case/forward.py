@@ -53,7 +53,7 @@ class Forward:
         recorded = table if case.recordings is None else case.recordings
         with collected() as notes:
             self.table = table = case.kind.completed(table, recorded)
-            self.inputs: dict[str, Any] = case.kind.inputs(case.system, case.folder, table, recorded)
+            self.inputs: dict[str, Any] = case.kind.inputs(case.system, case.rig, table, recorded)
             if "sequence" in self.inputs:
                 self.inputs["ageing"] = ageing(recorded, self.inputs["sequence"])
             extra = case.kind.extra_calibration(case.system, recorded)

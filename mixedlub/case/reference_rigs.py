@@ -12,6 +12,7 @@ import numpy as np
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
 from mixedlub.kinds import kind
+from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.table import Table
 
@@ -170,7 +171,8 @@ def case(name: str) -> Case:
         "recording": {"quantity": quantity, "noise": {"relative": 0.01, "absolute": absolute}},
     }
     parsed = toml_file.parse(system_file.System, system, f"standard {name}")
-    return Case(f"standard_{name}", Path("."), parsed, kind(name), None, None, ())
+    here = Path(".")
+    return Case(f"standard_{name}", here, parsed, kind(name), Rig(parsed, here), None, None, ())
 
 
 @cache

@@ -71,13 +71,13 @@ def understood(case: Case) -> Iterator[str]:
 
 
 def _bodies(case: Case) -> Iterator[str]:
-    from mixedlub.rig import build
+    from mixedlub.laws.oil import ZERO_CELSIUS
 
     system = case.system
+    list(case.rig.parts())
     if system.gears is not None:
-        pair = build.gear_pair(system.gears)
+        pair = case.rig.gears
         share = system.gears.load_sharing
-        build.sharing(share, case.folder)
         yield (
             f"Gears: {pair.teeth[0]}/{pair.teeth[1]} teeth, module {pair.normal_module * 1e3:.4g} mm, contact ratio "
             f"{pair.contact_ratio:.3f}, load shared by "
@@ -87,12 +87,12 @@ def _bodies(case: Case) -> Iterator[str]:
         radii = " and ".join(f"{r:g}" for r in system.contact.radius_mm)
         yield f"Contact: {system.contact.geometry} contact of radii {radii} mm."
     if "lubricant" in case.kind.sections or system.lubricant is not None:
-        oil = build.lubricant(system.lubricant)
-        low, high = (t - build.ZERO_CELSIUS for t in oil.temperature)
+        oil = case.rig.oil()
+        low, high = (t - ZERO_CELSIUS for t in oil.temperature)
         eta = oil.viscosity(np.array(oil.temperature)) * 1e3
         yield f"Oil: {oil.name}, {eta[0]:.3g} mPa s at {low:g} C and {eta[1]:.3g} mPa s at {high:g} C."
     for name, section in system.surfaces.items():
-        surface = build.surface(name, section, case.folder)
+        surface = case.rig.surface(name)
         origin = "its moments" if section.profile is None else f"the trace {section.profile}"
         coated = f", coated with {section.coating.name}" if section.coating else ""
         yield (
@@ -160,7 +160,7 @@ def _checked(case: Case, forward: Forward | None) -> tuple[list[Finding], list[s
     from mixedlub.importers.groups import pooled_in
     from mixedlub.rig.plausibility import far_off
 
-    found, refused = list(far_off(case.system, case.folder)), []
+    found, refused = list(far_off(case.rig)), []
     if case.recordings is not None and forward is not None:
         readings = np.asarray(case.recordings[case.quantity], dtype=float)
         try:

@@ -34,7 +34,7 @@ def command(
     rows: dict[int, float] = {}
     with collected() as notes, within_range(str(case)):
         found = read_case(case_folder(case), need_recordings=False)
-        notes += [*found.notes, *far_off(found.system, found.folder)]
+        notes += [*found.notes, *far_off(found.rig)]
         tables = [found.recordings, found.conditions] if at is None else [read_conditions(found, at)]
         notes += hidden(found, found.conditions) if at is None else []
         for table in tables:

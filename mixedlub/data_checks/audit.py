@@ -62,7 +62,7 @@ CONTRADICTING = 4.0
 
 def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[Finding]:
     """Findings on the files and the readings; an error where the recording cannot be diagnosed."""
-    return [*far_off(case.system, case.folder), *check_readings(case, rows, y, forward), *_noise_source(case, rows, y)]
+    return [*far_off(case.rig), *check_readings(case, rows, y, forward), *_noise_source(case, rows, y)]
 
 
 def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[Finding]:

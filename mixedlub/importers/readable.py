@@ -8,7 +8,7 @@ import numpy as np
 
 from mixedlub.case.folder import Case, read_case, read_conditions
 from mixedlub.kinds import kind as kind_of
-from mixedlub.rig import build
+from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file
 from mixedlub.schema.findings import collected
 from profiles.errors import InputError
@@ -38,7 +38,7 @@ def _whole(folder: Path) -> str:
 
     case = read_case(folder)
     assert case.recordings is not None
-    _bodies(case.system, folder)
+    list(case.rig.parts())
     forward = Forward(case, case.recordings)
     try:
         check_readings(case, case.recordings, np.asarray(case.recordings[case.quantity], dtype=float), forward)
@@ -48,17 +48,7 @@ def _whole(folder: Path) -> str:
 
 
 def _parts(folder: Path, system: system_file.System) -> str:
-    _bodies(system, folder)
-    read_conditions(Case("", folder, system, kind_of(system.kind), None, None, ()), folder / "recordings.csv")
+    rig = Rig(system, folder)
+    list(rig.parts())
+    read_conditions(Case("", folder, system, kind_of(system.kind), rig, None, None, ()), folder / "recordings.csv")
     return ""
-
-
-def _bodies(system: system_file.System, folder: Path) -> None:
-    """What the system describes is built once, as `check` does."""
-    if system.gears is not None:
-        build.gear_pair(system.gears)
-        build.sharing(system.gears.load_sharing, folder)
-    if system.lubricant is not None:
-        build.lubricant(system.lubricant)
-    for name, section in system.surfaces.items():
-        build.surface(name, section, folder)

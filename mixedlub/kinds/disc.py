@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 
 from mixedlub.chain.base_models import LINE, POINT
@@ -15,7 +13,7 @@ from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws import load, loss
 from mixedlub.laws.contact import reduced_modulus
 from mixedlub.laws.oil import ZERO_CELSIUS
-from mixedlub.rig import build
+from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file
 from mixedlub.schema.table import Table
 from profiles.errors import InputError
@@ -64,14 +62,14 @@ def contact_inputs(contact: system_file.Contact, table: Table) -> Inputs:
     return found
 
 
-def inputs(system: system_file.System, folder: Path, table: Table, recorded: Table) -> Inputs:
+def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table."""
     assert system.contact is not None
     temperature = column(table["oil_temperature_C"]) + ZERO_CELSIUS
     return {
         **contact_inputs(system.contact, table),
-        **build.lubricant(system.lubricant).inputs(temperature),
-        **pair_of_surfaces(system, folder, table, "surface_1", "surface_2"),
+        **rig.oil().inputs(temperature),
+        **pair_of_surfaces(rig, table, "surface_1", "surface_2"),
         **bookkeeping_inputs(system, table),
         **inverse_load(system, table, recorded),
         "oil_temperature": temperature,

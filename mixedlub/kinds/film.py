@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 
@@ -17,8 +16,8 @@ from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, progra
 from mixedlub.laws import contact, film, load
 from mixedlub.laws.film import LINE_EXPONENT, LINE_LOAD_EXPONENT, POINT_EXPONENT
 from mixedlub.laws.oil import ZERO_CELSIUS
-from mixedlub.rig import build
 from mixedlub.rig.lubricant import Lubricant
+from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file
 from mixedlub.schema.table import Column, Table
 
@@ -56,11 +55,11 @@ def reading(film_thickness: np.ndarray) -> np.ndarray:
     return film_thickness
 
 
-def inputs(system: system_file.System, folder: Path, table: Table, recorded: Table) -> Inputs:
+def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table."""
     assert system.contact is not None
     temperature = column(table["oil_temperature_C"]) + ZERO_CELSIUS
-    oil = build.lubricant(system.lubricant)
+    oil = rig.oil()
     return {
         **contact_inputs(system.contact, table),
         **oil.inputs(temperature),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
@@ -14,6 +13,7 @@ from mixedlub.kinds import columns, disc, oil_priors
 from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, inverse_load, programme
 from mixedlub.laws.oil import ZERO_CELSIUS
+from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file
 from mixedlub.schema.findings import finding, report
 from mixedlub.schema.table import Table
@@ -43,10 +43,10 @@ def resolved(system: system_file.System, table: Table) -> bool:
     return sections and all(name in table for name in NEEDED)
 
 
-def inputs(system: system_file.System, folder: Path, table: Table, recorded: Table) -> Inputs:
+def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table."""
     if resolved(system, table):
-        return {**disc.inputs(system, folder, table, recorded), **programme(table, recorded)}
+        return {**disc.inputs(system, rig, table, recorded), **programme(table, recorded)}
     absent = [name for name in NEEDED if name not in table]
     if system.contact is not None and system.lubricant is not None and system.surfaces:
         text = (

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,6 +16,7 @@ from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out, inverse_load, programme
 from mixedlub.laws import drive
 from mixedlub.laws.oil import ZERO_CELSIUS
+from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file
 from mixedlub.schema.findings import finding, report
 from mixedlub.schema.table import Column, Table
@@ -94,7 +94,7 @@ def drive_speed(table: Table) -> np.ndarray:
     return table[present[0]] * (np.pi / 30.0 if present[0] == "speed_rpm" else 1.0)
 
 
-def inputs(system: system_file.System, folder: Path, table: Table, recorded: Table) -> Inputs:
+def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table."""
     speed = drive_speed(table)
     size = _size(system, recorded)

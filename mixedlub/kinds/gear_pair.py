@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 
 from mixedlub.chain.base_models import GEAR_LOSS
-from mixedlub.gear import Mesh, mesh
+from mixedlub.gear import Mesh
 from mixedlub.kinds import columns
 from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws.oil import ZERO_CELSIUS
-from mixedlub.rig import build
+from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file
 from mixedlub.schema.findings import finding, report
 from mixedlub.schema.table import Column, Table
@@ -98,18 +96,15 @@ def without_gears(found: Inputs, table: Table) -> Inputs:
     }
 
 
-def inputs(system: system_file.System, folder: Path, table: Table, recorded: Table) -> Inputs:
+def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table."""
-    assert system.gears is not None
-    pair = build.gear_pair(system.gears)
-    points = mesh(pair, build.sharing(system.gears.load_sharing, folder), points=PATH_POINTS)
-    oil = build.lubricant(system.lubricant)
+    points = rig.mesh(PATH_POINTS)
     temperature = column(table["oil_temperature_C"]) + ZERO_CELSIUS
     mesh_inputs = contact_inputs(points, column(table["torque_Nm"]), column(table["speed_rpm"]) * np.pi / 30.0)
     return {
         **without_gears(mesh_inputs, table),
-        **oil.inputs(temperature),
-        **pair_of_surfaces(system, folder, table, "pinion_surface", "gear_surface"),
+        **rig.oil().inputs(temperature),
+        **pair_of_surfaces(rig, table, "pinion_surface", "gear_surface"),
         **bookkeeping_inputs(system, table),
         "oil_temperature": temperature,
         "boundary_friction": system.boundary_friction,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,6 +11,7 @@ import numpy as np
 from mixedlub.chain.model import Chain
 from mixedlub.kinds.calibration import Calibration
 from mixedlub.laws.oil import ZERO_CELSIUS
+from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file
 from mixedlub.schema.table import Column, Table
 
@@ -28,7 +28,7 @@ class Kind:
     ``readings`` are the columns of which a recording holds one; ``uses`` are sections that the kind computes with
     where they are given, beyond those that it needs.
 
-    ``inputs(system, folder, table, recorded)`` gives the chain's inputs as arrays of shape (rows, points),
+    ``inputs(system, rig, table, recorded)`` gives the chain's inputs as arrays of shape (rows, points),
     one of the two of length one where a quantity does not depend on it; the chain ends in ``reading``,
     shape (rows, 1), in SI. ``recorded`` is the recording of the case, from which typical sizes (the largest
     speed, the duration) are taken, so that predictions elsewhere use the same ones; ``extra_calibration``
@@ -48,7 +48,7 @@ class Kind:
     columns: tuple[Column, ...]
     sections: tuple[str, ...]
     chain: Callable[[system_file.System, Table], Chain]
-    inputs: Callable[[system_file.System, Path, Table, Table], Inputs]
+    inputs: Callable[[system_file.System, Rig, Table, Table], Inputs]
     extra_calibration: Callable[[system_file.System, Table], tuple[Calibration, ...]] = lambda system, recorded: ()
     reading_fault: Callable[[Table, int, float, float], str | None] = lambda recorded, row, excess, sd: None
     logarithmic: bool = False

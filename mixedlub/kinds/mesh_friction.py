@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 
 from mixedlub.chain.base_models import GEAR_CONTACT
-from mixedlub.gear import GearPair, Mesh, Sharing, at_roll_angle
+from mixedlub.gear import Mesh, at_roll_angle
 from mixedlub.kinds import columns
 from mixedlub.kinds.gear_pair import CONDITIONS, motion_inputs
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, inverse_of
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig import build
+from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file
 from mixedlub.schema.table import Column, Table
 
@@ -31,13 +30,10 @@ def reading(friction: np.ndarray) -> np.ndarray:
     return friction
 
 
-def inputs(system: system_file.System, folder: Path, table: Table, recorded: Table) -> Inputs:
+def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table: one contact point a row."""
-    assert system.gears is not None
-    pair = build.gear_pair(system.gears)
-    sharing = build.sharing(system.gears.load_sharing, folder)
-    points, share = _contacts(pair, sharing, table)
-    known = share if recorded is table else _contacts(pair, sharing, recorded)[1]
+    points, share = _contacts(rig, table)
+    known = share if recorded is table else _contacts(rig, recorded)[1]
     along = motion_inputs(points, table["torque_Nm"], table["speed_rpm"] * np.pi / 30.0)
     own = {name: column(value) if np.ndim(value) else value for name, value in along.items()}
     temperature = column(table["oil_temperature_C"]) + ZERO_CELSIUS
@@ -45,17 +41,17 @@ def inputs(system: system_file.System, folder: Path, table: Table, recorded: Tab
         **own,
         "load_share": column(share),
         **inverse_of(_asked_of(share, table), _asked_of(known, recorded)),
-        **build.lubricant(system.lubricant).inputs(temperature),
-        **pair_of_surfaces(system, folder, table, "pinion_surface", "gear_surface"),
+        **rig.oil().inputs(temperature),
+        **pair_of_surfaces(rig, table, "pinion_surface", "gear_surface"),
         **bookkeeping_inputs(system, table),
         "oil_temperature": temperature,
         "boundary_friction": system.boundary_friction,
     }
 
 
-def _contacts(pair: GearPair, sharing: Sharing, table: Table) -> tuple[Mesh, np.ndarray]:
+def _contacts(rig: Rig, table: Table) -> tuple[Mesh, np.ndarray]:
     """The contact point of every row and the share of the load that it carries."""
-    points = at_roll_angle(pair, sharing, np.radians(table["roll_angle_deg"]), slices=1)
+    points = at_roll_angle(rig.gears, rig.sharing, np.radians(table["roll_angle_deg"]), slices=1)
     share = np.empty(len(table))
     for level in np.unique(table["torque_Nm"]):
         rows = table["torque_Nm"] == level

@@ -2,30 +2,27 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from mixedlub.kinds.kind import Inputs
-from mixedlub.rig import build
+from mixedlub.rig.rig import Rig
 from mixedlub.rig.surface import paired
-from mixedlub.schema import system_file
 from mixedlub.schema.table import Table
 from profiles.errors import InputError, nearest
 
 
-def pair_of_surfaces(system: system_file.System, folder: Path, table: Table, first: str, second: str) -> Inputs:
+def pair_of_surfaces(rig: Rig, table: Table, first: str, second: str) -> Inputs:
     """Chain inputs of the two surfaces named in two columns, shaped (rows, 1)."""
     known = {}
     for place in (first, second):
         for row, name in enumerate(table[place].tolist()):
-            if name not in system.surfaces:
+            if name not in rig.file.surfaces:
                 raise InputError(
-                    f"no such surface in system.toml; {nearest(name, system.surfaces)}",
+                    f"no such surface in system.toml; {nearest(name, rig.file.surfaces)}",
                     where=f"{table.source}: row {row + 1}, {place}",
                     value=name,
                 )
             if name not in known:
-                known[name] = build.surface(name, system.surfaces[name], folder)
+                known[name] = rig.surface(name)
     # Rows may be a part of a recording, whose other rows are on coated surfaces.
-    coated = any(section.coating is not None for section in system.surfaces.values())
+    coated = any(section.coating is not None for section in rig.file.surfaces.values())
     both = paired([known[n] for n in table[first].tolist()], [known[n] for n in table[second].tolist()], coated)
     return {name: values[:, None] for name, values in both.items()}

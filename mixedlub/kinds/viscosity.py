@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 
 from mixedlub.chain.model import Chain
@@ -13,6 +11,7 @@ from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, progra
 from mixedlub.laws import oil
 from mixedlub.rig import build
 from mixedlub.rig.lubricant import Lubricant
+from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file
 from mixedlub.schema.table import Column, Table
 
@@ -60,11 +59,11 @@ def under_pressure(viscosity: np.ndarray, pressure_viscosity: np.ndarray, hertz_
     return oil.barus_viscosity(viscosity, pressure_viscosity, hertz_pressure)
 
 
-def inputs(system: system_file.System, folder: Path, table: Table, recorded: Table) -> Inputs:
+def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) -> Inputs:
     """Chain inputs of the rows of a table; what carries no pressure was measured at ambient."""
     temperature = column(table["temperature_C"]) + oil.ZERO_CELSIUS
     return {
-        **_oil(system, recorded).inputs(temperature),
+        **_oil(system, rig, recorded).inputs(temperature),
         **bookkeeping_inputs(system, table),
         **programme(table, recorded),
         "oil_temperature": temperature,
@@ -72,12 +71,10 @@ def inputs(system: system_file.System, folder: Path, table: Table, recorded: Tab
     }
 
 
-def _oil(system: system_file.System, recorded: Table) -> Lubricant:
+def _oil(system: system_file.System, rig: Rig, recorded: Table) -> Lubricant:
     """The oil, at the level that the readings suggest where it is not given."""
     kelvin = recorded["temperature_C"] + oil.ZERO_CELSIUS
-    return oil_priors.moved(
-        build.lubricant(system.lubricant, UNREAD), oil_priors.pivot_of(kelvin), _level(system, recorded)
-    )
+    return oil_priors.moved(rig.oil(UNREAD), oil_priors.pivot_of(kelvin), _level(system, recorded))
 
 
 def _pressure(table: Table) -> np.ndarray:

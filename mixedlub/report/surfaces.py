@@ -10,7 +10,6 @@ import numpy as np
 
 from mixedlub.report.figures import Drawn
 from mixedlub.report.style import styled
-from mixedlub.rig.build import flank_profile
 from mixedlub.schema.findings import Finding, collected, finding
 from mixedlub.study.plan import Study
 from profiles import Profile
@@ -42,10 +41,9 @@ def surface_rows(study: Study) -> list[tuple[str, ...]]:
 
 def traced(study: Study) -> dict[str, Profile]:
     """The filtered profiles of the surfaces that come from traces, at most a figure full."""
-    sections = {name: study.file.surfaces[name] for name in study.surfaces}
-    named = [name for name, section in sections.items() if section.profile is not None][:SHOWN]
+    named = [name for name in study.surfaces if study.file.surfaces[name].profile is not None][:SHOWN]
     with collected():
-        profiles = {name: flank_profile(name, sections[name], study.folder.resolve()) for name in named}
+        profiles = {name: study.rig.profile(name) for name in named}
     return {name: replace(profile, name=name) for name, profile in profiles.items()}
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -138,13 +139,31 @@ def _trace(named: str, folder: Path, key: str) -> Profile:
     return shipped(wanted)
 
 
-def flank_profile(name: str, section: system_file.SurfaceSection, folder: Path) -> Profile:
-    """The roughness profile of a surface that names a trace, prepared as `mixedlub profile` does.
+def trace(name: str, section: system_file.SurfaceSection, folder: Path) -> Profile:
+    """The trace that a surface names; what is wrong with it is said with the surface's name."""
+    with _of_surface(name):
+        return _trace(section.profile or "", folder, f"surfaces.{name}.profile")
 
-    Cut-offs are those of its section; without any, a profile that its file says is filtered stays as it is.
+
+@contextmanager
+def _of_surface(name: str) -> Iterator[None]:
+    """Errors about a trace or its filters name the surface."""
+    try:
+        yield
+    except InputError as error:
+        if error.where.startswith("surfaces."):
+            raise
+        raise InputError(error.rule, where=f"surfaces.{name}: {error.where}", value=error.value) from None
+
+
+def flank_profile(name: str, section: system_file.SurfaceSection, trace: Profile) -> Profile:
+    """The roughness profile of a trace, prepared as `mixedlub profile` does.
+
+    Cut-offs are those of the section; without any, a profile that its file says is filtered stays as it is.
     A short cut-off of fewer than two points is left out, as the trace does not show such waves.
     """
-    return _prepared(name, section, _trace(section.profile or "", folder, f"surfaces.{name}.profile"))
+    with _of_surface(name):
+        return _prepared(name, section, trace)
 
 
 def _prepared(name: str, section: system_file.SurfaceSection, trace: Profile) -> Profile:
@@ -174,31 +193,25 @@ def _prepared(name: str, section: system_file.SurfaceSection, trace: Profile) ->
     )
 
 
-def _moments_of_trace(name: str, section: system_file.SurfaceSection, folder: Path) -> Moments:
-    """Moments of the trace of a surface; what is wrong with the trace is said with the surface's name."""
+def _moments(name: str, trace: Profile, profile: Profile) -> Moments:
+    """Moments of a profile, with what is doubtful about its trace."""
     from roughness import moments
     from roughness.guards import trace_warnings
 
-    try:
-        trace = _trace(section.profile or "", folder, f"surfaces.{name}.profile")
-        profile = _prepared(name, section, trace)
+    with _of_surface(name):
         found = moments(profile)
         for text in trace_warnings(profile, found, raw=trace):
             report(finding("trace_quality", text, f"surfaces.{name}"))
-        return found
-    except InputError as error:
-        if error.where.startswith("surfaces."):
-            raise
-        raise InputError(error.rule, where=f"surfaces.{name}: {error.where}", value=error.value) from None
+    return found
 
 
-def surface(name: str, section: system_file.SurfaceSection, folder: Path) -> Surface:
-    """One surface, from its moments or from the trace it names."""
-    if section.profile is None:
+def surface(name: str, section: system_file.SurfaceSection, measured: tuple[Profile, Profile] | None = None) -> Surface:
+    """One surface, from its moments or from what was ``measured``: its trace and the profile filtered from it."""
+    if measured is None:
         m0, m2, m4 = section.m0_um2 or 0.0, section.m2 or 0.0, section.m4_per_um2 or 0.0
         m0, m4 = m0 * 1e-12, m4 * 1e12
     else:
-        found = _moments_of_trace(name, section, folder)
+        found = _moments(name, *measured)
         m0, m2, m4 = found.m0, found.m2, found.m4
     if m0 * m4 < 1.5 * m2**2:
         text = f"Nayak alpha is {m0 * m4 / m2**2:.2f}, below the 1.5 of any isotropic Gaussian surface"

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from pathlib import Path
+from collections.abc import Collection, Iterator
 
-from mixedlub.rig import build
+from mixedlub.rig.rig import Rig
 from mixedlub.rig.surface import Surface
 from mixedlub.schema import ranges, system_file
 from mixedlub.schema.findings import Finding, collected, finding
@@ -15,25 +14,22 @@ BANDWIDTH = (1.0 - 1e-6, 1e5)
 """Nayak's m0 m4/m2^2: no profile has less than 1 (Cauchy and Schwarz), none of two scales apart by 300 more."""
 
 
-def far_off(
-    file: system_file.RigFile, folder: Path, surfaces: Mapping[str, Surface] | None = None
-) -> Iterator[Finding]:
-    """What is implausible in a file; ``surfaces`` where they have been read already."""
-    yield from ranges.unusual(file)
-    if file.gears is not None:
-        pair, share = build.gear_pair(file.gears), build.sharing(file.gears.load_sharing, folder)
-        yield from share.check(pair)
-    for name, section in file.surfaces.items():
-        found = _surface(name, section, folder) if surfaces is None else surfaces.get(name)
+def far_off(rig: Rig, surfaces: Collection[str] | None = None) -> Iterator[Finding]:
+    """What is implausible about a rig; of its ``surfaces``, all where none are named."""
+    yield from ranges.unusual(rig.file)
+    if rig.file.gears is not None:
+        yield from rig.sharing.check(rig.gears)
+    for name in rig.file.surfaces if surfaces is None else surfaces:
+        found = _surface(rig, name)
         if found is not None:
-            yield from _roughness(found, f"surfaces.{name}", section)
+            yield from _roughness(found, f"surfaces.{name}", rig.file.surfaces[name])
 
 
-def _surface(name: str, section: system_file.SurfaceSection, folder: Path) -> Surface | None:
+def _surface(rig: Rig, name: str) -> Surface | None:
     """The surface; None where its trace cannot be read, which is an error where it is computed with."""
     with collected():
         try:
-            return build.surface(name, section, folder)
+            return rig.surface(name)
         except InputError:
             return None
 

@@ -13,12 +13,13 @@ import numpy as np
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Model, available
 from mixedlub.effects import find, known_in
-from mixedlub.gear import GearPair, Mesh, mesh
+from mixedlub.gear import GearPair, Mesh
 from mixedlub.kinds.gear_pair import motion_inputs
 from mixedlub.laws.load import LEAST_SHARE
-from mixedlub.rig import build
+from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.plausibility import far_off
+from mixedlub.rig.rig import Rig
 from mixedlub.rig.surface import Surface, paired
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, report
@@ -68,7 +69,7 @@ class Study:
 
     name: str
     file: StudyFile
-    folder: Path
+    rig: Rig
     pair: GearPair
     mesh: Mesh
     oil: Lubricant
@@ -95,9 +96,9 @@ def read_study(path: Path, file: StudyFile | None = None) -> Study:
         file = toml_file.parse(StudyFile, toml_file.read_toml(path), str(path))
     try:
         with collected() as notes, np.errstate(all="ignore"):
-            study = _resolve(path.stem, file, path.parent)
+            study = _resolve(path.stem, file, Rig(file, path.parent.resolve()))
         _check_finite(study)
-        doubtful = tuple(far_off(file, path.parent, study.surfaces))
+        doubtful = tuple(far_off(study.rig, study.surfaces))
     except InputError as error:
         placed = system_file.in_file(error, str(path))
         if str(path) in str(placed):
@@ -150,18 +151,16 @@ def pairings_of(section: Pairings | None, known: Mapping[str, object]) -> tuple[
     return tuple(itertools.product(section.pinion or (), section.gear or ()))
 
 
-def _resolve(name: str, file: StudyFile, folder: Path) -> Study:
+def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     chosen = pairings_of(file.pairings, file.surfaces)
     used = dict.fromkeys(s for both in chosen for s in both)
     idle = [s for s in file.surfaces if s not in used]
     if idle:
         report(finding("surfaces_unused", f"in no pairing: {', '.join(idle)}", "surfaces"))
-    pair = build.gear_pair(file.gears)
-    share = build.sharing(file.gears.load_sharing, folder)
-    options = file.options
-    points = mesh(pair, share, points=options.path_points, slices=options.face_slices)
-    oil = build.lubricant(file.lubricant)
-    surfaces = {s: build.surface(s, file.surfaces[s], folder.resolve()) for s in used}
+    pair, options = rig.gears, file.options
+    points = rig.mesh(options.path_points, options.face_slices)
+    oil = rig.oil()
+    surfaces = {s: rig.surface(s) for s in used}
     inputs = {
         **_condition_inputs(file, pair, points, oil),
         **_pairing_inputs([(surfaces[a], surfaces[b]) for a, b in chosen]),
@@ -171,7 +170,7 @@ def _resolve(name: str, file: StudyFile, folder: Path) -> Study:
     levels = file.conditions
     shape = (len(chosen), len(levels.oil_temperature_C), len(levels.torque_Nm), len(levels.speed_rpm))
     plan = Plan(inputs, options, parameters, shape, points.position.size)
-    return Study(name, file, folder, pair, points, oil, surfaces, chosen, effects, plan)
+    return Study(name, file, rig, pair, points, oil, surfaces, chosen, effects, plan)
 
 
 def _condition_inputs(file: StudyFile, pair: GearPair, points: Mesh, oil: Lubricant) -> dict[str, Any]:
@@ -180,7 +179,7 @@ def _condition_inputs(file: StudyFile, pair: GearPair, points: Mesh, oil: Lubric
     of_gear = options.conditions_of == "gear"
     torques = np.array(levels.torque_Nm) / (pair.gear_ratio if of_gear else 1.0)
     speeds = np.array(levels.speed_rpm) * (np.pi / 30.0) * (pair.gear_ratio if of_gear else 1.0)
-    temperature = np.array(levels.oil_temperature_C) + build.ZERO_CELSIUS + options.bulk_temperature_rise_K
+    temperature = np.array(levels.oil_temperature_C) + ZERO_CELSIUS + options.bulk_temperature_rise_K
     torque = torques.reshape(1, 1, -1, 1, 1)
     speed = speeds.reshape(1, 1, 1, -1, 1)
     share = points.load_share(torques)

@@ -161,8 +161,7 @@ def test_temperatures_of_a_room_in_kelvin_are_asked_about(case: Case) -> None:
 
 def implausible(folder: Path) -> list[Finding]:
     """What is implausible in a case's files beside the readings."""
-    case = read_case(folder)
-    return list(far_off(case.system, case.folder))
+    return list(far_off(read_case(folder).rig))
 
 
 def test_what_is_far_off_in_the_system_stands_above_the_answer(make_case: Callable[..., Path], tmp_path: Path) -> None:

@@ -21,6 +21,7 @@ from mixedlub.diagnosis.problem import Explanation, Problem
 from mixedlub.diagnosis.search.search import search
 from mixedlub.kinds import kind
 from mixedlub.recording.conditions import Coordinate, Coordinates, coordinates
+from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.table import Table
 
@@ -72,7 +73,7 @@ def test_an_oil_of_another_coefficient_has_no_other_law() -> None:
     noise = {"quantity": "viscosity_mPa_s", "noise": {"relative": 0.01, "absolute": 0.0}}
     text = {"schema": "mixedlub-case/1", "kind": "viscosity", "lubricant": reference_rigs.OIL, "uncertainty": stated}
     system = toml_file.parse(system_file.System, {**text, "recording": noise}, "steeper oil")
-    case = Case("steeper oil", Path("."), system, kind("viscosity"), None, None, ())
+    case = Case("steeper oil", Path("."), system, kind("viscosity"), Rig(system, Path(".")), None, None, ())
     warm, high = (x.ravel() for x in np.meshgrid([40.0, 60.0, 80.0, 100.0], [0.1, 50.0, 100.0, 200.0, 300.0, 400.0]))
     rows = Table({"temperature_C": warm, "pressure_MPa": high, "run": np.arange(1, warm.size + 1)})
     model = Forward(case, rows)

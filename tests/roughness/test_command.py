@@ -8,7 +8,9 @@ import pytest
 
 import profiles
 from mixedlub.cli import main
+from mixedlub.rig.rig import Rig
 from mixedlub.schema.findings import collected
+from mixedlub.schema.system_file import RigFile
 from tests.profiles.test_manifest import FILES, SDF, X3P
 from tests.profiles.test_shipped import TABLE_1
 
@@ -27,6 +29,10 @@ INSTRUMENT = {
     "Rku": (2.463, 1e-3),
     "Rdq": (0.157, 1e-3),
 }
+
+
+def rig_of(folder, **surfaces):
+    return Rig(RigFile(surfaces=surfaces), folder)
 
 
 @pytest.fixture
@@ -138,20 +144,15 @@ def test_option_that_cannot_be_is_told(tmp_path, capsys, options, named):
 
 def test_study_and_profile_prepare_a_trace_alike(evaluated):
     """One preparation: the moments of a study's surface are those that the command prints."""
-    from mixedlub.rig.build import surface
-    from mixedlub.schema.system_file import SurfaceSection
 
     row = evaluated(TRACES / "0450.txt")["moments"]
-    made = surface("rough", SurfaceSection(profile="0450.txt", cutoff_mm=0.8, short_cutoff_um=2.5), TRACES)
+    made = rig_of(TRACES, rough={"profile": "0450.txt", "cutoff_mm": 0.8, "short_cutoff_um": 2.5}).surface("rough")
     assert made.m0 * 1e12 == pytest.approx(row["m0_um2"], rel=1e-12)
     assert made.m2 == pytest.approx(row["m2"], rel=1e-12)
     assert made.m4 * 1e-12 == pytest.approx(row["m4_per_um2"], rel=1e-12)
 
 
 def test_what_is_cut_off_a_trace_is_told_by_command_and_study(tmp_path, evaluated, capsys):
-    from mixedlub.rig.build import surface
-    from mixedlub.schema.system_file import SurfaceSection
-
     trace = profiles.shipped("0258")
     fallen = trace.heights - 0.5 * np.maximum(0.0, trace.positions - 4.4e-3)
     rows = "".join(f"{x * 1e6:.2f},{z * 1e6:.5f}\n" for x, z in zip(trace.positions, fallen))
@@ -163,19 +164,16 @@ def test_what_is_cut_off_a_trace_is_told_by_command_and_study(tmp_path, evaluate
     assert whole["parameters"]["Rt_um"] > 2 * cut["parameters"]["Rt_um"]
     named = {"profile": "fallen.csv", "cutoff_mm": 0.8, "short_cutoff_um": 2.5}
     with collected() as found:
-        made = surface("worn", SurfaceSection(**named), tmp_path)
+        made = rig_of(tmp_path, worn=named).surface("worn")
     assert [(note.code, note.place) for note in found] == [("trace_quality", "surfaces.worn")]
     assert made.m0 * 1e12 == pytest.approx(cut["moments"]["m0_um2"], rel=1e-9)
-    made = surface("worn", SurfaceSection(**named, edges=False), tmp_path)
+    made = rig_of(tmp_path, worn={**named, "edges": False}).surface("worn")
     assert made.m0 * 1e12 == pytest.approx(whole["moments"]["m0_um2"], rel=1e-9)
 
 
 def test_study_keeps_a_profile_that_the_instrument_filtered(shared):
-    from mixedlub.rig.build import flank_profile
-    from mixedlub.schema.system_file import SurfaceSection
-
     folder = shared / "data" / "profiles" / "reference"
-    kept = flank_profile("turned", SurfaceSection(profile="mitutoyo_2_mock.xlsx"), folder)
+    kept = rig_of(folder, turned={"profile": "mitutoyo_2_mock.xlsx"}).profile("turned")
     assert dict(kept.cutoffs) == pytest.approx({"cutoff": 2.5e-3, "short_cutoff": 8e-6})
     assert len(kept.steps) == 1
 
@@ -250,14 +248,12 @@ def test_a_stuck_stylus_is_refused_by_every_command(command, tmp_path, capsys):
 
 
 def test_a_study_tells_of_inferred_units_and_an_overruled_step_is_told_by_the_command(tmp_path, capsys):
-    from mixedlub.rig.build import surface
-    from mixedlub.schema.system_file import SurfaceSection
 
     trace = profiles.shipped("0258")
     rows = "".join(f"{x * 1e3:.6f},{z * 1e6:.4f}\n" for x, z in zip(trace.positions, trace.heights))
     (tmp_path / "bare.csv").write_text(rows)
     with collected() as found:
-        surface("bare", SurfaceSection(profile="bare.csv", cutoff_mm=0.8, short_cutoff_um=2.5), tmp_path)
+        rig_of(tmp_path, bare={"profile": "bare.csv", "cutoff_mm": 0.8, "short_cutoff_um": 2.5}).surface("bare")
     assert ("trace_quality", "surfaces.bare") in [(note.code, note.place) for note in found]
     out = str(tmp_path / "o")
     assert main(["profile", str(tmp_path / "bare.csv"), "--spacing", "0.3 um", "--no-figures", "--out", out]) == 0

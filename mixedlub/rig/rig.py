@@ -1,0 +1,93 @@
+"""A rig: the parts that the sections of a file describe, each built once and then kept."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Hashable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeVar
+
+from mixedlub.gear import GearPair, Mesh, Sharing, mesh
+from mixedlub.rig import build
+from mixedlub.rig.lubricant import Lubricant
+from mixedlub.rig.surface import Surface
+from mixedlub.schema.findings import Finding, collected, report
+from mixedlub.schema.system_file import RigFile
+from profiles.profile import Profile
+
+Part = TypeVar("Part")
+
+
+@dataclass(frozen=True, eq=False)
+class Rig:
+    """Gears, load sharing, oil and surfaces of a file; what a part needs is read from ``folder`` when it is first used.
+
+    Every use of a part reports what was assumed for it, as the first one did.
+    """
+
+    file: RigFile
+    folder: Path
+    _built: dict[Hashable, tuple[Any, list[Finding]]] = field(default_factory=dict, repr=False)
+
+    @property
+    def gears(self) -> GearPair:
+        """The gear pair; only of files that have one."""
+        assert self.file.gears is not None
+        section = self.file.gears
+        return self._once("gears", lambda: build.gear_pair(section))
+
+    @property
+    def sharing(self) -> Sharing:
+        """How the load divides between the tooth pairs in contact."""
+        assert self.file.gears is not None
+        section = self.file.gears.load_sharing
+        return self._once("sharing", lambda: build.sharing(section, self.folder))
+
+    def mesh(self, points: int, slices: int | None = None) -> Mesh:
+        """The contact points of a tooth pair along its path."""
+        return self._once(
+            ("mesh", points, slices), lambda: mesh(self.gears, self.sharing, points=points, slices=slices)
+        )
+
+    def oil(self, unread: Collection[str] = ()) -> Lubricant:
+        """The lubricant; nothing is reported of keys that are ``unread`` in a kind of recording."""
+        return self._once(("oil", *unread), lambda: build.lubricant(self.file.lubricant, unread))
+
+    def trace(self, name: str) -> Profile:
+        """The measured trace of a surface, as its file has it."""
+        return self._once(("trace", name), lambda: build.trace(name, self.file.surfaces[name], self.folder))
+
+    def profile(self, name: str) -> Profile:
+        """The roughness profile of a surface that names a trace, filtered."""
+        section = self.file.surfaces[name]
+        return self._once(("profile", name), lambda: build.flank_profile(name, section, self.trace(name)))
+
+    def surface(self, name: str) -> Surface:
+        """A surface, from its moments or from its trace."""
+        section = self.file.surfaces[name]
+
+        def built() -> Surface:
+            if section.profile is None:
+                return build.surface(name, section)
+            return build.surface(name, section, (self.trace(name), self.profile(name)))
+
+        return self._once(("surface", name), built)
+
+    def parts(self) -> Iterator[GearPair | Sharing | Lubricant | Surface]:
+        """Every part that the file describes: an error names the first one that cannot be built."""
+        if self.file.gears is not None:
+            yield from (self.gears, self.sharing)
+        if self.file.lubricant is not None:
+            yield self.oil()
+        yield from map(self.surface, self.file.surfaces)
+
+    def _once(self, key: Hashable, make: Callable[[], Part]) -> Part:
+        """A part, built at its first use; its findings are reported at every use."""
+        if key not in self._built:
+            with collected() as found:
+                part = make()
+            self._built[key] = part, found
+        part, found = self._built[key]
+        for one in found:
+            report(one)
+        return part
