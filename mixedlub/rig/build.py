@@ -171,7 +171,10 @@ def _prepared(name: str, section: system_file.SurfaceSection, trace: Profile) ->
 
     if "cutoff" in trace.cutoffs and section.cutoff_mm is None and section.short_cutoff_um is None:
         return evaluation_profile(trace, form=section.form or "line", edges=section.edges, outliers=section.outliers)
-    band = {"cutoff_mm": section.cutoff_mm or 0.8, "short_cutoff_um": section.short_cutoff_um or 2.5}
+    band = {
+        "cutoff_mm": section.cutoff_mm or system_file.CUTOFF_MM,
+        "short_cutoff_um": section.short_cutoff_um or system_file.SHORT_CUTOFF_UM,
+    }
     assumed = [f"{key} = {value:g}" for key, value in band.items() if getattr(section, key) is None]
     if assumed:
         report(finding("cutoff_assumed", f"{', '.join(assumed)} assumed", f"surfaces.{name}"))

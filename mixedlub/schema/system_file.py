@@ -14,6 +14,8 @@ KindName = Literal["gear_pair", "mesh_friction", "disc", "film", "friction_histo
 KINDS: tuple[str, ...] = get_args(KindName)
 
 Pair = tuple[Number, Number]
+CUTOFF_MM, SHORT_CUTOFF_UM = 0.8, 2.5
+"""Cut-offs of a trace where none is given: ISO 4288 for Ra of 0.1 to 2 um, as ground flanks have, and ISO 3274."""
 
 
 class LoadSharing(Section):
@@ -115,8 +117,12 @@ class SurfaceSection(Section):
         example="profiles/ground.csv",
         alternative=True,
     )
-    cutoff_mm: Number | None = key("long cut-off of a trace; left out: 0.8, or its own", None, example=0.8)
-    short_cutoff_um: Number | None = key("short cut-off of a trace; left out: 2.5, or its own", None, example=2.5)
+    cutoff_mm: Number | None = key(
+        f"long cut-off of a trace; left out: {CUTOFF_MM}, or its own", None, example=CUTOFF_MM
+    )
+    short_cutoff_um: Number | None = key(
+        f"short cut-off of a trace; left out: {SHORT_CUTOFF_UM}, or its own", None, example=SHORT_CUTOFF_UM
+    )
     form: str | None = key(
         "form taken off a trace: line (left out), none, mean, circle, polynomial-N, involute-MM", None, example="line"
     )
