@@ -168,8 +168,8 @@ def test_progress_and_notes_keep_off_stdout(study):
         text=True,
         check=True,
     )
-    assert "note:" in run.stderr
-    assert "note:" not in run.stdout
+    assert "caution:" in run.stderr
+    assert "caution:" not in run.stdout
     assert run.stdout.count("\n") == 3
 
 

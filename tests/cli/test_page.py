@@ -48,7 +48,7 @@ def test_page_states_options_definitions_warnings_laws_and_effects(page):
         "mesh_integral",
         "power loss over the path integral of load times sliding speed",
         "plain mean over the path of contact",
-        "more than the Hertz pressure",
+        "times the mean Hertz pressure",
         "D. Dowson, A. Toyoda",
         "J. A. Greenwood, J. B. P. Williamson",
         "P. K. Gupta",
