@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable
+from pathlib import Path
 
 
 class InputError(ValueError):
@@ -19,6 +20,16 @@ class InputError(ValueError):
         self.rule, self.where, self.value = rule, where, value
         shown = "" if value is None else f"{value!r:.80}"
         super().__init__(": ".join(part for part in (where, shown, rule) if part))
+
+
+def refuse_no_file(path: Path) -> None:
+    """An error where a path leads to no file of data: reading a pipe never ends, nor does a device."""
+    if not path.exists():
+        raise InputError("no such file", where=str(path))
+    if path.is_dir():
+        raise InputError("is a folder; name the files in it", where=str(path))
+    if not path.is_file():
+        raise InputError("is a special file (a pipe or a device), which is not read", where=str(path))
 
 
 def nearest(name: str, known: Iterable[str]) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path, PurePath
 
-from profiles.errors import InputError
+from profiles.errors import InputError, refuse_no_file
 from profiles.profile import Profile
 from profiles.readers.base import MAX_BYTES, Reader, Source
 from profiles.readers.container import ZipReader
@@ -19,6 +19,7 @@ from profiles.readers.opdx import OpdxReader
 from profiles.readers.prf import PrfReader
 from profiles.readers.sdf import SdfReader
 from profiles.readers.smd import SmdReader
+from profiles.readers.spreadsheet import SpreadsheetReader
 from profiles.readers.surfcom import SurfcomReader
 from profiles.readers.text import TextReader
 from profiles.readers.x3p import X3pReader
@@ -70,10 +71,7 @@ def _as_named(source: Source, reader: Reader | None = None) -> Iterator[None]:
 def open_source(path: Path, unit: tuple[str, str] | None, spacing: float | None) -> Source:
     """The bytes of a file, refused when it is missing, a folder or larger than any trace."""
     where = str(path)
-    if not path.exists():
-        raise InputError("no such file", where=where)
-    if not path.is_file():
-        raise InputError("is a folder; name the files in it" if path.is_dir() else "not a file", where=where)
+    refuse_no_file(path)
     size = path.stat().st_size
     if size > MAX_BYTES:
         raise InputError(f"larger than {MAX_BYTES} bytes, the largest file that is read", where=where, value=size)
@@ -101,6 +99,7 @@ READERS: tuple[Reader, ...] = (
     SmdReader(),
     X3pReader(),
     MitutoyoReader(),
+    SpreadsheetReader(),
     # Any zip: after x3p and xlsx, which are zips with a known member.
     ZipReader(read_source),
     NistXmlReader(),

@@ -156,8 +156,8 @@ def _checked(case: Case, forward: Forward | None) -> tuple[list[Finding], list[s
     """Findings on system and readings, and why they cannot be diagnosed or predicted."""
     from mixedlub.case.forward import Forward
     from mixedlub.data_checks.audit import check_readings
+    from mixedlub.data_checks.pooled_rows import pooled_in
     from mixedlub.diagnosis.assessment.extrapolation import beyond_recorded
-    from mixedlub.importers.groups import pooled_in
     from mixedlub.rig.plausibility import far_off
 
     found, refused = list(far_off(case.rig)), []

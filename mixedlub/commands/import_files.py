@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
@@ -15,7 +17,10 @@ EXAMPLE = "mixedlub import examples/case/recordings.csv --out out/import --answe
 
 
 def command(
-    files: Annotated[list[Path], typer.Argument(metavar="FILE...", help="Files as the instrument wrote them.")],
+    files: Annotated[
+        list[Path],
+        typer.Argument(metavar="FILE...", help="Files as the instrument wrote them: text, CSV, .xlsx, each also .gz."),
+    ],
     out: Annotated[Path, typer.Option(metavar="CASE", help="Case folder to write.")],
     settings: Annotated[
         list[str], typer.Option("--set", metavar="KEY=VALUE", help="An answer, with its key in system.toml.")
@@ -24,26 +29,63 @@ def command(
         Path | None,
         typer.Option(metavar="FILE.toml", help="Answers, written as in system.toml; files they name come along."),
     ] = None,
+    sheet: Annotated[
+        str | None, typer.Option(metavar="NAME", help="Sheet of a workbook; left out, the one with the longest table.")
+    ] = None,
     overwrite: Annotated[
         bool,
         typer.Option(
             "--overwrite",
-            help="Replace system.toml and recordings.csv of a case that is there. To keep what its system.toml says: "
+            help="Replace system.toml and recordings.csv of an existing case. To keep its system.toml: "
             "mixedlub import table.csv --out rig --answers rig/system.toml --overwrite",
         ),
     ] = False,
 ) -> None:
     """Turn instrument files into a case folder.
 
-    One that simulate, check and diagnose understand. What the files do not say is asked, or listed
-    where nobody is there to answer; units are never guessed. A case that is there and differs, as one
-    edited since, is left as it is unless --overwrite is said.
+    The result is a case for simulate, check and diagnose. At a terminal, questions follow for what the
+    files lack (? explains one); elsewhere they are listed with the --set line for each answer. Units are never
+    guessed. An existing case that differs is kept unless --overwrite is given.
     """
-    from mixedlub.importers.draft import Unanswered
+    from mixedlub.importers.base import SHEET, Unanswered
     from mixedlub.importers.wizard import run
+    from mixedlub.schema.toml_file import toml_value
 
+    if sheet is not None:
+        settings = [*settings, f"{SHEET}={toml_value(sheet)}"]
     try:
-        run(files, out, settings, answers, ask=input if sys.stdin.isatty() else None, overwrite=overwrite)
+        with _progress_bar() as step:
+            run(files, out, settings, answers, input if sys.stdin.isatty() else None, overwrite=overwrite, step=step)
     except Unanswered as missing:
         print(*missing.lines, sep="\n", file=sys.stderr)
         raise InputError(missing.summary, where="import") from None
+
+
+@contextmanager
+def _progress_bar() -> Iterator[Callable[[str], None]]:
+    """A bar on stderr over the steps of the import, hidden while a question waits; none where nobody watches."""
+    from rich.console import Console
+
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield lambda doing: None
+        return
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    from mixedlub.importers.wizard import STEPS
+
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+    bar = Progress(*columns, console=console, transient=True)
+    task = bar.add_task("", total=len(STEPS))
+
+    def step(doing: str) -> None:
+        if not doing:
+            bar.stop()
+            return
+        bar.start()
+        bar.update(task, description=doing, completed=STEPS.index(doing))
+
+    try:
+        yield step
+    finally:
+        bar.stop()

@@ -1,6 +1,6 @@
 """Instrument files into case folders."""
 
+from mixedlub.importers.case_writer import write_case
 from mixedlub.importers.wizard import import_files
-from mixedlub.importers.write import write_case
 
 __all__ = ["import_files", "write_case"]

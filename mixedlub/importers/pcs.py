@@ -1,25 +1,157 @@
-"""Text files of PCS Instruments rigs: mini and extreme traction machines, film rigs."""
+"""Text files of PCS Instruments rigs: traction machines and film rigs, step by step."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence, Set
+from dataclasses import dataclass, replace
+from datetime import datetime
 
 import numpy as np
 
-from mixedlub.importers.draft import Answers, Draft, Question, kind_told, questions_of, read_note, refuse_unknown
-from mixedlub.importers.likely import likely_spread
-from mixedlub.importers.match import COLUMNS, target_for
-from mixedlub.importers.sheet import not_above_zero
-from mixedlub.importers.spare import spare_notes, spare_questions
-from mixedlub.importers.steps import STEP, Step, steps_of, without_gaps
-from mixedlub.importers.vocabulary import BY_NAME, convert
+from mixedlub.importers.base import Answers, Draft, Question, answered_kind, questions_of, read_note, refuse_unknown
+from mixedlub.importers.input_file import InputFile
+from mixedlub.importers.likeness import likely_spread, spare_notes, spare_questions
+from mixedlub.importers.matching import COLUMNS, target_for
+from mixedlub.importers.text_table import count, not_above_zero, places
+from mixedlub.importers.vocabulary import BY_NAME, convert, target_of
 from mixedlub.kinds import kind as kind_of
 from mixedlub.schema.findings import Finding, finding
+from mixedlub.schema.table import is_missing, is_number
 from mixedlub.schema.units import rounded, split
 from profiles.errors import InputError, nearest
 
-SAID = re.compile(r"^Number of steps (completed|in profile):\t(\d+)", re.MULTILINE)
+STEP = re.compile(r'^Step (\d+)(?: "[^"]*")? started at (\d\d/\d\d/\d{4} \d\d:\d\d(?::\d\d)?)')
+TYPE = re.compile(r"^Step type\t([^\t]*)(?:\tStep description\t([^\t]*))?")
+MOSTLY = 0.5
+"""Share of filled cells from which a column counts as recorded: judgement."""
+TIMED = "TIMED"
+"""Suffix of the step types in which conditions are held constant."""
+VARIES = 0.2
+"""Range of the middle 80 % over the largest value, above which a condition is swept."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step with readings: type, start, columns by header (nan where a value is missing), lines."""
+
+    number: int
+    form: str
+    start: datetime
+    columns: dict[str, np.ndarray]
+    lines: tuple[int, ...]
+
+    def header(self, target: str) -> str | None:
+        """The header of a column; of several the one with fewest gaps, then the later, more precise one."""
+        exact = [h for h in self.columns if (t := target_of(h)) is not None and t.name == target]
+        return max(exact, key=lambda h: (int(np.isfinite(self.columns[h]).sum()), exact.index(h)), default=None)
+
+    def has(self, target: str) -> bool:
+        """Whether the step has a column."""
+        return self.header(target) is not None
+
+    def whole(self, target: str) -> bool:
+        """Whether the step has a column without gaps."""
+        header = self.header(target)
+        return header is not None and bool(np.isfinite(self.columns[header]).all())
+
+    def read(self, target: str, name: str) -> np.ndarray:
+        """A column in the unit of a case."""
+        header = self.header(target)
+        assert header is not None
+        unit = split(header)[1] or ("-" if BY_NAME[target].unit == "ratio" else None)
+        if unit is None:
+            raise InputError("header without a unit", where=f"{name}: step {self.number}", value=header)
+        return convert(self.columns[header], unit, BY_NAME[target], f"{name}: {header}")
+
+    def varies(self, target: str) -> bool:
+        """Whether a condition is swept."""
+        header = self.header(target)
+        if header is None or self.form.endswith(TIMED):
+            return False
+        values = self.columns[header]
+        low, high = np.nanquantile(values, (0.1, 0.9))
+        return bool(high - low > VARIES * np.nanmax(np.abs(values)))
+
+    def since(self, first: datetime, name: str) -> np.ndarray:
+        """Seconds of the readings since the start of the first step."""
+        before = (self.start - first).total_seconds()
+        return rounded(before + self.read("time_s", name), before)
+
+
+def steps_of(text: str, name: str) -> tuple[Step, ...]:
+    """The steps that hold readings."""
+    found: list[Step] = []
+    number, start, form = 0, None, ""
+    lines = iter(enumerate(text.splitlines(), start=1))
+    for place, line in lines:
+        if begun := STEP.match(line):
+            number, start = int(begun.group(1)), _moment(begun.group(2))
+        elif typed := TYPE.match(line):
+            form = typed.group(1).strip().upper()
+        elif start is not None and _is_header(line):
+            rows = {}
+            for at, row in lines:
+                if not row.strip():
+                    break
+                rows[at] = row.split("\t")
+            if rows:
+                columns = _columns(line, list(rows.values()), f"{name}: line {place}")
+                found.append(Step(number, form, start, columns, tuple(rows)))
+    return tuple(found)
+
+
+def without_gaps(steps: tuple[Step, ...], targets: Sequence[str], name: str) -> tuple[tuple[Step, ...], list[str]]:
+    """The steps without readings that lack one of the columns, and a note for every column with gaps."""
+    gaps: dict[str, list[int]] = {}
+    found = []
+    for step in steps:
+        kept = np.ones(len(step.lines), dtype=bool)
+        for header in filter(None, map(step.header, targets)):
+            there = np.isfinite(step.columns[header])
+            kept &= there
+            gaps.setdefault(header, []).extend(np.array(step.lines)[~there].tolist())
+        columns = {h: values[kept] for h, values in step.columns.items()}
+        found.append(replace(step, columns=columns, lines=tuple(np.array(step.lines)[kept].tolist())))
+    notes = [
+        f"{count(len(lines), 'row')} left out, as {header!r} is missing: {places(lines)}"
+        for header, lines in gaps.items()
+        if lines
+    ]
+    whole = tuple(step for step in found if step.lines)
+    if not whole:
+        raise InputError(f"no reading is complete: {'; '.join(notes)}", where=name)
+    return whole, notes
+
+
+def _moment(text: str) -> datetime:
+    return datetime.strptime(text, "%d/%m/%Y %H:%M:%S" if text.count(":") == 2 else "%d/%m/%Y %H:%M")
+
+
+def _is_header(line: str) -> bool:
+    cells = line.split("\t")
+    return len(cells) > 5 and sum("(" in cell for cell in cells) > 5
+
+
+def _columns(header: str, rows: list[list[str]], where: str) -> dict[str, np.ndarray]:
+    """The columns of numbers; of a repeated header the later, more precise one."""
+    found: dict[str, np.ndarray] = {}
+    for i, name in enumerate(header.split("\t")):
+        cells = [row[i] if i < len(row) else "" for row in rows]
+        if not name.strip() or not all(is_missing(cell) or is_number(cell) for cell in cells):
+            continue
+        values = np.array([np.nan if is_missing(cell) else float(cell) for cell in cells])
+        values[~np.isfinite(values)] = np.nan
+        before = found.get(name.strip(), np.array([]))
+        held = int(np.isfinite(values).sum())
+        if held > MOSTLY * len(rows) and held >= int(np.isfinite(before).sum()):
+            found[name.strip()] = values
+    if not found:
+        raise InputError("a table without a complete column of numbers", where=where)
+    return found
+
+
+STATED = re.compile(r"^Number of steps (completed|in profile):\t(\d+)", re.MULTILINE)
 FILM_TYPES = ("FILM",)
 PROBES = {"lube": ("lube temp", "lube rtd temp"), "pot": ("pot temp", "pot rtd temp")}
 DISAGREE_K = 10.0
@@ -44,8 +176,8 @@ SWEPT_KIND = Question(
     among=("disc", "friction_map", "friction_history"),
 )
 SURFACES = (
-    Question("import.surface_1", "Name of the surface of the ball, as in [surfaces.NAME]", '"ball"'),
-    Question("import.surface_2", "Name of the surface of the disc, as in [surfaces.NAME]", '"disc"'),
+    Question("import.surface_1", "Name of the surface of the ball, as in [surfaces.NAME]", '"ball"', offered=True),
+    Question("import.surface_2", "Name of the surface of the disc, as in [surfaces.NAME]", '"disc"', offered=True),
 )
 
 
@@ -55,7 +187,7 @@ def matches(text: str) -> bool:
 
 
 def without_cut_line(text: str) -> tuple[str, int | None]:
-    """The text less a row that breaks off at its end, and the number of that line where there is one.
+    """The text without a truncated last row, and the number of that line, if there is one.
 
     >>> without_cut_line("a\\t(b)\\tc\\n1\\t2\\t3\\n4\\t5")
     ('a\\t(b)\\tc\\n1\\t2\\t3\\n', 3)
@@ -70,9 +202,9 @@ def without_cut_line(text: str) -> tuple[str, int | None]:
 
 
 def _lost(text: str, name: str, cut: int | None) -> tuple[Finding, ...]:
-    """What the file's own header counts and the file does not hold."""
-    said = {which: int(count) for which, count in SAID.findall(text)}
-    expected = said.get("completed", said.get("in profile", 0))
+    """Notes on steps that the header of the file counts and the file lacks, and on a truncated row."""
+    stated = {which: int(count) for which, count in STATED.findall(text)}
+    expected = stated.get("completed", stated.get("in profile", 0))
     held = sum(bool(STEP.match(line)) for line in text.splitlines())
     notes = []
     if held < expected:
@@ -84,9 +216,10 @@ def _lost(text: str, name: str, cut: int | None) -> tuple[Finding, ...]:
     return tuple(notes)
 
 
-def draft(text: str, name: str, answers: Answers) -> Draft:
-    """The case that a file makes: a film against speed, or friction against time, conditions or sliding speed."""
-    text, cut = without_cut_line(text)
+def draft(file: InputFile, answers: Answers) -> Draft:
+    """The case of a file: film against speed, or friction against time, conditions or sliding speed."""
+    name = file.name
+    text, cut = without_cut_line(file.text)
     lost = _lost(text, name, cut)
     held = steps_of(text, name)
     kind, offered = _kind(held, answers)
@@ -103,7 +236,7 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     types = " and ".join(dict.fromkeys(s.form for s in chosen))
     notes = [read_note(f"{len(chosen)} of {len(held)} steps with readings taken, of type {types}", name)]
     first = min(s.start for s in chosen)
-    chosen, gaps = without_gaps(chosen, [*TAKEN[kind], *_beside(chosen, kind)], name)
+    chosen, gaps = without_gaps(chosen, [*TAKEN[kind], *_further(chosen, kind)], name)
     columns = {w: _together(chosen, w, name) for w in TAKEN[kind] if all(s.has(w) for s in chosen)}
     if kind == "film" and all(s.whole("fringe_order") for s in chosen):
         columns["fringe_order"] = _together(chosen, "fringe_order", name)
@@ -111,8 +244,8 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
         columns = {"time_s": np.concatenate([s.since(first, name) for s in chosen]), **columns}
     if kind == "friction_map":
         columns = {"sliding_speed_m_s": _sliding_speed(chosen, name), **columns}
-    temperature, questions, said = _temperature(chosen, name, answers)
-    spread, offers, spread_said = _spread(chosen, quantity, name, answers)
+    temperature, questions, probe_notes = _temperature(chosen, name, answers)
+    spread, offers, spread_notes = _spread(chosen, quantity, name, answers)
     columns.update({**temperature, **spread})
     if kind == "disc":
         _refuse_absent({*columns, *(["oil_temperature_C"] if questions else [])}, name)
@@ -131,18 +264,18 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     lines = [line for s in chosen for line in s.lines]
     signed = not kind_of(kind).is_unsigned(quantity)
     low = [] if signed else not_above_zero(quantity, columns[quantity].tolist(), lines)
-    every = (*lost, *warned, *spread_said, *notes, *said, *(read_note(text, name) for text in low))
+    every = (*lost, *warned, *spread_notes, *notes, *probe_notes, *(read_note(text, name) for text in low))
     return Draft(kind, quantity, columns, system, (*questions, *offers, *questions_of(kind), *offered), every)
 
 
 def _kind(held: Sequence[Step], answers: Answers) -> tuple[str, tuple[Question, ...]]:
-    """The kind that is told, or that the steps make; where their speeds are swept, other kinds are offered.
+    """The kind that is answered, or that fits the steps; where their speeds are swept, other kinds are offered.
 
-    With a contact that is described, friction at swept speeds is that of a ball on a disc.
+    Where the contact is described, friction at swept speeds is taken as that of a ball on a disc.
     """
-    told = kind_told(answers, TAKEN)
-    if told is not None:
-        return told, ()
+    kind = answered_kind(answers, TAKEN)
+    if kind is not None:
+        return kind, ()
     if _chosen(held, "film"):
         return "film", ()
     if not any(s.varies(w) for s in _chosen(held, "friction_history") for w in SWEPT):
@@ -151,7 +284,7 @@ def _kind(held: Sequence[Step], answers: Answers) -> tuple[str, tuple[Question, 
 
 
 def _chosen(held: Sequence[Step], kind: str) -> tuple[Step, ...]:
-    """The steps that a kind is made of; against conditions, those that sweep them."""
+    """The steps that a kind uses; for a kind against conditions those that sweep them."""
     if kind == "film":
         return tuple(s for s in held if s.form in FILM_TYPES and s.has("film_thickness_nm"))
     frictions = tuple(s for s in held if s.has("friction_coefficient"))
@@ -160,15 +293,15 @@ def _chosen(held: Sequence[Step], kind: str) -> tuple[Step, ...]:
     return tuple(s for s in frictions if any(s.varies(w) for w in SWEPT)) or _most_common(frictions)
 
 
-def _beside(chosen: Sequence[Step], kind: str) -> tuple[str, ...]:
-    """What a kind reads beside the columns that it takes as they stand."""
+def _further(chosen: Sequence[Step], kind: str) -> tuple[str, ...]:
+    """Columns that a kind needs in addition to those it takes unchanged."""
     if kind == "friction_map":
         return (SLIDING,) if all(s.has(SLIDING) for s in chosen) else SWEPT
     return ("time_s",) if kind == "friction_history" else ()
 
 
 def _most_common(found: tuple[Step, ...]) -> tuple[Step, ...]:
-    """The steps of the type that holds most readings: what the test was run for."""
+    """The steps of the type with most readings, which is the purpose of the test."""
     if not found:
         return ()
     forms = [s.form for s in found for _ in s.lines]
@@ -193,25 +326,25 @@ def _sliding_speed(chosen: Sequence[Step], name: str) -> np.ndarray:
 def _spread(
     chosen: Sequence[Step], quantity: str, name: str, answers: Answers
 ) -> tuple[dict[str, np.ndarray], Sequence[Question], Sequence[Finding]]:
-    """The standard deviation of the reading where a header is told, else the question about one that may hold it."""
+    """The standard deviation of the reading where an answer names its header, else the question for a likely one."""
     column = f"{quantity}_sd"
-    target, told = target_for(column), answers.get(COLUMNS + column)
+    target, named = target_for(column), answers.get(COLUMNS + column)
     reading = chosen[0].header(quantity)
     assert target is not None
     assert reading is not None
     held = [h for h in chosen[0].columns if all(h in s.columns for s in chosen)]
-    if told is None:
-        # Those of single readings are all zero.
+    if named is None:
+        # Standard deviations of single readings are all zero.
         scattered: dict[str, list[str]] = {h: [] for h in held if any(np.any(s.columns[h] > 0.0) for s in chosen)}
         header = likely_spread(quantity, reading, scattered)
         spare = {} if header is None else {column: header}
         notes = [finding("column_not_taken", text, name) for text in spare_notes(spare, COLUMNS)]
         return {}, spare_questions(spare, COLUMNS), notes
-    if told not in held:
-        raise InputError(f"no such header; {nearest(str(told), held)}", where=COLUMNS + column, value=told)
-    unit = split(str(told))[1] or ("-" if target.unit == "ratio" else "?")
-    values = convert(np.concatenate([s.columns[told] for s in chosen]), unit, target, f"{name}: {told}")
-    return {column: values}, (), [read_note(f"{told!r} taken as {column}", name)]
+    if named not in held:
+        raise InputError(f"no such header; {nearest(str(named), held)}", where=COLUMNS + column, value=named)
+    unit = split(str(named))[1] or ("-" if target.unit == "ratio" else "?")
+    values = convert(np.concatenate([s.columns[named] for s in chosen]), unit, target, f"{name}: {named}")
+    return {column: values}, (), [read_note(f"{named!r} taken as {column}", name)]
 
 
 def _refuse_absent(columns: Set[str], name: str) -> None:
@@ -223,7 +356,7 @@ def _refuse_absent(columns: Set[str], name: str) -> None:
 def _temperature(
     chosen: tuple[Step, ...], name: str, answers: Answers
 ) -> tuple[dict[str, np.ndarray], tuple[Question, ...], tuple[Finding, ...]]:
-    """Oil temperature by the probe in the oil; a question where the two probes tell different stories."""
+    """Oil temperature by the probe in the oil; a question where the two probes disagree."""
     probes: dict[str, np.ndarray] = {}
     for probe, words in PROBES.items():
         headers = [[h for h, v in s.columns.items() if split(h)[0] in words and np.isfinite(v).all()] for s in chosen]
@@ -236,11 +369,15 @@ def _temperature(
             )
     if not probes:
         return {}, (), ()
-    asked = str(answers.get("import.temperature", ""))
-    if asked:
-        if asked not in probes:
-            raise InputError(f"must be one of {', '.join(probes)}", where="import.temperature", value=asked)
-        return {"oil_temperature_C": probes[asked]}, (), (read_note(f"temperature of the {asked} probe taken", name),)
+    probe_named = str(answers.get("import.temperature", ""))
+    if probe_named:
+        if probe_named not in probes:
+            raise InputError(f"must be one of {', '.join(probes)}", where="import.temperature", value=probe_named)
+        return (
+            {"oil_temperature_C": probes[probe_named]},
+            (),
+            (read_note(f"temperature of the {probe_named} probe taken", name),),
+        )
     if len(probes) == 2 and abs(np.median(probes["lube"]) - np.median(probes["pot"])) > DISAGREE_K:
         middle = {p: float(np.median(v)) for p, v in probes.items()}
         text = (

@@ -1,29 +1,38 @@
-"""Plain tables: one header line, any of the usual separators."""
+"""Plain tables: one header line and any common separator."""
 
 from __future__ import annotations
 
+import re
+import shlex
+from collections.abc import Collection, Iterator
+
 import numpy as np
 
-from mixedlub.importers.clock import date_order, run_on
-from mixedlub.importers.constant import constants, value_keys
-from mixedlub.importers.dates import KEY as DATES
-from mixedlub.importers.draft import Answers, Draft, Question, contact_form, questions_of, read_note, refuse_unknown
-from mixedlub.importers.groups import kept, only_keys, pooled
-from mixedlub.importers.kinematics import refuse_one_surface
-from mixedlub.importers.likely import likely_kind, likeness
-from mixedlub.importers.marks import KEY as DECIMAL
-from mixedlub.importers.marks import MARKS
-from mixedlub.importers.match import import_keys, match, target_for, wanted
-from mixedlub.importers.pace import KEYS as PACED
-from mixedlub.importers.pace import TIME, in_seconds, target_in
-from mixedlub.importers.runs import header_of_runs, runs_of
-from mixedlub.importers.sheet import Cells, Sheet, not_above_zero, read_sheet, whole
+from mixedlub.data_checks.pooled_rows import grouping_columns, pooled_words
+from mixedlub.importers.base import Answers, Draft, Question, contact_form, questions_of, read_note, refuse_unknown
+from mixedlub.importers.decimals import DECIMAL, MARKS
+from mixedlub.importers.input_file import InputFile
+from mixedlub.importers.likeness import likely_kind, likeness
+from mixedlub.importers.matching import constants, import_keys, match, target_for, value_keys, wanted
+from mixedlub.importers.surface_speeds import refuse_one_surface
+from mixedlub.importers.text_table import (
+    ONLY,
+    Cells,
+    Sheet,
+    complete_rows,
+    header_of_runs,
+    kept,
+    not_above_zero,
+    only_keys,
+    runs_of,
+)
+from mixedlub.importers.time_base import DATES, PACE_KEYS, TIME, continued, date_order, in_seconds, target_in
 from mixedlub.importers.vocabulary import convert
 from mixedlub.kinds import Kind
 from mixedlub.kinds import kind as kind_of
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.system_file import KINDS
-from mixedlub.schema.table import Column
+from mixedlub.schema.table import Column, is_number
 from mixedlub.schema.toml_file import toml_value
 from profiles.errors import InputError, nearest
 
@@ -33,58 +42,60 @@ def matches(text: str) -> bool:
     return True
 
 
-def draft(text: str, name: str, answers: Answers) -> Draft:
-    """A case from a table: kind and quantity are asked, columns by their headers, units where a header has none.
+def draft(file: InputFile, answers: Answers) -> Draft:
+    """A case from a table: columns by their headers; kind, quantity and missing units are questions.
 
-    Where the kind or the quantity is open, what a likely one leaves to ask is asked with it.
+    While kind or quantity is open, the questions of the likely one are included.
     """
     kind, quantity = answers.get("kind"), answers.get("recording.quantity")
     if kind is not None and kind not in KINDS:
         raise InputError(f"no such kind; {nearest(str(kind), KINDS)}", where="kind", value=kind)
     _refuse_unknown(kind, answers)
-    sheet, chosen = kept(read_sheet(text, name, _decimal(answers)), answers)
+    name = file.name
+    sheet, chosen = kept(file.table(_decimal(answers)), answers)
     likely = kind_of(kind or likely_kind(sheet.cells))
     if kind is not None and quantity is not None and quantity not in likely.quantities:
         rule = f"a case of kind {kind!r} records {' or '.join(likely.quantities)}"
         raise InputError(rule, where="recording.quantity", value=quantity)
     questions: list[Question] = []
     if kind is None:
-        questions.append(Question("kind", "Kind of recording", toml_value(likely.name), among=KINDS))
+        questions.append(Question("kind", "Kind of recording", toml_value(likely.name), among=KINDS, offered=True))
     if quantity is None:
         quantity = _likely_quantity(likely, sheet.cells)
         if len(likely.quantities) > 1:
             example = toml_value(quantity)
-            questions.append(Question("recording.quantity", "Recorded quantity", example, among=likely.quantities))
+            among = likely.quantities
+            questions.append(Question("recording.quantity", "Recorded quantity", example, among=among, offered=True))
     found = match(likely, str(quantity), sheet.cells, answers)
     rest = (*found.questions, *contact_form(likely.name, answers), *questions_of(likely.name))
     if questions:
         return Draft(kind, None, {}, {}, (*questions, *rest))
     rules = {column.name: column for column in wanted(likely, str(quantity), answers)}
     needed = [h for c, h in found.headers.items() if rules[c].form != "name" and not rules[c].blank]
-    sheet, lost = whole(sheet, needed)
+    sheet, lost = complete_rows(sheet, needed)
     refuse_one_surface(found.headers, sheet.cells, name)
-    asked = {TIME if question.key in PACED else question.key.rpartition(".")[2] for question in found.questions}
+    open_columns = {TIME if q.key in PACE_KEYS else q.key.rpartition(".")[2] for q in found.questions}
     columns = {
         column: _values(rules[column], header, sheet, found.units.get(column))
         for column, header in found.headers.items()
-        if column not in asked
+        if column not in open_columns
     }
-    paced = ""
-    restarted: list[Finding] = []
+    count_note = ""
+    clock_notes: list[Finding] = []
     if TIME in columns and TIME in found.units:
-        columns[TIME], paced = in_seconds(columns[TIME], found.headers[TIME], found.units[TIME], answers)
+        columns[TIME], count_note = in_seconds(columns[TIME], found.headers[TIME], found.units[TIME], answers)
     if TIME in columns:
-        columns[TIME], restarted = run_on(columns[TIME], found.headers[TIME], sheet, date_order(answers))
+        columns[TIME], clock_notes = continued(columns[TIME], found.headers[TIME], sheet, date_order(answers))
     columns |= constants(likely, answers, len(sheet.lines))
     readings = columns.get(str(quantity)) if likely.is_unsigned(str(quantity)) else None
     low = [] if readings is None else not_above_zero(str(quantity), readings.tolist(), sheet.lines)
     header = header_of_runs(sheet, answers)
-    runs, anew = (None, None) if header is None else runs_of(sheet, header)
+    runs, renumbered = (None, None) if header is None else runs_of(sheet, header)
     fixed = [c for c in columns if c not in found.headers]
     taken = [*(["run"] if runs is not None else []), *(c for c in columns if c in found.headers)]
     left = [h for h in sheet.cells if h not in found.headers.values() and h != header]
     conditions = [v for c, v in columns.items() if c not in (quantity, f"{quantity}_sd")]
-    mixed = pooled({h: sheet.cells[h] for h in left}, conditions, name)
+    mixed = _pooled({h: sheet.cells[h] for h in left}, conditions, name)
     read = [
         *chosen,
         f"{len(taken)} of {len(sheet.cells)} columns taken: {', '.join(taken)}",
@@ -92,18 +103,28 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
         *([f"the same in all rows, as answered: {', '.join(fixed)}"] if fixed else []),
         *([f"{sheet.left_out} left out: no part of the table"] if sheet.left_out else []),
         *found.notes,
-        *([paced] if paced else []),
+        *([count_note] if count_note else []),
     ]
     notes = [
+        *(finding("decimal_mark_assumed", text, name) for text in sheet.notes),
         *(finding("rows_left_out", text, name) for text in lost),
         *(finding("column_not_taken", text, name) for text in found.warned),
         *mixed,
         *(read_note(text, name) for text in read),
-        *restarted,
+        *clock_notes,
         *(read_note(text, name) for text in low),
-        *([read_note(anew)] if anew else []),
+        *([read_note(renumbered)] if renumbered else []),
     ]
     return Draft(kind, quantity, columns, {}, rest, tuple(notes), runs)
+
+
+def _pooled(free: Cells, conditions: Collection[np.ndarray], file: str) -> Iterator[Finding]:
+    """A finding for every column left out that distinguishes things whose rows are then pooled."""
+    for header, cells in grouping_columns(free, conditions):
+        value = toml_value(cells[0]) if not is_number(cells[0]) and re.search(r"[^\w-]", cells[0]) else cells[0]
+        setting = shlex.quote(f"{ONLY}{header}={value}")
+        text = f"{header!r} is not taken, so {pooled_words(cells)}; to import one of them: --set {setting}"
+        yield finding("things_pooled", text, file)
 
 
 def _refuse_unknown(kind: str | None, answers: Answers) -> None:
@@ -114,29 +135,36 @@ def _refuse_unknown(kind: str | None, answers: Answers) -> None:
 
 
 def _decimal(answers: Answers) -> str | None:
-    told = answers.get(DECIMAL)
-    if told is not None and told not in MARKS:
-        raise InputError("must be '.' or ','", where=DECIMAL, value=told)
-    return told
+    mark = answers.get(DECIMAL)
+    if mark is not None and mark not in MARKS:
+        raise InputError("must be '.' or ','", where=DECIMAL, value=mark)
+    return mark
 
 
 def _likely_quantity(kind: Kind, cells: Cells) -> str:
-    """The quantity to which a header comes nearest."""
+    """The quantity with the most similar header."""
     return max(kind.quantities, key=lambda q: max(likeness(q, h, values) for h, values in cells.items()))
 
 
 def _values(rule: Column, header: str, sheet: Sheet, unit: str | None) -> np.ndarray:
     """The cells of a column in its unit, within the bounds that a case sets; the first wrong one is named."""
     cells = sheet.cells[header]
-    places = [f"{sheet.name}: line {line}, {header}" for line in sheet.lines]
+
+    def place(row: int) -> str:
+        return f"{sheet.name}: line {sheet.lines[row]}, {header}"
+
+    # Bounds hold in the unit of the case, after the conversion.
+    written = rule if rule.form == "name" else Column(header, blank=rule.blank)
+    values = written.parse_all(cells)
+    if values is None:
+        values = np.array([written.parse(cell, place(row)) for row, cell in enumerate(cells)])
     if rule.form == "name":
-        return np.array([rule.parse(cell, place) for cell, place in zip(cells, places, strict=True)])
-    number = Column(header, blank=rule.blank)
-    values = np.array([number.parse(cell, place) for cell, place in zip(cells, places, strict=True)], dtype=float)
+        return values
     target = target_for(rule.name)
     if unit is not None and target is not None:
         values = convert(values, unit, target_in(target, unit), f"{sheet.name}: {header}")
-    for value, place in zip(values.tolist(), places, strict=True):
-        if value == value and not rule.allows(value):
-            rule.parse(repr(value), place)
+    allowed = np.isnan(values) | ((values > rule.above) & (values >= rule.at_least) & (values <= rule.at_most))
+    if not allowed.all():
+        row = int(np.argmin(allowed))
+        rule.parse(repr(float(values[row])), place(row))
     return values

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.importers.draft import Answers, Draft, kind_told, questions_of, read_note, refuse_unknown
-from mixedlub.importers.sheet import count, places
+from mixedlub.importers.base import Answers, Draft, answered_kind, questions_of, read_note, refuse_unknown
+from mixedlub.importers.input_file import InputFile
+from mixedlub.importers.text_table import count, places
 from mixedlub.importers.vocabulary import BY_NAME, convert, target_of
 from mixedlub.schema.findings import finding
 from mixedlub.schema.table import Column
@@ -20,10 +21,11 @@ def matches(text: str) -> bool:
     return any(line.strip().lower() == "[step]" for line in text.splitlines()[:200])
 
 
-def draft(text: str, name: str, answers: Answers) -> Draft:
-    """Viscosity against temperature and time; the steps follow each other."""
+def draft(file: InputFile, answers: Answers) -> Draft:
+    """Viscosity against temperature and time, with the steps in sequence."""
+    text, name = file.text, file.name
     refuse_unknown(answers, ())
-    kind_told(answers, ("viscosity",))
+    answered_kind(answers, ("viscosity",))
     parts: dict[str, list[np.ndarray]] = {w: [] for w in WANTED}
     elapsed, taken, left = 0.0, 0, 0
     lost: list[int] = []
@@ -47,11 +49,9 @@ def draft(text: str, name: str, answers: Answers) -> Draft:
     if not taken:
         raise InputError("no step with viscosity and temperature", where=name)
     columns = {w: np.concatenate(v) for w, v in parts.items()}
-    gone_rows = f"{count(len(lost), 'row')} left out, as a value is missing: {places(lost)}"
-    notes = [
-        *([finding("rows_left_out", gone_rows, name)] if lost else []),
-        read_note(f"{taken} steps taken, {left} left; time runs on from step to step without the pauses between", name),
-    ]
+    lost_rows = f"{count(len(lost), 'row')} left out, as a value is missing: {places(lost)}"
+    steps = f"{taken} steps taken, {left} left out; time continues from step to step without the pauses between"
+    notes = [*([finding("rows_left_out", lost_rows, name)] if lost else []), read_note(steps, name)]
     return Draft("viscosity", "viscosity_mPa_s", columns, {}, questions_of("viscosity"), tuple(notes))
 
 

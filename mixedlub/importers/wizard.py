@@ -1,9 +1,9 @@
-"""Instrument files into a case folder: what the files do not say is asked, or listed where nobody can answer."""
+"""Instrument files to a case folder: questions for missing facts, or a list of them where nobody can answer."""
 
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -11,50 +11,74 @@ from typing import Any
 import numpy as np
 
 from mixedlub.case.import_file import NAME
+from mixedlub.data_checks.case_check import refuse_unreadable
 from mixedlub.importers import pcs, plain, trios
-from mixedlub.importers.carried import carried, is_share, with_share
-from mixedlub.importers.checked import is_list, refuse_wrong
-from mixedlub.importers.clock import follow
-from mixedlub.importers.constant import VALUES
-from mixedlub.importers.draft import EVERY, Draft, Question, Unanswered, flat, open_questions, read_note
-from mixedlub.importers.needs import gaps, told, undescribed
-from mixedlub.importers.pace import TIME
-from mixedlub.importers.readable import refuse_unreadable
-from mixedlub.importers.runs import together
-from mixedlub.importers.write import findings_toml, write_case
+from mixedlub.importers.attachments import carried, is_share, with_share
+from mixedlub.importers.base import (
+    EVERY,
+    SHEET,
+    Answers,
+    Draft,
+    Question,
+    Unanswered,
+    flat,
+    is_list,
+    listed,
+    open_questions,
+    read_note,
+    refuse_wrong,
+)
+from mixedlub.importers.case_writer import findings_toml, write_case
+from mixedlub.importers.input_file import InputFile, open_file
+from mixedlub.importers.matching import VALUES
+from mixedlub.importers.missing_inputs import gap_lines, gaps, undescribed
+from mixedlub.importers.text_table import joined_runs
+from mixedlub.importers.time_base import TIME, joined_times
+from mixedlub.report.format_reference import about
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, Severity, finding, of_severity, report
-from mixedlub.schema.table import with_hyphens
 from profiles.errors import InputError, nearest
-from profiles.readers.numbers import decoded
 
 MANY = 2000
 """Readings in time from which a recording is raw rather than averaged."""
+SHOWN = 4
+"""Different names of a column that the summary lists at most."""
 
+Ask = Callable[[str], str]
 Say = Callable[[str], None]
+Step = Callable[[str], None]
+"""Called with what is being done, and with nothing when it is done."""
 
 READERS: tuple[ModuleType, ...] = (pcs, trios, plain)
 """Tried in this order; plain tables last because any text matches."""
+STEPS = ("reading files", "reading tables", "writing the case", "checking the case")
 
 SCHEMA = "mixedlub-case/1"
 
 
-def read(files: Sequence[Path], answers: Mapping[str, Any]) -> Draft:
-    """What the files say together; files of one case must be of the same kind and hold the same columns."""
+def read(files: Sequence[InputFile], answers: Answers) -> Draft:
+    """The joint draft of all files; files of one case must be of the same kind and hold the same columns."""
     if not files:
         raise InputError("name at least one file", where="import")
-    drafts = [_read_one(path, answers) for path in files]
+    drafts = [_read_one(file, answers) for file in files]
     first = drafts[0]
-    for path, other in zip(files[1:], drafts[1:], strict=True):
+    for file, other in zip(files[1:], drafts[1:], strict=True):
         if (other.kind, other.quantity, set(other.columns)) != (first.kind, first.quantity, set(first.columns)):
-            raise InputError("holds other columns than the first file; import it by itself", where=path.name)
+            raise InputError("holds other columns than the first file; import it by itself", where=file.name)
     columns = {name: np.concatenate([d.columns[name] for d in drafts]) for name in first.columns}
     restarted: list[Finding] = []
     if TIME in columns:
-        columns[TIME], restarted = follow([(path.name, d.columns[TIME]) for path, d in zip(files, drafts, strict=True)])
+        times = [(file.name, d.columns[TIME]) for file, d in zip(files, drafts, strict=True)]
+        columns[TIME], restarted = joined_times(times)
     questions = {q.key: q for d in drafts for q in d.questions}
-    runs, anew = together([(path.name, d.runs) for path, d in zip(files, drafts, strict=True)])
-    notes = [*(note for d in drafts for note in d.notes), *restarted, *([read_note(anew)] if anew else [])]
+    runs, renumbered = joined_runs([(file.name, d.runs) for file, d in zip(files, drafts, strict=True)])
+    own = [note for file in files for note in file.notes]
+    notes = [
+        *own,
+        *(note for d in drafts for note in d.notes),
+        *restarted,
+        *([read_note(renumbered)] if renumbered else []),
+    ]
     return Draft(
         first.kind,
         first.quantity,
@@ -66,43 +90,20 @@ def read(files: Sequence[Path], answers: Mapping[str, Any]) -> Draft:
     )
 
 
-def _read_one(path: Path, answers: Mapping[str, Any]) -> Draft:
-    text = _text(path)
-    reader = next(r for r in READERS if r.matches(text))
-    found: Draft = reader.draft(text, path.name, answers)
+def _read_one(file: InputFile, answers: Answers) -> Draft:
+    reader = next(r for r in READERS if r.matches(file.text))
+    found: Draft = reader.draft(file, answers)
     return found
-
-
-def _text(path: Path) -> str:
-    try:
-        raw = path.read_bytes()
-    except FileNotFoundError:
-        raise InputError("no such file", where=str(path)) from None
-    except IsADirectoryError:
-        raise InputError("is a folder; name the files in it", where=str(path)) from None
-    except OSError as error:
-        raise InputError(f"cannot be read ({error.strerror})", where=str(path)) from None
-    text = with_hyphens(decoded(raw, path.name))
-    if "\0" in text[:4096]:
-        raise InputError("is not a text file; export it as text first", where=path.name)
-    return text
-
-
-def _apart(files: Sequence[Path]) -> tuple[list[Path], list[Path]]:
-    """Files that hold readings, and tables of load shares."""
-    shares = [path for path in files if is_share(_text(path))]
-    return [path for path in files if path not in shares], shares
 
 
 def import_files(files: Sequence[Path], out: Path, *, overwrite: bool = False, **answers: Any) -> Path:
     """A case folder from instrument files; ``answers`` are tables or dotted keys as in system.toml.
 
-    What is needed and not answered is an error that lists it; nothing is guessed. A case that is there and
-    differs is an error too, unless ``overwrite`` is said.
+    Missing answers are an error that lists them; nothing is guessed. A case that exists and differs is an error
+    too, unless ``overwrite`` is true.
     """
-    files, shares = _apart(files)
-    given = with_share(flat(answers), shares)
-    draft = read(files, given)
+    opened, given = _opened(files, flat(answers))
+    draft = read(opened, given)
     missing = open_questions(draft, given)
     if missing:
         raise Unanswered(missing)
@@ -117,33 +118,37 @@ def run(
     out: Path,
     settings: Sequence[str] = (),
     answers_file: Path | None = None,
-    ask: Callable[[str], str] | None = None,
-    say: Callable[[str], None] = print,
+    ask: Ask | None = None,
+    say: Say = print,
     overwrite: bool = False,
+    step: Step = lambda doing: None,
 ) -> Path:
     """The import command: settings ``KEY=VALUE`` and a TOML file first, then ``ask`` for what is missing.
 
-    ``ask`` is None where nobody is there to answer; then missing answers are an error that lists them.
+    ``ask`` is None where nobody can answer; then missing answers are an error that lists them. ``step`` is called
+    at the start of each of the STEPS, and with an empty text before a question.
     """
     answers = flat(toml_file.read_toml(answers_file)) if answers_file is not None else {}
     answers.update(parse_setting(s) for s in settings)
-    files, shares = _apart(files)
-    answers = with_share(answers, shares)
-    asked: set[str] = set()
+    step(STEPS[0])
+    opened, answers = _opened(files, answers)
     if ask is not None and not overwrite and (out / "system.toml").exists():
-        say(f"{out} is a case already; it is left as it is where it differs (--overwrite replaces it)")
-    while True:
-        draft = read(files, answers)
-        waiting = [q for q in draft.questions if q.key not in answers and q.key not in asked]
-        if ask is None or not waiting:
-            break
-        question = next((q for q in waiting if q.needed), waiting[0])
-        asked.add(question.key)
-        answers = _answered(files, answers, question, ask, say)
+        say(f"{out} is a case already; it is kept where it differs (--overwrite replaces it)")
+    step(STEPS[1])
+    draft = read(opened, answers)
+    step("")
+    if ask is not None:
+        answers, draft = _with_replies(opened, answers, draft, ask, say)
     missing = open_questions(draft, answers)
     if missing:
         raise Unanswered(missing)
-    folder, refusal = _write(draft, answers, out, overwrite, _folders(answers_file, files, out))
+    if ask is not None:
+        for line in _summary(draft, answers):
+            say(line)
+        if ask(f"Write this case to {out} (Enter writes it, n stops): ").strip().lower().startswith("n"):
+            raise InputError("stopped before writing; nothing was changed", where=str(out))
+    folder, refusal = _write(draft, answers, out, overwrite, _folders(answers_file, files, out), step)
+    step("")
     for note in draft.notes:
         say(_line(note))
     for hint in _hints(draft, answers):
@@ -152,19 +157,28 @@ def run(
         say(_line(finding("case_refused", f"diagnose cannot use this case as it is: {refusal}")))
     say(f"{folder}: a case of kind {draft.kind} that records {draft.quantity}")
     system = toml_file.parse(system_file.System, toml_file.read_toml(folder / "system.toml"), "system.toml")
-    for line in told(gaps(system, draft.columns), str(folder / "system.toml"), system):
+    for line in gap_lines(gaps(system, draft.columns), str(folder / "system.toml"), system):
         say(line)
     return folder
 
 
 def _line(note: Finding) -> str:
-    """A finding as the command prints it; how a file was read stands without a mark."""
+    """A finding as the command prints it: one on how a file was read has no mark."""
     return str(note) if note.severity is Severity.NOTE else f"{note.severity}: {note}"
 
 
 def _warnings(draft: Draft) -> tuple[Finding, ...]:
-    """What is kept for `check` and `diagnose`: readings lost or in doubt, not how the files were read."""
+    """Findings on lost or doubtful readings, which are kept for `check` and `diagnose`."""
     return of_severity(draft.notes, Severity.CAUTION, Severity.DOUBT)
+
+
+def _opened(files: Sequence[Path], answers: Answers) -> tuple[list[InputFile], dict[str, Any]]:
+    """The files of readings, and the answers with the table of load shares that may be among the files."""
+    found = [(path, open_file(path, answers)) for path in files]
+    shares = [path for path, file in found if is_share(file.text)]
+    if SHEET in answers and not any(path.suffix.lower() in (".xlsx", ".xlsm") for path in files):
+        raise InputError("none of the files is a workbook (.xlsx)", where=SHEET, value=answers[SHEET])
+    return [file for path, file in found if path not in shares], with_share(answers, shares)
 
 
 def parse_setting(text: str) -> tuple[str, Any]:
@@ -182,70 +196,135 @@ def parse_setting(text: str) -> tuple[str, Any]:
 def _value(text: str) -> Any:
     try:
         return tomllib.loads(f"value = {text.strip()}")["value"]
-    except tomllib.TOMLDecodeError:
+    except ValueError:
         return text.strip()
 
 
+def _with_replies(
+    files: Sequence[InputFile], answers: dict[str, Any], draft: Draft, ask: Ask, say: Say
+) -> tuple[dict[str, Any], Draft]:
+    """The answers and the draft after every question was put once, needed ones first."""
+    put: set[str] = set()
+    while waiting := [q for q in draft.questions if q.key not in answers and q.key not in put]:
+        question = next((q for q in waiting if q.needed), waiting[0])
+        put.add(question.key)
+        answers, draft = _answered(files, answers, draft, question, ask, say)
+    return answers, draft
+
+
 def _answered(
-    files: Sequence[Path], answers: Mapping[str, Any], question: Question, ask: Callable[[str], str], say: Say
-) -> dict[str, Any]:
-    """The answers with one more, unless it is left open; a wrong one is told and asked again."""
-    told: dict[str, Mapping[str, Any]] = {}
+    files: Sequence[InputFile], answers: dict[str, Any], draft: Draft, question: Question, ask: Ask, say: Say
+) -> tuple[dict[str, Any], Draft]:
+    """The answers with one more, unless it is left open, and their draft; after a wrong answer the question repeats."""
+    refused: dict[str, Mapping[str, Any]] = {}
     while True:
         found = _ask(question, ask, say)
         if found is None:
-            return dict(answers)
+            return answers, draft
         more = {**answers, **found}
         try:
             for key, value in found.items():
                 refuse_wrong(key, value)
-            read(files, more)
+            return more, read(files, more)
         except InputError as error:
-            # What another answer does not change is wrong in the file.
-            if told.get(str(error), found) != found:
+            # An error that another answer does not change is one of the file.
+            if refused.get(str(error), found) != found:
                 raise
             if not question.key.startswith("import.") and error.where != question.key:
                 raise
-            told[str(error)] = found
+            refused[str(error)] = found
             say(str(error))
-        else:
-            return more
 
 
-def _ask(question: Question, ask: Callable[[str], str], say: Say) -> dict[str, Any] | None:
-    """One answer with its key, asked again while it is needed and empty, then with the choices by number.
+def _ask(question: Question, ask: Ask, say: Say) -> dict[str, Any] | None:
+    """One answer with its key; None where it is left open. A needed question repeats, with numbered choices.
 
-    None if left open; a reply that tells what all rows have has a key of its own.
+    A reply IMPORT.VALUES.NAME=VALUE, one value for all rows, has its own key.
     """
-    hint = f"for example {question.example}" + ("" if question.needed else "; empty if not known")
     words = f"{question.text}: {question.choices}" if question.choices else question.text
-    listed: tuple[str, ...] = ()
+    listing: tuple[str, ...] = ()
     while True:
-        reply = ask(f"{words} ({hint}): ").strip()
-        if reply.isdecimal() and 1 <= int(reply) <= len(listed):
-            return {question.key: listed[int(reply) - 1]}
-        if reply.startswith(VALUES):
-            if "=" in reply:
-                return dict([parse_setting(reply)])
-            say(f"what all rows have is told as {VALUES}NAME=VALUE")
-            continue
-        if reply:
+        reply = ask(f"{words} ({_hint(question)}): ").strip()
+        if reply in ("?", "help"):
+            listing = _choices(question)
+            for line in _help(question, listing):
+                say(line)
+        elif reply.isdecimal() and 1 <= int(reply) <= len(listing):
+            return {question.key: listing[int(reply) - 1]}
+        elif reply.startswith(VALUES) and "=" not in reply:
+            say(f"one value for all rows is written as {VALUES}NAME=VALUE")
+        elif reply.startswith(VALUES):
+            return dict([parse_setting(reply)])
+        elif reply:
             return {question.key: _value(f"[{reply}]" if is_list(question.example, reply) else reply)}
-        if not question.needed:
+        elif not question.needed:
             return None
-        listed = () if any(choice.isdecimal() for choice in question.among) else question.among
-        say("this is needed" + ("; a number will do:" if listed else ""))
-        for number, choice in enumerate(listed, start=1):
-            say(f"  {number}  {choice}")
+        elif question.offered:
+            return {question.key: _value(question.example)}
+        else:
+            listing = _choices(question)
+            say("this is needed" + ("; a number will do:" if listing else ""))
+            for number, choice in enumerate(listing, start=1):
+                say(f"  {number}  {choice}")
+
+
+def _hint(question: Question) -> str:
+    """What an empty reply does, and an example."""
+    if question.offered:
+        return f"Enter takes {question.example}; ? explains"
+    return f"for example {question.example}; " + (
+        "? explains" if question.needed else "Enter leaves it open; ? explains"
+    )
+
+
+def _choices(question: Question) -> tuple[str, ...]:
+    """Choices that may be given by number; none where a choice is itself a number."""
+    return () if any(choice.isdecimal() for choice in question.among) else question.among
+
+
+def _help(question: Question, listing: Sequence[str]) -> Iterator[str]:
+    """The choices, kinds with what they record, and the setting that answers the question."""
+    for number, choice in enumerate(listing, start=1):
+        yield f"  {number}  {about(choice) if question.key == 'kind' else choice}"
+    if question.key == "kind":
+        yield "  (columns and keys of each: mixedlub kinds KIND)"
+    yield "the same answer on the command line:"
+    yield from listed([question])
+
+
+def _summary(draft: Draft, answers: Answers) -> Iterator[str]:
+    """Kind, rows and ranges of what will be written, and what was left open with the setting for each."""
+    rows = len(next(iter(draft.columns.values())))
+    yield f"{draft.kind}: {rows} rows, reading {draft.quantity}"
+    width = max(map(len, draft.columns))
+    for name, values in draft.columns.items():
+        yield f"  {name:{width}}  {_range(values)}"
+    left = [q for q in draft.questions if q.key not in answers]
+    if left:
+        yield "left open, each may be given later:"
+        yield from listed(left)
+
+
+def _range(values: np.ndarray) -> str:
+    """Smallest and largest number of a column, or its names.
+
+    >>> _range(np.array([50.0, 100.5, np.nan])), _range(np.array(["a", "b", "a"]))
+    ('50 to 100.5', 'a, b')
+    """
+    if values.dtype.kind not in "fiu":
+        names = list(dict.fromkeys(values.tolist()))
+        return ", ".join(map(str, names[:SHOWN])) + (", ..." if len(names) > SHOWN else "")
+    known = values[np.isfinite(values)]
+    return f"{known.min():g} to {known.max():g}" if known.size else "empty"
 
 
 def _folders(answers_file: Path | None, files: Sequence[Path], out: Path) -> list[Path]:
-    """Where a file that the answers name is looked for."""
-    beside = [path.parent for path in (*([answers_file] if answers_file else []), *files)]
-    return list(dict.fromkeys([*beside, Path(), out]))
+    """Folders in which a file that the answers name is looked for."""
+    near = [path.parent for path in (*([answers_file] if answers_file else []), *files)]
+    return list(dict.fromkeys([*near, Path(), out]))
 
 
-def _hints(draft: Draft, answers: Mapping[str, Any]) -> list[str]:
+def _hints(draft: Draft, answers: Answers) -> list[str]:
     rows = len(next(iter(draft.columns.values())))
     if rows < MANY or "time_s" not in draft.columns or EVERY.key in answers:
         return []
@@ -256,11 +335,17 @@ def _hints(draft: Draft, answers: Mapping[str, Any]) -> list[str]:
 
 
 def _write(
-    draft: Draft, answers: Mapping[str, Any], out: Path, overwrite: bool, folders: Sequence[Path]
+    draft: Draft,
+    answers: Answers,
+    out: Path,
+    overwrite: bool,
+    folders: Sequence[Path],
+    step: Step = lambda doing: None,
 ) -> tuple[Path, str]:
-    """The case folder, and why diagnose would refuse it though check reads it."""
-    told, files = carried(answers, folders)
-    system: dict[str, Any] = {"kind": draft.kind, **told}
+    """The case folder, and why diagnose would refuse it although check reads it."""
+    step(STEPS[2])
+    given, files = carried(answers, folders)
+    system: dict[str, Any] = {"kind": draft.kind, **given}
     for section, facts in draft.system.items():
         system[section] = {**facts, **system.get(section, {})}
     system["recording"] = {"quantity": draft.quantity, **system.get("recording", {})}
@@ -282,6 +367,7 @@ def _write(
     refusals: list[str] = []
 
     def read_back(folder: Path) -> None:
+        step(STEPS[3])
         refusals.append(refuse_unreadable(folder, checked, complete, out))
 
     warned = _warnings(draft)

@@ -62,9 +62,18 @@ def _study() -> Iterator[str]:
         yield from ("", *_title(table), *_keys(table))
 
 
+def about(kind_name: str) -> str:
+    """What a kind of case records, in a line.
+
+    >>> about("viscosity")
+    'viscosity: viscosity of a sample against temperature and pressure'
+    """
+    text = (importlib.import_module(f"mixedlub.kinds.{kind_name}").__doc__ or "").splitlines()[0]
+    return f"{kind_name}: {text[:1].lower()}{text[1:].rstrip('.')}"
+
+
 def _kind(k: Kind) -> Iterator[str]:
-    about = (importlib.import_module(f"mixedlub.kinds.{k.name}").__doc__ or "").splitlines()[0]
-    yield from _wrapped(f"{k.name}: {about[:1].lower()}{about[1:].rstrip('.')}", 0, 2)
+    yield from _wrapped(about(k.name), 0, 2)
     used = f"; uses where given {_named(k.uses)}" if k.uses else ""
     yield from _wrapped(f"needs {_named(k.sections) or 'no section but [recording]'}{used}", 2, 4)
     if k.part_rigs:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import difflib
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,7 +14,7 @@ import numpy as np
 from mixedlub.schema.findings import Finding, finding, report
 from mixedlub.schema.ranges import meant
 from mixedlub.schema.units import fits, read_as, split, unit_of, words_of
-from profiles.errors import InputError, nearest
+from profiles.errors import InputError, nearest, refuse_no_file
 
 
 @dataclass(frozen=True)
@@ -70,6 +70,22 @@ class Column:
                 raise InputError(f"{self.name} must be a whole number below {LARGEST}", where=where, value=text)
             return int(value)
         return value
+
+    def parse_all(self, cells: Sequence[str]) -> np.ndarray | None:
+        """The values of many cells at once; None where a cell is empty or wrong, which ``parse`` explains."""
+        try:
+            if self.form == "name":
+                names = {cell: self.parse(cell, self.name) for cell in set(cells)}
+                return np.array([names[cell] for cell in cells])
+            values = np.fromiter(map(float, cells), float, len(cells))
+        except ValueError:
+            return None
+        allowed = (values > self.above) & (values >= self.at_least) & (values <= self.at_most) & np.isfinite(values)
+        if self.form == "whole":
+            allowed &= (np.abs(values) < LARGEST) & (values == np.trunc(values))
+        if not allowed.all():
+            return None
+        return values.astype(int) if self.form == "whole" else values
 
 
 LARGEST = 2**53
@@ -133,6 +149,26 @@ def is_missing(cell: str) -> bool:
     return cell.strip().lower() in BLANK
 
 
+def is_number(cell: str) -> bool:
+    """Whether a cell can be read as a number."""
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
+def are_numbers(cells: Collection[str]) -> bool:
+    """Whether all cells are numbers or empty, and not all of them empty.
+
+    >>> are_numbers(["1", "n/a", "2"]), are_numbers(["1", "stuck"]), are_numbers(["", ""])
+    (True, False, False)
+    """
+    if not all(is_number(cell) or is_missing(cell) for cell in cells):
+        return False
+    return not cells or not all(map(is_missing, cells))
+
+
 def with_hyphens(text: str) -> str:
     """Text whose numbers have the minus that they are read with, where a printed one (U+2212) stands before them.
 
@@ -146,15 +182,14 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] 
     """Read a CSV with the given columns, those of the ``key`` unique together; others are ignored and reported."""
     where = str(path)
     try:
+        refuse_no_file(path)
         text = with_hyphens(path.read_text(encoding="utf-8-sig"))
-    except FileNotFoundError:
-        raise InputError("no such file", where=where) from None
     except UnicodeDecodeError:
-        raise InputError("is not text in UTF-8", where=where) from None
+        raise InputError(f"is not text in UTF-8; {_IMPORTED}", where=where) from None
     except OSError as error:
         raise InputError(f"cannot be read ({error.strerror})", where=where) from None
     if "\0" in text:
-        raise InputError("is not a text table", where=where)
+        raise InputError(f"is not a text table; {_IMPORTED}", where=where)
     try:
         reader = csv.reader(text.splitlines())
         lines = [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
@@ -165,7 +200,8 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] 
     header = [cell.strip() for cell in lines[0][1]]
     separator = next((mark for mark in (";", "\t") if len(header) == 1 and mark in header[0]), None)
     if separator is not None:
-        raise InputError("columns are separated by commas, numbers have a decimal point", where=where, value=separator)
+        rule = f"columns are separated by commas, numbers have a decimal point; {_IMPORTED}"
+        raise InputError(rule, where=where, value=separator)
     doubled = {name for name in header if name and header.count(name) > 1}
     if doubled:
         raise InputError("column appears twice", where=where, value=sorted(doubled)[0])
@@ -190,6 +226,7 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] 
     return Table(cells, path.name, tuple(unknown))
 
 
+_IMPORTED = "use `mixedlub import`, which reads it and writes the table of a case"
 _CONVERTED = "units are not converted here; `mixedlub import` does"
 
 
@@ -255,6 +292,12 @@ def _other_unit(column: Column, unknown: list[str]) -> str | None:
 def _parse(
     lines: list[tuple[int, list[str]]], header: list[str], known: Mapping[str, Column], where: str
 ) -> dict[str, np.ndarray]:
+    if all(len(row) == len(header) for _, row in lines):
+        columns = dict(zip(header, zip(*(row for _, row in lines[1:]), strict=True), strict=True))
+        found = {name: known[name].parse_all(texts) for name, texts in columns.items() if name in known}
+        if all(values is not None for values in found.values()):
+            return {name: values for name, values in found.items() if values is not None}
+    # Something is empty or wrong: cell by cell, so that the first wrong one is named.
     cells: dict[str, list[float | int | str]] = {name: [] for name in header if name in known}
     for number, row in lines[1:]:
         if len(row) != len(header):

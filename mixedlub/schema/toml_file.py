@@ -13,7 +13,7 @@ from pydantic import ValidationError
 
 from mixedlub.schema import messages
 from mixedlub.schema.section import Key, Section, section_in
-from profiles.errors import InputError, nearest
+from profiles.errors import InputError, nearest, refuse_no_file
 
 T = TypeVar("T", bound=Section)
 
@@ -21,13 +21,17 @@ T = TypeVar("T", bound=Section)
 def read_toml(path: Path) -> dict[str, Any]:
     """The file's content, or an error saying why it is not TOML."""
     try:
+        refuse_no_file(path)
         return tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except FileNotFoundError:
-        raise InputError("no such file", where=str(path)) from None
+    except InputError:
+        raise
     except OSError as error:
         raise InputError(f"cannot be read ({error.strerror})", where=str(path)) from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise InputError(f"is not readable as TOML ({error})", where=str(path)) from None
+    except ValueError:
+        # Python refuses to convert whole numbers of thousands of digits.
+        raise InputError("holds a whole number with too many digits", where=str(path)) from None
 
 
 def parse(model: type[T], data: Mapping[str, Any], where: str) -> T:

@@ -304,7 +304,7 @@ def rounded(values: np.ndarray, beside: float = 0.0) -> np.ndarray:
     sizes = np.maximum(np.abs(values), beside)
     return np.array(
         [
-            round(v, DIGITS - 1 - int(np.floor(np.log10(s)))) if 0.0 < s < np.inf else v
+            round(v, DIGITS - 1 - math.floor(math.log10(s))) if 0.0 < s < math.inf else v
             for v, s in zip(values.tolist(), sizes.tolist(), strict=True)
         ]
     )

@@ -10,6 +10,7 @@ import zlib
 from profiles.errors import InputError
 
 MAX_UNPACKED = 128 * 2**20
+MAX_INDEX = 2**20
 
 ZIP_FAULTS = (
     zipfile.BadZipFile,
@@ -33,6 +34,15 @@ def members(data: bytes) -> tuple[str, ...]:
             return tuple(archive.namelist())
     except ZIP_FAULTS:
         return ()
+
+
+def member(data: bytes, name: str) -> bytes:
+    """One member of a zip archive; empty where it cannot be read or is larger than any list of contents."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            return archive.read(name) if archive.getinfo(name).file_size <= MAX_INDEX else b""
+    except (KeyError, *ZIP_FAULTS):
+        return b""
 
 
 def check_archive(data: bytes, where: str, limit: int = MAX_UNPACKED) -> None:

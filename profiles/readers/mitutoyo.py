@@ -11,8 +11,9 @@ import numpy as np
 
 from profiles.errors import InputError
 from profiles.profile import Profile
-from profiles.readers.archive import check_archive, members
+from profiles.readers.archive import check_archive, member
 from profiles.readers.base import MAX_POINTS, Source, equal_spacing, foreign_parser, make_profile
+from profiles.readers.workbook import is_workbook
 from profiles.units import known_unit, length, metres
 
 _PARAMETER = re.compile(r"([A-Za-z][A-Za-z0-9()µμ]*)\s+([-+]?[0-9.]+)\s*(\S*)\s*\Z")
@@ -31,7 +32,7 @@ class MitutoyoReader:
     format = "Mitutoyo SurfTest report, xlsx"
 
     def magic(self, source: Source) -> bool:
-        return "xl/workbook.xml" in members(source.data)
+        return is_workbook(source.data) and b'name="DATA"' in member(source.data, "xl/workbook.xml")
 
     def read(self, source: Source) -> Profile:
         where = source.where
@@ -42,8 +43,6 @@ class MitutoyoReader:
         with foreign_parser("xlsx", where), warnings.catch_warnings():
             warnings.simplefilter("ignore")
             book = openpyxl.load_workbook(io.BytesIO(source.data), read_only=True, data_only=True, keep_links=False)
-            if "DATA" not in book.sheetnames:
-                raise InputError("no sheet 'DATA': not a SurfTest report", where=where, value=book.sheetnames)
             rows = [
                 (row + (None,) * 6)[:6]
                 for row in book["DATA"].iter_rows(max_col=6, max_row=MAX_POINTS, values_only=True)

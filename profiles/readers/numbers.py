@@ -130,7 +130,7 @@ def table(text: str, where: str) -> Table:
 
 
 def _parse(body: list[str], delimiter: str | None, comma: bool, width: int, where: str, first: int) -> np.ndarray:
-    """All rows at once; only when that fails is the bad line looked for, one by one."""
+    """All rows at once, nan where a height is missing; only when that fails are the lines read one by one."""
     words = [line.rstrip(" \t" + (delimiter or "")) for line in body]
     if comma:
         words = [line.replace(",", ".") for line in words]
@@ -140,21 +140,33 @@ def _parse(body: list[str], delimiter: str | None, comma: bool, width: int, wher
         columns = None
     if columns is not None and columns.shape[1] == width and np.isfinite(columns).all():
         return columns.T
-    for number, line in enumerate(words, start=first):
-        if not line.strip():
-            continue
-        cells = split(line, delimiter)
-        for place, cell in enumerate(cells):
-            try:
-                finite = math.isfinite(float(cell))
-            except ValueError:
-                raise InputError("not a number", where=f"{where}: line {number}", value=cell) from None
-            if not finite:
-                what = "heights" if place == len(cells) - 1 else "positions"
-                raise InputError(f"{what} must be finite numbers", where=f"{where}: line {number}", value=cell)
-        if len(cells) != width:
-            raise InputError(f"expected {width} numbers", where=f"{where}: line {number}", value=line.strip())
-    raise InputError("the columns cannot be read as numbers", where=where)
+    rows = [
+        _row(line, delimiter, width, f"{where}: line {number}")
+        for number, line in enumerate(words, start=first)
+        if line.strip()
+    ]
+    return np.array(rows).T
+
+
+def _row(line: str, delimiter: str | None, width: int, where: str) -> list[float]:
+    """The numbers of a line; a height may be missing, by a word for it or by an empty cell behind a delimiter."""
+    cells = split(line, delimiter)
+    if delimiter is not None and 1 < width == len(cells) + 1:
+        cells.append("nan")
+    values = []
+    for place, cell in enumerate(cells):
+        is_height = place > 0 or width == 1
+        missing = is_height and (not cell or (_ABSENT.match(cell) and "inf" not in cell.lower()))
+        try:
+            values.append(math.nan if missing else float(cell))
+        except ValueError:
+            raise InputError("not a number", where=where, value=cell) from None
+        if not missing and not math.isfinite(values[-1]):
+            what = "heights" if is_height else "positions"
+            raise InputError(f"{what} must be finite numbers", where=where, value=cell)
+    if len(cells) != width:
+        raise InputError(f"expected {width} numbers", where=where, value=line.strip())
+    return values
 
 
 def _quantum(sample: list[str], delimiter: str | None) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 
 from profiles.errors import InputError
 from profiles.profile import Profile
-from profiles.readers.base import Source, equal_spacing, make_profile
+from profiles.readers.base import Source, bridged, equal_spacing, make_profile
 from profiles.readers.numbers import Table, decoded, split, table
 from profiles.readers.plausible import Units, doubt, inferred_note, inferred_units
 from profiles.units import METRES, known_unit, length, metres
@@ -30,7 +30,7 @@ class TextReader:
     columns. Units come from the caller, else from the header (``x_mm``, ``[mm]``, ``z (um)``,
     ``unit: um``), else, one or both, from the pair of units that is clearly the most plausible; the profile's
     ``steps`` and ``origin`` say when they were inferred, and when those of the heading are not plausible.
-    Positions must increase by equal steps, up to their rounding.
+    Positions must increase by equal steps, up to their rounding. A height that is empty or reads ``NaN`` is masked.
 
     Checked against the nine text traces of public repositories in the test data and constructed files.
     """
@@ -53,9 +53,11 @@ def read_table(
     settings = header_settings(content.header)
     columns = content.columns
     if columns.shape[0] > 2:
-        raise InputError(
-            "one or two columns are needed: [position,] height", where=source.where, value=columns.shape[0]
+        rule = (
+            f"one or two columns are needed, [position,] height, not {columns.shape[0]}: save each column of heights "
+            "with its positions as a file of its own"
         )
+        raise InputError(rule, where=source.where)
     if columns.shape[1] < 3:
         raise InputError("a profile needs at least three heights", where=source.where, value=columns.shape[1])
     origin = {"format": TextReader.format, **settings} if origin is None else dict(origin)
@@ -73,8 +75,10 @@ def read_table(
                 "the unit of the heights is not in the file: put it in a line 'unit: um', or give it as unit 'um'",
                 where=source.where,
             )
-        return make_profile(source, columns[0] * metres(written[1], source.where), step, origin, steps=notes)
-    position, heights = columns
+        heights, present = columns[0] * metres(written[1], source.where), np.isfinite(columns[0])
+        return make_profile(source, heights, step, origin, steps=notes, present=present)
+    position, present = columns[0], np.isfinite(columns[1])
+    heights = bridged(columns[1], present, source.where)
     own, unit = _own_step(source, position, content.quantum, written[0])
     known = unit, written[1]
     named = inferred_units(own, heights, source.where, known)
@@ -87,7 +91,7 @@ def read_table(
     strange = doubt(source.spacing or step, heights) if source.unit is None and named == known else None
     if strange:
         origin["units_doubtful"] = f"{origin['units']} by the heading: {strange}, unlike a measured trace"
-    return make_profile(source, heights, step, origin, steps=notes)
+    return make_profile(source, heights, step, origin, steps=notes, present=present)
 
 
 def _own_step(source: Source, position: np.ndarray, quantum: float, unit: str | None) -> tuple[float, str | None]:

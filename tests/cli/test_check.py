@@ -153,7 +153,7 @@ def test_things_that_an_unread_column_tells_apart_are_told(header, things, told,
     )
     line = (
         f"  recordings.csv: {header!r} is not read, so rows of 2 different things are pooled (A, B): keep the rows of "
-        "one, or tell them apart in a column setup.\n"
+        "one, or name each in a column setup.\n"
     )
     assert (line in said) == told
     assert ("pooled" in said) == told

@@ -1,5 +1,6 @@
 """A sound case spoilt in one place: what the user reads names the place, the value and the rule."""
 
+import os
 import re
 import shutil
 
@@ -148,3 +149,31 @@ def test_every_error_in_a_study_names_the_whole_path_of_its_file(old, new, tmp_p
     path.write_text(STUDY.replace(old, new))
     said = refused(capsys, "study", str(path), "--no-figures", "--out", str(tmp_path / "o"))[1]
     assert said.startswith(f"mixedlub: {path}: gears.te") or said.startswith(f"mixedlub: {path}: gears.tip")
+
+
+@pytest.mark.parametrize("name", ["recordings.csv", "system.toml"])
+@pytest.mark.parametrize("special", ["pipe", "device"])
+def test_a_pipe_or_a_device_in_place_of_a_file_is_refused(name, special, tmp_path, capsys):
+    """A pipe was waited for without end, and a device read until the memory was full."""
+    case = spoilt(tmp_path, "system.toml", "", "", 0)
+    (case / name).unlink()
+    os.mkfifo(case / name) if special == "pipe" else (case / name).symlink_to("/dev/zero")
+    status, said = refused(capsys, "check", str(case))
+    assert status == 2
+    assert f"{name}: is a special file" in said
+
+
+def test_a_whole_number_of_thousands_of_digits_is_refused_in_one_sentence(tmp_path, capsys):
+    case = spoilt(tmp_path, "system.toml", "[17, 26]", f"[{'9' * 5001}, 26]", 1)
+    status, said = refused(capsys, "check", str(case))
+    assert (status, said) == (2, f"mixedlub: {case}/system.toml: holds a whole number with too many digits\n")
+
+
+@pytest.mark.parametrize("change", [lambda t: t.replace(",", ";").encode(), lambda t: t.encode("utf-16")])
+def test_a_recording_in_another_form_is_sent_to_the_import(change, tmp_path, capsys):
+    case = spoilt(tmp_path, "system.toml", "", "", 0)
+    path = case / "recordings.csv"
+    path.write_bytes(change(path.read_text(encoding="utf-8")))
+    status, said = refused(capsys, "check", str(case))
+    assert status == 2
+    assert "use `mixedlub import`" in said

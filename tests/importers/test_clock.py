@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from mixedlub.importers.dates import moments
+from mixedlub.importers.input_file import InputFile, open_file
 from mixedlub.importers.plain import draft
 from mixedlub.importers.wizard import read
+from mixedlub.schema.dates import moments
 from mixedlub.schema.findings import Severity
 from profiles.errors import InputError
 
@@ -17,7 +18,7 @@ def history(header, *rows):
 
 
 def taken(text):
-    found = draft(text, "t.csv", HISTORY)
+    found = draft(InputFile("t.csv", text), HISTORY)
     return found.columns["time_s"].tolist(), [
         note for note in found.notes if "time_s" in note.text and "taken:" not in note.text
     ]
@@ -32,7 +33,7 @@ def test_a_clock_that_restarts_with_a_step_runs_on_from_its_end(header):
     times, (note,) = taken(history(header, "1,1", "1,60", "2,20", "2,60", "3,1"))
     assert times == [1.0, 60.0, 80.0, 120.0, 121.0]
     assert (note.code, note.place) == ("file_read", "t.csv")
-    assert f"in lines 4, 6, with {header!r}" in note.text
+    assert f"in lines 4, 6 with {header!r}" in note.text
 
 
 def test_dates_of_the_starts_keep_the_pauses():
@@ -41,7 +42,7 @@ def test_dates_of_the_starts_keep_the_pauses():
     times, (note,) = taken(history("step,step_start", *rows))
     assert times == [1.0, 2.0, 121.0, 122.0]
     assert note.code == "file_read"
-    assert "in line 4, and runs on from the starts in 'step_start'" in note.text
+    assert "in line 4; continued from the starts in 'step_start'" in note.text
 
 
 def test_day_and_month_are_those_that_make_the_shorter_test():
@@ -61,7 +62,7 @@ def test_a_fall_that_no_column_tells_of_is_warned_of():
     times, (note,) = taken(history("load_N", "9,0", "9,60", "9,120", "8,1", "8,60"))
     assert times == [0.0, 60.0, 120.0, 121.0, 180.0]
     assert (note.code, note.place) == ("clock_restarted", "t.csv")
-    assert "in line 5, " in note.text
+    assert "in line 5; " in note.text
 
 
 @pytest.mark.parametrize("times", [(0, 40, 80, 30, 70), (5, 4, 3, 2, 1), (0, 60, 59, 120, 180), (0, 90, 10, 50, 30)])
@@ -73,7 +74,7 @@ def test_a_time_that_only_runs_backwards_is_left_and_warned_of(times):
 
 def test_the_clock_of_a_later_file_runs_on_from_the_one_before(file):
     paths = [file(history("load_N", "9,0", "9,60"), name) for name in ("a.csv", "b.csv")]
-    found = read(paths, HISTORY)
+    found = read([open_file(path, {}) for path in paths], HISTORY)
     assert found.columns["time_s"].tolist() == [0.0, 60.0, 60.0, 120.0]
     (note,) = [note for note in found.notes if note.code == "clock_restarted"]
     assert note.place == "b.csv"
@@ -84,7 +85,7 @@ def test_files_whose_clocks_follow_each_other_are_left_alone(file):
     paths = [
         file(history("load_N", *rows), name) for name, rows in (("a.csv", ("9,0", "9,60")), ("b.csv", ("9,70", "9,80")))
     ]
-    assert np.all(read(paths, HISTORY).columns["time_s"] == [0.0, 60.0, 70.0, 80.0])
+    assert np.all(read([open_file(path, {}) for path in paths], HISTORY).columns["time_s"] == [0.0, 60.0, 70.0, 80.0])
 
 
 STAMPS = (
@@ -108,7 +109,7 @@ def test_dates_are_read_as_instruments_write_them(one, other):
     times, (note,) = taken(history("started", f"{one},1", f"{one},2", f"{other},1", f"{other},2"))
     assert times == [1.0, 2.0, 121.0, 122.0]
     assert note.code == "file_read"
-    assert note.text.endswith("in line 4, and runs on from the starts in 'started'")
+    assert note.text.endswith("in line 4; continued from the starts in 'started'")
 
 
 def test_no_day_or_hour_is_made_up():
@@ -122,7 +123,7 @@ def test_a_step_shorter_than_the_stamps_tell_keeps_the_dates():
     rows += [f"23/03/2018 11:12,{t}" for t in (0, 10)]
     times, (note,) = taken(history("started", *rows))
     assert times == [0.0, 10.0, 10.0, 15.0, 3600.0, 3610.0]
-    assert note.text.endswith("and runs on from the starts in 'started'")
+    assert note.text.endswith("continued from the starts in 'started'")
 
 
 def test_a_step_so_short_that_the_clock_does_not_fall_after_it_keeps_the_dates():
@@ -135,7 +136,7 @@ def test_a_clock_that_goes_with_the_rows_puts_steps_in_their_place():
     rows = ("10:00:00,5", "10:00:10,15", "10:05:00,1", "10:05:08,9")
     times, (note,) = taken(history("clock", *(f"2018-03-23 {row}" for row in rows)))
     assert times == [5.0, 15.0, 305.0, 313.0]
-    assert note.text.endswith("runs on by the clock in 'clock'")
+    assert note.text.endswith("continued by the clock in 'clock'")
 
 
 AMBIGUOUS = ("05/06/2019 22:00,0", "05/06/2019 22:00,3600", "05/07/2019 00:00,0", "05/07/2019 00:00,60")
@@ -149,14 +150,14 @@ def test_a_day_that_could_be_the_month_is_told_with_the_answer_that_settles_it()
 
 @pytest.mark.parametrize(("order", "second"), [("month first", 7200.0), ("day first", 30 * 86400.0 - 22 * 3600.0)])
 def test_what_is_told_of_day_and_month_is_done(order, second):
-    found = draft(history("started", *AMBIGUOUS), "t.csv", {**HISTORY, "import.dates": order})
+    found = draft(InputFile("t.csv", history("started", *AMBIGUOUS)), {**HISTORY, "import.dates": order})
     assert found.columns["time_s"][2] == second
     assert not [note for note in found.notes if note.severity is Severity.CAUTION]
 
 
 def test_another_order_is_refused():
     with pytest.raises(InputError, match=r"import\.dates: 'year first': must be 'day first' or 'month first'"):
-        draft(history("started", *AMBIGUOUS), "t.csv", {**HISTORY, "import.dates": "year first"})
+        draft(InputFile("t.csv", history("started", *AMBIGUOUS)), {**HISTORY, "import.dates": "year first"})
 
 
 def test_dates_that_are_one_day_either_way_leave_nothing_open():

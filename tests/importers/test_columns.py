@@ -7,8 +7,9 @@ import pytest
 from mixedlub.case.folder import read_case
 from mixedlub.cli import main
 from mixedlub.importers import import_files
-from mixedlub.importers.likely import likely_headers, likely_kind
-from mixedlub.importers.match import wanted
+from mixedlub.importers.input_file import InputFile
+from mixedlub.importers.likeness import likely_headers, likely_kind
+from mixedlub.importers.matching import wanted
 from mixedlub.importers.plain import draft
 from mixedlub.kinds import kind as kind_of
 from mixedlub.schema.system_file import KINDS
@@ -56,7 +57,7 @@ def asked(words, capsys):
 @pytest.mark.parametrize("kind", [{}, DRIVE])
 def test_a_misspelt_import_key_is_refused_with_the_nearest(key, near, kind):
     with pytest.raises(InputError) as caught:
-        draft("speed_rpm,friction_torque_Nm\n1,2\n3,4\n", "t.csv", {**kind, key: "x"})
+        draft(InputFile("t.csv", "speed_rpm,friction_torque_Nm\n1,2\n3,4\n"), {**kind, key: "x"})
     assert str(caught.value) == f"{key}: key is not known for this file; nearest known: {near!r}"
 
 
@@ -69,7 +70,7 @@ def test_instrument_files_refuse_keys_that_do_nothing_there(table):
 @pytest.mark.parametrize("header", ["speed_rpm", "speed [1/min]", "speed"])
 def test_a_unit_that_a_column_cannot_have_is_refused_with_those_it_can(header):
     with pytest.raises(InputError) as caught:
-        draft(f"{header},friction_torque_Nm\n1,2\n3,4\n", "t.csv", {**DRIVE, "import.units.speed_rpm": "Hz"})
+        draft(InputFile("t.csv", f"{header},friction_torque_Nm\n1,2\n3,4\n"), {**DRIVE, "import.units.speed_rpm": "Hz"})
     assert str(caught.value) == (
         "import.units.speed_rpm: 'Hz': unit of speed_rpm is not known; it could be rpm, rad/s, deg/s, rev/s"
     )
@@ -77,13 +78,17 @@ def test_a_unit_that_a_column_cannot_have_is_refused_with_those_it_can(header):
 
 def test_a_unit_for_a_column_that_nothing_is_taken_as_is_refused():
     with pytest.raises(InputError, match="no column is taken as torque_Nm"):
-        draft("speed_rpm,friction_torque_Nm\n1,2\n3,4\n", "t.csv", {**DRIVE, "import.units.torque_Nm": "N.m"})
+        draft(
+            InputFile("t.csv", "speed_rpm,friction_torque_Nm\n1,2\n3,4\n"), {**DRIVE, "import.units.torque_Nm": "N.m"}
+        )
 
 
 def test_a_unit_that_is_told_goes_before_that_of_the_header_and_is_said():
-    found = draft("speed_rpm,friction_torque_Nm\n1,2\n3,4\n", "t.csv", {**DRIVE, "import.units.speed_rpm": "rev/s"})
+    found = draft(
+        InputFile("t.csv", "speed_rpm,friction_torque_Nm\n1,2\n3,4\n"), {**DRIVE, "import.units.speed_rpm": "rev/s"}
+    )
     assert found.columns["speed_rpm"].tolist() == [60.0, 180.0]
-    assert "'speed_rpm' is taken to be in rev/s, as told" in " ".join(map(str, found.notes))
+    assert "'speed_rpm' is taken to be in rev/s, as answered" in " ".join(map(str, found.notes))
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -94,7 +99,7 @@ def test_every_column_of_a_kind_is_taken(kind):
         columns = [c for c in wanted(kind_of(kind), quantity, answers) if c.name != "sliding_speed_m_s"]
         row = ",".join("ground" if c.form == "name" else "0.5" for c in columns)
         header = ",".join(c.name for c in columns)
-        found = draft(f"{header}\n{row}\n{row}\n", "t.csv", answers)
+        found = draft(InputFile("t.csv", f"{header}\n{row}\n{row}\n"), answers)
         assert list(found.columns) == [c.name for c in columns]
 
 
@@ -105,25 +110,28 @@ def test_optional_columns_are_taken_from_headers_that_are_told(column):
     unit = {"import.units.time_s": "s"} if column == "time_s" else {}
     header = text if column == "film_thickness_nm_sd" else text.replace("mine (nm)", "mine")
     told = {"kind": "film", f"import.columns.{column}": header.strip().split(",")[-1], **unit}
-    found = draft(f"{header}20,1,0,40,100,{cell}\n20,2,0,40,160,{cell}\n", "t.csv", told)
+    found = draft(InputFile("t.csv", f"{header}20,1,0,40,100,{cell}\n20,2,0,40,160,{cell}\n"), told)
     assert str(found.columns[column][0]) == cell
 
 
 def test_the_sd_of_a_reading_is_in_the_unit_of_its_header():
     text = "speed_rpm,friction_torque_Nm,sd (N.mm)\n1,2,50\n3,4,\n"
-    found = draft(text, "t.csv", {**DRIVE, "import.columns.friction_torque_Nm_sd": "sd (N.mm)"})
+    found = draft(InputFile("t.csv", text), {**DRIVE, "import.columns.friction_torque_Nm_sd": "sd (N.mm)"})
     assert found.columns["friction_torque_Nm_sd"][0] == 0.05
 
 
 def test_additive_content_may_be_a_share():
     text = "speed_rpm,friction_torque_Nm,additive\n1,2,0.02\n3,4,0\n"
-    found = draft(text, "t.csv", {**DRIVE, "import.units.additive_percent": "-"})
+    found = draft(InputFile("t.csv", text), {**DRIVE, "import.units.additive_percent": "-"})
     assert found.columns["additive_percent"].tolist() == [2.0, 0.0]
 
 
 def test_a_check_channel_that_the_file_lacks_is_refused():
     with pytest.raises(InputError, match=r"recording\.check: 'coverge': no such header.*'coverage'"):
-        draft("speed_rpm,friction_torque_Nm,coverage\n1,2,3\n", "t.csv", {**DRIVE, "recording.check": "coverge"})
+        draft(
+            InputFile("t.csv", "speed_rpm,friction_torque_Nm,coverage\n1,2,3\n"),
+            {**DRIVE, "recording.check": "coverge"},
+        )
 
 
 def test_a_map_without_a_speed_is_asked_for_one_and_told_of_all_that_are_near(table, capsys):
@@ -133,7 +141,7 @@ def test_a_map_without_a_speed_is_asked_for_one_and_told_of_all_that_are_near(ta
     suggested, said = asked(words, capsys)
     assert suggested["import.columns.speed_rpm"] in ('"nominal_speed_rpm"', '"mean_speed_rpm"')
     assert "nominal_speed_rpm" in said
-    assert "as near: mean_speed_rpm" in said
+    assert "equally likely: mean_speed_rpm" in said
     told = [w for key, value in suggested.items() for w in ("--set", f"{key}={value}")]
     assert main([*words, *told]) == 0
     assert main(["check", "rig"]) == 0
@@ -159,19 +167,19 @@ def test_two_headers_for_a_needed_column_are_asked_about(table, capsys):
 
 def test_two_headers_that_hold_the_same_are_no_question():
     text = "temperature (degC),Temp (degC),viscosity_mPa_s\n40,40,30\n60,60,12\n"
-    assert draft(text, "t.csv", {"kind": "viscosity"}).columns["temperature_C"].tolist() == [40.0, 60.0]
+    assert draft(InputFile("t.csv", text), {"kind": "viscosity"}).columns["temperature_C"].tolist() == [40.0, 60.0]
 
 
 def test_the_choice_between_headers_of_a_column_that_is_not_needed_is_said():
     text = "temperature_C,viscosity_mPa_s,Test Time (s),Step Time (s)\n40,30,1,1\n60,12,9,1\n"
-    found = draft(text, "t.csv", {"kind": "viscosity"})
+    found = draft(InputFile("t.csv", text), {"kind": "viscosity"})
     assert found.columns["time_s"].tolist() == [1.0, 9.0]
     assert "'Test Time (s)' taken as time_s, not 'Step Time (s)'" in " ".join(map(str, found.notes))
 
 
 def test_a_header_that_is_told_serves_one_column_only():
     text = "speed_rpm,motor torque (Nm)\n1,2\n3,4\n"
-    found = draft(text, "t.csv", {**DRIVE, "import.columns.friction_torque_Nm": "motor torque (Nm)"})
+    found = draft(InputFile("t.csv", text), {**DRIVE, "import.columns.friction_torque_Nm": "motor torque (Nm)"})
     assert list(found.columns) == ["speed_rpm", "friction_torque_Nm"]
 
 
@@ -191,8 +199,8 @@ def test_a_logarithm_is_refused_in_words():
     text = "temperature_C,ln_viscosity\n40,3.1\n60,2.5\n"
     told = {"kind": "viscosity", "import.columns.viscosity_mPa_s": "ln_viscosity"}
     with pytest.raises(InputError, match=r"import\.columns\.viscosity_mPa_s: 'ln_viscosity': is a logarithm"):
-        draft(text, "t.csv", told)
-    (question,) = (q for q in draft(text, "t.csv", {"kind": "viscosity"}).questions if "columns" in q.key)
+        draft(InputFile("t.csv", text), told)
+    (question,) = (q for q in draft(InputFile("t.csv", text), {"kind": "viscosity"}).questions if "columns" in q.key)
     assert question.example == '"HEADER"'
     assert "ln_viscosity: a logarithm cannot be taken" in question.text
 
@@ -201,7 +209,7 @@ def test_a_kinematic_viscosity_is_refused_in_words():
     text = "temperature_C,kinematic_viscosity\n40,30\n60,12\n"
     told = {"kind": "viscosity", "import.columns.viscosity_mPa_s": "kinematic_viscosity"}
     with pytest.raises(InputError, match="times the density"):
-        draft(text, "t.csv", told)
+        draft(InputFile("t.csv", text), told)
 
 
 def test_dates_are_not_offered_as_surfaces():
@@ -212,19 +220,19 @@ def test_dates_are_not_offered_as_surfaces():
     ("header", "column", "value"), [("Temp_F", "temperature_C", 37.8), ("temp [°F]", "temperature_C", 37.8)]
 )
 def test_fahrenheit_in_a_header_is_read(header, column, value):
-    found = draft(f"{header},viscosity_mPa_s\n100,30\n120,12\n", "t.csv", {"kind": "viscosity"})
+    found = draft(InputFile("t.csv", f"{header},viscosity_mPa_s\n100,30\n120,12\n"), {"kind": "viscosity"})
     assert found.columns[column][0] == pytest.approx(value, abs=0.05)
 
 
 def test_pound_feet_in_a_header_are_read():
-    found = draft("speed_rpm,friction_torque_lbft\n1,2\n3,4\n", "t.csv", DRIVE)
+    found = draft(InputFile("t.csv", "speed_rpm,friction_torque_lbft\n1,2\n3,4\n"), DRIVE)
     assert found.columns["friction_torque_Nm"][0] == pytest.approx(2.7116, rel=1e-4)
 
 
 def test_no_unit_is_offered_where_the_header_may_end_in_one_that_is_not_known():
     def offered(header):
         text = f"speed_rpm,{header}\n1,2\n3,4\n"
-        found = draft(text, "t.csv", {**DRIVE, "import.columns.friction_torque_Nm": header})
+        found = draft(InputFile("t.csv", text), {**DRIVE, "import.columns.friction_torque_Nm": header})
         (question,) = (q for q in found.questions if q.key == "import.units.friction_torque_Nm")
         return question.example
 
@@ -234,11 +242,14 @@ def test_no_unit_is_offered_where_the_header_may_end_in_one_that_is_not_known():
 
 def test_capitals_tell_milli_from_mega():
     text = "temperature_C,pressure_mPa,viscosity_mPa_s\n40,1,30\n60,1,12\n"
-    assert "pressure_MPa" not in draft(text, "t.csv", {"kind": "viscosity", "import.units.temperature_C": "C"}).columns
+    assert (
+        "pressure_MPa"
+        not in draft(InputFile("t.csv", text), {"kind": "viscosity", "import.units.temperature_C": "C"}).columns
+    )
 
 
 def test_a_unit_may_be_told_before_the_header_is():
-    found = draft("a,friction_torque_Nm\n1,2\n", "t.csv", {**DRIVE, "import.units.speed_rpm": "rev/s"})
+    found = draft(InputFile("t.csv", "a,friction_torque_Nm\n1,2\n"), {**DRIVE, "import.units.speed_rpm": "rev/s"})
     assert "import.columns.speed_rpm" in {q.key for q in found.questions}
 
 
@@ -249,7 +260,7 @@ def test_friction_coefficients_as_they_are_written(header):
     cells = {"Time (s)": ["1", "2"], header: ["0.1", "0.2"]}
     assert likely_kind(cells) == "friction_history"
     told = {"kind": "friction_history", "import.units.friction_coefficient": "-"}
-    found = draft(f"Time (s);{header}\n1;0.1\n2;0.2\n", "t.csv", told)
+    found = draft(InputFile("t.csv", f"Time (s);{header}\n1;0.1\n2;0.2\n"), told)
     assert found.columns["friction_coefficient"].tolist() == [0.1, 0.2]
 
 
@@ -265,31 +276,31 @@ HISTORY = {"kind": "friction_history"}
 
 def test_a_friction_in_the_unit_of_a_viscosity_is_none():
     text = "Time (s);mu [mPa s];COF [-]\n1;100;.1\n2;100;.2\n3;90;.1\n"
-    found = draft(text, "t.csv", HISTORY)
+    found = draft(InputFile("t.csv", text), HISTORY)
     assert found.columns["friction_coefficient"].tolist() == [0.1, 0.2, 0.1]
     assert not [q.key for q in found.questions if q.needed and q.key not in HISTORY]
 
 
 def test_a_reading_beside_a_unit_of_another_quantity_is_asked_for():
     text = "Time (s);mu [mPa s];Friction force ratio\n1;100;.1\n2;100;.2\n3;90;.1\n"
-    asked = {q.key: q.example for q in draft(text, "t.csv", HISTORY).questions if q.needed}
+    asked = {q.key: q.example for q in draft(InputFile("t.csv", text), HISTORY).questions if q.needed}
     assert asked["import.columns.friction_coefficient"] == '"Friction force ratio"'
 
 
 def test_a_position_along_a_screw_is_no_angle():
     text = "speed_rpm;Position [mm];friction_torque_Nm\n1;5;.1\n2;6;.2\n3;7;.1\n"
-    assert "position_deg" not in draft(text, "t.csv", DRIVE).columns
+    assert "position_deg" not in draft(InputFile("t.csv", text), DRIVE).columns
 
 
 def test_a_time_counted_in_cycles_is_still_the_time():
     text = "Time (cycles);COF [-]\n1;.1\n2;.2\n3;.1\n"
-    found = draft(text, "t.csv", {**HISTORY, "import.seconds_a_cycle": 2.0})
+    found = draft(InputFile("t.csv", text), {**HISTORY, "import.seconds_a_cycle": 2.0})
     assert found.columns["time_s"].tolist() == [2.0, 4.0, 6.0]
 
 
 def test_a_unit_that_is_not_known_is_refused_with_those_that_could_be():
     with pytest.raises(InputError, match="'ft/min': unit of sliding_speed_m_s is not known"):
-        draft("Sliding speed (ft/min);friction_torque_Nm\n1;.1\n2;.2\n3;.1\n", "t.csv", DRIVE)
+        draft(InputFile("t.csv", "Sliding speed (ft/min);friction_torque_Nm\n1;.1\n2;.2\n3;.1\n"), DRIVE)
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ import pytest
 
 from mixedlub.case.folder import read_case
 from mixedlub.importers import import_files
+from mixedlub.importers.input_file import InputFile
 from mixedlub.importers.plain import draft
 from mixedlub.schema.findings import FindingWarning, Severity
 from profiles.errors import InputError
@@ -17,7 +18,7 @@ def table(header, *groups):
 
 
 def warned(text, answers=MAP):
-    return [note for note in draft(text, "t.csv", answers).notes if note.severity is Severity.CAUTION]
+    return [note for note in draft(InputFile("t.csv", text), answers).notes if note.severity is Severity.CAUTION]
 
 
 @pytest.mark.parametrize("header", ["drive", "Sample ID", "machine", "specimen no.", "rig_id", "Batch", "Probe"])
@@ -70,7 +71,7 @@ def test_a_column_that_is_taken_pools_nothing():
 
 @pytest.mark.parametrize(("value", "rows"), [(2, 3), ("2", 3), (2.0, 3), ([1, 3], 6)])
 def test_rows_are_kept_by_the_value_of_a_column(value, rows):
-    found = draft(table("drive", "1", "2", "3"), "t.csv", {**MAP, "import.only.drive": value})
+    found = draft(InputFile("t.csv", table("drive", "1", "2", "3")), {**MAP, "import.only.drive": value})
     assert len(found.columns["speed_rpm"]) == rows
     assert f"t.csv: {rows} of 9 rows kept, those with drive " in " ".join(map(str, found.notes))
 
@@ -87,10 +88,10 @@ def test_a_warning_leads_to_a_case_of_one_thing(file, tmp_path):
     ("key", "value", "said"),
     [
         ("import.only.driv", 1, r"import\.only\.driv: no such header; nearest known: 'drive'"),
-        ("import.only.drive", 9, r"import\.only\.drive: 9: stands in no row; the column has 1, 2"),
+        ("import.only.drive", 9, r"import\.only\.drive: 9: is in no row; the column has 1, 2"),
         ("import.only", 1, r"import\.only: key is not known.*'import\.only\.COLUMN'"),
     ],
 )
 def test_what_is_not_there_is_refused(key, value, said):
     with pytest.raises(InputError, match=said):
-        draft(table("drive", "1", "2"), "t.csv", {**MAP, key: value})
+        draft(InputFile("t.csv", table("drive", "1", "2")), {**MAP, key: value})

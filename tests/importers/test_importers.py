@@ -191,7 +191,7 @@ def test_a_misspelt_answer_names_the_nearest_key(file, tmp_path):
 
 
 def test_the_wizard_asks_until_it_has_what_it_needs(file, tmp_path):
-    replies = iter(["", "[9.525, inf]", "[207, 75]", "[0.3, 0.22]", "oil A", "", "", "", "0.02", ""])
+    replies = iter(["", "[9.525, inf]", "[207, 75]", "[0.3, 0.22]", "oil A", "", "", "", "0.02", "", ""])
     asked, said = [], []
 
     def ask(text):

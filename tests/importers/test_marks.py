@@ -4,7 +4,7 @@ import pytest
 
 from mixedlub.cli import main
 from mixedlub.importers import import_files
-from mixedlub.importers.sheet import read_sheet
+from mixedlub.importers.text_table import read_sheet
 from profiles.errors import InputError
 
 THOUSANDS = "speed_rpm\tfriction_torque_Nm\n2,000\t17.50\n4,000\t18.25\n1000\t16\n"
@@ -56,13 +56,13 @@ def test_the_answer_decides():
 
 
 def test_an_answer_that_a_number_contradicts_is_refused_with_its_line():
-    with pytest.raises(InputError, match=r"t\.txt: line 2: '17\.50': is no number where decimals have ','"):
+    with pytest.raises(InputError, match=r"t\.txt: line 2: '17\.50': is no number with ',' as decimal mark"):
         read_sheet(THOUSANDS, "t.txt", ",")
 
 
 def test_a_file_with_both_marks_before_decimals_is_refused():
     text = "speed_rpm;friction_torque_Nm\n17,5;1\n3;2.25\n"
-    with pytest.raises(InputError, match=r"line 2: '17,5': decimals have a comma here and a point in line 3"):
+    with pytest.raises(InputError, match=r"line 2: '17,5': has a decimal comma, line 3 has a decimal point"):
         read_sheet(text, "t.csv")
 
 
@@ -106,3 +106,19 @@ def test_another_answer_than_a_mark_is_refused(tmp_path):
     path.write_text(OPEN, encoding="utf-8")
     with pytest.raises(InputError, match=r"import\.decimal: 'comma': must be '\.' or ','"):
         import_files([path], tmp_path / "rig", kind="friction_map", **{"import.decimal": "comma"})
+
+
+def test_thousands_that_other_numbers_prove_are_reported(file, tmp_path):
+    """'1,000' beside '0.10' was read as 1000 without a word."""
+    text = "time (s)\tfriction_coefficient\n1\t0.10\n1,000\t0.11\n2,000\t0.12\n"
+    (note,) = read_sheet(text, "t.txt").notes
+    assert note.startswith("line 3: '1,000' is read as 1000")
+    assert "'0.10'" in note
+    with pytest.warns(UserWarning, match="read as 1000"):
+        import_files([file(text, "t.txt")], tmp_path / "a", kind="friction_history")
+    import_files([file(text, "t.txt")], tmp_path / "b", kind="friction_history", **{"import.decimal": "."})
+
+
+@pytest.mark.parametrize("cell", ["1,234,567", "1,234.5", "2000"])
+def test_thousands_that_prove_themselves_are_not(cell):
+    assert read_sheet(f"a\tb\n{cell}\t0.10\n2\t0.11\n", "t.txt").notes == ()

@@ -6,7 +6,7 @@ import pytest
 from mixedlub.case.folder import read_case
 from mixedlub.cli import main
 from mixedlub.importers import import_files
-from mixedlub.importers.needs import gaps
+from mixedlub.importers.missing_inputs import gaps
 from mixedlub.schema import system_file, toml_file
 
 TABLES = {

@@ -71,8 +71,8 @@ def test_run_numbers_stay_with_their_readings_where_some_are_left_out(file, tmp_
 @pytest.mark.parametrize(
     ("again", "said"),
     [
-        ("17", "run 17 stands in lines 2 and 3, so readings are numbered anew from 1"),
-        ("B4", "line 3, run: 'B4' is no whole number, so readings are numbered anew from 1"),
+        ("17", "run 17 is in lines 2 and 3, so readings are renumbered from 1"),
+        ("B4", "line 3, run: 'B4' is no whole number, so readings are renumbered from 1"),
         ("4.5", "line 3, run: '4.5' is no whole number"),
         ("nan", "line 3, run: 'nan' is no whole number"),
     ],
@@ -93,7 +93,7 @@ def test_runs_of_two_files_are_kept_where_they_differ(file, tmp_path):
 def test_runs_that_stand_in_two_files_are_named(file, tmp_path):
     head = "run,temperature_C,viscosity_mPa_s\n"
     files = [file(f"{head}1,40,30\n2,50,20\n", "a.csv"), file(f"{head}2,60,12\n", "b.csv")]
-    assert "run 2 stands in a.csv and b.csv, so readings are numbered anew" in said_of(files, tmp_path / "case")
+    assert "run 2 is in a.csv and b.csv, so readings are renumbered" in said_of(files, tmp_path / "case")
     assert read_case(tmp_path / "case").recordings["run"].tolist() == [1, 2, 3]
 
 

@@ -4,7 +4,8 @@ import pytest
 
 from mixedlub.case.folder import read_case
 from mixedlub.importers import import_files
-from mixedlub.importers.likely import likely_kind
+from mixedlub.importers.input_file import InputFile
+from mixedlub.importers.likeness import likely_kind
 from mixedlub.importers.plain import draft
 from mixedlub.importers.wizard import run
 from mixedlub.schema.units import split
@@ -19,14 +20,16 @@ def history(header):
 
 
 def needed(header, told=HISTORY):
-    return {q.key: q for q in draft(history(header), "t.csv", told).questions if q.needed and q.key not in told}
+    return {
+        q.key: q for q in draft(InputFile("t.csv", history(header)), told).questions if q.needed and q.key not in told
+    }
 
 
 @pytest.mark.parametrize("header", ["Cycle", "Cycles (-)", "No. of cycles", "cycle number", "Revolutions", "Cycle [#]"])
 def test_cycles_are_seconds_by_what_one_takes(header):
     (question,) = needed(header).values()
     assert (question.key, repr(header) in question.text) == (CYCLE, True)
-    found = draft(history(header), "t.csv", {**HISTORY, CYCLE: 2.5})
+    found = draft(InputFile("t.csv", history(header)), {**HISTORY, CYCLE: 2.5})
     assert found.columns["time_s"].tolist() == [25.0, 50.0, 100.0]
     assert f"t.csv: time_s is {header!r} times 2.5 s a cycle" in map(str, found.notes)
 
@@ -38,7 +41,7 @@ def test_cycles_are_seconds_by_what_one_takes(header):
 def test_a_distance_is_seconds_by_the_speed(header, metres):
     (question,) = needed(header).values()
     assert question.key == SPEED
-    found = draft(history(header), "t.csv", {**HISTORY, SPEED: 0.5})
+    found = draft(InputFile("t.csv", history(header)), {**HISTORY, SPEED: 0.5})
     assert found.columns["time_s"].tolist() == pytest.approx([20 * metres, 40 * metres, 80 * metres], rel=1e-14)
     assert f"t.csv: time_s is {header!r} over 0.5 m/s" in map(str, found.notes)
 
@@ -47,7 +50,7 @@ def test_the_unit_of_a_distance_is_asked_with_those_of_lengths_first():
     question = needed("Distance")["import.units.time_s"]
     assert (question.example, question.among[:3]) == ('"m"', ("m", "mm", "km"))
     told = {**HISTORY, "import.units.time_s": "km", SPEED: 2}
-    assert draft(history("Distance"), "t.csv", told).columns["time_s"].tolist() == [5000.0, 10000.0, 20000.0]
+    assert draft(InputFile("t.csv", history("Distance")), told).columns["time_s"].tolist() == [5000.0, 10000.0, 20000.0]
 
 
 def test_a_header_of_another_name_is_told_and_its_unit_asked():
@@ -55,11 +58,11 @@ def test_a_header_of_another_name_is_told_and_its_unit_asked():
     told = {**HISTORY, "import.columns.time_s": "N"}
     assert "cycle" in needed("N", told)["import.units.time_s"].among
     told |= {"import.units.time_s": "cycle", CYCLE: 2.0}
-    assert draft(history("N"), "t.csv", told).columns["time_s"].tolist() == [20.0, 40.0, 80.0]
+    assert draft(InputFile("t.csv", history("N")), told).columns["time_s"].tolist() == [20.0, 40.0, 80.0]
 
 
 def test_a_time_goes_before_what_counts():
-    found = draft("Cycle;Time (s);mu\n1;10;0.1\n2;20;0.2\n3;40;0.15\n", "t.csv", HISTORY)
+    found = draft(InputFile("t.csv", "Cycle;Time (s);mu\n1;10;0.1\n2;20;0.2\n3;40;0.15\n"), HISTORY)
     assert found.columns["time_s"].tolist() == [10.0, 20.0, 40.0]
     assert not {CYCLE, SPEED} & {question.key for question in found.questions}
 
@@ -76,7 +79,7 @@ def beside(header, counts="Cycles", values=(7, 8, 9)):
 @pytest.mark.parametrize("pace", [{}, {CYCLE: 0.5}])
 @pytest.mark.parametrize("header", RECORDED)
 def test_a_count_beside_a_time_of_other_words_is_asked_about(header, pace):
-    found = draft(beside(header), "t.csv", {**HISTORY, **pace})
+    found = draft(InputFile("t.csv", beside(header)), {**HISTORY, **pace})
     (question,) = [q for q in found.questions if q.needed and q.key not in HISTORY]
     assert (question.key, question.among) == ("import.columns.time_s", (header, "Cycles"))
     assert "time_s" not in found.columns
@@ -86,19 +89,19 @@ def test_a_count_beside_a_time_of_other_words_is_asked_about(header, pace):
 def test_either_answer_is_taken(header):
     seconds = {"s": 1.0, "h": 3600.0, "min": 60.0}[split(header)[1]]
     told = {**HISTORY, "import.columns.time_s": header}
-    times = draft(beside(header), "t.csv", told).columns["time_s"]
+    times = draft(InputFile("t.csv", beside(header)), told).columns["time_s"]
     assert times.tolist() == [7 * seconds, 8 * seconds, 9 * seconds]
     told |= {"import.columns.time_s": "Cycles", CYCLE: 0.5}
-    assert draft(beside(header), "t.csv", told).columns["time_s"].tolist() == [5.0, 10.0, 15.0]
+    assert draft(InputFile("t.csv", beside(header)), told).columns["time_s"].tolist() == [5.0, 10.0, 15.0]
 
 
 def test_a_distance_beside_a_time_of_other_words_is_asked_about_too():
-    found = draft(beside("t [s]", counts="Distance (m)"), "t.csv", HISTORY)
+    found = draft(InputFile("t.csv", beside("t [s]", counts="Distance (m)")), HISTORY)
     assert {q.key: q.among for q in found.questions}["import.columns.time_s"] == ("t [s]", "Distance (m)")
 
 
 def test_a_clock_is_no_time_beside_a_count():
-    clock = draft(beside("t [s]", values=("8:00", "8:01", "8:02")), "t.csv", {**HISTORY, CYCLE: 0.5})
+    clock = draft(InputFile("t.csv", beside("t [s]", values=("8:00", "8:01", "8:02"))), {**HISTORY, CYCLE: 0.5})
     assert clock.columns["time_s"].tolist() == [5.0, 10.0, 15.0]
 
 
@@ -122,13 +125,13 @@ def test_what_counts_beside_a_friction_is_a_history(header):
 @pytest.mark.parametrize("pace", [0, -1.0, "fast", True, float("inf")])
 def test_a_pace_is_a_number_above_zero(pace):
     with pytest.raises(InputError, match="must be a number above 0"):
-        draft(history("Cycle"), "t.csv", {**HISTORY, CYCLE: pace})
+        draft(InputFile("t.csv", history("Cycle")), {**HISTORY, CYCLE: pace})
 
 
 @pytest.mark.parametrize(("header", "key"), [("Time (s)", CYCLE), ("time_s", SPEED), ("Cycle", SPEED)])
 def test_a_pace_without_a_use_is_refused(header, key):
-    with pytest.raises(InputError, match=f"{key}: time_s is taken from '{header[:4]}.*has no use for it"):
-        draft(history(header), "t.csv", {**HISTORY, key: 2.0})
+    with pytest.raises(InputError, match=f"{key}: time_s is taken from '{header[:4]}.*needs no such answer"):
+        draft(InputFile("t.csv", history(header)), {**HISTORY, key: 2.0})
 
 
 def test_the_case_that_is_written_is_in_seconds(file, tmp_path):

@@ -6,7 +6,8 @@ import pytest
 
 from mixedlub.cli import main
 from mixedlub.importers import import_files
-from mixedlub.importers.likely import likely_headers, likely_kind
+from mixedlub.importers.input_file import InputFile
+from mixedlub.importers.likeness import likely_headers, likely_kind
 from mixedlub.importers.plain import draft
 from mixedlub.importers.vocabulary import TARGETS
 from profiles.errors import InputError
@@ -102,6 +103,9 @@ def test_where_no_header_is_near_none_is_suggested(tmp_path):
         ("Time [s],COF", "friction_history"),
         ("Motor speed [rpm],Friction torque [Nm]", "friction_map"),
         ("Temperature [degC],Viscosity [mPa.s]", "viscosity"),
+        ("Test no.,T1 [Nm],n1 [1/min],Oil sump temp. [°C],Pv total [kW]", "gear_pair"),
+        ("M1 [Nm],n1 [rpm],Oil temp [°C],Loss [W]", "gear_pair"),
+        ("output_speed_rad_s,ideal_drive_torque_Nm,torque_sensor_Nm,motor_temp_degC", "friction_map"),
         (
             "Torque [Nm],Speed [rpm],Roll angle [deg],Oil temp [degC],Flank 1,Flank 2,Friction coefficient",
             "mesh_friction",
@@ -226,7 +230,53 @@ def test_a_header_of_another_thing_is_not_proposed_for_the_word_in_it(column, he
 
 
 def test_a_needed_column_that_only_another_thing_is_near_is_asked_without_a_proposal():
-    found = draft("duration_s,mu\n1,0.1\n2,0.2\n", "t.csv", {"kind": "friction_history"})
+    found = draft(InputFile("t.csv", "duration_s,mu\n1,0.1\n2,0.2\n"), {"kind": "friction_history"})
     (question,) = [q for q in found.questions if q.key == "import.columns.time_s"]
     assert question.example == '"HEADER"'
     assert question.among == ("duration_s", "mu")
+
+
+GERMAN = """Test no.;T1 [Nm];n1 [1/min];Oil sump temp. [°C];Pv total [kW]
+1;50,0;500;40,0;0,0175
+2;50,0;1000;40,0;0,0275
+3;100,5;1000;60,0;0,0505
+"""
+
+
+def test_torque_speed_and_a_loss_in_kilowatts_are_a_gear_loss(tmp_path, monkeypatch, capsys):
+    """By the words of the oil's temperature alone it was proposed as a viscosity."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "rig.csv").write_text(GERMAN, encoding="utf-8")
+    assert main(["import", "rig.csv", "--out", "rig"]) == 2
+    suggested, _ = asked(capsys)
+    columns = {
+        "kind": '"gear_pair"',
+        "import.columns.torque_Nm": '"T1 [Nm]"',
+        "import.columns.speed_rpm": '"n1 [1/min]"',
+        "import.columns.oil_temperature_C": '"Oil sump temp. [°C]"',
+        "import.columns.power_loss_W": '"Pv total [kW]"',
+    }
+    assert {key: value for key, value in suggested.items() if "_surface" not in key} == columns
+    words = [word for key, value in columns.items() for word in ("--set", f"{key}={value}")]
+    both = [word for side in ("pinion", "gear") for word in ("--set", f"import.values.{side}_surface=ground")]
+    assert main(["import", "rig.csv", "--out", "rig", *words, *both]) == 0
+    last = (tmp_path / "rig/recordings.csv").read_text(encoding="utf-8").splitlines()[-1]
+    assert last == "3,100.5,1000,60,50.5,ground,ground"
+
+
+@pytest.mark.parametrize(
+    ("reading", "headers"),
+    [
+        ("friction_torque_Nm", "ideal_drive_torque_Nm,torque_sensor_Nm"),
+        ("friction_torque_Nm", "Input torque [Nm],Output torque [Nm]"),
+        ("power_loss_W", "Input power [kW],Output power [kW]"),
+    ],
+)
+def test_a_transmitted_torque_or_power_is_not_proposed_as_the_loss(reading, headers):
+    kind = "friction_map" if reading == "friction_torque_Nm" else "gear_pair"
+    text = f"speed_rpm,{headers}\n1,5,4\n2,6,5\n3,7,6\n"
+    found = draft(InputFile("t.csv", text), {"kind": kind, "recording.quantity": reading})
+    (question,) = [q for q in found.questions if q.key == f"import.columns.{reading}"]
+    assert question.example == '"HEADER"'
+    assert question.needed
+    assert all(header in question.text.split(" file has ")[0] for header in headers.split(","))

@@ -127,14 +127,14 @@ def test_load_shares_may_be_one_of_the_files(rig, tmp_path):
 def test_load_shares_without_gears_are_refused(rig, tmp_path, capsys):
     rig(load_share_dot_csv=SHARES)
     assert main(["import", "t.csv", "load_share.csv", "--out", "rig", "--set", "kind=gear_pair"]) == 2
-    assert "load_share.csv: is a table of load shares, which stands in [gears]" in capsys.readouterr().err
+    assert "load_share.csv: is a table of load shares, which belongs to [gears]" in capsys.readouterr().err
     assert not (tmp_path / "rig").exists()
 
 
 def test_load_shares_against_another_answer_are_refused(rig, capsys):
     rig(load_share_dot_csv=SHARES, answers_dot_toml=answers(share='load_sharing = { model = "rigid" }\n'))
     assert imported("load_share.csv") == 2
-    assert "gears.load_sharing.model: 'rigid': says otherwise than load_share.csv" in capsys.readouterr().err
+    assert "gears.load_sharing.model: 'rigid': contradicts load_share.csv" in capsys.readouterr().err
 
 
 def test_bad_load_shares_are_refused(rig, tmp_path, capsys):

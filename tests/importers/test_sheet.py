@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from mixedlub.importers.input_file import InputFile
 from mixedlub.importers.plain import draft
-from mixedlub.importers.sheet import read_sheet
+from mixedlub.importers.text_table import read_sheet
 from mixedlub.importers.vocabulary import BY_NAME, convert
 from mixedlub.schema.units import split
 from profiles.errors import InputError
@@ -32,11 +33,11 @@ def test_lines_before_and_after_the_table_are_left_out_and_said():
     sheet = read_sheet(PIN, "PIN.TSV")
     assert sheet.left_out == "lines 1 to 4 and line 9"
     assert sheet.lines == (6, 7, 8)
-    assert "lines 1 to 4 and line 9 left out" in " ".join(map(str, draft(PIN, "PIN.TSV", ANSWERS).notes))
+    assert "lines 1 to 4 and line 9 left out" in " ".join(map(str, draft(InputFile("PIN.TSV", PIN), ANSWERS).notes))
 
 
 def test_numbers_have_decimal_commas_and_the_clock_is_not_the_time():
-    found = draft(PIN, "PIN.TSV", ANSWERS).columns
+    found = draft(InputFile("PIN.TSV", PIN), ANSWERS).columns
     assert np.allclose(found["time_s"], [6.0, 7.0, 8.5])
     assert np.allclose(found["load_N"], 59.841)
 
@@ -48,7 +49,9 @@ def test_headers_that_stand_twice_are_told_apart():
 def test_a_line_of_units_belongs_to_the_header():
     text = "speed;friction torque\n1/min;[N.mm]\n100;250\n200;260\n"
     assert set(read_sheet(text, "drive.csv").cells) == {"speed (1/min)", "friction torque (N.mm)"}
-    found = draft(text, "drive.csv", {"kind": "friction_map", "recording.quantity": "friction_torque_Nm"}).columns
+    found = draft(
+        InputFile("drive.csv", text), {"kind": "friction_map", "recording.quantity": "friction_torque_Nm"}
+    ).columns
     assert found["speed_rpm"].tolist() == [100.0, 200.0]
     assert np.allclose(found["friction_torque_Nm"], [0.25, 0.26])
 
@@ -62,14 +65,16 @@ def test_a_row_of_another_length_amid_rows_is_an_error():
 @pytest.mark.parametrize(("unit", "factor"), [("N mm", 1e-3), ("Nmm", 1e-3), ("N·m", 1.0), ("kNm", 1e3), ("Ncm", 0.01)])
 def test_torques_are_converted_from_their_unit(unit, factor):
     text = f"speed_rpm,friction torque ({unit})\n100,250\n200,260\n"
-    found = draft(text, "t.csv", {"kind": "friction_map", "recording.quantity": "friction_torque_Nm"}).columns
+    found = draft(
+        InputFile("t.csv", text), {"kind": "friction_map", "recording.quantity": "friction_torque_Nm"}
+    ).columns
     assert np.allclose(found["friction_torque_Nm"], [250 * factor, 260 * factor])
 
 
 def test_an_unknown_unit_is_told_the_nearest_as_it_is_written():
     text = "speed_rpm,friction torque (Nk)\n100,250\n200,260\n"
     with pytest.raises(InputError, match=r"unit of friction_torque_Nm is not known.*N\.m"):
-        draft(text, "t.csv", {"kind": "friction_map", "recording.quantity": "friction_torque_Nm"})
+        draft(InputFile("t.csv", text), {"kind": "friction_map", "recording.quantity": "friction_torque_Nm"})
 
 
 def test_lines_of_remarks_with_as_many_cells_are_no_header():

@@ -4,6 +4,7 @@ import pytest
 
 from mixedlub.case.folder import read_case
 from mixedlub.importers import import_files
+from mixedlub.importers.input_file import InputFile
 from mixedlub.importers.plain import draft
 from mixedlub.importers.wizard import run
 from mixedlub.schema.findings import FindingWarning, Severity
@@ -27,7 +28,7 @@ def path(tmp_path):
 
 def test_a_pressure_that_is_not_taken_is_warned_of_with_the_setting_that_takes_it(path, tmp_path):
     setting = 'import.columns.pressure_MPa="p (bar)"'
-    with pytest.warns(FindingWarning, match="'p .bar.' is not taken; if it is pressure_MPa, say --set") as caught:
+    with pytest.warns(FindingWarning, match="'p .bar.' is not taken; if it is pressure_MPa: --set") as caught:
         import_files([path], tmp_path / "case", **TOLD)
     assert setting in str(caught[0].message)
     assert len(caught) == 1
@@ -51,7 +52,7 @@ def test_the_wizard_asks_whether_to_take_it(path, tmp_path, reply, taken):
     said = []
     run([path], tmp_path / "case", [f"{k}={v}" for k, v in TOLD.items()], ask=ask, say=said.append)
     (question,) = (text for text in asked if "pressure_MPa" in text)
-    assert 'for example "p (bar)"; empty if not known' in question
+    assert 'for example "p (bar)"; Enter leaves it open' in question
     assert ("pressure_MPa" in read_case(tmp_path / "case").recordings) == taken
     assert any("'p (bar)' is not taken" in line for line in said) != taken
 
@@ -67,27 +68,29 @@ def test_the_wizard_asks_whether_to_take_it(path, tmp_path, reply, taken):
 )
 def test_conditions_of_a_history_are_warned_of_by_their_units(header, column):
     text = f"time_s,cof,{header}\n1,0.1,1\n2,0.2,2\n3,0.15,3\n"
-    (warned,) = (note for note in draft(text, "t.csv", HISTORY).notes if note.severity is Severity.CAUTION)
+    (warned,) = (note for note in draft(InputFile("t.csv", text), HISTORY).notes if note.severity is Severity.CAUTION)
     assert warned.code == "column_not_taken"
-    assert f"'{header}' is not taken; if it is {column}, say" in warned.text
+    assert f"'{header}' is not taken; if it is {column}: --set" in warned.text
 
 
 @pytest.mark.parametrize("header", ["Shear stress (Pa)", "Schubspannung (Pa)"])
 def test_a_stress_is_no_pressure(header):
     text = f"temperature_C,viscosity_mPa_s,{header}\n40,30,3\n60,12,1.2\n"
-    assert not any(note.severity is Severity.CAUTION for note in draft(text, "t.csv", {"kind": "viscosity"}).notes)
+    assert not any(
+        note.severity is Severity.CAUTION for note in draft(InputFile("t.csv", text), {"kind": "viscosity"}).notes
+    )
 
 
 @pytest.mark.parametrize("header", ["density (kg/m3)", "remark", "wear (um)", "voltage", "friction_srr_3_to_8pct"])
 def test_what_no_column_is_like_is_no_warning(header):
     text = f"time_s,cof,{header}\n1,0.1,1\n2,0.2,2\n3,0.15,3\n"
-    assert not any(note.severity is Severity.CAUTION for note in draft(text, "t.csv", HISTORY).notes)
+    assert not any(note.severity is Severity.CAUTION for note in draft(InputFile("t.csv", text), HISTORY).notes)
 
 
 @pytest.mark.parametrize("header", ["OelPump Speed (%)", "Humidity (%)", "Controller (%)"])
 def test_a_percentage_of_something_else_is_no_slip(header):
     text = f"time_s,cof,{header}\n1,0.1,100\n2,0.2,90\n3,0.15,100\n"
-    assert not any(note.severity is Severity.CAUTION for note in draft(text, "t.csv", HISTORY).notes)
+    assert not any(note.severity is Severity.CAUTION for note in draft(InputFile("t.csv", text), HISTORY).notes)
 
 
 @pytest.mark.parametrize(
@@ -96,15 +99,15 @@ def test_a_percentage_of_something_else_is_no_slip(header):
 )
 def test_normal_forces_are_offered_as_the_load(header):
     text = f"time_s;cof;{header};Fx (g);OelPump Speed (%)\n1;0.1;199;20;100\n2;0.2;200;21;100\n3;0.15;201;20;90\n"
-    (warned,) = (note for note in draft(text, "t.csv", HISTORY).notes if note.severity is Severity.CAUTION)
+    (warned,) = (note for note in draft(InputFile("t.csv", text), HISTORY).notes if note.severity is Severity.CAUTION)
     assert warned.code == "column_not_taken"
-    assert f"'{header}' is not taken; if it is load_N, say" in warned.text
+    assert f"'{header}' is not taken; if it is load_N: --set" in warned.text
 
 
 @pytest.mark.parametrize("header", ["Wear (g)", "Mass (kg)", "weight loss [g]", "Mass (Kg)"])
 def test_what_is_weighed_is_not_offered_as_the_load(header):
     text = f"time_s,cof,{header}\n1,0.1,1\n2,0.2,2\n3,0.15,3\n"
-    assert not any(note.severity is Severity.CAUTION for note in draft(text, "t.csv", HISTORY).notes)
+    assert not any(note.severity is Severity.CAUTION for note in draft(InputFile("t.csv", text), HISTORY).notes)
 
 
 @pytest.mark.parametrize(
@@ -112,6 +115,6 @@ def test_what_is_weighed_is_not_offered_as_the_load(header):
     [("Load (g)", 9.80665e-3, "grams-force of 9.80665 mN"), ("Load [Kg]", 9.80665, "kilograms-force of 9.80665 N")],
 )
 def test_a_load_in_units_of_mass_is_one_of_force_and_that_is_said(header, newton, said):
-    found = draft(f"time_s,cof,{header}\n1,0.1,200\n2,0.2,100\n3,0.15,1\n", "t.csv", HISTORY)
+    found = draft(InputFile("t.csv", f"time_s,cof,{header}\n1,0.1,200\n2,0.2,100\n3,0.15,1\n"), HISTORY)
     assert found.columns["load_N"].tolist() == pytest.approx([200.0 * newton, 100.0 * newton, newton], rel=1e-14)
     assert f"'{header}' is taken to be a load in {said}" in " ".join(map(str, found.notes))

@@ -2,8 +2,9 @@
 
 import pytest
 
-from mixedlub.importers.kinematics import other_surface
+from mixedlub.importers.input_file import InputFile
 from mixedlub.importers.plain import draft
+from mixedlub.importers.surface_speeds import other_surface
 from profiles.errors import InputError
 
 DISC = {"kind": "disc", "import.columns.load_N": "Fn (kN)", "import.columns.oil_temperature_C": "Toel (C)"}
@@ -33,7 +34,7 @@ def test_the_speed_of_one_surface_is_refused_as_that_of_both(one, two):
     if "(" not in one and "[" not in one:
         told["import.units.entrainment_speed_m_s"] = "m/s"
     with pytest.raises(InputError, match="is the speed of one surface; entrainment is the mean with that of") as caught:
-        draft(discs(one, two), "t.csv", told)
+        draft(InputFile("t.csv", discs(one, two)), told)
     assert repr(one) in str(caught.value)
 
 
@@ -41,14 +42,20 @@ def test_the_speed_of_one_surface_is_refused_as_the_sliding_speed_unless_the_oth
     told = {"kind": "friction_map", "recording.quantity": "friction_coefficient"}
     told |= {"import.columns.sliding_speed_m_s": "v1 (m/s)", "import.columns.friction_coefficient": "mu (-)"}
     with pytest.raises(InputError, match="sliding is the difference to that of 'v2"):
-        draft(discs(), "t.csv", told)
-    assert draft(discs(slower=0.0), "t.csv", told).columns["sliding_speed_m_s"].tolist() == [3.0, 4.0, 5.0, 6.0, 7.0]
+        draft(InputFile("t.csv", discs()), told)
+    assert draft(InputFile("t.csv", discs(slower=0.0)), told).columns["sliding_speed_m_s"].tolist() == [
+        3.0,
+        4.0,
+        5.0,
+        6.0,
+        7.0,
+    ]
 
 
 @pytest.mark.parametrize(("one", "two"), PAIRS)
 def test_the_speed_of_one_surface_is_not_offered(one, two):
     (question,) = (
-        q for q in draft(discs(one, two), "t.csv", DISC).questions if q.key.endswith("entrainment_speed_m_s")
+        q for q in draft(InputFile("t.csv", discs(one, two)), DISC).questions if q.key.endswith("entrainment_speed_m_s")
     )
     assert question.example == '"HEADER"'
     assert f"{one}, {two}: speeds of single surfaces, entrainment is the mean, add a column of it" in question.text
@@ -56,7 +63,7 @@ def test_the_speed_of_one_surface_is_not_offered(one, two):
 
 def test_neither_is_offered_as_the_speed_of_a_map():
     told = {"kind": "friction_map", "recording.quantity": "friction_coefficient"}
-    questions = draft(discs(), "t.csv", told).questions
+    questions = draft(InputFile("t.csv", discs()), told).questions
     assert not any("v1" in q.example or "v2" in q.example for q in questions)
 
 

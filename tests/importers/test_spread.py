@@ -2,7 +2,8 @@
 
 import pytest
 
-from mixedlub.importers.likely import likely_headers
+from mixedlub.importers.input_file import InputFile
+from mixedlub.importers.likeness import likely_headers
 from mixedlub.importers.plain import draft
 from mixedlub.schema.findings import Severity
 
@@ -12,7 +13,7 @@ HISTORY = {"kind": "friction_history"}
 def offered(told, *headers):
     """The questions and warnings about the sd of the reading."""
     rows = "".join(f"{t},9{',0.1' * len(headers)}{t}\n" for t in range(6))
-    found = draft(f"time_s,load_N,{','.join(headers)}\n{rows}", "t.csv", {**HISTORY, **told})
+    found = draft(InputFile("t.csv", f"time_s,load_N,{','.join(headers)}\n{rows}"), {**HISTORY, **told})
     asked = [q for q in found.questions if q.key == "import.columns.friction_coefficient_sd"]
     assert not any(q.needed for q in asked)
     assert "friction_coefficient_sd" not in found.columns
@@ -35,7 +36,7 @@ def test_the_sd_beside_a_reading_is_proposed_with_the_setting_that_takes_it(read
     told = {"import.columns.friction_coefficient": reading, "import.units.friction_coefficient": "-"}
     examples, (note,) = offered(told, reading, spread)
     assert examples == [f'"{spread}"']
-    assert f"'{spread}' is not taken; if it is friction_coefficient_sd, say --set" in note.text
+    assert f"'{spread}' is not taken; if it is friction_coefficient_sd: --set" in note.text
 
 
 @pytest.mark.parametrize("spread", ["sd_speed", "film_sd_nm", "cof sd (rpm)", "sd_repeats"])
@@ -65,4 +66,7 @@ def test_a_standard_deviation_is_no_condition(column, header):
 def test_an_sd_that_is_told_is_taken_in_its_unit():
     text = "film sd (um),film (nm),load_N,entrainment_speed_m_s,slide_roll_ratio,oil_temperature_C\n.01,90,9,1,0,40\n"
     told = {"kind": "film", "import.columns.film_thickness_nm_sd": "film sd (um)"}
-    assert draft(text + ".02,80,9,1,0,40\n", "t.csv", told).columns["film_thickness_nm_sd"].tolist() == [10.0, 20.0]
+    assert draft(InputFile("t.csv", text + ".02,80,9,1,0,40\n"), told).columns["film_thickness_nm_sd"].tolist() == [
+        10.0,
+        20.0,
+    ]

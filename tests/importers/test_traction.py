@@ -8,6 +8,7 @@ import pytest
 from mixedlub.case.folder import read_case
 from mixedlub.cli import main
 from mixedlub.importers import import_files
+from mixedlub.importers.input_file import open_file
 from mixedlub.importers.wizard import read, run
 from mixedlub.schema.findings import Severity, codes
 from profiles.errors import InputError
@@ -155,17 +156,17 @@ SD = "import.columns.friction_coefficient_sd"
 
 @pytest.mark.parametrize("header", ["Traction Coeff Std Dev (-)", "SD of Traction Coeff", "Standard Deviation (%)"])
 def test_the_sd_beside_a_traction_is_offered_with_the_setting_that_takes_it(file, header):
-    found = read([file(with_spread(STRIBECK, header, 0.2))], {})
+    found = read([open_file(file(with_spread(STRIBECK, header, 0.2)), {})], {})
     assert [(q.example, q.needed) for q in found.questions if q.key == SD] == [(f'"{header}"', False)]
     assert "friction_coefficient_sd" not in found.columns
     (note,) = [note for note in found.notes if note.code == "column_not_taken"]
     assert note.place == "mtm.txt"
-    assert f"{header!r} is not taken; if it is friction_coefficient_sd, say --set " in note.text
+    assert f"{header!r} is not taken; if it is friction_coefficient_sd: --set " in note.text
 
 
 def test_the_sd_of_a_film_is_offered(file):
-    found = read([file(EHD.replace("\t0.00\t3", "\t0.4\t3"))], {})
-    assert not any("sd" in q.key for q in read([file(EHD)], {}).questions)
+    found = read([open_file(file(EHD.replace("\t0.00\t3", "\t0.4\t3")), {})], {})
+    assert not any("sd" in q.key for q in read([open_file(file(EHD), {})], {}).questions)
     (question,) = [q for q in found.questions if q.key == "import.columns.film_thickness_nm_sd"]
     assert question.example == '"Standard Deviation (nm)"'
 
@@ -174,15 +175,15 @@ def test_the_sd_of_a_film_is_offered(file):
     ("header", "value"), [("Standard Deviation (nm)", 0.2), ("SD Repeat Number (-)", 1), ("Standard Deviation", 0.0)]
 )
 def test_the_sd_of_something_else_or_of_single_readings_is_not(file, header, value):
-    found = read([file(with_spread(STRIBECK, header, value))], {})
+    found = read([open_file(file(with_spread(STRIBECK, header, value)), {})], {})
     assert SD not in {q.key for q in found.questions}
     assert "column_not_taken" not in codes(found.notes)
 
 
 def test_an_sd_that_is_told_is_taken_in_its_unit(file):
     text = with_spread(STRIBECK, "Traction Coeff SD (%)", 0.2)
-    found = read([file(text)], {SD: "Traction Coeff SD (%)"})
+    found = read([open_file(file(text), {})], {SD: "Traction Coeff SD (%)"})
     assert found.columns["friction_coefficient_sd"].tolist() == [0.002] * 24
     assert not any(note.severity is Severity.CAUTION for note in found.notes)
     with pytest.raises(InputError, match=r"friction_coefficient_sd: 'SD': no such header; known: "):
-        read([file(text)], {SD: "SD"})
+        read([open_file(file(text), {})], {SD: "SD"})

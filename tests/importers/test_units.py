@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from mixedlub.importers import import_files
-from mixedlub.importers.likely import likely_headers, likely_kind
+from mixedlub.importers.input_file import InputFile
+from mixedlub.importers.likeness import likely_headers, likely_kind
 from mixedlub.importers.plain import draft
 from mixedlub.importers.vocabulary import BY_NAME, convert
 from mixedlub.schema.units import FORMS, UNITS, change_to
@@ -101,15 +102,15 @@ DRIVE = {"kind": "friction_map", "recording.quantity": "friction_torque_Nm"}
 def test_one_over_a_second_is_asked_about(unit, words):
     """It was read as revolutions a second; robots mean radians by it."""
     header = f"{words} ({unit})"
-    questions = {q.key: q for q in draft(drive(header), "t.csv", DRIVE).questions}
+    questions = {q.key: q for q in draft(InputFile("t.csv", drive(header)), DRIVE).questions}
     question = questions["import.units.speed_rpm"]
     assert (question.among, question.example) == (("rev/s", "rad/s"), '"UNIT"')
     told = {**DRIVE, "import.columns.speed_rpm": header, "import.units.speed_rpm": "rad/s"}
-    found = draft(drive(header), "t.csv", told)
+    found = draft(InputFile("t.csv", drive(header)), told)
     assert found.columns["speed_rpm"].tolist() == pytest.approx([30.0 / np.pi, 60.0 / np.pi])
-    assert "taken to be in rad/s, as told" in " ".join(map(str, found.notes))
+    assert "taken to be in rad/s, as answered" in " ".join(map(str, found.notes))
 
 
 def test_one_over_a_second_that_is_told_is_refused_with_what_it_may_mean():
     with pytest.raises(InputError, match=r"'1/s': as unit of speed_rpm leaves open .* say rev/s or rad/s"):
-        draft(drive("speed"), "t.csv", {**DRIVE, "import.units.speed_rpm": "1/s"})
+        draft(InputFile("t.csv", drive("speed")), {**DRIVE, "import.units.speed_rpm": "1/s"})

@@ -3,8 +3,12 @@
 import pytest
 
 from mixedlub.case.folder import read_case
+from mixedlub.importers import input_file
+from mixedlub.importers.input_file import InputFile
 from mixedlub.importers.plain import draft
+from mixedlub.importers.text_table import read_sheet
 from mixedlub.importers.wizard import run
+from mixedlub.schema.system_file import KINDS
 from profiles.errors import InputError
 
 TWIN = "T1 (degC);T2 (degC);eta (mPa.s)\n40;41;30\n60;61;12\n100;99;5\n"
@@ -46,8 +50,8 @@ def test_a_number_that_nothing_listed_is_no_choice(file, tmp_path):
 
 def test_a_kind_may_be_chosen_by_its_number(file, tmp_path):
     path = file("temperature_C,viscosity_mPa_s\n40,30\n100,5\n")
-    said = answered(path, tmp_path / "case", [], {"Kind of recording": ["", "7"]})
-    assert "  7  viscosity" in said
+    said = answered(path, tmp_path / "case", [], {"Kind of recording": ["?", "7"]})
+    assert any(line.startswith("  7  viscosity: ") for line in said)
     assert read_case(tmp_path / "case").kind.name == "viscosity"
 
 
@@ -61,26 +65,28 @@ def test_headers_that_are_numbers_are_meant_themselves(file, tmp_path):
 
 def test_a_torque_alone_is_proposed_as_the_friction_torque():
     """It was taken for the load of the drive, and the question for the friction torque knew no header."""
-    found = draft(ROBOT, "t.csv", DRIVE)
+    found = draft(InputFile("t.csv", ROBOT), DRIVE)
     questions = {q.key: q for q in found.questions if q.needed}
     assert questions["import.columns.friction_torque_Nm"].example == '"torque (N m)"'
     assert "torque_Nm" not in found.columns
     told = {**DRIVE, "import.columns.friction_torque_Nm": "torque (N m)"}
     told["import.columns.speed_rpm"] = "velocity (rad/s)"
-    assert list(draft(ROBOT, "t.csv", told).columns) == ["speed_rpm", "friction_torque_Nm"]
+    assert list(draft(InputFile("t.csv", ROBOT), told).columns) == ["speed_rpm", "friction_torque_Nm"]
 
 
 def test_a_torque_alone_without_a_unit_is_asked_about_once():
-    questions = [q.key for q in draft(ROBOT.replace(" (N m)", ""), "t.csv", DRIVE).questions]
+    questions = [q.key for q in draft(InputFile("t.csv", ROBOT.replace(" (N m)", "")), DRIVE).questions]
     assert "import.units.friction_torque_Nm" in questions
     assert "import.units.torque_Nm" not in questions
 
 
 def test_a_torque_beside_the_friction_torque_is_the_load():
     text = "speed (rpm),torque (N m),drag (N m)\n1,20,2\n2,20,2.2\n3,20,2.3\n"
-    found = draft(text, "t.csv", {**DRIVE, "import.columns.friction_torque_Nm": "drag (N m)"})
+    found = draft(InputFile("t.csv", text), {**DRIVE, "import.columns.friction_torque_Nm": "drag (N m)"})
     assert found.columns["torque_Nm"].tolist() == [20.0, 20.0, 20.0]
-    (question,) = (q for q in draft(text, "t.csv", DRIVE).questions if q.key == "import.columns.friction_torque_Nm")
+    (question,) = (
+        q for q in draft(InputFile("t.csv", text), DRIVE).questions if q.key == "import.columns.friction_torque_Nm"
+    )
     assert question.example == '"drag (N m)"'
 
 
@@ -136,7 +142,7 @@ def test_a_kind_that_is_none_is_asked_again(file, tmp_path):
 def test_a_value_of_all_rows_without_its_sign_is_asked_again(file, tmp_path):
     replies = {**BODIES, "surface_1": ["import.values.surface_1", "import.values.surface_1=ground"]}
     said = answered(file(DISCS), tmp_path / "case", NAMED, replies)
-    assert "what all rows have is told as import.values.NAME=VALUE" in said
+    assert "one value for all rows is written as import.values.NAME=VALUE" in said
 
 
 def test_what_no_answer_mends_is_wrong_in_the_file(file, tmp_path):
@@ -144,3 +150,53 @@ def test_what_no_answer_mends_is_wrong_in_the_file(file, tmp_path):
     with pytest.raises(InputError, match="number") as error:
         answered(path, tmp_path / "c", ["kind=viscosity"], {"temperature": ["degC", "degF", "K"]})
     assert "line 3" in error.value.where
+
+
+LOSS = "Test no.;T1 [Nm];n1 [1/min];Oil sump temp. [°C];Pv total [kW]\n1;50,0;500;40,0;0,0175\n2;100,5;1000;60;0,0505\n"
+
+
+def test_an_empty_line_takes_what_is_proposed(file, tmp_path):
+    replies = {f"holds {side}_surface": [f"import.values.{side}_surface=ground"] for side in ("pinion", "gear")}
+    answered(file(LOSS), tmp_path / "case", [], replies)
+    text = (tmp_path / "case/recordings.csv").read_text(encoding="utf-8")
+    assert "kind = " + '"gear_pair"' in (tmp_path / "case/system.toml").read_text(encoding="utf-8")
+    assert text.splitlines()[-1] == "2,100.5,1000,60,50.5,ground,ground"
+
+
+@pytest.mark.parametrize("word", ["?", "help"])
+def test_help_explains_each_kind_in_a_line_and_names_the_setting(word, file, tmp_path):
+    said = answered(file(TWIN), tmp_path / "case", [], {"Kind of": [word, "viscosity"], "temperature_C": ["T1 (degC)"]})
+    kinds = [line for line in said if line[:3].strip().isdecimal()]
+    assert [line.split()[1] for line in kinds] == [f"{name}:" for name in KINDS]
+    assert all(len(line.split(": ")[1]) > 20 for line in kinds)
+    assert any(line.startswith("  --set 'kind=\"viscosity\"'") for line in said)
+
+
+def test_units_and_ambiguous_headers_are_never_taken_by_an_empty_line(file, tmp_path):
+    path = file("temperature;T2 (degC);viscosity (cP)\n40;41;30\n60;62;12\n100;99;5\n")
+    replies = {"Unit of the column 'temperature'": ["", "degC"]}
+    said = answered(path, tmp_path / "case", ["kind=viscosity"], replies)
+    assert "this is needed; a number will do:" in said
+
+
+def test_what_will_be_written_is_shown_first_with_what_was_left_open(file, tmp_path):
+    path = file("temperature_C,viscosity_mPa_s\n40,30\n100,5\n")
+    said = answered(path, tmp_path / "case", ["kind=viscosity"], {})
+    shown = said[: next(i for i, line in enumerate(said) if "columns taken" in line)]
+    assert any(line.split() == ["temperature_C", "40", "to", "100"] for line in shown)
+    assert any(line.startswith("  --set recording.noise.relative=") for line in shown)
+
+
+def test_nothing_is_written_where_the_summary_is_declined(file, tmp_path):
+    path = file("temperature_C,viscosity_mPa_s\n40,30\n100,5\n")
+    with pytest.raises(InputError, match="nothing was changed"):
+        answered(path, tmp_path / "case", ["kind=viscosity"], {"Write this case to": ["n"]})
+    assert not (tmp_path / "case").exists()
+
+
+def test_a_table_is_separated_into_cells_once_whatever_is_asked(file, tmp_path, monkeypatch):
+    """Every question cost a full pass over the file."""
+    passes = []
+    monkeypatch.setattr(input_file, "read_sheet", lambda *given: passes.append(given) or read_sheet(*given))
+    answered(file(DISCS), tmp_path / "case", NAMED, BODIES)
+    assert len(passes) == 1

@@ -90,6 +90,18 @@ def mitutoyo(unit="µm"):
     return buffer.getvalue()
 
 
+def workbook():
+    import openpyxl
+
+    book = openpyxl.Workbook()
+    book.active.append(["x [mm]", "z [um]"])
+    for i, z in enumerate(UM.tolist()):
+        book.active.append([i * STEP * 1e3, z])
+    buffer = io.BytesIO()
+    book.save(buffer)
+    return buffer.getvalue()
+
+
 def nist_xml(points=60):
     rows = "\n".join(f"{z:.5f}" for z in UM)
     return (
@@ -138,6 +150,7 @@ SAMPLES = {
     "binary.sdf": (binary_sdf, "SDF"),
     "trace.x3p": (x3p, "x3p"),
     "report.xlsx": (mitutoyo, "Mitutoyo report"),
+    "trace.xlsx": (workbook, "workbook"),
     "softgauge.xml": (nist_xml, "NIST XML"),
     "scan.opdx": (opdx, "OPDx"),
     "box.zip": (zipped, "zip"),

@@ -102,14 +102,15 @@ def test_rounded_positions_keep_the_measured_step(tmp_path):
     [
         ("", "empty"),
         ("no numbers here\n", "no column of numbers"),
-        ("1 2\n2 nan\n3 4\n4 5\n", "line 2: 'nan': heights must be finite"),
+        ("1 2\nnan 3\n3 4\n4 5\n", "line 2: 'nan': positions must be finite"),
+        ("1 2\n2 3\n3 nan\n4 nan\n5 nan\n", "more than half of the points are missing"),
         ("1 2\n2 3\n2.5 inf\n4 5\n", "line 3: 'inf': heights must be finite"),
         ("1 2\n2 3\n3\n4 5\n", "line 3: '3': expected 2 numbers"),
         ("1 2\n2 3\n3 abc\n4 5\n", "line 3: 'abc': not a number"),
         ("1 2\n3 2\n2 3\n4 5\n5 6\n", "point 3: 2.0: positions must increase"),
         ("1 2\n2 2\n3 3\n4 5\n9 6\n", "positions must be equally spaced"),
         ("1 2\n2 3\n", "at least three heights"),
-        ("1 2 3\n2 3 4\n3 4 5\n", "one or two columns"),
+        ("1 2 3\n2 3 4\n3 4 5\n", "one or two columns.*not 3: save each column of heights"),
         ("1e400 2\n2 3\n3 4\n", "positions must be finite"),
     ],
 )
@@ -307,3 +308,77 @@ def test_a_heading_of_two_names_parts_two_columns_at_their_comma(tmp_path):
     assert one.heights[3] == pytest.approx(1.3e-6)
     one = read(written(tmp_path, "# unit: um\n# taken: in 3,5 s\n" + steps), spacing="1 um")
     assert one.heights[3] == pytest.approx(1.3e-6)
+
+
+@pytest.mark.parametrize("delimiter", [";", ",", "\t", " "])
+@pytest.mark.parametrize("missing", ["NaN", "n/a", "---", "***", "BAD", ""])
+def test_a_missing_height_is_masked_and_bridged(tmp_path, delimiter, missing):
+    if delimiter == " " and not missing:
+        pytest.skip("between blanks an empty cell is none")
+    lines = rows(POSITIONS, HEIGHTS, delimiter).splitlines()
+    lines[9] = lines[9].split(delimiter)[0] + delimiter + missing
+    profile = read(written(tmp_path, "\n".join(lines)), unit="um")
+    whole = read(written(tmp_path, rows(POSITIONS, HEIGHTS, delimiter)), unit="um")
+    assert np.flatnonzero(~profile.valid).tolist() == [9]
+    assert np.isclose(profile.heights[9], (whole.heights[8] + whole.heights[10]) / 2)
+    assert np.array_equal(profile.heights[profile.valid], whole.heights[profile.valid])
+    assert profile.spacing == whole.spacing
+    assert "1 missing points bridged and masked" in profile.steps
+
+
+def test_a_missing_height_among_heights_alone_is_masked(tmp_path):
+    profile = read(written(tmp_path, "# spacing: 0.25 um\n# unit: nm\n1\n2\nnan\n4\n5\n"))
+    assert profile.valid.tolist() == [True, True, False, True, True]
+    assert profile.heights[2] == pytest.approx(3e-9)
+
+
+def workbook(tmp_path, *sheets):
+    import openpyxl
+
+    book = openpyxl.Workbook()
+    book.remove(book.active)
+    for name, lines in sheets:
+        sheet = book.create_sheet(name)
+        for line in lines:
+            sheet.append(line)
+    book.save(tmp_path / "trace.xlsx")
+    return tmp_path / "trace.xlsx"
+
+
+PAIRS = [list(pair) for pair in zip(POSITIONS.tolist(), HEIGHTS.tolist())]
+
+
+@pytest.mark.parametrize("heading", [["x [µm]", "z [µm]"], ["position um", "height um"]])
+def test_a_workbook_of_two_columns_is_a_trace(tmp_path, heading):
+    path = workbook(tmp_path, ("About", [["Operator", "Meyer"], [1, 2]]), ("Trace", [heading, *PAIRS]))
+    profile = read(path)
+    assert profile.spacing == pytest.approx(0.5e-6)
+    assert profile.heights == pytest.approx(HEIGHTS * 1e-6, rel=1e-12)
+    assert profile.origin["sheet"] == "Trace"
+    assert any("sheet 'Trace' of 2" in step for step in profile.steps)
+
+
+def test_a_workbook_of_heights_takes_its_step_from_a_line_or_the_caller(tmp_path):
+    heights = [[z] for z in HEIGHTS.tolist()]
+    profile = read(workbook(tmp_path, ("S", [["spacing: 0.25 um"], ["unit: um"], *heights])))
+    assert profile.spacing == pytest.approx(0.25e-6)
+    told = read(workbook(tmp_path, ("S", [["z"], *heights])), unit="um", spacing="0.25 um")
+    assert np.array_equal(told.heights, profile.heights)
+    assert told.spacing == pytest.approx(0.25e-6)
+
+
+def test_empty_columns_and_cells_of_a_workbook(tmp_path):
+    lines = [[None, "x [um]", None, "z [um]"], *([None, x, None, z] for x, z in PAIRS)]
+    lines[5][3] = None
+    profile = read(workbook(tmp_path, ("S", lines)))
+    assert profile.heights.size == HEIGHTS.size
+    assert np.flatnonzero(~profile.valid).tolist() == [4]
+
+
+@pytest.mark.parametrize(
+    ("lines", "rule"),
+    [([["no", "numbers"]], "no sheet of the workbook holds numbers"), ([[1, 2, 3]] * 4, "not 3: save")],
+)
+def test_a_workbook_that_is_no_trace(tmp_path, lines, rule):
+    with pytest.raises(InputError, match=rule):
+        read(workbook(tmp_path, ("S", lines)), unit="um")

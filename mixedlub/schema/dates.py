@@ -1,4 +1,4 @@
-"""Dates with a clock as instruments write them, and both readings of those whose day could be the month."""
+"""Dates with a time of day as instruments write them; both readings where day and month could be exchanged."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import re
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime, timedelta, timezone
 
-KEY = "import.dates"
 ORDERS = ("day first", "month first")
 MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
 ENDS = ("uary", "ruary", "ch", "il", "", "e", "y", "ust", "t(?:ember)?", "ober", "ember", "ember")
@@ -30,7 +29,7 @@ BEGUN = re.compile(rf"\d+[-/.:]\d+|(?:\d{{1,2}}[ .-]+)?(?:{MONTH})\.?[ ,-]+\d", 
 
 
 def is_dated(cell: str) -> bool:
-    """Whether a cell begins as a date or a clock does, which names no thing.
+    """Whether a cell begins as a date or a time of day, which is no name.
 
     >>> [is_dated(cell) for cell in ("23/11/2026", "14:03", "23 Nov 2026", "Nov 23, 2026", "steel 52", "Marlin 3")]
     [True, True, True, True, False, False]
@@ -39,9 +38,9 @@ def is_dated(cell: str) -> bool:
 
 
 def moments(cells: Sequence[str]) -> Mapping[str, list[datetime]]:
-    """The moments of cells that are all dates of one form, by the order in which day and month were read.
+    """The times in cells that are all dates of one form, by the order in which day and month were read.
 
-    Where the order is plain there is one, by the name ''; nothing where a cell is no date.
+    A unique order has the name ''. Empty where a cell is no date.
 
     >>> [str(m) for m in moments(["23 Nov 2026 02:03:10 PM"])[""]]
     ['2026-11-23 14:03:10']
@@ -61,17 +60,17 @@ def moments(cells: Sequence[str]) -> Mapping[str, list[datetime]]:
             ways = {"": [_moment(part, part["day"], part["month"]) for part in read]}
         else:
             ways = {"day first": [_moment(part, part["first"], part["other"]) for part in read]}
-            # A point stands between day and month where the day goes first.
+            # With points between them the day comes first.
             if any(part["mark"] != "." for part in read):
                 ways["month first"] = [_moment(part, part["other"], part["first"]) for part in read]
         whole = {order: [m for m in found if m is not None] for order, found in ways.items()}
-        whole = {order: found for order, found in whole.items() if len(found) == len(cells) and _alike(found)}
+        whole = {order: found for order, found in whole.items() if len(found) == len(cells) and _same_zone_use(found)}
         return whole if len(whole) != 1 else {"": next(iter(whole.values()))}
     return {}
 
 
 def resolution(cells: Sequence[str]) -> float:
-    """Seconds within which a clock tells the time: those of a minute where it has no seconds.
+    """Resolution of a clock in seconds: a minute where seconds are not written.
 
     >>> resolution(["23/11/2026 14:03"]), resolution(["2026-11-23T14:03:10Z"])
     (60.0, 1.0)
@@ -79,13 +78,13 @@ def resolution(cells: Sequence[str]) -> float:
     return 1.0 if all(re.search(r":\d\d:\d\d", cell) for cell in cells) else 60.0
 
 
-def _alike(found: Sequence[datetime]) -> bool:
-    """Whether all moments have a zone, or none."""
+def _same_zone_use(found: Sequence[datetime]) -> bool:
+    """Whether all times have a time zone, or none."""
     return len({moment.tzinfo is None for moment in found}) == 1
 
 
 def _moment(part: Mapping[str, str | None], day: str | None, month: str | None) -> datetime | None:
-    """The moment that the parts of a date make; None where there is no such day or hour."""
+    """The time that the parts of a date give; None where there is no such day or hour."""
     name, half, hour = (month or "").lower(), (part["half"] or "").lower(), int(part["hour"] or 0)
     number = int(name) if name.isdecimal() else MONTHS.index(name[:3]) + 1
     if half and not 1 <= hour <= 12:
@@ -102,7 +101,7 @@ def _moment(part: Mapping[str, str | None], day: str | None, month: str | None) 
 
 
 def _zone(text: str | None) -> timezone:
-    """A zone by what stands behind a clock.
+    """The time zone written after a time of day.
 
     >>> _zone("Z") == timezone.utc, str(_zone("-0530"))
     (True, 'UTC-05:30')

@@ -1,4 +1,4 @@
-"""What a kind of case needs and the system lacks: as a list, and as comments to fill in."""
+"""Inputs that a kind of case needs and system.toml lacks: as a list, and as comments to fill in."""
 
 from __future__ import annotations
 
@@ -30,15 +30,15 @@ class Gap:
     keys: Mapping[str, Key]
 
     def comments(self) -> Iterator[str]:
-        """Lines to put into the file: each is taken by deleting its mark of comment."""
+        """Comment lines for the file: deleting the comment mark takes the value."""
         if self.absent:
             yield f"# [{self.table}]" + ("  # needed" if self.required else "")
         for key in (*self.needed, *self.assumed):
             described, left_out = self.keys[key], self.assumed.get(key)
-            said = f"needed: {described.words}" if key in self.needed else described.words
-            said += f": {' or '.join(map(toml_value, described.values))}" if described.values else ""
-            said += f"; {left_out} where left out" if left_out else ""
-            yield f"# {key} = {toml_value(described.example)}  # {said}"
+            meaning = f"needed: {described.words}" if key in self.needed else described.words
+            meaning += f": {' or '.join(map(toml_value, described.values))}" if described.values else ""
+            meaning += f"; {left_out} where left out" if left_out else ""
+            yield f"# {key} = {toml_value(described.example)}  # {meaning}"
 
     @property
     def blocking(self) -> str:
@@ -49,21 +49,21 @@ class Gap:
         return f"[{self.table}] with {', '.join(self.needed)}" + (f"; or with {', '.join(other)}" if other else "")
 
     def open(self, taken: Mapping[str, str]) -> str:
-        """What is not given and need not be, in one line with the values ``taken``, else the usual ones."""
+        """Optional keys that are not given, in one line, with the values ``taken`` or else the defaults."""
         place = f"{self.table}." if self.table else ""
         values = {key: taken.get(key, value) for key, value in self.assumed.items()}
         return "; ".join(place + key + (f" ({value})" if value else "") for key, value in values.items())
 
 
 def gaps(system: system_file.System, columns: Mapping[str, np.ndarray]) -> tuple[Gap, ...]:
-    """What a case of the system's kind computes with and the system does not say; the rows name the surfaces."""
+    """The inputs of the system's kind that the system lacks; the rows name the surfaces."""
     rules = kind_of(system.kind)
     reads = _reads(system, columns)
     head = _keys("")
     open_ones = [k for k, key in head.items() if not key.required and k not in system.model_fields_set]
     broad = broadly_fitted(system, columns)
-    usual = {k: BROAD if k in broad else default_of(head[k]) for k in open_ones if k in ("description", *reads)}
-    found = [Gap("", False, False, (), usual, head)]
+    defaults = {k: BROAD if k in broad else default_of(head[k]) for k in open_ones if k in ("description", *reads)}
+    found = [Gap("", False, False, (), defaults, head)]
     wanted = [s for s in ("gears", "contact", "lubricant") if s in rules.sections]
     if "viscosity" in reads and "lubricant" not in wanted:
         wanted.append("lubricant")
@@ -98,7 +98,7 @@ def undescribed(system: system_file.System, columns: Mapping[str, np.ndarray]) -
     if "surfaces" not in kind_of(system.kind).sections:
         return []
     named = [c.name for c in kind_of(system.kind).columns if c.form == "name" and "surface" in c.name]
-    names = {str(value) for name in named if name in columns for value in columns[name]}
+    names = {str(value) for name in named if name in columns for value in np.unique(columns[name])}
     return sorted(names - set(system.surfaces))
 
 
@@ -109,16 +109,16 @@ def _keys(section: str) -> dict[str, Key]:
 
 
 def _gap(section: str, name: str, given: Section | None, required: bool, known: Set[str] = frozenset()) -> Gap:
-    """Keys of a section that are not given; those are needed without which the examples of the others are refused."""
+    """Keys of a section that are not given; a key is needed if the section is refused without it."""
     keys = _keys(section)
-    said = known if given is None else known | given.model_fields_set
+    present = known if given is None else known | given.model_fields_set
     lacking = needed(table(system_file.System, section).model) if given is None else ()
-    assumed = {k: default_of(key) for k, key in keys.items() if k not in said and k not in lacking}
+    assumed = {k: default_of(key) for k, key in keys.items() if k not in present and k not in lacking}
     return Gap(name, given is None, required and given is None, lacking, assumed, keys)
 
 
-def told(found: tuple[Gap, ...], file: str, system: system_file.System) -> Iterator[str]:
-    """The gaps in plain words, line by line: first those without which nothing computes."""
+def gap_lines(found: tuple[Gap, ...], file: str, system: system_file.System) -> Iterator[str]:
+    """The gaps in words, one a line, those that prevent a computation first."""
     taken = {"lubricant": oil_taken(system.lubricant)}
     if system.gears is not None:
         taken["gears"] = gears_taken(system.gears)
@@ -130,5 +130,5 @@ def told(found: tuple[Gap, ...], file: str, system: system_file.System) -> Itera
         gap.open(taken.get(gap.table, {})) for gap in found if gap.assumed and not gap.table.startswith("surfaces.")
     ]
     if assumed:
-        yield "not given, with what is taken where a value is usual:"
+        yield "not given, with the default or typical value that is taken:"
         yield from (f"  {text}" for text in assumed)

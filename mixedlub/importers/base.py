@@ -1,4 +1,4 @@
-"""What instrument files say by themselves, and the questions that remain."""
+"""Drafts of a case, the questions they leave open, and checks of the answers."""
 
 from __future__ import annotations
 
@@ -11,26 +11,30 @@ from typing import Any
 import numpy as np
 
 from mixedlub.kinds import kind as kind_of
+from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, finding
-from mixedlub.schema.section import table
+from mixedlub.schema.section import examples, table, tables
 from mixedlub.schema.system_file import KINDS, System
 from mixedlub.schema.toml_file import toml_value
 from profiles.errors import InputError, nearest
 
 Answers = Mapping[str, Any]
-"""Answers by dotted key: keys of system.toml, or ``import.`` and what the importer itself asks."""
+"""Answers by dotted key: keys of system.toml, and keys that begin with ``import.`` for the importer itself."""
 
+
+SHEET = "import.sheet"
+"""The sheet of a workbook that is read."""
 
 PART = re.compile(r'"[^"]*"|[^.]+')
-"""A part of a dotted key; a name with a point in it stands in quotes."""
+"""A part of a dotted key; a name that contains a point is quoted."""
 
 
 @dataclass(frozen=True)
 class Question:
-    """Something no file says: the key that answers it, the words, an example that is valid TOML.
+    """A fact that the files lack: its key, the wording of the question, an example in TOML.
 
-    ``among`` are the answers there are, ``of`` the words that introduce them. Where the example is no likely answer,
-    a ``blank`` stands for it in lists that may be pasted.
+    ``among`` are the possible answers, ``of`` the words that introduce them. ``blank`` replaces an example that is
+    unlikely to be right in lines to copy. An ``offered`` example is likely enough for an empty reply to take it.
     """
 
     key: str
@@ -40,15 +44,16 @@ class Question:
     among: tuple[str, ...] = ()
     of: str = "one of"
     blank: str = ""
+    offered: bool = False
 
     @property
     def choices(self) -> str:
-        """The answers there are, in words."""
+        """The possible answers, in words."""
         return f"{self.of} {', '.join(self.among)}" if self.among else ""
 
 
 class Unanswered(InputError):
-    """Answers that are missing: what to ask of whoever can be asked, one question a line."""
+    """Missing answers: one question a line, with the setting that answers it."""
 
     def __init__(self, questions: Sequence[Question]) -> None:
         self.lines = tuple(listed(questions))
@@ -58,22 +63,22 @@ class Unanswered(InputError):
 
 
 def listed(questions: Sequence[Question]) -> Iterator[str]:
-    """A line a question, with the setting that answers it; choices are not said twice.
+    """A line for each question, with the setting that answers it; equal choices are listed once.
 
     >>> print(*listed([Question("kind", "Kind of recording", '"film"', among=("film", "disc"))]), sep="\\n")
       --set 'kind="film"'  (Kind of recording: one of film, disc)
     """
-    said: set[str] = set()
+    listed_choices: set[str] = set()
     for q in questions:
-        words = q.text if not q.choices or q.choices in said else f"{q.text}: {q.choices}"
-        said.add(q.choices)
+        words = q.text if not q.choices or q.choices in listed_choices else f"{q.text}: {q.choices}"
+        listed_choices.add(q.choices)
         words += f", for example {q.example}" if q.blank and not q.choices else ""
         yield f"  --set {shlex.quote(f'{q.key}={q.blank or q.example}')}  ({words})"
 
 
 @dataclass(frozen=True)
 class Draft:
-    """A case in the making: columns in the units of the contract, facts for system.toml, open questions."""
+    """A case before it is written: columns in the units of a case, facts for system.toml, open questions."""
 
     kind: str | None
     quantity: str | None
@@ -82,7 +87,7 @@ class Draft:
     questions: tuple[Question, ...] = ()
     notes: tuple[Finding, ...] = ()
     runs: np.ndarray | None = None
-    """Numbers of the readings, where the file has them and each stands once."""
+    """Run numbers, where the file has them and none is repeated."""
 
 
 def _question(section: str, key: str, needed: bool) -> Question:
@@ -109,7 +114,7 @@ NOISE = tuple(_question("recording.noise", key, False) for key in ("relative", "
 
 
 def questions_of(kind: str) -> tuple[Question, ...]:
-    """What every case of a kind leaves to ask."""
+    """The questions that every case of a kind leaves open."""
     contact = CONTACT if "contact" in kind_of(kind).sections else ()
     oil = OIL if kind in ("film", "disc", "gear_pair", "mesh_friction") else ()
     many = (EVERY,) if kind in ("friction_history", "viscosity") else ()
@@ -117,41 +122,41 @@ def questions_of(kind: str) -> tuple[Question, ...]:
 
 
 def contact_form(kind: str, answers: Answers) -> tuple[Question, ...]:
-    """Whether the contact is a line or a point, and how wide, where a kind has one and nothing says it."""
-    told = "contact.width_mm" in answers or answers.get("contact.geometry") == "point"
-    if told or "contact" not in kind_of(kind).sections:
+    """Questions for form and width of the contact, where a kind has one and no answer gives them."""
+    given = "contact.width_mm" in answers or answers.get("contact.geometry") == "point"
+    if given or "contact" not in kind_of(kind).sections:
         return ()
     return (WIDTH,) if "contact.geometry" in answers else (FORM, WIDTH)
 
 
 def read_note(text: str, name: str = "") -> Finding:
-    """What an importer made of a file."""
+    """A note on how an importer read a file."""
     return finding("file_read", text, name)
 
 
 def open_questions(draft: Draft, answers: Answers) -> tuple[Question, ...]:
-    """The needed questions that are not answered yet."""
+    """The required questions without an answer."""
     return tuple(q for q in draft.questions if q.needed and q.key not in answers)
 
 
 def refuse_unknown(answers: Answers, known: Sequence[str]) -> None:
-    """An error about the first answer for the importer that it has no use for.
+    """An error about the first ``import.`` key that has no meaning for the file.
 
     >>> refuse_unknown({"import.evry": 10, "kind": "film"}, [])
     Traceback (most recent call last):
     ...
     profiles.errors.InputError: import.evry: key is not known for this file; nearest known: 'import.every'
     """
-    keys = (EVERY.key, *known)
+    keys = (EVERY.key, SHEET, *known)
     for key in answers:
         if PART.findall(key)[:1] == ["import"] and key not in keys:
             raise InputError(f"key is not known for this file; {nearest(key, keys)}", where=key)
 
 
-def kind_told(answers: Answers, made: Collection[str]) -> str | None:
-    """The kind that is told; an error where the file's reader makes no such case.
+def answered_kind(answers: Answers, made: Collection[str]) -> str | None:
+    """The kind that the answers name; an error where the file's reader makes no such case.
 
-    >>> kind_told({"kind": "disc"}, ["viscosity"])
+    >>> answered_kind({"kind": "disc"}, ["viscosity"])
     Traceback (most recent call last):
     ...
     profiles.errors.InputError: kind: 'disc': is no kind that files of this rig make; they make viscosity
@@ -165,7 +170,7 @@ def kind_told(answers: Answers, made: Collection[str]) -> str | None:
 
 
 def nested(answers: Answers) -> dict[str, Any]:
-    """Dotted keys as tables; what belongs to the importer is left out.
+    """Dotted keys as tables, without the keys of the importer.
 
     >>> nested({"contact.radius_mm": [9.5, 20.0], "import.temperature": "pot", "kind": "film"})
     {'contact': {'radius_mm': [9.5, 20.0]}, 'kind': 'film'}
@@ -196,3 +201,36 @@ def flat(tree: Mapping[str, Any], above: str = "") -> dict[str, Any]:
         name = f"{above}.{part}" if above else part
         found.update(flat(value, name) if isinstance(value, Mapping) and value else {name: value})
     return found
+
+
+BARE = re.compile(r"[-+.\deinf]+(\s*,\s*[-+.\deinf]+)+")
+"""Numbers with commas between, as a list is typed without its brackets."""
+
+
+def is_list(example: str, reply: str) -> bool:
+    """Whether a reply is a list without its brackets, where a list is expected.
+
+    >>> is_list("[206.0, 206.0]", "206, 75"), is_list("[206.0, 206.0]", "[206, 75]"), is_list("0.1", "0,2")
+    (True, False, False)
+    """
+    return example.startswith("[") and BARE.fullmatch(reply.strip()) is not None
+
+
+def refuse_wrong(key: str, value: Any) -> None:
+    """An error about an answer that is invalid in system.toml, whatever the other answers are.
+
+    >>> refuse_wrong("contact.radius_mm", [9.5])
+    Traceback (most recent call last):
+    ...
+    profiles.errors.InputError: contact.radius_mm: [9.5]: needs 2 entries, not 1
+    """
+    if key == EVERY.key and (not isinstance(value, int) or isinstance(value, bool) or value < 1):
+        raise InputError("must be a whole number of at least 1", where=key, value=value)
+    section, _, last = key.rpartition(".")
+    found = next((t for t in tables(system_file.System) if section and t.name == section), None)
+    if found is None or last not in found.model.model_fields:
+        return
+    try:
+        toml_file.parse(found.model, {**examples(found.model), last: value}, section)
+    except InputError as error:
+        raise InputError(error.rule, where=key, value=value) from None

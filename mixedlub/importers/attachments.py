@@ -1,4 +1,4 @@
-"""Files that a case needs beside its tables: traces of surfaces, a table of load shares."""
+"""Files that a case needs besides its tables: surface traces, a table of load shares."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path, PurePath
 from typing import Any
 
 from mixedlub.case.import_file import NAME
-from mixedlub.importers.draft import nested
+from mixedlub.importers.base import nested
 from mixedlub.rig.build import SHIPPED_MARK
 from profiles.errors import InputError, nearest
 
@@ -19,7 +19,7 @@ SHARE = "gears.load_sharing"
 
 @dataclass(frozen=True)
 class Named:
-    """A file that an answer names: the keys down to it, the name as given, the folder it gets where it needs one."""
+    """A file that an answer names: path of keys, name as given, folder in the case for a file from elsewhere."""
 
     keys: tuple[str, ...]
     name: str
@@ -37,26 +37,26 @@ def is_share(text: str) -> bool:
 
 
 def with_share(answers: Mapping[str, Any], tables: Sequence[Path]) -> dict[str, Any]:
-    """Answers that name the table of load shares given beside the recording."""
+    """The answers, with the table of load shares that was given together with the recording."""
     if not tables:
         return dict(answers)
     if len(tables) > 1:
-        raise InputError(f"is a second table of load shares, beside {tables[0]}; a case has one", where=str(tables[1]))
-    told = {key: value for key, value in answers.items() if key.startswith(f"{SHARE}.")}
-    other = {k: v for k, v in told.items() if k != f"{SHARE}.table" or PurePath(str(v)).name != tables[0].name}
+        raise InputError(f"is a second table of load shares after {tables[0]}; a case has one", where=str(tables[1]))
+    given = {key: value for key, value in answers.items() if key.startswith(f"{SHARE}.")}
+    other = {k: v for k, v in given.items() if k != f"{SHARE}.table" or PurePath(str(v)).name != tables[0].name}
     if other:
         key, value = next(iter(other.items()))
-        raise InputError(f"says otherwise than {tables[0]}, a table of load shares", where=key, value=value)
-    if not any(key.startswith("gears.") for key in answers if key not in told):
-        rule = "is a table of load shares, which stands in [gears]: describe the gears by --answers"
+        raise InputError(f"contradicts {tables[0]}, a table of load shares", where=key, value=value)
+    if not any(key.startswith("gears.") for key in answers if key not in given):
+        rule = "is a table of load shares, which belongs to [gears]: describe the gears by --answers"
         raise InputError(rule, where=str(tables[0]))
     return {**answers, f"{SHARE}.table": str(tables[0].resolve())}
 
 
 def carried(answers: Mapping[str, Any], folders: Sequence[Path]) -> tuple[dict[str, Any], dict[str, bytes]]:
-    """Tables of the answers with names that hold within the case, and the files by those names.
+    """The answers as tables, with file names relative to the case, and the files by those names.
 
-    A file is looked for in each folder in turn; one whose name leads out of the case is put into it.
+    A file is searched in each folder in turn; a file outside the case is copied into it.
     """
     system = nested(answers)
     files: dict[str, bytes] = {}

@@ -1,4 +1,4 @@
-"""A case folder written in one go: `system.toml`, `recordings.csv`, and the files that go with them."""
+"""Case folders written at once: `system.toml`, `recordings.csv` and attached files."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from mixedlub.schema.toml_file import toml_key, toml_value
 from profiles.errors import InputError
 
 Comments = Mapping[str, Sequence[str]]
-"""Lines of comment by the dotted name of the table they stand in; the empty name is the head of the file."""
+"""Comment lines by the dotted name of their table; the empty name is the head of the file."""
 
 
 def write_case(
@@ -30,12 +30,11 @@ def write_case(
     carried: Mapping[str, bytes] | None = None,
     check: Callable[[Path], None] | None = None,
 ) -> Path:
-    """Write the files of a case folder, all or none; other files there, and folders that are no case, stay.
+    """Write the files of a case folder, all or none; other files in it are kept, a folder that is no case is refused.
 
-    ``columns`` are those of the recording; ``run`` is numbered here where it is not among them. ``comments`` are
-    lines to put under the tables of system.toml, ``carried`` further files by their place in the case. ``check``
-    looks at the folder before its files appear. Without ``overwrite`` a file there that says something else is an
-    error.
+    ``columns`` are those of the recording; a missing ``run`` is numbered from 1. ``comments`` are lines below the
+    tables of system.toml, ``carried`` further files by their path in the case. ``check`` is called with the folder
+    before its files appear. Without ``overwrite`` an existing file with other content is an error.
     """
     if not out.is_dir() and out.exists():
         raise InputError("exists and is no case folder; name another --out", where=str(out))
@@ -49,8 +48,8 @@ def write_case(
     differing = [name for name, content in files.items() if (out / name).exists() and _held(out / name) != content]
     if differing and not overwrite:
         raise InputError(
-            "exists and differs from what would be written, so it is left as it is; name another --out, or replace it "
-            f"by --overwrite; with --answers {out / 'system.toml'} --overwrite what it says is taken over",
+            "exists and differs from what would be written, so it is kept; name another --out, or "
+            f"replace it by --overwrite; with --answers {out / 'system.toml'} --overwrite its description is kept",
             where=str(out / differing[0]),
         )
     if not differing and all((out / name).exists() for name in files):
@@ -70,7 +69,7 @@ def write_case(
 
 
 def _fill(aside: Path, out: Path, files: Mapping[str, bytes]) -> None:
-    """The files, with what else lies in the folders that they share, as a folder is replaced whole."""
+    """The files, and the other files of their subfolders, because a folder is replaced as a whole."""
     for folder in {Path(name).parts[0] for name in files if len(Path(name).parts) > 1}:
         if (out / folder).is_dir():
             shutil.copytree(out / folder, aside / folder)
@@ -80,7 +79,7 @@ def _fill(aside: Path, out: Path, files: Mapping[str, bytes]) -> None:
 
 
 def _drop_empty(made: Sequence[Path]) -> None:
-    """Take away folders that were made for a case that did not come."""
+    """Remove folders that were made for a case that was not written."""
     for folder in made:
         if folder.is_dir() and not any(folder.iterdir()):
             folder.rmdir()
@@ -102,18 +101,18 @@ def _recordings(out: Path, columns: Mapping[str, Sequence[Any] | np.ndarray]) ->
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(numbered)
-    for row in zip(*numbered.values(), strict=True):
-        writer.writerow([cell(value) for value in row])
+    plain = [values.tolist() if isinstance(values, np.ndarray) else values for values in numbered.values()]
+    writer.writerows(zip(*(map(cell, values) for values in plain), strict=True))
     return text.getvalue()
 
 
 def cell(value: Any) -> Any:
-    """A value as a table holds it: a number in the fewest digits that read back equal, nothing for nan.
+    """A value as a cell of a table: a number in the fewest digits that read back equal, empty for nan.
 
     >>> cell(1619110000.1), cell(40.0), cell(0.1 + 0.2), cell(float("nan")), cell("ground")
     ('1619110000.1', '40', '0.30000000000000004', '', 'ground')
     """
-    if not isinstance(value, float | np.floating):
+    if not isinstance(value, float) and not isinstance(value, np.floating):
         return value
     number = float(value)
     return "" if number != number else repr(number).removesuffix(".0")
@@ -124,7 +123,7 @@ def findings_toml(found: Iterable[Finding]) -> str:
 
     >>> from mixedlub.schema.findings import finding
     >>> print(findings_toml([finding("file_incomplete", "line 7 breaks off", "rig.txt")]), end="")
-    # What `mixedlub import` warned of. `check` and `diagnose` repeat it; delete what is settled.
+    # What `mixedlub import` warned of. `check` and `diagnose` repeat it; delete what is resolved.
     <BLANKLINE>
     [[finding]]
     code = "file_incomplete"
@@ -132,15 +131,15 @@ def findings_toml(found: Iterable[Finding]) -> str:
     place = "rig.txt"
     text = "line 7 breaks off"
     """
-    head = "# What `mixedlub import` warned of. `check` and `diagnose` repeat it; delete what is settled.\n"
+    head = "# What `mixedlub import` warned of. `check` and `diagnose` repeat it; delete what is resolved.\n"
     tables = ("\n[[finding]]\n" + to_toml(record) for record in as_records(found))
     return head + "".join(tables)
 
 
 def to_toml(data: Mapping[str, Any], place: str = "", *, comments: Comments | None = None) -> str:
-    """TOML of nested tables with plain values, tables last; comments of a table stand below its values.
+    """TOML of nested tables, plain values first; the comments of a table follow its values.
 
-    Comments of tables that the data do not have follow at the end.
+    Comments of absent tables come at the end.
 
     >>> print(to_toml({"kind": "film", "contact": {"radius_mm": [9.5, float("inf")]}}))
     kind = "film"
@@ -149,10 +148,10 @@ def to_toml(data: Mapping[str, Any], place: str = "", *, comments: Comments | No
     radius_mm = [9.5, inf]
     <BLANKLINE>
     """
-    said = comments or {}
+    below = comments or {}
     written: set[str] = set()
-    text = _table(data, place, said, written)
-    absent = ["\n" + "\n".join(lines) + "\n" for name, lines in said.items() if name not in written]
+    text = _table(data, place, below, written)
+    absent = ["\n" + "\n".join(lines) + "\n" for name, lines in below.items() if name not in written]
     return text + "".join(absent)
 
 

@@ -1,4 +1,4 @@
-"""Whether a case that is about to appear is one that `check` reads."""
+"""Check of a case folder before it is put in place: can `check` and `diagnose` use it."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from profiles.errors import InputError
 
 
 def refuse_unreadable(folder: Path, system: system_file.System, complete: bool, shown: Path) -> str:
-    """An error where `check` would give one; why `diagnose` would refuse what `check` reads, else nothing.
+    """An error where `check` would give one; else the reason why `diagnose` would refuse the case, or nothing.
 
-    Of a case that still lacks sections (not ``complete``) the tables and what is described are read. The error names
-    the place ``shown``, where the case would have appeared.
+    Of a case that lacks sections (not ``complete``) the tables and the given sections are read. The error names the
+    folder ``shown``, where the case is to be.
     """
     try:
         with collected():
             return (_whole(folder) if complete else _parts(folder, system)).replace(str(folder), str(shown))
     except InputError as error:
-        told = system_file.in_file(error, str(folder / "system.toml"))
-        rule, where = (text.replace(str(folder), str(shown)) for text in (told.rule, told.where))
-        raise InputError(f"{rule}; nothing was written", where=where, value=told.value) from None
+        placed = system_file.in_file(error, str(folder / "system.toml"))
+        rule, where = (text.replace(str(folder), str(shown)) for text in (placed.rule, placed.where))
+        raise InputError(f"{rule}; nothing was written", where=where, value=placed.value) from None
     except ArithmeticError as error:
         rule = f"has numbers too large or too small to compute with ({error}); nothing was written"
         raise InputError(rule, where=str(shown)) from None

@@ -1,13 +1,13 @@
-"""Speeds of a table that agree: where both surfaces' speeds stand in it, neither is the entrainment or the sliding."""
+"""Speeds of single surfaces: neither the entrainment nor the sliding speed."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from mixedlub.importers.sheet import Cells, is_number
+from mixedlub.importers.text_table import Cells, values_of
 from mixedlub.schema.units import change_to, split, words_of
 from profiles.errors import InputError
 
@@ -15,7 +15,7 @@ SIDES = (("1", "2"), ("a", "b"), ("disc", "ball"), ("disk", "ball"), ("lower", "
 """Words by which the speeds of two surfaces differ."""
 SPEED = re.compile(r"speed|velocity|geschwindigkeit|^[uv]\W?(?:\d|\b)")
 WITHIN = 0.02
-"""Share by which a speed may differ from the mean of the two surfaces'."""
+"""Relative difference from the mean speed up to which two surfaces move equally: beyond slip by creep alone."""
 MADE = {
     "entrainment_speed_m_s": "entrainment is the mean with that of",
     "sliding_speed_m_s": "sliding is the difference to that of",
@@ -23,7 +23,7 @@ MADE = {
 
 
 def other_surface(header: str, cells: Cells) -> str | None:
-    """The header over the speed of the other surface, where both stand in the table and differ.
+    """The header of the other surface's speed, where the table has both speeds and they differ.
 
     >>> other_surface("v1 (m/s)", {"v1 (m/s)": ["2.0", "4.0"], "v2 (m/s)": ["1.0", "2.0"], "mu": ["0.1", "0.2"]})
     'v2 (m/s)'
@@ -32,12 +32,12 @@ def other_surface(header: str, cells: Cells) -> str | None:
     unit, words = split(header)[1], words_of(header)
     if not (SPEED.search(words) if unit is None else change_to(unit, "m_s")):
         return None
-    alike = {words_of(h): h for h in cells if split(h)[1] == unit}
-    for other in (alike[w] for w in _opposite(words) if w in alike):
-        both = [row for row in zip(cells[header], cells[other], strict=True) if all(map(is_number, row))]
-        if not both:
+    same_unit = {words_of(h): h for h in cells if split(h)[1] == unit}
+    for other in (same_unit[w] for w in _opposite(words) if w in same_unit):
+        both = np.abs([values_of(cells[header]), values_of(cells[other])])
+        first, second = both[:, np.isfinite(both).all(axis=0)]
+        if not first.size:
             continue
-        first, second = np.abs(np.array(both, dtype=float)).T
         if np.max(np.abs(first - second)) > 2.0 * WITHIN * np.max(np.abs(first)):
             return other
     return None
@@ -53,9 +53,9 @@ def _opposite(words: str) -> Iterator[str]:
 
 
 def refuse_one_surface(headers: Mapping[str, str], cells: Cells, name: str) -> None:
-    """An error where the speed of one surface was taken for that of both although the other's stands there too.
+    """An error where the speed of one surface was taken for that of the contact, and the table has both.
 
-    Beside a surface at rest the speed of the other is the sliding speed.
+    With one surface at rest the speed of the other is the sliding speed.
 
     >>> cells = {"Disc Speed (m/s)": ["1.0", "2.0"], "Ball Speed (m/s)": ["0", "0"]}
     >>> refuse_one_surface({"entrainment_speed_m_s": "Ball Speed (m/s)"}, {"Ball Speed (m/s)": ["1.0"]}, "a.txt")
@@ -75,5 +75,5 @@ entrainment is the mean with that of 'Ball Speed (m/s)': add a column of it to t
         raise InputError(rule, where=f"{name}: {column}", value=taken)
 
 
-def _at_rest(cells: list[str]) -> bool:
-    return all(float(cell) == 0.0 for cell in cells if is_number(cell))
+def _at_rest(cells: Sequence[str]) -> bool:
+    return not np.nan_to_num(values_of(cells)).any()

@@ -1,0 +1,52 @@
+"""How fast a table becomes a case folder: one line a size, `name, figure, unit, ratio to its reference`.
+
+The table is a friction map in tidy CSV: a header with units, eight columns, half of them taken. The reference is what
+is asked for: 300,000 rows in 20 s, fewer rows in proportion. A size that takes twice its share is no longer linear.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from mixedlub.importers import import_files
+
+SECONDS_A_ROW = 20.0 / 300_000
+SIZES = (20_000, 100_000, 300_000)
+HEADER = "Time [s],Motor speed [rpm],Friction torque [Nm],Oil temp [°C],Payload [Nm],Current [A],Vibration [g],Sample"
+"""A drive's table: four columns of the case, three channels of no use to it, and what was tested."""
+
+
+def write_table(path: Path, rows: int) -> None:
+    """A friction map of a drive with a Stribeck course, its speed swept up and down again and again."""
+    rng = np.random.default_rng(rows)
+    time_s = np.arange(rows) * 0.1
+    speed = np.round(1500.0 + 1400.0 * np.sin(time_s / 60.0), 2)
+    torque = 0.8 + 1.2 * np.exp(-speed / 300.0) + 4e-4 * speed + rng.normal(0.0, 0.01, rows)
+    oil, payload = 40.0 + rng.normal(0.0, 0.2, rows), rng.choice((0.0, 5.0, 10.0), rows)
+    current, vibration = 0.5 * torque + rng.normal(0.0, 0.02, rows), np.abs(rng.normal(0.0, 0.3, rows))
+    columns = zip(time_s, speed, torque, oil, payload, current, vibration, strict=True)
+    lines = (f"{t:.1f},{n:.2f},{m:.5f},{o:.2f},{p:.1f},{a:.4f},{g:.4f},A4" for t, n, m, o, p, a, g in columns)
+    path.write_text("\n".join((HEADER, *lines)) + "\n", encoding="utf-8")
+
+
+def main(sizes: Sequence[int]) -> None:
+    """Import tables of these sizes and print a line for each."""
+    with tempfile.TemporaryDirectory() as here:
+        for rows in sizes:
+            path = Path(here) / f"table_{rows}.csv"
+            write_table(path, rows)
+            answers = {"kind": "friction_map", "recording.quantity": "friction_torque_Nm"}
+            start = time.perf_counter()
+            import_files([path], Path(here) / f"case_{rows}", **answers)
+            seconds = time.perf_counter() - start
+            print(f"import_{rows}_rows, {seconds:.4g}, s, {rows * SECONDS_A_ROW / seconds:.3g}", flush=True)
+
+
+if __name__ == "__main__":
+    main([int(word) for word in sys.argv[1:]] or SIZES)

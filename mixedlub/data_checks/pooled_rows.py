@@ -1,0 +1,94 @@
+"""Columns that are not read although they distinguish things: rows of several samples or drives are then pooled."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mixedlub.schema.dates import is_dated
+from mixedlub.schema.findings import Finding, finding
+from mixedlub.schema.table import Table, are_numbers, is_missing
+from mixedlub.schema.units import split, words_of
+
+THINGS = re.compile(
+    r"(?:drive|driving|sample|specimen|oil|grease|lubricant|fluid|blend|batch|lot|rig|machine|bench|motor|gearbox|"
+    r"gear|actuator|bearing|device|unit|serial|material|coating|pair|pairing|group|series|kind|type|probe|antrieb|"
+    r"öl|fett|werkstoff|charge|id|no|nr|number|name|code|label|#)\.?"
+)
+COUNTING = re.compile(
+    r"samples|(?:repeat|repetition|replicate|rep|run|point|index|cycle|step|segment|order|count|no|nr|n|#)s?\.?"
+)
+"""Words of a column that counts readings of one thing."""
+MOST = 20
+"""Different values up to which a column names things (samples, drives) rather than readings: judgement."""
+SHOWN = 3
+"""Values that a message lists at most."""
+
+
+def pooled_in(path: Path, table: Table, quantity: str) -> Iterator[Finding]:
+    """A finding for every column of a case's table that is not read and whose groups are pooled."""
+    with path.open(encoding="utf-8-sig", newline="") as file:
+        rows = [row for row in csv.reader(file) if any(cell.strip() for cell in row)]
+    cells = {h.strip(): [cell.strip() for cell in values] for h, *values in zip(*rows, strict=True)}
+    conditions = [v for name, v in table.columns.items() if name not in ("run", "sequence", quantity, f"{quantity}_sd")]
+    for header, values in grouping_columns({h: cells[h] for h in table.ignored}, conditions):
+        advice = "keep the rows of one, or name each in a column setup"
+        yield finding("things_pooled", f"{header!r} is not read, so {pooled_words(values)}: {advice}", path.name)
+
+
+def grouping_columns(
+    free: Mapping[str, Sequence[str]], conditions: Collection[np.ndarray]
+) -> Iterator[tuple[str, Sequence[str]]]:
+    """The columns that distinguish things, less those that another one refines.
+
+    ``free`` are the columns that are not read, ``conditions`` those under which the rows were recorded.
+    """
+    found = {h: cells for h, cells in free.items() if _few(h, cells) and _distinguishes(h, cells, conditions)}
+    for header, cells in found.items():
+        if not any(_refines(other, cells) for h, other in found.items() if h != header):
+            yield header, cells
+
+
+def pooled_words(cells: Sequence[str]) -> str:
+    """What is pooled, in words.
+
+    >>> pooled_words(["oil A", "oil B", "oil A"])
+    'rows of 2 different things are pooled (oil A, oil B)'
+    """
+    values = list(dict.fromkeys(cells))
+    shown = ", ".join(values[:SHOWN]) + (", ..." if len(values) > SHOWN else "")
+    return f"rows of {len(values)} different things are pooled ({shown})"
+
+
+def _few(header: str, cells: Sequence[str]) -> bool:
+    """Whether a column holds few names or whole numbers, each repeated, and no unit, date or gap."""
+    values = set(cells)
+    if split(header)[1] is not None or not 1 < len(values) <= min(MOST, len(cells) // 2):
+        return False
+    if any(is_missing(value) or is_dated(value) for value in values):
+        return False
+    return not are_numbers(values) or all(float(value).is_integer() for value in values)
+
+
+def _distinguishes(header: str, cells: Sequence[str], conditions: Collection[np.ndarray]) -> bool:
+    """Whether a column has a name of things, or more than one value at most conditions that are repeated."""
+    words = words_of(header).split()
+    if all(map(COUNTING.fullmatch, words)):
+        return False
+    if all(map(THINGS.fullmatch, words)):
+        return True
+    points: dict[tuple[Any, ...], list[str]] = {}
+    for row, cell in enumerate(cells):
+        points.setdefault(tuple(values[row] for values in conditions), []).append(cell)
+    again = [len(set(values)) > 1 for values in points.values() if len(values) > 1]
+    return 2 * sum(again) > len(again)
+
+
+def _refines(other: Sequence[str], cells: Sequence[str]) -> bool:
+    """Whether the other column splits the groups of this one further: each of its values belongs to one of them."""
+    return len(set(other)) > len(set(cells)) and len(set(zip(other, cells, strict=True))) == len(set(other))

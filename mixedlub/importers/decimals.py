@@ -1,0 +1,148 @@
+"""Decimal marks: comma or point, as the numbers of a file prove it."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence, Set
+
+from profiles.errors import InputError
+
+Line = tuple[int, list[str]]
+"""Number of a line in the file, and its cells."""
+Place = tuple[int, str]
+"""Number of a line in the file, and one of its cells."""
+DECIMAL = "import.decimal"
+MARKS = (",", ".")
+OTHER = {",": ".", ".": ","}
+
+GROUPED = {mark: re.compile(rf"[+-]?[1-9]\d{{0,2}}(?:\{mark}\d{{3}})+") for mark in MARKS}
+WITH_BOTH = {mark: re.compile(rf"[+-]?[1-9]\d{{0,2}}(?:\{OTHER[mark]}\d{{3}})+\{mark}\d*") for mark in MARKS}
+PLAIN = re.compile(r"[+-]?\d+(?:[eE][+-]?\d+)?")
+WITH_ONE = {mark: re.compile(rf"[+-]?(?:\d+\{mark}\d*|\{mark}\d+)(?:[eE][+-]?\d+)?") for mark in MARKS}
+NUMBER = re.compile(
+    "|".join(form.pattern for forms in (GROUPED, WITH_BOTH, WITH_ONE) for form in forms.values()) + f"|{PLAIN.pattern}"
+)
+DIGITS = str.maketrans("23456789", "11111111")
+
+
+def proves(cell: str) -> str | None:
+    """The decimal mark of a number; None where it is absent or could be a thousands separator.
+
+    >>> [proves(cell) for cell in ("17,50", "0.125", "1.234,5", "1,234,567", "0,125")]
+    [',', '.', ',', '.', ',']
+    >>> [proves(cell) for cell in ("2,000", "1.234", "40", "ground", "01.02.2020")]
+    [None, None, None, None, None]
+    """
+    for mark in MARKS:
+        grouped = GROUPED[OTHER[mark]].fullmatch(cell)
+        if WITH_BOTH[mark].fullmatch(cell) or (grouped and cell.count(OTHER[mark]) > 1):
+            return mark
+        if WITH_ONE[mark].fullmatch(cell) and not GROUPED[mark].fullmatch(cell):
+            return mark
+    return None
+
+
+def with_points(rows: Sequence[Line], name: str, given: str | None = None) -> tuple[list[Line], list[str]]:
+    """Rows with decimal points and without thousands separators, and notes on ambiguous numbers.
+
+    ``given`` is the decimal mark that an answer names. The numeric columns of the most common row length decide
+    first, because lines around a table may come from another program.
+    """
+    width = common_length([row for _, row in rows])
+    table = [line for line in rows if len(line[1]) == width]
+    others = [line for line in rows if len(line[1]) != width]
+    columns = [list(cells) for cells in zip(*(row for _, row in table), strict=True)]
+    forms = [forms_of(cells) for cells in columns]
+    numeric = [i for i, column in enumerate(forms) if _holds_numbers(column)]
+
+    def inner() -> Iterator[Place]:
+        return ((number, row[i]) for number, row in table for i in numeric)
+
+    seen = set().union(*(forms[i] for i in numeric))
+    decimal = given or _decided(seen, inner, others, name)
+    thousands = OTHER[decimal]
+    if any(_is_other(form, thousands) for form in seen):
+        number, cell = next(place for place in inner() if _is_other(place[1], thousands))
+        rule = f"is no number with {decimal!r} as decimal mark; {DECIMAL} names another"
+        raise InputError(rule, where=f"{name}: line {number}", value=cell)
+    for i in numeric:
+        marked = [form for form in set(forms[i]) if "," in form or thousands in form]
+        if marked and all(WITH_ONE[decimal].fullmatch(form) for form in marked):
+            columns[i] = "\n".join(columns[i]).replace(decimal, ".").split("\n")
+        elif marked:
+            columns[i] = [_read(cell, decimal) for cell in columns[i]]
+    inside = zip((number for number, _ in table), map(list, zip(*columns, strict=True)), strict=True)
+    outside = ((number, [_read(cell, decimal) for cell in row]) for number, row in others)
+    notes = [] if given else _thousands_taken(seen, inner, decimal)
+    return sorted([*inside, *outside], key=lambda line: line[0]), notes
+
+
+def forms_of(cells: Sequence[str]) -> list[str]:
+    """Cells with every digit but zero replaced by 1: a long column has few forms, each read as its cells are."""
+    return "\n".join(cells).translate(DIGITS).split("\n")
+
+
+def common_length(rows: Sequence[Sequence[str]]) -> int:
+    """The most common number of cells; of several equally common ones the first."""
+    return max(Counter(map(len, rows)).items(), key=lambda found: found[1], default=(0, 0))[0]
+
+
+def _holds_numbers(forms: Sequence[str]) -> bool:
+    """Whether a column is one of numbers: most of its cells, apart from the header and gaps; labels prove no mark."""
+    counts = Counter(forms)
+    written = sum(number for form, number in counts.items() if is_written_number(form))
+    return 2 * written >= sum(number for form, number in counts.items() if form) - 1
+
+
+def is_written_number(cell: str) -> bool:
+    """Whether a cell is a number under one mark or the other."""
+    return NUMBER.fullmatch(cell) is not None
+
+
+def _is_other(cell: str, mark: str) -> bool:
+    """Whether a cell is a number only with this mark before its decimals."""
+    return WITH_ONE[mark].fullmatch(cell) is not None and not GROUPED[mark].fullmatch(cell)
+
+
+def _decided(seen: Set[str], inner: Callable[[], Iterator[Place]], outer: Sequence[Line], name: str) -> str:
+    """The decimal mark that the numbers of the table prove, else those around it; an error where it is ambiguous."""
+    around = [(number, cell) for number, row in outer for cell in row]
+    for forms, places in ((seen, inner), ({cell for _, cell in around}, lambda: iter(around))):
+        found = {proves(form) for form in forms} - {None}
+        if len(found) == 2:
+            (one, first), (other, second) = (next(p for p in places() if proves(p[1]) == mark) for mark in MARKS)
+            rule = f"has a decimal comma, line {other} has a decimal point ({second!r}); write all numbers in one way"
+            raise InputError(rule, where=f"{name}: line {one}", value=first)
+        if found:
+            return str(found.pop())
+    if any(GROUPED[","].fullmatch(form) for form in seen):
+        number, cell = next(place for place in inner() if GROUPED[","].fullmatch(place[1]))
+        whole, parted = cell.replace(",", ""), cell.replace(",", ".")
+        rule = (
+            f"could be {whole} or {parted}, and no other number of the file decides; "
+            f"--set '{DECIMAL}=\".\"' for {whole}, --set '{DECIMAL}=\",\"' for {parted}"
+        )
+        raise InputError(rule, where=f"{name}: line {number}", value=cell)
+    return "."
+
+
+def _thousands_taken(seen: Set[str], inner: Callable[[], Iterator[Place]], decimal: str) -> list[str]:
+    """A note on numbers whose mark is read as a thousands separator only because of other numbers."""
+    open_form = GROUPED[OTHER[decimal]]
+    if not any(open_form.fullmatch(form) and proves(form) is None for form in seen):
+        return []
+    number, cell = next(p for p in inner() if open_form.fullmatch(p[1]) and proves(p[1]) is None)
+    other, proof = next(((n, c) for n, c in inner() if proves(c) == decimal), (0, ""))
+    why = f"in line {other}: {proof!r}" if proof else "in the lines around the table"
+    return [
+        f"line {number}: {cell!r} is read as {_read(cell, decimal)}: the decimal mark is {decimal!r}, as {why}; "
+        f"--set '{DECIMAL}=\"{decimal}\"' confirms this"
+    ]
+
+
+def _read(cell: str, decimal: str) -> str:
+    thousands = OTHER[decimal]
+    if GROUPED[thousands].fullmatch(cell) or WITH_BOTH[decimal].fullmatch(cell):
+        return cell.replace(thousands, "").replace(decimal, ".")
+    return cell.replace(decimal, ".") if WITH_ONE[decimal].fullmatch(cell) else cell

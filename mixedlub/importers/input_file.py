@@ -1,0 +1,102 @@
+"""Instrument files as text: plain, compressed by gzip, in UTF-16, or one sheet of a workbook."""
+
+from __future__ import annotations
+
+import gzip
+import io
+import zlib
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from mixedlub.importers.base import SHEET, Answers, read_note
+from mixedlub.importers.text_table import Sheet, read_sheet
+from mixedlub.schema.findings import Finding, finding
+from mixedlub.schema.table import with_hyphens
+from profiles.errors import InputError, nearest, refuse_no_file
+from profiles.readers.base import MAX_BYTES
+from profiles.readers.numbers import decoded
+from profiles.readers.workbook import Worksheet, is_workbook, longest, worksheets
+
+GZIP = b"\x1f\x8b"
+MARKS = (b"\xff\xfe", b"\xfe\xff")
+SAMPLE = 4096
+"""Characters from the start of a text that show whether it is one."""
+
+
+@dataclass(frozen=True, eq=False)
+class InputFile:
+    """One file as its readers see it: its name, its text, notes about it. Its table is read once."""
+
+    name: str
+    text: str
+    notes: tuple[Finding, ...] = ()
+    tables: dict[str | None, Sheet] = field(default_factory=dict, repr=False)
+
+    def table(self, decimal: str | None = None) -> Sheet:
+        """The table in the text; ``decimal`` is the mark before decimals where an answer names it."""
+        if decimal not in self.tables:
+            self.tables[decimal] = read_sheet(self.text, self.name, decimal)
+        return self.tables[decimal]
+
+
+def open_file(path: Path, answers: Answers) -> InputFile:
+    """The text of a file; of a workbook the sheet that an answer names, else that with the longest table."""
+    try:
+        refuse_no_file(path)
+        data = path.read_bytes()
+    except InputError:
+        raise
+    except OSError as error:
+        raise InputError(f"cannot be read ({error.strerror})", where=str(path)) from None
+    if data[:2] == GZIP:
+        data = _unpacked(data, path.name)
+    if is_workbook(data):
+        return _from_workbook(worksheets(data, path.name), path.name, answers)
+    text = with_hyphens(decoded(_with_mark(data), path.name))
+    if "\0" in text[:SAMPLE]:
+        raise InputError("is not a text file or workbook; export it as text first", where=path.name)
+    return InputFile(path.name, text)
+
+
+def _unpacked(data: bytes, name: str) -> bytes:
+    try:
+        with gzip.GzipFile(fileobj=io.BytesIO(data)) as file:
+            found = file.read(MAX_BYTES + 1)
+    except (OSError, EOFError, zlib.error) as error:
+        raise InputError(f"damaged gzip file ({error})", where=name) from None
+    if len(found) > MAX_BYTES:
+        raise InputError(f"unpacks to more than {MAX_BYTES} bytes, the largest file that is read", where=name)
+    return found
+
+
+def _with_mark(data: bytes) -> bytes:
+    """UTF-16 without a byte order mark gets it: in text of Western languages every second byte is zero.
+
+    >>> _with_mark("load_N".encode("utf-16-le"))[:2], _with_mark("load_N".encode("utf-16-be"))[:2], _with_mark(b"load")
+    (b'\\xff\\xfe', b'\\xfe\\xff', b'load')
+    """
+    if data[:2] in MARKS:
+        return data
+    even, odd = data[:SAMPLE:2], data[1:SAMPLE:2]
+    if 10 * odd.count(0) > 9 * len(odd) > 0 and not even.count(0):
+        return MARKS[0] + data
+    if 10 * even.count(0) > 9 * len(even) > 0 and not odd.count(0):
+        return MARKS[1] + data
+    return data
+
+
+def _from_workbook(sheets: tuple[Worksheet, ...], name: str, answers: Answers) -> InputFile:
+    wanted = answers.get(SHEET)
+    by_name = {sheet.name: sheet for sheet in sheets}
+    if wanted is not None and str(wanted) not in by_name:
+        raise InputError(f"no such sheet in {name}; {nearest(str(wanted), by_name)}", where=SHEET, value=wanted)
+    chosen = longest(sheets, name) if wanted is None else by_name[str(wanted)]
+    notes = []
+    if len(sheets) > 1:
+        others = ", ".join(repr(other) for other in by_name if other != chosen.name)
+        why = "" if wanted is not None else f", as its table is the longest; {SHEET} names another"
+        notes.append(read_note(f"sheet {chosen.name!r} is read, not {others}{why}", name))
+    if chosen.percent:
+        columns = ("column " if len(chosen.percent) == 1 else "columns ") + ", ".join(chosen.percent)
+        notes.append(finding("percent_as_stored", f"{columns} shown in percent, taken as stored: 5 % is 0.05", name))
+    return InputFile(name, with_hyphens(chosen.text), tuple(notes))

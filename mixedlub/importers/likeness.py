@@ -1,0 +1,265 @@
+"""Likeness of headers to columns: which kind and which columns a table probably holds."""
+
+from __future__ import annotations
+
+import difflib
+import re
+import shlex
+from collections.abc import Iterable, Mapping, Sequence
+
+from mixedlub.importers.base import Question
+from mixedlub.importers.text_table import Cells, is_numeric
+from mixedlub.importers.time_base import TIME, counted
+from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, WEIGHED, target_of
+from mixedlub.kinds import friction_map
+from mixedlub.kinds import kind as kind_of
+from mixedlub.schema.dates import is_dated
+from mixedlub.schema.system_file import KINDS
+from mixedlub.schema.table import Column
+from mixedlub.schema.toml_file import toml_value
+from mixedlub.schema.units import fits, is_unit, split, words_of
+
+ENOUGH = 0.4
+"""Likeness from which a header is offered: half of its words, or a fitting unit, or names in the cells. Judgement,
+as are the weights below: tests of likely headers hold them in place."""
+UNIT_FITS = 0.45
+NO_UNIT_FITS = 0.01
+"""A number without a unit is rather a ratio than one whose unit is missing."""
+ABSENT = 0.5
+"""Penalty for a needed column without a similar header."""
+COUNTED_LIKENESS = 1.0
+"""Likeness of the time to a count of cycles or a distance."""
+TEXT_FITS = 0.4
+SAME_WORD = 0.75
+DERIVED = re.compile(
+    r"(?:slope|gradient|derivative|curvature|rate|damping|stiffness|duration|interval|pause|delay|index|"
+    r"error|limit|threshold|tolerance|uncertainty|variance|zero|offset|drift|gain|sensitivity|change|difference|rise|"
+    r"drop|wear|roughness|steigung|dämpfung|steifigkeit|dauer|fehler|grenze|verschleiß|rauheit)s?\.?"
+)
+"""Words for a quantity derived from the column: the slope of a friction is no friction."""
+AS_IT_IS = {"corrected", "compensated", "free"}
+"""Words that cancel one of those: a friction whose zero is corrected."""
+OTHERS = {
+    "input",
+    "output",
+    "in",
+    "out",
+    "load",
+    "applied",
+    "sensor",
+    "ideal",
+    "command",
+    "commanded",
+    "target",
+    "rated",
+}
+NO_READING = {
+    "friction_torque_Nm": OTHERS,
+    "power_loss_W": OTHERS
+    | {"motor", "drive", "shaft", "heater", "heating", "pump", "electric", "electrical", "mechanical"},
+}
+"""Words of a torque or a power that a rig transmits; the loss is the difference of two such columns."""
+
+
+def likely_headers(columns: Iterable[str], cells: Cells) -> dict[str, str]:
+    """The most similar header for each column, each header once; columns without one are left out."""
+    pairs = sorted(
+        ((likeness(column, header, cells[header]), column, header) for column in columns for header in cells),
+        key=lambda found: -found[0],
+    )
+    taken: dict[str, str] = {}
+    for score, column, header in pairs:
+        if score >= ENOUGH and column not in taken and header not in taken.values():
+            taken[column] = header
+    return taken
+
+
+def likely_kind(cells: Cells) -> str:
+    """The kind whose reading and needed columns the headers match best; kinds without their reading come last."""
+    return max(KINDS, key=lambda name: _share(name, cells))
+
+
+def _share(name: str, cells: Cells) -> tuple[bool, float, int]:
+    """Score of a kind: whether the reading is there; reading plus share of needed columns; number of those found."""
+    found = kind_of(name)
+    needed = [c.name for c in found.columns if c.required]
+    group = either(name)
+    near = likely_headers([*needed, *group, *found.quantities], cells)
+    near_by = {column: likeness(column, header, cells[header]) for column, header in near.items()}
+    # Two columns whose difference is the reading count as well.
+    reading = max(near_by.get(q, ENOUGH if transmitted(q, cells) else 0.0) for q in found.quantities)
+    conditions = {c: near_by.get(c, 0.0) for c in needed}
+    if group:
+        conditions[group[0]] = max(near_by.get(c, 0.0) for c in group)
+    # A name that all rows share is often absent from a table, a number seldom.
+    found_or_not = [near or (0.0 if c in TEXT_COLUMNS else -ABSENT) for c, near in conditions.items()]
+    share = sum(found_or_not) / (len(conditions) + 1)
+    return reading > 0.0, reading + share, sum(near > 0.0 for near in conditions.values())
+
+
+def either(kind: str) -> tuple[str, ...]:
+    """Columns of which a kind needs exactly one."""
+    return friction_map.SPEEDS if kind == "friction_map" else ()
+
+
+def is_logarithm(header: str) -> bool:
+    """Whether a header names a logarithm; with a unit, a log is a protocol.
+
+    >>> [is_logarithm(h) for h in ("ln_kinematic_viscosity", "log10(viscosity)", "Log time (s)", "load_N")]
+    [True, True, False, False]
+    """
+    unit = split(header)[1]
+    logged = re.match(r"(?:ln|lg|log(?:2|10|e)?)(?![a-z0-9])", header.strip().lower())
+    return logged is not None and (unit is None or not is_unit(unit))
+
+
+SPREAD = re.compile(r"(?:standard deviation|std\.? dev|st\.? ?dev|stddev|std|sd)\.?")
+BEFORE, AFTER = re.compile(rf"{SPREAD.pattern}\b(?: of)?"), re.compile(rf"\b{SPREAD.pattern}$")
+
+
+def spread_of(header: str) -> str | None:
+    """The quantity whose standard deviation a header names; None where it names none.
+
+    >>> spread_of("film_sd_nm"), spread_of("StDev of torque (Nm)"), spread_of("sd"), spread_of("film_nm")
+    ('film', 'torque', '', None)
+    """
+    words = words_of(header)
+    found = BEFORE.match(words) or AFTER.search(words)
+    return None if found is None else (words[: found.start()] + words[found.end() :]).strip()
+
+
+def likely_spread(quantity: str, header: str, cells: Cells) -> str | None:
+    """The header of the standard deviation of the reading: its words are among those of the reading's header."""
+    have = {*words_of(header).split(), *split(quantity)[0].split()}
+    found = {}
+    for other, values in cells.items():
+        of, unit = spread_of(other), split(other)[1]
+        if of is None or not is_numeric(values) or (unit is not None and not fits(unit, BY_NAME[quantity].unit)):
+            continue
+        if set(of.split()) <= have:
+            found[other] = len(of.split())
+    return max(found, key=lambda other: found[other], default=None)
+
+
+def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
+    """Similarity of a header to a column by words and unit; 0 where unit, words or cells exclude it.
+
+    >>> likeness("speed_rpm", "Pinion speed [1/min]") > likeness("speed_rpm", "Pinion torque [Nm]")
+    True
+    """
+    exact, unit = target_of(header), split(header)[1]
+    own = exact is not None and exact.name == column and (unit is None or fits(unit, exact.unit))
+    if header == column or own:
+        return 2.0
+    if column == TIME and counted(header) is not None and is_numeric(cells):
+        return COUNTED_LIKENESS
+    words = words_of(header)
+    if (
+        spread_of(header) is not None
+        or is_logarithm(header)
+        or (column == "viscosity_mPa_s" and "kinematic" in words.split())
+    ):
+        return 0.0
+    if _is_derived(column, words) or NO_READING.get(column, set()) & set(words.split()):
+        return 0.0
+    numbers = is_numeric(cells)
+    if column in TEXT_COLUMNS:
+        if unit is not None or numbers or any(map(is_dated, set(cells))):
+            return 0.0
+        return TEXT_FITS + _overlap(words, column.replace("_", " "))
+    if not numbers:
+        return 0.0
+    target = BY_NAME.get(column)
+    if target is None:
+        return _overlap(words, column.replace("_", " "))
+    known = unit is not None and fits(unit, target.unit)
+    if unit is not None and not known:
+        return 0.0
+    share = max(_overlap(words, spoken) for spoken in (split(column)[0], *target.spoken, *target.offered))
+    # A share in percent may be of anything, and most masses are no load.
+    telling_unit = known and (
+        share > 0.0 or not (target.unit in ("ratio", "percent") or (unit or "").lower() in WEIGHED)
+    )
+    bare = unit is None and target.unit == "ratio" and share > 0.0
+    return share + (UNIT_FITS if telling_unit else 0.0) + (NO_UNIT_FITS if bare else 0.0)
+
+
+def transmitted(column: str, cells: Cells) -> list[str]:
+    """Headers in the unit of a reading whose words are those of another torque or power.
+
+    >>> transmitted("friction_torque_Nm", {"torque_sensor_Nm": ["1"], "speed_rpm": ["1"], "drag (N m)": ["1"]})
+    ['torque_sensor_Nm']
+    """
+    words = NO_READING.get(column, set())
+    spoken = [h for h in cells if words & set(words_of(h).split()) and spread_of(h) is None]
+    return [h for h in spoken if fits(split(h)[1] or "", BY_NAME[column].unit) and is_numeric(cells[h])]
+
+
+def _is_derived(column: str, words: str) -> bool:
+    """Whether a header names a quantity derived from a column (slope, error, drift).
+
+    >>> [_is_derived("load_N", words) for words in ("load damping", "ball load", "load zero", "constant load")]
+    [True, False, True, False]
+    >>> _is_derived("time_s", "time constant"), _is_derived("friction_coefficient", "friction zero corrected")
+    (True, False)
+    >>> _is_derived("position_deg", "zero position"), _is_derived("rig", "rig index")
+    (True, False)
+    """
+    target = BY_NAME.get(column)
+    if target is None:
+        return False
+    own = {word for spoken in (*target.spoken, *target.offered) for word in spoken.split()}
+    parts = words.split()
+    if AS_IT_IS & set(parts):
+        return False
+    # A constant load is a load; a time constant is no time.
+    return any(DERIVED.fullmatch(word) for word in parts if word not in own) or parts[-1:] == ["constant"]
+
+
+def _overlap(words: str, spoken: str) -> float:
+    """Share of the spoken words found in a header, less a little for every additional word."""
+    have, want = words.split(), spoken.split()
+    near = [max((difflib.SequenceMatcher(None, w, h).ratio() for h in have), default=0.0) for w in want]
+    share = sum(n for n in near if n >= SAME_WORD) / len(want)
+    return share - 0.02 * max(len(have) - len(want), 0) * (share > 0)
+
+
+SLIP = "slide_roll_ratio"
+SLIDES = re.compile(r"\b(?:slip|schlupf|slid|gleit)")
+"""Words of a percentage that may be the slip."""
+NO_CONDITION = ("stress", "spannung", "friction", "traction", "reib")
+"""Words that exclude a condition: a stress has the unit of a pressure, a friction may name its slip."""
+
+
+def spare_headers(columns: Iterable[Column], cells: Cells) -> dict[str, str]:
+    """Likely headers of optional columns; a percentage of sliding may be the slip.
+
+    >>> spare_headers([Column("pressure_MPa"), Column("slide_roll_ratio")], {"p (bar)": ["1", "5"], "note": ["", "x"]})
+    {'pressure_MPa': 'p (bar)'}
+    >>> spare_headers([Column("slide_roll_ratio")], {"Schlupf (%)": ["1", "5"]})
+    {'slide_roll_ratio': 'Schlupf (%)'}
+    >>> spare_headers([Column("slide_roll_ratio")], {"Pump speed (%)": ["90", "100"]})
+    {}
+    """
+    names = [column.name for column in columns if column.form == "number" and not column.blank]
+    cells = {h: values for h, values in cells.items() if not any(word in h.lower() for word in NO_CONDITION)}
+    found = likely_headers(names, cells)
+    shares = [h for h in cells if split(h)[1] == "%" and SLIDES.search(words_of(h)) and h not in found.values()]
+    slip = next((h for h in shares if is_numeric(cells[h])), None)
+    if SLIP in names and SLIP not in found and slip is not None:
+        found[SLIP] = slip
+    return found
+
+
+def spare_questions(spare: Mapping[str, str], key: str) -> list[Question]:
+    """Optional questions: whether to take these headers."""
+    text = "is used where it is recorded: header of its column"
+    return [Question(key + column, f"{column} {text}", toml_value(h), needed=False) for column, h in spare.items()]
+
+
+def spare_notes(spare: Mapping[str, str], key: str) -> Sequence[str]:
+    """Notes on headers left out, with the setting that takes each."""
+    return [
+        f"{h!r} is not taken; if it is {column}: --set {shlex.quote(f'{key}{column}={toml_value(h)}')}"
+        for column, h in spare.items()
+    ]

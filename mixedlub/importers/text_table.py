@@ -1,0 +1,363 @@
+"""Tables in text: separator, header, units, rows, and the run numbers in them."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from mixedlub.importers.base import Answers
+from mixedlub.importers.decimals import Line, common_length, is_written_number, with_points
+from mixedlub.schema.table import LARGEST, are_numbers, is_missing, is_number
+from mixedlub.schema.units import is_unit, split, words_of
+from profiles.errors import InputError, nearest
+
+SEPARATORS = "\t;,"
+UNIT = r"[(\[][^()\[\]]*[)\]]"
+WORD = re.compile(rf"(?:{UNIT}|\S)+")
+WORD_AND_UNIT = re.compile(rf"(?:\s*{UNIT}|\S)+")
+WORDS = re.compile(r"\S+(?:\s\S+)*")
+"""A cell between blanks: a word, a word and its unit, or words with single blanks between."""
+
+
+def rows_of(numbered: Sequence[tuple[int, str]]) -> list[Line]:
+    """The cells of numbered lines, separated by blanks only where no separator gives as many rows of numbers."""
+    separator = max(SEPARATORS, key=lambda mark: _regularity([line.count(mark) for _, line in numbered]))
+    reader = csv.reader((line for _, line in numbered), delimiter=separator)
+    marked = [(numbered[reader.line_num - 1][0], [cell.strip() for cell in row]) for row in reader]
+    if not any(_tally(line.split())[0] for _, line in numbered if len(line.split(None, 1)) > 1):
+        return marked
+    blank = _by_blanks(numbered)
+    return blank if _readable(blank) > _readable(marked) else marked
+
+
+def _regularity(counts: list[int]) -> int:
+    """Number of lines with the most common count of a separator; on a tie the comma may be a decimal mark."""
+    return max(Counter(n for n in counts if n).values(), default=0)
+
+
+def _by_blanks(numbered: Sequence[tuple[int, str]]) -> list[Line]:
+    """Rows of numbers split at blanks; other lines split so that they get as many cells, where that is possible."""
+    plain = [line.split() for _, line in numbered]
+    width = common_length([row for row in plain if _tally(row)[0]])
+    rows = []
+    for (number, line), row in zip(numbered, plain, strict=True):
+        if len(row) != width or "(" in line or "[" in line:
+            ways = [form.findall(line) for form in (WORD, WORD_AND_UNIT, WORDS)]
+            row = next((way for way in ways if len(way) == width), ways[0])
+        rows.append((number, [cell.strip() for cell in row]))
+    return rows
+
+
+def _readable(rows: Sequence[Line]) -> tuple[int, int]:
+    """How many rows of the most common length hold nothing but numbers, and how many hold mostly numbers."""
+    tallies = [(len(row), *_tally(row)) for _, row in rows]
+    mostly = Counter(length for length, most, _ in tallies if most)
+    width, number = max(mostly.items(), key=lambda found: found[1], default=(0, 0))
+    return sum(every for length, _, every in tallies if length == width), number
+
+
+def _tally(row: Sequence[str]) -> tuple[bool, bool]:
+    """Whether a row holds mostly numbers, at least two; whether it holds nothing else."""
+    numbers = sum(map(is_written_number, row))
+    filled = sum(map(bool, row))
+    most = numbers > 1 and 2 * numbers > filled
+    return most, most and numbers == filled
+
+
+ONLY = "import.only."
+"""Prefix of a header in the answer that names the value of the rows to keep, or a list of values."""
+LISTED = 20
+"""Values of a column that an error lists at most."""
+Cells = Mapping[str, Sequence[str]]
+SHOWN = 5
+"""Lines that a note lists at most."""
+COUNTED = ("nr", "nr.", "no", "no.", "#", "n", "lfd. nr.", "lfd.nr.")
+"""Unit, in small letters, of a column that counts the rows."""
+
+
+class TextColumn(list[str]):
+    """The cells of a column, not to be changed; whether they are numbers is determined once."""
+
+    @cached_property
+    def numeric(self) -> bool:
+        """Whether every cell that is filled is a number."""
+        return are_numbers(self)
+
+    @cached_property
+    def values(self) -> np.ndarray:
+        """The numbers in the cells; nan where a cell holds none."""
+        return np.array([float(cell) if is_number(cell) else np.nan for cell in self])
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """The cells of a table by header, the line of each row, which lines are outside the table, and notes."""
+
+    name: str
+    cells: Cells
+    lines: tuple[int, ...]
+    left_out: str = ""
+    notes: tuple[str, ...] = ()
+
+
+def read_sheet(text: str, name: str, decimal: str | None = None) -> Sheet:
+    """The longest table of a text: rows of equal length under a header without numbers.
+
+    Lines before and after the table are left out; a row of another length within it is an error. ``decimal`` is the
+    decimal mark, where an answer names it.
+    """
+    numbered = [
+        (number, line)
+        for number, line in enumerate(text.splitlines(), start=1)
+        if line.strip() and not line.lstrip().startswith("#")
+    ]
+    rows = [line for line in rows_of(numbered) if any(line[1])]
+    if len(rows) < 2:
+        raise InputError("needs a header line and at least one row", where=name)
+    rows, notes = with_points(rows, name, decimal)
+    first, last = _extent(rows, name)
+    above = first - 1
+    header = rows[above][1]
+    if above and _are_units(header, rows[above - 1][1]):
+        above -= 1
+        units = [unit.strip("()[]") for unit in header]
+        header = [f"{word} ({unit})" if unit else word for word, unit in zip(rows[above][1], units, strict=True)]
+    table = rows[first:last]
+    cells = {h: TextColumn(row[i] for _, row in table) for i, h in enumerate(_unique(header)) if h}
+    parts = [part for part in (_range(rows[:above]), _range(rows[last:])) if part]
+    return Sheet(name, cells, tuple(number for number, _ in table), " and ".join(parts), tuple(notes))
+
+
+def complete_rows(sheet: Sheet, needed: Sequence[str]) -> tuple[Sheet, list[str]]:
+    """The rows without a missing cell in the needed columns, and a note for every column that loses rows."""
+    lost = {h: [i for i, cell in enumerate(sheet.cells[h]) if is_missing(cell)] for h in needed}
+    if not any(lost.values()):
+        return sheet, []
+    gone = {i for rows in lost.values() for i in rows}
+    if len(gone) == len(sheet.lines):
+        most = max(lost, key=lambda h: len(lost[h]))
+        raise InputError(f"no row is complete: {most!r} is missing in {len(lost[most])} of them", where=sheet.name)
+    kept = [i for i in range(len(sheet.lines)) if i not in gone]
+    cells = {h: TextColumn(values[i] for i in kept) for h, values in sheet.cells.items()}
+    notes = [
+        f"{count(len(rows), 'row')} left out, as {h!r} is missing: {places([sheet.lines[i] for i in rows])}"
+        for h, rows in lost.items()
+        if rows
+    ]
+    return replace(sheet, cells=cells, lines=tuple(sheet.lines[i] for i in kept)), notes
+
+
+def is_numeric(cells: Sequence[str]) -> bool:
+    """Whether a column is one of numbers and empty cells."""
+    return cells.numeric if isinstance(cells, TextColumn) else are_numbers(cells)
+
+
+def values_of(cells: Sequence[str]) -> np.ndarray:
+    """The numbers in cells; nan where a cell holds none."""
+    return (cells if isinstance(cells, TextColumn) else TextColumn(cells)).values
+
+
+def only_keys(answers: Answers) -> tuple[str, ...]:
+    """The answers that select rows, and the form they have."""
+    return (f"{ONLY}COLUMN", *(key for key in answers if key.startswith(ONLY)))
+
+
+def kept(sheet: Sheet, answers: Answers) -> tuple[Sheet, list[str]]:
+    """The rows that the answers select, and a note for each selection."""
+    notes = []
+    for key, value in answers.items():
+        if not key.startswith(ONLY):
+            continue
+        header = key.removeprefix(ONLY).strip('"')
+        if header not in sheet.cells:
+            raise InputError(f"no such header; {nearest(header, sheet.cells)}", where=key)
+        wanted = value if isinstance(value, list) else [value]
+        rows = [i for i, cell in enumerate(sheet.cells[header]) if any(_is(cell, one) for one in wanted)]
+        if not rows:
+            values = list(dict.fromkeys(sheet.cells[header]))
+            listed = ", ".join(values[:LISTED]) + (", ..." if len(values) > LISTED else "")
+            raise InputError(f"is in no row; the column has {listed}", where=key, value=value)
+        names = ", ".join(map(str, wanted))
+        notes.append(f"{len(rows)} of {len(sheet.lines)} rows kept, those with {header} {names}")
+        cells = {h: TextColumn(values[i] for i in rows) for h, values in sheet.cells.items()}
+        sheet = replace(sheet, cells=cells, lines=tuple(sheet.lines[i] for i in rows))
+    return sheet, notes
+
+
+def _is(cell: str, value: Any) -> bool:
+    return cell == str(value) or (is_number(cell) and is_number(str(value)) and float(cell) == float(value))
+
+
+def count(number: int, thing: str) -> str:
+    """A number of things in words.
+
+    >>> count(1, "row"), count(3, "row")
+    ('1 row', '3 rows')
+    """
+    return f"{number} {thing}" + ("" if number == 1 else "s")
+
+
+def places(lines: Sequence[int]) -> str:
+    """Numbers of lines in words.
+
+    >>> places([14]), places([3, 9]), places(list(range(2, 20)))
+    ('line 14', 'lines 3, 9', 'lines 2, 3, 4, 5, 6 and 13 more')
+    """
+    more = f" and {len(lines) - SHOWN} more" if len(lines) > SHOWN else ""
+    return ("line " if len(lines) == 1 else "lines ") + ", ".join(map(str, lines[:SHOWN])) + more
+
+
+def not_above_zero(quantity: str, values: Iterable[float], lines: Iterable[int]) -> list[str]:
+    """A note on readings at zero or below, as noise or a channel that is not on yet gives them.
+
+    >>> not_above_zero("friction_coefficient", [0.0, 0.1], [2, 3])
+    ['1 reading of friction_coefficient at zero or below, taken as read: line 2']
+    """
+    low = [line for line, value in zip(lines, values, strict=True) if value <= 0.0]
+    note = f"{count(len(low), 'reading')} of {quantity} at zero or below, taken as read: {places(low)}"
+    return [note] if low else []
+
+
+def _extent(rows: Sequence[Line], name: str) -> tuple[int, int]:
+    """First row of data and their end: the longest run of rows of the same length as the header above."""
+    best = (0, 0)
+    numbers = [_numbers(row) for _, row in rows]
+    words = [not n and sum(map(bool, row)) > 1 for n, (_, row) in zip(numbers, rows, strict=True)]
+    end = len(rows)
+    for i in range(len(rows) - 1, 0, -1):
+        # Here ``end`` is where rows of this length end, if they reach back to this one.
+        if words[i] and not all(map(is_missing, rows[i][1])):
+            end = i
+            continue
+        if len(rows[i][1]) != len(rows[i - 1][1]):
+            end = i
+            continue
+        if words[i - 1] and numbers[i] and end - i >= best[1] - best[0]:
+            best = (i, end)
+    if not best[1]:
+        if _numbers(rows[0][1]) == len(rows[0][1]) and _numbers(rows[1][1]):
+            raise InputError("no header: the first line holds numbers only; name the columns above it", where=name)
+        best = (1, len(rows))
+    first, last = best
+    width = len(rows[first - 1][1])
+    _refuse_other_rows(rows[: first - 1], rows[last:], width, name)
+    for number, row in rows[first:last]:
+        if len(row) != width:
+            raise InputError(_uneven(width), where=f"{name}: line {number}")
+    return first, last
+
+
+def _refuse_other_rows(before: Sequence[Line], after: Sequence[Line], width: int, name: str) -> None:
+    """Rows of numbers outside the table would be lost data: a row of another length, or another table."""
+    if any(_numbers(row) > 1 for _, row in after):
+        number, row = after[0]
+        rule = _uneven(width) if len(row) != width else "begins another table; put one table in a file"
+        raise InputError(rule, where=f"{name}: line {number}")
+    lost = [number for number, row in before if _numbers(row) > 1]
+    if len(lost) > 1:
+        rule = "holds other rows of numbers before its longest table; put one table in a file"
+        raise InputError(rule, where=f"{name}: lines {lost[0]} to {lost[-1]}")
+
+
+def _uneven(width: int) -> str:
+    return f"has not as many cells as the header ({width})"
+
+
+def _numbers(cells: Sequence[str]) -> int:
+    return sum(is_number(cell) for cell in cells)
+
+
+def _are_units(cells: Sequence[str], words: Sequence[str]) -> bool:
+    """Whether a line holds the units of the words above it, at least one known; one cell may count the rows.
+
+    An unknown unit is in brackets, or among twice as many known ones below a line that names every column.
+    """
+    if len(cells) != len(words):
+        return False
+    named = [cell for cell in cells if cell and cell.lower() not in COUNTED]
+    known = sum(is_unit(cell.strip("()[]")) for cell in named)
+    new = sum(not is_unit(cell.strip("()[]")) and not _in_brackets(cell) for cell in named)
+    every = all(word and not is_unit(word) for word, cell in zip(words, cells, strict=True) if cell)
+    return known > 2 * new and (every or new == 0)
+
+
+def _in_brackets(cell: str) -> bool:
+    return (cell[0], cell[-1]) in (("(", ")"), ("[", "]"))
+
+
+def _unique(header: Sequence[str]) -> list[str]:
+    """Headers with a number added to each repetition."""
+    seen: dict[str, int] = {}
+    found = []
+    for h in header:
+        seen[h] = seen.get(h, 0) + 1
+        words, unit = split(h)
+        again = h if seen[h] == 1 else f"{words} #{seen[h]}" + (f" ({unit})" if unit else "")
+        while h and again in found:
+            again = f"{again} #{seen[h]}"
+        found.append(again)
+    return found
+
+
+def _range(rows: Sequence[Line]) -> str:
+    if not rows:
+        return ""
+    low, high = rows[0][0], rows[-1][0]
+    return f"line {low}" if low == high else f"lines {low} to {high}"
+
+
+RUN_KEY = "import.columns.run"
+RUN_WORDS = ("run", "run number", "run no", "run no.", "run nr", "run nr.")
+ANEW = "so readings are renumbered from 1"
+
+
+def header_of_runs(sheet: Sheet, answers: Answers) -> str | None:
+    """The header of the run numbers."""
+    named = answers.get(RUN_KEY)
+    if named is not None and str(named) not in sheet.cells:
+        raise InputError(f"no such header; {nearest(str(named), sheet.cells)}", where=RUN_KEY, value=named)
+    return str(named) if named is not None else next((h for h in sheet.cells if words_of(h) in RUN_WORDS), None)
+
+
+def runs_of(sheet: Sheet, header: str) -> tuple[np.ndarray | None, str | None]:
+    """The run numbers where they are whole and unique; else None, and the reason."""
+    found: dict[int, int] = {}
+    for line, cell in zip(sheet.lines, sheet.cells[header], strict=True):
+        number = _whole(cell)
+        if number is None:
+            return None, f"{sheet.name}: line {line}, {header}: {cell!r} is no whole number, {ANEW}"
+        if number in found:
+            return None, f"{sheet.name}: {header} {number} is in lines {found[number]} and {line}, {ANEW}"
+        found[number] = line
+    return np.array(list(found)), None
+
+
+def joined_runs(parts: Sequence[tuple[str, np.ndarray | None]]) -> tuple[np.ndarray | None, str | None]:
+    """The run numbers of several files; None where a file has none, or where a number is in two files."""
+    known = [(name, runs) for name, runs in parts if runs is not None]
+    if len(known) < len(parts):
+        absent = next(name for name, runs in parts if runs is None)
+        return None, f"{absent} has no run numbers to keep, {ANEW}" if known else None
+    names = [name for name, runs in known for _ in runs]
+    every = np.concatenate([runs for _, runs in known])
+    first = np.unique(every, return_index=True)[1]
+    if first.size == every.size:
+        return every, None
+    again = int(np.setdiff1d(np.arange(every.size), first)[0])
+    before = names[int(np.argmax(every == every[again]))]
+    return None, f"run {every[again]} is in {before} and {names[again]}, {ANEW}"
+
+
+def _whole(cell: str) -> int | None:
+    try:
+        value = float(cell)
+    except ValueError:
+        return None
+    return int(value) if abs(value) < LARGEST and value == int(value) else None

@@ -1,0 +1,250 @@
+"""Time in seconds: from cycles or a distance, and continued where a clock restarts."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mixedlub.importers.base import Answers, Question, read_note
+from mixedlub.importers.text_table import COUNTED, Cells, Sheet, is_numeric, places
+from mixedlub.importers.vocabulary import BY_NAME, Target
+from mixedlub.schema.dates import ORDERS, moments, resolution
+from mixedlub.schema.findings import Finding, finding
+from mixedlub.schema.units import change_to, fits, rounded, split, words_of
+from profiles.errors import InputError
+
+TIME = "time_s"
+CYCLES = re.compile(
+    r"(?:(?:number|no|nr|total)\W+)?(?:of )?(?:cycles?|strokes|revolutions|laps)(?:\W+(?:number|no|nr|#))?"
+)
+DISTANCES = re.compile(r"(?:total |test )?(?:distance|sliding distance|sliding path)(?: slid)?")
+NO_UNIT = (*COUNTED, "-", "1")
+
+
+@dataclass(frozen=True)
+class Pace:
+    """What turns a count into seconds: key of the answer, question, example, and the words of the note."""
+
+    key: str
+    text: str
+    example: str
+    note: str
+
+
+PACES: Mapping[str, Pace] = {
+    "cycle": Pace(
+        "import.seconds_a_cycle",
+        "Seconds that a cycle takes, as {header!r} counts cycles",
+        "0.5",
+        "{header!r} times {rate:g} s a cycle",
+    ),
+    "m": Pace(
+        "import.speed_m_s",
+        "Sliding speed in m/s that was held, as {header!r} is a distance",
+        "0.1",
+        "{header!r} over {rate:g} m/s",
+    ),
+}
+"""By the unit of the count."""
+PACE_KEYS = tuple(pace.key for pace in PACES.values())
+
+
+def unit_of_count(header: str) -> str | None:
+    """The unit of a header that may be a time; a count of cycles without a unit has the unit cycle.
+
+    >>> unit_of_count("Cycle"), unit_of_count("No. of cycles [-]"), unit_of_count("Distance (km)"), unit_of_count("t")
+    ('cycle', 'cycle', 'km', None)
+    """
+    unit = split(header)[1]
+    bare = unit is None or unit.lower() in NO_UNIT
+    return "cycle" if bare and CYCLES.fullmatch(words_of(header)) else unit
+
+
+def counted(header: str) -> str | None:
+    """What a header counts instead of time: cycles or metres.
+
+    >>> [counted(h) for h in ("Cycles", "Sliding distance [m]", "Distance", "Stroke (mm)", "Cycle time (s)")]
+    ['cycle', 'm', 'm', None, None]
+    """
+    unit = unit_of_count(header)
+    if unit == "cycle":
+        return unit
+    long = unit is None or change_to(unit, "m") is not None
+    return "m" if long and DISTANCES.fullmatch(words_of(header)) else None
+
+
+def header_of_count(cells: Cells) -> str | None:
+    """The header that counts cycles or a distance."""
+    return next((h for h in cells if counted(h) is not None and is_numeric(cells[h])), None)
+
+
+def headers_in_time(cells: Cells) -> list[str]:
+    """The headers of numbers in a unit of time, whatever their names."""
+    in_time = [h for h in cells if fits(split(h)[1] or "", BY_NAME[TIME].unit)]
+    return [h for h in in_time if is_numeric(cells[h])]
+
+
+def target_in(target: Target, unit: str) -> Target:
+    """The target in the family of a unit; a time may be counted in cycles or metres."""
+    family = next((f for f in PACES if target.name == TIME and change_to(unit, f) is not None), target.unit)
+    return replace(target, unit=family)
+
+
+def pace_questions(headers: Mapping[str, str], units: Mapping[str, str], answers: Answers) -> list[Question]:
+    """The question for seconds a cycle or for the speed; an error about an answer that the time does not need."""
+    header = headers.get(TIME)
+    if header is None or not (header == TIME or TIME in units):
+        return []
+    unit = units.get(TIME, BY_NAME[TIME].unit)
+    family = target_in(BY_NAME[TIME], unit).unit
+    idle = next((p.key for f, p in PACES.items() if f != family and p.key in answers), None)
+    if idle is not None:
+        raise InputError(f"{TIME} is taken from {header!r}, in {unit}, which needs no such answer", where=idle)
+    if family not in PACES or PACES[family].key in answers:
+        return []
+    pace = PACES[family]
+    return [Question(pace.key, f"{pace.text.format(header=header)} and {TIME} is in seconds", pace.example)]
+
+
+def in_seconds(values: np.ndarray, header: str, unit: str, answers: Answers) -> tuple[np.ndarray, str]:
+    """A count converted to seconds, and a note on how; a time is returned as it is, without a note."""
+    family = target_in(BY_NAME[TIME], unit).unit
+    if family not in PACES:
+        return values, ""
+    rate = answers[PACES[family].key]
+    if isinstance(rate, bool) or not isinstance(rate, int | float) or not 0.0 < rate < math.inf:
+        raise InputError("must be a number above 0", where=PACES[family].key, value=rate)
+    seconds = rounded(values * rate if family == "cycle" else values / rate)
+    return seconds, f"{TIME} is {PACES[family].note.format(header=header, rate=rate)}"
+
+
+STEPS = re.compile(r"\b(?:step|cycle|segment|stage|phase|interval|block|schritt|stufe|abschnitt|zyklus)s?\b")
+"""Words of a column that numbers the steps of a test."""
+DATES = "import.dates"
+BEGINS = 0.1
+"""Share of the elapsed time within which a falling clock has restarted; one that falls less runs backwards."""
+
+
+def date_order(answers: Answers) -> str | None:
+    """The order of day and month that the answers name."""
+    order = answers.get(DATES)
+    if order is not None and order not in ORDERS:
+        raise InputError(f"must be {' or '.join(map(repr, ORDERS))}", where=DATES, value=order)
+    return order
+
+
+def continued(
+    times: np.ndarray, header: str, sheet: Sheet, named_order: str | None = None
+) -> tuple[np.ndarray, list[Finding]]:
+    """Time continued where its clock restarts, and a note on how; no note where it never falls.
+
+    ``named_order`` is the order of day and month that an answer names.
+    """
+    falls = np.flatnonzero(np.diff(times) < 0.0) + 1
+    if not falls.size:
+        return times, []
+    where = places([sheet.lines[i] for i in falls])
+    others = {h: cells for h, cells in sheet.cells.items() if h != header}
+    step = next((h for h, cells in others.items() if STEPS.search(words_of(h)) and _numbers_steps(cells, falls)), None)
+    for dated, cells in others.items():
+        ways = sorted(_by_dates(times, cells, falls, named_order), key=lambda way: float(way[1][-1]))
+        if not ways:
+            continue
+        order, whole, how = ways[0]
+        note = f"{TIME} restarts in {where}; continued {how} {dated!r}"
+        if np.array_equal(whole, ways[-1][1]):
+            return whole, [read_note(note, sheet.name)]
+        other = ORDERS[1 - ORDERS.index(order)]
+        first = order.removesuffix(" first")
+        note += f", read with the {first} first, which makes the shorter test; {DATES} = {other!r} reads it the "
+        return whole, [finding("date_order_assumed", f"{note}other way", sheet.name)]
+    if step is None and not _restarts(times, falls):
+        note = f"{TIME} runs backwards in {where}, taken as read: sort the rows first"
+        return times, [finding("clock_backwards", note, sheet.name)]
+    ends = np.zeros(times.size)
+    ends[falls] = times[falls - 1]
+    elapsed = np.cumsum(ends)
+    note = f"{TIME} restarts in {where}" + (f" with {step!r}" if step else "")
+    note += "; continued from there without the pauses between"
+    if step is None:
+        found = finding("clock_restarted", f"{note}; where rows are out of order, sort them first", sheet.name)
+    else:
+        found = read_note(note, sheet.name)
+    return rounded(times + elapsed, float(elapsed[-1])), [found]
+
+
+def joined_times(parts: Sequence[tuple[str, np.ndarray]]) -> tuple[np.ndarray, list[Finding]]:
+    """The times of several files in sequence; a clock that restarts is continued from the file before."""
+    (before, first), *rest = parts
+    found = [first]
+    notes: list[Finding] = []
+    for name, times in rest:
+        end = float(found[-1][-1])
+        if times[0] < end:
+            note = f"{TIME} restarts; continued from the end of {before} without the pause between"
+            notes.append(finding("clock_restarted", note, name))
+            times = rounded(times + end, end)
+        found.append(times)
+        before = name
+    return np.concatenate(found), notes
+
+
+def _numbers_steps(cells: Sequence[str], falls: np.ndarray) -> bool:
+    """Whether a column changes wherever the clock falls, and never back to an earlier value."""
+    changes = [i for i in range(1, len(cells)) if cells[i] != cells[i - 1]]
+    return set(falls.tolist()) <= set(changes) and len(changes) == len(set(cells)) - 1
+
+
+def _restarts(times: np.ndarray, falls: np.ndarray) -> bool:
+    """Whether the clock falls back to its start each time, after it ran."""
+    first = times[0]
+    ran = times[falls - 1] - first
+    return bool(np.all(ran > 0.0) and np.all(times[falls] - first <= BEGINS * ran))
+
+
+def _by_dates(
+    times: np.ndarray, cells: Sequence[str], falls: np.ndarray, named_order: str | None
+) -> Iterator[tuple[str, np.ndarray, str]]:
+    """For each order of day and month the time continued by the dates of a column, and the words for how."""
+    for order, found in moments(cells).items():
+        if named_order in ORDERS and order not in ("", named_order):
+            continue
+        dates = np.array([(moment - found[0]).total_seconds() for moment in found])
+        for place, how in ((_by_clock, "by the clock in"), (_by_starts, "from the starts in")):
+            whole = place(times, dates, falls, resolution(cells))
+            if whole is not None:
+                yield order, rounded(whole, float(dates[-1])), how
+                break
+
+
+def _by_clock(times: np.ndarray, dates: np.ndarray, falls: np.ndarray, within: float) -> np.ndarray | None:
+    """Each step placed by a clock that runs with the rows; None where the column is no such clock."""
+    steps = np.split(np.arange(times.size), falls)
+    off = dates - times
+    if any(np.ptp(off[rows]) > within for rows in steps) or all(np.ptp(dates[rows]) == 0.0 for rows in steps):
+        return None
+    whole = np.concatenate([times[rows] + off[rows].max() for rows in steps]) - off[steps[0]].max()
+    return whole if np.all(np.diff(whole) >= 0.0) else None
+
+
+def _by_starts(times: np.ndarray, dates: np.ndarray, falls: np.ndarray, within: float) -> np.ndarray | None:
+    """Each step placed at its start; None where starts overlap beyond their resolution, or mark no steps.
+
+    A step shorter than the resolution may carry the start of the one before, and is continued from it.
+    """
+    changes = np.flatnonzero(np.diff(dates) != 0.0) + 1
+    begun = np.union1d(changes, falls)
+    again = np.setdiff1d(falls, changes)
+    if 2 * again.size > falls.size or np.setdiff1d(changes, falls).size > falls.size:
+        return None
+    whole = times + dates
+    for first, rows in zip(begun, np.split(np.arange(times.size), begun)[1:], strict=True):
+        late = whole[first - 1] - whole[first]
+        if late > within and first not in again:
+            return None
+        whole[rows] += max(float(late), 0.0)
+    return whole if np.all(np.diff(whole) >= 0.0) else None

@@ -1,0 +1,36 @@
+"""Plain workbook (xlsx): one column of heights, or position and height, under a heading or none."""
+
+from __future__ import annotations
+
+from profiles.profile import Profile
+from profiles.readers.base import Source
+from profiles.readers.numbers import table
+from profiles.readers.text import read_table
+from profiles.readers.workbook import is_workbook, longest, worksheets
+
+
+class SpreadsheetReader:
+    """The longest sheet of numbers in a workbook, read as a text trace is: heading, units, spacing alike.
+
+    ``origin`` names the sheet where there are several. Checked against workbooks that openpyxl wrote.
+    """
+
+    name = "workbook"
+    format = "workbook (xlsx): [position,] height"
+
+    def magic(self, source: Source) -> bool:
+        return is_workbook(source.data)
+
+    def read(self, source: Source) -> Profile:
+        sheets = worksheets(source.data, source.where)
+        chosen = longest(sheets, source.where)
+        notes = (f"sheet {chosen.name!r} of {len(sheets)} read",) if len(sheets) > 1 else ()
+        content = table(_without_empty_columns(chosen.text), source.where)
+        return read_table(source, content, {"format": self.format, "sheet": chosen.name}, notes)
+
+
+def _without_empty_columns(text: str) -> str:
+    """Rows without the columns that are empty in all of them, at the left of a table or between two columns."""
+    rows = [line.split("\t") for line in text.splitlines()]
+    kept = [i for i in range(max(map(len, rows))) if any(row[i:] and row[i] for row in rows)]
+    return "\n".join("\t".join(row[i] for i in kept if i < len(row)) for row in rows)
