@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.validation.build import read_columns
+from mixedlub.validation.case_folder import read_columns
 from mixedlub.validation.planted import MEASUREMENT
 from profiles.errors import InputError
 
@@ -24,7 +24,9 @@ class Truth:
     """
 
     case: str
+    kind: str
     group: str
+    effects: tuple[str, ...]
     label: frozenset[str]
     visibility: float
     identifiable: bool
@@ -38,6 +40,14 @@ class Truth:
     base: np.ndarray
     sd: np.ndarray
     within: bool | None = None
+    unnamed: bool = False
+    rivals: frozenset[str] = frozenset()
+
+    @property
+    def named(self) -> frozenset[str]:
+        """Effects of the catalogue that are planted or were tried as rivals."""
+        own = frozenset() if self.group == "unknown" else frozenset(self.effects)
+        return own | {name for name in self.rivals if "+" not in name}
 
     @property
     def off(self) -> np.ndarray:
@@ -90,7 +100,9 @@ def read_truth(folder: Path) -> Truth:
     least = min(told["alternatives"].values(), default=np.inf) - told.get("own", 0.0)
     return Truth(
         case=folder.name,
+        kind=told.get("rig", ""),
         group=group,
+        effects=tuple(told.get("effects", sorted(label - {"none", "unknown"}))),
         label=label,
         visibility=float(told["info"][0].get("snr", np.nan)) if told.get("info") else 0.0,
         identifiable=bool(told.get("identifiable", label == {"none"} or least > IDENTIFIABLE)),
@@ -104,6 +116,8 @@ def read_truth(folder: Path) -> Truth:
         base=rows["base"],
         sd=rows["sd"],
         within=all(forms) if forms else None,
+        unnamed=bool(told.get("unnamed_oil", False)),
+        rivals=frozenset(told["alternatives"]) - {"none"},
     )
 
 

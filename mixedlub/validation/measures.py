@@ -10,6 +10,7 @@ from mixedlub.validation.answers import Answer, Truth
 from mixedlub.validation.planted import MEASUREMENT
 from profiles.errors import InputError
 
+Pair = tuple[Truth, Answer]
 FLOOR = 1e-4
 SETTLED = frozenset({"none", "unknown"})
 

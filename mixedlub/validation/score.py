@@ -13,6 +13,7 @@ import numpy as np
 from mixedlub.validation.answers import Answer, Truth
 from mixedlub.validation.measures import (
     SETTLED,
+    Pair,
     calibration_covers,
     clean,
     coverage,
@@ -31,7 +32,6 @@ from profiles.errors import InputError
 
 BINS = (0.0, 0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.98, 1.0)
 VISIBILITIES = (0.0, 5.0, 8.0, 11.0, 15.0, 20.0, 25.0, np.inf)
-Pair = tuple[Truth, Answer]
 
 
 INF = float("inf")

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from mixedlub.validation.planted.kinds import GEAR, Concealed, Knob, strength
-from mixedlub.validation.rig import Contact, lubricate, mix, record, shear, sheared, thick, touch
+from mixedlub.validation.contact import Contact, lubricate, mix, record_power, shear, sheared, thick, touch
+from mixedlub.validation.rig import Form, Knob, strength
 
 SWEEPS = 5
 
@@ -46,7 +46,7 @@ def _heated_by_mesh(c: Contact, rise_at: Callable[[np.ndarray], np.ndarray]) -> 
     """
     warm = c
     for _ in range(SWEEPS):
-        loss = record(mix(shear(touch(lubricate(warm))))).recorded
+        loss = record_power(mix(shear(touch(lubricate(warm))))).recorded
         warm = warmed(c, rise_at(loss)[:, None])
     return warm
 
@@ -73,44 +73,28 @@ def bulk_temperature_by_convection(c: Contact, strength: float) -> Contact:
 
 
 EFFECTS = (
-    Concealed(
+    Form(
         "pressure_viscosity_law",
-        "property",
         "shear",
         pressure_viscosity_law,
         (strength(0.0, 1.5, (0.8, 1.1)), Knob("stiffening", 0.1, 1.2, (0.2, 0.7))),
         "modulus equation (Bode 1989)",
-        0,
         rarity=0.6,
     ),
-    Concealed(
+    Form(
         "viscosity_drift",
-        "property",
         "oil",
         viscosity_drift,
         (strength(-4.0, 4.0, (0.7, 1.8)),),
         "accelerating oxidation",
-        0,
         rarity=0.6,
     ),
-    Concealed(
+    Form("bulk_temperature", "surface", bulk_temperature, (strength(0.0, 3.0),), "ISO/TR 15144-1"),
+    Form(
         "bulk_temperature",
-        "property",
-        "surface",
-        bulk_temperature,
-        (strength(0.0, 3.0),),
-        "ISO/TR 15144-1",
-        0,
-        GEAR,
-    ),
-    Concealed(
-        "bulk_temperature",
-        "property",
         "surface",
         bulk_temperature_by_convection,
         (strength(0.0, 3.0),),
         "heat balance of a mesh cooled by convection",
-        0,
-        GEAR,
     ),
 )

@@ -9,25 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.validation.build import oil_of
-from mixedlub.validation.design import draw_oil
-from mixedlub.validation.planted.kinds import Knob, strength
-from mixedlub.validation.rig import Oil
-from mixedlub.validation.rigs import cooling
-from mixedlub.validation.rigs.stage import (
-    Act,
-    Bench,
-    Chain,
-    Form,
-    between,
-    channel,
-    pick,
-    play,
-    progress,
-    repeated,
-    rounded,
-)
-from mixedlub.validation.rigs.told import BOW, NOT_GIVEN
+from mixedlub.validation.contact import KELVIN, Oil, oil_of
+from mixedlub.validation.disclosure import BOW, NOT_GIVEN
+from mixedlub.validation.planted import viscosity_temperature as cooling
+from mixedlub.validation.planted.measurement import channel
+from mixedlub.validation.rig import Act, Chain, Form, Knob, Rig, play, strength
+from mixedlub.validation.sample_rig import between, draw_oil, pick, progress, repeated, rounded
 
 PAIRS = (
     ("viscosity_drift", "sensor_offset"),
@@ -36,7 +23,6 @@ PAIRS = (
     ("viscosity_temperature_law", "sensor_drift"),
     ("pressure_viscosity_law", "viscosity_temperature_law"),
 )
-KELVIN = 273.15
 
 
 @dataclass(frozen=True)
@@ -311,7 +297,7 @@ class Fluid:
         return {f"{name}_scale": float(np.exp(self.priors[name] * value)) for name, value in zip(self.names, z)}
 
 
-def draw(rng: np.random.Generator) -> Bench:
+def draw(rng: np.random.Generator) -> Rig:
     """A viscometer, its sample named or not, its programme."""
     moving = rng.random() < 0.4
     columns, again = (_cycle(rng), False) if moving else _table(rng)
@@ -335,8 +321,7 @@ def draw(rng: np.random.Generator) -> Bench:
     forms = _drifts(time) + (_pressure_forms() if fluid.pressed else ()) + channel(time, True, named, False)
     if fluid.beyond_the_data_sheet:
         forms += _temperature_forms(fluid.oil, named)
-    return Bench(
-        kind="viscosity",
+    return Rig(
         settings=settings,
         columns=columns,
         names=fluid.names,
@@ -347,4 +332,5 @@ def draw(rng: np.random.Generator) -> Bench:
         quantile=0.1,
         floor=(0.05, 0.5),
         repeats=again,
+        least=0.02,
     )

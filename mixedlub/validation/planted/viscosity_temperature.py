@@ -8,11 +8,9 @@ from functools import partial
 
 import numpy as np
 
-from mixedlub.validation.planted.kinds import Knob, strength
-from mixedlub.validation.rig import Contact, Oil, Rig
-from mixedlub.validation.rigs.stage import Form
+from mixedlub.validation.contact import KELVIN, Contact, Inputs, Oil
+from mixedlub.validation.rig import Form, Knob, strength
 
-KELVIN = 273.15
 Pair = tuple[float, float]
 Law = Callable[[np.ndarray, Pair, Pair], np.ndarray]
 """Viscosity (Pa s) at temperatures (C), from the two known temperatures (C) and the viscosities there (Pa s)."""
@@ -114,7 +112,7 @@ def cooled_as_mistold(c: Contact, strength: float) -> Contact:
     return replace(c, viscosity=c.viscosity * mistold(c.rig.oil, c.temperature, 0.05 * strength))
 
 
-def of_contacts(rig: Rig) -> tuple[Form, ...]:
+def of_contacts(rig: Inputs) -> tuple[Form, ...]:
     """Forms for a lubricated contact, where its temperatures can tell them from a factor on the viscosity."""
     if not tells_laws_apart(rig.temperature, rig.oil.temperature):
         return ()
@@ -127,7 +125,7 @@ def of_contacts(rig: Rig) -> tuple[Form, ...]:
     )
 
 
-def of_unnamed(rig: Rig, labelled: bool) -> tuple[Form, ...]:
+def of_unnamed(rig: Inputs, labelled: bool) -> tuple[Form, ...]:
     """Those of an oil without a data sheet: all where two viscosities are told, else none mistold and at four baths."""
     forms = of_contacts(rig)
     if labelled:

@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.validation.rig import KELVIN, Calibration, Contact, Oil, Rig, start
-from mixedlub.validation.rigs.point import SPEED_EXPONENT, ball_film, ball_film_between
-from mixedlub.validation.rigs.stage import Act, pick, play, rounded
+from mixedlub.validation.contact import KELVIN, Calibration, Contact, Inputs, Oil, start
+from mixedlub.validation.rig import Act, play
+from mixedlub.validation.rigs.ball import SPEED_EXPONENT, ball_film_between, film_chain
+from mixedlub.validation.sample_rig import pick, rounded
 
 LEVEL, STEEPNESS, BOW, VISCOSITY, COEFFICIENT, WARMTH, BEND, REGIME, EXPONENT = (
     "viscosity_level",
@@ -58,10 +59,10 @@ def moved(oil: Oil, pivot: float, level: float, steepness: float) -> Oil:
 
 
 @dataclass(frozen=True)
-class Told:
+class Disclosed:
     """A film rig with the oil that the case tells of, and the spread of each property that may be another."""
 
-    rig: Rig
+    rig: Inputs
     spreads: dict[str, float]
 
     @property
@@ -107,12 +108,12 @@ class Told:
         by = self.factors(z)
         way, change = float(np.log(by[REGIME])), SPEED_EXPONENT * (by[EXPONENT] - 1)
         law = partial(ball_film_between, way=way, change=change, middle=self.middle)
-        return np.asarray(play(ball_film(law), self.start(z), acts).recorded)
+        return np.asarray(play(film_chain(law), self.start(z), acts).recorded)
 
 
-def named(rig: Rig, viscosity: float, coefficient: float) -> Told:
+def named(rig: Inputs, viscosity: float, coefficient: float) -> Disclosed:
     """An oil by its data sheet."""
-    return Told(rig, {VISCOSITY: viscosity, COEFFICIENT: coefficient, **OF_A_KNOWN_OIL})
+    return Disclosed(rig, {VISCOSITY: viscosity, COEFFICIENT: coefficient, **OF_A_KNOWN_OIL})
 
 
 def _spreads(free: Sequence[str], celsius: np.ndarray) -> dict[str, float]:
@@ -120,11 +121,11 @@ def _spreads(free: Sequence[str], celsius: np.ndarray) -> dict[str, float]:
     return {name: NOT_GIVEN[name] for name in free if several or name not in ACROSS}
 
 
-def unnamed(rng: np.random.Generator, true: Rig) -> tuple[Told, dict[str, Any]]:
+def unnamed(rng: np.random.Generator, true: Inputs) -> tuple[Disclosed, dict[str, Any]]:
     """Of the rig's true oil nothing is told, or viscosities in name only; the sections of the case that tell it."""
     if pick(rng, (True, False)):
         free = _spreads((LEVEL, STEEPNESS, BOW, COEFFICIENT, WARMTH, BEND), true.temperature)
-        return Told(replace(true, oil=MINERAL), {**free, **OF_AN_UNNAMED_OIL}), {}
+        return Disclosed(replace(true, oil=MINERAL), {**free, **OF_AN_UNNAMED_OIL}), {}
     off = float(np.exp(NOMINAL * rng.standard_normal()))
     first, second = (rounded(1e6 * off * nu) for nu in true.oil.kinematic)
     section = {
@@ -134,5 +135,5 @@ def unnamed(rng: np.random.Generator, true: Rig) -> tuple[Told, dict[str, Any]]:
     }
     oil = replace(MINERAL, temperature=true.oil.temperature, kinematic=(1e-6 * first, 1e-6 * second))
     free = _spreads((COEFFICIENT, WARMTH, BEND), true.temperature)
-    told = Told(replace(true, oil=oil), {VISCOSITY: NOMINAL, **free, **OF_AN_UNNAMED_OIL})
+    told = Disclosed(replace(true, oil=oil), {VISCOSITY: NOMINAL, **free, **OF_AN_UNNAMED_OIL})
     return told, {"lubricant": section, "uncertainty": {"viscosity": NOMINAL}}

@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.validation.planted.kinds import Knob, strength
-from mixedlub.validation.rigs.stage import Form
+from mixedlub.validation.rig import Form, Knob, strength
 
 FALL, EITHER = strength(0.0, 6.0), strength(-2.2, 5.0)
 
