@@ -89,14 +89,14 @@ class Fitted:
 
 
 def recalibrate(folder: Path) -> Fitted:
-    """Base model fitted to the recordings of a case under the priors, twice: outliers of the first fit go."""
+    """Base model fitted to the recordings of a case under the priors, and again without the outliers of that fit."""
     seen = read_case(folder)
     table = folder / "conditions.csv"
-    asked = read_case(folder, "conditions.csv").columns if table.exists() else {}
+    wanted = read_case(folder, "conditions.csv").columns if table.exists() else {}
     quantity = seen.settings["recording"]["quantity"]
     recorded = seen.columns[quantity]
     names = [name for name in seen.columns if name != quantity]
-    columns = {name: np.concatenate([seen.columns[name], asked.get(name, [])]) for name in names}
+    columns = {name: np.concatenate([seen.columns[name], wanted.get(name, [])]) for name in names}
     rig = RIGS[seen.kind](Case(settings=seen.settings, columns=columns, share=seen.share))
     noise = rig.settings["recording"]["noise"]
     count, start = len(recorded), np.zeros(len(rig.names))
@@ -111,8 +111,8 @@ def recalibrate(folder: Path) -> Fitted:
 
         z, _ = descend(residual, z, -limit, limit)
         left = (recorded - rig.model(z, ())[:count]) / sd[:count]
-        usual = max(1.4826 * float(np.median(np.abs(left - np.median(left)))), 1.0)
-        spoiled = np.abs(left - np.median(left)) > 5 * usual
+        scatter = max(1.4826 * float(np.median(np.abs(left - np.median(left)))), 1.0)
+        spoiled = np.abs(left - np.median(left)) > 5 * scatter
     return Fitted(
         folder.name, rig, recorded, columns["run"], sd, rig.model(z, ()), sensitivity(rig, z), z, base, spoiled
     )
@@ -148,7 +148,7 @@ def write_answer(
     mismatch = (predicted - (fitted.value if base is None else base)) / fitted.sd
     verdict = list(explanations[0])
     spread = np.sqrt(fitted.sd**2 + fitted.calibration_sd**2 + extra_sd**2)
-    told = {
+    found = {
         "schema": "mixedlub-diagnosis/1",
         "case": fitted.name,
         "mismatch": {"detected": verdict != ["none"], "chi2_before": fitted.squares, "rows": fitted.seen},
@@ -171,13 +171,13 @@ def write_answer(
         "mismatch_z": mismatch,
     }
     pd.DataFrame(table).to_csv(out / "predictions.csv", index=False)
-    (out / "diagnosis.json").write_text(json.dumps(told, indent=1), encoding="utf-8")
+    (out / "diagnosis.json").write_text(json.dumps(found, indent=1), encoding="utf-8")
 
 
 def _nameless(fitted: Fitted, out: Path, nats: float, predicted: np.ndarray, extra_sd: np.ndarray) -> None:
     """The answer of a method without names: evidence for a mismatch (nats), shared evenly between the ids.
 
-    A fifth goes to unknown, which is also what it says when a mismatch is likelier than not.
+    A fifth is given to unknown, which is also the verdict when a mismatch is likelier than not.
     """
     something = float(1 / (1 + np.exp(-np.clip(nats, -30, 30))))
     ids = sorted(fitted.rig.ids)
@@ -188,7 +188,7 @@ def _nameless(fitted: Fitted, out: Path, nats: float, predicted: np.ndarray, ext
 
 
 def recalibration_only(folder: Path, out: Path) -> None:
-    """The base model recalibrated: says unknown where its chi-square is beyond chance, names nothing."""
+    """The base model recalibrated: unknown where its chi-square is beyond chance, no names."""
     from scipy.stats import chi2
 
     fitted = recalibrate(folder)
@@ -234,13 +234,13 @@ def gradient_boosting(folder: Path, out: Path) -> None:
 
 
 def _signatures(fitted: Fitted) -> tuple[list[str], np.ndarray]:
-    """Names and signatures (rows by effects, in sds) of every effect at half its usual strength."""
+    """Names and signatures (rows by effects, in sds) of every effect at half its typical strength."""
     names, columns = [], []
     for name, effect in NAMED.items():
         if name in fitted.rig.ids:
-            usual = {knob.name: 0.5 * sum(knob.typical) for knob in effect.knobs}
-            usual["strength"] *= 0.5
-            extra = (fitted.rig.model(fitted.z, [effect.hide(usual)]) - fitted.value) / fitted.sd
+            typical = {knob.name: 0.5 * sum(knob.typical) for knob in effect.knobs}
+            typical["strength"] *= 0.5
+            extra = (fitted.rig.model(fitted.z, [effect.hide(typical)]) - fitted.value) / fitted.sd
             if np.linalg.norm(extra[fitted.good]) > 1e-6:
                 names.append(name)
                 columns.append(extra)

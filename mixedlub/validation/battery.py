@@ -28,7 +28,7 @@ Card = TypeVar("Card")
 
 
 def deck(rng: np.random.Generator, cards: Sequence[Card], weights: Sequence[float], count: int) -> list[Card]:
-    """``count`` cards in random order: each as often as its weight says, the remainder by chance."""
+    """``count`` cards in random order: each as often as its weight demands, the remainder by chance."""
     due = count * np.array(weights) / np.sum(weights)
     times = np.floor(due).astype(int)
     rest = rng.random(len(cards)) + (due - times) * 4
@@ -78,7 +78,7 @@ def _orders(rng: np.random.Generator, family: Family, seed: int, cases: int) -> 
         small = label in ("none", "single") and rng.random() < family.small
         clear = small or place % 2 == 0 or label == "pair"
         # Every third case of a kind whose oil may have no data sheet, unless its effects could then not be seen.
-        unnamed = KINDS[kind].draw_unnamed is not None and place % 3 == 1
+        third = KINDS[kind].draw_without_data_sheet is not None and place % 3 == 1
         found.append(
             Order(
                 name="",
@@ -87,7 +87,7 @@ def _orders(rng: np.random.Generator, family: Family, seed: int, cases: int) -> 
                 effects=effects,
                 level="clear" if clear else "faint",
                 outliers=bool(rng.random() < family.outliers[label]),
-                unnamed=unnamed and not KINDS[kind].hidden_unnamed & set(effects),
+                no_data_sheet=third and not KINDS[kind].needs_data_sheet & set(effects),
                 small=small,
             )
         )
@@ -163,6 +163,51 @@ def identifiable(sample: Sample, others: dict[str, float], own: float) -> bool:
     return sample.rig.planted is None or least > -IDENTIFIABLE
 
 
+def truth_of(order: Order, sample: Sample, outliers: Sequence[int]) -> dict[str, Any]:
+    """Content of ``truth.json``: what is planted, at which calibration and noise, and how well rivals explain it."""
+    rig, z = sample.rig.refined, sample.z
+    truth = rig.records(z, sample.acts)
+    others, own = weighed(sample, order.label)
+    info = [
+        {
+            "id": form.id,
+            "form": form.source,
+            "law": form.law.__name__,
+            "within": form.within,
+            "snr": round(sample.visibility, 4),
+            **values,
+        }
+        for form, values in zip(sample.forms, sample.knobs)
+    ]
+    return {
+        "case": order.name,
+        "rig": order.kind,
+        "class": order.label,
+        "effects": list(order.effects),
+        "label": "none" if not order.effects else ["unknown"] if order.label == "unknown" else list(order.effects),
+        "info": info,
+        "level": order.level if order.effects else "none",
+        "small": order.small,
+        "mimic": bool(set(order.effects) & MIMICS),
+        "unnamed_oil": order.no_data_sheet,
+        "theta": rig.theta(z),
+        "z": dict(zip(rig.names, plain(z))),
+        "noise": {"relative": sample.relative, "absolute": sample.absolute},
+        "outliers": sorted(int(rig.columns["run"][row]) for row in outliers),
+        "alternatives": others,
+        "own": round(own, 4),
+        "identifiable": identifiable(sample, others, own),
+        "rows": rows(
+            rig.columns["run"],
+            sample.hidden,
+            truth=truth,
+            base=rig.records(z, ()),
+            nominal=rig.model(np.zeros(len(z)), ()),
+            sd=sample.sd(truth),
+        ),
+    }
+
+
 def make(seed: int, index: int, order: Order, folder: Path) -> str:
     """Draw one case and write its folder with the truth; a complete folder stays as it is."""
     place = folder / order.name
@@ -170,56 +215,17 @@ def make(seed: int, index: int, order: Order, folder: Path) -> str:
         return order.name
     rng = np.random.default_rng([seed, 2, index])
     sample = sample_case(rng, order)
-    rig, z = sample.rig.refined, sample.z
-    truth = rig.records(z, sample.acts)
+    rig = sample.rig.refined
+    truth = rig.records(sample.z, sample.acts)
     sd = sample.sd(truth)
-    recorded, spoiled = record(rng, truth, sd, np.flatnonzero(~sample.hidden), order.outliers)
+    recorded, outliers = record(rng, truth, sd, np.flatnonzero(~sample.hidden), order.outliers)
     recorded = recorded if rig.least is None else np.maximum(recorded, rig.least * truth)
-    others, own = weighed(sample, order.label)
-    runs = rig.columns["run"]
-    noise = {"relative": sample.relative, "absolute": sample.absolute}
-    answer = {
-        "case": order.name,
-        "rig": order.kind,
-        "class": order.label,
-        "effects": list(order.effects),
-        "label": "none" if not order.effects else ["unknown"] if order.label == "unknown" else list(order.effects),
-        "info": [
-            {
-                "id": form.id,
-                "form": form.source,
-                "law": form.law.__name__,
-                "within": form.within,
-                "snr": round(sample.visibility, 4),
-                **values,
-            }
-            for form, values in zip(sample.forms, sample.knobs)
-        ],
-        "level": order.level if order.effects else "none",
-        "small": order.small,
-        "mimic": bool(set(order.effects) & MIMICS),
-        "unnamed_oil": order.unnamed,
-        "theta": rig.theta(z),
-        "z": dict(zip(rig.names, plain(z))),
-        "noise": noise,
-        "outliers": sorted(int(runs[i]) for i in spoiled),
-        "alternatives": others,
-        "own": round(own, 4),
-        "identifiable": identifiable(sample, others, own),
-        "rows": rows(
-            runs,
-            sample.hidden,
-            truth=truth,
-            base=rig.records(z, ()),
-            nominal=rig.model(np.zeros(len(z)), ()),
-            sd=sd,
-        ),
-    }
     stated, more = noise_stated(rng, sample, sd, family_of(order.kind).sd_column)
-    counted = rig.settle(rig.records(z, [act for act in sample.acts if act.stage != "sensor"]))
+    counted = rig.settle(rig.records(sample.z, [act for act in sample.acts if act.stage != "sensor"]))
     settings = {**rig.settings, "recording": {**rig.settings["recording"], **stated}}
     case = Case(settings=settings, columns={**rig.columns, **counted}, share=rig.share)
-    write(place, case, {rig.quantity: recorded, **more}, sample.hidden, answer)
+    readings = {rig.quantity: recorded, **more}
+    write(place, case, readings, sample.hidden, truth_of(order, sample, list(outliers)))
     return order.name
 
 
@@ -253,16 +259,16 @@ def generate(
     if file.exists() and json.loads(file.read_text(encoding="utf-8")) != mark:
         raise InputError("the folder holds a battery of other kinds, seed or size", where=str(folder), value=mark)
     file.write_text(json.dumps(mark), encoding="utf-8")
-    tell = progress or (lambda done, total: None)
+    report = progress or (lambda done, total: None)
     if jobs == 1:
         for index, order in enumerate(orders):
             make(seed, index, order, folder)
-            tell(index + 1, len(orders))
+            report(index + 1, len(orders))
     else:
         with workers(jobs) as pool:
             for done, future in enumerate(
                 [pool.submit(make, seed, i, order, folder) for i, order in enumerate(orders)]
             ):
                 future.result()
-                tell(done + 1, len(orders))
+                report(done + 1, len(orders))
     return [folder / order.name for order in orders]

@@ -1,7 +1,7 @@
-"""A mark to compare with: what one who knows the generator's own laws makes of the noisy recordings.
+"""A reference: what is found in the noisy recordings with the generator's own laws.
 
-Its evidence is a coarse one (chi-square and half a log reading a knob), and so is its view of the unnamed: a tool that
-weighs better can do better.
+Its evidence is coarse (chi-square and half a log reading a knob), and so is its model of unknown effects: a tool with
+a better evidence can score higher.
 """
 
 from __future__ import annotations

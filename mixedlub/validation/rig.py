@@ -37,7 +37,7 @@ class Form:
 
     ``rarity`` is the weight of the effect when effects are drawn; a form of rarity 0 is only a rival.
     ``rank`` is how general a form is: a form that contains simpler effects as special cases is no rival to them.
-    ``rigid`` forms have one size, as a miscounted fringe has. ``within`` says that the catalogue's law of the same
+    ``rigid`` forms have one size, as a miscounted fringe has. ``within``: the catalogue's law of the same
     effect can become this one, at some values of its parameters or in their limit.
     """
 

@@ -156,16 +156,16 @@ def rivals(
     none = best(target, (), z)
     found = {"none": none.chi_square}
     truth = {form.id for form in hidden}
-    usual = [form for form in target.rig.forms if form.rank <= rank]
+    special = [form for form in target.rig.forms if form.rank <= rank]
 
     def tried(name: str, value: float) -> None:
         found[name] = min(value, none.chi_square, found.get(name, np.inf))
 
-    for form in usual:
+    for form in special:
         if truth != {form.id}:
             tried(form.id, best(target, (form,), none.z).chi_square)
     for kept, values in zip(hidden, knobs) if len(hidden) == 2 else ():
-        for form in usual:
+        for form in special:
             if form.id not in truth:
                 tried("+".join(sorted((kept.id, form.id))), best(target, (kept, form), z, (values,)).chi_square)
     return {name: round(value, 4) for name, value in found.items()}

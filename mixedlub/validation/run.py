@@ -11,7 +11,7 @@ from concurrent.futures import as_completed
 from dataclasses import dataclass
 from pathlib import Path
 
-from mixedlub.validation.answers import read_answer, read_truth, silent
+from mixedlub.validation.answers import Truth, read_answer, read_truth, silent
 from mixedlub.validation.baselines import BASELINES, RIGS, refuse_without_learners
 from mixedlub.validation.battery import generate, workers
 from mixedlub.validation.measures import Pair
@@ -118,15 +118,8 @@ def validate(
     return judge(out, sealed, rivals)
 
 
-def judge(out: Path, sealed: Sequence[Path], rivals: dict[str, Path] | None = None) -> dict[str, Score]:
-    """Scores of the answers: over all cases as ``all``, by kind, and of each rival over all by its name.
-
-    A case on which the tool broke down is answered wrong, one that it refused is not counted. Writes ``score.json``,
-    ``score_NAME.json`` for each of the others, ``score.txt`` with all figures, the counts by kind and the wrong
-    answers, and the figures as SVG.
-    """
-    truths = [read_truth(case) for case in sealed]
-    ids = sorted({name for truth in truths for name in truth.named})
+def _collected(out: Path, truths: Sequence[Truth]) -> tuple[dict[str, list[Pair]], dict[str, list[str]]]:
+    """Truths with their answers by kind, and a line for each case that the tool broke down on or refused."""
     dealt = {truth.kind for truth in truths}
     pairs: dict[str, list[Pair]] = {kind: [] for kind in KINDS if kind in dealt}
     failed: dict[str, list[str]] = {BROKEN: [], REFUSED: []}
@@ -139,8 +132,21 @@ def judge(out: Path, sealed: Sequence[Path], rivals: dict[str, Path] | None = No
         if not (answered / REFUSED).exists():
             broken = (answered / BROKEN).exists()
             pairs[truth.kind].append((truth, silent(truth) if broken else read_answer(answered)))
+    return pairs, failed
+
+
+def judge(out: Path, sealed: Sequence[Path], rivals: dict[str, Path] | None = None) -> dict[str, Score]:
+    """Scores of the answers: over all cases as ``all``, by kind, and of each rival over all by its name.
+
+    A case on which the tool broke down is answered wrong, one that it refused is not counted. Writes ``score.json``,
+    ``score_NAME.json`` for each of the others, ``score.txt`` with all figures, the counts by kind and the wrong
+    answers, and the figures as SVG.
+    """
+    truths = [read_truth(case) for case in sealed]
+    ids = sorted({name for truth in truths for name in truth.candidates})
+    pairs, failed = _collected(out, truths)
     whole = [pair for some in pairs.values() for pair in some]
-    unnamed = {f"{kind}, unnamed": [pair for pair in some if pair[0].unnamed] for kind, some in pairs.items()}
+    unnamed = {f"{kind}, unnamed": [pair for pair in some if pair[0].no_data_sheet] for kind, some in pairs.items()}
     scores = {"all": score(whole, TOOL, ids)}
     scores |= {kind: score(some, f"{TOOL}, {kind}", ids) for kind, some in pairs.items() if some}
     others = {

@@ -33,7 +33,7 @@ class Order:
     effects: tuple[str, ...]
     level: str
     outliers: bool = False
-    unnamed: bool = False
+    no_data_sheet: bool = False
     small: bool = False
 
 
@@ -86,7 +86,7 @@ def sample_case(rng: np.random.Generator, order: Order) -> Sample:
 def _rig_for(rng: np.random.Generator, order: Order) -> tuple[Rig, tuple[Form, ...]]:
     """A rig on which the ordered effects can be at work, and one form of each."""
     kind = KINDS[order.kind]
-    draw = kind.draw_unnamed if order.unnamed and kind.draw_unnamed else kind.draw
+    draw = kind.draw_without_data_sheet if order.no_data_sheet and kind.draw_without_data_sheet else kind.draw
     for _ in range(DRAWS):
         rig = draw(rng)
         pool = rig.outside if order.label == "unknown" else rig.forms

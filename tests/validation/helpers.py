@@ -31,12 +31,14 @@ ORDERS = {
     "viscosity, nothing": Order("", "viscosity", "none", (), "clear"),
     "viscosity, temperature law": Order("", "viscosity", "single", ("viscosity_temperature_law",), "clear"),
     "teeth, heating": Order("", "mesh_friction", "single", ("film_heating",), "clear"),
-    "unnamed, nothing": Order("", "film", "none", (), "clear", unnamed=True),
-    "unnamed, layer": Order("", "film", "single", ("boundary_film",), "clear", unnamed=True),
-    "unnamed, pair": Order("", "film", "pair", ("inlet_shear_heating", "boundary_film"), "clear", unnamed=True),
-    "unnamed, drift": Order("", "film", "measurement", ("sensor_drift",), "faint", unnamed=True),
-    "unnamed, waves": Order("", "film", "unknown", ("waves",), "clear", outliers=True, unnamed=True),
-    "unnamed, temperature law": Order("", "film", "single", ("viscosity_temperature_law",), "clear", unnamed=True),
+    "unnamed, nothing": Order("", "film", "none", (), "clear", no_data_sheet=True),
+    "unnamed, layer": Order("", "film", "single", ("boundary_film",), "clear", no_data_sheet=True),
+    "unnamed, pair": Order("", "film", "pair", ("inlet_shear_heating", "boundary_film"), "clear", no_data_sheet=True),
+    "unnamed, drift": Order("", "film", "measurement", ("sensor_drift",), "faint", no_data_sheet=True),
+    "unnamed, waves": Order("", "film", "unknown", ("waves",), "clear", outliers=True, no_data_sheet=True),
+    "unnamed, temperature law": Order(
+        "", "film", "single", ("viscosity_temperature_law",), "clear", no_data_sheet=True
+    ),
 }
 """Cases of all kinds but gears and discs."""
 

@@ -1,6 +1,6 @@
 """What each planted form says of itself: whether the catalogue's law of the same effect can become it.
 
-The quantity that the catalogue's effect acts on is taken before and after the planted form, on rigs and benches as the
+The quantity that the catalogue's effect acts on is taken before and after the planted form, on rigs as the
 batteries draw them, and the catalogue's law is fitted to the change. Parameters whose priors are even stay between
 their bounds, all others are free: a law that a form is only the limit of counts as one that can become it.
 """

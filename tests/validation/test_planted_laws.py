@@ -69,7 +69,7 @@ def test_reynolds_halves_at_even_steps_of_temperature():
     assert cooling.reynolds(celsius, (20.0, 40.0), (8.0, 4.0)) == pytest.approx([8.0, 4.0, 2.0, 1.0])
 
 
-@pytest.mark.parametrize(("room", "law"), [(viscosities.draw, "mistold"), (films.draw, "cooled_as_mistold")])
+@pytest.mark.parametrize(("room", "law"), [(viscosities.draw, "misstated"), (films.draw, "cooled_as_misstated")])
 def test_only_an_oil_with_a_data_sheet_can_be_mistold(room, law):
     rng = np.random.default_rng(2)
     told = set()
@@ -303,7 +303,7 @@ def test_an_oil_keeps_its_two_known_viscosities_whatever_its_law(named):
     base = rig.model(np.zeros(len(rig.names)), ())
     for form in forms_of(rig, "viscosity_temperature_law"):
         off = change(rig, form, {"strength": 1.0}) / base
-        if form.law.__name__ == "mistold":
+        if form.law.__name__ == "misstated":
             assert off[celsius == 40.0] == pytest.approx(0.0, abs=1e-9)
             assert off[celsius == 100.0] == pytest.approx(0.05)
             continue

@@ -1,7 +1,7 @@
 """Planted effects by name: those that the catalogue should name, and those that no catalogue has.
 
 ``FORMS`` has every published form of an effect of gears and discs, ``NAMED`` the first of each; forms of other rigs are
-made by functions of their programme. Sources say where a form comes from. Constants that a docstring does not call
+made by functions of their programme. Sources say where a form comes from. Constants that are not named as
 published are common sizes, chosen so that a strength of about 1 is what such a rig could show.
 """
 

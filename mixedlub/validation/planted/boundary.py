@@ -22,7 +22,7 @@ def boundary_film_temperature(c: Contact, strength: float, activation: float, fl
 
 
 def boundary_speed_dependence(c: Contact, strength: float) -> Contact:
-    """Boundary friction goes with sliding speed: mu_B (v_s/1 m/s)^(0.1 strength), from 1 mm/s on."""
+    """Boundary friction is a power of the sliding speed: mu_B (v_s/1 m/s)^(0.1 strength), from 1 mm/s on."""
     ratio = np.maximum(c.sliding, 1e-3)
     return replace(c, boundary_friction=c.boundary_friction * ratio ** (0.1 * strength))
 

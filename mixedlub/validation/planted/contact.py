@@ -70,7 +70,7 @@ HIGHEST = 8.0
 
 
 def asperity_elastoplasticity(c: Contact, strength: float) -> Contact:
-    """Between first yield and full flow the area goes over smoothly from once to twice that of elastic summits.
+    """Between first yield and full flow the area rises smoothly from once to twice that of elastic summits.
 
     Zhao, Maietta and Chang: pi R w [1 + 3 x^2 - 2 x^3], x = (w - w_1)/(w_2 - w_1) from 0 to 1, w_2 = 54 w_1 and
     w_1 = (3 pi k H/(4 E*))^2 R with k = 0.4, H = 7 GPa over the strength. Summits up to 8 spreads high.

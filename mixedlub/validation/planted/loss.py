@@ -16,8 +16,8 @@ def _rpm(c: Contact) -> np.ndarray:
 
 def _viscosity(c: Contact) -> np.ndarray:
     """Viscosity (Pa s) of the bath, which is as warm as recorded whatever the teeth are, one value a reading."""
-    told = (c.viscosity / c.rig.oil.viscosity_at(c.temperature))[:, 0]
-    return np.asarray(told * c.rig.oil.viscosity_at(c.rig.temperature))
+    factor = (c.viscosity / c.rig.oil.viscosity_at(c.temperature))[:, 0]
+    return np.asarray(factor * c.rig.oil.viscosity_at(c.rig.temperature))
 
 
 def _viscosity_mm2_s(c: Contact) -> np.ndarray:
@@ -92,7 +92,7 @@ def churning(c: Contact, strength: float, speed_power: float, viscosity_power: f
 def churning_of_rim_and_faces(c: Contact, strength: float, rim: float) -> Contact:
     """Seetharaman and Kahraman: a film at the rim, n^2 nu, and turbulent layers at the faces, n^2.86 nu^0.14.
 
-    12 W strength at 1500 rpm and 15 mm2/s, ``rim`` of it at the rim; both go with the density.
+    12 W strength at 1500 rpm and 15 mm2/s, ``rim`` of it at the rim; both are proportional to the density.
     """
     n, nu = _rpm(c) / 1500, _viscosity_mm2_s(c) / 15
     return _added(c, 12 * strength * _heavy(c) * (rim * n**2 * nu + (1 - rim) * n**2.86 * nu**0.14))

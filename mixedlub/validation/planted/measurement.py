@@ -12,7 +12,7 @@ from mixedlub.validation.rig import Form, Knob, strength
 
 
 def _scale(c: Contact) -> float:
-    """A usual size of the quantity: 5 W of power loss or 0.002 of friction."""
+    """A common size of the quantity: 5 W of power loss or 0.002 of friction."""
     return 5.0 if c.rig.is_mesh else 0.002
 
 
@@ -23,7 +23,7 @@ def heat_leak(c: Contact, strength: float, conductance: float) -> Contact:
 
 
 def heat_leak_by_convection(c: Contact, strength: float, conductance: float) -> Contact:
-    """Walls cooled by free convection, whose film coefficient goes with the 0.25th power: G 40 K (T/40 K)^1.25."""
+    """Walls cooled by free convection, whose film coefficient is of the 0.25th power: G 40 K (T/40 K)^1.25."""
     over = np.clip(c.rig.temperature - c.rig.extras["ambient"], 0.0, None) / 40.0
     return replace(c, recorded=c.recorded * (1 - 0.05 * strength) - strength * conductance * 40.0 * over**1.25)
 
@@ -49,8 +49,8 @@ def crept(sequence: np.ndarray, onset: float) -> np.ndarray:
     """Creep with the logarithm of time, from 0 to 1 over the programme: ln(1 + q/onset)/ln(1 + 1/onset).
 
     Phillips, Phil. Mag. 9 (1905) 513, and Cottrell 1953 for metals under an even load, cold (below some 0.3 of their
-    melting point) and little strained; load cells and bonded strain gauges creep alike within a test. Cited from
-    memory; the ``onset``, a share of the programme, is a usual size.
+    melting point) and little strained; load cells and bonded strain gauges creep in the same way within a test. Cited
+    from memory; the ``onset``, a share of the programme, is a common size.
 
     >>> [round(float(done), 3) for done in crept(np.array([0.0, 0.1, 1.0]), 0.01)]
     [0.0, 0.52, 1.0]
@@ -187,8 +187,8 @@ def zero_of_force(recorded: np.ndarray, load: np.ndarray) -> np.ndarray:
 def force_cell(load: np.ndarray, sequence: np.ndarray) -> tuple[Form, ...]:
     """Faults of the cell that reads a friction force, where a friction coefficient is that force over a load.
 
-    A residual zero and a zero that moves from before the test to after it are what ISO 376 asks for; a zero that goes
-    with the temperature of the cell, which takes on that of the rig, is in OIML R 60.
+    A residual zero and a zero that moves from before the test to after it are specified in ISO 376; a zero that follows
+    the temperature of the cell, which takes on that of the rig, is in OIML R 60.
     """
     if np.ptp(load) == 0:
         return ()

@@ -64,7 +64,7 @@ def bulk_temperature_by_convection(c: Contact, strength: float) -> Contact:
     """The mesh heats both wheels, oil mist cools rims and faces: strength P/(h A), h = 700 W/(m2 K) (v/10 m/s)^0.5.
 
     A laminar layer on a turning disc takes heat as the root of its speed, here that of the pitch line; the size of
-    h is a usual one, not published.
+    h is a common one, not published.
     """
     diameters = np.array([c.rig.extras["pitch_diameter"], c.rig.extras["wheel_diameter"]])
     area = np.pi * np.sum(diameters * c.rig.width + 0.5 * diameters**2)

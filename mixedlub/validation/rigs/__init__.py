@@ -23,25 +23,27 @@ Partners = tuple[str, tuple[str, ...], float]
 class Kind:
     """How rigs of a kind are drawn, and which effects are planted in pairs.
 
-    ``draw_unnamed`` draws a rig whose oil has no data sheet, on which the effects ``hidden_unnamed`` cannot be seen.
+    ``draw_without_data_sheet`` draws a rig whose oil has no data sheet, on which the effects of ``needs_data_sheet``
+    cannot be seen.
     """
 
     draw: Callable[[np.random.Generator], Rig]
     pairs: tuple[Partners, ...]
-    draw_unnamed: Callable[[np.random.Generator], Rig] | None = None
-    hidden_unnamed: frozenset[str] = frozenset()
+    draw_without_data_sheet: Callable[[np.random.Generator], Rig] | None = None
+    needs_data_sheet: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True)
 class Family:
     """Kinds that are dealt from one deck of effects, and the shares of their cases.
 
-    ``classes`` are the shares of the classes, ``outliers`` by class the share of cases with outliers, ``small`` that of
-    cases with few readings, ``mis_set`` that of cases with nothing missing whose whole calibration is one to two prior
-    standard deviations off, ``sd_column`` that of cases whose noise has a column of its own. ``noise`` are the
-    bounds of the noise (percent), ``noise_alone`` those where nothing is missing. Withheld are ``scattered``
-    readings, at most and at least that share, and of a share ``blocks`` of the cases a whole level of a condition with
-    ``levels`` levels or more, inside its range or (``ends``) anywhere.
+    ``classes`` are the shares of the classes, ``outliers`` by class that of cases with outliers, ``small`` that of
+    cases with few readings, ``mis_set`` that of cases with nothing missing whose whole calibration is one to two
+    prior standard deviations off, ``sd_column`` that of cases whose noise has a column of its own. ``noise`` are
+    the bounds of the noise (percent), ``noise_alone`` those where nothing is missing. ``scattered`` are the bounds
+    of the share of readings that is withheld at random; in a share ``blocks`` of the cases a whole level of a
+    condition with at least ``levels`` levels is withheld too, an inner one or (``ends``) any. All shares are
+    judgement: enough cases for each figure of the score.
     """
 
     kinds: tuple[str, ...]
@@ -75,7 +77,7 @@ def _of_other_stages(absent: Sequence[str]) -> tuple[Partners, ...]:
 KINDS: dict[str, Kind] = {
     "gear_pair": Kind(gears.draw, _of_other_stages(gears.NOT_HERE)),
     "disc": Kind(discs.draw, _of_other_stages(discs.NOT_HERE)),
-    "film": Kind(films.draw, _fixed(films.PAIRS), films.draw_unnamed, films.HIDDEN_UNNAMED),
+    "film": Kind(films.draw, _fixed(films.PAIRS), films.draw_without_data_sheet, films.NEEDS_DATA_SHEET),
     "friction_history": Kind(histories.draw, _fixed(histories.PAIRS)),
     "friction_map": Kind(drives.draw, _fixed(drives.PAIRS)),
     "viscosity": Kind(viscosities.draw, _fixed(viscosities.PAIRS)),

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from mixedlub.validation.contact import Calibration, Contact, Inputs, start
-from mixedlub.validation.disclosure import named, unnamed
+from mixedlub.validation.disclosure import with_data_sheet, without_data_sheet
 from mixedlub.validation.planted import viscosity_temperature
 from mixedlub.validation.planted.film import OF_LOCAL_CONTACTS
 from mixedlub.validation.planted.measurement import channel
@@ -24,8 +24,8 @@ PAIRS = (
     ("starvation", "zero_drift"),
     ("viscosity_temperature_law", "zero_drift"),
 )
-HIDDEN_UNNAMED = frozenset({"sensor_gain"})
-"""What no reading can show of an unnamed oil, whose level is free."""
+NEEDS_DATA_SHEET = frozenset({"sensor_gain"})
+"""Faults that no reading can show of an oil without a data sheet, whose viscosity level is free."""
 
 
 def joined_by_cubes(c: Contact, strength: float) -> Contact:
@@ -146,7 +146,7 @@ def _outside(columns: dict[str, np.ndarray]) -> tuple[Form, ...]:
         return replace(c, film=c.film * (load / load.min()) ** (-0.15 * strength))
 
     def one_bath(c: Contact, strength: float) -> Contact:
-        """At the middle temperature the bath was not where its thermometer said."""
+        """At the middle temperature the bath had another temperature than its thermometer."""
         levels = np.unique(celsius)
         return replace(c, film=c.film * (1 + 0.1 * strength * (celsius == levels[len(levels) // 2])))
 
@@ -221,7 +221,7 @@ def draw(rng: np.random.Generator) -> Rig:
     """An interferometer whose oil has a data sheet; films by the regression, its exponent within what others have."""
     inputs, settings, columns, again = _interferometer(rng)
     priors = settings["uncertainty"]
-    disclosed = named(inputs, priors["viscosity"], priors["pressure_viscosity"])
+    disclosed = with_data_sheet(inputs, priors["viscosity"], priors["pressure_viscosity"])
     rig = Rig(
         settings=settings,
         columns=columns,
@@ -235,10 +235,10 @@ def draw(rng: np.random.Generator) -> Rig:
     return _read(rng, rig, True)
 
 
-def draw_unnamed(rng: np.random.Generator) -> Rig:
-    """One whose oil is unnamed, films by a law over all regimes at the oil's true properties."""
+def draw_without_data_sheet(rng: np.random.Generator) -> Rig:
+    """An interferometer whose oil has no data sheet; films by the law of all regimes at its true properties."""
     inputs, settings, columns, again = _interferometer(rng)
-    disclosed, sections = unnamed(rng, inputs)
+    disclosed, sections = without_data_sheet(rng, inputs)
     kept = {name: table for name, table in settings.items() if name not in ("lubricant", "uncertainty")}
     start_of = start(inputs, Calibration())
     chain = film_chain(lubricate_ball_in_any_regime)
@@ -248,7 +248,7 @@ def draw_unnamed(rng: np.random.Generator) -> Rig:
         names=disclosed.names,
         model=disclosed.model,
         theta=lambda z: {},
-        forms=viscosity_temperature.of_unnamed(inputs, "lubricant" in sections),
+        forms=viscosity_temperature.of_unknown_oil(inputs, "lubricant" in sections),
         outside=(),
         repeats=again,
         planted=lambda acts: np.asarray(play(chain, start_of, acts).recorded),

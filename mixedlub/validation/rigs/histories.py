@@ -90,7 +90,7 @@ def _numbered(columns: dict[str, np.ndarray], seconds: float) -> dict[str, np.nd
 
 
 def _held(rng: np.random.Generator, settings: dict[str, Any], columns: dict[str, np.ndarray], time: np.ndarray) -> Rig:
-    """A track without oil or surfaces told: a constant coefficient of a broad prior is the base model."""
+    """A track whose oil and surfaces are not described: a constant coefficient of a broad prior is the base model."""
     middle = between(rng, 0.04, 0.13)
     slip = columns.get("slide_roll_ratio", np.ones(len(time)))
 
@@ -167,7 +167,7 @@ def _curves(rng: np.random.Generator) -> np.ndarray:
 
 
 def draw_stribeck(rng: np.random.Generator) -> Rig:
-    """Stribeck curves of a ball on a disc between rubbing steps, with oil and surfaces told."""
+    """Stribeck curves of a ball on a disc between rubbing steps, with oil and surfaces described."""
     grid = _curves(rng)
     surfaces = draw_surfaces(rng, False)
     names = list(surfaces)

@@ -19,10 +19,10 @@ from mixedlub.validation.disclosure import (
     MINERAL,
     NOT_GIVEN,
     OF_A_KNOWN_OIL,
-    OF_AN_UNNAMED_OIL,
+    OF_AN_UNKNOWN_OIL,
     moved,
-    named,
-    unnamed,
+    with_data_sheet,
+    without_data_sheet,
 )
 from mixedlub.validation.rigs import OTHERS, films
 from mixedlub.validation.rigs.ball import SPEED_EXPONENT, lubricate_ball_in_any_regime
@@ -95,7 +95,7 @@ def test_each_regime_has_its_own_exponent_of_speed(values, exponent):
 def test_planted_films_are_those_of_the_true_oil_and_not_of_what_is_told():
     for seed in range(6):
         inputs, settings, columns, _ = films._interferometer(np.random.default_rng(seed))
-        rig = films.draw_unnamed(np.random.default_rng(seed))
+        rig = films.draw_without_data_sheet(np.random.default_rng(seed))
         oil, celsius = oil_of(settings), columns["oil_temperature_C"]
         last = (oil.viscosity_at(celsius)[-1], oil.pressure_viscosity_at(celsius)[-1])
         at = (columns["load_N"][-1], columns["entrainment_speed_m_s"][-1])
@@ -109,7 +109,7 @@ def test_a_case_tells_no_oil_or_viscosities_in_name_only():
     seen = Counter()
     off = []
     for _ in range(60):
-        rig = films.draw_unnamed(rng)
+        rig = films.draw_without_data_sheet(rng)
         assert rig.theta(np.zeros(len(rig.names))) == {}
         section = rig.settings.get("lubricant")
         seen[section is not None] += 1
@@ -120,7 +120,7 @@ def test_a_case_tells_no_oil_or_viscosities_in_name_only():
         assert rig.settings["uncertainty"] == {"viscosity": 0.3}
     for seed in range(60):
         rig = films._interferometer(np.random.default_rng(seed))[0]
-        case = unnamed(np.random.default_rng(seed), rig)[1]
+        case = without_data_sheet(np.random.default_rng(seed), rig)[1]
         if case:
             first, _ = case["lubricant"]["kinematic_viscosity_mm2_s"]
             off.append(math.log(1e-6 * first / rig.oil.kinematic[0]))
@@ -135,7 +135,7 @@ def test_calibration_of_the_truth_is_as_free_as_that_of_the_tool(cases):
         tool = {c.name: c.parameter.prior for c in Forward(case, case.recordings).calibrations}
         tool.pop("density", None)
         section = tomllib.loads((folder / "system.toml").read_text())
-        law = OF_AN_UNNAMED_OIL if order.unnamed else OF_A_KNOWN_OIL
+        law = OF_AN_UNKNOWN_OIL if order.no_data_sheet else OF_A_KNOWN_OIL
         stated = {**NOT_GIVEN, **section.get("uncertainty", {}), **law}
         free = {TOLD_AS.get(name, name): stated[name] for name in truth_of(folder)["z"]}
         assert free == {name: prior.sd if isinstance(prior, Normal) else prior.spread for name, prior in tool.items()}
@@ -149,15 +149,15 @@ def one_bath():
 
 def test_what_is_not_told_is_free():
     rig = one_bath()
-    seen = [set(unnamed(np.random.default_rng(seed), rig)[0].names) for seed in range(8)]
+    seen = [set(without_data_sheet(np.random.default_rng(seed), rig)[0].names) for seed in range(8)]
     assert {"viscosity_level", "pressure_viscosity", "film_regime", "film_exponent"} in seen
     assert {"viscosity", "pressure_viscosity", "film_regime", "film_exponent"} in seen
     known = {"viscosity": 0.1, "pressure_viscosity": 0.06, "film_regime": 0.5, "film_exponent": 0.015}
-    assert named(rig, 0.1, 0.06).spreads == known
+    assert with_data_sheet(rig, 0.1, 0.06).spreads == known
 
 
 def test_the_exponent_turns_films_about_the_middle_of_the_programme():
-    free, spread = named(one_bath(), 0.1, 0.06), 0.015
+    free, spread = with_data_sheet(one_bath(), 0.1, 0.06), 0.015
     ratio = np.log(free.model(np.array([0.0, 0.0, 0.0, 1.0]), ()) / free.model(np.zeros(4), ()))
     speed = np.log(free.rig.conditions["entrainment_speed_m_s"])
     assert ratio.mean() == pytest.approx(0.0, abs=1e-12)
@@ -176,7 +176,7 @@ def test_a_level_hardly_shows_in_films_of_an_unnamed_oil():
     """What is identifiable is worked out with that freedom: visibility of a gain of 10 %."""
     rig = one_bath()
     seen = []
-    for who in (named(rig, 0.05, 0.06), unnamed(np.random.default_rng(0), rig)[0]):
+    for who in (with_data_sheet(rig, 0.05, 0.06), without_data_sheet(np.random.default_rng(0), rig)[0]):
         z = np.zeros(len(who.names))
         base = who.model(z, ())
         moves = np.array([(who.model(z + 1e-4 * e, ()) - base) / 1e-4 for e in np.eye(len(z))]).T
@@ -185,7 +185,7 @@ def test_a_level_hardly_shows_in_films_of_an_unnamed_oil():
 
 
 def test_truth_is_weighed_against_films_that_the_regression_does_not_quite_give():
-    rig = films.draw_unnamed(np.random.default_rng(7))
+    rig = films.draw_without_data_sheet(np.random.default_rng(7))
     z = nearest(rig)
     values = rig.records(z, ())
     target = Target(rig, np.arange(len(values)), values, 0.01 * values)
@@ -198,14 +198,18 @@ def test_truth_is_weighed_against_films_that_the_regression_does_not_quite_give(
 
 
 def test_every_class_has_about_a_third_of_unnamed_oils():
-    counts = Counter((o.label, o.unnamed) for seed in range(10) for o in plan(seed, 200, OTHERS) if o.kind == "film")
+    counts = Counter(
+        (o.label, o.no_data_sheet) for seed in range(10) for o in plan(seed, 200, OTHERS) if o.kind == "film"
+    )
     for label in ("none", "single", "pair", "measurement", "unknown"):
         share = counts[label, True] / (counts[label, True] + counts[label, False])
         assert 0.15 < share < 0.45
     one = [o for o in plan(3, 200, OTHERS) if o.kind == "film"]
-    assert 11 <= sum(o.unnamed for o in one) <= 13
-    assert not [o for seed in range(10) for o in plan(seed, 200, OTHERS) if o.unnamed and "sensor_gain" in o.effects]
-    assert not [o for o in plan(3, 200, OTHERS) if o.unnamed and o.kind != "film"]
+    assert 11 <= sum(o.no_data_sheet for o in one) <= 13
+    assert not [
+        o for seed in range(10) for o in plan(seed, 200, OTHERS) if o.no_data_sheet and "sensor_gain" in o.effects
+    ]
+    assert not [o for o in plan(3, 200, OTHERS) if o.no_data_sheet and o.kind != "film"]
 
 
 def test_check_accepts_every_case(cases):
@@ -217,9 +221,9 @@ def test_check_accepts_every_case(cases):
 def test_planted_effects_are_told_as_of_any_case(cases):
     for folder, order in cases:
         found, truth = truth_of(folder), read_truth(folder)
-        assert found["unnamed_oil"] == order.unnamed
+        assert found["unnamed_oil"] == order.no_data_sheet
         assert truth.group == order.label
-        assert bool(found["theta"]) != order.unnamed
+        assert bool(found["theta"]) != order.no_data_sheet
         if order.label in ("single", "measurement", "pair"):
             assert found["own"] < found["alternatives"]["none"]
         elif order.label == "none":
