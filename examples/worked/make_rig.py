@@ -16,11 +16,10 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub.validation.build import Case, rig_of
-from mixedlub.validation.explain import calibrated
+from mixedlub.validation.case_folder import toml
 from mixedlub.validation.planted import NAMED
-from mixedlub.validation.rig import readings
-from mixedlub.validation.sealed import toml
+from mixedlub.validation.rig import Case
+from mixedlub.validation.rigs.gears import rig_of
 
 HERE = Path(__file__).resolve().parent
 SECRET = {"churning": {"strength": 0.55, "speed_power": 1.9, "viscosity_power": 0.25}}
@@ -108,10 +107,9 @@ def programme(levels: dict[str, tuple[float, ...]], start: int, rng: np.random.G
 
 def measured(columns: dict[str, np.ndarray], *, secret: bool) -> np.ndarray:
     """What the rig would read without noise (W), with or without the hidden loss."""
-    case = Case(SETTINGS, columns)
-    truth = calibrated(case.nominal, case.priors, np.array(list(MISSET.values())))
+    rig = rig_of(Case(settings=SETTINGS, columns=columns)).refined
     hidden = [NAMED[name].hide(knobs) for name, knobs in SECRET.items()] if secret else []
-    return readings(rig_of(case), truth, hidden)
+    return rig.model(np.array(list(MISSET.values())), hidden)
 
 
 def write_table(path: Path, columns: dict[str, np.ndarray]) -> None:

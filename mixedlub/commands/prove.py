@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from mixedlub.commands.console import output_folder, say
+from profiles.errors import InputError
 
 NAME = "prove"
 EXAMPLE = "mixedlub prove --out out/prove"
@@ -28,28 +29,36 @@ def command(
             "--rigs", help="Films, histories, maps, viscosities and tooth contacts instead of gear pairs and discs."
         ),
     ] = False,
+    kinds: Annotated[
+        str | None, typer.Option(metavar="KIND,...", help="Kinds of rig to deal, such as gear_pair,film.")
+    ] = None,
     seed: Annotated[
         int, typer.Option(metavar="N", min=0, help="Which battery: every seed deals other cases.")
     ] = 969710,
     cases: Annotated[
         int | None,
-        typer.Option(metavar="N", min=5, help=f"How many cases to deal; default {FULL}, with --rigs {RIGS}."),
+        typer.Option(metavar="N", min=5, help=f"How many cases to deal; default {FULL}, of other kinds {RIGS}."),
     ] = None,
     jobs: Annotated[int, typer.Option(metavar="N", min=1, help="Cases at a time.")] = 2,
 ) -> None:
     """Put the diagnosis to a blind test.
 
-    Concealed cases made by an independent rig model are diagnosed, and the score is printed. A run broken
-    off goes on where it stopped.
+    Cases with planted effects, made by an independent model of the rigs, are diagnosed, and the score is printed. An
+    interrupted run is resumed by the same command.
     """
     from rich.console import Console
     from rich.progress import Progress
 
     from mixedlub.diagnosis.report.files import diagnose
-    from mixedlub.validation.prove import prove
-    from mixedlub.validation.rigs.prove import prove_rigs
+    from mixedlub.validation import run
+    from mixedlub.validation.battery import fewest
+    from mixedlub.validation.rigs import CONTACTS, OTHERS
 
-    folder = output_folder(out, NAME, ("rigs_" if rigs else "") + ("quick" if quick else "battery"))
+    chosen = _chosen(kinds) if kinds else OTHERS if rigs else CONTACTS
+    contacts = set(chosen) <= set(CONTACTS)
+    default = (QUICK if contacts else RIGS_QUICK) if quick else (FULL if contacts else RIGS)
+    prefix = "" if chosen == CONTACTS else "rigs_" if chosen == OTHERS else f"{'_'.join(chosen)}_"
+    folder = output_folder(out, NAME, prefix + ("quick" if quick else "battery"))
     with Progress(console=Console(stderr=True)) as bar:
         tasks = {}
 
@@ -58,9 +67,25 @@ def command(
                 tasks[stage] = bar.add_task(stage, total=total)
             bar.update(tasks[stage], completed=done)
 
-        if rigs:
-            prove_rigs(folder, diagnose, cases or (RIGS_QUICK if quick else RIGS), seed, jobs, show)
-        else:
-            prove(folder, diagnose, cases or (QUICK if quick else FULL), seed, jobs, not quick, show)
+        run.validate(
+            folder,
+            diagnose,
+            cases or max(default, fewest(chosen)),
+            seed,
+            chosen,
+            jobs=jobs,
+            baselines=contacts and not quick,
+            progress=show,
+        )
     say((folder / "score.txt").read_text(encoding="utf-8"))
     say(f"written to {folder}")
+
+
+def _chosen(kinds: str) -> tuple[str, ...]:
+    """The named kinds, in the order in which they are dealt."""
+    from mixedlub.validation.rigs import KINDS
+
+    named = {kind.strip() for kind in kinds.split(",")}
+    if unknown := sorted(named - set(KINDS)):
+        raise InputError(f"must be among {', '.join(KINDS)}", where="--kinds", value=", ".join(unknown))
+    return tuple(kind for kind in KINDS if kind in named)

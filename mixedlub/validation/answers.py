@@ -1,4 +1,4 @@
-"""What was asked and what was answered: one truth and one diagnosis a case, read from their folders."""
+"""The truth of a case and the answer of a tool, read from their folders."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.validation.build import read_columns
+from mixedlub.validation.case_folder import read_columns
 from mixedlub.validation.planted import MEASUREMENT
 from profiles.errors import InputError
 
@@ -18,13 +18,15 @@ IDENTIFIABLE = 9.0
 
 @dataclass(frozen=True)
 class Truth:
-    """The sealed answer to a case; arrays run over all its readings, visible and withheld.
+    """The truth of a case; arrays run over all its readings, visible and withheld.
 
-    ``within`` is whether the catalogue's laws can become those that are hidden; None where nothing is or none says.
+    ``within`` is whether the catalogue's laws can become the planted ones; None where nothing is planted.
     """
 
     case: str
+    kind: str
     group: str
+    effects: tuple[str, ...]
     label: frozenset[str]
     visibility: float
     identifiable: bool
@@ -38,6 +40,14 @@ class Truth:
     base: np.ndarray
     sd: np.ndarray
     within: bool | None = None
+    no_data_sheet: bool = False
+    rivals: frozenset[str] = frozenset()
+
+    @property
+    def candidates(self) -> frozenset[str]:
+        """Effects of the catalogue that are planted or were tried as rivals."""
+        own = frozenset() if self.group == "unknown" else frozenset(self.effects)
+        return own | {name for name in self.rivals if "+" not in name}
 
     @property
     def off(self) -> np.ndarray:
@@ -47,7 +57,7 @@ class Truth:
 
 @dataclass(frozen=True)
 class Answer:
-    """What a tool said of a case: names, probabilities, flagged runs, and predictions by run."""
+    """The answer of a tool to a case: verdict, probabilities, flagged runs, and predictions by run."""
 
     case: str
     verdict: frozenset[str]
@@ -66,7 +76,7 @@ class Answer:
 
 
 def silent(truth: Truth) -> Answer:
-    """What a tool that broke down on a case is taken to have said: nothing, and every reading wrong."""
+    """The answer counted for a tool that broke down on a case: no verdict, and every reading flagged."""
     nothing, base = frozenset({"no answer"}), truth.base
     wrong = frozenset(int(run) for run in truth.run[~truth.withheld])
     return Answer(truth.case, nothing, (nothing,), {}, True, wrong, {}, {}, truth.run, base, base, base, base)
@@ -77,33 +87,37 @@ def _names(label: Any) -> frozenset[str]:
 
 
 def read_truth(folder: Path) -> Truth:
-    """The truth beside a case; a battery without classes or identifiability has them worked out."""
-    told = json.loads((folder / "truth.json").read_text(encoding="utf-8"))
-    rows = {name: np.array(values) for name, values in told["rows"].items()}
-    label = _names(told["label"])
-    group = told.get("class")
+    """The truth of a case; classes and identifiability are worked out where the file lacks them."""
+    truth = json.loads((folder / "truth.json").read_text(encoding="utf-8"))
+    rows = {name: np.array(values) for name, values in truth["rows"].items()}
+    label = _names(truth["label"])
+    group = truth.get("class")
     if group is None:
         single = "measurement" if label <= MEASUREMENT else "single"
         group = "none" if label == {"none"} else "unknown" if label == {"unknown"} else single
         group = "pair" if len(label) > 1 else group
-    forms = [one["within"] for one in told.get("info", ()) if "within" in one]
-    least = min(told["alternatives"].values(), default=np.inf) - told.get("own", 0.0)
+    forms = [one["within"] for one in truth.get("info", ()) if "within" in one]
+    least = min(truth["alternatives"].values(), default=np.inf) - truth.get("own", 0.0)
     return Truth(
         case=folder.name,
+        kind=truth.get("rig", ""),
         group=group,
+        effects=tuple(truth.get("effects", sorted(label - {"none", "unknown"}))),
         label=label,
-        visibility=float(told["info"][0].get("snr", np.nan)) if told.get("info") else 0.0,
-        identifiable=bool(told.get("identifiable", label == {"none"} or least > IDENTIFIABLE)),
-        mimic=bool(told.get("mimic", False)),
-        small=bool(told.get("small", False)),
-        outliers=frozenset(told["outliers"]),
-        theta=told["theta"],
+        visibility=float(truth["info"][0].get("snr", np.nan)) if truth.get("info") else 0.0,
+        identifiable=bool(truth.get("identifiable", label == {"none"} or least > IDENTIFIABLE)),
+        mimic=bool(truth.get("mimic", False)),
+        small=bool(truth.get("small", False)),
+        outliers=frozenset(truth["outliers"]),
+        theta=truth["theta"],
         run=rows["run"],
         withheld=rows["withheld"].astype(bool),
         values=rows["truth"],
         base=rows["base"],
         sd=rows["sd"],
         within=all(forms) if forms else None,
+        no_data_sheet=bool(truth.get("unnamed_oil", False)),
+        rivals=frozenset(truth["alternatives"]) - {"none"},
     )
 
 
@@ -112,19 +126,20 @@ def read_answer(folder: Path) -> Answer:
     for name in ("diagnosis.json", "predictions.csv"):
         if not (folder / name).exists():
             raise InputError(f"{name} is missing: the case was not answered", where=str(folder))
-    said = json.loads((folder / "diagnosis.json").read_text(encoding="utf-8"))
+    found = json.loads((folder / "diagnosis.json").read_text(encoding="utf-8"))
     table = read_columns(folder / "predictions.csv")
     timed = folder / "seconds.json"
     return Answer(
         case=folder.name,
-        verdict=_names(said["verdict"]),
-        tied=tuple(_names(one) for one in said.get("tied", [said["verdict"]])),
-        probabilities={name: float(p) for name, p in said["probabilities"].items()},
-        detected=bool(said["mismatch"]["detected"]),
-        outliers=frozenset(said.get("outlier_runs", [])),
-        location={int(run): float(z) for run, z in said.get("location", {}).get("rows", {}).items()},
+        verdict=_names(found["verdict"]),
+        tied=tuple(_names(one) for one in found.get("tied", [found["verdict"]])),
+        probabilities={name: float(p) for name, p in found["probabilities"].items()},
+        detected=bool(found["mismatch"]["detected"]),
+        outliers=frozenset(found.get("outlier_runs", [])),
+        location={int(run): float(z) for run, z in found.get("location", {}).get("rows", {}).items()},
         calibration={
-            name: (float(value["low90"]), float(value["high90"])) for name, value in said.get("calibration", {}).items()
+            name: (float(value["low90"]), float(value["high90"]))
+            for name, value in found.get("calibration", {}).items()
         },
         run=table["run"],
         calibrated=table["calibrated"],

@@ -15,14 +15,16 @@ from types import ModuleType
 
 import numpy as np
 
-from mixedlub.validation.build import PRIORS, SURFACE_COLUMNS, Case, read_case, rig_of
-from mixedlub.validation.deal import COARSE
-from mixedlub.validation.explain import calibrated, descend
+from mixedlub.validation.case_folder import read_case
 from mixedlub.validation.measures import FLOOR
 from mixedlub.validation.planted import NAMED
-from mixedlub.validation.rig import Rig, readings
+from mixedlub.validation.rig import Case, Rig
+from mixedlub.validation.rigs import discs, gears
+from mixedlub.validation.rivals import FARTHEST, descend, sensitivity
 from profiles.errors import InputError
 
+RIGS: dict[str, Callable[[Case], Rig]] = {"gear_pair": gears.rig_of, "disc": discs.rig_of}
+"""Rigs that their case folder describes completely, and that a baseline can therefore model."""
 ROUNDS = 20
 
 
@@ -57,7 +59,6 @@ class Fitted:
     slopes: np.ndarray
     z: np.ndarray
     base: np.ndarray
-    case: Case
     spoiled: np.ndarray
 
     @property
@@ -83,51 +84,50 @@ class Fitted:
     def calibration_sd(self) -> np.ndarray:
         """Sd that the calibration's uncertainty leaves on every row."""
         part = self.slopes[self.good] / self.sd[self.good, None]
-        covariance = np.linalg.inv(part.T @ part + np.eye(len(PRIORS)))
+        covariance = np.linalg.inv(part.T @ part + np.eye(len(self.z)))
         return np.sqrt(np.einsum("ij,jk,ik->i", self.slopes, covariance, self.slopes))
 
 
 def recalibrate(folder: Path) -> Fitted:
-    """Base model fitted to the recordings of a case under the priors, twice: outliers of the first fit go."""
+    """Base model fitted to the recordings of a case under the priors, and again without the outliers of that fit."""
     seen = read_case(folder)
     table = folder / "conditions.csv"
-    asked = read_case(folder, "conditions.csv").columns if table.exists() else {}
+    wanted = read_case(folder, "conditions.csv").columns if table.exists() else {}
     quantity = seen.settings["recording"]["quantity"]
     recorded = seen.columns[quantity]
     names = [name for name in seen.columns if name != quantity]
-    columns = {name: np.concatenate([seen.columns[name], asked.get(name, [])]) for name in names}
-    case = Case(seen.settings, columns, seen.share)
-    rig = rig_of(case, COARSE)
-    noise = case.settings["recording"]["noise"]
-    count = len(recorded)
-    base = readings(rig, case.nominal)
+    columns = {name: np.concatenate([seen.columns[name], wanted.get(name, [])]) for name in names}
+    rig = RIGS[seen.kind](Case(settings=seen.settings, columns=columns, share=seen.share))
+    noise = rig.settings["recording"]["noise"]
+    count, start = len(recorded), np.zeros(len(rig.names))
+    base = rig.model(start, ())
     sd = np.sqrt((noise["relative"] * np.concatenate([recorded, base[count:]])) ** 2 + noise["absolute"] ** 2)
-
-    def model(z: np.ndarray) -> np.ndarray:
-        return readings(rig, calibrated(case.nominal, case.priors, z))
-
     spoiled = np.zeros(count, dtype=bool)
-    z, limit = np.zeros(len(PRIORS)), np.full(len(PRIORS), 6.0)
+    z, limit = start, np.full(len(start), FARTHEST)
     for _ in range(2):
 
         def residual(z: np.ndarray, weight: np.ndarray = ~spoiled / sd[:count]) -> np.ndarray:
-            return np.concatenate([(model(z)[:count] - recorded) * weight, z])
+            return np.concatenate([(rig.model(z, ())[:count] - recorded) * weight, z])
 
         z, _ = descend(residual, z, -limit, limit)
-        left = (recorded - model(z)[:count]) / sd[:count]
-        usual = max(1.4826 * float(np.median(np.abs(left - np.median(left)))), 1.0)
-        spoiled = np.abs(left - np.median(left)) > 5 * usual
-    value = model(z)
-    slopes = np.array([(model(z + 1e-4 * e) - value) / 1e-4 for e in np.eye(len(PRIORS))]).T
-    return Fitted(folder.name, rig, recorded, columns["run"], sd, value, slopes, z, base, case, spoiled)
+        left = (recorded - rig.model(z, ())[:count]) / sd[:count]
+        scatter = max(1.4826 * float(np.median(np.abs(left - np.median(left)))), 1.0)
+        spoiled = np.abs(left - np.median(left)) > 5 * scatter
+    return Fitted(
+        folder.name, rig, recorded, columns["run"], sd, rig.model(z, ()), sensitivity(rig, z), z, base, spoiled
+    )
 
 
 def _features(fitted: Fitted) -> np.ndarray:
     """Logarithms of the conditions and of the composite roughness, temperature as it is, all standardised."""
-    columns = fitted.case.columns
-    names = [n for n in columns if n not in ("run", "setup", "rig", *SURFACE_COLUMNS[fitted.case.kind])]
+    columns = fitted.rig.columns
+    names = [n for n, column in columns.items() if n != "run" and column.dtype != object]
     table = [columns[n] if n in ("oil_temperature_C", "sequence") else np.log(columns[n].astype(float)) for n in names]
-    matrix = np.column_stack([*table, np.log(fitted.rig.moments[:, 0])]).astype(float)
+    roughness = [
+        np.log(sum(fitted.rig.settings["surfaces"][name]["m0_um2"] for name in pair))
+        for pair in zip(*(column for name, column in columns.items() if "surface" in name))
+    ]
+    matrix = np.column_stack([*table, roughness]).astype(float)
     return (matrix - matrix.mean(axis=0)) / np.maximum(matrix.std(axis=0), 1e-9)
 
 
@@ -148,7 +148,7 @@ def write_answer(
     mismatch = (predicted - (fitted.value if base is None else base)) / fitted.sd
     verdict = list(explanations[0])
     spread = np.sqrt(fitted.sd**2 + fitted.calibration_sd**2 + extra_sd**2)
-    told = {
+    found = {
         "schema": "mixedlub-diagnosis/1",
         "case": fitted.name,
         "mismatch": {"detected": verdict != ["none"], "chi2_before": fitted.squares, "rows": fitted.seen},
@@ -171,16 +171,16 @@ def write_answer(
         "mismatch_z": mismatch,
     }
     pd.DataFrame(table).to_csv(out / "predictions.csv", index=False)
-    (out / "diagnosis.json").write_text(json.dumps(told, indent=1), encoding="utf-8")
+    (out / "diagnosis.json").write_text(json.dumps(found, indent=1), encoding="utf-8")
 
 
 def _nameless(fitted: Fitted, out: Path, nats: float, predicted: np.ndarray, extra_sd: np.ndarray) -> None:
     """The answer of a method without names: evidence for a mismatch (nats), shared evenly between the ids.
 
-    A fifth goes to unknown, which is also what it says when a mismatch is likelier than not.
+    A fifth is given to unknown, which is also the verdict when a mismatch is likelier than not.
     """
     something = float(1 / (1 + np.exp(-np.clip(nats, -30, 30))))
-    ids = [name for name, effect in NAMED.items() if effect.occurs_on(fitted.rig)]
+    ids = sorted(fitted.rig.ids)
     shared = dict.fromkeys(ids, 0.9 * something / len(ids))
     shared |= {"unknown": 0.2 * something, "none": 1 - something}
     verdict = "unknown" if something > 0.5 else "none"
@@ -188,7 +188,7 @@ def _nameless(fitted: Fitted, out: Path, nats: float, predicted: np.ndarray, ext
 
 
 def recalibration_only(folder: Path, out: Path) -> None:
-    """The base model recalibrated: says unknown where its chi-square is beyond chance, names nothing."""
+    """The base model recalibrated: unknown where its chi-square is beyond chance, no names."""
     from scipy.stats import chi2
 
     fitted = recalibrate(folder)
@@ -234,14 +234,13 @@ def gradient_boosting(folder: Path, out: Path) -> None:
 
 
 def _signatures(fitted: Fitted) -> tuple[list[str], np.ndarray]:
-    """Names and signatures (rows by effects, in sds) of every effect at half its usual strength."""
-    at = calibrated(fitted.case.nominal, fitted.case.priors, fitted.z)
+    """Names and signatures (rows by effects, in sds) of every effect at half its typical strength."""
     names, columns = [], []
     for name, effect in NAMED.items():
-        if effect.occurs_on(fitted.rig):
-            usual = {knob.name: 0.5 * sum(knob.typical) for knob in effect.knobs}
-            usual["strength"] *= 0.5
-            extra = (readings(fitted.rig, at, [effect.hide(usual)]) - fitted.value) / fitted.sd
+        if name in fitted.rig.ids:
+            typical = {knob.name: 0.5 * sum(knob.typical) for knob in effect.knobs}
+            typical["strength"] *= 0.5
+            extra = (fitted.rig.model(fitted.z, [effect.hide(typical)]) - fitted.value) / fitted.sd
             if np.linalg.norm(extra[fitted.good]) > 1e-6:
                 names.append(name)
                 columns.append(extra)

@@ -1,156 +1,274 @@
-"""A battery of blind cases, sealed by its seed: the same seed writes the same bytes."""
+"""A battery of blind cases, fixed by its seed: the same seed writes the same bytes."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+import json
+import signal
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
+from typing import Any, TypeVar
 
 import numpy as np
 
 from mixedlub.validation.answers import IDENTIFIABLE
-from mixedlub.validation.build import PRIORS, QUANTITY, chosen, rig_of
-from mixedlub.validation.deal import COARSE, Hand, Order, deal, values_of
-from mixedlub.validation.explain import Target, calibrated, explain
-from mixedlub.validation.planted import FORMS, MIMICS, NAMED, OUTSIDE, Concealed
-from mixedlub.validation.rig import readings
-from mixedlub.validation.sealed import deck, record, rows, spread, write, written
+from mixedlub.validation.case_folder import plain, rows, write
+from mixedlub.validation.planted import MEASUREMENT, MIMICS
+from mixedlub.validation.rig import Case
+from mixedlub.validation.rigs import CLASSES, CONTACTS, FAMILIES, KINDS, Family, family_of
+from mixedlub.validation.rivals import Target, best, rivals
+from mixedlub.validation.sample_case import Order, Sample, sample_case
 from profiles.errors import InputError
 
-SHARES = {"none": 0.16, "single": 0.44, "pair": 0.13, "measurement": 0.11, "unknown": 0.16}
+SURVEY = 60
+"""Rigs of a kind that are drawn to find which effects can be planted on it."""
+Card = TypeVar("Card")
 
 
-def _deck(rng: np.random.Generator, pool: Iterable[Concealed], count: int) -> list[tuple[str, str]]:
-    """``count`` (effect, rig) cards: every effect in turn as often as its rarity says, rigs alternating."""
-    cards = [(effect.id, kind, effect.rarity) for effect in pool for kind in effect.kinds]
-    return deck(rng, [card[:2] for card in cards], [card[2] for card in cards], count)
+def deck(rng: np.random.Generator, cards: Sequence[Card], weights: Sequence[float], count: int) -> list[Card]:
+    """``count`` cards in random order: each as often as its weight demands, the remainder by chance."""
+    due = count * np.array(weights) / np.sum(weights)
+    times = np.floor(due).astype(int)
+    rest = rng.random(len(cards)) + (due - times) * 4
+    for place in np.argsort(-rest)[: count - times.sum()]:
+        times[place] += 1
+    dealt = [card for card, n in zip(cards, times) for _ in range(n)]
+    return [dealt[i] for i in rng.permutation(len(dealt))]
 
 
-def plan(seed: int, cases: int) -> list[Order]:
-    """The orders of a battery: classes in fixed shares, all in random order under neutral names."""
-    if cases < 5:
-        raise InputError("a battery has at least 5 cases, one of each class", where="cases", value=cases)
-    rng = np.random.default_rng([seed, 1])
-    counts = {label: max(1, int(share * cases)) for label, share in SHARES.items()}
+def _surveyed(kind: str, seed: int) -> tuple[dict[str, float], dict[str, float]]:
+    """Effects that can be planted on rigs of a kind, of the catalogue and outside it, with their weights."""
+    rng = np.random.default_rng([seed, 21])
+    drawn = [KINDS[kind].draw(rng) for _ in range(SURVEY)]
+    named = {form.id: form.rarity for rig in drawn for form in rig.forms if form.rarity > 0}
+    outside = {form.id: form.rarity for rig in drawn for form in rig.outside}
+    return dict(sorted(named.items())), dict(sorted(outside.items()))
+
+
+Content = tuple[str, str, tuple[str, ...]]
+"""Class, kind and planted effects of a case."""
+
+
+def _contents(rng: np.random.Generator, family: Family, seed: int, cases: int) -> list[Content]:
+    """What the cases of a family hold, class by class."""
+    counts = {label: max(1, int(share * cases)) for label, share in family.classes.items()}
     counts["single"] += cases - sum(counts.values())
-    physics = [e for e in NAMED.values() if e.stage != "measurement"]
-    faults = [e for e in NAMED.values() if e.stage == "measurement"]
-    drawn: list[tuple[str, str, tuple[str, ...]]] = []
-    kinds = list(QUANTITY)
-    drawn += [("none", kinds[i % 2], ()) for i in range(counts["none"])]
-    drawn += [("single", kind, (name,)) for name, kind in _deck(rng, physics, counts["single"])]
-    drawn += [("measurement", kind, (name,)) for name, kind in _deck(rng, faults, counts["measurement"])]
-    drawn += [("unknown", kind, (name,)) for name, kind in _deck(rng, OUTSIDE.values(), counts["unknown"])]
-    for name, kind in _deck(rng, physics, counts["pair"]):
-        others = [e for e in NAMED.values() if e.hook != NAMED[name].hook and kind in e.kinds]
-        drawn.append(("pair", kind, (name, others[int(rng.integers(len(others)))].id)))
-    orders: list[Order] = []
-    for place, (label, kind, effects) in enumerate(drawn):
-        small = label in ("none", "single") and rng.random() < 0.12
+    pools: dict[str, dict[tuple[str, str], float]] = {"single": {}, "measurement": {}, "unknown": {}}
+    for kind in family.kinds:
+        named, outside = _surveyed(kind, seed)
+        for name, weight in named.items():
+            pools["measurement" if name in MEASUREMENT else "single"][kind, name] = weight
+        pools["unknown"] |= {(kind, name): weight for name, weight in outside.items()}
+    contents: list[Content] = [("none", family.kinds[i % len(family.kinds)], ()) for i in range(counts["none"])]
+    for label, pool in pools.items():
+        dealt = deck(rng, list(pool), list(pool.values()), counts[label])
+        contents += [(label, kind, (name,)) for kind, name in dealt]
+    pairs = [(kind, first, partners) for kind in family.kinds for first, partners, _ in KINDS[kind].pairs]
+    weights = [weight for kind in family.kinds for *_, weight in KINDS[kind].pairs]
+    for kind, first, partners in deck(rng, pairs, weights, counts["pair"]):
+        contents.append(("pair", kind, (first, partners[int(rng.integers(len(partners)))])))
+    return contents
+
+
+def _orders(rng: np.random.Generator, family: Family, seed: int, cases: int) -> list[Order]:
+    found = []
+    for place, (label, kind, effects) in enumerate(_contents(rng, family, seed, cases)):
+        small = label in ("none", "single") and rng.random() < family.small
         clear = small or place % 2 == 0 or label == "pair"
-        orders.append(Order("", label, kind, effects, "clear" if clear else "faint", small))
-    spoiled = {"none": 0.5, "single": 0.2, "measurement": 0.2, "pair": 0.1, "unknown": 0.15}
-    shuffled = [orders[i] for i in rng.permutation(len(orders))]
-    return [
-        replace(order, name=f"case_{i:03d}", outliers=bool(rng.random() < spoiled[order.label]))
-        for i, order in enumerate(shuffled)
+        # Every third case of a kind whose oil may have no data sheet, unless its effects could then not be seen.
+        third = KINDS[kind].draw_without_data_sheet is not None and place % 3 == 1
+        found.append(
+            Order(
+                name="",
+                kind=kind,
+                label=label,
+                effects=effects,
+                level="clear" if clear else "faint",
+                outliers=bool(rng.random() < family.outliers[label]),
+                no_data_sheet=third and not KINDS[kind].needs_data_sheet & set(effects),
+                small=small,
+            )
+        )
+    return found
+
+
+def _families(kinds: Sequence[str]) -> list[Family]:
+    """Families of the chosen kinds, without the others."""
+    chosen = [replace(family, kinds=tuple(k for k in family.kinds if k in kinds)) for family in FAMILIES]
+    return [family for family in chosen if family.kinds]
+
+
+def fewest(kinds: Sequence[str]) -> int:
+    """Cases of the smallest battery of some kinds: one of each class a family."""
+    return len(CLASSES) * len(_families(kinds))
+
+
+def plan(seed: int, cases: int, kinds: Sequence[str] = CONTACTS) -> list[Order]:
+    """The orders of a battery: every family as often, classes in fixed shares, in random order under neutral names."""
+    if cases < fewest(kinds):
+        raise InputError(f"a battery of these kinds has at least {fewest(kinds)} cases", where="cases", value=cases)
+    families = _families(kinds)
+    rng = np.random.default_rng([seed, 1])
+    each = [cases // len(families) + (place < cases % len(families)) for place in range(len(families))]
+    orders = [order for family, count in zip(families, each) for order in _orders(rng, family, seed, count)]
+    return [replace(orders[i], name=f"case_{n:03d}") for n, i in enumerate(rng.permutation(len(orders)))]
+
+
+def record(
+    rng: np.random.Generator, truth: np.ndarray, sd: np.ndarray, visible: np.ndarray, spoiled: bool
+) -> tuple[np.ndarray, np.ndarray]:
+    """Readings with noise, and the rows of outliers: 2.5 % of the visible readings if the case has any."""
+    recorded = truth + sd * rng.standard_normal(len(truth))
+    if not spoiled:
+        return recorded, np.array([], dtype=int)
+    wild = rng.choice(visible, max(1, round(0.025 * len(visible))), replace=False)
+    recorded[wild] += rng.uniform(8, 25, len(wild)) * rng.choice([-1.0, 1.0], len(wild)) * sd[wild]
+    return recorded, wild
+
+
+def noise_stated(
+    rng: np.random.Generator, sample: Sample, sd: np.ndarray, sd_column: float
+) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+    """How the case states its noise: in the settings, in a column of its own, or by repeats alone."""
+    if sample.rig.repeats and rng.random() < 0.7:
+        return {}, {}
+    if rng.random() < sd_column:
+        return {}, {f"{sample.rig.quantity}_sd": sd}
+    return {"noise": {"relative": sample.relative, "absolute": sample.absolute}}, {}
+
+
+def weighed(sample: Sample, label: str) -> tuple[dict[str, float], float]:
+    """Least chi-square of every rival explanation, and of the truth itself."""
+    rig, forms, knobs, z = sample.rig, sample.forms, sample.knobs, sample.z
+    visible = np.flatnonzero(~sample.hidden)
+    truth = rig.records(z, sample.acts)
+    target = Target(rig, visible, truth[visible], sample.sd(truth)[visible])
+    rank = 2 if label == "unknown" else max((form.rank for form in forms), default=0)
+    others = rivals(target, forms, knobs, z, rank)
+    if label == "none":
+        return others, others["none"]
+    if rig.planted is not None:
+        return others, min(best(target, forms, z, known).chi_square for known in (knobs, ()))
+    own = float(z @ z)
+    return others, own if label == "unknown" else min(own, best(target, forms, z, knobs).chi_square)
+
+
+def identifiable(sample: Sample, others: dict[str, float], own: float) -> bool:
+    """No rival comes near the truth; where nothing is missing none may be better, if the model is not exact."""
+    least = min(others.values()) - own
+    if sample.forms:
+        return least > IDENTIFIABLE
+    return sample.rig.planted is None or least > -IDENTIFIABLE
+
+
+def truth_of(order: Order, sample: Sample, outliers: Sequence[int]) -> dict[str, Any]:
+    """Content of ``truth.json``: what is planted, at which calibration and noise, and how well rivals explain it."""
+    rig, z = sample.rig.refined, sample.z
+    truth = rig.records(z, sample.acts)
+    others, own = weighed(sample, order.label)
+    info = [
+        {
+            "id": form.id,
+            "form": form.source,
+            "law": form.law.__name__,
+            "within": form.within,
+            "snr": round(sample.visibility, 4),
+            **values,
+        }
+        for form, values in zip(sample.forms, sample.knobs)
     ]
-
-
-def _alternatives(hand: Hand, visible: np.ndarray) -> tuple[dict[str, float], float]:
-    """Best chi-square of none and of every single effect but the truth, and of the truth itself."""
-    whole = rig_of(hand.case, COARSE)
-    truth = values_of(whole, hand.case, hand.z, hand.effects, hand.knobs)[visible]
-    part = rig_of(chosen(hand.case, visible), COARSE)
-    sd = spread(truth, hand.relative, hand.absolute)
-    target = Target(part, truth, sd, hand.case.nominal, hand.case.priors)
-    none = explain(target, begin=hand.z)
-    names = {effect.id for effect in hand.effects}
-    single = names if len(names) == 1 else set()
-    rivals = {"none": round(none.chi_square, 4)} if names else {}
-    for name, forms in FORMS.items():
-        tried = [form for form in forms if name not in single and form.occurs_on(part)]
-        found = [explain(target, (form,), begin=none.calibration).chi_square for form in tried]
-        if found:
-            rivals[name] = round(min(*found, none.chi_square), 4)
-    if not names:
-        return {"none": round(none.chi_square, 4), **rivals}, round(none.chi_square, 4)
-    own = float(hand.z @ hand.z)
-    if names <= set(NAMED):
-        begin = np.array([v for values in hand.knobs for v in values.values()])
-        own = min(own, explain(target, hand.effects, hand.z, [begin]).chi_square)
-    return rivals, round(own, 4)
+    return {
+        "case": order.name,
+        "rig": order.kind,
+        "class": order.label,
+        "effects": list(order.effects),
+        "label": "none" if not order.effects else ["unknown"] if order.label == "unknown" else list(order.effects),
+        "info": info,
+        "level": order.level if order.effects else "none",
+        "small": order.small,
+        "mimic": bool(set(order.effects) & MIMICS),
+        "unnamed_oil": order.no_data_sheet,
+        "theta": rig.theta(z),
+        "z": dict(zip(rig.names, plain(z))),
+        "noise": {"relative": sample.relative, "absolute": sample.absolute},
+        "outliers": sorted(int(rig.columns["run"][row]) for row in outliers),
+        "alternatives": others,
+        "own": round(own, 4),
+        "identifiable": identifiable(sample, others, own),
+        "rows": rows(
+            rig.columns["run"],
+            sample.hidden,
+            truth=truth,
+            base=rig.records(z, ()),
+            nominal=rig.model(np.zeros(len(z)), ()),
+            sd=sample.sd(truth),
+        ),
+    }
 
 
 def make(seed: int, index: int, order: Order, folder: Path) -> str:
-    """Deal one case and write its folder, the truth beside it; a finished folder is left as it is."""
+    """Draw one case and write its folder with the truth; a complete folder stays as it is."""
     place = folder / order.name
     if (place / "truth.json").exists():
         return order.name
     rng = np.random.default_rng([seed, 2, index])
-    hand = deal(rng, order)
-    case, z = hand.case, hand.z
-    truth = values_of(hand.fine, case, z, hand.effects, hand.knobs)
-    sd = spread(truth, hand.relative, hand.absolute)
-    visible = np.flatnonzero(~hand.hidden)
-    recorded, spoiled = record(rng, truth, sd, visible, order.outliers)
-    rivals, own = _alternatives(hand, visible)
-    least = min(rivals.values(), default=np.inf)
-    outside = order.label == "unknown"
-    fixed = calibrated(case.nominal, case.priors, z)
-    runs = case.columns["run"]
-    answer = {
-        "case": order.name,
-        "rig": "gear" if order.kind == "gear_pair" else "disc",
-        "class": order.label,
-        "effects": list(order.effects),
-        "label": "none" if not order.effects else ["unknown"] if outside else list(order.effects),
-        "stage": [effect.stage for effect in hand.effects],
-        "info": [
-            {
-                "id": effect.id,
-                "form": effect.source,
-                "law": effect.law.__name__,
-                "within": effect.within,
-                "strength": values["strength"],
-                "snr": round(hand.seen, 4),
-                "params": {k: v for k, v in values.items() if k != "strength"},
-            }
-            for effect, values in zip(hand.effects, hand.knobs)
-        ],
-        "level": order.level if order.effects else "none",
-        "small": order.small,
-        "mimic": bool(set(order.effects) & MIMICS),
-        "theta": {
-            "boundary_friction": fixed.boundary_friction,
-            **{f"{name}_scale": getattr(fixed, name) for name in PRIORS[1:]},
-        },
-        "noise": {"relative": hand.relative, "absolute": hand.absolute},
-        "outliers": sorted(int(runs[i]) for i in spoiled),
-        "alternatives": rivals,
-        "own": own,
-        "identifiable": bool(not order.effects or least - own > IDENTIFIABLE),
-        "rows": rows(
-            runs,
-            hand.hidden,
-            truth=truth,
-            base=readings(hand.fine, fixed),
-            nominal=readings(hand.fine, case.nominal),
-            sd=sd,
-        ),
-    }
-    noise = {"relative": hand.relative, "absolute": hand.absolute}
-    settings = {**case.settings, "recording": {**case.settings["recording"], "noise": noise}}
-    write(place, settings, case.columns, {QUANTITY[case.kind]: recorded}, hand.hidden, case.share, answer)
+    sample = sample_case(rng, order)
+    rig = sample.rig.refined
+    truth = rig.records(sample.z, sample.acts)
+    sd = sample.sd(truth)
+    recorded, outliers = record(rng, truth, sd, np.flatnonzero(~sample.hidden), order.outliers)
+    recorded = recorded if rig.least is None else np.maximum(recorded, rig.least * truth)
+    stated, more = noise_stated(rng, sample, sd, family_of(order.kind).sd_column)
+    counted = rig.settle(rig.records(sample.z, [act for act in sample.acts if act.stage != "sensor"]))
+    settings = {**rig.settings, "recording": {**rig.settings["recording"], **stated}}
+    case = Case(settings=settings, columns={**rig.columns, **counted}, share=rig.share)
+    readings = {rig.quantity: recorded, **more}
+    write(place, case, readings, sample.hidden, truth_of(order, sample, list(outliers)))
     return order.name
+
+
+@contextmanager
+def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
+    """A pool of processes; an error here cancels all work that has not begun."""
+    with ProcessPoolExecutor(jobs, initializer=_stop_at_once) as pool:
+        try:
+            yield pool
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _stop_at_once() -> None:
+    """Ctrl-C ends a worker silently, even within a case, which is made again when the run is resumed."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def generate(
     folder: Path,
     seed: int,
     cases: int = 240,
+    kinds: Sequence[str] = CONTACTS,
     jobs: int = 1,
     progress: Callable[[int, int], None] | None = None,
 ) -> list[Path]:
     """Write a battery of cases into a folder, or what is missing of it; returns the case folders."""
-    return written(folder, {"seed": seed, "cases": cases}, plan(seed, cases), make, jobs, progress)
+    orders = plan(seed, cases, kinds)
+    folder.mkdir(parents=True, exist_ok=True)
+    mark, file = {"kinds": list(kinds), "seed": seed, "cases": cases}, folder / "battery.json"
+    if file.exists() and json.loads(file.read_text(encoding="utf-8")) != mark:
+        raise InputError("the folder holds a battery of other kinds, seed or size", where=str(folder), value=mark)
+    file.write_text(json.dumps(mark), encoding="utf-8")
+    report = progress or (lambda done, total: None)
+    if jobs == 1:
+        for index, order in enumerate(orders):
+            make(seed, index, order, folder)
+            report(index + 1, len(orders))
+    else:
+        with workers(jobs) as pool:
+            for done, future in enumerate(
+                [pool.submit(make, seed, i, order, folder) for i, order in enumerate(orders)]
+            ):
+                future.result()
+                report(done + 1, len(orders))
+    return [folder / order.name for order in orders]

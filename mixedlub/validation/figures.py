@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mixedlub.validation.score import Row, Score
+from mixedlub.validation.score import Score
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -30,9 +30,7 @@ def score_table(scores: Sequence[Score]) -> Figure:
     axes = figure.add_subplot()
     axes.set_axis_off()
     columns = ["figure", *(one.tool for one in scores), "goal"]
-    cells = [
-        [row.text.replace("  ", "   "), *(_shown(one[row.key].value) for one in scores), _goal(row)] for row in rows
-    ]
+    cells = [[row.text.replace("  ", "   "), *(_shown(one[row.key].value) for one in scores), row.aim] for row in rows]
     table = axes.table(cells, colLabels=columns, bbox=Bbox.unit(), cellLoc="center", edges="horizontal")
     table.auto_set_font_size(False)
     table.set_fontsize(8.5)
@@ -55,17 +53,8 @@ def _shown(value: float) -> str:
 
 
 def _line(place: int) -> dict[str, Any]:
-    """The first tool stands out, the others stay thin."""
+    """A thick line for the first tool, thin ones for the others."""
     return {"marker": "o", "lw": 2, "zorder": 3} if place == 0 else {"marker": ".", "lw": 1, "alpha": 0.7}
-
-
-def _goal(row: Row) -> str:
-    if row.goal is None:
-        return ""
-    low, high = row.goal
-    if not np.isfinite(high):
-        return f"≥ {low:.3g}"
-    return f"{low:g} to {high:g}" if np.isfinite(low) else f"≤ {high:.3g}"
 
 
 def _cases(score: Score) -> int:
@@ -73,7 +62,7 @@ def _cases(score: Score) -> int:
 
 
 def reliability(scores: Sequence[Score]) -> Figure:
-    """How often what was given a probability was so; the count beside each point of the first tool."""
+    """Observed frequency against stated probability, with the count at each point of the first tool."""
     figure = _blank(5.2, 5.4)
     axes = figure.add_subplot()
     axes.plot([0, 1], [0, 1], color="#999999", lw=1, ls="--", label="honest")
@@ -82,8 +71,8 @@ def reliability(scores: Sequence[Score]) -> Figure:
         so = [row[2] for row in one.reliability]
         axes.plot(given, so, label=one.tool, **_line(place))
     for place, (_, given_mean, so_mean, count) in enumerate(scores[0].reliability):
-        beside: dict[str, Any] = {"xytext": (6, -10), "ha": "left"} if place % 2 else {"xytext": (-6, 6), "ha": "right"}
-        axes.annotate(str(count), (given_mean, so_mean), textcoords="offset points", fontsize=7.5, **beside)
+        offset: dict[str, Any] = {"xytext": (6, -10), "ha": "left"} if place % 2 else {"xytext": (-6, 6), "ha": "right"}
+        axes.annotate(str(count), (given_mean, so_mean), textcoords="offset points", fontsize=7.5, **offset)
     axes.set(xlabel="probability given (-)", ylabel="share that was so (-)", xlim=(-0.12, 1.1), ylim=(-0.06, 1.06))
     axes.set_title("Reliability of the probabilities", fontsize=11)
     figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=8.5)
@@ -115,21 +104,21 @@ def identification(scores: Sequence[Score]) -> Figure:
 
 
 def confusion(score: Score) -> Figure:
-    """What was hidden against what was said; verdicts of several effects together as 'several'."""
+    """Planted effect against verdict; verdicts of several effects together as 'several'."""
     truths = sorted(score.confusion, key=_order)
-    said = sorted({_one(name) for row in score.confusion.values() for name in row} | set(truths), key=_order)
-    counts = np.zeros((len(truths), len(said)))
+    verdicts = sorted({_one(name) for row in score.confusion.values() for name in row} | set(truths), key=_order)
+    counts = np.zeros((len(truths), len(verdicts)))
     for i, truth in enumerate(truths):
         for name, count in score.confusion[truth].items():
-            counts[i, said.index(_one(name))] += count
+            counts[i, verdicts.index(_one(name))] += count
     share = counts / np.maximum(counts.sum(axis=1, keepdims=True), 1)
-    figure = _blank(3.2 + 0.27 * len(said), 2.6 + 0.24 * len(truths))
+    figure = _blank(3.2 + 0.27 * len(verdicts), 2.6 + 0.24 * len(truths))
     axes = figure.add_subplot()
     axes.imshow(share, cmap="Blues", vmin=0, vmax=1, aspect="auto")
     for i, j in zip(*np.nonzero(counts)):
         color = "white" if share[i, j] > 0.6 else INK
         axes.text(j, i, f"{counts[i, j]:.0f}", ha="center", va="center", fontsize=7, color=color)
-    axes.set_xticks(range(len(said)), [name.replace("_", " ") for name in said], rotation=90, fontsize=7)
+    axes.set_xticks(range(len(verdicts)), [name.replace("_", " ") for name in verdicts], rotation=90, fontsize=7)
     axes.set_yticks(range(len(truths)), [name.replace("_", " ") for name in truths], fontsize=7)
     axes.set(xlabel="verdict", ylabel="hidden")
     figure.suptitle(f"Hidden against named, cases\n({score.tool})", fontsize=10)

@@ -10,8 +10,9 @@ from mixedlub.validation.answers import Answer, Truth
 from mixedlub.validation.planted import MEASUREMENT
 from profiles.errors import InputError
 
+Pair = tuple[Truth, Answer]
 FLOOR = 1e-4
-SETTLED = frozenset({"none", "unknown"})
+ANSWERS_WITHOUT_EFFECT = frozenset({"none", "unknown"})
 
 
 def log_score(truth: Truth, answer: Answer, ids: Sequence[str]) -> float:
@@ -38,16 +39,16 @@ def auroc(score: np.ndarray, positive: np.ndarray) -> float:
 
 def location_auroc(truth: Truth, answer: Answer) -> float:
     """AUROC of |mismatch_z| against readings off by more than one sd; nan where a class has under a tenth."""
-    asked = ~truth.withheld & ~np.isin(truth.run, list(truth.outliers))
-    off = np.abs(truth.off[asked]) > 1
+    scored = ~truth.withheld & ~np.isin(truth.run, list(truth.outliers))
+    off = np.abs(truth.off[scored]) > 1
     if not 0.1 <= off.mean() <= 0.9:
         return float("nan")
-    found = np.array([abs(answer.location.get(int(run), 0.0)) for run in truth.run[asked]])
+    found = np.array([abs(answer.location.get(int(run), 0.0)) for run in truth.run[scored]])
     return auroc(found, off)
 
 
 def _withheld(truth: Truth, answer: Answer, column: np.ndarray) -> np.ndarray:
-    """A column of the predictions at the withheld runs, in the truth's order; every one must be there."""
+    """A column of the predictions at the withheld runs, in the order of the truth; none may be missing."""
     place = {int(run): i for i, run in enumerate(answer.run)}
     wanted = truth.run[truth.withheld]
     missing = [int(run) for run in wanted if int(run) not in place]
@@ -84,7 +85,7 @@ def tied(truth: Truth, answer: Answer) -> bool:
 
 def crossed(truth: Truth, answer: Answer) -> bool:
     """An instrument fault called physics, or physics called an instrument fault."""
-    named = answer.verdict - SETTLED
+    named = answer.verdict - ANSWERS_WITHOUT_EFFECT
     if truth.label <= MEASUREMENT:
         return bool(named - MEASUREMENT)
     return bool(named & MEASUREMENT)

@@ -1,7 +1,7 @@
-"""A mark to compare with: what one who knows the generator's own laws makes of the noisy recordings.
+"""A reference: what is found in the noisy recordings with the generator's own laws.
 
-Its evidence is a coarse one (chi-square and half a log reading a knob), and so is its view of the unnamed: a tool that
-weighs better can do better.
+Its evidence is coarse (chi-square and half a log reading a knob), and so is its model of unknown effects: a tool with
+a better evidence can score higher.
 """
 
 from __future__ import annotations
@@ -13,11 +13,9 @@ from pathlib import Path
 import numpy as np
 
 from mixedlub.validation.baselines import Fitted, recalibrate, write_answer
-from mixedlub.validation.build import chosen, rig_of
-from mixedlub.validation.deal import COARSE
-from mixedlub.validation.explain import Explained, Target, calibrated, explain
-from mixedlub.validation.planted import FORMS, NAMED, Concealed
-from mixedlub.validation.rig import readings
+from mixedlub.validation.planted import FORMS, NAMED
+from mixedlub.validation.rig import Form
+from mixedlub.validation.rivals import Fit, Target, best
 
 PRIOR_NATS = {0: np.log(0.45), 1: np.log(0.30 / len(NAMED)), 2: np.log(0.12 / len(NAMED) ** 2)}
 UNKNOWN_NATS = np.log(0.08)
@@ -25,39 +23,34 @@ LEADERS = 3
 Names = tuple[str, ...]
 
 
-def _evidence(found: Explained, effects: Sequence[Concealed], count: int) -> float:
+def _evidence(fit: Fit, forms: Sequence[Form], count: int) -> float:
     """Log posterior up to a constant: chi-square, half a log reading a knob, prior of the structure."""
-    knobs = sum(len(effect.knobs) for effect in effects)
-    return -0.5 * found.chi_square - 0.5 * knobs * np.log(count) + PRIOR_NATS[len(effects)]
-
-
-def _target(fitted: Fitted) -> Target:
-    case = chosen(fitted.case, fitted.good)
-    rows = fitted.good
-    return Target(rig_of(case, COARSE), fitted.recorded[rows], fitted.sd[rows], case.nominal, case.priors)
+    knobs = sum(len(form.knobs) for form in forms)
+    return -0.5 * fit.chi_square - 0.5 * knobs * np.log(count) + PRIOR_NATS[len(forms)]
 
 
 @dataclass(frozen=True)
 class Suspect:
     """Some effects in the forms that fit best, their fit and its evidence."""
 
-    forms: tuple[Concealed, ...]
-    fit: Explained
+    forms: tuple[Form, ...]
+    fit: Fit
     nats: float
 
 
 def _searched(fitted: Fitted) -> dict[Names, Suspect]:
     """None, each single effect, and pairs with the leaders where none of these fits."""
-    target, count = _target(fitted), len(fitted.good)
+    rows = fitted.good
+    target, count = Target(fitted.rig, rows, fitted.recorded[rows], fitted.sd[rows]), len(rows)
 
-    def tried(forms: tuple[Concealed, ...], begin: np.ndarray, starts: list[np.ndarray] | None = None) -> Suspect:
-        fit = explain(target, forms, begin, starts)
+    def tried(forms: tuple[Form, ...], z: np.ndarray, knobs: Sequence[dict[str, float]] = ()) -> Suspect:
+        fit = best(target, forms, z, knobs)
         return Suspect(forms, fit, _evidence(fit, forms, count))
 
     none = tried((), fitted.z)
     found: dict[Names, Suspect] = {(): none}
-    for name, forms in FORMS.items():
-        own = [tried((form,), none.fit.calibration) for form in forms if form.occurs_on(fitted.rig)]
+    for name in FORMS:
+        own = [tried((form,), none.fit.z) for form in fitted.rig.forms if form.id == name]
         if own:
             found[(name,)] = max(own, key=lambda one: one.nats)
     enough = count + 2.3 * np.sqrt(2 * count)
@@ -68,9 +61,8 @@ def _searched(fitted: Fitted) -> dict[Names, Suspect]:
                 pair = tuple(sorted({*lead, *other}))
                 if len(pair) == 2 and pair not in found:
                     parts = [found[(name,)] for name in pair]
-                    begin = np.array([v for part in parts for v in part.fit.knobs[0].values()])
                     both = tuple(part.forms[0] for part in parts)
-                    found[pair] = tried(both, found[lead].fit.calibration, [begin])
+                    found[pair] = tried(both, found[lead].fit.z, [part.fit.knobs[0] for part in parts])
     return found
 
 
@@ -84,10 +76,9 @@ def oracle(folder: Path, out: Path) -> None:
     fitted = recalibrate(folder)
     for last in (False, True):
         found = _searched(fitted)
-        best = max(found.values(), key=lambda one: one.nats)
-        hidden = [form.hide(values) for form, values in zip(best.forms, best.fit.knobs)]
-        at = calibrated(fitted.case.nominal, fitted.case.priors, best.fit.calibration)
-        predicted = readings(fitted.rig, at, hidden)
+        top = max(found.values(), key=lambda one: one.nats)
+        hidden = [form.hide(values) for form, values in zip(top.forms, top.fit.knobs)]
+        predicted = fitted.rig.model(top.fit.z, hidden)
         left = np.abs(fitted.recorded - predicted[: fitted.seen]) / fitted.sd[: fitted.seen]
         spoiled = left > 4.5
         if last or spoiled.mean() > 0.1 or np.array_equal(spoiled, fitted.spoiled):
@@ -95,13 +86,13 @@ def oracle(folder: Path, out: Path) -> None:
         fitted = replace(fitted, spoiled=spoiled)
     nats = {key: one.nats for key, one in found.items()}
     nats[("unknown",)] = _unknown_nats(len(fitted.good))
-    top = max(nats.values())
-    weights = {key: float(np.exp(value - top)) for key, value in nats.items()}
+    most = max(nats.values())
+    weights = {key: float(np.exp(value - most)) for key, value in nats.items()}
     total = sum(weights.values())
     probabilities = dict.fromkeys(NAMED, 0.0) | {"none": weights.pop(()) / total}
     for key, weight in weights.items():
         for name in key:
             probabilities[name] = probabilities.get(name, 0.0) + weight / total
     ranked = sorted(nats, key=lambda key: -nats[key])
-    near = [key or ("none",) for key in ranked if nats[key] > top - np.log(10)]
-    write_answer(fitted, out, probabilities, near, predicted, base=readings(fitted.rig, at))
+    near = [key or ("none",) for key in ranked if nats[key] > most - np.log(10)]
+    write_answer(fitted, out, probabilities, near, predicted, base=fitted.rig.model(top.fit.z, ()))

@@ -1,298 +1,128 @@
-"""The base model once more, slow and plain: what a gear or disc rig records when nothing is missing.
-
-A recording of n readings is worked out on arrays of shape (n, m): m points along the path of contact for
-gears (midpoints of equal steps), one point for discs. Each stage of the chain takes a frozen ``Contact``
-and returns a new one, so that a concealed effect is a function slipped in after the stage it changes.
-"""
+"""What every rig has: a programme, a base model that calibration moves, and the effects that can be planted on it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
-ROELANDS_PRESSURE = 1.96e8
-KELVIN = 273.15
-STAGES = ("oil", "load", "surface", "film", "contact", "shear", "boundary", "friction", "loss", "sensor")
+
+@dataclass(frozen=True)
+class Knob:
+    """One parameter of a planted law: bounds of a rival fit (``low`` to ``high``) and the range that is drawn."""
+
+    name: str
+    low: float
+    high: float
+    typical: tuple[float, float]
+
+
+def strength(low: float, high: float, typical: tuple[float, float] = (0.7, 1.4)) -> Knob:
+    return Knob("strength", low, high, typical)
 
 
 @dataclass(frozen=True)
-class Oil:
-    """Two-point data sheet of an oil: temperatures in C, kinematic viscosities in m2/s, the rest in SI."""
-
-    temperature: tuple[float, float]
-    kinematic: tuple[float, float]
-    pressure_viscosity: tuple[float, float]
-    density_15: float = 850.0
-    expansion: float = 7e-4
-    eyring_stress: float = 5e6
-    conductivity: float = 0.14
-    specific_heat: float = 2000.0
-
-    def kinematic_at(self, temperature: np.ndarray) -> np.ndarray:
-        """ASTM D341 through both points: log10 log10(nu + 0.7) linear in log10 T, nu in mm2/s; returns m2/s.
-
-        >>> oil = Oil((40.0, 100.0), (30e-6, 6.2e-6), (18e-9, 14e-9))
-        >>> [round(float(1e6 * oil.kinematic_at(t)), 6) for t in (40.0, 100.0)]
-        [30.0, 6.2]
-        """
-        absolute = np.log10(np.asarray(self.temperature) + KELVIN)
-        doubled = np.log10(np.log10(1e6 * np.asarray(self.kinematic) + 0.7))
-        slope = (doubled[1] - doubled[0]) / (absolute[1] - absolute[0])
-        line = doubled[0] + slope * (np.log10(np.asarray(temperature) + KELVIN) - absolute[0])
-        return np.asarray(1e-6 * (10**10**line - 0.7))
-
-    def density_at(self, temperature: np.ndarray) -> np.ndarray:
-        return self.density_15 * (1 - self.expansion * (np.asarray(temperature) - 15.0))
-
-    def viscosity_at(self, temperature: np.ndarray) -> np.ndarray:
-        """Dynamic viscosity (Pa s)."""
-        return self.kinematic_at(temperature) * self.density_at(temperature)
-
-    def pressure_viscosity_at(self, temperature: np.ndarray) -> np.ndarray:
-        """Straight line through the two given coefficients (1/Pa)."""
-        (t1, t2), (a1, a2) = self.temperature, self.pressure_viscosity
-        return a1 + (a2 - a1) * (np.asarray(temperature) - t1) / (t2 - t1)
-
-    def thinning_at(self, temperature: np.ndarray) -> np.ndarray:
-        """Temperature-viscosity coefficient -d ln(eta)/dT (1/K), by a central difference of 0.1 K."""
-        warm, cold = np.asarray(temperature) + 0.05, np.asarray(temperature) - 0.05
-        return np.log(self.viscosity_at(cold) / self.viscosity_at(warm)) / 0.1
-
-
-@dataclass(frozen=True)
-class Solid:
-    """The two bodies: moduli in Pa, Poisson ratios; steel's heat conduction in SI."""
-
-    modulus: tuple[float, float] = (206e9, 206e9)
-    poisson: tuple[float, float] = (0.3, 0.3)
-    conductivity: float = 46.0
-    density: float = 7800.0
-    specific_heat: float = 470.0
-
-    @property
-    def reduced(self) -> float:
-        """E' = 2/[(1 - nu1^2)/E1 + (1 - nu2^2)/E2] in Pa."""
-        compliance = sum((1 - nu**2) / e for nu, e in zip(self.poisson, self.modulus))
-        return 2.0 / compliance
-
-
-@dataclass(frozen=True)
-class Calibration:
-    """What a calibration may move: boundary friction by value, the others as factors on the data sheet."""
-
-    boundary_friction: float = 0.1
-    viscosity: float = 1.0
-    pressure_viscosity: float = 1.0
-    eyring_stress: float = 1.0
-    roughness: float = 1.0
-
-
-@dataclass(frozen=True)
-class Rig:
-    """One test programme on one rig: readings by points, everything in SI save temperatures in C.
-
-    ``share_force`` is the tooth (or disc) force at each point, ``step`` the length of path a point stands
-    for over the base pitch (1 for discs), ``conditions`` the columns of the case file by name.
-    """
-
-    kind: str
-    oil: Oil
-    solid: Solid
-    radius: np.ndarray
-    speed_1: np.ndarray
-    speed_2: np.ndarray
-    share_force: np.ndarray
-    width: float
-    step: float
-    temperature: np.ndarray
-    moments: np.ndarray
-    sequence: np.ndarray
-    conditions: dict[str, np.ndarray]
-    phase: np.ndarray = field(default_factory=lambda: np.zeros(1))
-    coated: np.ndarray | None = None
-    coating_resistance: float = 0.0
-    extras: dict[str, float] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class Contact:
-    """State of every contact point along the chain; what a later stage makes is zero until then."""
-
-    rig: Rig
-    temperature: np.ndarray
-    viscosity: np.ndarray
-    pressure_viscosity: np.ndarray
-    eyring_stress: np.ndarray
-    boundary_friction: np.ndarray
-    m0: np.ndarray
-    m2: np.ndarray
-    m4: np.ndarray
-    force: np.ndarray
-    line_load: np.ndarray
-    entrainment: np.ndarray
-    sliding: np.ndarray
-    pressure: np.ndarray = field(default_factory=lambda: np.zeros(1))
-    half_width: np.ndarray = field(default_factory=lambda: np.zeros(1))
-    film: np.ndarray = field(default_factory=lambda: np.zeros(1))
-    area: np.ndarray = field(default_factory=lambda: np.zeros(1))
-    stress: np.ndarray = field(default_factory=lambda: np.zeros(1))
-    friction: np.ndarray = field(default_factory=lambda: np.zeros(1))
-    recorded: np.ndarray = field(default_factory=lambda: np.zeros(1))
-
-    @property
-    def roughness(self) -> np.ndarray:
-        """Composite root-mean-square height (m)."""
-        return np.sqrt(self.m0)
-
-    @property
-    def fluid_friction(self) -> np.ndarray:
-        return self.stress / self.pressure
-
-
-@dataclass(frozen=True)
-class Hidden:
-    """One concealed effect at work: the stage after which it acts, and a function of the contact alone."""
+class Act:
+    """One effect at work: the stage after which it acts, and a function of the state alone."""
 
     stage: str
-    act: Callable[[Contact], Contact]
-
-
-def start(rig: Rig, calibration: Calibration) -> Contact:
-    """Oil, surfaces and kinematics at the recorded conditions."""
-    temperature = rig.temperature[:, None]
-    moments = rig.moments * calibration.roughness**2
-    return Contact(
-        rig=rig,
-        temperature=temperature,
-        viscosity=rig.oil.viscosity_at(temperature) * calibration.viscosity,
-        pressure_viscosity=rig.oil.pressure_viscosity_at(temperature) * calibration.pressure_viscosity,
-        eyring_stress=np.full_like(temperature, rig.oil.eyring_stress * calibration.eyring_stress),
-        boundary_friction=np.full_like(temperature, calibration.boundary_friction),
-        m0=moments[:, 0:1],
-        m2=moments[:, 1:2],
-        m4=moments[:, 2:3],
-        force=rig.share_force,
-        line_load=rig.share_force / rig.width,
-        entrainment=0.5 * (rig.speed_1 + rig.speed_2),
-        sliding=np.abs(rig.speed_1 - rig.speed_2),
-    )
-
-
-def press(c: Contact) -> Contact:
-    """Hertz line contact: p0 = sqrt(w E'/(2 pi R)), b = 2 w/(pi p0)."""
-    pressure = np.sqrt(c.line_load * c.rig.solid.reduced / (2 * np.pi * c.rig.radius))
-    return replace(c, pressure=pressure, half_width=2 * c.line_load / (np.pi * pressure))
-
-
-def lubricate(c: Contact) -> Contact:
-    """Dowson-Toyoda central film h = 3.06 R G^0.56 U^0.69 W^-0.10 at the mean speed."""
-    modulus, radius = c.rig.solid.reduced, c.rig.radius
-    speed = c.viscosity * c.entrainment / (modulus * radius)
-    load = c.line_load / (modulus * radius)
-    logarithm = 0.56 * np.log(c.pressure_viscosity * modulus) + 0.69 * np.log(speed) - 0.10 * np.log(load)
-    return replace(c, film=3.06 * radius * np.exp(logarithm))
+    act: Callable[[Any], Any]
 
 
 @dataclass(frozen=True)
-class Summits:
-    """McCool summits of the two surfaces together: density (1/m2), radius, spread, plane offset (m)."""
+class Form:
+    """One published form of an effect, acting after the stage ``hook``; its first knob is the strength, absent at zero.
 
-    density: np.ndarray
-    radius: np.ndarray
-    spread: np.ndarray
-    offset: np.ndarray
-
-
-def summits(c: Contact) -> Summits:
-    """Summit density, radius, spread and plane offset from m0, m2, m4 (McCool)."""
-    nayak = c.m0 * c.m4 / c.m2**2
-    return Summits(
-        density=c.m4 / (c.m2 * 6 * np.pi * np.sqrt(3.0)),
-        radius=0.375 * np.sqrt(np.pi / c.m4),
-        spread=np.sqrt(np.maximum(1 - 0.8968 / nayak, 1e-3) * c.m0),
-        offset=4 * np.sqrt(c.m0 / (np.pi * nayak)),
-    )
-
-
-def overlap(t: np.ndarray) -> np.ndarray:
-    """Greenwood-Williamson F_1(t) = phi(t) - t Q(t), from the complementary error function.
-
-    >>> [round(float(overlap(np.array(t))), 6) for t in (1.0, 2.0)]
-    [0.083315, 0.008491]
+    ``rarity`` is the weight of the effect when effects are drawn; a form of rarity 0 is only a rival.
+    ``rank`` is how general a form is: a form that contains simpler effects as special cases is no rival to them.
+    ``rigid`` forms have one size, as a miscounted fringe has. ``within``: the catalogue's law of the same
+    effect can become this one, at some values of its parameters or in their limit.
     """
-    from scipy.special import erfc
 
-    return np.exp(-0.5 * t**2) / np.sqrt(2 * np.pi) - 0.5 * t * erfc(t / np.sqrt(2.0))
+    id: str
+    hook: str
+    law: Callable[..., Any]
+    knobs: tuple[Knob, ...]
+    source: str
+    rank: int = 0
+    rigid: bool = False
+    rarity: float = 1.0
+    within: bool = False
 
-
-def touch(c: Contact) -> Contact:
-    """Real over nominal area pi D R sigma F_1((h - z)/sigma), within 0 and 1."""
-    s = summits(c)
-    share = np.pi * s.density * s.radius * s.spread * overlap((c.film - s.offset) / s.spread)
-    return replace(c, area=np.clip(share, 0.0, 1.0))
-
-
-def thick(c: Contact, warmer: np.ndarray | float = 0.0) -> np.ndarray:
-    """Roelands viscosity (Pa s) at the maximum pressure, ``warmer`` kelvin above the oil temperature."""
-    level = np.log(c.viscosity) + 9.67
-    exponent = c.pressure_viscosity * ROELANDS_PRESSURE / level
-    rise = (1 + c.pressure / ROELANDS_PRESSURE) ** exponent
-    if np.any(warmer):
-        absolute = c.temperature + KELVIN - 138.0
-        slope = c.rig.oil.thinning_at(c.temperature) * absolute / level
-        rise = rise * (1 + warmer / absolute) ** (-slope)
-    return c.viscosity * np.exp(level * (rise - 1))
+    def hide(self, values: Mapping[str, float]) -> Act:
+        return Act(self.hook, lambda state: self.law(state, **values))
 
 
-def sheared(c: Contact, viscosity: np.ndarray) -> np.ndarray:
-    """Ree-Eyring stress tau0 asinh(eta v_s/(h tau0)) in Pa."""
-    return c.eyring_stress * np.arcsinh(viscosity * c.sliding / (c.film * c.eyring_stress))
+@dataclass(frozen=True, kw_only=True)
+class Case:
+    """A case folder in memory: settings as written, columns of its readings, rows of its load-share table."""
+
+    settings: dict[str, Any]
+    columns: dict[str, np.ndarray]
+    share: np.ndarray | None = None
+
+    @property
+    def kind(self) -> str:
+        return str(self.settings["kind"])
+
+    @property
+    def quantity(self) -> str:
+        return str(self.settings["recording"]["quantity"])
 
 
-def shear(c: Contact) -> Contact:
-    return replace(c, stress=sheared(c, thick(c)))
+Model = Callable[[np.ndarray, Sequence[Act]], np.ndarray]
+"""Noise-free readings at a calibration (in prior standard deviations) with effects at work."""
 
 
-def mix(c: Contact) -> Contact:
-    """Friction (tau/p0)(1 - P_B) + mu_B P_B."""
-    return replace(c, friction=c.fluid_friction * (1 - c.area) + c.boundary_friction * c.area)
+@dataclass(frozen=True, kw_only=True)
+class Rig(Case):
+    """A rig and its programme; ``names`` are the calibrations that ``model`` takes, ``theta`` gives their values.
+
+    ``fine`` is the model on the finer grid of which recordings are made, if it has one. ``planted`` gives the readings
+    where nature follows another base law than the model's, which no calibration quite becomes. ``settle`` completes
+    columns that depend on the readings, such as the fringe order an instrument counts. ``floor`` are the bounds
+    of the absolute part of the noise over its relative part at the ``quantile`` of the readings.
+    A ``signed`` quantity may be negative. No reading falls below the share ``least`` of the true value, if it has one.
+    """
+
+    names: tuple[str, ...]
+    model: Model
+    theta: Callable[[np.ndarray], dict[str, float]]
+    forms: tuple[Form, ...]
+    outside: tuple[Form, ...]
+    fine: Model | None = None
+    planted: Callable[[Sequence[Act]], np.ndarray] | None = None
+    settle: Callable[[np.ndarray], dict[str, np.ndarray]] = field(default=lambda values: {})
+    quantile: float = 0.5
+    floor: tuple[float, float] = (0.1, 1.0)
+    repeats: bool = False
+    signed: bool = False
+    least: float | None = None
+
+    @property
+    def ids(self) -> set[str]:
+        return {form.id for form in self.forms}
+
+    @property
+    def refined(self) -> Rig:
+        """The same rig on its finer grid."""
+        return self if self.fine is None else replace(self, model=self.fine)
+
+    def records(self, z: np.ndarray, acts: Sequence[Act]) -> np.ndarray:
+        """What the rig reads without noise."""
+        return self.model(z, acts) if self.planted is None else self.planted(acts)
 
 
-def record(c: Contact) -> Contact:
-    """Power loss (W) of a gear rig, the path integral over one base pitch; mean friction of a disc rig."""
-    if c.rig.kind == "gear_pair":
-        return replace(c, recorded=np.sum(c.friction * c.force * c.sliding, axis=1) * c.rig.step)
-    return replace(c, recorded=c.friction[:, 0])
+Chain = Sequence[tuple[str, Callable[[Any], Any] | None]]
 
 
-_CHAIN: tuple[tuple[str, tuple[Callable[[Contact], Contact], ...]], ...] = (
-    ("oil", ()),
-    ("load", ()),
-    ("surface", (press,)),
-    ("film", (lubricate,)),
-    ("contact", (touch,)),
-    ("shear", (shear,)),
-    ("boundary", ()),
-    ("friction", (mix,)),
-    ("loss", (record,)),
-    ("sensor", ()),
-)
-
-
-def run(rig: Rig, calibration: Calibration, hidden: Sequence[Hidden] = ()) -> Contact:
-    """The whole chain with the concealed effects slipped in, each after the law of its stage."""
-    c = start(rig, calibration)
-    for stage, laws in _CHAIN:
-        for law in laws:
-            c = law(c)
-        for effect in hidden:
-            if effect.stage == stage:
-                c = effect.act(c)
-    return c
-
-
-def readings(rig: Rig, calibration: Calibration, hidden: Sequence[Hidden] = ()) -> np.ndarray:
-    """What the rig would record without noise, one value a reading, in W or as a friction coefficient."""
-    return run(rig, calibration, hidden).recorded
+def play(chain: Chain, state: Any, acts: Sequence[Act]) -> Any:
+    """The state after all stages, each followed by the effects that act after it."""
+    for name, law in chain:
+        state = state if law is None else law(state)
+        for effect in acts:
+            if effect.stage == name:
+                state = effect.act(state)
+    return state

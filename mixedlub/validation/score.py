@@ -1,4 +1,4 @@
-"""Scores of a tool's answers to a battery: every figure that the proof is judged by, with its goal."""
+"""Scores of a tool's answers to a battery: every figure that the validation reports, with its goal."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ import numpy as np
 
 from mixedlub.validation.answers import Answer, Truth
 from mixedlub.validation.measures import (
-    SETTLED,
+    ANSWERS_WITHOUT_EFFECT,
+    Pair,
     calibration_covers,
     clean,
     coverage,
@@ -31,7 +32,6 @@ from profiles.errors import InputError
 
 BINS = (0.0, 0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.98, 1.0)
 VISIBILITIES = (0.0, 5.0, 8.0, 11.0, 15.0, 20.0, 25.0, np.inf)
-Pair = tuple[Truth, Answer]
 
 
 INF = float("inf")
@@ -64,6 +64,16 @@ class Row:
             return None
         return bool(self.goal[0] <= self.value <= self.goal[1])
 
+    @property
+    def aim(self) -> str:
+        """The goal in words, empty without one."""
+        if self.goal is None:
+            return ""
+        low, high = self.goal
+        if not np.isfinite(high):
+            return f">= {low:.3g}"
+        return f"{low:g} to {high:g}" if np.isfinite(low) else f"<= {high:.3g}"
+
 
 @dataclass(frozen=True)
 class Score:
@@ -88,21 +98,20 @@ class Score:
         """The table as plain text, one figure a line."""
         lines = [f"{self.tool}", f"{'figure':58s} {'value':>8s} {'90 %':>17s} {'n':>5s}  goal"]
         for row in self.rows:
-            goal = "" if row.goal is None else _goal(row.goal)
             mark = {True: "met", False: "NOT met", None: ""}[row.met]
             span = f"[{row.low:.3g}, {row.high:.3g}]" if np.isfinite(row.low) else ""
             value = f"{row.value:.3g}" if np.isfinite(row.value) else "-"
-            lines.append(f"{row.text:58s} {value:>8s} {span:>17s} {row.count:5d}  {goal:12s} {mark}")
+            lines.append(f"{row.text:58s} {value:>8s} {span:>17s} {row.count:5d}  {row.aim:12s} {mark}")
         return "\n".join(line.rstrip() for line in lines) + "\n"
 
     def save(self, file: Path) -> None:
         rows = [{**asdict(row), "met": row.met} for row in self.rows]
-        told = {**asdict(self), "rows": rows}
-        file.write_text(json.dumps(_finite(told), indent=1, allow_nan=False), encoding="utf-8")
+        data = {**asdict(self), "rows": rows}
+        file.write_text(json.dumps(_finite(data), indent=1, allow_nan=False), encoding="utf-8")
 
 
 def _finite(value: object) -> object:
-    """The same data with what JSON cannot say (nan, infinity) as null."""
+    """The same data with what JSON does not have (nan, infinity) as null."""
     if isinstance(value, dict):
         return {key: _finite(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
@@ -110,13 +119,6 @@ def _finite(value: object) -> object:
     if isinstance(value, float) and not np.isfinite(value):
         return None
     return value
-
-
-def _goal(goal: tuple[float, float]) -> str:
-    low, high = goal
-    if not np.isfinite(high):
-        return f">= {low:.3g}"
-    return f"{low:g} to {high:g}" if np.isfinite(low) and low > 0 else f"<= {high:.3g}"
 
 
 def _claims(pairs: Sequence[Pair]) -> list[tuple[float, bool]]:
@@ -256,7 +258,7 @@ FIGURES: tuple[Figure, ...] = (
     Figure("slowest", "seconds a case, worst", _any, _seconds, at_most(30.0), "max"),
 )
 HALVES = (("right_within", "right_beyond"), ("tied_within", "tied_beyond"))
-"""Figures that are told where both halves count something."""
+"""Figures that are given where both halves count something."""
 
 
 def _once(truth: Truth) -> int:
@@ -274,8 +276,8 @@ def _reduce(values: np.ndarray, weights: np.ndarray, how: str) -> float:
 def _interval(values: np.ndarray, weights: np.ndarray, how: str) -> tuple[float, float]:
     """90 % interval: Wilson's for a share, else by bootstrap over cases.
 
-    A bootstrap of nothing but hits has no width. Readings of a case go wrong together, which Wilson's does not know:
-    where cases count for several, the interval reaches as far as either.
+    A bootstrap of nothing but hits has no width. Errors in the readings of one case are correlated, which Wilson's
+    interval ignores: where cases count for several, the interval is the hull of both.
     """
     if how != "share":
         return _bootstrap(values, weights, how)
@@ -316,7 +318,7 @@ def _bootstrap(values: np.ndarray, weights: np.ndarray, how: str) -> tuple[float
 def score(pairs: Sequence[Pair], tool: str = "mixedlub diagnose", ids: Sequence[str] = tuple(NAMED)) -> Score:
     """Every figure of a battery answered by a tool; goals as the project set them.
 
-    ``ids`` are the effects that the log score asks about: those the battery can hide.
+    ``ids`` are the effects that the log score is summed over: those the battery can plant.
     """
     if not pairs:
         raise InputError("there is no answered case to score", where=tool)
@@ -337,8 +339,8 @@ def score(pairs: Sequence[Pair], tool: str = "mixedlub diagnose", ids: Sequence[
 
 def _probability_rows(pairs: Sequence[Pair], ids: Sequence[str]) -> list[Row]:
     """Log score over all ids, claims above 0.9, and the calibration error of the probabilities."""
-    asked = [*ids, *sorted(SETTLED)]
-    logs = np.array([log_score(truth, answer, asked) for truth, answer in pairs])
+    names = [*ids, *sorted(ANSWERS_WITHOUT_EFFECT)]
+    logs = np.array([log_score(truth, answer, names) for truth, answer in pairs])
     bold = np.array([float(so) for p, so in _claims(pairs) if p > 0.9])
     some = [(p, so) for p, so in _claims(pairs) if p > 0.02]
     bins = np.digitize([p for p, _ in some], np.linspace(0, 1, 11)[1:-1])
@@ -388,6 +390,6 @@ def _confusion(pairs: Sequence[Pair]) -> dict[str, dict[str, int]]:
     for truth, answer in pairs:
         if truth.group != "pair":
             row = table.setdefault("+".join(sorted(truth.label)), {})
-            said = "+".join(sorted(answer.verdict))
-            row[said] = row.get(said, 0) + 1
+            verdict = "+".join(sorted(answer.verdict))
+            row[verdict] = row.get(verdict, 0) + 1
     return table

@@ -94,7 +94,7 @@ def test_ctrl_c_leaves_no_empty_folder_and_says_that_nothing_was_written(tmp_pat
 
 
 def test_ctrl_c_says_where_what_was_done_is_kept_and_that_it_goes_on(tmp_path, interrupted, capsys):
-    interrupted("mixedlub.validation.prove.prove", lambda out, *rest: (out / "sealed").write_text("first case"))
+    interrupted("mixedlub.validation.run.validate", lambda out, *rest: (out / "sealed").write_text("first case"))
     assert main(["prove", "--quick", "--out", str(tmp_path / "out")]) == 1
     said = f"mixedlub: stopped; what was done is kept in {tmp_path / 'out'}, and the same command goes on from there\n"
     assert capsys.readouterr().err.endswith(said)

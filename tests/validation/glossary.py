@@ -1,14 +1,16 @@
-"""State of planted rigs and benches under the names of the glossary, as the catalogue's laws read it."""
+"""State of planted rigs under the names of the glossary, as the catalogue's laws read it."""
 
 from typing import Any
 
 import numpy as np
 
 from mixedlub.laws import heating
-from mixedlub.validation.rig import Calibration, Contact, mix, readings, summits
-from mixedlub.validation.rigs import drive, viscosity
-from mixedlub.validation.rigs.stage import progress
-from mixedlub.validation.rigs.states import Track
+from mixedlub.validation.contact import Contact, mix, summits
+from mixedlub.validation.planted.histories import Track
+from mixedlub.validation.rigs import drives, viscosities
+from mixedlub.validation.sample_rig import progress
+
+from .helpers import readings
 
 KELVIN = 273.15
 Values = dict[str, Any]
@@ -98,7 +100,7 @@ def _of_gears(c: Contact) -> Values:
     extras, speed = c.rig.extras, _column(c.rig.conditions["speed_rpm"]) * np.pi / 30
     torque = _column(c.rig.conditions["torque_Nm"])
     whole = torque / extras["base_radius"]
-    loss = readings(c.rig, Calibration())
+    loss = readings(c.rig)
     return {
         "torque": torque,
         "nominal_loss": _column(loss),
@@ -119,7 +121,7 @@ def _of_gears(c: Contact) -> Values:
     }
 
 
-def of_drive(d: drive.Drive, columns: Values) -> Values:
+def of_drive(d: drives.Drive, columns: Values) -> Values:
     motor = columns.get("motor_torque_Nm", d.recorded)
     celsius, load, content = (
         columns.get(name, np.ones(len(d.sign))) for name in ("oil_temperature_C", "load_N", "additive_percent")
@@ -162,7 +164,7 @@ def of_track(t: Track, columns: Values) -> Values:
     }
 
 
-def of_sample(s: viscosity.Sample, columns: Values) -> Values:
+def of_sample(s: viscosities.Sample, columns: Values) -> Values:
     place = columns.get("sequence", progress(len(s.celsius)))
     done = np.cumsum(np.exp2((s.celsius - 40.0) / 10.0))
     return {
@@ -178,4 +180,4 @@ def of_sample(s: viscosity.Sample, columns: Values) -> Values:
     }
 
 
-READERS = {Contact: of_contact, drive.Drive: of_drive, Track: of_track, viscosity.Sample: of_sample}
+READERS = {Contact: of_contact, drives.Drive: of_drive, Track: of_track, viscosities.Sample: of_sample}

@@ -1,4 +1,4 @@
-"""The fast evidence against nested sampling, and the mismatch test's false alarms, on the proof's own rigs."""
+"""The fast evidence against nested sampling, and the mismatch test's false alarms, on rigs of the validation."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """What each planted form says of itself: whether the catalogue's law of the same effect can become it.
 
-The quantity that the catalogue's effect acts on is taken before and after the planted form, on rigs and benches as the
+The quantity that the catalogue's effect acts on is taken before and after the planted form, on rigs as the
 batteries draw them, and the catalogue's law is fitted to the change. Parameters whose priors are even stay between
 their bounds, all others are free: a law that a form is only the limit of counts as one that can become it.
 """
@@ -17,14 +17,13 @@ from scipy.optimize import least_squares
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.priors import Between, BetweenLog, LogNormal
 from mixedlub.effects import known_in
-from mixedlub.validation.build import chosen, rig_of
-from mixedlub.validation.design import draw_disc, draw_gear
+from mixedlub.validation.contact import Contact
 from mixedlub.validation.planted import FORMS
-from mixedlub.validation.rig import Contact, Hidden, run
-from mixedlub.validation.rigs import drive, film, history, mesh, viscosity
-from mixedlub.validation.rigs.stage import Act, Bench
+from mixedlub.validation.rig import Act, Case, Rig
+from mixedlub.validation.rigs import discs, drives, films, gears, histories, tooth_contacts, viscosities
 
 from .glossary import READERS, Values
+from .helpers import run
 
 EXACT, APART = 1e-6, 1e-3
 NEARLY = {
@@ -95,7 +94,7 @@ def _resistance(c: Contact, force: Any) -> np.ndarray:
     return np.asarray(force / c.line_load)
 
 
-def _dry(d: drive.Drive, torque: Any) -> np.ndarray:
+def _dry(d: drives.Drive, torque: Any) -> np.ndarray:
     """What dry friction of another size adds to the running friction."""
     return np.asarray((torque - d.dry) * d.sign)
 
@@ -187,38 +186,42 @@ def knob_sets(form: Any) -> Iterator[Values]:
 
 
 @cache
-def _rigs() -> list[Any]:
+def _contacts() -> list[tuple[Any, set[str]]]:
+    """Contacts of gears and of discs at about 40 readings, with the effects that can be planted there."""
+    rng = np.random.default_rng
+    whole = (gears, gears.draw_case(rng(3), True), {"points": 6}), (discs, discs.draw_case(rng(4), True), {})
     found = []
-    for case in (draw_gear(np.random.default_rng(3), True), draw_disc(np.random.default_rng(4), True)):
-        count = len(case.columns["run"])
-        part = chosen(case, np.arange(0, count, max(count // 40, 1)))
-        found.append((rig_of(part, 6), part.nominal))
+    for room, case, more in whole:
+        step = max(len(case.columns["run"]) // 40, 1)
+        columns = {name: column[::step] for name, column in case.columns.items()}
+        part = Case(settings=case.settings, columns=columns, share=case.share)
+        found.append((room.inputs_of(part, **more), room.rig_of(part).ids))
     return found
 
 
 @cache
-def _benches() -> list[Bench]:
+def _rigs() -> list[Rig]:
     rng = np.random.default_rng(8)
     return [
-        *(room.draw(rng) for room in (film, drive, viscosity) for _ in range(24)),
-        *(draw(rng) for draw in (history.draw_steady, history.draw_loads, history.draw_traction) for _ in range(2)),
+        *(room.draw(rng) for room in (films, drives, viscosities) for _ in range(24)),
+        *(draw(rng) for draw in (histories.draw_steady, histories.draw_loads, histories.draw_traction) for _ in "ab"),
     ]
 
 
 def planted() -> dict[tuple[str, str], list[tuple[Any, Any]]]:
-    """Every form with the rigs and benches on which it is tried, three at most."""
+    """Every form with the rigs on which it is tried, three at most."""
     found: dict[tuple[str, str], list[tuple[Any, Any]]] = {}
     for form in (form for forms in FORMS.values() for form in forms):
-        own = [(form, rig) for rig in _rigs() if form.occurs_on(rig[0])]
+        own = [(form, inputs) for inputs, ids in _contacts() if form.id in ids]
         found.setdefault((form.id, form.law.__name__), []).extend(own)
-    for bench in _benches():
-        for form in bench.forms:
-            found.setdefault((form.id, form.law.__name__), []).append((form, bench))
+    for rig in _rigs():
+        for form in rig.forms:
+            found.setdefault((form.id, form.law.__name__), []).append((form, rig))
     return found
 
 
 def signatures(form: Any, place: Any) -> Iterator[Signature]:
-    kind = place.kind if isinstance(place, Bench) else "gear_pair" if place[0].extras else "disc"
+    kind = place.kind if isinstance(place, Rig) else "gear_pair" if place.is_mesh else "disc"
     effect = known_in(kind)[form.id]
     for values in knob_sets(form):
         seen: list[Any] = []
@@ -228,13 +231,13 @@ def signatures(form: Any, place: Any) -> Iterator[Signature]:
             return state
 
         columns: Values = {}
-        if isinstance(place, Bench):
+        if isinstance(place, Rig):
             z = np.zeros(len(place.names))
             counted = place.settle(place.model(z, ()))
-            columns = {**place.columns, **counted, place.settings["recording"]["quantity"]: None}
+            columns = {**place.columns, **counted, place.quantity: None}
             place.model(z, [Act(form.hook, look), form.hide(values), Act(form.hook, look)])
         else:
-            run(*place, [Hidden(form.hook, look), form.hide(values), Hidden(form.hook, look)])
+            run(place, acts=[Act(form.hook, look), form.hide(values), Act(form.hook, look)])
         made = signature(effect, seen[0], seen[1], columns)
         if np.abs(made.change).max() > 0:
             yield made
@@ -258,7 +261,7 @@ def test_the_catalogue_can_become_a_form_just_where_the_form_says_so(key):
 
 def test_every_form_of_every_kind_is_among_those_tried():
     rng = np.random.default_rng(9)
-    for room in (mesh, history):
+    for room in (tooth_contacts, histories):
         for _ in range(6):
             assert {(form.id, form.law.__name__) for form in room.draw(rng).forms} <= set(PLANTED)
 

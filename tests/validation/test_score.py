@@ -19,7 +19,9 @@ def truth_of(label="starvation", group="single", **changes) -> Truth:
     base = np.full(20, 100.0)
     plain = Truth(
         case="case_000",
+        kind="disc",
         group=group,
+        effects=tuple(label.split("+")),
         label=frozenset(label.split("+")),
         visibility=20.0,
         identifiable=True,

@@ -1,22 +1,21 @@
-"""The concealed effects by name: those the catalogue should name, and those outside any catalogue.
+"""Planted effects by name: those that the catalogue should name, and those that no catalogue has.
 
-``FORMS`` has every published form of an effect that may be planted, ``NAMED`` the first of each.
-
-Sources say where a form comes from. Constants that a docstring does not call published are usual sizes,
-chosen so that a strength of about 1 is what such a rig could show.
+``FORMS`` has every published form of an effect of gears and discs, ``NAMED`` the first of each; forms of other rigs are
+made by functions of their programme. Sources say where a form comes from. Constants that are not named as
+published are common sizes, chosen so that a strength of about 1 is what such a rig could show.
 """
 
 from __future__ import annotations
 
 from mixedlub.validation.planted import boundary, contact, film, load, loss, measurement, oil, outside, shear
-from mixedlub.validation.planted.kinds import Concealed, Knob
+from mixedlub.validation.rig import Form
 
-_ROOMS = (film, shear, contact, boundary, load, loss, oil, measurement)
-
-_EVERY = tuple(effect for room in _ROOMS for effect in room.EFFECTS)
-FORMS: dict[str, tuple[Concealed, ...]] = {e.id: tuple(form for form in _EVERY if form.id == e.id) for e in _EVERY}
-NAMED: dict[str, Concealed] = {name: forms[0] for name, forms in FORMS.items()}
-OUTSIDE: dict[str, Concealed] = {effect.id: effect for effect in outside.EFFECTS}
+_EVERY = tuple(
+    effect for room in (film, shear, contact, boundary, load, loss, oil, measurement) for effect in room.EFFECTS
+)
+FORMS: dict[str, tuple[Form, ...]] = {e.id: tuple(form for form in _EVERY if form.id == e.id) for e in _EVERY}
+NAMED: dict[str, Form] = {name: forms[0] for name, forms in FORMS.items()}
+OUTSIDE: dict[str, Form] = {effect.id: effect for effect in outside.EFFECTS}
 MIMICS = outside.MIMICS
 MEASUREMENT = frozenset(effect.id for effect in measurement.EFFECTS) | {
     "force_drift",
@@ -26,5 +25,3 @@ MEASUREMENT = frozenset(effect.id for effect in measurement.EFFECTS) | {
     "torque_constant",
     "zero_drift",
 }
-
-__all__ = ["FORMS", "MEASUREMENT", "MIMICS", "NAMED", "OUTSIDE", "Concealed", "Knob"]

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from mixedlub.validation.planted.kinds import Concealed, Knob, strength
+from mixedlub.validation.contact import Contact
 from mixedlub.validation.planted.shear import flash
-from mixedlub.validation.rig import Contact
+from mixedlub.validation.rig import Form, Knob, strength
 
 
 def boundary_film_temperature(c: Contact, strength: float, activation: float, flash_share: float) -> Contact:
@@ -22,7 +22,7 @@ def boundary_film_temperature(c: Contact, strength: float, activation: float, fl
 
 
 def boundary_speed_dependence(c: Contact, strength: float) -> Contact:
-    """Boundary friction goes with sliding speed: mu_B (v_s/1 m/s)^(0.1 strength), from 1 mm/s on."""
+    """Boundary friction is a power of the sliding speed: mu_B (v_s/1 m/s)^(0.1 strength), from 1 mm/s on."""
     ratio = np.maximum(c.sliding, 1e-3)
     return replace(c, boundary_friction=c.boundary_friction * ratio ** (0.1 * strength))
 
@@ -43,9 +43,8 @@ def tribofilm_growth(c: Contact, strength: float, pace: float) -> Contact:
 
 
 EFFECTS = (
-    Concealed(
+    Form(
         "boundary_film_temperature",
-        "boundary",
         "boundary",
         boundary_film_temperature,
         (
@@ -54,35 +53,28 @@ EFFECTS = (
             Knob("flash_share", 0.0, 1.0, (0.0, 0.5)),
         ),
         "normal-cumulative activation on contact temperature",
-        -1,
     ),
-    Concealed(
+    Form(
         "boundary_speed_dependence",
-        "boundary",
         "boundary",
         boundary_speed_dependence,
         (strength(-4.0, 4.0, (0.8, 1.8)),),
         "power law in sliding speed",
-        0,
         within=True,
     ),
-    Concealed(
+    Form(
         "boundary_speed_dependence",
-        "boundary",
         "boundary",
         boundary_speed_logarithm,
         (strength(-4.0, 4.0, (0.8, 1.8)),),
         "Briscoe and Evans 1982",
-        0,
     ),
-    Concealed(
+    Form(
         "tribofilm_growth",
-        "boundary",
         "boundary",
         tribofilm_growth,
         (strength(-2.5, 4.0, (0.6, 1.5)), Knob("pace", 0.05, 2.0, (0.1, 0.6))),
         "diffusion-limited (parabolic) growth",
-        0,
         rarity=0.6,
     ),
 )

@@ -8,8 +8,8 @@ from functools import lru_cache
 import numpy as np
 from scipy.special import ndtr
 
-from mixedlub.validation.planted.kinds import Concealed, Knob, strength
-from mixedlub.validation.rig import Contact, overlap, summits
+from mixedlub.validation.contact import Contact, overlap, summits
+from mixedlub.validation.rig import Form, Knob, strength
 
 HARDNESS = 7e9
 
@@ -70,7 +70,7 @@ HIGHEST = 8.0
 
 
 def asperity_elastoplasticity(c: Contact, strength: float) -> Contact:
-    """Between first yield and full flow the area goes over smoothly from once to twice that of elastic summits.
+    """Between first yield and full flow the area rises smoothly from once to twice that of elastic summits.
 
     Zhao, Maietta and Chang: pi R w [1 + 3 x^2 - 2 x^3], x = (w - w_1)/(w_2 - w_1) from 0 to 1, w_2 = 54 w_1 and
     w_1 = (3 pi k H/(4 E*))^2 R with k = 0.4, H = 7 GPa over the strength. Summits up to 8 spreads high.
@@ -136,81 +136,65 @@ def surface_ridges(c: Contact, strength: float, height: float) -> Contact:
 
 
 EFFECTS = (
-    Concealed(
+    Form(
         "skewed_heights",
-        "contact",
         "contact",
         skewed_heights,
         (strength(-0.9, 0.94, (0.5, 0.9)),),
         "skew-normal heights (Azzalini 1985)",
-        0,
     ),
-    Concealed(
+    Form(
         "asperity_plasticity",
-        "contact",
         "contact",
         asperity_plasticity,
         (strength(0.0, 12.0, (0.6, 1.6)),),
         "Chang, Etsion and Bogy 1987",
-        1,
         within=True,
     ),
-    Concealed(
+    Form(
         "asperity_plasticity",
-        "contact",
         "contact",
         asperity_elastoplasticity,
         (strength(0.0, 20.0, (1.5, 4.0)),),
         "Zhao, Maietta and Chang 2000",
-        1,
     ),
-    Concealed(
+    Form(
         "micro_ehl",
-        "contact",
         "surface",
         micro_ehl,
         (strength(0.0, 12.0, (0.8, 3.0)),),
         "amplitude reduction after Hooke and Venner 2000",
-        -1,
     ),
-    Concealed(
+    Form(
         "running_in",
-        "contact",
         "surface",
         running_in,
         (strength(0.0, 3.0, (0.6, 1.3)), Knob("pace", 0.02, 1.0, (0.03, 0.3))),
         "logarithmic wear-in",
-        0,
     ),
-    Concealed(
+    Form(
         "surface_defects",
-        "contact",
         "contact",
         surface_defects,
         (strength(0.0, 20.0, (0.8, 2.5)),),
         "constant raised area",
-        1,
         rarity=0.6,
         within=True,
     ),
-    Concealed(
+    Form(
         "surface_defects",
-        "contact",
         "contact",
         surface_burrs,
         (strength(0.0, 20.0, (0.8, 2.5)), Knob("height", 0.3, 10.0, (0.6, 3.0))),
         "exponential heights of Greenwood and Williamson 1966",
-        1,
         rarity=0.6,
     ),
-    Concealed(
+    Form(
         "surface_defects",
-        "contact",
         "contact",
         surface_ridges,
         (strength(0.0, 20.0, (0.8, 2.5)), Knob("height", 0.3, 10.0, (0.6, 3.0))),
         "ridges of normal heights",
-        1,
         rarity=0.6,
     ),
 )

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from mixedlub.validation.planted.kinds import Concealed, Knob, strength
-from mixedlub.validation.rig import Contact
+from mixedlub.validation.contact import Contact
+from mixedlub.validation.rig import Form, Knob, strength
 
 SUPPLY_LIMIT = 0.05
 INLET_RATE = 2e7
@@ -68,60 +68,93 @@ def roughness_lay(c: Contact, strength: float) -> Contact:
     return replace(c, film=c.film * (1 + strength * close / (1 + close)))
 
 
+def _heat(c: Contact, speed: np.ndarray) -> np.ndarray:
+    """Thermal loading beta eta0 u^2/k."""
+    return np.asarray(c.rig.oil.thinning_at(c.temperature) * c.viscosity * speed**2 / c.rig.oil.conductivity)
+
+
+def _slip(c: Contact) -> np.ndarray:
+    return np.asarray(c.sliding / c.entrainment)
+
+
+def heated_at_rolling_sum(c: Contact, strength: float) -> Contact:
+    """1/(1 + 0.1 (1 + 14.8 V^0.83) L^0.64) with L of the sum of speeds, V = slide over that sum."""
+    loading = strength * _heat(c, 2 * c.entrainment)
+    return replace(c, film=c.film / (1 + 0.1 * (1 + 14.8 * (0.5 * _slip(c)) ** 0.83) * loading**0.64))
+
+
+def starved_by_layer(c: Contact, strength: float, sharpness: float) -> Contact:
+    """Chevalier: a layer of oil on the track feeds the contact, h = r h/(1 + r^g)^(1/g), r = layer over h."""
+    if strength <= 0:
+        return c
+    ratio = 0.6e-6 / strength / c.film
+    return replace(c, film=c.film * ratio / (1 + ratio**sharpness) ** (1 / sharpness))
+
+
+def thinned_by_carreau(c: Contact, strength: float, index: float) -> Contact:
+    """Carreau in the inlet: (1 + (rate/2e6 1/s)^2)^((n - 1)/2) to the power 0.67, rate = u/h."""
+    rate = strength * c.entrainment / (c.film * 2e6)
+    return replace(c, film=c.film * (1 + rate**2) ** (0.335 * (index - 1)))
+
+
+def thinned_by_eyring(c: Contact, strength: float) -> Contact:
+    """Eyring oil in the inlet: (asinh x/x)^0.67, x = eta0 u/(h tau), tau = 50 kPa over the strength."""
+    rate = np.maximum(strength * c.viscosity * c.entrainment / (c.film * 5e4), 1e-9)
+    return replace(c, film=c.film * (np.arcsinh(rate) / rate) ** 0.67)
+
+
 EFFECTS = (
-    Concealed(
-        "inlet_shear_heating",
-        "film",
-        "film",
-        inlet_shear_heating,
-        (strength(0.0, 12.0),),
-        "Murch and Wilson 1975",
-        0,
-    ),
-    Concealed(
-        "inlet_shear_heating",
-        "film",
-        "film",
-        heated_by_hsu_lee,
-        (strength(0.0, 12.0),),
-        "Hsu and Lee 1994",
-        0,
-    ),
-    Concealed(
+    Form("inlet_shear_heating", "film", inlet_shear_heating, (strength(0.0, 12.0),), "Murch and Wilson 1975"),
+    Form("inlet_shear_heating", "film", heated_by_hsu_lee, (strength(0.0, 12.0),), "Hsu and Lee 1994"),
+    Form(
         "starvation",
-        "film",
         "film",
         starvation,
         (strength(0.0, 30.0, (0.7, 2.5)), Knob("steepness", 0.25, 0.9, (0.35, 0.8))),
         "Cann, Damiens and Lubrecht 2004, replenishment group",
-        0,
         within=True,
     ),
-    Concealed(
+    Form(
         "starvation",
-        "film",
         "film",
         starved_by_meniscus,
         (strength(0.0, 12.0, (0.8, 2.0)), Knob("distance", 0.05, 3.0, (0.3, 1.5))),
         "Hamrock and Dowson 1977",
-        0,
     ),
-    Concealed(
+    Form(
         "inlet_shear_thinning",
-        "film",
         "film",
         inlet_shear_thinning,
         (strength(0.0, 30.0, (0.7, 3.0)), Knob("plateau", 0.3, 0.85, (0.45, 0.75))),
         "Cross with a second Newtonian plateau",
-        0,
     ),
-    Concealed(
+    Form(
         "roughness_lay",
-        "film",
         "film",
         roughness_lay,
         (strength(-0.9, 3.0, (0.5, 1.5)),),
         "saturating lay factor after Zhu and Cheng 1988",
-        0,
     ),
 )
+
+OF_LOCAL_CONTACTS = (
+    *(form for form in EFFECTS if form.id != "roughness_lay"),
+    Form("inlet_shear_heating", "film", heated_at_rolling_sum, (strength(0.0, 6.0, (0.2, 0.8)),), "rolling-sum form"),
+    Form(
+        "starvation",
+        "film",
+        starved_by_layer,
+        (strength(0.0, 60.0, (0.7, 3.0)), Knob("sharpness", 1.5, 6.0, (2.0, 5.0))),
+        "Chevalier et al. 1998",
+    ),
+    Form(
+        "inlet_shear_thinning",
+        "film",
+        thinned_by_carreau,
+        (strength(0.0, 60.0, (0.5, 3.0)), Knob("index", 0.4, 0.95, (0.6, 0.85))),
+        "Carreau 1972",
+        within=True,
+    ),
+    Form("inlet_shear_thinning", "film", thinned_by_eyring, (strength(0.0, 60.0, (0.5, 2.0)),), "Eyring 1936"),
+)
+"""Forms for films, friction histories and tooth contacts, which are read contact by contact."""

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from mixedlub.validation.planted.kinds import GEAR, Concealed, Knob, strength
-from mixedlub.validation.rig import Contact
+from mixedlub.validation.contact import Contact
+from mixedlub.validation.rig import Form, Knob, strength
 
 
 def _torque_ratio(c: Contact) -> np.ndarray:
@@ -66,20 +66,16 @@ def tip_relief(c: Contact, strength: float) -> Contact:
 
 
 EFFECTS = (
-    Concealed(
+    Form(
         "dynamic_load",
-        "load",
         "load",
         dynamic_load,
         (strength(0.0, 5.0, (0.7, 1.6)), Knob("resonance_rpm", 600.0, 6000.0, (1200.0, 3000.0))),
         "one-degree-of-freedom mesh resonance",
-        0,
-        GEAR,
-        0.5,
+        rarity=0.5,
     ),
-    Concealed(
+    Form(
         "dynamic_load",
-        "load",
         "load",
         dynamic_load_of_two_orders,
         (
@@ -88,30 +84,22 @@ EFFECTS = (
             Knob("second", 0.0, 1.0, (0.3, 0.7)),
         ),
         "two orders of the transmission error, Ozguven and Houser 1988",
-        0,
-        GEAR,
-        0.5,
+        rarity=0.5,
     ),
-    Concealed(
+    Form(
         "misalignment",
-        "load",
         "load",
         misalignment,
         (strength(0.0, 8.0, (0.7, 2.0)),),
         "partial face contact closing with torque",
-        1,
-        GEAR,
-        0.5,
+        rarity=0.5,
     ),
-    Concealed(
+    Form(
         "tip_relief",
-        "load",
         "load",
         tip_relief,
         (strength(0.0, 3.0, (0.4, 1.2)),),
         "parabolic relief, load handed to the neighbour pair",
-        0,
-        GEAR,
-        0.5,
+        rarity=0.5,
     ),
 )

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from mixedlub.validation.planted.kinds import BOTH, GEAR, Concealed, Knob, strength
-from mixedlub.validation.rig import Contact
+from mixedlub.validation.contact import Contact
+from mixedlub.validation.rig import Form, Knob, strength
 
 
 def _rpm(c: Contact) -> np.ndarray:
@@ -16,8 +16,8 @@ def _rpm(c: Contact) -> np.ndarray:
 
 def _viscosity(c: Contact) -> np.ndarray:
     """Viscosity (Pa s) of the bath, which is as warm as recorded whatever the teeth are, one value a reading."""
-    told = (c.viscosity / c.rig.oil.viscosity_at(c.temperature))[:, 0]
-    return np.asarray(told * c.rig.oil.viscosity_at(c.rig.temperature))
+    factor = (c.viscosity / c.rig.oil.viscosity_at(c.temperature))[:, 0]
+    return np.asarray(factor * c.rig.oil.viscosity_at(c.rig.temperature))
 
 
 def _viscosity_mm2_s(c: Contact) -> np.ndarray:
@@ -36,7 +36,7 @@ def _added(c: Contact, more: np.ndarray) -> Contact:
 
 def _resisted(c: Contact, per_width: np.ndarray) -> Contact:
     """Adds a rolling force per width (N/m) on each surface: power on gears, part of the friction on discs."""
-    if c.rig.kind == "gear_pair":
+    if c.rig.is_mesh:
         power = per_width * c.rig.width * (c.rig.speed_1 + c.rig.speed_2)
         return _added(c, np.sum(np.broadcast_to(power, c.force.shape), axis=1) * c.rig.step)
     return _added(c, (per_width / c.line_load)[:, 0])
@@ -92,7 +92,7 @@ def churning(c: Contact, strength: float, speed_power: float, viscosity_power: f
 def churning_of_rim_and_faces(c: Contact, strength: float, rim: float) -> Contact:
     """Seetharaman and Kahraman: a film at the rim, n^2 nu, and turbulent layers at the faces, n^2.86 nu^0.14.
 
-    12 W strength at 1500 rpm and 15 mm2/s, ``rim`` of it at the rim; both go with the density.
+    12 W strength at 1500 rpm and 15 mm2/s, ``rim`` of it at the rim; both are proportional to the density.
     """
     n, nu = _rpm(c) / 1500, _viscosity_mm2_s(c) / 15
     return _added(c, 12 * strength * _heavy(c) * (rim * n**2 * nu + (1 - rim) * n**2.86 * nu**0.14))
@@ -142,30 +142,11 @@ def seal_drag(c: Contact, strength: float) -> Contact:
 
 
 EFFECTS = (
-    Concealed(
-        "rolling_resistance",
-        "loss",
-        "loss",
-        rolling_resistance,
-        (strength(0.0, 8.0),),
-        "Goksem and Hargreaves 1978",
-        1,
-        BOTH,
-    ),
-    Concealed("windage", "loss", "loss", windage, (strength(0.0, 200.0),), "Dawson 1984", 1, GEAR, within=True),
-    Concealed(
-        "windage",
-        "loss",
-        "loss",
-        windage_in_mist,
-        (strength(0.0, 200.0),),
-        "Anderson and Loewenthal 1980",
-        1,
-        GEAR,
-    ),
-    Concealed(
+    Form("rolling_resistance", "loss", rolling_resistance, (strength(0.0, 8.0),), "Goksem and Hargreaves 1978"),
+    Form("windage", "loss", windage, (strength(0.0, 200.0),), "Dawson 1984", within=True),
+    Form("windage", "loss", windage_in_mist, (strength(0.0, 200.0),), "Anderson and Loewenthal 1980"),
+    Form(
         "churning",
-        "loss",
         "loss",
         churning,
         (
@@ -174,62 +155,45 @@ EFFECTS = (
             Knob("viscosity_power", 0.05, 0.4, (0.08, 0.3)),
         ),
         "power-law fit of dip tests",
-        1,
-        GEAR,
         within=True,
     ),
-    Concealed(
+    Form(
         "churning",
-        "loss",
         "loss",
         churning_of_rim_and_faces,
         (strength(0.0, 20.0), Knob("rim", 0.0, 1.0, (0.15, 0.5))),
         "Seetharaman and Kahraman 2009",
-        1,
-        GEAR,
     ),
-    Concealed(
+    Form(
         "churning",
-        "loss",
         "loss",
         churning_past_transition,
         (strength(0.0, 20.0), Knob("transition", 0.2, 20.0, (0.8, 3.0))),
         "discs in a housing, Daily and Nece 1960",
-        1,
-        GEAR,
     ),
-    Concealed(
+    Form(
         "bearing_drag",
-        "loss",
         "loss",
         bearing_drag,
         (strength(0.0, 20.0), Knob("sliding_share", 0.0, 2.0, (0.2, 0.8))),
         "SKF friction model form",
-        1,
-        GEAR,
     ),
-    Concealed("seal_drag", "loss", "loss", seal_drag, (strength(0.0, 20.0),), "Linke 1971", 1, GEAR),
-    Concealed(
+    Form("seal_drag", "loss", seal_drag, (strength(0.0, 20.0),), "Linke 1971"),
+    Form(
         "elastic_hysteresis",
-        "loss",
         "loss",
         elastic_hysteresis,
         (strength(0.0, 40.0, (0.8, 2.0)),),
         "elastic energy share",
-        1,
-        BOTH,
-        0.4,
+        rarity=0.4,
         within=True,
     ),
-    Concealed(
+    Form(
         "elastic_hysteresis",
-        "loss",
         "loss",
         elastic_damping,
         (strength(0.0, 40.0, (0.8, 2.0)), Knob("power", 2.0, 3.0, (2.3, 3.0))),
         "Lazan 1968",
-        1,
-        BOTH,
-        0.4,
+        rarity=0.4,
     ),
 )

@@ -1,18 +1,19 @@
-"""Faults of the instrument: the recorded value is not what the rig did."""
+"""Instrument faults: the recorded value differs from what the rig did."""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from mixedlub.validation.planted.kinds import GEAR, Concealed, Knob, strength
-from mixedlub.validation.rig import Contact
+from mixedlub.validation.contact import Contact
+from mixedlub.validation.rig import Form, Knob, strength
 
 
 def _scale(c: Contact) -> float:
-    """A usual size of the quantity: 5 W of power loss or 0.002 of friction."""
-    return 5.0 if c.rig.kind == "gear_pair" else 0.002
+    """A common size of the quantity: 5 W of power loss or 0.002 of friction."""
+    return 5.0 if c.rig.is_mesh else 0.002
 
 
 def heat_leak(c: Contact, strength: float, conductance: float) -> Contact:
@@ -22,7 +23,7 @@ def heat_leak(c: Contact, strength: float, conductance: float) -> Contact:
 
 
 def heat_leak_by_convection(c: Contact, strength: float, conductance: float) -> Contact:
-    """Walls cooled by free convection, whose film coefficient goes with the 0.25th power: G 40 K (T/40 K)^1.25."""
+    """Walls cooled by free convection, whose film coefficient is of the 0.25th power: G 40 K (T/40 K)^1.25."""
     over = np.clip(c.rig.temperature - c.rig.extras["ambient"], 0.0, None) / 40.0
     return replace(c, recorded=c.recorded * (1 - 0.05 * strength) - strength * conductance * 40.0 * over**1.25)
 
@@ -48,8 +49,8 @@ def crept(sequence: np.ndarray, onset: float) -> np.ndarray:
     """Creep with the logarithm of time, from 0 to 1 over the programme: ln(1 + q/onset)/ln(1 + 1/onset).
 
     Phillips, Phil. Mag. 9 (1905) 513, and Cottrell 1953 for metals under an even load, cold (below some 0.3 of their
-    melting point) and little strained; load cells and bonded strain gauges creep alike within a test. Cited from
-    memory; the ``onset``, a share of the programme, is a usual size.
+    melting point) and little strained; load cells and bonded strain gauges creep in the same way within a test. Cited
+    from memory; the ``onset``, a share of the programme, is a common size.
 
     >>> [round(float(done), 3) for done in crept(np.array([0.0, 0.1, 1.0]), 0.01)]
     [0.0, 0.52, 1.0]
@@ -88,88 +89,126 @@ def torque_offset(c: Contact, strength: float) -> Contact:
 
 
 EFFECTS = (
-    Concealed(
+    Form(
         "heat_leak",
-        "measurement",
         "sensor",
         heat_leak,
         (strength(0.0, 8.0), Knob("conductance", 0.0, 0.6, (0.02, 0.15))),
         "calorimetric balance",
-        -1,
-        GEAR,
         within=True,
     ),
-    Concealed(
+    Form(
         "heat_leak",
-        "measurement",
         "sensor",
         heat_leak_by_convection,
         (strength(0.0, 8.0), Knob("conductance", 0.0, 0.6, (0.02, 0.15))),
         "calorimetric balance, free convection after McAdams 1954",
-        -1,
-        GEAR,
     ),
-    Concealed(
-        "sensor_offset",
-        "measurement",
-        "sensor",
-        sensor_offset,
-        (strength(-8.0, 8.0),),
-        "instrument zero",
-        0,
-        within=True,
-    ),
-    Concealed(
-        "sensor_gain", "measurement", "sensor", sensor_gain, (strength(-4.0, 6.0),), "instrument span", 0, within=True
-    ),
-    Concealed(
+    Form("sensor_offset", "sensor", sensor_offset, (strength(-8.0, 8.0),), "instrument zero", within=True),
+    Form("sensor_gain", "sensor", sensor_gain, (strength(-4.0, 6.0),), "instrument span", within=True),
+    Form("sensor_drift", "sensor", sensor_drift, (strength(-6.0, 8.0),), "instrument drift", within=True),
+    Form(
         "sensor_drift",
-        "measurement",
-        "sensor",
-        sensor_drift,
-        (strength(-6.0, 8.0),),
-        "instrument drift",
-        0,
-        within=True,
-    ),
-    Concealed(
-        "sensor_drift",
-        "measurement",
         "sensor",
         sensor_warming,
         (strength(-6.0, 8.0), Knob("pace", 0.7, 5.0, (1.0, 3.0))),
         "warming amplifier",
-        0,
         within=True,
     ),
-    Concealed(
+    Form(
         "sensor_drift",
-        "measurement",
         "sensor",
         sensor_creep,
         (strength(-6.0, 8.0), Knob("onset", 0.001, 0.2, (0.003, 0.05))),
         "logarithmic creep of a load cell",
-        0,
     ),
-    Concealed(
-        "sensor_drift",
-        "measurement",
-        "sensor",
-        sensor_soaking,
-        (strength(-6.0, 8.0),),
-        "heat or moisture that diffuses in",
-        0,
-    ),
-    Concealed(
-        "torque_offset",
-        "measurement",
-        "sensor",
-        torque_offset,
-        (strength(-8.0, 8.0),),
-        "torque meter zero",
-        0,
-        GEAR,
-        0.7,
-        within=True,
+    Form("sensor_drift", "sensor", sensor_soaking, (strength(-6.0, 8.0),), "heat or moisture that diffuses in"),
+    Form(
+        "torque_offset", "sensor", torque_offset, (strength(-8.0, 8.0),), "torque meter zero", rarity=0.7, within=True
     ),
 )
+
+
+def _usual(values: np.ndarray) -> float:
+    return float(np.median(np.abs(values)))
+
+
+def channel(sequence: np.ndarray, zero: bool, gain: bool, drifting_zero: bool) -> tuple[Form, ...]:
+    """Faults of any channel: a wrong zero, a wrong span, a creeping span, and where so a creeping zero."""
+
+    def sensor_offset(state: Any, strength: float) -> Any:
+        return replace(state, recorded=state.recorded + 0.05 * strength * _usual(state.recorded))
+
+    def sensor_gain(state: Any, strength: float) -> Any:
+        return replace(state, recorded=state.recorded * (1 + 0.1 * strength))
+
+    def steady(state: Any, strength: float) -> Any:
+        return replace(state, recorded=state.recorded * (1 + 0.1 * strength * sequence))
+
+    def settling(state: Any, strength: float, pace: float) -> Any:
+        return replace(state, recorded=state.recorded * (1 + 0.1 * strength * warmed_up(sequence, pace)))
+
+    def logarithmic(state: Any, strength: float, onset: float) -> Any:
+        return replace(state, recorded=state.recorded * (1 + 0.1 * strength * crept(sequence, onset)))
+
+    def soaking(state: Any, strength: float) -> Any:
+        return replace(state, recorded=state.recorded * (1 + 0.1 * strength * diffused(sequence)))
+
+    def zero_drift(state: Any, strength: float) -> Any:
+        return replace(state, recorded=state.recorded + 0.1 * strength * _usual(state.recorded) * sequence)
+
+    def zero_settling(state: Any, strength: float, pace: float) -> Any:
+        more = 0.1 * strength * _usual(state.recorded) * warmed_up(sequence, pace)
+        return replace(state, recorded=state.recorded + more)
+
+    either, share = strength(-8.0, 8.0), strength(-4.0, 4.0)
+    found = []
+    if zero:
+        found.append(Form("sensor_offset", "sensor", sensor_offset, (either,), "instrument zero", within=True))
+    if gain:
+        found.append(Form("sensor_gain", "sensor", sensor_gain, (share,), "instrument span", rarity=0.5, within=True))
+    if len(np.unique(sequence)) > 1:
+        slow, early = Knob("pace", 0.7, 5.0, (1.0, 3.0)), Knob("onset", 0.001, 0.2, (0.003, 0.05))
+        found.append(Form("sensor_drift", "sensor", steady, (share,), "linear drift", within=True))
+        found.append(Form("sensor_drift", "sensor", settling, (share, slow), "warming amplifier", within=True))
+        found.append(Form("sensor_drift", "sensor", logarithmic, (share, early), "logarithmic creep of a load cell"))
+        found.append(Form("sensor_drift", "sensor", soaking, (share,), "heat or moisture that diffuses in"))
+        if drifting_zero:
+            found.append(Form("zero_drift", "sensor", zero_drift, (share,), "linear drift of the zero", within=True))
+            found.append(Form("zero_drift", "sensor", zero_settling, (share, slow), "warming amplifier"))
+    return tuple(found)
+
+
+def zero_of_force(recorded: np.ndarray, load: np.ndarray) -> np.ndarray:
+    """Error of a friction coefficient whose force is off by 0.5 % of the largest friction force, over the load."""
+    return np.asarray(0.005 * _usual(recorded) * np.max(np.abs(load)) / np.abs(load))
+
+
+def force_cell(load: np.ndarray, sequence: np.ndarray) -> tuple[Form, ...]:
+    """Faults of the cell that reads a friction force, where a friction coefficient is that force over a load.
+
+    A residual zero and a zero that moves from before the test to after it are specified in ISO 376; a zero that follows
+    the temperature of the cell, which takes on that of the rig, is in OIML R 60.
+    """
+    if np.ptp(load) == 0:
+        return ()
+
+    def off(state: Any, share: np.ndarray | float) -> Any:
+        return replace(state, recorded=state.recorded + share * zero_of_force(state.recorded, load))
+
+    def unzeroed(state: Any, strength: float) -> Any:
+        return off(state, strength)
+
+    def creeping(state: Any, strength: float) -> Any:
+        return off(state, 2 * strength * sequence)
+
+    def warming(state: Any, strength: float, pace: float) -> Any:
+        return off(state, 2 * strength * warmed_up(sequence, pace))
+
+    either = strength(-8.0, 8.0)
+    pace = Knob("pace", 0.1, 5.0, (0.15, 2.0))
+    return (
+        Form("force_offset", "sensor", unzeroed, (either,), "zero of a force cell, ISO 376", within=True),
+        Form("force_drift", "sensor", creeping, (either,), "linear drift of a force cell, ISO 376", within=True),
+        Form("force_drift", "sensor", warming, (either, pace), "warming force cell, OIML R 60"),
+    )

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from mixedlub.validation.planted.kinds import GEAR, Concealed, Knob, strength
-from mixedlub.validation.rig import Contact, lubricate, mix, record, shear, sheared, thick, touch
+from mixedlub.validation.contact import Contact, lubricate, mix, record_power, shear, sheared, thick, touch
+from mixedlub.validation.rig import Form, Knob, strength
 
 SWEEPS = 5
 
@@ -46,7 +46,7 @@ def _heated_by_mesh(c: Contact, rise_at: Callable[[np.ndarray], np.ndarray]) -> 
     """
     warm = c
     for _ in range(SWEEPS):
-        loss = record(mix(shear(touch(lubricate(warm))))).recorded
+        loss = record_power(mix(shear(touch(lubricate(warm))))).recorded
         warm = warmed(c, rise_at(loss)[:, None])
     return warm
 
@@ -64,7 +64,7 @@ def bulk_temperature_by_convection(c: Contact, strength: float) -> Contact:
     """The mesh heats both wheels, oil mist cools rims and faces: strength P/(h A), h = 700 W/(m2 K) (v/10 m/s)^0.5.
 
     A laminar layer on a turning disc takes heat as the root of its speed, here that of the pitch line; the size of
-    h is a usual one, not published.
+    h is a common one, not published.
     """
     diameters = np.array([c.rig.extras["pitch_diameter"], c.rig.extras["wheel_diameter"]])
     area = np.pi * np.sum(diameters * c.rig.width + 0.5 * diameters**2)
@@ -73,44 +73,28 @@ def bulk_temperature_by_convection(c: Contact, strength: float) -> Contact:
 
 
 EFFECTS = (
-    Concealed(
+    Form(
         "pressure_viscosity_law",
-        "property",
         "shear",
         pressure_viscosity_law,
         (strength(0.0, 1.5, (0.8, 1.1)), Knob("stiffening", 0.1, 1.2, (0.2, 0.7))),
         "modulus equation (Bode 1989)",
-        0,
         rarity=0.6,
     ),
-    Concealed(
+    Form(
         "viscosity_drift",
-        "property",
         "oil",
         viscosity_drift,
         (strength(-4.0, 4.0, (0.7, 1.8)),),
         "accelerating oxidation",
-        0,
         rarity=0.6,
     ),
-    Concealed(
+    Form("bulk_temperature", "surface", bulk_temperature, (strength(0.0, 3.0),), "ISO/TR 15144-1"),
+    Form(
         "bulk_temperature",
-        "property",
-        "surface",
-        bulk_temperature,
-        (strength(0.0, 3.0),),
-        "ISO/TR 15144-1",
-        0,
-        GEAR,
-    ),
-    Concealed(
-        "bulk_temperature",
-        "property",
         "surface",
         bulk_temperature_by_convection,
         (strength(0.0, 3.0),),
         "heat balance of a mesh cooled by convection",
-        0,
-        GEAR,
     ),
 )

@@ -7,16 +7,16 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.validation.planted.kinds import DISC, GEAR, Concealed, Knob, strength
-from mixedlub.validation.rig import Contact
+from mixedlub.validation.contact import Contact
+from mixedlub.validation.rig import Form, Knob, strength
 
-SPEED = {"gear_pair": "speed_rpm", "disc": "entrainment_speed_m_s"}
-LOAD = {"gear_pair": "torque_Nm", "disc": "load_N"}
+SPEED, LOAD = ("speed_rpm", "entrainment_speed_m_s"), ("torque_Nm", "load_N")
+"""Conditions of gears, and of other contacts."""
 
 
-def _place(c: Contact, names: dict[str, str]) -> np.ndarray:
+def _place(c: Contact, names: tuple[str, str]) -> np.ndarray:
     """Where each reading lies between the smallest (0) and the largest (1) of a condition, on a log scale."""
-    values = np.log(c.rig.conditions[names[c.rig.kind]].astype(float))
+    values = np.log(c.rig.conditions[names[not c.rig.is_mesh]].astype(float))
     return np.asarray((values - values.min()) / max(values.max() - values.min(), 1e-9))
 
 
@@ -82,8 +82,8 @@ def square_law_brake(c: Contact, strength: float) -> Contact:
     return replace(c, recorded=c.recorded + 8 * strength * torque**2 / speed)
 
 
-def _outside(name: str, hook: str, law: Any, *knobs: Knob, **more: Any) -> Concealed:
-    return Concealed(name, "unknown", hook, law, (strength(-4.0, 8.0), *knobs), "constructed", 0, **more)
+def _outside(name: str, hook: str, law: Any, *knobs: Knob, rarity: float = 1.0) -> Form:
+    return Form(name, hook, law, (strength(-4.0, 8.0), *knobs), "constructed", rarity=rarity)
 
 
 EFFECTS = (
@@ -102,10 +102,9 @@ EFFECTS = (
         "friction",
         odd_slip_power,
         Knob("exponent", 1.5, 3.5, (2.0, 3.0)),
-        kinds=DISC,
     ),
     _outside("speed_ripple", "friction", speed_ripple, Knob("waves", 0.8, 2.0, (1.0, 1.6))),
-    _outside("square_law_brake", "loss", square_law_brake, kinds=GEAR),
+    _outside("square_law_brake", "loss", square_law_brake),
     _outside("cold_light_drag", "friction", cold_light_drag, rarity=0.7),
     _outside("slow_excess", "friction", slow_excess, rarity=0.7),
 )

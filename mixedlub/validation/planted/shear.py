@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from mixedlub.validation.planted.kinds import DISC, Concealed, Knob, strength
-from mixedlub.validation.rig import KELVIN, ROELANDS_PRESSURE, Contact
+from mixedlub.validation.contact import KELVIN, ROELANDS_PRESSURE, Contact
+from mixedlub.validation.rig import Form, Knob, strength
 
 SWEEPS = 9
 
@@ -100,65 +100,37 @@ def contact_creep_polach(c: Contact, strength: float) -> Contact:
 
 
 EFFECTS = (
-    Concealed(
-        "film_heating",
-        "shear",
-        "shear",
-        film_heating,
-        (strength(0.0, 4.0, (0.5, 1.2)),),
-        "Crook 1961, Archard 1959",
-        -1,
-    ),
-    Concealed(
+    Form("film_heating", "shear", film_heating, (strength(0.0, 4.0, (0.5, 1.2)),), "Crook 1961, Archard 1959"),
+    Form(
         "limiting_shear_stress",
-        "shear",
         "shear",
         limiting_shear_stress,
         (strength(0.0, 3.0, (0.6, 1.3)),),
         "Bair and Winer 1979",
-        -1,
     ),
-    Concealed(
+    Form(
         "limiting_shear_stress",
-        "shear",
         "shear",
         limiting_stress_in_hot_oil,
         (strength(0.0, 3.0, (0.6, 1.3)), Knob("fall", 0.0, 0.006, (0.002, 0.006))),
         "Gecim and Winer 1980, falling with temperature",
-        -1,
     ),
-    Concealed(
+    Form(
         "coating_insulation",
-        "shear",
         "shear",
         coating_insulation,
         (strength(0.0, 6.0, (0.7, 1.5)),),
         "series resistance with thermal lag",
-        -1,
-        possible=lambda rig: rig.coating_resistance > 0,
         rarity=0.6,
     ),
-    Concealed(
+    Form(
         "contact_creep",
-        "shear",
         "shear",
         contact_creep,
         (strength(0.0, 12.0, (1.0, 4.0)),),
         "exponential creep law of rolling contact",
-        -1,
-        DISC,
         rarity=0.5,
         within=True,
     ),
-    Concealed(
-        "contact_creep",
-        "shear",
-        "shear",
-        contact_creep_polach,
-        (strength(0.0, 12.0, (1.0, 4.0)),),
-        "Polach 2005",
-        -1,
-        DISC,
-        rarity=0.5,
-    ),
+    Form("contact_creep", "shear", contact_creep_polach, (strength(0.0, 12.0, (1.0, 4.0)),), "Polach 2005", rarity=0.5),
 )

@@ -1,7 +1,116 @@
-"""Blind cases of the kinds that are no gear pair and no pair of discs: one room a kind, each its own generator.
+"""The kinds of rig that a battery can hold, one module a kind, and in what shares their cases are dealt.
 
-A room draws benches (what a rig is, in which conditions it is read, what calibration may move) and carries
-the effects that can be at work there, most of them in several published forms of which one is drawn. Base
-models are written out from the contract's formulas; nothing of the forward model, its laws or its effects
-is used. A third of the films have an oil that nobody names and keep to another film law than the base model's.
+A module draws rigs: what a rig is, at which conditions it is read, what calibration may move, and which effects can be
+at work there, most of them in several published forms of which one is drawn.
 """
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mixedlub.validation.planted import FORMS, MEASUREMENT
+from mixedlub.validation.rig import Rig
+from mixedlub.validation.rigs import discs, drives, films, gears, histories, tooth_contacts, viscosities
+
+Partners = tuple[str, tuple[str, ...], float]
+"""An effect, those of which one is planted with it, and the weight of such a pair."""
+
+
+@dataclass(frozen=True)
+class Kind:
+    """How rigs of a kind are drawn, and which effects are planted in pairs.
+
+    ``draw_without_data_sheet`` draws a rig whose oil has no data sheet, on which the effects of ``needs_data_sheet``
+    cannot be seen.
+    """
+
+    draw: Callable[[np.random.Generator], Rig]
+    pairs: tuple[Partners, ...]
+    draw_without_data_sheet: Callable[[np.random.Generator], Rig] | None = None
+    needs_data_sheet: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True)
+class Family:
+    """Kinds that are dealt from one deck of effects, and the shares of their cases.
+
+    ``classes`` are the shares of the classes, ``outliers`` by class that of cases with outliers, ``small`` that of
+    cases with few readings, ``mis_set`` that of cases with nothing missing whose whole calibration is one to two
+    prior standard deviations off, ``sd_column`` that of cases whose noise has a column of its own. ``noise`` are
+    the bounds of the noise (percent), ``noise_alone`` those where nothing is missing. ``scattered`` are the bounds
+    of the share of readings that is withheld at random; in a share ``blocks`` of the cases a whole level of a
+    condition with at least ``levels`` levels is withheld too, an inner one or (``ends``) any. All shares are
+    judgement: enough cases for each figure of the score.
+    """
+
+    kinds: tuple[str, ...]
+    classes: dict[str, float]
+    outliers: dict[str, float]
+    small: float = 0.0
+    mis_set: float = 0.5
+    sd_column: float = 0.15
+    noise: tuple[float, float] = (0.3, 5.0)
+    noise_alone: tuple[float, float] = (0.3, 5.0)
+    scattered: tuple[float, float] = (0.05, 0.12)
+    blocks: float = 0.6
+    levels: int = 4
+    ends: bool = False
+
+
+def _fixed(pairs: Sequence[tuple[str, str]]) -> tuple[Partners, ...]:
+    return tuple((first, (second,), 1.0) for first, second in pairs)
+
+
+def _of_other_stages(absent: Sequence[str]) -> tuple[Partners, ...]:
+    """Every physical effect with any effect that acts after another stage."""
+    first = {name: forms[0] for name, forms in FORMS.items() if name not in absent}
+    return tuple(
+        (name, tuple(other for other in first if first[other].hook != form.hook), form.rarity)
+        for name, form in first.items()
+        if name not in MEASUREMENT
+    )
+
+
+KINDS: dict[str, Kind] = {
+    "gear_pair": Kind(gears.draw, _of_other_stages(gears.NOT_HERE)),
+    "disc": Kind(discs.draw, _of_other_stages(discs.NOT_HERE)),
+    "film": Kind(films.draw, _fixed(films.PAIRS), films.draw_without_data_sheet, films.NEEDS_DATA_SHEET),
+    "friction_history": Kind(histories.draw, _fixed(histories.PAIRS)),
+    "friction_map": Kind(drives.draw, _fixed(drives.PAIRS)),
+    "viscosity": Kind(viscosities.draw, _fixed(viscosities.PAIRS)),
+    "mesh_friction": Kind(tooth_contacts.draw, _fixed(tooth_contacts.PAIRS)),
+}
+CLASSES = ("none", "single", "pair", "measurement", "unknown")
+CONTACTS = ("gear_pair", "disc")
+OTHERS = tuple(kind for kind in KINDS if kind not in CONTACTS)
+FAMILIES = (
+    Family(
+        CONTACTS,
+        classes=dict(zip(CLASSES, (0.16, 0.44, 0.13, 0.11, 0.16))),
+        outliers=dict(zip(CLASSES, (0.5, 0.2, 0.1, 0.2, 0.15))),
+        small=0.12,
+        mis_set=0.0,
+        sd_column=0.0,
+        noise=(0.35, 5.0),
+        noise_alone=(0.4, 4.0),
+        scattered=(0.06, 0.14),
+        blocks=0.8,
+        levels=3,
+        ends=True,
+    ),
+    *(
+        Family(
+            (kind,),
+            classes=dict(zip(CLASSES, (0.175, 0.40, 0.10, 0.15, 0.175))),
+            outliers=dict(zip(CLASSES, (0.5, 0.15, 0.0, 0.15, 0.1))),
+        )
+        for kind in OTHERS
+    ),
+)
+
+
+def family_of(kind: str) -> Family:
+    return next(family for family in FAMILIES if kind in family.kinds)

@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from mixedlub.validation.build import PRIORS, Case, gears_of, rig_of
-from mixedlub.validation.design import draw_gear
-from mixedlub.validation.explain import calibrated
-from mixedlub.validation.involute import path_of_contact
-from mixedlub.validation.planted import FORMS, OUTSIDE
-from mixedlub.validation.planted.kinds import Knob, strength
-from mixedlub.validation.rig import Calibration, Contact, Rig, start
-from mixedlub.validation.rigs import cooling
-from mixedlub.validation.rigs.point import FILM_FORMS, TOOTH_FRICTION
-from mixedlub.validation.rigs.stage import Act, Bench, Form, borrowed, channel, play, progress, repeated, rounded
+from mixedlub.validation.contact import PRIORS, Contact, Inputs, contact_model, contact_theta, friction_chain
+from mixedlub.validation.planted import FORMS, OUTSIDE, viscosity_temperature
+from mixedlub.validation.planted.film import OF_LOCAL_CONTACTS
+from mixedlub.validation.planted.measurement import channel
+from mixedlub.validation.rig import Case, Form, Knob, Rig, strength
+from mixedlub.validation.rigs import gears
+from mixedlub.validation.sample_rig import programme
 
 PAIRS = (
     ("film_heating", "sensor_offset"),
@@ -45,12 +41,14 @@ LOCAL = (
     "viscosity_drift",
 )
 
+FRICTION = friction_chain()
 
-def at_angles(case: Case, angles: np.ndarray) -> Rig:
+
+def at_angles(case: Case, angles: np.ndarray) -> Inputs:
     """The rig of a gear pair with one contact a reading: readings by 1."""
-    path = path_of_contact(gears_of(case.settings))
+    path = gears.path_of_contact(gears.gears_of(case.settings))
     levels, place = np.unique(angles, return_inverse=True)
-    whole = rig_of(case, positions=np.radians(levels) * path.base_radius[0])
+    whole = gears.inputs_of(case, positions=np.radians(levels) * path.base_radius[0])
     rows = np.arange(len(angles))
 
     def own(values: np.ndarray) -> np.ndarray:
@@ -67,7 +65,7 @@ def at_angles(case: Case, angles: np.ndarray) -> Rig:
     )
 
 
-def _outside(rig: Rig, angles: np.ndarray) -> tuple[Form, ...]:
+def _outside(rig: Inputs, angles: np.ndarray) -> tuple[Form, ...]:
     path = np.ptp(angles)
     place = ((angles - angles.min()) / path)[:, None]
     approaching = (rig.speed_1 < rig.speed_2).astype(float)
@@ -90,7 +88,7 @@ def _outside(rig: Rig, angles: np.ndarray) -> tuple[Form, ...]:
         chosen.append("pair_chemistry")
     if len(np.unique(rig.conditions["speed_rpm"])) > 3:
         chosen += ["speed_band", "speed_ripple"]
-    return (*forms, *(borrowed(OUTSIDE[name]) for name in chosen))
+    return (*forms, *(OUTSIDE[name] for name in chosen))
 
 
 def _programme(rng: np.random.Generator, case: Case, angles: np.ndarray) -> dict[str, np.ndarray]:
@@ -111,17 +109,14 @@ def _programme(rng: np.random.Generator, case: Case, angles: np.ndarray) -> dict
     if len(rows) < 40:
         rows = rows * 2
     names = ("pinion_surface", "gear_surface", "torque_Nm", "speed_rpm", "oil_temperature_C", "roll_angle_deg")
-    table = {
-        name: np.array(column, dtype=object if "surface" in name else float) for name, column in zip(names, zip(*rows))
-    }
-    return {**repeated(table, 1), "sequence": progress(len(rows))}
+    return programme(names, rows)
 
 
-def draw(rng: np.random.Generator) -> Bench:
+def draw(rng: np.random.Generator) -> Rig:
     """A gear pair, a few pairings, torques, speeds and temperatures, 8 to 16 roll angles."""
     coated = rng.random() < 0.2
-    case = draw_gear(rng, coated)
-    path = path_of_contact(gears_of(case.settings))
+    case = gears.draw_case(rng, coated)
+    path = gears.path_of_contact(gears.gears_of(case.settings))
     ends = np.degrees(np.array([path.start, path.end]) / path.base_radius[0])
     inside = 0.02 * np.ptp(ends)
     angles = np.round(np.linspace(ends[0] + inside, ends[1] - inside, int(rng.integers(8, 17))), 3)
@@ -133,30 +128,20 @@ def draw(rng: np.random.Generator) -> Bench:
         "recording": {"quantity": "friction_coefficient"},
     }
     layers = any("coating" in surface for surface in settings["surfaces"].values())
-    case = Case(settings, columns, case.share)
-    rig = at_angles(case, columns["roll_angle_deg"])
-    nominal = Calibration(boundary_friction=rounded(settings["boundary_friction"]))
-    priors = case.priors
-
-    def fixed(z: np.ndarray) -> Calibration:
-        return calibrated(nominal, priors, z)
-
-    def model(z: np.ndarray, acts: Sequence[Act]) -> np.ndarray:
-        return np.asarray(play(TOOTH_FRICTION, start(rig, fixed(z)), acts).recorded)
-
+    case = Case(settings=settings, columns=columns, share=case.share)
+    inputs = at_angles(case, columns["roll_angle_deg"])
     shown = [name for name in LOCAL if layers or name != "coating_insulation"]
-    usable = tuple(borrowed(form) for name in shown for form in FORMS[name])
-    return Bench(
-        kind="mesh_friction",
+    usable = tuple(form for name in shown for form in FORMS[name])
+    return Rig(
         settings={**settings, "kind": "mesh_friction"},
         columns=columns,
         names=PRIORS,
-        model=model,
-        theta=lambda z: {
-            "boundary_friction": fixed(z).boundary_friction,
-            **{f"{name}_scale": getattr(fixed(z), name) for name in PRIORS[1:]},
-        },
-        forms=FILM_FORMS + usable + cooling.of_contacts(rig) + channel(columns["sequence"], True, True, False),
-        outside=_outside(rig, columns["roll_angle_deg"]),
+        model=contact_model(settings, lambda: inputs, FRICTION),
+        theta=contact_theta(settings),
+        forms=OF_LOCAL_CONTACTS
+        + usable
+        + viscosity_temperature.of_contacts(inputs)
+        + channel(columns["sequence"], True, True, False),
+        outside=_outside(inputs, columns["roll_angle_deg"]),
         share=case.share,
     )

@@ -1,4 +1,4 @@
-"""The proof's own base model against numbers from outside it."""
+"""The validation's own base models against numbers from outside them."""
 
 import json
 from dataclasses import replace
@@ -6,24 +6,29 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mixedlub.validation.build import read_case, rig_of, share_at
-from mixedlub.validation.involute import Gears, path_of_contact
-from mixedlub.validation.rig import (
+from mixedlub.validation.case_folder import read_case
+from mixedlub.validation.contact import (
     Calibration,
     Contact,
+    Inputs,
     Oil,
-    Rig,
     Solid,
     lubricate,
     mix,
+    oil_of,
     overlap,
     press,
-    readings,
     shear,
     start,
     summits,
     touch,
 )
+from mixedlub.validation.rig import Case
+from mixedlub.validation.rigs import discs, films, gears, tooth_contacts, viscosities
+from mixedlub.validation.rigs.drives import Drive, gaussian
+from mixedlub.validation.rigs.gears import Gears, path_of_contact, share_at
+
+from .helpers import readings
 
 CASES = [f"case_{number:03d}" for number in range(8)]
 
@@ -40,7 +45,7 @@ def test_literature_nominal_values_of_the_practice_cases(shared, name, table):
     case = read_case(shared / "cases" / name, table)
     _, told = _told(shared, name)
     expected = [told["nominal"][run] for run in case.columns["run"]]
-    np.testing.assert_allclose(readings(rig_of(case), case.nominal), expected, rtol=5e-4)
+    np.testing.assert_allclose(readings(inputs_of(case)), expected, rtol=5e-4)
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -49,7 +54,11 @@ def test_literature_base_values_at_the_calibration_that_was_drawn(shared, name):
     truth, told = _told(shared, name)
     theta = {key.removesuffix("_scale"): value for key, value in truth["theta"].items()}
     expected = [told["base"][run] for run in case.columns["run"]]
-    np.testing.assert_allclose(readings(rig_of(case), Calibration(**theta)), expected, rtol=5e-4)
+    np.testing.assert_allclose(readings(inputs_of(case), Calibration(**theta)), expected, rtol=5e-4)
+
+
+def inputs_of(case):
+    return (gears if case.kind == "gear_pair" else discs).inputs_of(case)
 
 
 def _reference_points() -> Contact:
@@ -59,8 +68,7 @@ def _reference_points() -> Contact:
     path = path_of_contact(Gears((17, 26), module, np.radians(22.5), tips, 14e-3))
     x = np.array([path.pitch, path.high_single, path.end])
     pinion = 1500 * np.pi / 30
-    rig = Rig(
-        kind="gear_pair",
+    inputs = Inputs(
         oil=Oil((40.0, 100.0), (30e-6, 6e-6), (18e-9, 13e-9)),
         solid=Solid(),
         radius=(x * (path.tangent_length - x) / path.tangent_length)[None, :],
@@ -68,14 +76,13 @@ def _reference_points() -> Contact:
         speed_2=(pinion * 17 / 26 * (path.tangent_length - x))[None, :],
         share_force=np.array([[1.0, 1.0, 0.5]]) * 100 / path.base_radius[0],
         width=14e-3,
-        step=1.0,
         temperature=np.array([60.0]),
         moments=np.array([[(0.321**2 + 0.374**2) * 1e-12, 0.005, 7.2e9]]),
         sequence=np.zeros(1),
         conditions={},
     )
     oil = {"viscosity": np.array([[0.01489]]), "pressure_viscosity": np.array([[14.81e-9]])}
-    return press(replace(start(rig, Calibration()), **oil))
+    return press(replace(start(inputs, Calibration()), **oil))
 
 
 @pytest.mark.parametrize(
@@ -131,3 +138,61 @@ def test_nearest_torque_of_a_load_share_table():
     rows = np.array([[50.0, 0.0, 0.2], [50.0, 90.0, 0.2], [100.0, 0.0, 0.8], [100.0, 90.0, 0.8]])
     share = share_at(path, rows, np.array([60.0, 120.0]), np.array([path.pitch]))
     np.testing.assert_allclose(share[:, 0], [0.2, 0.8])
+
+
+def test_film_of_a_steel_ball_on_glass_is_hamrock_and_dowson():
+    """2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 e^(-0.73 k)) by hand, at the first reading."""
+    rig = films.draw(np.random.default_rng(4))
+    table, columns = rig.settings, rig.columns
+    oil, celsius = oil_of(table), columns["oil_temperature_C"][0]
+    bodies = zip(table["contact"]["poisson_ratio"], table["contact"]["youngs_modulus_GPa"])
+    modulus = 2e9 / sum((1 - v**2) / e for v, e in bodies)
+    radius = 1e-3 * table["contact"]["radius_mm"][0]
+    speed = oil.viscosity_at(celsius) * columns["entrainment_speed_m_s"][0] / (modulus * radius)
+    load = columns["load_N"][0] / (modulus * radius**2)
+    film_m = 2.69 * radius * speed**0.67 * (oil.pressure_viscosity_at(celsius) * modulus) ** 0.53 * load**-0.067
+    expected = 1e9 * film_m * (1 - 0.61 * np.exp(-0.73 * 1.03))
+    assert rig.model(np.zeros(len(rig.names)), ())[0] == pytest.approx(expected)
+
+
+def test_unnamed_sample_keeps_to_astm_d341_and_barus():
+    """log10 log10(nu + 0.7) is straight in log10 T but for the bow, and ln eta straight in pressure."""
+    rng = np.random.default_rng(1)
+    riges = [viscosities.draw(rng) for _ in range(30)]
+    rig = next(b for b in riges if len(b.names) == 5 and len(np.unique(b.columns["temperature_C"])) > 2)
+    eta = rig.model(np.array([1.0, -1.5, 0.0, 1.0, 2.0]), ())
+    celsius, pressure = rig.columns["temperature_C"], rig.columns["pressure_MPa"]
+    doubled, slopes = [], []
+    for level in np.unique(celsius):
+        slope, start = np.polyfit(pressure[celsius == level], np.log(eta[celsius == level]), 1)
+        left = np.log(eta[celsius == level]) - start - slope * pressure[celsius == level]
+        assert np.abs(left).max() < 1e-9
+        slopes.append(slope)
+        doubled.append(np.exp(start))
+    levels = np.unique(celsius)
+    assert np.abs(np.diff(np.diff(slopes) / np.diff(levels))).max() < 1e-9
+    fitted = []
+    for density in (832.0, 865.0, 950.0):
+        fall = 8e-4 if density == 950.0 else 7e-4
+        nu = 1e3 * np.array(doubled) / (density * (1 - fall * (levels - 15)))
+        line = np.log10(np.log10(nu + 0.7))
+        fitted.append(np.abs(np.diff(np.diff(line) / np.diff(np.log10(levels + 273.15)))).max())
+    assert min(fitted) < 1e-9
+
+
+def test_tooth_contacts_are_those_of_the_path_of_contact():
+    """At the pitch point nothing slides, and the speeds part on either side of it."""
+    rig = tooth_contacts.draw(np.random.default_rng(6))
+    case = Case(settings=rig.settings, columns=rig.columns, share=rig.share)
+    path = gears.path_of_contact(gears.gears_of(rig.settings))
+    pitch = np.full(len(rig.columns["run"]), np.degrees(path.pitch / path.base_radius[0]))
+    at_pitch, later = tooth_contacts.at_angles(case, pitch), tooth_contacts.at_angles(case, pitch + 2.0)
+    assert at_pitch.speed_1 == pytest.approx(at_pitch.speed_2)
+    assert (later.speed_1 > later.speed_2).all()
+
+
+def test_stribeck_rise_is_the_static_excess_at_rest_and_gone_at_speed():
+    speed = np.array([-1.0, -1e-6, 1e-6, 1.0])
+    flat = np.ones(4)
+    state = Drive(flat, flat, flat, np.sign(speed), speed, 2.0, 0.0 * flat, flat)
+    assert gaussian(state, 1.0, 0.1).running == pytest.approx([0.0, -0.6, 0.6, 0.0], abs=1e-9)

@@ -7,23 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.validation.design import draw_oil
-from mixedlub.validation.planted.kinds import Knob, strength
-from mixedlub.validation.rig import Calibration, Contact, Rig, start
-from mixedlub.validation.rigs import cooling
-from mixedlub.validation.rigs.point import FILM_FORMS, ball_film, ball_rig, lubricate_ball_in_any_regime
-from mixedlub.validation.rigs.stage import (
-    Bench,
-    Form,
-    between,
-    channel,
-    pick,
-    play,
-    progress,
-    repeated,
-    rounded,
-)
-from mixedlub.validation.rigs.told import named, unnamed
+from mixedlub.validation.contact import Calibration, Contact, Inputs, start
+from mixedlub.validation.disclosure import with_data_sheet, without_data_sheet
+from mixedlub.validation.planted import viscosity_temperature
+from mixedlub.validation.planted.film import OF_LOCAL_CONTACTS
+from mixedlub.validation.planted.measurement import channel
+from mixedlub.validation.rig import Form, Knob, Rig, play, strength
+from mixedlub.validation.rigs.ball import film_chain, inputs_of, lubricate_ball_in_any_regime
+from mixedlub.validation.sample_rig import between, draw_oil, pick, progress, repeated, rounded
 
 PAIRS = (
     ("inlet_shear_heating", "boundary_film"),
@@ -33,8 +24,8 @@ PAIRS = (
     ("starvation", "zero_drift"),
     ("viscosity_temperature_law", "zero_drift"),
 )
-NAMED_ONLY = frozenset({"sensor_gain"})
-"""What no reading can show of an unnamed oil, whose level is free."""
+NEEDS_DATA_SHEET = frozenset({"sensor_gain"})
+"""Faults that no reading can show of an oil without a data sheet, whose viscosity level is free."""
 
 
 def joined_by_cubes(c: Contact, strength: float) -> Contact:
@@ -155,7 +146,7 @@ def _outside(columns: dict[str, np.ndarray]) -> tuple[Form, ...]:
         return replace(c, film=c.film * (load / load.min()) ** (-0.15 * strength))
 
     def one_bath(c: Contact, strength: float) -> Contact:
-        """At the middle temperature the bath was not where its thermometer said."""
+        """At the middle temperature the bath had another temperature than its thermometer."""
         levels = np.unique(celsius)
         return replace(c, film=c.film * (1 + 0.1 * strength * (celsius == levels[len(levels) // 2])))
 
@@ -205,7 +196,7 @@ def _programme(rng: np.random.Generator) -> tuple[dict[str, np.ndarray], bool]:
     return columns, again
 
 
-def _interferometer(rng: np.random.Generator) -> tuple[Rig, dict[str, Any], dict[str, np.ndarray], bool]:
+def _interferometer(rng: np.random.Generator) -> tuple[Inputs, dict[str, Any], dict[str, np.ndarray], bool]:
     """A steel ball on a disc, its oil and its programme: rig, case with all that is known, columns, repeats."""
     columns, again = _programme(rng)
     disc = pick(rng, ((75.0, 0.22), (81.0, 0.21), (430.0, 0.25)))
@@ -223,54 +214,52 @@ def _interferometer(rng: np.random.Generator) -> tuple[Rig, dict[str, Any], dict
         "uncertainty": priors,
         "recording": {"quantity": "film_thickness_nm"},
     }
-    return ball_rig(settings, columns, np.ones(3) * 1e-12), settings, columns, again
+    return inputs_of(settings, columns, np.ones(3) * 1e-12), settings, columns, again
 
 
-def draw(rng: np.random.Generator) -> Bench:
+def draw(rng: np.random.Generator) -> Rig:
     """An interferometer whose oil has a data sheet; films by the regression, its exponent within what others have."""
-    rig, settings, columns, again = _interferometer(rng)
+    inputs, settings, columns, again = _interferometer(rng)
     priors = settings["uncertainty"]
-    told = named(rig, priors["viscosity"], priors["pressure_viscosity"])
-    bench = Bench(
-        kind="film",
+    disclosed = with_data_sheet(inputs, priors["viscosity"], priors["pressure_viscosity"])
+    rig = Rig(
         settings=settings,
         columns=columns,
-        names=told.names,
-        model=told.model,
-        theta=lambda z: {f"{name}_scale": value for name, value in told.factors(z).items()},
-        forms=cooling.of_contacts(rig),
+        names=disclosed.names,
+        model=disclosed.model,
+        theta=lambda z: {f"{name}_scale": value for name, value in disclosed.factors(z).items()},
+        forms=viscosity_temperature.of_contacts(inputs),
         outside=(),
         repeats=again,
     )
-    return _read(rng, bench, True)
+    return _read(rng, rig, True)
 
 
-def draw_unnamed(rng: np.random.Generator) -> Bench:
-    """One whose oil is unnamed, films by a law over all regimes at the oil's true properties."""
-    rig, settings, columns, again = _interferometer(rng)
-    told, sections = unnamed(rng, rig)
+def draw_without_data_sheet(rng: np.random.Generator) -> Rig:
+    """An interferometer whose oil has no data sheet; films by the law of all regimes at its true properties."""
+    inputs, settings, columns, again = _interferometer(rng)
+    disclosed, sections = without_data_sheet(rng, inputs)
     kept = {name: table for name, table in settings.items() if name not in ("lubricant", "uncertainty")}
-    start_of = start(rig, Calibration())
-    chain = ball_film(lubricate_ball_in_any_regime)
-    bench = Bench(
-        kind="film",
+    start_of = start(inputs, Calibration())
+    chain = film_chain(lubricate_ball_in_any_regime)
+    rig = Rig(
         settings={**kept, **sections},
         columns=columns,
-        names=told.names,
-        model=told.model,
+        names=disclosed.names,
+        model=disclosed.model,
         theta=lambda z: {},
-        forms=cooling.of_unnamed(rig, "lubricant" in sections),
+        forms=viscosity_temperature.of_unknown_oil(inputs, "lubricant" in sections),
         outside=(),
         repeats=again,
         planted=lambda acts: np.asarray(play(chain, start_of, acts).recorded),
     )
-    return _read(rng, bench, False)
+    return _read(rng, rig, False)
 
 
-def _read(rng: np.random.Generator, bench: Bench, sheet: bool) -> Bench:
-    """The bench with its instrument and all that can be at work; only a data ``sheet`` shows a wrong span."""
-    columns = bench.columns
-    nominal = bench.records(np.zeros(len(bench.names)), ())
+def _read(rng: np.random.Generator, rig: Rig, sheet: bool) -> Rig:
+    """The rig with its instrument and all that can be at work; only a data ``sheet`` shows a wrong span."""
+    columns = rig.columns
+    nominal = rig.records(np.zeros(len(rig.names)), ())
     period, spacer = rounded(rng.uniform(185, 215)), rounded(rng.uniform(100, 500))
     counted = bool(np.ptp(orders(nominal, spacer, period)) >= 2 and rng.random() < 0.6)
 
@@ -280,10 +269,10 @@ def _read(rng: np.random.Generator, bench: Bench, sheet: bool) -> Bench:
     top = float(np.quantile(nominal, 0.93))
     onset = (float(np.quantile(nominal, 0.6)), top) if top > period else (0.6 * top, top)
     forms = (
-        FILM_FORMS
+        OF_LOCAL_CONTACTS
         + _oil_forms()
-        + bench.forms
+        + rig.forms
         + _fringe_forms(spacer, period, onset, counted)
         + channel(columns["sequence"], True, sheet, True)
     )
-    return replace(bench, forms=forms, outside=_outside(columns), quantile=0.1, floor=(0.1, 1.0), settle=settle)
+    return replace(rig, forms=forms, outside=_outside(columns), quantile=0.1, floor=(0.1, 1.0), settle=settle)

@@ -1,6 +1,5 @@
 """Films of an oil that nobody names, by another film law: dealt in every class, judged with the freedom they leave."""
 
-import json
 import math
 import tomllib
 from collections import Counter
@@ -14,36 +13,24 @@ from mixedlub.case.forward import Forward
 from mixedlub.chain.priors import Normal
 from mixedlub.cli import app
 from mixedlub.validation.answers import read_truth
-from mixedlub.validation.build import oil_of
-from mixedlub.validation.explain import visibility
-from mixedlub.validation.rig import Calibration, start
-from mixedlub.validation.rigs import film
-from mixedlub.validation.rigs.battery import Order, make, plan
-from mixedlub.validation.rigs.fit import Aim, best, nearest, slopes
-from mixedlub.validation.rigs.point import SPEED_EXPONENT, lubricate_ball_in_any_regime
-from mixedlub.validation.rigs.prove import judge
-from mixedlub.validation.rigs.told import (
+from mixedlub.validation.battery import plan
+from mixedlub.validation.contact import Calibration, oil_of, start
+from mixedlub.validation.disclosure import (
     MINERAL,
     NOT_GIVEN,
     OF_A_KNOWN_OIL,
-    OF_AN_UNNAMED_OIL,
+    OF_AN_UNKNOWN_OIL,
     moved,
-    named,
-    unnamed,
+    with_data_sheet,
+    without_data_sheet,
 )
+from mixedlub.validation.rigs import OTHERS, films
+from mixedlub.validation.rigs.ball import SPEED_EXPONENT, lubricate_ball_in_any_regime
+from mixedlub.validation.rivals import Target, best, nearest, sensitivity, visibility
+from mixedlub.validation.run import judge
 
-from .test_bench import says_none
+from .helpers import says_none, truth_of
 
-ORDERS = (
-    Order("case_000", "film", "none", (), "clear", unnamed=True),
-    Order("case_001", "film", "single", ("boundary_film",), "clear", unnamed=True),
-    Order("case_002", "film", "pair", ("inlet_shear_heating", "boundary_film"), "clear", unnamed=True),
-    Order("case_003", "film", "measurement", ("sensor_drift",), "faint", unnamed=True),
-    Order("case_004", "film", "unknown", ("waves",), "clear", outliers=True, unnamed=True),
-    Order("case_005", "film", "single", ("viscosity_temperature_law",), "clear", unnamed=True),
-    Order("case_006", "film", "single", ("starvation",), "clear"),
-)
-SEED = 14
 TOLD_AS = {
     "viscosity_level": "viscosity",
     "viscosity_steepness": "viscosity_slope",
@@ -52,13 +39,9 @@ TOLD_AS = {
 
 
 @pytest.fixture(scope="module")
-def cases(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("unnamed")
-    return [folder / make(SEED, place, order, folder) for place, order in enumerate(ORDERS)]
-
-
-def told(folder):
-    return json.loads((folder / "truth.json").read_text())
+def cases(others, named_orders):
+    """Cases of films, most of them of oils without a data sheet, with their orders."""
+    return [(folder, named_orders[name]) for name, folder in others.items() if named_orders[name].kind == "film"]
 
 
 def by_hand(viscosity, coefficient, load, speed, radius, modulus):
@@ -78,7 +61,7 @@ def by_hand(viscosity, coefficient, load, speed, radius, modulus):
 
 def contact(viscosity, coefficient, load, speed):
     """One contact point of a ball of 9.525 mm on glass."""
-    rig = film._interferometer(np.random.default_rng(1))[0]
+    rig = films._interferometer(np.random.default_rng(1))[0]
     one = np.ones((1, 1))
     c = start(rig, Calibration())
     whole = {"viscosity": viscosity, "pressure_viscosity": coefficient, "force": load, "entrainment": speed}
@@ -111,14 +94,14 @@ def test_each_regime_has_its_own_exponent_of_speed(values, exponent):
 
 def test_planted_films_are_those_of_the_true_oil_and_not_of_what_is_told():
     for seed in range(6):
-        rig, settings, columns, _ = film._interferometer(np.random.default_rng(seed))
-        bench = film.draw_unnamed(np.random.default_rng(seed))
+        inputs, settings, columns, _ = films._interferometer(np.random.default_rng(seed))
+        rig = films.draw_without_data_sheet(np.random.default_rng(seed))
         oil, celsius = oil_of(settings), columns["oil_temperature_C"]
         last = (oil.viscosity_at(celsius)[-1], oil.pressure_viscosity_at(celsius)[-1])
         at = (columns["load_N"][-1], columns["entrainment_speed_m_s"][-1])
-        film_nm = 1e9 * by_hand(*last, *at, float(rig.radius[0, 0]), rig.solid.reduced)
-        for z in (np.zeros(len(bench.names)), np.ones(len(bench.names))):
-            assert bench.records(z, ())[-1] == pytest.approx(film_nm, rel=1e-9)
+        film_nm = 1e9 * by_hand(*last, *at, float(inputs.radius[0, 0]), inputs.solid.reduced)
+        for z in (np.zeros(len(rig.names)), np.ones(len(rig.names))):
+            assert rig.records(z, ())[-1] == pytest.approx(film_nm, rel=1e-9)
 
 
 def test_a_case_tells_no_oil_or_viscosities_in_name_only():
@@ -126,18 +109,18 @@ def test_a_case_tells_no_oil_or_viscosities_in_name_only():
     seen = Counter()
     off = []
     for _ in range(60):
-        bench = film.draw_unnamed(rng)
-        assert bench.theta(np.zeros(len(bench.names))) == {}
-        section = bench.settings.get("lubricant")
+        rig = films.draw_without_data_sheet(rng)
+        assert rig.theta(np.zeros(len(rig.names))) == {}
+        section = rig.settings.get("lubricant")
         seen[section is not None] += 1
         if section is None:
-            assert "uncertainty" not in bench.settings
+            assert "uncertainty" not in rig.settings
             continue
         assert set(section) == {"name", "temperature_C", "kinematic_viscosity_mm2_s"}
-        assert bench.settings["uncertainty"] == {"viscosity": 0.3}
+        assert rig.settings["uncertainty"] == {"viscosity": 0.3}
     for seed in range(60):
-        rig = film._interferometer(np.random.default_rng(seed))[0]
-        case = unnamed(np.random.default_rng(seed), rig)[1]
+        rig = films._interferometer(np.random.default_rng(seed))[0]
+        case = without_data_sheet(np.random.default_rng(seed), rig)[1]
         if case:
             first, _ = case["lubricant"]["kinematic_viscosity_mm2_s"]
             off.append(math.log(1e-6 * first / rig.oil.kinematic[0]))
@@ -147,34 +130,34 @@ def test_a_case_tells_no_oil_or_viscosities_in_name_only():
 
 def test_calibration_of_the_truth_is_as_free_as_that_of_the_tool(cases):
     """Names and spreads; the density, which the tool has in addition, is within the level and the steepness."""
-    for folder, order in zip(cases, ORDERS):
+    for folder, order in cases:
         case = read_case(folder)
         tool = {c.name: c.parameter.prior for c in Forward(case, case.recordings).calibrations}
         tool.pop("density", None)
         section = tomllib.loads((folder / "system.toml").read_text())
-        law = OF_AN_UNNAMED_OIL if order.unnamed else OF_A_KNOWN_OIL
+        law = OF_AN_UNKNOWN_OIL if order.no_data_sheet else OF_A_KNOWN_OIL
         stated = {**NOT_GIVEN, **section.get("uncertainty", {}), **law}
-        free = {TOLD_AS.get(name, name): stated[name] for name in told(folder)["z"]}
+        free = {TOLD_AS.get(name, name): stated[name] for name in truth_of(folder)["z"]}
         assert free == {name: prior.sd if isinstance(prior, Normal) else prior.spread for name, prior in tool.items()}
 
 
 def one_bath():
     """A rig at one temperature."""
-    rigs = (film._interferometer(np.random.default_rng(seed))[0] for seed in range(40))
+    rigs = (films._interferometer(np.random.default_rng(seed))[0] for seed in range(40))
     return next(rig for rig in rigs if np.ptp(rig.temperature) == 0)
 
 
 def test_what_is_not_told_is_free():
     rig = one_bath()
-    seen = [set(unnamed(np.random.default_rng(seed), rig)[0].names) for seed in range(8)]
+    seen = [set(without_data_sheet(np.random.default_rng(seed), rig)[0].names) for seed in range(8)]
     assert {"viscosity_level", "pressure_viscosity", "film_regime", "film_exponent"} in seen
     assert {"viscosity", "pressure_viscosity", "film_regime", "film_exponent"} in seen
     known = {"viscosity": 0.1, "pressure_viscosity": 0.06, "film_regime": 0.5, "film_exponent": 0.015}
-    assert named(rig, 0.1, 0.06).spreads == known
+    assert with_data_sheet(rig, 0.1, 0.06).spreads == known
 
 
 def test_the_exponent_turns_films_about_the_middle_of_the_programme():
-    free, spread = named(one_bath(), 0.1, 0.06), 0.015
+    free, spread = with_data_sheet(one_bath(), 0.1, 0.06), 0.015
     ratio = np.log(free.model(np.array([0.0, 0.0, 0.0, 1.0]), ()) / free.model(np.zeros(4), ()))
     speed = np.log(free.rig.conditions["entrainment_speed_m_s"])
     assert ratio.mean() == pytest.approx(0.0, abs=1e-12)
@@ -193,7 +176,7 @@ def test_a_level_hardly_shows_in_films_of_an_unnamed_oil():
     """What is identifiable is worked out with that freedom: visibility of a gain of 10 %."""
     rig = one_bath()
     seen = []
-    for who in (named(rig, 0.05, 0.06), unnamed(np.random.default_rng(0), rig)[0]):
+    for who in (with_data_sheet(rig, 0.05, 0.06), without_data_sheet(np.random.default_rng(0), rig)[0]):
         z = np.zeros(len(who.names))
         base = who.model(z, ())
         moves = np.array([(who.model(z + 1e-4 * e, ()) - base) / 1e-4 for e in np.eye(len(z))]).T
@@ -202,48 +185,45 @@ def test_a_level_hardly_shows_in_films_of_an_unnamed_oil():
 
 
 def test_truth_is_weighed_against_films_that_the_regression_does_not_quite_give():
-    bench = film.draw_unnamed(np.random.default_rng(7))
-    z = nearest(bench)
-    values = bench.records(z, ())
-    aim = Aim(bench, np.arange(len(values)), values, 0.01 * values)
-    found, at = best(aim, (), np.zeros(len(z)))
-    assert at == pytest.approx(z, abs=1e-6)
-    off = (bench.model(z, ()) - values) / aim.sd
-    assert found == pytest.approx(off @ off + z @ z)
+    rig = films.draw_without_data_sheet(np.random.default_rng(7))
+    z = nearest(rig)
+    values = rig.records(z, ())
+    target = Target(rig, np.arange(len(values)), values, 0.01 * values)
+    fit = best(target, (), np.zeros(len(z)))
+    assert fit.z == pytest.approx(z, abs=1e-6)
+    off = (rig.model(z, ()) - values) / target.sd
+    assert fit.chi_square == pytest.approx(off @ off + z @ z)
     assert off @ off > 0
-    assert slopes(bench, z).shape == (len(values), len(z))
+    assert sensitivity(rig, z).shape == (len(values), len(z))
 
 
 def test_every_class_has_about_a_third_of_unnamed_oils():
-    counts = Counter((o.label, o.unnamed) for seed in range(10) for o in plan(seed, 200) if o.kind == "film")
+    counts = Counter(
+        (o.label, o.no_data_sheet) for seed in range(10) for o in plan(seed, 200, OTHERS) if o.kind == "film"
+    )
     for label in ("none", "single", "pair", "measurement", "unknown"):
         share = counts[label, True] / (counts[label, True] + counts[label, False])
         assert 0.15 < share < 0.45
-    one = [o for o in plan(3, 200) if o.kind == "film"]
-    assert 11 <= sum(o.unnamed for o in one) <= 13
-    assert not [o for seed in range(10) for o in plan(seed, 200) if o.unnamed and "sensor_gain" in o.effects]
-    assert not [o for o in plan(3, 200) if o.unnamed and o.kind != "film"]
+    one = [o for o in plan(3, 200, OTHERS) if o.kind == "film"]
+    assert 11 <= sum(o.no_data_sheet for o in one) <= 13
+    assert not [
+        o for seed in range(10) for o in plan(seed, 200, OTHERS) if o.no_data_sheet and "sensor_gain" in o.effects
+    ]
+    assert not [o for o in plan(3, 200, OTHERS) if o.no_data_sheet and o.kind != "film"]
 
 
 def test_check_accepts_every_case(cases):
-    for folder in cases:
+    for folder, _ in cases:
         done = CliRunner().invoke(app, ["check", str(folder)])
         assert done.exit_code == 0, done.output
 
 
-def test_same_seed_writes_the_same_bytes(cases, tmp_path):
-    for place in (0, 2, 4):
-        make(SEED, place, ORDERS[place], tmp_path)
-        for file in cases[place].iterdir():
-            assert (tmp_path / ORDERS[place].name / file.name).read_bytes() == file.read_bytes()
-
-
 def test_planted_effects_are_told_as_of_any_case(cases):
-    for folder, order in zip(cases, ORDERS):
-        found, truth = told(folder), read_truth(folder)
-        assert found["unnamed_oil"] == order.unnamed
+    for folder, order in cases:
+        found, truth = truth_of(folder), read_truth(folder)
+        assert found["unnamed_oil"] == order.no_data_sheet
         assert truth.group == order.label
-        assert bool(found["theta"]) != order.unnamed
+        assert bool(found["theta"]) != order.no_data_sheet
         if order.label in ("single", "measurement", "pair"):
             assert found["own"] < found["alternatives"]["none"]
         elif order.label == "none":
@@ -252,11 +232,11 @@ def test_planted_effects_are_told_as_of_any_case(cases):
 
 
 def test_their_answers_are_counted_beside_all_films(cases, tmp_path):
-    for folder in cases:
+    for folder, _ in cases:
         place = tmp_path / "answers" / folder.name
         place.mkdir(parents=True)
         says_none(folder, place)
-    judge(tmp_path, cases)
+    judge(tmp_path, [folder for folder, _ in cases])
     text = (tmp_path / "score.txt").read_text()
     (head,) = (line for line in text.splitlines() if line.startswith("by kind"))
     assert head.split()[-2:] == ["film,", "unnamed"]

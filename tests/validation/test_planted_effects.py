@@ -1,22 +1,33 @@
-"""Every concealed effect: absent at zero strength, finite, of the sign and shape that physics gives it."""
+"""Every planted effect: absent at zero strength, finite, of the sign and shape that physics gives it."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from mixedlub.validation.build import gears_of, rig_of
-from mixedlub.validation.design import draw_gear
-from mixedlub.validation.involute import operating_angle
+from mixedlub.validation.contact import calibrated, lubricate, press, shear, start, summits, thick, touch
 from mixedlub.validation.planted import FORMS, MEASUREMENT, NAMED, OUTSIDE
 from mixedlub.validation.planted.contact import HARDNESS, HEIGHTS, _overlap_table, asperity_elastoplasticity
 from mixedlub.validation.planted.load import dynamic_load_of_two_orders
 from mixedlub.validation.planted.loss import churning_past_transition
 from mixedlub.validation.planted.shear import film_heating, flash, limiting_stress_in_hot_oil
-from mixedlub.validation.rig import lubricate, press, readings, run, shear, start, summits, thick, touch
+from mixedlub.validation.rigs import discs, gears
+
+from .helpers import readings, run
 
 EVERY = {form.law.__name__: form for forms in FORMS.values() for form in forms} | OUTSIDE
-ON = [(name, kind) for name, effect in EVERY.items() for kind in effect.kinds]
+ABSENT = {"gear_pair": gears.NOT_HERE, "disc": discs.NOT_HERE}
+ON = [(name, kind) for name, effect in EVERY.items() for kind in ABSENT if effect.id not in ABSENT[kind]]
+RAISES = {
+    *("asperity_plasticity", "surface_defects", "misalignment", "rolling_resistance", "windage", "churning"),
+    *("bearing_drag", "seal_drag", "elastic_hysteresis"),
+}
+LOWERS = {
+    *("boundary_film_temperature", "micro_ehl", "film_heating", "limiting_shear_stress", "coating_insulation"),
+    *("contact_creep", "heat_leak"),
+}
+SIGNS = dict.fromkeys(RAISES, 1) | dict.fromkeys(LOWERS, -1)
+"""What an effect does to the recorded quantity, where physics says so."""
 GEAR_IDS = {
     *("inlet_shear_heating", "starvation", "inlet_shear_thinning", "roughness_lay", "film_heating"),
     *("limiting_shear_stress", "coating_insulation", "skewed_heights", "asperity_plasticity", "micro_ehl"),
@@ -44,9 +55,9 @@ def test_at_least_six_effects_lie_outside_any_catalogue():
     assert not set(OUTSIDE) & set(NAMED)
 
 
-def test_forms_of_one_effect_act_at_one_stage_on_the_same_rigs():
+def test_forms_of_one_effect_act_at_one_stage_and_are_drawn_as_often():
     for forms in FORMS.values():
-        assert len({(form.stage, form.hook, form.kinds, form.rarity, form.sign) for form in forms}) == 1
+        assert len({(form.hook, form.rarity) for form in forms}) == 1
 
 
 def test_yielding_summits_have_the_area_of_the_law_whatever_the_quadrature(rigs):
@@ -81,10 +92,10 @@ def test_usual_strength_changes_some_reading_and_stays_finite(rigs, name, kind):
     assert np.max(np.abs(change)) > 1e-3
 
 
-@pytest.mark.parametrize(("name", "kind"), [pair for pair in ON if EVERY[pair[0]].sign])
+@pytest.mark.parametrize(("name", "kind"), [pair for pair in ON if EVERY[pair[0]].id in SIGNS])
 def test_sign_where_physics_gives_one(rigs, name, kind):
     rig, nominal = rigs[kind]
-    change = _change(rigs, name, kind) * EVERY[name].sign
+    change = _change(rigs, name, kind) * SIGNS[EVERY[name].id]
     assert np.min(change / readings(rig, nominal)) > -1e-6
     assert np.sum(change) > 0
 
@@ -165,9 +176,9 @@ def test_teeth_are_as_warm_as_their_own_loss_makes_them(rigs, gear_case, form):
     table, speed = gear_case.settings["gears"], rig.conditions["speed_rpm"] * np.pi / 30
     loss = contact.recorded
     if form.source == "ISO/TR 15144-1":
-        gears = gears_of(gear_case.settings)
-        spread = np.cos(gears.pressure_angle) / np.cos(operating_angle(gears))
-        centre = 0.5 * table["normal_module_mm"] * sum(gears.teeth) * spread
+        pair = gears.gears_of(gear_case.settings)
+        spread = np.cos(pair.pressure_angle) / np.cos(gears.operating_angle(pair))
+        centre = 0.5 * table["normal_module_mm"] * sum(pair.teeth) * spread
         expected = 7400 * (loss / 1000 / (centre * table["face_width_mm"])) ** 0.72 / 1.2
     else:
         size = 1e-3 * table["normal_module_mm"] * np.array(table["teeth"])
@@ -179,8 +190,8 @@ def test_teeth_are_as_warm_as_their_own_loss_makes_them(rigs, gear_case, form):
 @pytest.mark.parametrize("form", FORMS["bulk_temperature"], ids=lambda form: form.law.__name__)
 def test_usual_teeth_are_some_kelvin_warmer_and_their_oil_with_them(form):
     for seed in range(6):
-        case = draw_gear(np.random.default_rng(seed), coated=False)
-        rig, nominal = rig_of(case, 24), case.nominal
+        case = gears.draw_case(np.random.default_rng(seed), coated=False)
+        rig, nominal = gears.inputs_of(case, 24), calibrated(case.settings, np.zeros(5))
         contact, rise = _warmer(rig, nominal, form)
         assert rise.min() > 0
         assert 4 < rise.max() < 25
@@ -227,7 +238,7 @@ def test_limit_falls_as_oil_warms_and_holds_at_40_degrees(rigs):
 
 def test_churning_turns_weakly_viscous_past_the_transition(gear_case):
     """Fully laminar layers go with nu^0.5 at fixed speed, turbulent ones with nu^0.2; both meet at the transition."""
-    rig, nominal = rig_of(gear_case, 6), gear_case.nominal
+    rig, nominal = gears.inputs_of(gear_case, 6), calibrated(gear_case.settings, np.zeros(5))
     speed = rig.conditions["speed_rpm"].astype(float) / 1500
     contact = start(rig, nominal)
     nu = 1e6 * (contact.viscosity / rig.oil.density_at(contact.temperature))[:, 0] / 15
@@ -245,7 +256,7 @@ def test_churning_turns_weakly_viscous_past_the_transition(gear_case):
 @pytest.fixture(scope="module")
 def equal_sharing(gear_case):
     """The gear rig with equal sharing between the pairs in contact, on a fine path."""
-    return rig_of(replace(gear_case, share=None), 480), gear_case.nominal
+    return gears.inputs_of(replace(gear_case, share=None), 480), calibrated(gear_case.settings, np.zeros(5))
 
 
 @pytest.mark.parametrize(("second", "speed"), [(0.0, 1.0), (0.5, 0.5), (0.5, 1.0)])

@@ -8,30 +8,23 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.validation.build import PRIORS
-from mixedlub.validation.design import UNCERTAINTY, draw_oil, draw_surfaces
-from mixedlub.validation.explain import calibrated
-from mixedlub.validation.planted import FORMS, OUTSIDE
-from mixedlub.validation.planted.kinds import Knob, strength
-from mixedlub.validation.rig import Calibration, start
-from mixedlub.validation.rigs import cooling
-from mixedlub.validation.rigs.point import BALL_FRICTION, FILM_FORMS, ball_rig
-from mixedlub.validation.rigs.stage import (
-    Act,
-    Bench,
-    Chain,
-    Form,
+from mixedlub.validation.contact import PRIORS, contact_model, contact_theta
+from mixedlub.validation.planted import FORMS, OUTSIDE, viscosity_temperature
+from mixedlub.validation.planted.film import OF_LOCAL_CONTACTS
+from mixedlub.validation.planted.histories import Track, creeps, histories
+from mixedlub.validation.planted.measurement import channel, force_cell
+from mixedlub.validation.rig import Act, Chain, Form, Knob, Rig, play, strength
+from mixedlub.validation.rigs import ball
+from mixedlub.validation.sample_rig import (
+    UNCERTAINTY,
     between,
-    borrowed,
-    channel,
-    force_cell,
+    draw_oil,
+    draw_surfaces,
     pick,
-    play,
     progress,
     repeated,
     rounded,
 )
-from mixedlub.validation.rigs.states import Track, creeps, histories
 
 PAIRS = (
     ("friction_run_in", "contact_creep"),
@@ -96,10 +89,8 @@ def _numbered(columns: dict[str, np.ndarray], seconds: float) -> dict[str, np.nd
     return columns
 
 
-def _held(
-    rng: np.random.Generator, settings: dict[str, Any], columns: dict[str, np.ndarray], time: np.ndarray
-) -> Bench:
-    """A track without oil or surfaces told: a constant coefficient of a broad prior is the base model."""
+def _held(rng: np.random.Generator, settings: dict[str, Any], columns: dict[str, np.ndarray], time: np.ndarray) -> Rig:
+    """A track whose oil and surfaces are not described: a constant coefficient of a broad prior is the base model."""
     middle = between(rng, 0.04, 0.13)
     slip = columns.get("slide_roll_ratio", np.ones(len(time)))
 
@@ -114,8 +105,7 @@ def _held(
     forms = _all(histories(time)) + (creeps(slip) if curves else ()) + channel(time, curves, False, False)
     if "load_N" in columns:
         forms += force_cell(columns["load_N"], time)
-    return Bench(
-        kind="friction_history",
+    return Rig(
         settings=settings,
         columns=columns,
         names=("boundary_friction",),
@@ -131,7 +121,7 @@ def _settings(**sections: Any) -> dict[str, Any]:
     return {"schema": "mixedlub-case/1", "kind": "friction_history", **sections, "recording": recording}
 
 
-def draw_steady(rng: np.random.Generator) -> Bench:
+def draw_steady(rng: np.random.Generator) -> Rig:
     """Friction at conditions that do not change, as a log or as means of rubbing steps."""
     count = int(pick(rng, (24, 40, 60, 100, 200)))
     columns = _numbered({"placeholder": np.zeros(count)}, between(rng, 600, 2e5))
@@ -143,7 +133,7 @@ def draw_steady(rng: np.random.Generator) -> Bench:
     return _held(rng, _settings(), columns, progress(count))
 
 
-def draw_loads(rng: np.random.Generator) -> Bench:
+def draw_loads(rng: np.random.Generator) -> Rig:
     """Friction at one speed under a few loads, step by step up, or up and down, again and again."""
     least = between(rng, 2, 20, 2)
     loads = [rounded(w, 3) for w in np.geomspace(least, between(rng, 4, 15) * least, int(rng.integers(3, 6)))]
@@ -154,7 +144,7 @@ def draw_loads(rng: np.random.Generator) -> Bench:
     return _held(rng, _settings(), columns, progress(len(steps) * again))
 
 
-def draw_traction(rng: np.random.Generator) -> Bench:
+def draw_traction(rng: np.random.Generator) -> Rig:
     """Traction curves on one track again and again, slips from below one per mille on."""
     slips = np.array([rounded(s, 3) for s in np.geomspace(0.0006, between(rng, 0.1, 0.3), int(rng.integers(10, 19)))])
     cycles = int(rng.integers(4, 11))
@@ -176,8 +166,8 @@ def _curves(rng: np.random.Generator) -> np.ndarray:
     return np.tile(np.array(curve), (again, 1))
 
 
-def draw_stribeck(rng: np.random.Generator) -> Bench:
-    """Stribeck curves of a ball on a disc between rubbing steps, with oil and surfaces told."""
+def draw_stribeck(rng: np.random.Generator) -> Rig:
+    """Stribeck curves of a ball on a disc between rubbing steps, with oil and surfaces described."""
     grid = _curves(rng)
     surfaces = draw_surfaces(rng, False)
     names = list(surfaces)
@@ -208,36 +198,30 @@ def draw_stribeck(rng: np.random.Generator) -> Bench:
     units = np.array([1e-12, 1.0, 1e12])
     moments = sum(np.array(list(surfaces[name].values())[:3]) * units for name in (first, second))
     time = progress(len(grid))
-    rig = ball_rig(settings, {**columns, "sequence": time}, moments)
-    nominal = Calibration(boundary_friction=0.1)
-
-    def fixed(z: np.ndarray) -> Calibration:
-        return calibrated(nominal, UNCERTAINTY, z)
-
-    def model(z: np.ndarray, acts: Sequence[Act]) -> np.ndarray:
-        return np.asarray(play(BALL_FRICTION, start(rig, fixed(z)), acts).recorded)
-
+    inputs = ball.inputs_of(settings, {**columns, "sequence": time}, moments)
     found = histories(time)
     several = np.ptp(grid[:, 0]) > 0
     shown = [name for name in ALSO_IN_CONTACT if several or "temperature" not in name]
-    usable = [borrowed(form, 0.6) for name in shown for form in FORMS[name]]
-    forms = (*found["friction_run_in"], *found["tribofilm_growth"], *FILM_FORMS, *usable, *cooling.of_contacts(rig))
-    broken = [borrowed(OUTSIDE[name]) for name in ("speed_band", "speed_ripple")]
-    return Bench(
-        kind="friction_history",
+    usable = [replace(form, rarity=0.6) for name in shown for form in FORMS[name]]
+    forms = (
+        *found["friction_run_in"],
+        *found["tribofilm_growth"],
+        *OF_LOCAL_CONTACTS,
+        *usable,
+        *viscosity_temperature.of_contacts(inputs),
+    )
+    broken = [OUTSIDE[name] for name in ("speed_band", "speed_ripple")]
+    return Rig(
         settings=settings,
         columns=columns,
         names=PRIORS,
-        model=model,
-        theta=lambda z: {
-            "boundary_friction": fixed(z).boundary_friction,
-            **{f"{name}_scale": getattr(fixed(z), name) for name in PRIORS[1:]},
-        },
+        model=contact_model(settings, lambda: inputs, ball.FRICTION),
+        theta=contact_theta(settings),
         forms=forms + channel(time, True, True, False) + force_cell(grid[:, 1], time),
         outside=(*broken, *_breaks(time)[:1]),
     )
 
 
-def draw(rng: np.random.Generator) -> Bench:
+def draw(rng: np.random.Generator) -> Rig:
     """One of the four programmes."""
     return pick(rng, (draw_steady, draw_steady, draw_loads, draw_traction, draw_stribeck))(rng)

@@ -7,24 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mixedlub.validation.planted.kinds import Knob, strength
-from mixedlub.validation.rigs.loaded import under_load
-from mixedlub.validation.rigs.presliding import presliding
-from mixedlub.validation.rigs.stage import (
-    Act,
-    Bench,
-    Chain,
-    Form,
-    between,
-    channel,
-    force_cell,
-    pick,
-    play,
-    progress,
-    repeated,
-    rounded,
-)
-from mixedlub.validation.rigs.stirring import stirring
+from mixedlub.validation.planted.drives import presliding, stirring, under_load
+from mixedlub.validation.planted.measurement import channel, force_cell
+from mixedlub.validation.rig import Act, Chain, Form, Knob, Rig, play, strength
+from mixedlub.validation.sample_rig import between, pick, progress, repeated, rounded
 
 PAIRS = (
     ("stribeck", "direction_dependence"),
@@ -295,7 +281,7 @@ def _programme(rng: np.random.Generator, styles: Sequence[str], top: float, torq
     return {"speed": speeds}
 
 
-def draw(rng: np.random.Generator) -> Bench:
+def draw(rng: np.random.Generator) -> Rig:
     """A drive, in newton metres against rpm or as a coefficient against sliding speed."""
     as_torque = rng.random() < 0.75
     top = between(rng, 60, 3000, 2) if as_torque else between(rng, 0.1, 2.0, 2)
@@ -338,8 +324,8 @@ def draw(rng: np.random.Generator) -> Bench:
     for name, make in made.items():
         if name in columns:
             forms += make(columns[name])
-    return Bench(
-        kind="friction_map",
+    return Rig(
+        signed=True,
         settings={"schema": "mixedlub-case/1", "kind": "friction_map", "recording": {"quantity": quantity}},
         columns=columns,
         names=("dry", "drag", "constant"),

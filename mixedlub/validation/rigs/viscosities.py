@@ -9,25 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.validation.build import oil_of
-from mixedlub.validation.design import draw_oil
-from mixedlub.validation.planted.kinds import Knob, strength
-from mixedlub.validation.rig import Oil
-from mixedlub.validation.rigs import cooling
-from mixedlub.validation.rigs.stage import (
-    Act,
-    Bench,
-    Chain,
-    Form,
-    between,
-    channel,
-    pick,
-    play,
-    progress,
-    repeated,
-    rounded,
-)
-from mixedlub.validation.rigs.told import BOW, NOT_GIVEN
+from mixedlub.validation.contact import KELVIN, Oil, oil_of
+from mixedlub.validation.disclosure import BOW, NOT_GIVEN
+from mixedlub.validation.planted import viscosity_temperature as cooling
+from mixedlub.validation.planted.measurement import channel
+from mixedlub.validation.rig import Act, Chain, Form, Knob, Rig, play, strength
+from mixedlub.validation.sample_rig import between, draw_oil, pick, progress, repeated, rounded
 
 PAIRS = (
     ("viscosity_drift", "sensor_offset"),
@@ -36,7 +23,6 @@ PAIRS = (
     ("viscosity_temperature_law", "sensor_drift"),
     ("pressure_viscosity_law", "viscosity_temperature_law"),
 )
-KELVIN = 273.15
 
 
 @dataclass(frozen=True)
@@ -100,7 +86,7 @@ def _tait(s: Sample) -> np.ndarray:
 
 
 def doolittle(s: Sample, strength: float, occupied: float) -> Sample:
-    """Doolittle: ln eta goes with occupied over free volume, the volume from Tait, scaled to the slope at rest."""
+    """Doolittle: ln eta is linear in occupied over free volume, the volume from Tait, scaled to the slope at rest."""
     free = 1 + 8e-4 * (s.celsius - 20.0)
     bulk = 9e9 * np.exp(-6.5e-3 * (s.celsius + KELVIN))
 
@@ -117,7 +103,7 @@ def _drifts(time: np.ndarray) -> tuple[Form, ...]:
         return replace(s, resting=s.resting * np.clip(1 + 0.2 * strength * time, 0.05, None))
 
     def gathering(s: Sample, strength: float) -> Sample:
-        """What is left of a light fraction that goes at an even pace."""
+        """The rest after a light fraction evaporates at an even pace."""
         return replace(s, resting=s.resting / np.clip(1 - 0.17 * strength * time, 0.05, None))
 
     def hot(s: Sample, strength: float) -> Sample:
@@ -158,17 +144,17 @@ def reynolds(s: Sample, strength: float) -> Sample:
 
 
 def _temperature_forms(oil: Oil, named: bool) -> tuple[Form, ...]:
-    def mistold(s: Sample, strength: float) -> Sample:
+    def misstated(s: Sample, strength: float) -> Sample:
         """The second viscosity of the data sheet is 5 % strength too low."""
-        return replace(s, resting=s.resting * cooling.mistold(oil, s.celsius, 0.05 * strength))
+        return replace(s, resting=s.resting * cooling.misstated(oil, s.celsius, 0.05 * strength))
 
-    whole, pole, above, by = cooling.WHOLE, cooling.DIVERGENCE, cooling.ABOVE, cooling.MISTOLD_BY
+    whole, pole, above, by = cooling.WHOLE, cooling.DIVERGENCE, cooling.ABOVE, cooling.MISSTATED_BY
     return (
         Form("viscosity_temperature_law", "oil", vogel, (whole, pole), cooling.VOGEL, within=True),
         Form("viscosity_temperature_law", "oil", slotte, (whole, above), cooling.SLOTTE),
         Form("viscosity_temperature_law", "oil", andrade, (whole,), cooling.ANDRADE, within=True),
         Form("viscosity_temperature_law", "oil", reynolds, (whole,), cooling.REYNOLDS, within=True),
-        *((Form("viscosity_temperature_law", "oil", mistold, (by,), cooling.MISTOLD),) if named else ()),
+        *((Form("viscosity_temperature_law", "oil", misstated, (by,), cooling.MISSTATED),) if named else ()),
     )
 
 
@@ -257,7 +243,7 @@ def _cycle(rng: np.random.Generator) -> dict[str, np.ndarray]:
 
 @dataclass(frozen=True)
 class Fluid:
-    """The oil of a sample at the temperatures of its programme, and what is known of it; unnamed, it moves freely."""
+    """The oil of a sample at the temperatures of its programme; without a data sheet its properties are free."""
 
     oil: Oil
     celsius: np.ndarray
@@ -272,7 +258,7 @@ class Fluid:
         return ("viscosity", "steepness", "bow", *(("pressure_viscosity", "warmth") if self.pressed else ()))
 
     def resting(self, z: np.ndarray, celsius: np.ndarray) -> np.ndarray:
-        """ASTM D341; an unnamed sample has a level, a steepness and a bow of its own."""
+        """ASTM D341; a sample without a data sheet has a level, a steepness and a bow of its own."""
         by = dict(zip(self.names, z))
         if self.named:
             return np.asarray(self.oil.viscosity_at(celsius) * np.exp(self.priors["viscosity"] * by["viscosity"]))
@@ -292,13 +278,13 @@ class Fluid:
 
     @property
     def beyond_the_data_sheet(self) -> bool:
-        """Whether laws of cooling can be told apart: a named sample away from its known points, a free one at four."""
+        """Whether the temperatures separate the laws: others than the two of a data sheet, or four without one."""
         if self.named:
-            return cooling.tells_laws_apart(self.celsius, self.oil.temperature)
+            return cooling.separates_laws(self.celsius, self.oil.temperature)
         return len(np.unique(self.celsius)) > 3
 
     def slope(self, z: np.ndarray) -> np.ndarray:
-        """Barus coefficient, a straight line in temperature; an unnamed sample has a level and a tilt of its own."""
+        """Barus coefficient, a straight line in temperature; without a data sheet its level and tilt are free."""
         by = dict(zip(self.names, z))
         given = self.oil.pressure_viscosity_at(self.celsius)
         width = self.priors["pressure_viscosity"] if self.named else 0.3
@@ -311,7 +297,7 @@ class Fluid:
         return {f"{name}_scale": float(np.exp(self.priors[name] * value)) for name, value in zip(self.names, z)}
 
 
-def draw(rng: np.random.Generator) -> Bench:
+def draw(rng: np.random.Generator) -> Rig:
     """A viscometer, its sample named or not, its programme."""
     moving = rng.random() < 0.4
     columns, again = (_cycle(rng), False) if moving else _table(rng)
@@ -335,8 +321,7 @@ def draw(rng: np.random.Generator) -> Bench:
     forms = _drifts(time) + (_pressure_forms() if fluid.pressed else ()) + channel(time, True, named, False)
     if fluid.beyond_the_data_sheet:
         forms += _temperature_forms(fluid.oil, named)
-    return Bench(
-        kind="viscosity",
+    return Rig(
         settings=settings,
         columns=columns,
         names=fluid.names,
@@ -347,4 +332,5 @@ def draw(rng: np.random.Generator) -> Bench:
         quantile=0.1,
         floor=(0.05, 0.5),
         repeats=again,
+        least=0.02,
     )

@@ -1,4 +1,4 @@
-"""What a film case tells of its oil and its film law, and how far calibration may go from that."""
+"""What a film case discloses of its oil and film law, and how far calibration may move from it."""
 
 from __future__ import annotations
 
@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.validation.rig import KELVIN, Calibration, Contact, Oil, Rig, start
-from mixedlub.validation.rigs.point import SPEED_EXPONENT, ball_film, ball_film_between
-from mixedlub.validation.rigs.stage import Act, pick, play, rounded
+from mixedlub.validation.contact import KELVIN, Calibration, Contact, Inputs, Oil, start
+from mixedlub.validation.rig import Act, play
+from mixedlub.validation.rigs.ball import SPEED_EXPONENT, ball_film_between, film_chain
+from mixedlub.validation.sample_rig import pick, rounded
 
 LEVEL, STEEPNESS, BOW, VISCOSITY, COEFFICIENT, WARMTH, BEND, REGIME, EXPONENT = (
     "viscosity_level",
@@ -26,7 +27,7 @@ LEVEL, STEEPNESS, BOW, VISCOSITY, COEFFICIENT, WARMTH, BEND, REGIME, EXPONENT = 
 )
 LAW = {EXPONENT: 0.015}
 """Relative: 0.67 of Hamrock and Dowson 1977 and 0.68 of Chittenden, Dowson, Dunn and Taylor 1985."""
-OF_A_KNOWN_OIL, OF_AN_UNNAMED_OIL = {REGIME: 0.5, **LAW}, {REGIME: 1.0, **LAW}
+OF_A_KNOWN_OIL, OF_AN_UNKNOWN_OIL = {REGIME: 0.5, **LAW}, {REGIME: 1.0, **LAW}
 """And the share of the way from the first to Nijenbanning, Venner and Moes 1994."""
 NOT_GIVEN = {LEVEL: 1.0, STEEPNESS: 0.5, BOW: 0.04, COEFFICIENT: 0.35, WARMTH: 0.4, BEND: 0.25}
 """An oil that nobody describes: logarithms, but for the relative fall of the coefficient over 100 K."""
@@ -58,10 +59,10 @@ def moved(oil: Oil, pivot: float, level: float, steepness: float) -> Oil:
 
 
 @dataclass(frozen=True)
-class Told:
-    """A film rig with the oil that the case tells of, and the spread of each property that may be another."""
+class Disclosed:
+    """A film rig with the oil that the case describes, and the prior standard deviation of each free property."""
 
-    rig: Rig
+    rig: Inputs
     spreads: dict[str, float]
 
     @property
@@ -80,7 +81,7 @@ class Told:
         return float(np.exp(np.mean(np.log(c.viscosity * c.entrainment))))
 
     def factors(self, z: np.ndarray) -> dict[str, float]:
-        """Factors on what is told, by name, ``z`` spreads off."""
+        """Factors on the disclosed properties by name, ``z`` prior standard deviations off."""
         return {name: float(np.exp(self.spreads[name] * value)) for name, value in zip(self.names, z)}
 
     def start(self, z: np.ndarray) -> Contact:
@@ -98,21 +99,21 @@ class Told:
     def _tilted(self, c: Contact, more: float) -> Contact:
         """The coefficient with another fall over 100 K, linear in temperature about the pivot."""
         low, high = c.rig.oil.pressure_viscosity_at(np.array([self.pivot, self.pivot + 100.0]))
-        usual, place = high / low - 1, (c.temperature - self.pivot) / 100
-        ratio = np.maximum(1 + (usual + more) * place, 0.05) / np.maximum(1 + usual * place, 0.05)
+        fall, place = high / low - 1, (c.temperature - self.pivot) / 100
+        ratio = np.maximum(1 + (fall + more) * place, 0.05) / np.maximum(1 + fall * place, 0.05)
         return replace(c, pressure_viscosity=c.pressure_viscosity * ratio)
 
     def model(self, z: np.ndarray, acts: Sequence[Act]) -> np.ndarray:
-        """Films (nm) by a law as far from the regression as the spreads go."""
+        """Films (nm) by a law between the regression and that of all regimes."""
         by = self.factors(z)
         way, change = float(np.log(by[REGIME])), SPEED_EXPONENT * (by[EXPONENT] - 1)
         law = partial(ball_film_between, way=way, change=change, middle=self.middle)
-        return np.asarray(play(ball_film(law), self.start(z), acts).recorded)
+        return np.asarray(play(film_chain(law), self.start(z), acts).recorded)
 
 
-def named(rig: Rig, viscosity: float, coefficient: float) -> Told:
+def with_data_sheet(rig: Inputs, viscosity: float, coefficient: float) -> Disclosed:
     """An oil by its data sheet."""
-    return Told(rig, {VISCOSITY: viscosity, COEFFICIENT: coefficient, **OF_A_KNOWN_OIL})
+    return Disclosed(rig, {VISCOSITY: viscosity, COEFFICIENT: coefficient, **OF_A_KNOWN_OIL})
 
 
 def _spreads(free: Sequence[str], celsius: np.ndarray) -> dict[str, float]:
@@ -120,11 +121,11 @@ def _spreads(free: Sequence[str], celsius: np.ndarray) -> dict[str, float]:
     return {name: NOT_GIVEN[name] for name in free if several or name not in ACROSS}
 
 
-def unnamed(rng: np.random.Generator, true: Rig) -> tuple[Told, dict[str, Any]]:
-    """Of the rig's true oil nothing is told, or viscosities in name only; the sections of the case that tell it."""
+def without_data_sheet(rng: np.random.Generator, true: Inputs) -> tuple[Disclosed, dict[str, Any]]:
+    """The rig with a default oil or with nominal viscosities only, and the sections of the case that state those."""
     if pick(rng, (True, False)):
         free = _spreads((LEVEL, STEEPNESS, BOW, COEFFICIENT, WARMTH, BEND), true.temperature)
-        return Told(replace(true, oil=MINERAL), {**free, **OF_AN_UNNAMED_OIL}), {}
+        return Disclosed(replace(true, oil=MINERAL), {**free, **OF_AN_UNKNOWN_OIL}), {}
     off = float(np.exp(NOMINAL * rng.standard_normal()))
     first, second = (rounded(1e6 * off * nu) for nu in true.oil.kinematic)
     section = {
@@ -134,5 +135,5 @@ def unnamed(rng: np.random.Generator, true: Rig) -> tuple[Told, dict[str, Any]]:
     }
     oil = replace(MINERAL, temperature=true.oil.temperature, kinematic=(1e-6 * first, 1e-6 * second))
     free = _spreads((COEFFICIENT, WARMTH, BEND), true.temperature)
-    told = Told(replace(true, oil=oil), {VISCOSITY: NOMINAL, **free, **OF_AN_UNNAMED_OIL})
-    return told, {"lubricant": section, "uncertainty": {"viscosity": NOMINAL}}
+    disclosed = Disclosed(replace(true, oil=oil), {VISCOSITY: NOMINAL, **free, **OF_AN_UNKNOWN_OIL})
+    return disclosed, {"lubricant": section, "uncertainty": {"viscosity": NOMINAL}}

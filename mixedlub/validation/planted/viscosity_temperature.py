@@ -1,4 +1,4 @@
-"""How an oil may thicken as it cools, other than by ASTM D341: laws that go through two known viscosities."""
+"""Viscosity against temperature by laws other than ASTM D341, all through two known viscosities."""
 
 from __future__ import annotations
 
@@ -8,11 +8,9 @@ from functools import partial
 
 import numpy as np
 
-from mixedlub.validation.planted.kinds import Knob, strength
-from mixedlub.validation.rig import Contact, Oil, Rig
-from mixedlub.validation.rigs.stage import Form
+from mixedlub.validation.contact import KELVIN, Contact, Inputs, Oil
+from mixedlub.validation.rig import Form, Knob, strength
 
-KELVIN = 273.15
 Pair = tuple[float, float]
 Law = Callable[[np.ndarray, Pair, Pair], np.ndarray]
 """Viscosity (Pa s) at temperatures (C), from the two known temperatures (C) and the viscosities there (Pa s)."""
@@ -57,11 +55,11 @@ def reynolds(celsius: np.ndarray, known: Pair, viscosity: Pair) -> np.ndarray:
     return _through(lambda t: -t, celsius, known, viscosity)
 
 
-def mistold(oil: Oil, celsius: np.ndarray, error: float) -> np.ndarray:
+def misstated(oil: Oil, celsius: np.ndarray, error: float) -> np.ndarray:
     """Viscosity over that of the data sheet where its second viscosity is ``error`` too low, both by ASTM D341.
 
     >>> oil = Oil((40.0, 100.0), (30e-6, 6.2e-6), (18e-9, 14e-9))
-    >>> [round(float(ratio), 6) for ratio in mistold(oil, np.array([40.0, 100.0]), 0.05)]
+    >>> [round(float(ratio), 6) for ratio in misstated(oil, np.array([40.0, 100.0]), 0.05)]
     [1.0, 1.05]
     """
     first, second = oil.kinematic
@@ -72,12 +70,12 @@ def mistold(oil: Oil, celsius: np.ndarray, error: float) -> np.ndarray:
 WHOLE = strength(0.0, 1.3, (0.9, 1.05))
 DIVERGENCE = Knob("divergence", 150.0, 200.0, (155.0, 195.0))
 ABOVE = Knob("above", 30.0, 90.0, (40.0, 60.0))
-MISTOLD_BY = strength(-4.0, 6.0, (0.6, 2.0))
+MISSTATED_BY = strength(-4.0, 6.0, (0.6, 2.0))
 VOGEL, SLOTTE, ANDRADE = "Vogel 1921, Fulcher 1925, Tammann 1926", "Slotte 1881", "Andrade 1930"
-REYNOLDS, MISTOLD = "Reynolds 1886", "second viscosity mistold"
+REYNOLDS, MISSTATED = "Reynolds 1886", "second viscosity misstated"
 
 
-def tells_laws_apart(celsius: np.ndarray, known: Pair) -> bool:
+def separates_laws(celsius: np.ndarray, known: Pair) -> bool:
     """At one temperature, or at the known two, all laws differ by no more than a factor on the viscosity."""
     levels = set(np.unique(celsius))
     return len(levels) > 1 and not levels <= set(known)
@@ -109,27 +107,27 @@ def cooled_by_reynolds(c: Contact, strength: float) -> Contact:
     return _cooled(c, strength, reynolds)
 
 
-def cooled_as_mistold(c: Contact, strength: float) -> Contact:
+def cooled_as_misstated(c: Contact, strength: float) -> Contact:
     """The second viscosity of the data sheet is 5 % strength too low."""
-    return replace(c, viscosity=c.viscosity * mistold(c.rig.oil, c.temperature, 0.05 * strength))
+    return replace(c, viscosity=c.viscosity * misstated(c.rig.oil, c.temperature, 0.05 * strength))
 
 
-def of_contacts(rig: Rig) -> tuple[Form, ...]:
-    """Forms for a lubricated contact, where its temperatures can tell them from a factor on the viscosity."""
-    if not tells_laws_apart(rig.temperature, rig.oil.temperature):
+def of_contacts(rig: Inputs) -> tuple[Form, ...]:
+    """Forms for a lubricated contact, where its temperatures separate them from a factor on the viscosity."""
+    if not separates_laws(rig.temperature, rig.oil.temperature):
         return ()
     return (
         Form("viscosity_temperature_law", "oil", cooled_by_vogel, (WHOLE, DIVERGENCE), VOGEL, within=True),
         Form("viscosity_temperature_law", "oil", cooled_by_slotte, (WHOLE, ABOVE), SLOTTE),
         Form("viscosity_temperature_law", "oil", cooled_by_andrade, (WHOLE,), ANDRADE, within=True),
         Form("viscosity_temperature_law", "oil", cooled_by_reynolds, (WHOLE,), REYNOLDS, within=True),
-        Form("viscosity_temperature_law", "oil", cooled_as_mistold, (MISTOLD_BY,), MISTOLD),
+        Form("viscosity_temperature_law", "oil", cooled_as_misstated, (MISSTATED_BY,), MISSTATED),
     )
 
 
-def of_unnamed(rig: Rig, labelled: bool) -> tuple[Form, ...]:
-    """Those of an oil without a data sheet: all where two viscosities are told, else none mistold and at four baths."""
+def of_unknown_oil(rig: Inputs, labelled: bool) -> tuple[Form, ...]:
+    """Those of an oil without a data sheet: all if two viscosities are stated, else its own at four baths or more."""
     forms = of_contacts(rig)
     if labelled:
         return forms
-    return tuple(f for f in forms if f.law is not cooled_as_mistold) if len(np.unique(rig.temperature)) > 3 else ()
+    return tuple(f for f in forms if f.law is not cooled_as_misstated) if len(np.unique(rig.temperature)) > 3 else ()

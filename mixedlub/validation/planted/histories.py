@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.validation.planted.kinds import Knob, strength
-from mixedlub.validation.rigs.stage import Form
+from mixedlub.validation.rig import Form, Knob, strength
 
 FALL, EITHER = strength(0.0, 6.0), strength(-2.2, 5.0)
 
@@ -84,7 +83,7 @@ def _growths(time: np.ndarray) -> tuple[Form, ...]:
 
 
 def _successions(time: np.ndarray) -> tuple[Form, ...]:
-    """What passes quickly beside what lasts."""
+    """A quick transient on top of a lasting change."""
 
     def difference(state: Any, strength: float, quick: float, lasting: float) -> Any:
         """A film that forms and passes, on a track that wears evenly."""
@@ -171,11 +170,11 @@ def _events(time: np.ndarray) -> tuple[Form, ...]:
         return _scaled(state, 1 + 0.1 * strength * (time > when))
 
     def renewed(state: Any, strength: float, when: float) -> Any:
-        """Oil is renewed: friction goes over to another level within three hundredths of the programme."""
+        """Oil is renewed: friction moves to another level within three hundredths of the programme."""
         return _scaled(state, 1 + 0.1 * strength * np.clip((time - when) / 0.03, 0.0, 1.0))
 
     def mixed_in(state: Any, strength: float, when: float, mixing: float) -> Any:
-        """Other oil is fed to a stirred sump: friction goes over gradually, fast at first."""
+        """Other oil is fed to a stirred sump: friction moves gradually to another level, fast at first."""
         return _scaled(state, 1 + 0.1 * strength * washed_in(time - when, mixing))
 
     def passing(state: Any, strength: float, when: float, lasting: float) -> Any:

@@ -1,0 +1,178 @@
+"""The whole validation in one call: deal a battery, have it diagnosed, score it next to the baselines."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import time
+import traceback
+from collections.abc import Callable, Sequence
+from concurrent.futures import as_completed
+from dataclasses import dataclass
+from pathlib import Path
+
+from mixedlub.validation.answers import Truth, read_answer, read_truth, silent
+from mixedlub.validation.baselines import BASELINES, RIGS, refuse_without_learners
+from mixedlub.validation.battery import generate, workers
+from mixedlub.validation.measures import Pair
+from mixedlub.validation.oracle import oracle
+from mixedlub.validation.rigs import CONTACTS, KINDS
+from mixedlub.validation.score import Score, score
+from mixedlub.validation.tables import by_kind, wrong
+from profiles.errors import InputError
+
+Diagnose = Callable[[Path, Path], object]
+Progress = Callable[[str, int, int], None]
+TOOL = "mixedlub diagnose"
+CEILING = "oracle"
+BROKEN, REFUSED = "broken.txt", "refused.txt"
+
+
+def quiet(stage: str, done: int, total: int) -> None:
+    """Progress to nobody."""
+
+
+@dataclass(frozen=True)
+class Steady:
+    """A diagnosis that leaves its error as the answer to a case that it refuses or breaks down on."""
+
+    diagnose: Diagnose
+
+    def __call__(self, case: Path, out: Path) -> None:
+        try:
+            self.diagnose(case, out)
+        except InputError as refusal:
+            (out / REFUSED).write_text(str(refusal), encoding="utf-8")
+        # Any error of the tool under test is its failure on this case, not the end of the validation.
+        except Exception:
+            (out / BROKEN).write_text(traceback.format_exc(), encoding="utf-8")
+
+
+def unsealed(case: Path, into: Path) -> Path:
+    """A copy of a case folder without its truth: what a tool is given."""
+    place = into / case.name
+    if not place.exists():
+        aside = into / f".{case.name}"
+        shutil.rmtree(aside, ignore_errors=True)
+        shutil.copytree(case, aside, ignore=shutil.ignore_patterns("truth.json"))
+        aside.rename(place)
+    return place
+
+
+def answer(diagnose: Diagnose, case: Path, out: Path) -> str:
+    """Have one case answered and timed, unless it was before; the answer appears whole or not at all."""
+    if (out / "seconds.json").exists():
+        return case.name
+    aside = out.parent / f".{out.name}"
+    shutil.rmtree(aside, ignore_errors=True)
+    shutil.rmtree(out, ignore_errors=True)
+    aside.mkdir(parents=True)
+    begun = time.perf_counter()
+    diagnose(case, aside)
+    (aside / "seconds.json").write_text(json.dumps(round(time.perf_counter() - begun, 3)), encoding="utf-8")
+    aside.rename(out)
+    return case.name
+
+
+def answer_all(diagnose: Diagnose, cases: Sequence[Path], out: Path, jobs: int, name: str, progress: Progress) -> None:
+    """Answers of one tool to all cases, in ``jobs`` processes (the tool must then be importable)."""
+    out.mkdir(parents=True, exist_ok=True)
+    if jobs == 1:
+        for done, case in enumerate(cases):
+            answer(diagnose, case, out / case.name)
+            progress(name, done + 1, len(cases))
+        return
+    with workers(jobs) as pool:
+        work = [pool.submit(answer, diagnose, case, out / case.name) for case in cases]
+        for done, future in enumerate(as_completed(work)):
+            future.result()
+            progress(name, done + 1, len(cases))
+
+
+def validate(
+    out: Path,
+    diagnose: Diagnose,
+    cases: int,
+    seed: int,
+    kinds: Sequence[str] = CONTACTS,
+    jobs: int = 2,
+    baselines: bool = False,
+    progress: Progress = quiet,
+) -> dict[str, Score]:
+    """Deal, diagnose, score and draw into ``out``; an interrupted run is resumed.
+
+    Returns the scores that ``judge`` writes. ``baselines`` are answered too, and last the oracle that knows the
+    planted laws, on kinds of rig that their case folder describes completely.
+    """
+    if baselines:
+        if not set(kinds) <= set(RIGS):
+            raise InputError(f"baselines have models of {' and '.join(RIGS)} alone", where="kinds", value=list(kinds))
+        refuse_without_learners()
+    sealed = generate(out / "sealed", seed, cases, kinds, jobs, lambda done, total: progress("deal", done, total))
+    (out / "cases").mkdir(exist_ok=True)
+    given = [unsealed(case, out / "cases") for case in sealed]
+    answer_all(Steady(diagnose), given, out / "answers", jobs, "diagnose", progress)
+    rivals = {name: out / "baselines" / name.replace(" ", "_") for name in (*BASELINES, CEILING) if baselines}
+    for name, place in rivals.items():
+        answer_all({**BASELINES, CEILING: oracle}[name], given, place, jobs, name, progress)
+    return judge(out, sealed, rivals)
+
+
+def _collected(out: Path, truths: Sequence[Truth]) -> tuple[dict[str, list[Pair]], dict[str, list[str]]]:
+    """Truths with their answers by kind, and a line for each case that the tool broke down on or refused."""
+    dealt = {truth.kind for truth in truths}
+    pairs: dict[str, list[Pair]] = {kind: [] for kind in KINDS if kind in dealt}
+    failed: dict[str, list[str]] = {BROKEN: [], REFUSED: []}
+    for truth in truths:
+        answered = out / "answers" / truth.case
+        for name, lines in failed.items():
+            if (answered / name).exists():
+                last = (answered / name).read_text(encoding="utf-8").strip().splitlines()[-1].replace(f"{out}/", "")
+                lines.append(f"{truth.case} {truth.kind:16s} {truth.group:11s}  {'+'.join(truth.effects)} -> {last}")
+        if not (answered / REFUSED).exists():
+            broken = (answered / BROKEN).exists()
+            pairs[truth.kind].append((truth, silent(truth) if broken else read_answer(answered)))
+    return pairs, failed
+
+
+def judge(out: Path, sealed: Sequence[Path], rivals: dict[str, Path] | None = None) -> dict[str, Score]:
+    """Scores of the answers: over all cases as ``all``, by kind, and of each rival over all by its name.
+
+    A case on which the tool broke down is answered wrong, one that it refused is not counted. Writes ``score.json``,
+    ``score_NAME.json`` for each of the others, ``score.txt`` with all figures, the counts by kind and the wrong
+    answers, and the figures as SVG.
+    """
+    truths = [read_truth(case) for case in sealed]
+    ids = sorted({name for truth in truths for name in truth.candidates})
+    pairs, failed = _collected(out, truths)
+    whole = [pair for some in pairs.values() for pair in some]
+    unnamed = {f"{kind}, unnamed": [pair for pair in some if pair[0].no_data_sheet] for kind, some in pairs.items()}
+    scores = {"all": score(whole, TOOL, ids)}
+    scores |= {kind: score(some, f"{TOOL}, {kind}", ids) for kind, some in pairs.items() if some}
+    others = {
+        name: score([(truth, read_answer(place / truth.case)) for truth in truths], name, ids)
+        for name, place in (rivals or {}).items()
+    }
+    known = [one for name, one in others.items() if name != CEILING]
+    scores["all"] = scores["all"].above(known) if known else scores["all"]
+    scores |= others
+    text = [scores["all"].text(), *(one.text() for one in others.values())]
+    text += [by_kind({**pairs, **{name: some for name, some in unnamed.items() if some}}), wrong(pairs)]
+    text += ["broke down without an answer, counted as wrong above", *failed[BROKEN], ""] if failed[BROKEN] else []
+    text += ["refused as bad input, not counted above", *failed[REFUSED], ""] if failed[REFUSED] else []
+    (out / "score.txt").write_text("\n".join(text), encoding="utf-8")
+    for name, one in scores.items():
+        one.save(out / ("score.json" if name == "all" else f"score_{name.replace(' ', '_')}.json"))
+    draw(out / "figures", [scores["all"], *others.values()])
+    return scores
+
+
+def draw(folder: Path, scores: Sequence[Score]) -> None:
+    """Figures of the scores, the tool's first."""
+    from mixedlub.validation import figures
+
+    folder.mkdir(exist_ok=True)
+    figures.score_table(scores).savefig(folder / "score_table.svg")
+    figures.reliability(scores).savefig(folder / "reliability.svg")
+    figures.identification(scores).savefig(folder / "identification.svg")
+    figures.confusion(scores[0]).savefig(folder / "confusion.svg")

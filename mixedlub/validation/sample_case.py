@@ -1,0 +1,201 @@
+"""One case drawn at random: a rig, its calibration, planted effects, and the noise at which they are visible."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from mixedlub.validation.rig import Act, Form, Rig
+from mixedlub.validation.rigs import KINDS, Family, family_of
+from mixedlub.validation.rivals import nearest, sensitivity, visibility
+from profiles.errors import InputError
+
+VISIBLE = {"clear": (16.0, 30.0), "faint": (7.0, 11.0), "pair": (10.0, 24.0)}
+"""Root of the chi-square that recalibration leaves of an effect; of a pair, that of the weaker one."""
+NEAR = 0.25
+"""Logarithm of a visibility over the one ordered below which a sample is taken."""
+TRIES, DRAWS = 12, 400
+"""Samples among which the nearest to the order is taken; rigs that are drawn at most to find one."""
+SMALL = (20, 41)
+"""Readings of a small case."""
+
+
+@dataclass(frozen=True)
+class Order:
+    """What one case is to be: kind, class, planted effects, and how visible they are."""
+
+    name: str
+    kind: str
+    label: str
+    effects: tuple[str, ...]
+    level: str
+    outliers: bool = False
+    no_data_sheet: bool = False
+    small: bool = False
+
+
+@dataclass(frozen=True)
+class Sample:
+    """One case as drawn: rig, withheld readings, calibration, forms with their knobs, noise, visibility."""
+
+    rig: Rig
+    hidden: np.ndarray
+    z: np.ndarray
+    forms: tuple[Form, ...]
+    knobs: tuple[dict[str, float], ...]
+    relative: float
+    absolute: float
+    visibility: float
+
+    @property
+    def acts(self) -> list[Act]:
+        return [form.hide(values) for form, values in zip(self.forms, self.knobs)]
+
+    def sd(self, values: np.ndarray) -> np.ndarray:
+        """Standard deviation of readings of these values."""
+        return np.asarray(np.sqrt((self.relative * values) ** 2 + self.absolute**2))
+
+    @property
+    def possible(self) -> bool:
+        """Whether an instrument could read this: only signed quantities are at or below zero but for their noise."""
+        return self.rig.signed or bool(np.all(self.rig.records(self.z, self.acts) > 0))
+
+
+def sample_case(rng: np.random.Generator, order: Order) -> Sample:
+    """The sample nearest to the order; rigs that show no effect, or what nothing reads, are drawn again."""
+    goal = float(rng.uniform(*VISIBLE["pair" if order.label == "pair" else order.level]))
+
+    def far(sample: Sample) -> float:
+        return abs(float(np.log(sample.visibility / goal))) if order.effects else 0.0
+
+    nearest_yet: Sample | None = None
+    for place in range(DRAWS):
+        sample = _sample(rng, order, goal)
+        if not sample.possible:
+            continue
+        if nearest_yet is None or far(sample) < far(nearest_yet):
+            nearest_yet = sample
+        if far(nearest_yet) < NEAR or place + 1 >= TRIES:
+            return nearest_yet
+    raise InputError("no rig with these effects can be read", where=order.kind, value=order.effects)
+
+
+def _rig_for(rng: np.random.Generator, order: Order) -> tuple[Rig, tuple[Form, ...]]:
+    """A rig on which the ordered effects can be at work, and one form of each."""
+    kind = KINDS[order.kind]
+    draw = kind.draw_without_data_sheet if order.no_data_sheet and kind.draw_without_data_sheet else kind.draw
+    for _ in range(DRAWS):
+        rig = draw(rng)
+        pool = rig.outside if order.label == "unknown" else rig.forms
+        options = [[form for form in pool if form.id == name and form.rarity > 0] for name in order.effects]
+        if all(options):
+            return rig, tuple(forms[int(rng.integers(len(forms)))] for forms in options)
+    raise InputError("no rig is open to these effects", where=order.kind, value=order.effects)
+
+
+def _knobs(rng: np.random.Generator, form: Form) -> dict[str, float]:
+    values = {knob.name: float(rng.uniform(*knob.typical)) for knob in form.knobs}
+    if form.knobs[0].low < 0 and rng.random() < 0.4:
+        values["strength"] = -values["strength"]
+    return values
+
+
+def _scaled(form: Form, values: dict[str, float], factor: float) -> dict[str, float]:
+    if form.rigid:
+        return values
+    knob = form.knobs[0]
+    return {**values, "strength": float(np.clip(values["strength"] * factor, 0.98 * knob.low, 0.98 * knob.high))}
+
+
+def withhold(rng: np.random.Generator, rig: Rig, family: Family, small: bool = False) -> np.ndarray:
+    """Readings to withhold: some at random and often a level of a condition or a stretch of time; most if small."""
+    count = len(rig.columns["run"])
+    if small:
+        hidden = np.ones(count, dtype=bool)
+        hidden[rng.choice(count, int(rng.integers(*SMALL)), replace=False)] = False
+        return hidden
+    hidden = rng.random(count) < rng.uniform(*family.scattered)
+    several = {
+        name: np.unique(column)
+        for name, column in rig.columns.items()
+        if name not in ("run", "sequence", "time_s", "position_deg") and column.dtype != object
+    }
+    several = {name: levels for name, levels in several.items() if len(levels) >= family.levels}
+    if count >= 30 and (several or "time_s" in rig.columns) and rng.random() < family.blocks:
+        if several:
+            name = list(several)[int(rng.integers(len(several)))]
+            levels = several[name] if family.ends else several[name][1:-1]
+            hidden |= rig.columns[name] == levels[int(rng.integers(len(levels)))]
+        else:
+            first = int(rng.uniform(0.1, 0.8) * count)
+            hidden[first : first + count // 12] = True
+    if not hidden.any():
+        hidden[count // 2] = True
+    return hidden
+
+
+def _sample(rng: np.random.Generator, order: Order, goal: float) -> Sample:
+    """A rig with its noise, and strengths scaled, so that the effects are as visible as can be near the goal."""
+    rig, forms = _rig_for(rng, order)
+    family = family_of(order.kind)
+    hidden = withhold(rng, rig, family, order.small)
+    z = rng.standard_normal(len(rig.names))
+    if not order.effects and rng.random() < family.mis_set:
+        z = np.sign(z) * rng.uniform(1.0, 2.0, len(z))
+    z = z if rig.planted is None else nearest(rig)
+    knobs = tuple(_knobs(rng, form) for form in forms)
+    slopes = sensitivity(rig, z)[~hidden]
+    typical = float(np.quantile(np.abs(rig.records(z, ())), rig.quantile))
+    share = float(np.exp(rng.uniform(*np.log(rig.floor))))
+
+    def sample(level: float, factors: Sequence[float]) -> Sample:
+        now = tuple(_scaled(f, k, factor) for f, k, factor in zip(forms, knobs, factors))
+        absolute = float(f"{0.01 * level * share * typical:.4g}")
+        return Sample(rig, hidden, z, forms, now, round(0.01 * level, 6), absolute, 0.0)
+
+    def each(level: float, factors: Sequence[float]) -> list[float]:
+        """Visibility of every effect in the presence of the others."""
+        one = sample(level, factors)
+        truth = rig.records(z, one.acts)
+        sd = one.sd(truth)[~hidden]
+        rests = [rig.records(z, [act for j, act in enumerate(one.acts) if j != i]) for i in range(len(forms))]
+        return [visibility((truth - rest)[~hidden], sd, slopes) for rest in rests]
+
+    level, factors = (
+        float(np.exp(rng.uniform(*np.log(family.noise if forms else family.noise_alone)))),
+        [1.0] * len(forms),
+    )
+    if not forms:
+        return sample(level, factors)
+    level = solve(lambda x: min(each(x, factors)), goal, *family.noise, falling=True)
+    for i, form in enumerate(forms):
+        widest = max(1.0, min(4.0, form.knobs[0].high / abs(knobs[i]["strength"])))
+        wanted = goal if len(forms) == 1 else float(np.clip(each(level, factors)[i], goal, 1.6 * goal))
+        seen = partial(_seen, each, level, factors, i)
+        factors = _exchanged(factors, i, solve(seen, wanted, 0.05, widest, falling=False))
+    return replace(sample(level, factors), visibility=max(min(each(level, factors)), 1e-3))
+
+
+def _exchanged(factors: Sequence[float], place: int, factor: float) -> list[float]:
+    return [factor if i == place else f for i, f in enumerate(factors)]
+
+
+def _seen(
+    each: Callable[[float, Sequence[float]], list[float]], level: float, factors: list[float], place: int, factor: float
+) -> float:
+    """Visibility of one effect at another factor on its strength."""
+    return each(level, _exchanged(factors, place, factor))[place]
+
+
+def solve(measure: Callable[[float], float], goal: float, low: float, high: float, falling: bool) -> float:
+    """Log bisection of a monotone measure to the goal; the nearer end where it is out of reach."""
+    if not falling and abs(np.log(max(measure(1.0), 1e-9) / goal)) < 0.03:
+        return 1.0
+    for _ in range(12):
+        middle = float(np.sqrt(low * high))
+        above = measure(middle) > goal
+        low, high = (middle, high) if above == falling else (low, middle)
+    return float(f"{np.sqrt(low * high):.5g}")

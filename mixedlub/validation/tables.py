@@ -1,0 +1,62 @@
+"""Plain text about a scored battery: counts by kind of rig, and every wrong answer."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from mixedlub.validation.measures import Pair, crossed, outliers_false, outliers_found, right, tied
+
+
+def _count(hits: Sequence[bool]) -> str:
+    return f"{sum(hits)}/{len(hits)}" if hits else "-"
+
+
+def by_kind(pairs: Mapping[str, Sequence[Pair]]) -> str:
+    """Counts by kind, one line a question."""
+
+    def of(some: Sequence[Pair], *groups: str, clear: bool = False) -> list[Pair]:
+        return [(t, a) for t, a in some if t.group in groups and (t.identifiable or not clear)]
+
+    one = ("single", "measurement")
+    questions = {
+        "right, one effect, identifiable": lambda s: [right(t, a) for t, a in of(s, *one, clear=True)],
+        "  physics": lambda s: [right(t, a) for t, a in of(s, "single", clear=True)],
+        "  instrument faults": lambda s: [right(t, a) for t, a in of(s, "measurement", clear=True)],
+        "right or tied, one effect, all": lambda s: [tied(t, a) for t, a in of(s, *one)],
+        "both of a pair": lambda s: [t.label <= a.verdict for t, a in of(s, "pair")],
+        "a pair, exactly or tied": lambda s: [tied(t, a) for t, a in of(s, "pair")],
+        "none where nothing is missing": lambda s: [right(t, a) for t, a in of(s, "none")],
+        "false alarms": lambda s: [a.detected for t, a in of(s, "none")],
+        "unknown where so and identifiable": lambda s: [
+            "unknown" in a.verdict for t, a in of(s, "unknown", clear=True)
+        ],
+        "fault called physics or reverse": lambda s: [crossed(t, a) for t, a in of(s, *one, clear=True)],
+        "every wild reading found": lambda s: [outliers_found(t, a) == 1 for t, a in s if t.outliers],
+        "cases with good readings flagged": lambda s: [outliers_false(t, a) > 0 for t, a in s],
+    }
+    lines = [f"{'by kind':36s}" + "".join(f"{kind:>17s}" for kind in pairs)]
+    for text, ask in questions.items():
+        lines.append(f"{text:36s}" + "".join(f"{_count(ask(some)):>17s}" for some in pairs.values()))
+    return "\n".join(lines) + "\n"
+
+
+def _named(label: frozenset[str]) -> str:
+    return "+".join(sorted(label))
+
+
+def wrong(pairs: Mapping[str, Sequence[Pair]]) -> str:
+    """Every case whose verdict is not the truth: truth, verdict, other tied explanations, largest probabilities."""
+    lines = ["verdicts that are not the truth (* identifiable; vis: visibility of the effect)"]
+    for kind, some in pairs.items():
+        for truth, answer in sorted(some, key=lambda pair: pair[0].case):
+            if right(truth, answer) or (truth.group == "unknown" and "unknown" in answer.verdict):
+                continue
+            mark = "*" if truth.identifiable else " "
+            more = ", ".join(_named(one) for one in answer.tied[1:])
+            ranked = sorted(answer.probabilities.items(), key=lambda item: -item[1])[:3]
+            shares = ", ".join(f"{name} {p:.2f}" for name, p in ranked)
+            lines.append(
+                f"{truth.case} {kind:16s} {truth.group:11s}{mark} vis {truth.visibility:5.1f}  {_named(truth.label)}"
+                f" -> {_named(answer.verdict)}" + (f"  tied: {more}" if more else "") + f"  [{shares}]"
+            )
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,163 @@
+"""Baselines, and the whole validation on a handful of cases."""
+
+import json
+import sys
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from mixedlub.cli import app, main
+from mixedlub.validation import baselines
+from mixedlub.validation.answers import read_answer, read_truth
+from mixedlub.validation.baselines import BASELINES, recalibrate, recalibration_only
+from mixedlub.validation.measures import held_out
+from mixedlub.validation.oracle import oracle
+from mixedlub.validation.rigs import CONTACTS, OTHERS
+from mixedlub.validation.run import BROKEN, Steady, judge, unsealed, validate
+from profiles.errors import InputError
+
+from .helpers import says_none
+
+CALLS: list[str] = []
+
+
+def counted(case: Path, out: Path) -> None:
+    CALLS.append(case.name)
+    assert not (case / "truth.json").exists()
+    recalibration_only(case, out)
+
+
+@pytest.fixture
+def without_learners(monkeypatch):
+    for name in [name for name in sys.modules if name == "sklearn" or name.startswith("sklearn.")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "sklearn", None)
+
+
+@pytest.mark.parametrize("name", list(BASELINES))
+def test_baselines_answer_in_the_form_of_the_diagnosis(battery, tmp_path, name):
+    if name != "recalibration only":
+        pytest.importorskip("sklearn")
+    case = unsealed(battery[0], tmp_path)
+    BASELINES[name](case, tmp_path / "answer")
+    answer, truth = read_answer(tmp_path / "answer"), read_truth(battery[0])
+    assert set(answer.run) == set(truth.run)
+    assert all(0 < p < 1 for p in answer.probabilities.values())
+    assert (answer.low < answer.high).all()
+    predicted, calibrated = held_out(truth, answer)
+    assert predicted < 3 * calibrated + 3
+
+
+def test_the_oracle_names_what_is_clearly_hidden(battery, tmp_path):
+    clear = [folder for folder in battery if read_truth(folder).visibility > 12]
+    folder = next(folder for folder in clear if read_truth(folder).group == "single")
+    oracle(unsealed(folder, tmp_path), tmp_path / "answer")
+    answer, truth = read_answer(tmp_path / "answer"), read_truth(folder)
+    assert answer.verdict == truth.label
+    predicted, calibrated = held_out(truth, answer)
+    assert predicted < 0.5 * calibrated
+
+
+def test_recalibration_finds_the_noise_where_nothing_is_missing(battery, tmp_path):
+    nulls = [folder for folder in battery if read_truth(folder).group == "none"]
+    for folder in nulls:
+        fitted = recalibrate(folder)
+        assert fitted.squares / len(fitted.good) == pytest.approx(1.0, abs=0.5)
+        flagged = {int(run) for run in fitted.run[: fitted.seen][fitted.spoiled]}
+        assert flagged >= read_truth(folder).outliers
+
+
+def test_missing_scikit_learn_says_what_to_install(battery, tmp_path, without_learners):
+    with pytest.raises(InputError, match=r"mixedlub\[proof\]"):
+        baselines.gaussian_process(battery[0], tmp_path)
+
+
+def test_missing_scikit_learn_is_told_before_any_work(tmp_path, without_learners, capsys):
+    CALLS.clear()
+    with pytest.raises(InputError, match=r"pip install 'mixedlub\[proof\]'.*--quick"):
+        validate(tmp_path / "folder", counted, cases=5, seed=21, jobs=1, baselines=True)
+    assert CALLS == []
+    assert not (tmp_path / "folder").exists()
+    assert main(["prove", "--out", str(tmp_path / "out")]) == 2
+    assert "scikit-learn" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_run_is_scored_and_resumed(tmp_path):
+    CALLS.clear()
+    first = validate(tmp_path, counted, cases=5, seed=21, kinds=("disc",), jobs=1)
+    assert sorted(CALLS) == [f"case_{i:03d}" for i in range(5)]
+    (tmp_path / "answers" / "case_002" / "seconds.json").unlink()
+    again = validate(tmp_path, counted, cases=5, seed=21, kinds=("disc",), jobs=1)
+    assert CALLS[5:] == ["case_002"]
+    assert first["all"]["log_score"].value == pytest.approx(again["all"]["log_score"].value)
+    assert {file.name for file in (tmp_path / "figures").iterdir()} == {
+        "score_table.svg",
+        "reliability.svg",
+        "identification.svg",
+        "confusion.svg",
+    }
+    told = json.loads((tmp_path / "score.json").read_text())
+    assert told["tool"] == "mixedlub diagnose"
+    assert "withheld" in (tmp_path / "score.txt").read_text()
+
+
+def test_counts_by_kind_wrong_answers_and_break_downs(others, tmp_path):
+    for folder in others.values():
+        place = tmp_path / "answers" / folder.name
+        place.mkdir(parents=True)
+        Steady(says_none)(folder, place)
+    scores = judge(tmp_path, list(others.values()))
+    assert set(scores) == {"all", "film", "friction_history", "friction_map", "viscosity", "mesh_friction"}
+    assert scores["all"]["none"].value == 1.0
+    assert scores["all"]["right"].value == 0.0
+    assert scores["mesh_friction"]["right"].value == 0.0
+    assert scores["mesh_friction"]["outliers_false"].value == 1.0
+    assert scores["friction_history"]["tied"].value == pytest.approx(1 / 3)
+    text = (tmp_path / "score.txt").read_text()
+    lines = {line[:36].strip(): line[36:].split() for line in text.splitlines()}
+    assert lines["none where nothing is missing"] == ["2/2", "-", "-", "1/1", "-", "1/1"]
+    assert lines["right or tied, one effect, all"] == ["0/6", "1/3", "0/4", "0/2", "0/1", "0/3"]
+    assert "case_008 friction_map     single     *" in text
+    assert "stribeck -> none  tied: sensor_gain" in text
+    assert "film_heating -> RuntimeError: no gears here" in text
+    assert (tmp_path / "answers" / "case_017" / BROKEN).exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "asked"),
+    [
+        ([], {"cases": 240, "kinds": CONTACTS, "baselines": True}),
+        (["--quick"], {"cases": 24, "kinds": CONTACTS, "baselines": False}),
+        (["--rigs"], {"cases": 200, "kinds": OTHERS, "baselines": False}),
+        (["--rigs", "--quick"], {"cases": 25, "kinds": OTHERS, "baselines": False}),
+        (["--kinds", "film,disc", "--quick"], {"cases": 25, "kinds": ("disc", "film"), "baselines": False}),
+        (["--kinds", "gear_pair", "--cases", "7"], {"cases": 7, "kinds": ("gear_pair",), "baselines": True}),
+    ],
+    ids=" ".join,
+)
+def test_the_command_deals_the_chosen_kinds(tmp_path, monkeypatch, words, asked):
+    said = {}
+
+    def noted(folder, diagnose, cases, seed, kinds, *, jobs, baselines, progress):
+        said.update(cases=cases, seed=seed, kinds=kinds, baselines=baselines)
+        (folder / "score.txt").write_text("scored")
+
+    monkeypatch.setattr("mixedlub.validation.run.validate", noted)
+    done = CliRunner().invoke(app, ["prove", *words, "--seed", "3", "--out", str(tmp_path / "out")])
+    assert done.exit_code == 0
+    assert said == {**asked, "seed": 3}
+    assert "scored" in done.stdout
+
+
+def test_a_kind_that_no_battery_has_is_named_with_those_that_there_are(tmp_path, capsys):
+    assert main(["prove", "--kinds", "disc,gears", "--out", str(tmp_path / "out")]) == 2
+    said = capsys.readouterr().err
+    assert "gears" in said
+    assert "gear_pair, disc, film" in said
+
+
+def test_baselines_of_rigs_that_a_case_does_not_describe_are_refused(tmp_path):
+    with pytest.raises(InputError, match="gear_pair and disc alone"):
+        validate(tmp_path, counted, cases=25, seed=1, kinds=OTHERS, baselines=True)
