@@ -71,7 +71,7 @@ def test_missing_scikit_learn_says_what_to_install(battery, tmp_path, without_le
 
 def test_missing_scikit_learn_is_told_before_any_work(tmp_path, without_learners, capsys):
     CALLS.clear()
-    with pytest.raises(InputError, match=r"pip install 'mixedlub\[proof\]'.*--quick"):
+    with pytest.raises(InputError, match=r"pip install scikit-learn.*--quick"):
         prove(tmp_path / "folder", counted, cases=5, seed=21, jobs=1)
     assert CALLS == []
     assert not (tmp_path / "folder").exists()
