@@ -4,7 +4,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 QUICK ?=
 
-.PHONY: study test bench prove check lint types examples
+.PHONY: study test bench prove check docs lint types examples
 
 study: .venv/base
 	$(BIN)/mixedlub study examples/study_21_pairings.toml --out out/study
@@ -20,6 +20,12 @@ prove: .venv/dev
 	$(BIN)/mixedlub prove --rigs --out out/prove_rigs $(if $(QUICK),--quick)
 
 check: lint types examples
+
+# Every command and program on the pages runs here, and one that fails stops the build; nothing is fetched.
+docs: .venv/dev
+	$(BIN)/sphinx-build --fresh-env --nitpicky --fail-on-warning --keep-going --quiet --jobs auto \
+	    --doctree-dir out/doctrees docs out/docs
+	@echo "pages in out/docs/index.html"
 
 lint: .venv/dev
 	$(BIN)/ruff check .

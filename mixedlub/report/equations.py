@@ -12,9 +12,11 @@ if TYPE_CHECKING:
 
 SIZE = 17.0
 
-_SMALL_FRACTION = re.compile(r"\\tfrac(?:(\d)(\d))?")
+_SMALL_FRACTION = re.compile(r"\\tfrac(?:\s*(\w)(\w))?(?![A-Za-z])")
+_UNBRACED = re.compile(r"\\(sqrt|bar)\s*(\w)")
+_SHORT = re.compile(r"\\(le|ge)(?![A-Za-z])")
 _TEXT = re.compile(r"\\text\{([^{}]*)\}")
-_GROWING = re.compile(r"\\(?:left|right)(?![A-Za-z])")
+_GROWING = re.compile(r"\\(?:left|right|big[lr])(?![A-Za-z])")
 
 
 @lru_cache(maxsize=512)
@@ -48,12 +50,12 @@ def _simplified(tex: str) -> str:
 
     >>> _simplified(r"\tfrac43 E")
     '\\frac{4}{3} E'
-    >>> _simplified(r"h \leftarrow \left(h\right)")
-    'h \\leftarrow (h)'
+    >>> _simplified(r"h \leftarrow \left(h\right)"), _simplified(r"\tfrac bR \le \sqrt b")
+    ('h \\leftarrow (h)', '\\frac{b}{R} \\leq \\sqrt{b}')
     >>> _simplified(r"1\,\text{Pa s}")
     '1\\,\\mathrm{Pa\\ s}'
     """
-    tex = re.sub(r"\\sqrt\s*(\d)", r"\\sqrt{\1}", tex)
+    tex = _SHORT.sub(r"\\\1q", _UNBRACED.sub(r"\\\1{\2}", tex))
     tex = _SMALL_FRACTION.sub(lambda m: rf"\frac{{{m[1]}}}{{{m[2]}}}" if m[1] else r"\frac", " ".join(tex.split()))
     tex = _TEXT.sub(lambda m: r"\mathrm{" + m[1].replace(" ", r"\ ") + "}", tex)
     return _GROWING.sub("", tex).replace(r"\!", "")

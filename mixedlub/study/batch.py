@@ -190,7 +190,9 @@ def _on_cluster(plan: Plan, todo: Sequence[Block], address: str) -> Iterator[tup
     try:
         from distributed import Client, as_completed
     except ImportError:
-        raise InputError("running on a cluster needs: pip install 'mixedlub[cluster]'", where="--scheduler") from None
+        raise InputError(
+            "running on a cluster needs Dask: pip install 'dask[distributed]'", where="--scheduler"
+        ) from None
     try:
         client = Client(address, timeout="10s", set_as_default=False)
     except (OSError, ValueError) as error:

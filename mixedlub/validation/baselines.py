@@ -40,9 +40,7 @@ def _learner(name: str) -> ModuleType:
     try:
         return importlib.import_module(f"sklearn.{name}")
     except ModuleNotFoundError as error:
-        rule = (
-            "the baselines need scikit-learn: pip install 'mixedlub[proof]'; --quick --cases N does without baselines"
-        )
+        rule = "the baselines need scikit-learn: pip install scikit-learn; --quick --cases N does without baselines"
         raise InputError(rule, where="proof") from error
 
 

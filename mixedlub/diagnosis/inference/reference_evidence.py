@@ -57,7 +57,7 @@ def nested_evidence(problem: Problem, explanation: Explanation, points: int = 30
     try:
         import dynesty
     except ImportError:
-        raise InputError("nested sampling needs dynesty: pip install 'mixedlub[bayes]'") from None
+        raise InputError("nested sampling needs dynesty: pip install dynesty") from None
     from scipy.special import ndtri
 
     sampler = dynesty.NestedSampler(

@@ -1,0 +1,185 @@
+"""Blocks of a page that run while it is built: files, commands, Python, pictures. A block that fails breaks the build.
+
+Each page has a copy of the examples and traces of its own; its blocks run there from top to bottom.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, ClassVar
+
+from docutils import nodes
+from docutils.parsers.rst import directives
+from docutils.parsers.rst.directives.images import Figure
+from sphinx.application import Sphinx
+from sphinx.directives.code import CodeBlock
+from sphinx.util.docutils import SphinxDirective
+
+ROOT = Path(__file__).parents[2]
+COPIED = ("examples", "profiles/traces")
+LIMIT_S = 300
+"""Seconds after which a block has hung: the slowest takes some ten on two cores."""
+
+
+class _InPage:
+    """What the blocks of one page share: the folder that they run in."""
+
+    env: Any
+
+    @property
+    def folder(self) -> Path:
+        base = Path(self.env.app.page_folders.name)
+        folder = base / self.env.docname.replace("/", "-")
+        if not folder.exists():
+            for name in COPIED:
+                shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__", "build.py"))
+        return folder
+
+    @property
+    def surroundings(self) -> dict[str, str]:
+        """Environment of the commands: this Python's programs first, plain output of one width."""
+        path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
+        return {**os.environ, "PATH": path, "COLUMNS": "88", "NO_COLOR": "1", "MPLBACKEND": "agg"}
+
+    def start(self, script: str) -> subprocess.Popen[bytes]:
+        """A script of the page started in the background, with a process group of its own."""
+        log = (self.folder / f"{script}.log").open("wb")
+        words = ["bash", "-c", f". ./{script}; wait"]
+        return subprocess.Popen(
+            words, cwd=self.folder, env=self.surroundings, stdout=log, stderr=log, start_new_session=True
+        )
+
+    def output(self, words: list[str], status: int = 0) -> str:
+        """Output of a command in the page's folder; RuntimeError where its exit status is another."""
+        found = subprocess.run(
+            words,
+            cwd=self.folder,
+            env=self.surroundings,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            timeout=LIMIT_S,
+            check=False,
+        )
+        if found.returncode != status:
+            raise RuntimeError(f"{words[-1]!r} ended with status {found.returncode}, not {status}:\n{found.stdout}")
+        return found.stdout.rstrip()
+
+
+def shortened(text: str, head: int | None, tail: int | None) -> str:
+    """The first and the last lines of an output, with an ellipsis for those between.
+
+    >>> shortened("a\\nb\\nc\\nd", 1, 1)
+    'a\\n...\\nd'
+    >>> shortened("a\\nb", 2, None), shortened("a\\nb", None, None)
+    ('a\\nb', 'a\\nb')
+    """
+    lines = text.splitlines()
+    first, last = head or 0, tail or 0
+    if (head is None and tail is None) or len(lines) <= first + last:
+        return text
+    return "\n".join([*lines[:first], "...", *lines[len(lines) - last :]])
+
+
+class Run(SphinxDirective, _InPage):
+    """Commands of a shell (or one Python program) with what they print, cut to ``head`` and ``tail`` lines.
+
+    ``quiet`` leaves out what they print; a ``hidden`` one shows nothing, and holds what the text around it says.
+    ``with`` names a script of the page that runs meanwhile.
+    """
+
+    has_content = True
+    optional_arguments = 1
+    option_spec: ClassVar[dict[str, Any]] = {
+        "head": directives.nonnegative_int,
+        "tail": directives.nonnegative_int,
+        "status": directives.nonnegative_int,
+        "quiet": directives.flag,
+        "hidden": directives.flag,
+        "with": directives.unchanged_required,
+    }
+
+    def run(self) -> list[nodes.Node]:
+        shown: list[nodes.Node] = []
+        python = bool(self.arguments) and self.arguments[0] == "python"
+        programs = ["\n".join(self.content)] if python else [line for line in self.content if line.strip()]
+        meanwhile = self.start(self.options["with"]) if "with" in self.options else None
+        try:
+            for program in programs:
+                words = [sys.executable, "-W", "error", "-c", program] if python else ["bash", "-c", program]
+                output = self.output(words, self.options.get("status", 0))
+                output = shortened(output, self.options.get("head"), self.options.get("tail"))
+                shown += [_literal(program, "python")] if python else [_literal(f"$ {program}", "console")]
+                if output and "quiet" not in self.options:
+                    shown.append(_literal(output, "text", "output"))
+        except (RuntimeError, subprocess.TimeoutExpired) as error:
+            raise self.error(f"{self.env.docname}: {error}") from None
+        finally:
+            if meanwhile is not None:
+                os.killpg(meanwhile.pid, signal.SIGKILL)
+                meanwhile.wait()
+        for node in shown:
+            self.set_source_info(node)
+        return [] if "hidden" in self.options else shown
+
+
+def _literal(text: str, language: str, *classes: str) -> nodes.literal_block:
+    return nodes.literal_block(text, text, language=language, classes=list(classes))
+
+
+class File(CodeBlock, _InPage):
+    """A file that the reader writes: shown under its name, and written for the blocks below."""
+
+    required_arguments, optional_arguments = 1, 0
+    LANGUAGES: ClassVar[dict[str, str]] = {".toml": "toml", ".py": "python", ".csv": "text", ".sh": "bash"}
+
+    def run(self) -> list[nodes.Node]:
+        name = self.arguments[0]
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("\n".join(self.content) + "\n", encoding="utf-8")
+        self.arguments[0] = self.LANGUAGES[path.suffix]
+        self.options["caption"] = name
+        return super().run()
+
+
+class Picture(Figure, _InPage):
+    """A figure that a block above has drawn: the first that matches the pattern."""
+
+    @property
+    def env(self) -> Any:
+        return self.state.document.settings.env
+
+    def run(self) -> list[nodes.Node]:
+        drawn = next(iter(sorted(self.folder.glob(self.arguments[0]))), None)
+        if drawn is None:
+            raise self.error(f"{self.env.docname}: no block above has drawn {self.arguments[0]}")
+        made = Path(self.env.srcdir) / "made" / self.env.docname
+        made.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(drawn, made / drawn.name)
+        self.arguments[0] = f"/made/{self.env.docname}/{drawn.name}"
+        return super().run()
+
+
+def _open(app: Sphinx) -> None:
+    app.page_folders = TemporaryDirectory(prefix="pages-")  # type: ignore[attr-defined]
+
+
+def _close(app: Sphinx, error: Exception | None) -> None:
+    app.page_folders.cleanup()  # type: ignore[attr-defined]
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    app.add_directive("run", Run)
+    app.add_directive("file", File)
+    app.add_directive("picture", Picture)
+    app.connect("builder-inited", _open)
+    app.connect("build-finished", _close)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

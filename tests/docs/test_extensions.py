@@ -1,0 +1,121 @@
+"""The extensions of the pages: blocks run, a failing one breaks the build, generated pages are whole."""
+
+import doctest
+import importlib
+import io
+import sys
+import warnings
+from pathlib import Path
+
+import pytest
+
+from mixedlub.cli import COMMANDS
+from mixedlub.effects import catalogue
+from mixedlub.kinds import KINDS
+
+ROOT = Path(__file__).parents[2]
+EXTENSIONS = ROOT / "docs/extensions"
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _extensions():
+    sys.path.insert(0, str(EXTENSIONS))
+    yield
+    sys.path.remove(str(EXTENSIONS))
+
+
+@pytest.fixture
+def built(tmp_path):
+    """Build one page with the extensions; gives its HTML and what Sphinx complained of."""
+
+    def build(text: str) -> tuple[str, str]:
+        from sphinx.application import Sphinx
+
+        source = tmp_path / "source"
+        source.mkdir()
+        (source / "conf.py").write_text(
+            "extensions = ['myst_parser', 'run_blocks', 'svg_equations', 'no_network']\n"
+            "html_math_renderer = 'svg'\nmyst_enable_extensions = ['dollarmath']\n"
+        )
+        (source / "index.md").write_text(f"# Page\n\n{text}\n")
+        complaints = io.StringIO()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # those of Sphinx and its extensions on their own dependencies
+            app = Sphinx(source, source, tmp_path / "out", tmp_path / "trees", "html", status=None, warning=complaints)
+            app.build()
+        return (tmp_path / "out/index.html").read_text(encoding="utf-8"), complaints.getvalue()
+
+    return build
+
+
+@pytest.mark.parametrize("name", [path.stem for path in sorted(EXTENSIONS.glob("*.py"))])
+def test_examples_in_the_extensions_hold(name):
+    assert doctest.testmod(importlib.import_module(name)).failed == 0
+
+
+def test_blocks_of_a_page_share_its_folder(built):
+    html, complaints = built(
+        "```{file} noted.toml\nx = 41\n```\n\n"
+        "```{run} python\nimport tomllib\nprint(tomllib.load(open('noted.toml', 'rb'))['x'] + 1)\n```\n\n"
+        "```{run}\nls examples/case\n```\n\n```{run}\n:hidden:\necho unseen\n```\n"
+    )
+    assert complaints == ""
+    assert "</span>42\n" in html
+    assert "system.toml" in html
+    assert "unseen" not in html
+
+
+@pytest.mark.parametrize(
+    "block",
+    [
+        "```{run}\nfalse\n```",
+        "```{run}\n:status: 2\ntrue\n```",
+        "```{run} python\n1 / 0\n```",
+        "```{picture} no.svg\n```",
+    ],
+)
+def test_a_block_that_fails_is_an_error_of_the_build(built, block):
+    assert "ERROR" in built(block)[1]
+
+
+def test_formulas_are_drawn_and_those_that_cannot_be_are_an_error(built):
+    html, complaints = built(r"$\mu = \tau / p_0$ and $\nosuchcommand$")
+    assert html.count('<svg class="equation"') == 1
+    assert r"\nosuchcommand" in complaints
+
+
+def test_a_page_that_loads_from_another_host_is_an_error(built):
+    assert "another host" in built('<img src="https://elsewhere.example/x.png">')[1]
+
+
+def test_generated_pages_have_every_effect_command_and_kind():
+    import generated
+
+    pages = generated.pages()
+    effects = "".join(text for name, text in pages.items() if name.startswith("effects/"))
+    assert [line[3:] for line in effects.splitlines() if line.startswith("## ")] == list(catalogue())
+    assert {name for name in pages if name.startswith("commands/")} == {f"commands/{c.NAME}" for c in COMMANDS}
+    assert {name for name in pages if name.startswith("kinds/")} == {f"kinds/{k}" for k in KINDS}
+
+
+@pytest.mark.parametrize("file", ["score.txt", "score_rigs.txt"])
+def test_every_row_of_a_score_is_read(file):
+    import scores
+
+    text = (scores.FOLDER / file).read_text(encoding="utf-8")
+    for tool, rows in scores.scores(text).items():
+        block = next(b for b in text.split("\n\n") if b.startswith(f"{tool}\nfigure")).splitlines()[2:]
+        assert len(rows) == len(block)
+        for line, row in zip(block, rows.values(), strict=True):
+            assert line.startswith(row.name)
+            assert line[len(row.name) :].split()[0] == row.value
+            assert (row.met is False) == line.endswith("NOT met")
+
+
+def test_missed_goals_are_listed():
+    import scores
+
+    rows = scores.scores((scores.FOLDER / "score.txt").read_text(encoding="utf-8"))[scores.TOOL]
+    said = scores.missed(rows)
+    assert said.startswith("Goals missed: 4.")
+    assert "both effects of a pair named (0.839, goal ≥ 0.85)" in said
