@@ -29,6 +29,8 @@ ABSENT = 0.5
 """Penalty for a needed column without a similar header."""
 COUNTED_LIKENESS = 1.0
 """Likeness of the time to a count of cycles or a distance."""
+SOLE_UNIT = 0.9
+"""Least likeness of a header in a unit that only this column has: as much as unit and half of the words."""
 TEXT_FITS = 0.4
 SAME_WORD = 0.75
 DERIVED = re.compile(
@@ -86,15 +88,24 @@ def _share(name: str, cells: Cells) -> tuple[bool, float, int]:
     group = either(name)
     near = likely_headers([*needed, *group, *found.quantities], cells)
     near_by = {column: likeness(column, header, cells[header]) for column, header in near.items()}
-    # Two columns whose difference is the reading count as well.
-    reading = max(near_by.get(q, ENOUGH if transmitted(q, cells) else 0.0) for q in found.quantities)
+    reading = max(likeness_of_reading(quantity, cells, near.get(quantity)) for quantity in found.quantities)
     conditions = {c: near_by.get(c, 0.0) for c in needed}
     if group:
         conditions[group[0]] = max(near_by.get(c, 0.0) for c in group)
-    # A name that all rows share is often absent from a table, a number seldom.
-    found_or_not = [near or (0.0 if c in TEXT_COLUMNS else -ABSENT) for c, near in conditions.items()]
-    share = sum(found_or_not) / (len(conditions) + 1)
+    share = sum(near or -ABSENT for near in conditions.values()) / (len(conditions) + 1)
     return reading > 0.0, reading + share, sum(near > 0.0 for near in conditions.values())
+
+
+def likeness_of_reading(quantity: str, cells: Cells, header: str | None) -> float:
+    """Likeness of a header to a reading; two columns whose difference is the reading count as well.
+
+    A unit that no other column has decides: only a gear loss is in watts.
+    """
+    if header is None:
+        return ENOUGH if transmitted(quantity, cells) else 0.0
+    near, unit = likeness(quantity, header, cells[header]), split(header)[1]
+    sole = unit is not None and [t.name for t in BY_NAME.values() if fits(unit, t.unit)] == [quantity]
+    return max(near, SOLE_UNIT) if sole else near
 
 
 def either(kind: str) -> tuple[str, ...]:

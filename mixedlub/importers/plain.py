@@ -12,7 +12,7 @@ from mixedlub.data_checks.pooled_rows import grouping_columns, pooled_words
 from mixedlub.importers.base import Answers, Draft, Question, contact_form, questions_of, read_note, refuse_unknown
 from mixedlub.importers.decimals import DECIMAL, MARKS
 from mixedlub.importers.input_file import InputFile
-from mixedlub.importers.likeness import likely_kind, likeness
+from mixedlub.importers.likeness import likely_headers, likely_kind, likeness_of_reading
 from mixedlub.importers.matching import constants, import_keys, match, target_for, value_keys, wanted
 from mixedlub.importers.surface_speeds import refuse_one_surface
 from mixedlub.importers.text_table import (
@@ -143,7 +143,8 @@ def _decimal(answers: Answers) -> str | None:
 
 def _likely_quantity(kind: Kind, cells: Cells) -> str:
     """The quantity with the most similar header."""
-    return max(kind.quantities, key=lambda q: max(likeness(q, h, values) for h, values in cells.items()))
+    near = likely_headers(kind.quantities, cells)
+    return max(kind.quantities, key=lambda q: likeness_of_reading(q, cells, near.get(q)))
 
 
 def _values(rule: Column, header: str, sheet: Sheet, unit: str | None) -> np.ndarray:
