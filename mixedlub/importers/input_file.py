@@ -30,6 +30,7 @@ class InputFile:
     name: str
     text: str
     notes: tuple[Finding, ...] = ()
+    is_workbook: bool = False
     tables: dict[str | None, Sheet] = field(default_factory=dict, repr=False)
 
     def table(self, decimal: str | None = None) -> Sheet:
@@ -99,4 +100,4 @@ def _from_workbook(sheets: tuple[Worksheet, ...], name: str, answers: Answers) -
     if chosen.percent:
         columns = ("column " if len(chosen.percent) == 1 else "columns ") + ", ".join(chosen.percent)
         notes.append(finding("percent_as_stored", f"{columns} shown in percent, taken as stored: 5 % is 0.05", name))
-    return InputFile(name, with_hyphens(chosen.text), tuple(notes))
+    return InputFile(name, with_hyphens(chosen.text), tuple(notes), is_workbook=True)

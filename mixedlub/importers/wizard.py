@@ -176,7 +176,7 @@ def _opened(files: Sequence[Path], answers: Answers) -> tuple[list[InputFile], d
     """The files of readings, and the answers with the table of load shares that may be among the files."""
     found = [(path, open_file(path, answers)) for path in files]
     shares = [path for path, file in found if is_share(file.text)]
-    if SHEET in answers and not any(path.suffix.lower() in (".xlsx", ".xlsm") for path in files):
+    if SHEET in answers and not any(file.is_workbook for _, file in found):
         raise InputError("none of the files is a workbook (.xlsx)", where=SHEET, value=answers[SHEET])
     return [file for path, file in found if path not in shares], with_share(answers, shares)
 

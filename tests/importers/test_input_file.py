@@ -96,7 +96,7 @@ def test_compressed_tables_and_utf_16_are_read(data, tmp_path):
 def test_a_compressed_workbook_is_read(book, tmp_path):
     path = tmp_path / "t.xlsx.gz"
     path.write_bytes(gzip.compress(book(Data=ROWS).read_bytes()))
-    assert viscosities(path, tmp_path) == EXPECTED
+    assert viscosities(path, tmp_path, **{"import.sheet": "Data"}) == EXPECTED
 
 
 @pytest.mark.parametrize(("cut", "rule"), [(20, "damaged gzip file"), (-4, "damaged gzip file")])
