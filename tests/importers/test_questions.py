@@ -103,6 +103,7 @@ def test_where_no_header_is_near_none_is_suggested(tmp_path):
         ("Time [s],COF", "friction_history"),
         ("Motor speed [rpm],Friction torque [Nm]", "friction_map"),
         ("Temperature [degC],Viscosity [mPa.s]", "viscosity"),
+        ("time_s,load_N,speed_mm_s,srr_percent,lube_probe_temp_degC,friction_coefficient", "friction_history"),
         ("Test no.,T1 [Nm],n1 [1/min],Oil sump temp. [°C],Pv total [kW]", "gear_pair"),
         ("M1 [Nm],n1 [rpm],Oil temp [°C],Loss [W]", "gear_pair"),
         ("output_speed_rad_s,ideal_drive_torque_Nm,torque_sensor_Nm,motor_temp_degC", "friction_map"),
