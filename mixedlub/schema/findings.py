@@ -31,7 +31,7 @@ class Severity(StrEnum):
 
 
 @dataclass(frozen=True)
-class Kind:
+class FindingKind:
     """What a code stands for, and how far such a finding usually reaches."""
 
     severity: Severity
@@ -39,14 +39,14 @@ class Kind:
 
 
 @cache
-def registered() -> Mapping[str, Kind]:
+def registered() -> Mapping[str, FindingKind]:
     """The kinds of findings by code.
 
     >>> registered()["columns_unknown"].severity
     <Severity.NOTE: 'note'>
     """
     table = tomllib.loads(files("mixedlub.schema").joinpath("findings.toml").read_text(encoding="utf-8"))
-    return {code: Kind(Severity(entry["severity"]), entry["meaning"]) for code, entry in table.items()}
+    return {code: FindingKind(Severity(entry["severity"]), entry["meaning"]) for code, entry in table.items()}
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ def finding(code: str, text: str, place: str = "", severity: Severity | None = N
     return Finding(code, severity or _kind(code).severity, place, text)
 
 
-def _kind(code: str) -> Kind:
+def _kind(code: str) -> FindingKind:
     try:
         return registered()[code]
     except KeyError:

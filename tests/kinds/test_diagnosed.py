@@ -64,7 +64,9 @@ def test_film_loss_is_heating_in_a_tie_with_thinning(typed):
     d = typed("ehd_film_31C_50N")
     assert ["inlet_shear_heating"] in tied(d)
     assert ["inlet_shear_thinning"] in tied(d)
-    assert "viscosity index 304, beyond 200: inlet shear thinning is taken as 5 times as usual" in said(d)
+    (raised,) = [note for note in d.warnings if note.code == "prior_odds_raised"]
+    assert raised.place == "inlet shear thinning"
+    assert "304" in raised.text
 
 
 def test_last_film_is_told_to_be_a_fringe_off(typed):
