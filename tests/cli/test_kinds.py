@@ -13,6 +13,7 @@ from mixedlub.case import folder
 from mixedlub.cli import main
 from mixedlub.kinds import kind
 from mixedlub.report.format_reference import kinds_text
+from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.section import examples, tables
 from mixedlub.schema.system_file import KINDS
@@ -161,7 +162,7 @@ def test_the_sections_told_are_those_that_are_computed_with(name):
     data = toml_file.read_toml(EXAMPLE / "system.toml")
     data["contact"] = {"geometry": "point", "radius_mm": [10.0, 20.0]}
     watched = Watched(toml_file.parse(system_file.System, data, "system.toml"))
-    found.inputs(watched, EXAMPLE, table, table)
+    found.inputs(watched, Rig(watched, EXAMPLE), table, table)
     found.chain(watched, table)
     found.extra_calibration(watched, table)
     assert watched.asked & {"gears", "contact", "lubricant", "surfaces"} == {*found.sections, *found.uses}
