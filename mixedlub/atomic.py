@@ -16,7 +16,7 @@ def writing(folder: Path) -> Iterator[Path]:
     A folder gives way to its successor, but for files in it that no earlier run wrote: those stay.
     """
     for stale in folder.glob(".writing-*"):
-        if not _alive(stale.name.rpartition("-")[2]):
+        if not is_alive(stale.name.rpartition("-")[2]):
             shutil.rmtree(stale, ignore_errors=True)
     aside = folder / f".writing-{os.getpid()}"
     shutil.rmtree(aside, ignore_errors=True)
@@ -60,7 +60,8 @@ def _take_along(before: Path, after: Path) -> None:
             shutil.copy2(path, kept, follow_symlinks=False)
 
 
-def _alive(process: str) -> bool:
+def is_alive(process: str) -> bool:
+    """Whether a process of this number runs on this machine."""
     try:
         os.kill(int(process), 0)
     except (ValueError, ProcessLookupError):

@@ -14,19 +14,36 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import typer
 
 from mixedlub.commands import check, diagnose, effects, import_files, kinds, new, profile, prove, simulate, study
-from mixedlub.commands.console import drop_empty_folders, forget_folder, note, save_traceback, say, tell, what_is_kept
+from mixedlub.commands.console import (
+    drop_empty_folders,
+    forget_folder,
+    forget_traceback,
+    is_full,
+    note,
+    opened,
+    printable,
+    save_traceback,
+    say,
+    tell,
+    what_is_kept,
+)
 from mixedlub.schema.findings import FindingWarning
 from mixedlub.schema.messages import of_option
-from profiles.errors import InputError, nearest
+from profiles.errors import InputError, RunError, nearest
 
 COMMANDS = (profile, study, simulate, diagnose, check, import_files, new, kinds, effects, prove)
 
-GOING_ON = (study.NAME, prove.NAME)
-"""Commands that keep what they did when they are stopped."""
+PARTIAL = {study.NAME: ".parts-*/*.parquet", prove.NAME: "**/*"}
+"""Commands that keep what they did when they are stopped, with the pattern of those files."""
 CTRL_C = 130
-"""Status that typer gives a command which Ctrl-C stopped, instead of the interruption."""
+"""Status of a command that Ctrl-C stopped, as shells have it; that of typer too."""
 
-app = typer.Typer(add_completion=False, no_args_is_help=False, rich_markup_mode=None, pretty_exceptions_enable=False)
+app = typer.Typer(
+    no_args_is_help=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
 
 
 def _say_version(wanted: bool) -> None:
@@ -54,13 +71,13 @@ for _module in COMMANDS:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command; 0 done, 2 bad input (one message, no traceback), 1 anything else."""
+    """Run a command; 0 done, 2 bad input, 130 stopped by Ctrl-C, 1 anything else: one message, no traceback."""
     forget_folder()
     with warnings.catch_warnings():
         # What numbers overflow while far-off parameters are tried is not for the user.
         warnings.simplefilter("ignore", RuntimeWarning)
         warnings.showwarning = _show
-        return _run(spread_lists(list(sys.argv[1:] if arguments is None else arguments)))
+        return _run(spread_lists(list(sys.argv[1:] if arguments is None else arguments)) or ["--help"])
 
 
 def _show(message: Warning | str, *rest: object, **named: object) -> None:
@@ -70,27 +87,39 @@ def _show(message: Warning | str, *rest: object, **named: object) -> None:
 
 def _run(words: list[str]) -> int:
     try:
-        if words and not words[0].startswith("-") and words[0] not in (names := [c.NAME for c in COMMANDS]):
+        if not words[0].startswith("-") and words[0] not in (names := [c.NAME for c in COMMANDS]):
             raise InputError(f"no such command; {nearest(words[0], names)}", where="command", value=words[0])
         status = typer.main.get_command(app).main(words, prog_name="mixedlub", standalone_mode=False)
         if status == CTRL_C:
             raise KeyboardInterrupt
         sys.stdout.flush()
+        forget_traceback()
         return int(status or 0)
-    except InputError as error:
-        drop_empty_folders()
-        return _failed(str(error), 2)
-    except (KeyboardInterrupt, typer.Abort):
-        drop_empty_folders()
-        return _failed("stopped" + what_is_kept(words[0] in GOING_ON if words else False), 1)
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
-    except Exception as error:
-        if hasattr(error, "format_message") and hasattr(error, "exit_code"):
-            place = getattr(getattr(error, "ctx", None), "command_path", "mixedlub")
-            return _failed(f"{of_option(error.format_message())} (see {place} --help)", int(error.exit_code))
-        return _failed(f"unexpected {type(error).__name__}: {error}; details in {save_traceback(error)}", 1)
+    except (Exception, KeyboardInterrupt) as error:
+        message, status = _what_went_wrong(error, what_is_kept(PARTIAL.get(words[0], "")))
+        drop_empty_folders()
+        print("mixedlub: " + " ".join(printable(message).split()), file=sys.stderr)
+        return status
+
+
+def _what_went_wrong(error: BaseException, kept: str) -> tuple[str, int]:
+    """What to say of an error, and the exit status; ``kept`` is what is left of the work."""
+    if isinstance(error, InputError):
+        return str(error), 2
+    if isinstance(error, (KeyboardInterrupt, typer.Abort)):
+        return f"stopped{kept}", CTRL_C
+    if isinstance(error, RunError):
+        return f"{error}{kept}", 1
+    if isinstance(error, OSError) and is_full(error):
+        left = kept or "; the same command starts anew"
+        return f"the disk of {opened() or error.filename} is full{left} once there is room", 1
+    if hasattr(error, "format_message") and hasattr(error, "exit_code"):
+        place = getattr(getattr(error, "ctx", None), "command_path", "mixedlub")
+        return f"{of_option(error.format_message())} (see {place} --help)", int(error.exit_code)
+    return f"unexpected {type(error).__name__}: {error}; {save_traceback(error)}", 1
 
 
 def spread_lists(words: list[str]) -> list[str]:
@@ -108,11 +137,6 @@ def spread_lists(words: list[str]) -> list[str]:
             found.append(word)
             listing = word == "--exclude" or (listing and not word.startswith("-") and not os.path.isdir(word))
     return found
-
-
-def _failed(message: str, status: int) -> int:
-    print("mixedlub: " + " ".join(message.split()), file=sys.stderr)
-    return status
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The one exception a user of this project is meant to read."""
+"""The two exceptions a user of this project is meant to read."""
 
 from __future__ import annotations
 
@@ -30,6 +30,10 @@ def refuse_no_file(path: Path) -> None:
         raise InputError("is a folder; name the files in it", where=str(path))
     if not path.is_file():
         raise InputError("is a special file (a pipe or a device), which is not read", where=str(path))
+
+
+class RunError(RuntimeError):
+    """A run that stopped through no fault of its input: the message says what happened and how to go on."""
 
 
 def nearest(name: str, known: Iterable[str]) -> str:

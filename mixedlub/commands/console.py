@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import errno
 import sys
 import tempfile
 import traceback
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from unicodedata import category
 
 from mixedlub.schema.findings import Finding, grouped
 from profiles.errors import InputError
@@ -16,10 +18,18 @@ _opened: list[Path] = []
 _made: list[Path] = []
 
 
-def output_folder(out: Path | None, command: str, name: str) -> Path:
-    """The folder to write into, made if need be; ``out/COMMAND/NAME`` where none is given."""
+def output_folder(out: Path | None, command: str, name: str, *, knows_own: bool = False) -> Path:
+    """The folder to write into, made if need be; ``out/COMMAND/NAME`` where none is given.
+
+    A command that ``knows_own`` results checks itself what it would replace.
+    """
     folder = Path("out") / command / name if out is None else out
-    if out is None and folder.is_dir() and any(not path.name.startswith(".") for path in folder.iterdir()):
+    if (
+        out is None
+        and not knows_own
+        and folder.is_dir()
+        and any(not path.name.startswith(".") for path in folder.iterdir())
+    ):
         note(f"the result in {folder}, maybe of another input of that name, is replaced; --out names another folder")
     _made[:] = [path for path in (folder, *folder.parents) if not path.exists()]
     try:
@@ -47,12 +57,15 @@ def drop_empty_folders() -> None:
             return
 
 
-def what_is_kept(goes_on: bool) -> str:
-    """What is left of a command that was stopped, and how it ``goes_on`` where it does; nothing where none writes."""
+def what_is_kept(partial: str) -> str:
+    """What is left of a command that was stopped, and how it goes on; nothing where it writes nothing.
+
+    ``partial`` is the pattern of the files from which the same command goes on; empty where it starts anew.
+    """
     if not _opened:
         return ""
     (folder,) = _opened
-    if goes_on and any(path.is_file() for path in folder.rglob("*")):
+    if partial and any(path.is_file() for path in folder.glob(partial)):
         return f"; what was done is kept in {folder}, and the same command goes on from there"
     return "; no result was written, and the same command starts anew"
 
@@ -95,28 +108,57 @@ def within_range(where: str) -> Iterator[None]:
 
 def say(text: str = "") -> None:
     """A line for the user."""
-    print(text, flush=True)
+    print(printable(text), flush=True)
 
 
 def tell(found: Iterable[Finding]) -> None:
     """Findings on stderr, those of one kind as one."""
     for one in grouped(found):
-        print(f"{one.severity}: {one}", file=sys.stderr, flush=True)
+        print(f"{one.severity}: {printable(str(one))}", file=sys.stderr, flush=True)
 
 
 def note(text: str) -> None:
     """Something assumed, ignored or doubtful that the user should know."""
-    print(f"note: {text}", file=sys.stderr, flush=True)
+    print(f"note: {printable(text)}", file=sys.stderr, flush=True)
 
 
-def save_traceback(error: BaseException) -> Path:
-    """The full story of an unexpected error, beside the results or, where there are none, among temporary files."""
-    told = "".join(traceback.format_exception(error))
-    for folder in (*_opened, Path(tempfile.gettempdir())):
-        path = folder / "mixedlub-error.log"
+def printable(text: str) -> str:
+    r"""Text without control characters, which a title or a name could use to command the terminal.
+
+    >>> printable("red \x1b[31m, next\nline")
+    'red \\x1b[31m, next\nline'
+    """
+    return "".join(repr(c)[1:-1] if category(c) == "Cc" and c not in "\n\t" else c for c in text)
+
+
+LOG = "mixedlub-error.log"
+"""File in the folder of the results with the traceback of an unexpected error."""
+
+
+def save_traceback(error: BaseException) -> str:
+    """Where the traceback of an unexpected error is kept, or where it arose if there is no folder for results."""
+    for folder in _opened:
         try:
-            path.write_text(told, encoding="utf-8")
+            (folder / LOG).write_text("".join(traceback.format_exception(error)), encoding="utf-8")
         except OSError:
+            (folder / LOG).unlink(missing_ok=True)
             continue
-        return path
-    return Path("nowhere: no folder can be written to")
+        return f"details in {folder / LOG}"
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    return f"at line {last.lineno} of {last.filename}"
+
+
+def forget_traceback() -> None:
+    """Remove the traceback that an earlier run left in the folder of the results."""
+    for folder in _opened:
+        (folder / LOG).unlink(missing_ok=True)
+
+
+def is_full(error: OSError) -> bool:
+    """Whether a disk or a quota is full."""
+    return error.errno in (errno.ENOSPC, errno.EDQUOT)
+
+
+def opened() -> Path | None:
+    """The folder that is being written to."""
+    return _opened[0] if _opened else None

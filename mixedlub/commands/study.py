@@ -11,7 +11,8 @@ from typing import Annotated
 import typer
 
 from mixedlub.atomic import writing
-from mixedlub.commands.console import note, output_folder, say, tell, within_range
+from mixedlub.commands.console import busy, note, output_folder, say, tell, within_range
+from profiles.errors import InputError, nearest
 
 NAME = "study"
 EXAMPLE = "mixedlub study examples/study_21_pairings.toml --out out/study"
@@ -23,6 +24,13 @@ def command(
         Path | None, typer.Option(metavar="DIR", help="Folder for the results; default out/study/NAME.")
     ] = None,
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Figures and the HTML page, or not.")] = True,
+    format_: Annotated[
+        str,
+        typer.Option("--format", metavar="LIST", help="Formats of the figures: svg, pdf, png, with commas between."),
+    ] = "svg",
+    replace: Annotated[
+        bool, typer.Option("--replace", help="Replace the result of another study, or other files, in that folder.")
+    ] = False,
     scheduler: Annotated[
         str | None, typer.Option(metavar="ADDRESS", help="Address of a Dask scheduler, e.g. tcp://host:8786.")
     ] = None,
@@ -34,47 +42,72 @@ def command(
     A run that was stopped, started again with the same inputs, goes on where it was.
     """
     from mixedlub.study import checkpoint, counted, factors, read_study, run_study
+    from mixedlub.study.record import check_folder, running, write_record
     from mixedlub.study.validity import out_of_range
 
+    formats = chosen_formats(format_)
     with within_range(str(file)):
         study = read_study(file)
-    folder = output_folder(out, NAME, study.name)
-    tell(study.notes)
-    say(f"{study.file.title}: {' x '.join(factors(study))} = {counted(study.conditions, 'condition')}")
-    start = time.perf_counter()
-    with progress_bar("computing") as bar:
-        progress = _resumed(bar)
-        results = run_study(
-            study, parts=checkpoint.parts_folder(folder, study.plan), scheduler=scheduler, progress=progress
-        )
-    say(f"computed in {time.perf_counter() - start:.2f} s")
-    warnings = out_of_range(results)
-    tell(warnings)
-    with writing(folder) as aside:
-        results.write(aside / "results.csv", aside / "results.parquet")
-        if figures:
-            from mixedlub.report.page import write_page
+        given = file.read_bytes()
+    folder = output_folder(out, NAME, study.name, knows_own=True)
+    with running(folder, study):
+        earlier = "" if replace else check_folder(folder, study, file)
+        if earlier:
+            note(earlier)
+        tell(study.notes)
+        say(f"{study.file.title}: {' x '.join(factors(study))} = {counted(study.conditions, 'condition')}")
+        start = time.perf_counter()
+        with progress_bar("computing") as bar:
+            results = run_study(
+                study,
+                parts=checkpoint.parts_folder(folder, study.plan),
+                scheduler=scheduler,
+                progress=_resumed(bar),
+            )
+        say(f"computed in {time.perf_counter() - start:.2f} s")
+        warnings = out_of_range(results)
+        tell(warnings)
+        with writing(folder) as aside:
+            results.write(aside / "results.csv", aside / "results.parquet")
+            if figures:
+                from mixedlub.report.page import write_page
 
-            write_page(results, aside, (*study.notes, *warnings))
-    checkpoint.clear(folder)
+                text = given.decode("utf-8-sig")
+                with busy("drawing figures") as doing:
+                    write_page(results, aside, (*study.notes, *warnings), given=text, formats=formats, doing=doing)
+            write_record(aside, folder, study, file, given)
+        checkpoint.clear(folder)
     page = folder / "index.html"
     if not figures and page.exists() and checkpoint.fingerprint(study.plan) not in page.read_text("utf-8", "replace"):
         note(f"{page} and the figures beside it are of another study; without --no-figures they are drawn anew")
     say(f"results in {folder / 'results.csv'} and .parquet" + (f", page {page}" if figures else ""))
 
 
+FORMATS = ("svg", "pdf", "png")
+"""Formats of a figure's file."""
+
+
+def chosen_formats(text: str) -> tuple[str, ...]:
+    """The formats named in a list with commas."""
+    names = tuple(dict.fromkeys(name.strip().lower() for name in text.split(",")))
+    for name in names:
+        if name not in FORMATS:
+            raise InputError(f"no such format; {nearest(name, FORMATS)}", where="--format", value=name)
+    return names
+
+
 def _resumed(progress: Callable[[int, int], None]) -> Callable[[int, int], None]:
     """The same progress, that says first how much an earlier run has done."""
     calls = 0
 
-    def told(done: int, of: int) -> None:
+    def counted(done: int, of: int) -> None:
         nonlocal calls
         calls += 1
         if calls == 1 and done:
             say(f"{done} of {of} blocks are there from an earlier run")
         progress(done, of)
 
-    return told
+    return counted
 
 
 @contextmanager

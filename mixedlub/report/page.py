@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,7 @@ import numpy as np
 
 from mixedlub.report.figures import Drawn, figures
 from mixedlub.report.laws import laws_used
-from mixedlub.report.style import as_svg
+from mixedlub.report.style import as_svg, save
 from mixedlub.report.surfaces import (
     height_notes,
     judgement,
@@ -33,8 +33,16 @@ from mixedlub.version import installed_version
 MOST_SURFACES = 12
 
 
-def write_page(results: Results, folder: Path, notes: Sequence[Finding]) -> None:
-    """``index.html`` and ``figures/`` in a folder."""
+def write_page(
+    results: Results,
+    folder: Path,
+    notes: Sequence[Finding],
+    *,
+    given: str = "",
+    formats: Sequence[str] = ("svg",),
+    doing: Callable[[str], None] = lambda text: None,
+) -> None:
+    """``index.html`` and ``figures/`` in a folder; ``given`` is the study file, ``doing`` hears what is drawn."""
     from jinja2 import Environment
 
     drawings = folder / "figures"
@@ -44,13 +52,14 @@ def write_page(results: Results, folder: Path, notes: Sequence[Finding]) -> None
     judged = judgement(profiles)
     shown = []
     for drawn in (*surface_figures(study, profiles, judged), *figures(results)):
-        svg = as_svg(drawn.figure)
-        (drawings / f"{drawn.name}.svg").write_text(svg, encoding="utf-8")
-        shown.append({"name": drawn.name, "caption": drawn.caption, "svg": svg})
+        doing(f"drawing figures: {drawn.name}")
+        for form in formats:
+            save(drawn.figure, drawings / f"{drawn.name}.{form}")
+        shown.append({"name": drawn.name, "caption": drawn.caption, "svg": as_svg(drawn.figure)})
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(files("mixedlub.report").joinpath("template.html").read_text(encoding="utf-8"))
     doubtful = grouped([*notes, *not_gaussian(judged), *height_notes(profiles, judged)])
-    said = {"notes": doubtful, "provenance": provenance(study, profiles)}
+    said = {"notes": doubtful, "provenance": provenance(study), "given": given}
     page = template.render(**content(results), **said, figures=shown)
     (folder / "index.html").write_text(page, encoding="utf-8")
 

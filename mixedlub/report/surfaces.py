@@ -102,14 +102,10 @@ def not_gaussian(judged: Judged) -> list[Finding]:
     return [finding("heights_not_gaussian", text)]
 
 
-def provenance(study: Study, profiles: Mapping[str, Profile]) -> list[tuple[str, str]]:
+def provenance(study: Study) -> list[tuple[str, str]]:
     """Where each surface comes from: its moments as given, or its trace with what was done to it."""
-    rows = []
-    for name in list(study.surfaces)[: 4 * SHOWN]:
-        section = study.file.surfaces[name]
-        if section.profile is None:
-            rows.append((name, "moments as given"))
-        else:
-            steps = "; ".join(profiles[name].steps) if name in profiles else "prepared as the others"
-            rows.append((name, f"{section.profile}: {steps}"))
-    return rows
+    sections = study.file.surfaces
+    return [
+        (name, f"{sections[name].profile}: {'; '.join(s.steps)}" if sections[name].profile else "moments as given")
+        for name, s in list(study.surfaces.items())[: 4 * SHOWN]
+    ]

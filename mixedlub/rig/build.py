@@ -230,4 +230,5 @@ def surface(name: str, section: system_file.SurfaceSection, measured: tuple[Prof
         conductivity=section.thermal_conductivity_W_mK,
         density=section.density_kg_m3,
         heat_capacity=section.specific_heat_J_kgK,
+        steps=() if measured is None else measured[1].steps,
     )

@@ -10,7 +10,10 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Surface:
-    """One surface in SI: profile moments, coating (thickness 0: none), thermal properties of the body."""
+    """One surface in SI: profile moments, optional coating, thermal properties of the body (steel unless given).
+
+    ``steps`` is what was done to the trace that the moments are of.
+    """
 
     name: str
     m0: float
@@ -21,6 +24,7 @@ class Surface:
     conductivity: float
     density: float
     heat_capacity: float
+    steps: tuple[str, ...] = ()
 
 
 def paired(first: Sequence[Surface], second: Sequence[Surface], coated: bool = False) -> dict[str, np.ndarray]:

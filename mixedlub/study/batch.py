@@ -21,9 +21,9 @@ import numpy as np
 from mixedlub.chain.model import Model, Step
 from mixedlub.laws.contact import asperity_pressure
 from mixedlub.laws.loss import over_path
+from mixedlub.study.cluster import on_cluster
 from mixedlub.study.options import mean_hertz_pressure
 from mixedlub.study.plan import Plan
-from profiles.errors import InputError
 
 OUTPUTS = ("power_loss", "mean_friction", "area_ratio", "film_thickness", "film_parameter", "composite_roughness")
 CHECKS = ("asperity_load_ratio", "largest_area_ratio")
@@ -168,7 +168,7 @@ def run(
     """
     todo = blocks(plan) if todo is None else todo
     if scheduler is not None:
-        yield from _on_cluster(plan, todo, scheduler)
+        yield from on_cluster(compute, plan, todo, scheduler)
         return
     pin_allocator()
     threads = threads or processors()
@@ -184,25 +184,6 @@ def run(
                 yield running.pop(done), done.result()
                 for block in itertools.islice(queue, 1):
                     running[pool.submit(compute, plan, block)] = block
-
-
-def _on_cluster(plan: Plan, todo: Sequence[Block], address: str) -> Iterator[tuple[Block, Found]]:
-    try:
-        from distributed import Client, as_completed
-    except ImportError:
-        raise InputError(
-            "running on a cluster needs Dask: pip install 'dask[distributed]'", where="--scheduler"
-        ) from None
-    try:
-        client = Client(address, timeout="10s", set_as_default=False)
-    except (OSError, ValueError) as error:
-        raise InputError(f"no scheduler answers there ({error})", where="--scheduler", value=address) from None
-    with client:
-        shared = client.scatter(plan, broadcast=True)
-        tasks = {client.submit(compute, shared, b, pure=False): b for b in todo}
-        for done in as_completed(tasks, loop=client.loop):
-            yield tasks.pop(done), done.result()
-            done.release()
 
 
 @cache

@@ -28,7 +28,12 @@ if TYPE_CHECKING:
 
 def fingerprint(plan: Plan) -> str:
     """A hash of every number and every line of code the results depend on."""
-    digest = hashlib.sha256(_code().encode())
+    return hashlib.sha256(f"{_code()}{input_fingerprint(plan)}".encode()).hexdigest()
+
+
+def input_fingerprint(plan: Plan) -> str:
+    """A hash of every number the results depend on."""
+    digest = hashlib.sha256()
     for name in sorted(plan.inputs):
         value = np.ascontiguousarray(plan.inputs[name], dtype=float)
         digest.update(f"{name}{value.shape}".encode())
@@ -81,8 +86,11 @@ def keep(folder: Path, block: Block, found: Found) -> None:
     path = folder / block_name(block)
     aside = path.with_suffix(f".{os.getpid()}")
     table = pa.table({name: floats(values) for name, values in found.items()})
-    pq.write_table(table, aside, compression="none", use_dictionary=False)
-    aside.replace(path)
+    try:
+        pq.write_table(table, aside, compression="none", use_dictionary=False)
+        aside.replace(path)
+    finally:
+        aside.unlink(missing_ok=True)
 
 
 def floats(values: np.ndarray) -> pa.Array:

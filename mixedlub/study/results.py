@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,10 +11,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.schema.section import table as file_table
 from mixedlub.schema.units import unit_of
 from mixedlub.study import batch, checkpoint
 from mixedlub.study.batch import CHECKS, OUTPUTS
 from mixedlub.study.plan import Study
+from mixedlub.study.schema import StudyFile
+from mixedlub.version import installed_version
 from profiles.errors import InputError
 
 if TYPE_CHECKING:
@@ -32,7 +36,7 @@ COLUMNS = {
 """Column of each output, and the factor from SI to its unit."""
 
 DEFINITIONS = {
-    "power_loss": "power lost in the mesh, mean over a mesh cycle",
+    "power_loss": "total power loss, mean over a mesh cycle: the mesh and every loss that is switched on as an effect",
     "mean_friction": "power loss over the path integral of load times sliding speed",
     "area_ratio": "boundary area ratio, plain mean over the path of contact as far as it carries load",
     "film_thickness": "film thickness, plain mean over the path of contact as far as it carries load",
@@ -102,6 +106,15 @@ class Results:
                 columns[column] = checkpoint.floats(self.values[name][start : start + step] * scale)
             yield pa.table(columns)
 
+    def _described_schema(self, schema: pa.Schema) -> pa.Schema:
+        """The columns with unit and meaning, and what the whole is of."""
+        import pyarrow as pa
+
+        meant = meanings()
+        fields = [f.with_metadata({"unit": unit_of(f.name) or "-", "meaning": meant[f.name]}) for f in schema]
+        whole = {"title": self.study.file.title, "fingerprint": checkpoint.fingerprint(self.study.plan), **versions()}
+        return pa.schema(fields, metadata=whole)
+
     def write(self, csv_path: Path, parquet_path: Path) -> None:
         """The rows as CSV and Parquet."""
         import pyarrow.csv as pc
@@ -115,7 +128,7 @@ class Results:
             for table in self.tables():
                 csv_writer = csv_writer or pc.CSVWriter(csv_path, table.schema, write_options=options)
                 parquet_writer = parquet_writer or pq.ParquetWriter(
-                    parquet_path, table.schema, use_dictionary=_REPEATING
+                    parquet_path, self._described_schema(table.schema), use_dictionary=_REPEATING
                 )
                 csv_writer.write_table(table)
                 parquet_writer.write_table(table)
@@ -123,6 +136,18 @@ class Results:
             for writer in (csv_writer, parquet_writer):
                 if writer is not None:
                     writer.close()
+
+
+def meanings() -> dict[str, str]:
+    """Meaning of each column of the table."""
+    levels = {key.name: key.meaning for key in file_table(StudyFile, "conditions").fields}
+    sides = {f"{side}_surface": f"surface of the {side}" for side in ("pinion", "gear")}
+    return sides | levels | {column: DEFINITIONS[name] for name, (column, _) in COLUMNS.items()}
+
+
+def versions() -> dict[str, str]:
+    """Versions of the programs that a result depends on."""
+    return {"mixedlub": installed_version(), "NumPy": np.__version__, "Python": sys.version.split()[0]}
 
 
 def _described(name: str, column: str) -> dict[str, str]:

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import os
 import shlex
 import subprocess
 import sys
@@ -88,9 +89,39 @@ def test_short_trace_is_not_called_not_gaussian(tmp_path, capsys):
     assert "cannot be judged" in capsys.readouterr().out
 
 
-def test_no_command_is_bad_input(capsys):
-    assert main([]) == 2
-    assert "--help" in capsys.readouterr().err
+def test_no_command_prints_the_help(capsys):
+    assert main([]) == 0
+    bare = capsys.readouterr().out
+    assert main(["--help"]) == 0
+    assert bare == capsys.readouterr().out
+
+
+@pytest.mark.parametrize("command", [[], *([c.NAME] for c in COMMANDS)], ids=" ".join)
+def test_h_is_short_for_help(command, capsys):
+    assert main([*command, "-h"]) == 0
+    short = capsys.readouterr().out
+    assert main([*command, "--help"]) == 0
+    assert short == capsys.readouterr().out
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_commands_and_options_are_completed(shell):
+    words = {"bash": ("mixedlub st", "1"), "zsh": ("mixedlub st", ""), "fish": ("mixedlub st", "")}[shell]
+    asked = {"_MIXEDLUB_COMPLETE": f"complete_{shell}", "COMP_WORDS": words[0], "COMP_CWORD": words[1]}
+    asked |= {"_TYPER_COMPLETE_ARGS": words[0], "_TYPER_COMPLETE_FISH_ACTION": "get-args"}
+    run = subprocess.run(
+        [sys.executable, "-m", "mixedlub"], capture_output=True, text=True, check=True, env={**os.environ, **asked}
+    )
+    assert "study" in run.stdout
+    assert "diagnose" not in run.stdout
+
+
+def test_a_title_cannot_command_the_terminal(study, capsys):
+    study.write_text(STUDY.replace('"Trial"', r'"\u001b[31mred\u0007"'))
+    assert main(["study", str(study), "--no-figures"]) == 0
+    out = capsys.readouterr().out
+    assert r"\x1b[31mred\x07: 3 pairings" in out
+    assert "\x1b" not in out
 
 
 def test_misspelt_command_names_the_nearest(capsys):
@@ -105,7 +136,12 @@ def test_misspelt_option_is_bad_input(study, capsys):
 
 def test_study_writes_where_it_is_told(study, tmp_path):
     assert main(["study", str(study), "--no-figures", "--out", "here"]) == 0
-    assert sorted(p.name for p in (tmp_path / "here").iterdir()) == ["results.csv", "results.parquet"]
+    assert sorted(p.name for p in (tmp_path / "here").iterdir()) == [
+        "resolved.json",
+        "results.csv",
+        "results.parquet",
+        "study.toml",
+    ]
 
 
 def test_study_writes_under_its_name_by_default(study, tmp_path):

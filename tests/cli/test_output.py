@@ -88,19 +88,19 @@ def interrupted(monkeypatch):
 
 def test_ctrl_c_leaves_no_empty_folder_and_says_that_nothing_was_written(tmp_path, interrupted, capsys):
     interrupted("mixedlub.diagnosis.report.files.diagnose")
-    assert main(["diagnose", str(EXAMPLES / "case"), "--out", str(tmp_path / "a" / "b")]) == 1
+    assert main(["diagnose", str(EXAMPLES / "case"), "--out", str(tmp_path / "a" / "b")]) == 130
     assert capsys.readouterr().err == "mixedlub: stopped; no result was written, and the same command starts anew\n"
     assert list(tmp_path.iterdir()) == []
 
 
 def test_ctrl_c_says_where_what_was_done_is_kept_and_that_it_goes_on(tmp_path, interrupted, capsys):
     interrupted("mixedlub.validation.run.validate", lambda out, *rest: (out / "sealed").write_text("first case"))
-    assert main(["prove", "--quick", "--out", str(tmp_path / "out")]) == 1
+    assert main(["prove", "--quick", "--out", str(tmp_path / "out")]) == 130
     said = f"mixedlub: stopped; what was done is kept in {tmp_path / 'out'}, and the same command goes on from there\n"
     assert capsys.readouterr().err.endswith(said)
 
 
 def test_ctrl_c_of_a_command_without_results_says_that_it_stopped(interrupted, capsys):
     interrupted("mixedlub.case.folder.read_case")
-    assert main(["check", str(EXAMPLES / "case")]) == 1
+    assert main(["check", str(EXAMPLES / "case")]) == 130
     assert capsys.readouterr().err == "mixedlub: stopped\n"

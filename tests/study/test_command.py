@@ -14,7 +14,7 @@ def test_a_page_of_another_study_is_named_where_none_is_drawn(write_study, tmp_p
     capsys.readouterr()
     run(first, tmp_path / "o", "--no-figures")
     assert "of another study" not in capsys.readouterr().err
-    run(other, tmp_path / "o", "--no-figures")
+    run(other, tmp_path / "o", "--no-figures", "--replace")
     assert f"note: {tmp_path / 'o' / 'index.html'} and the figures beside it are of another study" in (
         capsys.readouterr().err
     )

@@ -1,0 +1,243 @@
+"""What is kept beside a result: the study file as given, every input as used, and which files one run wrote."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mixedlub.atomic import is_alive
+from mixedlub.rig.build import ZERO_CELSIUS
+from mixedlub.rig.lubricant import Lubricant
+from mixedlub.rig.surface import Surface
+from mixedlub.schema.section import Section
+from mixedlub.schema.system_file import Gears, SurfaceSection
+from mixedlub.study.checkpoint import fingerprint, input_fingerprint
+from mixedlub.study.plan import Study
+from mixedlub.study.results import versions
+from profiles.errors import InputError
+from roughness.mccool import nayak_parameter, summit_density, summit_radius
+
+SCHEMA = "mixedlub-study-result/1"
+GIVEN, RESOLVED = "study.toml", "resolved.json"
+WRITTEN = ("results.csv", "results.parquet", "index.html", GIVEN, RESOLVED)
+"""Files of a result beside the folder of figures."""
+ENDS = 1 << 20
+"""Bytes at either end of a file by which it is recognised: those of a large table need not all be read."""
+
+
+def resolved(study: Study) -> dict[str, Any]:
+    """Every input as used, in the keys of a study file, each default taken; and what follows from them."""
+    file, pair = study.file, study.pair
+    inputs = file.model_dump(by_alias=True, exclude_none=True)
+    inputs["gears"] |= {
+        "tip_diameter_mm": [_plain(2e3 * radius) for radius in pair.tip_radii],
+        "centre_distance_mm": _plain(pair.working_centre_distance * 1e3),
+    }
+    inputs["gears"]["load_sharing"].pop("model" if file.gears.load_sharing.table else "table", None)
+    inputs["lubricant"] = _oil(study.oil) | {"base": base_stock(study)}
+    inputs["surfaces"] = {name: _moments(s, file.surfaces[name]) for name, s in study.surfaces.items()}
+    inputs.setdefault("pairings", {"every": list(study.surfaces)})
+    inputs["effects"] = {name: dict(values) for name, values in study.plan.parameters.items()}
+    return {
+        "inputs": inputs,
+        "assumed": list(assumed(study)),
+        "derived": {"gears": _geometry(study), "surfaces": {n: asperities(s) for n, s in study.surfaces.items()}},
+        "traces": {
+            name: {"profile": file.surfaces[name].profile, "steps": list(s.steps)}
+            for name, s in study.surfaces.items()
+            if file.surfaces[name].profile is not None
+        },
+    }
+
+
+def base_stock(study: Study) -> str:
+    """Base stock of the oil whose typical values fill what is left out; the default of `mixedlub.rig.build`."""
+    return (study.file.lubricant and study.file.lubricant.base) or "mineral"
+
+
+def assumed(study: Study) -> Iterator[str]:
+    """Dotted keys that the file leaves out and the run needs, whose values are therefore defaults."""
+    file = study.file
+    yield from _left_out(file, "", ("boundary_friction",))
+    yield from _left_out(file.gears, "gears", tuple(Gears.model_fields))
+    if file.gears.load_sharing.model == "ldp":
+        sharing = file.gears.load_sharing
+        yield from _left_out(sharing, "gears.load_sharing", tuple(set(type(sharing).model_fields) - {"table", "model"}))
+    given = {} if file.lubricant is None else file.lubricant.model_dump(exclude_none=True)
+    yield from (f"lubricant.{key}" for key in ("base", *_oil(study.oil)) if key not in given and key != "name")
+    for name in study.surfaces:
+        section, keys = file.surfaces[name], ("thermal_conductivity_W_mK", "density_kg_m3", "specific_heat_J_kgK")
+        yield from _left_out(section, f"surfaces.{name}", keys)
+    yield from _left_out(file.options, "options", tuple(type(file.options).model_fields))
+    for effect, values in study.plan.parameters.items():
+        yield from (f"effects.{effect}.{name}" for name in values if name not in file.effects[effect])
+
+
+def _left_out(section: Section, place: str, keys: tuple[str, ...]) -> Iterator[str]:
+    given = section.model_fields_set
+    yield from (f"{place}.{key}".lstrip(".") for key in keys if key not in given)
+
+
+def _geometry(study: Study) -> dict[str, Any]:
+    pair = study.pair
+    return {
+        "contact_ratio": pair.contact_ratio,
+        "overlap_ratio": pair.overlap_ratio,
+        "working_pressure_angle_deg": float(np.degrees(pair.working_pressure_angle)),
+        "backlash_um": pair.backlash * 1e6,
+        "reduced_modulus_GPa": pair.reduced_modulus * 1e-9,
+        "mesh_points": int(study.mesh.position.size),
+    }
+
+
+def _oil(oil: Lubricant) -> dict[str, Any]:
+    return {
+        "name": oil.name,
+        "temperature_C": [_plain(t - ZERO_CELSIUS) for t in oil.temperature],
+        "kinematic_viscosity_mm2_s": [_plain(nu * 1e6) for nu in oil.kinematic_viscosity],
+        "pressure_viscosity_per_GPa": [_plain(alpha * 1e9) for alpha in oil.pressure_viscosity],
+        "density_15C_kg_m3": oil.density_15,
+        "density_change_per_K": oil.density_change,
+        "eyring_stress_MPa": _plain(oil.eyring_stress * 1e-6),
+        "thermal_conductivity_W_mK": oil.conductivity,
+        "specific_heat_J_kgK": oil.heat_capacity,
+    }
+
+
+def _plain(value: float) -> float:
+    """A number without what changing its unit did to its last digit.
+
+    >>> _plain(18.05e-6 * 1e6)
+    18.05
+    """
+    return float(f"{value:.14g}")
+
+
+def _moments(surface: Surface, section: SurfaceSection) -> dict[str, Any]:
+    """The keys of a surface by its moments, whether they were given or are those of a trace."""
+    body = section.model_dump(
+        include={"coating", "thermal_conductivity_W_mK", "density_kg_m3", "specific_heat_J_kgK"}, exclude_none=True
+    )
+    moments = {"m0_um2": surface.m0 * 1e12, "m2": surface.m2, "m4_per_um2": surface.m4 * 1e-12}
+    return {name: _plain(value) for name, value in moments.items()} | body
+
+
+def asperities(surface: Surface) -> dict[str, float]:
+    """Roughness and asperities of one surface, of its moments."""
+    moments = (np.array(surface.m0), np.array(surface.m2), np.array(surface.m4))
+    with np.errstate(divide="ignore"):
+        found = {
+            "Rq_um": np.sqrt(surface.m0) * 1e6,
+            "rms_slope": np.sqrt(surface.m2),
+            "rms_curvature_per_mm": np.sqrt(surface.m4) * 1e-3,
+            "nayak": nayak_parameter(*moments),
+            "density_per_mm2": summit_density(*moments[1:]) * 1e-6,
+            "radius_um": summit_radius(moments[2]) * 1e6,
+        }
+    return {name: float(value) for name, value in found.items() if np.isfinite(value)}
+
+
+def write_record(aside: Path, folder: Path, study: Study, file: Path, given: bytes) -> None:
+    """The study file as given and the record of the result; ``aside`` holds the other files already."""
+    if not _is_same(folder / GIVEN, file):
+        (aside / GIVEN).write_bytes(given)
+    before = {name: mark for name, mark in _files_of(_record(folder)).items() if _mark(folder / name) == mark}
+    written = {path.name: _mark(path) for path in aside.iterdir() if path.is_file()}
+    record = {
+        "schema": SCHEMA,
+        "title": study.file.title,
+        "file": _relative(file, folder),
+        "input_fingerprint": input_fingerprint(study.plan),
+        "fingerprint": fingerprint(study.plan),
+        "versions": versions(),
+        **resolved(study),
+        "files": dict(sorted((before | written).items())),
+    }
+    text = json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False)
+    (aside / RESOLVED).write_text(text + "\n", encoding="utf-8")
+
+
+def check_folder(folder: Path, study: Study, file: Path) -> str:
+    """Refuse a folder with files that are not of this study; what to note where they are of an earlier state of it."""
+    names = [name for name in WRITTEN if (folder / name).exists() and not _is_same(folder / name, file)]
+    if not names:
+        return ""
+    way_out = "name another folder with --out, or say --replace"
+    record = _record(folder)
+    marks = _files_of(record)
+    foreign = [name for name in names if name != RESOLVED and marks.get(name) != _mark(folder / name)]
+    if foreign or not record:
+        which = " and ".join(foreign or names)
+        raise InputError(f"holds {which}, not as a run of a study left it; {way_out}", where="--out", value=str(folder))
+    if record.get("input_fingerprint") == input_fingerprint(study.plan):
+        return ""
+    if record.get("file") != _relative(file, folder):
+        whose = f"{record.get('title')} ({record.get('file')})"
+        raise InputError(f"holds the result of another study, {whose}; {way_out}", where="--out", value=str(folder))
+    return f"the result in {folder} is of an earlier state of {file} and is replaced"
+
+
+def _record(folder: Path) -> dict[str, Any]:
+    """The record in a folder; empty where there is none that a study wrote."""
+    try:
+        found = json.loads((folder / RESOLVED).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return found if isinstance(found, dict) and found.get("schema") == SCHEMA else {}
+
+
+def _files_of(record: Mapping[str, Any]) -> dict[str, str]:
+    files = record.get("files")
+    return files if isinstance(files, dict) else {}
+
+
+def _mark(path: Path) -> str:
+    """By which a file is recognised: its size and its two ends."""
+    try:
+        with path.open("rb") as file:
+            size = file.seek(0, os.SEEK_END)
+            digest = hashlib.sha256(str(size).encode())
+            for start in (0, max(0, size - ENDS)):
+                file.seek(start)
+                digest.update(file.read(ENDS))
+    except OSError:
+        return ""
+    return digest.hexdigest()
+
+
+def _is_same(path: Path, other: Path) -> bool:
+    return path.exists() and other.exists() and path.samefile(other)
+
+
+def _relative(file: Path, folder: Path) -> str:
+    """Where the study file lies, seen from the result, so that both may move together."""
+    try:
+        return Path(os.path.relpath(file.resolve(), folder.resolve())).as_posix()
+    except ValueError:  # on another drive
+        return file.resolve().as_posix()
+
+
+@contextmanager
+def running(folder: Path, study: Study) -> Iterator[None]:
+    """Within it the folder is marked as being written to; refused while a run of another study writes there."""
+    whose = input_fingerprint(study.plan)[:16]
+    own = folder / f".running-{whose}-{os.getpid()}"
+    own.touch()
+    try:
+        for path in folder.glob(".running-*"):
+            _, other, process = path.name.rsplit("-", 2)
+            if path != own and not is_alive(process):
+                path.unlink(missing_ok=True)
+            elif other != whose:
+                said = f"a run of another study writes there (process {process}); wait for it, or name another --out"
+                raise InputError(said, where="--out", value=str(folder))
+        yield
+    finally:
+        own.unlink(missing_ok=True)
