@@ -20,7 +20,7 @@ PUBLIC = {
     "along_path": "mixedlub.api.loss",
 }
 """Functions and types that notebooks and other packages may rely on, with the module that defines each."""
-ROOMS = ("effects", "gear", "laws", "study")
+ROOMS = ("case", "effects", "gear", "laws", "study")
 """Rooms whose own ``__all__`` is public as well."""
 BESIDE = ("profiles", "roughness")
 """Packages of this distribution that are offered under this name too."""

@@ -1,1 +1,16 @@
-"""A case: its folder, its forward model, its defaults and the reference of its format."""
+"""A case: its folder, its forward model and its defaults."""
+
+from __future__ import annotations
+
+from os import PathLike
+from pathlib import Path
+
+from mixedlub.case.folder import Case, case_of, read_case
+
+
+def read(folder: str | PathLike[str]) -> Case:
+    """The case in a folder; wrong files raise ``profiles.errors.InputError`` with the place and the rule."""
+    return read_case(Path(folder))
+
+
+__all__ = ["Case", "case_of", "read"]

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,8 +15,11 @@ from mixedlub.kinds import Kind, kind
 from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, listed, report
-from mixedlub.schema.table import BOOKKEEPING, RUN, Column, Table, check_column, read_table, sd_column
+from mixedlub.schema.table import BOOKKEEPING, RUN, Column, Table, check_column, read_table, sd_column, table_of
 from profiles.errors import InputError, nearest
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 SHOWN = 5
 """Runs that a note lists at most."""
@@ -45,28 +50,77 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
         raise InputError("no such case folder", where=str(folder))
     file = folder / "system.toml"
     system = toml_file.parse(system_file.System, toml_file.read_toml(file), str(file))
+
+    def table(name: str, columns: tuple[Column, ...]) -> Table | None:
+        path = folder / f"{name}.csv"
+        absent = not path.exists() and (name == "conditions" or not need_recordings)
+        return None if absent else read_table(path, columns)
+
+    found = _checked(folder.resolve().name, folder, system, str(file), table)
+    return replace(found, notes=(*read_import_file(folder), *found.notes))
+
+
+def case_of(
+    system: Mapping[str, Any],
+    recordings: pd.DataFrame,
+    conditions: pd.DataFrame | None = None,
+    *,
+    name: str = "case",
+    folder: str | Path = ".",
+) -> Case:
+    """A case from the sections of its system and tables with the columns of its kind, checked as a folder is.
+
+    Files that the system names, such as traces, are read relative to ``folder``.
+
+    >>> import mixedlub as ml, pandas as pd
+    >>> drive = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm"}}
+    >>> rows = pd.DataFrame({"speed_rpm": [100.0, 200.0, 300.0], "friction_torque_Nm": [0.51, 0.62, 0.69]})
+    >>> len(ml.case.case_of(drive, rows).recordings)
+    3
+    """
+    frames = {"recordings": recordings, "conditions": conditions}
+
+    def table(which: str, columns: tuple[Column, ...]) -> Table | None:
+        frame = frames[which]
+        return None if frame is None else table_of(frame, columns, which)
+
+    parsed = toml_file.parse(system_file.System, {"schema": "mixedlub-case/1", **system}, name)
+    return _checked(name, Path(folder), parsed, name, table)
+
+
+def _checked(
+    name: str,
+    folder: Path,
+    system: system_file.System,
+    where: str,
+    table: Callable[[str, tuple[Column, ...]], Table | None],
+) -> Case:
+    """A case of a parsed system; ``table`` gives its recordings and conditions by the columns they may have."""
     found = kind(system.kind)
     for section in found.sections:
         if not getattr(system, section):
-            raise InputError(f"a case of kind {system.kind!r} needs the section [{section}]", where=str(file))
+            raise InputError(f"a case of kind {system.kind!r} needs the section [{section}]", where=where)
     quantity = system.recording.quantity
     if quantity not in found.quantities:
         raise InputError(
             f"a case of kind {system.kind!r} records {' or '.join(found.quantities)}",
-            where=f"{file}: recording.quantity",
+            where=f"{where}: recording.quantity",
             value=quantity,
         )
     with collected() as notes:
-        recordings = _read(folder / "recordings.csv", found, quantity, system, need_recordings)
-        _report_missing_check(system.recording.check, recordings, file)
-        conditions = _read(folder / "conditions.csv", found, None, system, False)
-    notes = [*read_import_file(folder), *notes]
-    return Case(folder.resolve().name, folder, system, found, Rig(system, folder), recordings, conditions, tuple(notes))
+        recordings = table("recordings", _columns(found, system, True))
+        if recordings is not None:
+            _refuse_stuck(recordings, quantity, folder)
+            recordings = _sds_told(recordings, f"{quantity}_sd")
+        _report_missing_check(system.recording.check, recordings)
+        conditions = table("conditions", _columns(found, system, False))
+        conditions = None if conditions is None else _sds_told(conditions, f"{quantity}_sd")
+    return Case(name, folder, system, found, Rig(system, folder), recordings, conditions, tuple(notes))
 
 
 def read_conditions(case: Case, path: Path) -> Table:
     """Another table of conditions for the case."""
-    return _sds_told(read_table(path, _columns(case.kind, case.system, False)), f"{case.quantity}_sd", path)
+    return _sds_told(read_table(path, _columns(case.kind, case.system, False)), f"{case.quantity}_sd")
 
 
 def hidden(case: Case, wanted: Table | None) -> list[Finding]:
@@ -98,29 +152,26 @@ def _used_runs(case: Case, wanted: Table | None) -> list[int]:
     return [int(run) for run in wanted["run"][here][other]]
 
 
-def _read(path: Path, found: Kind, quantity: str | None, system: system_file.System, needed: bool) -> Table | None:
-    if not path.exists() and not needed:
-        return None
-    table = read_table(path, _columns(found, system, quantity is not None))
-    if quantity is not None and np.ptp(table[quantity]) == 0 and len(table) > 2:
+def _refuse_stuck(recordings: Table, quantity: str, folder: Path) -> None:
+    """An error where a channel gave one number all along."""
+    if np.ptp(recordings[quantity]) == 0 and len(recordings) > 2:
         raise InputError(
             "all readings are the same number; a stuck channel cannot be diagnosed",
-            where=f"{path}: {quantity}",
-            value=float(table[quantity][0]),
+            where=f"{folder / recordings.source}: {quantity}",
+            value=float(recordings[quantity][0]),
         )
-    return _sds_told(table, f"{system.recording.quantity}_sd", path)
 
 
-def _report_missing_check(name: str | None, recordings: Table | None, file: Path) -> None:
+def _report_missing_check(name: str | None, recordings: Table | None) -> None:
     """Report a check channel that is no column of the recording: it may have been left out."""
     if name is None or recordings is None or name in recordings:
         return
     there = nearest(name, [*recordings.columns, *recordings.ignored])
     text = f"{name!r}: no such column in {recordings.source}, so nothing is compared with it; {there}"
-    report(finding("check_column_missing", text, f"{file.name}, recording.check"))
+    report(finding("check_column_missing", text, "system.toml, recording.check"))
 
 
-def _sds_told(table: Table, name: str, path: Path) -> Table:
+def _sds_told(table: Table, name: str) -> Table:
     """The table with standard deviations that are left out, or 0, taken as the median of the others."""
     if name not in table:
         return table
@@ -129,12 +180,12 @@ def _sds_told(table: Table, name: str, path: Path) -> Table:
         return table
     if not told.any():
         text = "0 or left out everywhere, so it says nothing of the scatter of a reading and is ignored"
-        report(finding("sd_missing", text, f"{path.name}, {name}"))
+        report(finding("sd_missing", text, f"{table.source}, {name}"))
         return replace(table, columns={k: v for k, v in table.columns.items() if k != name})
     runs = listed(table["run"][~told].tolist(), SHOWN)
     middle = float(np.median(table[name][told]))
     text = f"0 or left out at run {runs}: taken as the median of the others, {middle:.3g}"
-    report(finding("sd_filled", text, f"{path.name}, {name}"))
+    report(finding("sd_filled", text, f"{table.source}, {name}"))
     return replace(table, columns={**table.columns, name: np.where(told, table[name], middle)})
 
 
@@ -161,4 +212,4 @@ def _measured(found: Kind, system: system_file.System, required: bool) -> tuple[
     return (reading, sd_column(quantity), *([] if check is None else [check_column(check)]))
 
 
-__all__ = ["Case", "hidden", "read_case", "read_conditions", "refuse_used_runs"]
+__all__ = ["Case", "case_of", "hidden", "read_case", "read_conditions", "refuse_used_runs"]

@@ -8,6 +8,7 @@ import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,6 +16,9 @@ from mixedlub.schema.findings import Finding, finding, report
 from mixedlub.schema.ranges import meant
 from mixedlub.schema.units import fits, read_as, split, unit_of, words_of
 from profiles.errors import InputError, nearest, refuse_no_file
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 @dataclass(frozen=True)
@@ -195,13 +199,35 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] 
         lines = [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
     except csv.Error as error:
         raise InputError(f"is not a comma-separated table ({error})", where=where) from None
-    if len(lines) < 2:
-        raise InputError("needs a header line and at least one row", where=where)
-    header = [cell.strip() for cell in lines[0][1]]
+    header = [cell.strip() for cell in lines[0][1]] if lines else []
     separator = next((mark for mark in (";", "\t") if len(header) == 1 and mark in header[0]), None)
     if separator is not None:
         rule = f"columns are separated by commas, numbers have a decimal point; {_IMPORTED}"
         raise InputError(rule, where=where, value=separator)
+    return _table(lines, columns, key, path.name, where)
+
+
+def table_of(frame: pd.DataFrame, columns: tuple[Column, ...], source: str = "table") -> Table:
+    """A table from a data frame, checked as one that is read; its rows are numbered where it has no ``run``."""
+    if RUN.name not in frame:
+        frame = frame.assign(**{RUN.name: np.arange(1, len(frame) + 1)})
+    rows = frame.astype(object).where(frame.notna(), "").astype(str).to_numpy().tolist()
+    lines = [(0, list(map(str, frame.columns))), *enumerate(rows, start=1)]
+    return _table(lines, columns, (RUN.name,), source, source, unit="row")
+
+
+def _table(
+    lines: list[tuple[int, list[str]]],
+    columns: tuple[Column, ...],
+    key: tuple[str, ...],
+    source: str,
+    where: str,
+    unit: str = "line",
+) -> Table:
+    """The table of a header and rows of cells, each with its number in the file (or, as ``unit``, row of a frame)."""
+    if len(lines) < 2:
+        raise InputError("needs a header line and at least one row", where=where)
+    header = [cell.strip() for cell in lines[0][1]]
     doubled = {name for name in header if name and header.count(name) > 1}
     if doubled:
         raise InputError("column appears twice", where=where, value=sorted(doubled)[0])
@@ -212,18 +238,18 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] 
             raise InputError(f"column {column.name!r} is missing{_instead(column, unknown)}", where=f"{where}: header")
     if unknown:
         absent = [column for column in columns if column.name not in header]
-        for found in _ignored(path.name, unknown, absent):
+        for found in _ignored(source, unknown, absent):
             report(found)
-    cells = _parse(lines, header, known, where)
+    cells = _parse(lines, header, known, where, unit)
     together = list(zip(*(cells[name].tolist() for name in key), strict=True))
     if len(set(together)) < len(together):
         first = {values: row for row, values in reversed(list(enumerate(together)))}
         again = next(row for row, values in enumerate(together) if first[values] < row)
         value, named = together[again], " and ".join(key)
-        place = f"{where}: line {lines[again + 1][0]}, {named}"
+        place = f"{where}: {unit} {lines[again + 1][0]}, {named}"
         rule = f"{named} must be unique" + (" together" if len(key) > 1 else "")
         raise InputError(rule, where=place, value=value[0] if len(key) == 1 else value)
-    return Table(cells, path.name, tuple(unknown))
+    return Table(cells, source, tuple(unknown))
 
 
 _IMPORTED = "use `mixedlub import`, which reads it and writes the table of a case"
@@ -290,7 +316,7 @@ def _other_unit(column: Column, unknown: list[str]) -> str | None:
 
 
 def _parse(
-    lines: list[tuple[int, list[str]]], header: list[str], known: Mapping[str, Column], where: str
+    lines: list[tuple[int, list[str]]], header: list[str], known: Mapping[str, Column], where: str, unit: str
 ) -> dict[str, np.ndarray]:
     if all(len(row) == len(header) for _, row in lines):
         columns = dict(zip(header, zip(*(row for _, row in lines[1:]), strict=True), strict=True))
@@ -302,9 +328,9 @@ def _parse(
     for number, row in lines[1:]:
         if len(row) != len(header):
             raise InputError(
-                f"has {len(row)} cells where the header has {len(header)}", where=f"{where}: line {number}"
+                f"has {len(row)} cells where the header has {len(header)}", where=f"{where}: {unit} {number}"
             )
         for name, cell in zip(header, row, strict=True):
             if name in known:
-                cells[name].append(known[name].parse(cell, f"{where}: line {number}, {name}"))
+                cells[name].append(known[name].parse(cell, f"{where}: {unit} {number}, {name}"))
     return {name: np.array(values) for name, values in cells.items()}
