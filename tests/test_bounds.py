@@ -7,10 +7,9 @@ from typing import Any, get_args, get_origin
 
 import pytest
 
-from mixedlub.kinds import kind
+from mixedlub.kinds import KINDS, kind
 from mixedlub.schema import ranges, system_file, toml_file
 from mixedlub.schema.section import Section, plain, tables
-from mixedlub.schema.system_file import KINDS
 from mixedlub.study.schema import StudyFile
 from profiles.errors import InputError
 

@@ -3,9 +3,9 @@
 import pytest
 
 from mixedlub.chain.quantities import GLOSSARY
-from mixedlub.kinds import kind
+from mixedlub.kinds import KINDS, kind
 from mixedlub.schema.section import tables
-from mixedlub.schema.system_file import KINDS, System
+from mixedlub.schema.system_file import System
 from mixedlub.schema.units import ENDINGS, SLIPS, UNITS, change, dimension, ending_of, measure, read_as, tidy, unit_of
 from mixedlub.study.schema import StudyFile
 from profiles.units import METRES

@@ -14,7 +14,7 @@ from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Model, Parameters, Record, available
 from mixedlub.effects import known_in
 from mixedlub.kinds.calibration import Calibration, calibrations
-from mixedlub.kinds.kind import SCALE, ageing, varies
+from mixedlub.kinds.kind import ageing, varies
 from mixedlub.schema.findings import collected
 from mixedlub.schema.table import Table
 from profiles.errors import InputError
@@ -58,7 +58,7 @@ class Forward:
                 self.inputs["ageing"] = ageing(recorded, self.inputs["sequence"])
             extra = case.kind.extra_calibration(case.system, recorded)
         self.notes = tuple(notes)
-        self.scale = SCALE[case.quantity]
+        self.scale = case.kind.scale
         self.chain = case.kind.chain(case.system, table)
         self.calibrations: tuple[Calibration, ...] = tuple(
             c for c in (*calibrations(case.system), *extra) if all(n in self.inputs for n in c.needs)

@@ -88,11 +88,9 @@ def study_text() -> str:
 def case_files(kind: str) -> dict[str, str]:
     """System and recording of a case: the reference rig of a kind, with readings of the base model."""
     from mixedlub.kinds import kind as kind_of
-    from mixedlub.schema.system_file import KINDS, System
+    from mixedlub.schema.system_file import System
 
-    if kind not in KINDS:
-        raise InputError(f"no such kind; {nearest(kind, KINDS)}", where="--kind", value=kind)
-    found = kind_of(kind)
+    found = kind_of(kind, "--kind")
     tables = ("uncertainty", "recording", *found.sections, *found.uses)
     return {
         "system.toml": "\n".join(_lines(System, _reference(kind), tables)) + "\n",
@@ -116,7 +114,7 @@ def _recordings(kind: str) -> str:
     from mixedlub.case.forward import Forward
 
     case, random = reference_rigs.case(kind), np.random.default_rng(0)
-    levels = {name: values for name, (_, values) in reference_rigs.CONDITIONS[kind].items()}
+    levels = {name: values for name, (_, values) in reference_rigs.conditions(kind).items()}
     levels |= {"surfaces": SURFACES} if "surfaces" in levels else {}
     if "sequence" in levels:
         levels = {name: values if name == "sequence" else values[:1] for name, values in levels.items()}

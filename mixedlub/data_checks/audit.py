@@ -8,7 +8,6 @@ from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
 from mixedlub.data_checks.mixed_units import of_odd_units, teeth_too_hard_pressed
 from mixedlub.data_checks.sign_checks import AS_LARGE, both_signs, of_other_sign
-from mixedlub.kinds.friction_map import drive_speed
 from mixedlub.kinds.kind import gears_out
 from mixedlub.recording.conditions import PASSING, raw_coordinates
 from mixedlub.recording.noise import (
@@ -206,9 +205,9 @@ def _more_than_put_in(case: Case, rows: Table, y: np.ndarray) -> list[Finding]:
 
 def _of_one_sign(case: Case, rows: Table, y: np.ndarray) -> list[Finding]:
     """Friction of a drive that has the same sign in both directions."""
-    if case.kind.name != "friction_map":
+    if case.kind.direction is None:
         return []
-    speed = drive_speed(rows)
+    speed = case.kind.direction(rows)
     forth, back = y[speed > 0.0], y[speed < 0.0]
     if min(forth.size, back.size) < FEWEST or np.any(np.sign(y) != np.sign(y[0])):
         return []

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.case.folder import Case
-from mixedlub.kinds.friction_map import drive_speed
 from mixedlub.recording.conditions import jitters
 from mixedlub.recording.set_points import near_values
 from mixedlub.schema.findings import Finding, finding, listed
@@ -35,7 +34,7 @@ def both_signs(case: Case, rows: Table, y: np.ndarray, wrong: np.ndarray) -> lis
         return []
     sign = "negative" if np.all(y[wrong] < 0.0) else "positive" if np.all(y[wrong] > 0.0) else "of the other sign"
     said = f"{count} reading{' is' if count == 1 else 's are'} {sign} where others at the same conditions are as large"
-    channels = f"the signs of {case.quantity} and of the speed" if case.kind.name == "friction_map" else "the sign"
+    channels = f"the signs of {case.quantity} and of the speed" if case.kind.direction is not None else "the sign"
     runs = f"run{'' if count == 1 else 's'} {listed(rows['run'][wrong].tolist(), SHOWN)}"
     text = f"{case.quantity} has both signs: {said} with the opposite one: check {channels} ({runs})"
     return [finding("sign_contradictory", text)]
@@ -75,4 +74,4 @@ def _points(case: Case, rows: Table) -> np.ndarray:
 
 def _moves(case: Case, rows: Table) -> np.ndarray:
     """Readings whose friction has a direction: a drive that stands is held either way."""
-    return drive_speed(rows) != 0.0 if case.kind.name == "friction_map" else np.ones(len(rows), bool)
+    return np.ones(len(rows), bool) if case.kind.direction is None else case.kind.direction(rows) != 0.0

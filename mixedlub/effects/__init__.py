@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-import importlib
-import pkgutil
 from collections.abc import Mapping
 from functools import cache
-from importlib.metadata import entry_points
 from types import MappingProxyType
 
 from mixedlub.chain.effect import REGISTRY, STAGES, Effect
+from mixedlub.discovery import loaded
 from profiles.errors import InputError, nearest
 
 
 @cache
 def catalogue() -> Mapping[str, Effect]:
     """Every effect by id: those of the package and those other packages offer as ``mixedlub.effects``."""
-    for module in pkgutil.iter_modules(__path__):
-        importlib.import_module(f"{__name__}.{module.name}")
-    for point in entry_points(group="mixedlub.effects"):
-        point.load()
+    loaded(__name__, "mixedlub.effects")
     order = sorted(REGISTRY.values(), key=lambda e: (STAGES.index(e.stage), e.id))
     return MappingProxyType({e.id: e for e in order})
 

@@ -10,11 +10,12 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub.kinds import KINDS
 from mixedlub.kinds import kind as kind_of
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.section import examples, table, tables
-from mixedlub.schema.system_file import KINDS, System
+from mixedlub.schema.system_file import System
 from mixedlub.schema.toml_file import toml_value
 from profiles.errors import InputError, nearest
 
@@ -116,8 +117,8 @@ NOISE = tuple(_question("recording.noise", key, False) for key in ("relative", "
 def questions_of(kind: str) -> tuple[Question, ...]:
     """The questions that every case of a kind leaves open."""
     contact = CONTACT if "contact" in kind_of(kind).sections else ()
-    oil = OIL if kind in ("film", "disc", "gear_pair", "mesh_friction") else ()
-    many = (EVERY,) if kind in ("friction_history", "viscosity") else ()
+    oil = OIL if kind_of(kind).asks_for_oil else ()
+    many = (EVERY,) if kind_of(kind).is_logged else ()
     return (*contact, *oil, *many, *NOISE)
 
 

@@ -11,10 +11,9 @@ from mixedlub.importers.base import Question
 from mixedlub.importers.text_table import Cells, is_numeric
 from mixedlub.importers.time_base import TIME, counted
 from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, WEIGHED, target_of
-from mixedlub.kinds import friction_map
+from mixedlub.kinds import KINDS
 from mixedlub.kinds import kind as kind_of
 from mixedlub.schema.dates import is_dated
-from mixedlub.schema.system_file import KINDS
 from mixedlub.schema.table import Column
 from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import fits, is_unit, split, words_of
@@ -110,7 +109,7 @@ def likeness_of_reading(quantity: str, cells: Cells, header: str | None) -> floa
 
 def either(kind: str) -> tuple[str, ...]:
     """Columns of which a kind needs exactly one."""
-    return friction_map.SPEEDS if kind == "friction_map" else ()
+    return kind_of(kind).either
 
 
 def is_logarithm(header: str) -> bool:

@@ -28,10 +28,9 @@ from mixedlub.importers.text_table import (
 )
 from mixedlub.importers.time_base import DATES, PACE_KEYS, TIME, continued, date_order, in_seconds, target_in
 from mixedlub.importers.vocabulary import convert
-from mixedlub.kinds import Kind
+from mixedlub.kinds import KINDS, Kind
 from mixedlub.kinds import kind as kind_of
 from mixedlub.schema.findings import Finding, finding
-from mixedlub.schema.system_file import KINDS
 from mixedlub.schema.table import Column, is_number
 from mixedlub.schema.toml_file import toml_value
 from profiles.errors import InputError, nearest

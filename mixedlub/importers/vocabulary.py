@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.kinds import kind
-from mixedlub.schema.system_file import KINDS
+from mixedlub.kinds import KINDS, kind
 from mixedlub.schema.table import BOOKKEEPING
 from mixedlub.schema.units import change_to, fits, is_unit, open_units, read_as, rounded, tidy, units_of, words_of
 from profiles.errors import InputError

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-import importlib
-from functools import cache
-
-from mixedlub.kinds.kind import Kind
-from mixedlub.schema.system_file import KINDS
+from mixedlub.discovery import declared
+from mixedlub.kinds.kind import SUBJECTS, Kind
+from profiles.errors import InputError, nearest
 
 
-@cache
-def kind(name: str) -> Kind:
-    """The kind of a name of the contract."""
-    if name not in KINDS:
-        raise KeyError(name)
-    return importlib.import_module(f"mixedlub.kinds.{name}").KIND
+def kind(name: str, where: str = "kind") -> Kind:
+    """The kind of a name, or an error that names the nearest known one and the place ``where`` the name was given."""
+    if name not in _KINDS:
+        raise InputError(f"no such kind; {nearest(name, _KINDS)}", where=where, value=name)
+    return _KINDS[name]
 
 
-__all__ = ["Kind", "kind"]
+def _sorted() -> dict[str, Kind]:
+    found = declared("mixedlub.kinds", "mixedlub.kinds", "KIND")
+    return {one.name: one for one in sorted(found, key=lambda one: (SUBJECTS.index(one.subject), one.name))}
+
+
+_KINDS = _sorted()
+KINDS = tuple(_KINDS)
+"""Names of the kinds of this package and of those that other packages offer as ``mixedlub.kinds``."""
+
+__all__ = ["KINDS", "Kind", "kind"]

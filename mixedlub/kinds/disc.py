@@ -9,6 +9,7 @@ from mixedlub.chain.model import Chain
 from mixedlub.kinds import columns, oil_priors
 from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, inverse_load
+from mixedlub.kinds.standard import DISCS, OIL, ROUGHNESS_UM, StandardRig
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws import load, loss
 from mixedlub.laws.contact import reduced_modulus
@@ -90,12 +91,27 @@ def chain(system: system_file.System, table: Table) -> Chain:
     return (("line_load", load.disc_line_load), *LINE, tangential, ("reading", reading))
 
 
+STANDARD = StandardRig(
+    sections={"contact": DISCS, "lubricant": OIL},
+    noise=2e-4,
+    conditions={
+        "load": ("load_N", (400.0, 1000.0, 2200.0)),
+        "speed": ("entrainment_speed_m_s", (1.0, 2.5, 6.0, 12.0)),
+        "slide_roll_ratio": ("slide_roll_ratio", (0.05, 0.2, 0.6)),
+        "oil_temperature": ("oil_temperature_C", (50.0, 70.0, 90.0)),
+        "surfaces": ("surface_1", tuple(ROUGHNESS_UM)),
+    },
+)
+
 KIND = Kind(
     name="disc",
+    subject="contact",
     readings=(columns.FRICTION,),
     columns=(*COLUMNS, *SURFACES),
     sections=("contact", "lubricant", "surfaces"),
     chain=chain,
     inputs=inputs,
     extra_calibration=extra_calibration,
+    asks_for_oil=True,
+    standard=STANDARD,
 )

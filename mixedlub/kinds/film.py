@@ -13,6 +13,7 @@ from mixedlub.kinds import columns, oil_priors
 from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.disc import COLUMNS, contact_inputs
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, programme, varies
+from mixedlub.kinds.standard import OIL, StandardRig
 from mixedlub.laws import contact, film, load
 from mixedlub.laws.film import LINE_EXPONENT, LINE_LOAD_EXPONENT, POINT_EXPONENT
 from mixedlub.laws.oil import ZERO_CELSIUS
@@ -182,8 +183,32 @@ def reading_fault(recorded: Table, row: int, excess: float, sd: float) -> str | 
     return None
 
 
+ORDER_NM = 196.0
+"""One interference order of the standard rig: green light in oil."""
+STANDARD = StandardRig(
+    sections={
+        "contact": {
+            "geometry": "point",
+            "radius_mm": (9.525, float("inf")),
+            "youngs_modulus_GPa": (206.0, 75.0),
+            "poisson_ratio": (0.3, 0.22),
+        },
+        "lubricant": OIL,
+    },
+    noise=1.0,
+    conditions={
+        "load": ("load_N", (10.0, 20.0, 40.0)),
+        "speed": ("entrainment_speed_m_s", (0.01, 0.03, 0.1, 0.3, 1.0, 3.0)),
+        "slide_roll_ratio": ("slide_roll_ratio", (0.0, 0.1, 0.5)),
+        "oil_temperature": ("oil_temperature_C", (40.0, 70.0, 100.0)),
+    },
+    channels=lambda columns, reading: {FRINGE_ORDER.name: np.floor(reading() / ORDER_NM)},
+)
+"""A ball on glass."""
+
 KIND = Kind(
     name="film",
+    subject="contact",
     readings=(FILM_THICKNESS,),
     columns=(*COLUMNS, columns.TIME),
     channels=(FRINGE_ORDER,),
@@ -193,4 +218,7 @@ KIND = Kind(
     inputs=inputs,
     extra_calibration=extra_calibration,
     reading_fault=reading_fault,
+    scale=1e9,
+    asks_for_oil=True,
+    standard=STANDARD,
 )

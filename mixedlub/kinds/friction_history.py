@@ -12,6 +12,7 @@ from mixedlub.chain.priors import LogNormal
 from mixedlub.kinds import columns, disc, oil_priors
 from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, inverse_load, programme
+from mixedlub.kinds.standard import DISCS, OIL, StandardRig
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file
@@ -119,8 +120,22 @@ def chain(system: system_file.System, table: Table) -> Chain:
     return (("friction", constant_friction), ("reading", disc.point_reading))
 
 
+STANDARD = StandardRig(
+    sections={"contact": DISCS, "lubricant": OIL},
+    noise=2e-4,
+    conditions={
+        "sequence": ("time_s", tuple(np.linspace(0.0, 7200.0, 13))),
+        "load": ("load_N", (400.0, 2200.0)),
+        "speed": ("entrainment_speed_m_s", (1.0, 6.0)),
+        "slide_roll_ratio": ("slide_roll_ratio", (0.005, 0.6)),
+        "oil_temperature": ("oil_temperature_C", (50.0, 90.0)),
+        "surfaces": ("surface_1", ("superfinished", "coarse", "coated")),
+    },
+)
+
 KIND = Kind(
     name="friction_history",
+    subject="contact",
     readings=(columns.FRICTION,),
     columns=COLUMNS,
     sections=(),
@@ -128,4 +143,7 @@ KIND = Kind(
     chain=chain,
     inputs=inputs,
     extra_calibration=extra_calibration,
+    is_history=True,
+    is_logged=True,
+    standard=STANDARD,
 )

@@ -14,6 +14,7 @@ from mixedlub.chain.priors import BetweenLog, LogNormal, Normal
 from mixedlub.kinds import columns
 from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out, inverse_load, programme
+from mixedlub.kinds.standard import StandardRig
 from mixedlub.laws import drive
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.rig import Rig
@@ -269,8 +270,22 @@ def chain(system: system_file.System, table: Table) -> Chain:
     )
 
 
+STANDARD = StandardRig(
+    sections={},
+    noise=0.01,
+    conditions={
+        "load": ("torque_Nm", (0.0, 2.0, 4.0)),
+        "speed": ("speed_rpm", (-3000.0, -300.0, -30.0, 30.0, 300.0, 3000.0)),
+        "oil_temperature": ("oil_temperature_C", (20.0, 60.0)),
+        "additive_fraction": ("additive_percent", (0.0, 2.0)),
+        "drive_angle": ("position_deg", tuple(np.linspace(0.0, 3600.0, 60))),
+    },
+    channels=lambda columns, reading: {MOTOR_TORQUE.name: np.sign(columns["speed_rpm"]) * (1.0 + columns["torque_Nm"])},
+)
+
 KIND = Kind(
     name="friction_map",
+    subject="drive",
     readings=(FRICTION_TORQUE, FRICTION),
     columns=COLUMNS,
     sections=(),
@@ -280,4 +295,7 @@ KIND = Kind(
     part_rigs=(NO_GEARS,),
     channels=(MOTOR_TORQUE,),
     completed=completed,
+    direction=drive_speed,
+    either=SPEEDS,
+    standard=STANDARD,
 )

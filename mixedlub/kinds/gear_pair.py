@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.chain.base_models import GEAR_LOSS
-from mixedlub.gear import Mesh
+from mixedlub.gear.inputs import contact_inputs
 from mixedlub.kinds import columns
 from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out
+from mixedlub.kinds.standard import GEARS, OIL, ROUGHNESS_UM, StandardRig
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.rig import Rig
@@ -34,49 +35,6 @@ def reading(power_loss: np.ndarray) -> np.ndarray:
     12.0
     """
     return power_loss
-
-
-def contact_inputs(points: Mesh, torque: np.ndarray, speed: np.ndarray) -> Inputs:
-    """Chain inputs of the contact points of a mesh; torque (N m) and pinion speed (rad/s) end in an axis of one."""
-    known, place = np.unique(torque[..., 0], return_inverse=True)
-    return {**motion_inputs(points, torque, speed), "load_share": points.load_share(known)[place]}
-
-
-def motion_inputs(points: Mesh, torque: np.ndarray, speed: np.ndarray) -> Inputs:
-    """Chain inputs of the contact points but for the load they carry."""
-    pair = points.pair
-    low, high = pair.path_start, pair.path_end
-    return {
-        "radius": points.radius,
-        "entrainment_speed": points.entrainment_per_speed * speed,
-        "sliding_speed": np.abs(points.sliding_per_speed) * speed,
-        "roll_angle": points.roll_angle,
-        "path_fraction": (points.position - low) / (high - low),
-        "face_position": points.face_position / pair.face_width,
-        "path_weight": points.weight,
-        "torque": torque,
-        "pinion_speed": speed,
-        "transmitted_force": torque / pair.base_radius[0],
-        "contact_width": points.contact_width,
-        "reduced_modulus": pair.reduced_modulus,
-        **gear_inputs(points, speed),
-    }
-
-
-def gear_inputs(points: Mesh, speed: np.ndarray) -> Inputs:
-    """What losses outside the contact read: the sizes and speeds of the two wheels."""
-    pair = points.pair
-    return {
-        "face_width": pair.face_width,
-        "gear_module": pair.normal_module,
-        "pinion_radius": pair.operating_radius[0],
-        "gear_radius": pair.operating_radius[1],
-        "gear_speed": speed / pair.gear_ratio,
-        "pinion_teeth": float(pair.teeth[0]),
-        "gear_teeth": float(pair.teeth[1]),
-        "contact_ratio": pair.contact_ratio,
-        "gears_fitted": 1.0,
-    }
 
 
 def without_gears(found: Inputs, table: Table) -> Inputs:
@@ -112,8 +70,20 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
     }
 
 
+STANDARD = StandardRig(
+    sections={"gears": GEARS, "lubricant": OIL},
+    noise=0.3,
+    conditions={
+        "load": ("torque_Nm", (50.0, 100.0, 150.0)),
+        "speed": ("speed_rpm", (500.0, 1000.0, 1500.0, 2000.0, 3000.0)),
+        "oil_temperature": ("oil_temperature_C", (50.0, 70.0, 90.0)),
+        "surfaces": ("pinion_surface", tuple(ROUGHNESS_UM)),
+    },
+)
+
 KIND = Kind(
     name="gear_pair",
+    subject="gears",
     readings=(POWER_LOSS,),
     columns=CONDITIONS,
     sections=("gears", "lubricant", "surfaces"),
@@ -121,4 +91,6 @@ KIND = Kind(
     inputs=inputs,
     part_rigs=(NO_GEARS,),
     nominal={"power_loss": "nominal_loss"},
+    asks_for_oil=True,
+    standard=STANDARD,
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -10,6 +11,7 @@ import numpy as np
 
 from mixedlub.chain.model import Chain
 from mixedlub.kinds.calibration import Calibration
+from mixedlub.kinds.standard import StandardRig
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file
@@ -18,15 +20,17 @@ from mixedlub.schema.table import Column, Table
 Inputs = dict[str, Any]
 WANDERS = 0.02
 """Share of its size by which a quantity that is held may wander."""
-UNSIGNED = ("power_loss_W", "friction_coefficient", "film_thickness_nm")
+SUBJECTS = ("gears", "contact", "drive", "oil")
+"""What recordings are of, in the order in which kinds are listed."""
 
 
 @dataclass(frozen=True)
 class Kind:
     """Columns of a row, sections of the system it needs, the chain that predicts its reading.
 
-    ``readings`` are the columns of which a recording holds one; ``uses`` are sections that the kind computes with
-    where they are given, beyond those that it needs.
+    ``subject`` is what is on the rig, one of SUBJECTS. ``readings`` are the columns of which a recording holds one,
+    and ``scale`` the factor from SI to their unit; ``uses`` are sections that the kind computes with where they are
+    given, beyond those that it needs. ``standard`` is the rig on which the catalogue compares effects.
 
     ``inputs(system, rig, table, recorded)`` gives the chain's inputs as arrays of shape (rows, points),
     one of the two of length one where a quantity does not depend on it; the chain ends in ``reading``,
@@ -41,14 +45,21 @@ class Kind:
     ``completed(table, recorded)`` adds to rows that were not recorded what the channels would tell there.
     ``nominal`` are quantities that the base model has before calibration, laid out for effects under other names.
     ``limits(system)`` are the lowest and highest values that a column can have on this rig, by its name.
+    ``direction(table)`` is the signed speed of each row in kinds whose reading changes its sign with it.
+
+    For imports and figures: ``either`` are columns of which a table holds one; of a history (``is_history``) the time
+    is what a map is drawn over; readings that a logger takes one after the other (``is_logged``) may be thinned out;
+    ``asks_for_oil`` says that the properties of the oil matter enough to be asked for.
     """
 
     name: str
+    subject: str
     readings: tuple[Column, ...]
     columns: tuple[Column, ...]
     sections: tuple[str, ...]
     chain: Callable[[system_file.System, Table], Chain]
     inputs: Callable[[system_file.System, Rig, Table, Table], Inputs]
+    standard: StandardRig
     extra_calibration: Callable[[system_file.System, Table], tuple[Calibration, ...]] = lambda system, recorded: ()
     reading_fault: Callable[[Table, int, float, float], str | None] = lambda recorded, row, excess, sd: None
     logarithmic: bool = False
@@ -58,6 +69,21 @@ class Kind:
     limits: Callable[[system_file.System], Mapping[str, tuple[float, float]]] = lambda system: {}
     nominal: Mapping[str, str] = field(default_factory=dict)
     uses: tuple[str, ...] = ()
+    scale: float = 1.0
+    direction: Callable[[Table], np.ndarray] | None = None
+    either: tuple[str, ...] = ()
+    is_history: bool = False
+    is_logged: bool = False
+    asks_for_oil: bool = False
+
+    def __post_init__(self) -> None:
+        if self.subject not in SUBJECTS:
+            raise TypeError(f"kind {self.name}: subject {self.subject!r} is none of {SUBJECTS}")
+
+    @property
+    def about(self) -> str:
+        """What is recorded, in the line that begins the module of the kind."""
+        return (inspect.getdoc(inspect.getmodule(self.inputs)) or self.name).split("\n")[0]
 
     @property
     def quantities(self) -> tuple[str, ...]:
@@ -65,18 +91,8 @@ class Kind:
         return tuple(column.name for column in self.readings)
 
     def is_unsigned(self, quantity: str) -> bool:
-        """Whether readings are positive but for their noise; friction maps carry a sign."""
-        return quantity in UNSIGNED and self.name != "friction_map"
-
-
-SCALE = {
-    "power_loss_W": 1.0,
-    "friction_coefficient": 1.0,
-    "film_thickness_nm": 1e9,
-    "friction_torque_Nm": 1.0,
-    "viscosity_mPa_s": 1e3,
-}
-"""From SI to the unit of the column."""
+        """Whether readings are positive but for their noise; those that follow a direction carry a sign."""
+        return quantity in self.quantities and self.direction is None and not self.logarithmic
 
 
 TEN_KELVIN = 10.0

@@ -6,9 +6,11 @@ import numpy as np
 
 from mixedlub.chain.base_models import GEAR_CONTACT
 from mixedlub.gear import Mesh, at_roll_angle
+from mixedlub.gear.inputs import motion_inputs
 from mixedlub.kinds import columns
-from mixedlub.kinds.gear_pair import CONDITIONS, motion_inputs
+from mixedlub.kinds.gear_pair import CONDITIONS
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, inverse_of
+from mixedlub.kinds.standard import GEARS, OIL, ROUGHNESS_UM, StandardRig
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig import build
@@ -73,12 +75,27 @@ def limits(system: system_file.System) -> dict[str, tuple[float, float]]:
     return {"roll_angle_deg": (float(first), float(last))}
 
 
+STANDARD = StandardRig(
+    sections={"gears": GEARS, "lubricant": OIL},
+    noise=2e-4,
+    conditions={
+        "load": ("torque_Nm", (50.0, 150.0)),
+        "speed": ("speed_rpm", (500.0, 1500.0, 3000.0)),
+        "oil_temperature": ("oil_temperature_C", (50.0, 90.0)),
+        "surfaces": ("pinion_surface", tuple(ROUGHNESS_UM)),
+        "roll_angle": ("roll_angle_deg", (16.0, 19.0, 22.0, 25.0, 28.0, 31.0)),
+    },
+)
+
 KIND = Kind(
     name="mesh_friction",
+    subject="gears",
     readings=(columns.FRICTION,),
     columns=(*CONDITIONS, ROLL_ANGLE),
     sections=("gears", "lubricant", "surfaces"),
     chain=lambda system, table: (*GEAR_CONTACT, ("reading", reading)),
     inputs=inputs,
     limits=limits,
+    asks_for_oil=True,
+    standard=STANDARD,
 )

@@ -8,6 +8,7 @@ from mixedlub.chain.model import Chain
 from mixedlub.kinds import columns, oil_priors
 from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, programme
+from mixedlub.kinds.standard import OIL, StandardRig
 from mixedlub.laws import oil
 from mixedlub.rig import build
 from mixedlub.rig.lubricant import Lubricant
@@ -107,8 +108,18 @@ def chain(system: system_file.System, table: Table) -> Chain:
     return (("contact_viscosity", under_pressure), ("reading", reading))
 
 
+STANDARD = StandardRig(
+    sections={"lubricant": OIL},
+    noise=0.02,
+    conditions={
+        "oil_temperature": ("temperature_C", (20.0, 40.0, 70.0, 100.0)),
+        "pressure": ("pressure_MPa", (0.1, 100.0, 300.0, 600.0, 1000.0)),
+    },
+)
+
 KIND = Kind(
     name="viscosity",
+    subject="oil",
     readings=(VISCOSITY,),
     columns=COLUMNS,
     sections=(),
@@ -117,4 +128,7 @@ KIND = Kind(
     inputs=inputs,
     extra_calibration=extra_calibration,
     logarithmic=True,
+    scale=1e3,
+    is_logged=True,
+    standard=STANDARD,
 )

@@ -14,8 +14,10 @@ from mixedlub.case import reference_rigs
 from mixedlub.chain.effect import Effect, entry
 from mixedlub.chain.model import Model
 from mixedlub.effects import catalogue, find
+from mixedlub.kinds import KINDS
 
-RIGS = tuple(reference_rigs.CONDITIONS)
+RIGS = KINDS
+"""Standard rigs by kind, in the order in which pages show them."""
 ALIKE = 0.95
 """Cosine of two signatures above which the standard rig cannot tell them apart."""
 
@@ -64,7 +66,7 @@ def _sides(effect: Effect, rig: str) -> dict[str, tuple[np.ndarray, np.ndarray]]
     """Rows at the lowest and at the highest levels of each condition."""
     forward = reference_rigs.forward(rig)
     sides = {}
-    for condition, (column, _) in reference_rigs.CONDITIONS[rig].items():
+    for condition, (column, _) in reference_rigs.conditions(rig).items():
         values = forward.table[column]
         if condition == "surfaces":
             sides["roughness"] = (values == "superfinished", values == "coarse")

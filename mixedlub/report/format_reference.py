@@ -5,7 +5,6 @@ All of it comes from where columns and keys are declared: the kinds, and the cla
 
 from __future__ import annotations
 
-import importlib
 import re
 import textwrap
 from collections.abc import Iterator, Sequence
@@ -13,9 +12,9 @@ from typing import Any, Literal, get_args, get_origin
 
 import numpy as np
 
-from mixedlub.kinds import Kind, kind
+from mixedlub.kinds import KINDS, Kind, kind
 from mixedlub.schema.section import FileTable, Key, plain, tables
-from mixedlub.schema.system_file import KINDS, System
+from mixedlub.schema.system_file import System
 from mixedlub.schema.table import BOOKKEEPING, RUN, Column, check_column, sd_column
 from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import unit_of
@@ -68,7 +67,7 @@ def about(kind_name: str) -> str:
     >>> about("viscosity")
     'viscosity: viscosity of a sample against temperature and pressure'
     """
-    text = (importlib.import_module(f"mixedlub.kinds.{kind_name}").__doc__ or "").splitlines()[0]
+    text = kind(kind_name).about
     return f"{kind_name}: {text[:1].lower()}{text[1:].rstrip('.')}"
 
 
@@ -165,7 +164,7 @@ def _allowed(annotation: Any, key: Key) -> tuple[str, bool]:
     if get_origin(of) is dict:
         return "tables", False
     if of in (bool, str):
-        return {bool: "true, false", str: "text"}[of], False
+        return "see above" if key.is_looked_up else {bool: "true, false", str: "text"}[of], False
     ends = (-np.inf, np.inf) if key.range is None else key.range.possible
     return _span(*ends, number="whole number" if of is int else "number"), True
 

@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from types import NoneType, UnionType
 from typing import Annotated, Any, Union, cast, get_args, get_origin
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, ValidationInfo, field_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    ValidationError,
+    ValidationInfo,
+    field_validator,
+)
 from pydantic.fields import FieldInfo
+from pydantic_core import PydanticCustomError
 
 from mixedlub.schema.ranges import Range, broken, range_of, ranges
 from mixedlub.schema.units import unit_of
@@ -23,6 +33,15 @@ def _number(value: Any) -> Any:
 def _whole(value: Any) -> Any:
     if isinstance(value, (bool, str)):
         raise ValueError("must be a whole number")
+    return value
+
+
+def one_of(value: str, known: Iterable[str]) -> str:
+    """The value, or an error that names those which are known; for choices that are found when a file is read."""
+    *others, last = (repr(name) for name in known)
+    if repr(value) not in (*others, last):
+        expected = f"{', '.join(others)} or {last}" if others else last
+        raise PydanticCustomError("literal_error", "Input should be {expected}", {"expected": expected})
     return value
 
 
@@ -119,6 +138,11 @@ class Key:
     def is_alternative(self) -> bool:
         """Whether it takes the place of other keys, so that their examples do not go with its own."""
         return self._extra["alternative"]
+
+    @property
+    def is_looked_up(self) -> bool:
+        """Whether its values are names of parts that are declared elsewhere."""
+        return any(isinstance(m, AfterValidator) for m in self.field.metadata)
 
     @property
     def range(self) -> Range | None:

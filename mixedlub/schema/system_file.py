@@ -3,16 +3,25 @@
 from __future__ import annotations
 
 import re
-from typing import Annotated, Literal, get_args
+from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
-from mixedlub.schema.section import Float, Number, Section, Whole, key, tables, with_ranges
+from mixedlub.discovery import declared
+from mixedlub.schema.section import Float, Number, Section, Whole, key, one_of, tables, with_ranges
 from profiles.errors import InputError
 
-KindName = Literal["gear_pair", "mesh_friction", "disc", "film", "friction_history", "friction_map", "viscosity"]
-KINDS: tuple[str, ...] = get_args(KindName)
 
+def _known_kind(name: str) -> str:
+    return one_of(name, [kind.name for kind in declared(*KINDS)])
+
+
+def _known_quantity(name: str) -> str:
+    return one_of(name, dict.fromkeys(quantity for kind in declared(*KINDS) for quantity in kind.quantities))
+
+
+KINDS = ("mixedlub.kinds", "mixedlub.kinds", "KIND")
+"""Where the kinds of recording are declared; they are looked up when a file is read, as they use this module."""
 Pair = tuple[Number, Number]
 CUTOFF_MM, SHORT_CUTOFF_UM = 0.8, 2.5
 """Cut-offs of a trace where none is given: ISO 4288 for Ra of 0.1 to 2 um, as ground flanks have, and ISO 3274."""
@@ -177,9 +186,9 @@ class Noise(Section):
 
 
 class Recording(Section):
-    quantity: Literal[
-        "power_loss_W", "friction_coefficient", "film_thickness_nm", "friction_torque_Nm", "viscosity_mPa_s"
-    ] = key("the column that the rig recorded", example="power_loss_W")
+    quantity: Annotated[str, AfterValidator(_known_quantity)] = key(
+        "the column that the rig recorded", example="power_loss_W"
+    )
     includes: str = key("what the reading contains beside the contact, free text", "", example="bearings and seals")
     ambient_temperature_C: Number = key("temperature around the rig", 25.0)
     check: str | None = key(
@@ -206,7 +215,7 @@ class System(RigFile):
     """Everything the engineer knows about the rig."""
 
     schema_: Literal["mixedlub-case/1"] = key("format of the file", example="mixedlub-case/1", alias="schema")
-    kind: KindName = key("what was recorded", example="gear_pair")
+    kind: Annotated[str, AfterValidator(_known_kind)] = key("what was recorded", example="gear_pair")
     contact: Contact | None = key("two entries: first and second body", None)
     uncertainty: Uncertainty = key("one standard deviation of what calibration may move; 0: known", Uncertainty())
     recording: Recording = key("what was read, and how well")

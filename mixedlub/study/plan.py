@@ -14,7 +14,7 @@ from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Model, available
 from mixedlub.effects import find, known_in
 from mixedlub.gear import GearPair, Mesh
-from mixedlub.kinds.gear_pair import motion_inputs
+from mixedlub.gear.inputs import motion_inputs
 from mixedlub.laws.load import LEAST_SHARE
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.lubricant import Lubricant

@@ -11,12 +11,11 @@ import pytest
 
 from mixedlub.case import folder
 from mixedlub.cli import main
-from mixedlub.kinds import kind
+from mixedlub.kinds import KINDS, kind
 from mixedlub.report.format_reference import kinds_text
 from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.section import examples, tables
-from mixedlub.schema.system_file import KINDS
 from mixedlub.schema.table import BOOKKEEPING, RUN, Column, Table
 from mixedlub.study.schema import StudyFile
 

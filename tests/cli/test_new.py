@@ -5,10 +5,9 @@ import re
 import pytest
 
 from mixedlub.cli import main
-from mixedlub.kinds import kind
+from mixedlub.kinds import KINDS, kind
 from mixedlub.schema import system_file
 from mixedlub.schema.section import tables
-from mixedlub.schema.system_file import KINDS
 from mixedlub.schema.toml_file import parse, read_toml
 from mixedlub.study.schema import StudyFile
 

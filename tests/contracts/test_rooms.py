@@ -12,7 +12,20 @@ import mixedlub
 HOME = Path(mixedlub.__file__).parent
 ROOMS = {
     "": (
-        *("version", "atomic", "schema", "laws", "chain", "effects", "gear", "rig", "kinds", "case", "recording"),
+        *(
+            "version",
+            "atomic",
+            "discovery",
+            "schema",
+            "laws",
+            "chain",
+            "effects",
+            "gear",
+            "rig",
+            "kinds",
+            "case",
+            "recording",
+        ),
         *("data_checks", "study", "report", "diagnosis", "importers", "api", "validation"),
         *("commands", "cli", "__main__"),
     ),

@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mixedlub.case import reference_rigs
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
 from mixedlub.chain.effect import Effect
@@ -20,6 +19,7 @@ from mixedlub.diagnosis.inference.map_fit import log_likelihood, map_fit
 from mixedlub.diagnosis.problem import Explanation, Problem
 from mixedlub.diagnosis.search.search import search
 from mixedlub.kinds import kind
+from mixedlub.kinds.standard import OIL
 from mixedlub.recording.conditions import Coordinate, Coordinates, coordinates
 from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file, toml_file
@@ -71,7 +71,7 @@ def test_an_oil_of_another_coefficient_has_no_other_law() -> None:
     """Readings of one exponential of pressure, a third steeper than stated, make no law of pressure of their own."""
     stated = {"viscosity": 0.05, "pressure_viscosity": 0.06}
     noise = {"quantity": "viscosity_mPa_s", "noise": {"relative": 0.01, "absolute": 0.0}}
-    text = {"schema": "mixedlub-case/1", "kind": "viscosity", "lubricant": reference_rigs.OIL, "uncertainty": stated}
+    text = {"schema": "mixedlub-case/1", "kind": "viscosity", "lubricant": OIL, "uncertainty": stated}
     system = toml_file.parse(system_file.System, {**text, "recording": noise}, "steeper oil")
     case = Case("steeper oil", Path("."), system, kind("viscosity"), Rig(system, Path(".")), None, None, ())
     warm, high = (x.ravel() for x in np.meshgrid([40.0, 60.0, 80.0, 100.0], [0.1, 50.0, 100.0, 200.0, 300.0, 400.0]))

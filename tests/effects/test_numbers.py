@@ -21,6 +21,7 @@ from mixedlub.effects.skewed_heights import _skewed_area_integral
 from mixedlub.effects.tip_relief import tip_relief
 from mixedlub.effects.torque_offset import torque_offset
 from mixedlub.effects.viscosity_temperature_law import viscosity_temperature_law
+from mixedlub.kinds.standard import ROUGHNESS_UM
 from mixedlub.laws import drag, heating, loss
 from mixedlub.report.effect_pages import shown
 from mixedlub.rig.lubricant import Lubricant
@@ -153,7 +154,7 @@ class TestLiterature:
         table = forward.table
         columns = [np.ones(rows.sum()), np.log(table["torque_Nm"][rows]), np.log(table["speed_rpm"][rows])]
         temperature = table["oil_temperature_C"][rows] / 10.0
-        rough = [table["pinion_surface"][rows] == s for s in reference_rigs.ROUGHNESS_UM]
+        rough = [table["pinion_surface"][rows] == s for s in ROUGHNESS_UM]
         design = np.array([*columns[1:], temperature, *rough], dtype=float).T
         powers, *_ = np.linalg.lstsq(design, np.log(change[rows]), rcond=None)
         assert powers[0] == pytest.approx(torque, abs=0.3)

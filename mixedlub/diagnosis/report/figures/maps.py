@@ -46,7 +46,7 @@ def frame_of(d: Diagnosis) -> Frame:
     """The map's axes: the conditions that were varied, each where a reader expects it."""
     varied = _varied(d)
     # In a history of friction it is time that tells: it comes before what was set.
-    chosen = [n for n in ("time_s",) if n in varied and d.case.kind.name == "friction_history"]
+    chosen = [n for n in ("time_s",) if n in varied and d.case.kind.is_history]
     for wanted in (ACROSS, UP, PANELS)[len(chosen) :]:
         name = next((n for n in wanted if n in varied and n not in chosen), "")
         chosen.append(name)
