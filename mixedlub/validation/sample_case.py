@@ -124,14 +124,13 @@ def withhold(rng: np.random.Generator, rig: Rig, family: Family, small: bool = F
         if name not in ("run", "sequence", "time_s", "position_deg") and column.dtype != object
     }
     several = {name: levels for name, levels in several.items() if len(levels) >= family.levels}
-    if count >= 30 and (several or "time_s" in rig.columns) and rng.random() < family.blocks:
-        if several:
-            name = list(several)[int(rng.integers(len(several)))]
-            levels = several[name] if family.ends else several[name][1:-1]
-            hidden |= rig.columns[name] == levels[int(rng.integers(len(levels)))]
-        else:
-            first = int(rng.uniform(0.1, 0.8) * count)
-            hidden[first : first + count // 12] = True
+    if count >= 30 and several and rng.random() < family.blocks:
+        name = list(several)[int(rng.integers(len(several)))]
+        levels = several[name] if family.ends else several[name][1:-1]
+        hidden |= rig.columns[name] == levels[int(rng.integers(len(levels)))]
+    elif count >= 30 and "time_s" in rig.columns and rng.random() < family.blocks:
+        first = int(rng.uniform(0.1, 0.8) * count)
+        hidden[first : first + count // 12] = True
     if not hidden.any():
         hidden[count // 2] = True
     return hidden

@@ -16,9 +16,9 @@ from mixedlub.validation.case_folder import read_case as read_planted
 from mixedlub.validation.case_folder import toml
 from mixedlub.validation.contact import Calibration
 from mixedlub.validation.planted import FORMS, MEASUREMENT, NAMED, OUTSIDE
-from mixedlub.validation.rigs import CLASSES, KINDS, OTHERS, discs, gears
+from mixedlub.validation.rigs import CLASSES, KINDS, OTHERS, discs, family_of, gears, histories
 from mixedlub.validation.rivals import Target, best, rivals, sensitivity, visibility
-from mixedlub.validation.sample_case import Order, Sample, sample_case
+from mixedlub.validation.sample_case import Order, Sample, sample_case, withhold
 from profiles.errors import InputError
 
 from .conftest import SEED
@@ -256,6 +256,21 @@ def test_every_form_is_absent_at_zero_and_finite_at_its_usual_size(kind):
             seen.add(form.id)
     first = {name for name, *_ in KINDS[kind].pairs}
     assert first | {name for _, partners, _ in KINDS[kind].pairs for name in partners} <= seen | {"coating_insulation"}
+
+
+def test_histories_withhold_a_level_or_else_a_stretch_of_time():
+    """Six in ten a whole slip, six in ten of the others a twelfth of the programme at a stretch."""
+    rng = np.random.default_rng(4)
+    rig = histories.draw_traction(rng)
+    slip, count = rig.columns["slide_roll_ratio"], len(rig.columns["run"])
+    whole, stretch = 0, 0
+    for _ in range(300):
+        hidden = withhold(rng, rig, family_of("friction_history"))
+        level = any(hidden[slip == one].all() for one in np.unique(slip))
+        whole += level
+        stretch += not level and "1" * (count // 12) in "".join("01"[flag] for flag in hidden.astype(int))
+    assert whole / 300 == pytest.approx(0.6, abs=0.09)
+    assert stretch / 300 == pytest.approx(0.24, abs=0.08)
 
 
 @pytest.mark.parametrize(
