@@ -3,7 +3,8 @@
 from mixedlub.gear.distribution import LdpSharing, LoadDistribution, transmission_error
 from mixedlub.gear.geometry import GearPair
 from mixedlub.gear.mesh import ROUNDED, Mesh, Sharing, at_roll_angle, mesh
-from mixedlub.gear.sharing import RigidSharing, TableSharing
+from mixedlub.gear.sharing.rigid import RigidSharing
+from mixedlub.gear.sharing.table import TableSharing
 
 __all__ = [
     "ROUNDED",

@@ -22,11 +22,11 @@ from mixedlub.gear.compliance import (
     sainsot_foundation,
     weber_foundation,
 )
+from mixedlub.gear.contact_lines import contact_limits
 from mixedlub.gear.contact_solver import share_out
 from mixedlub.gear.geometry import GearPair, Pair, number, two, whole
 from mixedlub.gear.modifications import Modifications
 from mixedlub.gear.plate import Plate, tapered_plate
-from mixedlub.gear.sharing import contact_limits
 from mixedlub.gear.tooth import tooth
 from mixedlub.schema.findings import Finding
 from profiles.errors import InputError, nearest

@@ -90,7 +90,7 @@ def mesh(pair: GearPair, sharing: Sharing, *, points: int = 48, slices: int | No
 
     Equal sharing between rigid teeth gives back Ohlendorf's loss factor of the FZG C test gear:
 
-    >>> from mixedlub.gear.sharing import RigidSharing
+    >>> from mixedlub.gear.sharing.rigid import RigidSharing
     >>> fzg = GearPair(teeth=(16, 24), normal_module=4.5e-3, pressure_angle=np.radians(20),
     ...                profile_shift=(0.1817, 0.1715), tip_radius=(41.23e-3, 59.18e-3),
     ...                centre_distance=91.5e-3, face_width=14e-3)

@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mixedlub.gear import GearPair, LdpSharing, RigidSharing, Sharing, TableSharing
+from mixedlub.gear import GearPair, Sharing
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.surface import Surface
 from mixedlub.schema import system_file
 from mixedlub.schema.findings import finding, report
-from mixedlub.schema.table import Column, read_table
+from mixedlub.schema.toml_file import named_file
 from profiles import SHIPPED, shipped
 from profiles.errors import InputError, nearest
 from profiles.profile import Profile
@@ -49,38 +49,7 @@ def gear_pair(section: system_file.Gears) -> GearPair:
 
 def sharing(section: system_file.LoadSharing, folder: Path) -> Sharing:
     """How the load divides between tooth pairs, by ``load_sharing``."""
-    if section.table is not None:
-        columns = (
-            Column("torque_Nm", above=0.0),
-            Column("roll_angle_deg"),
-            Column("load_share", at_least=0.0, at_most=1.5),
-        )
-        file = named_file(folder, section.table, "gears.load_sharing.table")
-        table = read_table(file, columns, key=("torque_Nm", "roll_angle_deg"))
-        return TableSharing(
-            torque=table["torque_Nm"],
-            roll_angle=np.radians(table["roll_angle_deg"]),
-            share=table["load_share"],
-            source=str(file),
-        )
-    if section.model == "rigid":
-        return RigidSharing()
-    return LdpSharing(
-        tip_relief=(section.tip_relief_um[0] * 1e-6, section.tip_relief_um[1] * 1e-6),
-        relief_length=(section.relief_length_mm[0] * 1e-3, section.relief_length_mm[1] * 1e-3),
-        lead_crown=section.lead_crown_um * 1e-6,
-        misalignment=section.misalignment_um * 1e-6,
-    )
-
-
-def named_file(folder: Path, name: str, key: str) -> Path:
-    """A file named in a case or study, relative to its folder."""
-    path = folder / name
-    if not path.is_file():
-        near = sorted(p.name for p in path.parent.glob("*") if p.is_file())
-        hint = f"; {nearest(path.name, near)}" if near else "; the file that names it may say where it comes from"
-        raise InputError(f"no such file in {folder}{hint}", where=key, value=name)
-    return path
+    return section.chosen.build(section, folder)
 
 
 @cache

@@ -78,7 +78,7 @@ def meant(name: str, value: object, low: float, high: float) -> str:
 ASKED = ": is it in that unit?"
 
 
-def broken(key: str, value: object) -> str:
+def broken(key: str | Range, value: object) -> str:
     """The rule that an impossible value breaks, and the unit that it would suit; empty where nothing is broken.
 
     >>> broken("gears.normal_module_mm", 0.0042)
@@ -86,11 +86,12 @@ def broken(key: str, value: object) -> str:
     >>> broken("lubricant.temperature_C", (40.0, 373.15))
     'entry 2 must be from -150 to 300 °C; 373.15 K would be 100 °C: is it in that unit?'
     """
-    (low, high), name = ranges()[key].possible, key.rpartition(".")[2]
+    within = key if isinstance(key, Range) else ranges()[key]
+    (low, high), name = within.possible, within.key.rpartition(".")[2]
     for place, entry in _entries(value):
         if not low <= entry <= high:
             ends = f"at least {low:g}" if high == np.inf else f"from {low:g} to {high:g}"
-            other = meant(name, entry, *ranges()[key].usual)
+            other = meant(name, entry, *within.usual)
             return f"{place}must be {ends} {unit_of(name)}".rstrip() + (f"; {other}" if other else "")
     return ""
 
@@ -103,16 +104,17 @@ def _entries(value: Any) -> Iterator[tuple[str, float]]:
         yield "", value
 
 
-def beyond_usual(key: str, value: float, place: str) -> list[Finding]:
+def beyond_usual(key: str | Range, value: float, place: str) -> list[Finding]:
     """That a possible value lies outside the usual range, with that range; nothing where it lies within.
 
     >>> print(*beyond_usual("lubricant.eyring_stress_MPa", 90.0, "lubricant.eyring_stress_MPa"))
     lubricant.eyring_stress_MPa: 90, where rigs have 0.3 to 60 MPa: check the number and its unit
     """
-    low, high = ranges()[key].usual
+    within = key if isinstance(key, Range) else ranges()[key]
+    low, high = within.usual
     if low <= value <= high:
         return []
-    name = key.rpartition(".")[2]
+    name = within.key.rpartition(".")[2]
     usual = f"at least {low:g}" if high == np.inf else f"{low:g} to {high:g}"
     unit = meant(name, value, low, high).removesuffix(ASKED) or "check the number and its unit"
     said = f"{value:.6g}, where rigs have {usual} {unit_of(name)}".rstrip()
@@ -125,7 +127,7 @@ def unusual(table: BaseModel, place: tuple[str, ...] = ()) -> Iterator[Finding]:
         value, within = getattr(table, name), range_of(field)
         if within is not None and value is not None:
             where = ".".join((*place, name))
-            each = (beyond_usual(within.key, x, f"{where}, {words}".rstrip(", ")) for words, x in _entries(value))
+            each = (beyond_usual(within, x, f"{where}, {words}".rstrip(", ")) for words, x in _entries(value))
             yield from next(filter(None, each), [])
         named = value.items() if isinstance(value, dict) else [("", value)]
         for inner, section in named:

@@ -81,7 +81,7 @@ class Section(BaseModel):
     @classmethod
     def _possible(cls, value: Any, info: ValidationInfo) -> Any:
         within = range_of(cls.model_fields[str(info.field_name)])
-        rule = "" if within is None or value is None else broken(within.key, value)
+        rule = "" if within is None or value is None else broken(within, value)
         if rule:
             raise ValueError(rule)
         return value

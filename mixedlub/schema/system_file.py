@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Field, create_model, model_validator
 
 from mixedlub.discovery import declared
 from mixedlub.schema.section import Float, Number, Section, Whole, key, one_of, tables, with_ranges
@@ -27,25 +27,41 @@ CUTOFF_MM, SHORT_CUTOFF_UM = 0.8, 2.5
 """Cut-offs of a trace where none is given: ISO 4288 for Ra of 0.1 to 2 um, as ground flanks have, and ISO 3274."""
 
 
-class LoadSharing(Section):
-    table: str | None = key(
-        "CSV of torque_Nm, roll_angle_deg, load_share; this or model", None, example="load_share.csv", alternative=True
-    )
-    model: Literal["ldp", "rigid"] | None = key(
-        "how the load divides between tooth pairs; this or table",
-        None,
-        example="ldp",
-        values={"ldp": "elastic teeth", "rigid": "equal shares of the pairs in contact"},
-    )
-    tip_relief_um: Pair = key('model "ldp": tip relief', (0.0, 0.0), example=[15, 15])
-    relief_length_mm: Pair = key('model "ldp": length of the relief along the profile', (0.0, 0.0), example=[2, 2])
-    lead_crown_um: Number = key('model "ldp": crown over the face, both flanks together', 0.0, example=3.0)
-    misalignment_um: Number = key('model "ldp": misalignment over the face width', 0.0)
+SHARING: tuple[Any, ...] = declared("mixedlub.gear.sharing", "mixedlub.load_sharing", "MODEL")
+"""Load-sharing models, each with its name, its meaning and the keys that it takes."""
+_NAMED = {model.name: model.meaning for model in SHARING if not model.chosen_by}
+
+
+def _sharing_keys() -> Any:
+    """The keys of all load-sharing models: those that choose one by themselves, ``model``, and the rest."""
+    model: Any = key("how the load divides between tooth pairs; this or table", None, example="ldp", values=_NAMED)
+    names: Any = Literal[tuple(_NAMED)]
+    name = create_model("ModelName", __base__=Section, model=(names | None, model))
+    first = [one.keys for one in SHARING if one.chosen_by]
+    rest = [one.keys for one in SHARING if not one.chosen_by and one.keys is not Section]
+    # A class has the fields of its last base first.
+    return create_model("SharingKeys", __base__=(*reversed(rest), name, *reversed(first)))
+
+
+_SharingKeys: Any = _sharing_keys()
+
+
+class LoadSharing(_SharingKeys):
+    @property
+    def chosen(self) -> Any:
+        """The model that the keys choose."""
+        return self._choices()[0]
+
+    def _choices(self) -> list[Any]:
+        by_key = [one for one in SHARING if one.chosen_by and getattr(self, one.chosen_by) is not None]
+        return by_key + [one for one in SHARING if one.name == self.model]
 
     @model_validator(mode="after")
-    def _table_or_model(self) -> LoadSharing:
-        if (self.table is None) == (self.model is None):
-            raise ValueError('needs either table = "FILE", or model = "ldp" or "rigid"; not both')
+    def _one_model(self) -> LoadSharing:
+        if len(self._choices()) != 1:
+            keys = [f'{one.chosen_by} = "FILE"' for one in SHARING if one.chosen_by]
+            names = " or ".join(f'"{name}"' for name in _NAMED)
+            raise ValueError(f"needs either {', '.join(keys)}, or model = {names}; not both")
         return self
 
 

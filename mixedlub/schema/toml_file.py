@@ -34,6 +34,16 @@ def read_toml(path: Path) -> dict[str, Any]:
         raise InputError("holds a whole number with too many digits", where=str(path)) from None
 
 
+def named_file(folder: Path, name: str, key: str) -> Path:
+    """A file named in a case or study, relative to its folder."""
+    path = folder / name
+    if not path.is_file():
+        near = sorted(p.name for p in path.parent.glob("*") if p.is_file())
+        hint = f"; {nearest(path.name, near)}" if near else "; the file that names it may say where it comes from"
+        raise InputError(f"no such file in {folder}{hint}", where=key, value=name)
+    return path
+
+
 def parse(model: type[T], data: Mapping[str, Any], where: str) -> T:
     """The validated section; the first error becomes a message that names place, value and rule."""
     try:

@@ -67,9 +67,8 @@ def assumed(study: Study) -> Iterator[str]:
     file = study.file
     yield from _left_out(file, "", ("boundary_friction",))
     yield from _left_out(file.gears, "gears", tuple(Gears.model_fields))
-    if file.gears.load_sharing.model == "ldp":
-        sharing = file.gears.load_sharing
-        yield from _left_out(sharing, "gears.load_sharing", tuple(set(type(sharing).model_fields) - {"table", "model"}))
+    sharing = file.gears.load_sharing
+    yield from _left_out(sharing, "gears.load_sharing", tuple(sharing.chosen.keys.model_fields))
     given = {} if file.lubricant is None else file.lubricant.model_dump(exclude_none=True)
     yield from (f"lubricant.{key}" for key in ("base", *_oil(study.oil)) if key not in given and key != "name")
     for name in study.surfaces:

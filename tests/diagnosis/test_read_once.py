@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from mixedlub.diagnosis.diagnose import diagnose_case
-from mixedlub.rig import build
+from mixedlub.gear.sharing import table
 
 SHARE = [(13.5, 0.5), (18.0, 0.5), (18.01, 1.0), (24.0, 1.0), (24.01, 0.5), (34.0, 0.5)]
 
@@ -27,7 +27,7 @@ def test_a_trace_and_a_load_share_table_are_read_once(
     assert moments in text
     (case / "system.toml").write_text(text.replace(moments, 'profile = "flank.txt"\ncutoff_mm = 0.8'), encoding="utf-8")
     read: Counter[str] = Counter()
-    for module, name in ((import_module("profiles.read"), "read"), (build, "read_table")):
+    for module, name in ((import_module("profiles.read"), "read"), (table, "read_table")):
         original = getattr(module, name)
 
         def counted(path: Path, *rest: object, of: Callable[..., object] = original, **named: object) -> object:

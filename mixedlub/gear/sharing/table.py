@@ -1,21 +1,23 @@
-"""How the torque is shared between the tooth pairs in contact: from a table, or by rigid teeth.
-
-A sharing says where along the path it has kinks (so that no quadrature panel contains one), what a reader
-should know about it, and the share at the points of a mesh. The elastic one is in ``distribution.py``.
-"""
+"""Load shared by a table: from an outside gear program or a measurement."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from mixedlub.gear.checks import column
 from mixedlub.gear.geometry import GearPair
 from mixedlub.gear.mesh import Mesh
+from mixedlub.gear.sharing.model import SharingModel
 from mixedlub.schema.findings import Finding, Severity, finding, report
+from mixedlub.schema.section import Section, key
+from mixedlub.schema.table import Column, read_table
+from mixedlub.schema.toml_file import named_file
 from profiles.errors import InputError
 
 COVERED = 0.98
@@ -27,36 +29,13 @@ GRAVE_IMBALANCE = 0.1
 PLACE = "load share table"
 OFTEN, OFTEN_OFF = 0.8, 0.05
 """So much of a base pitch must add up to 1 within that; beside a step of the share, between two rows, more is off."""
+COLUMNS = (Column("torque_Nm", above=0.0), Column("roll_angle_deg"), Column("load_share", at_least=0.0, at_most=1.5))
 
 
-def contact_limits(pair: GearPair) -> np.ndarray:
-    """Positions where the number of pairs in contact changes: the ends shifted by whole base pitches."""
-    shifts = pair.base_pitch * np.arange(int(pair.contact_ratio) + 1)
-    limits = np.concatenate([pair.path_start + shifts, pair.path_end - shifts])
-    return limits[(limits >= pair.path_start) & (limits <= pair.path_end)]
-
-
-def contact_line_length(pair: GearPair, position: np.ndarray) -> np.ndarray:
-    """Total length (m) of the contact lines when one of them passes ``position`` (m) on the front face.
-
-    Summed over the tooth pairs, each line x(y) = position + y tan(beta_b) cut off at the ends of the path;
-    spur gears: face width times the number of pairs in contact. Any shape; exact.
-
-    >>> spur = GearPair((17, 26), 4.2333333e-3, np.radians(22.5), 14e-3)
-    >>> contact_line_length(spur, np.array([spur.path_start + 1e-4, spur.pitch_point])) / spur.face_width
-    array([2., 1.])
-    """
-    tangent = np.tan(abs(pair.base_helix_angle))
-    rise = pair.face_width * tangent
-    phase = (np.asarray(position, dtype=float) - pair.path_start) % pair.base_pitch
-    reach = int(np.ceil((pair.path_end - pair.path_start + rise) / pair.base_pitch)) + 1
-    front = phase[..., None] + pair.base_pitch * np.arange(-reach, reach + 1)
-    length = pair.path_end - pair.path_start
-    if rise < 1e-9 * pair.base_pitch:
-        inside = (front >= -1e-9 * length) & (front <= length * (1 + 1e-9))
-        return pair.face_width * inside.sum(axis=-1)
-    overlap = np.minimum(front + rise, length) - np.maximum(front, 0)
-    return np.clip(overlap, 0, None).sum(axis=-1) / np.sin(abs(pair.base_helix_angle))
+class Keys(Section):
+    table: str | None = key(
+        "CSV of torque_Nm, roll_angle_deg, load_share; this or model", None, example="load_share.csv", alternative=True
+    )
 
 
 def _pairs_in_contact(pair: GearPair) -> tuple[np.ndarray, np.ndarray]:
@@ -64,35 +43,6 @@ def _pairs_in_contact(pair: GearPair) -> tuple[np.ndarray, np.ndarray]:
     phase = pair.path_start + pair.base_pitch * (np.arange(64) + 0.5) / 64
     position = phase[:, None] + pair.base_pitch * np.arange(int(pair.contact_ratio) + 1)
     return position, position <= pair.path_end
-
-
-@dataclass(frozen=True)
-class RigidSharing:
-    """Rigid, perfect teeth: the same load on every length of contact line.
-
-    Spur gears: each of the pairs in contact carries an equal share. Helical gears: the force is spread evenly
-    over the total length of the contact lines, which changes as the teeth roll through the mesh.
-    """
-
-    def default_slices(self, pair: GearPair) -> int:
-        """One for spur gears; the oblique lines of helical gears need several."""
-        return 1 if pair.helix_angle == 0 else 16
-
-    def check(self, pair: GearPair) -> tuple[Finding, ...]:
-        """Serves every gear pair."""
-        return ()
-
-    def breakpoints(self, pair: GearPair) -> np.ndarray:
-        """Where the number of pairs in contact changes."""
-        return contact_limits(pair)
-
-    def load_share(self, mesh: Mesh, torque: np.ndarray) -> np.ndarray:
-        """Length of each slice's line over the total length, whatever the torque."""
-        pair = mesh.pair
-        front = mesh.position - mesh.face_position * np.tan(abs(pair.base_helix_angle))
-        line = mesh.face_fraction * pair.face_width / np.cos(pair.base_helix_angle)
-        share = line / contact_line_length(pair, front)
-        return np.broadcast_to(share, np.shape(torque) + share.shape).copy()
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,8 +74,8 @@ class TableSharing:
             worst = float(shares[np.argmax(np.abs(shares - 0.5))])
             raise InputError("a load share is a fraction from 0 to 1", where=self._at_column("load_share"), value=worst)
         order = np.lexsort((arrays["roll_angle_deg"], arrays["torque_Nm"]))
-        for name, key in zip(("torque", "roll_angle", "share"), arrays):
-            sorted_column = arrays[key][order]
+        for name, values in zip(("torque", "roll_angle", "share"), arrays.values()):
+            sorted_column = values[order]
             sorted_column.flags.writeable = False
             object.__setattr__(self, name, sorted_column)
         for value, angle, _ in self._curves:
@@ -265,3 +215,18 @@ def _others(affected: Sequence[bool]) -> str:
     """
     more = sum(map(bool, affected)) - 1
     return f" (so at {more} more torque{'s' if more > 1 else ''})" if more > 0 else ""
+
+
+def read_sharing(section: Any, folder: Path) -> TableSharing:
+    """The share of the table that a file names."""
+    file = named_file(folder, section.table, "gears.load_sharing.table")
+    table = read_table(file, COLUMNS, key=("torque_Nm", "roll_angle_deg"))
+    return TableSharing(
+        torque=table["torque_Nm"],
+        roll_angle=np.radians(table["roll_angle_deg"]),
+        share=table["load_share"],
+        source=str(file),
+    )
+
+
+MODEL = SharingModel(name="table", meaning="a table", build=read_sharing, keys=Keys, chosen_by="table")
