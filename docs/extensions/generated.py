@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import ast
 import contextlib
-import importlib
-import inspect
 import io
+import itertools
 import pkgutil
+import re
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
@@ -19,6 +19,9 @@ from sphinx.application import Sphinx
 ROOT = Path(__file__).parents[2]
 LAW_MODULES = ("roughness.mccool", "roughness.integrals")
 """Laws of surfaces that the chain calls; those of `mixedlub.laws` come first."""
+TITLES = {"mccool": "McCool's asperities", "integrals": "Integrals of Gaussian heights"}
+HEADS = {5: "| name | unit | default | allowed | meaning |", 4: "| name | default | allowed | meaning |"}
+"""Heads of the tables of `mixedlub kinds`, by their columns; the unit is left out where no row has one."""
 BASELINES = (
     "right verdict, one effect, identifiable",
     "right or honestly tied, one effect, all",
@@ -59,9 +62,9 @@ def _laws() -> Iterator[tuple[str, str]]:
 
     inside = sorted(m.name for m in pkgutil.iter_modules(mixedlub.laws.__path__))
     for name in (*(f"mixedlub.laws.{m}" for m in inside), *LAW_MODULES):
-        title = (inspect.getdoc(importlib.import_module(name)) or name).splitlines()[0].rstrip(".")
-        page = f"# {title}\n\n```{{eval-rst}}\n.. automodule:: {name}\n   :members:\n```\n"
-        yield f"laws/{name.rpartition('.')[2]}", page
+        last = name.rpartition(".")[2]
+        title = TITLES.get(last, last.replace("_", " ").capitalize())
+        yield f"laws/{last}", f"# {title}\n\n```{{eval-rst}}\n.. automodule:: {name}\n   :members:\n```\n"
 
 
 def _effects() -> Iterator[tuple[str, str]]:
@@ -77,7 +80,7 @@ def _effects() -> Iterator[tuple[str, str]]:
                     f"## {e.id}",
                     e.summary,
                     f"```{{math}}\n{e.equation}\n```",
-                    f"```{{code-block}} text\n:class: wide\n{effects_text(e.id)}\n```",
+                    f"```{{code-block}} text\n:class: wide\n{effects_text(e.id).partition(chr(10) * 2)[2]}\n```",
                 ]
         if len(parts) > 1:
             yield f"effects/{stage}", "\n\n".join(parts) + "\n"
@@ -95,8 +98,28 @@ def _kinds() -> Iterator[tuple[str, str]]:
     from mixedlub.kinds import KINDS
 
     for kind in KINDS:
-        text = _printed("kinds", kind)
-        yield f"kinds/{kind}", f"# {kind}\n\n```{{code-block}} text\n:class: wide\n{text}\n```\n"
+        text = _printed("kinds", kind).splitlines()
+        groups = [list(lines) for _, lines in itertools.groupby(text, lambda line: len(line) - len(line.lstrip()))]
+        yield f"kinds/{kind}", f"# {kind}\n\n" + "\n\n".join(map(_tabled, groups)) + "\n"
+
+
+def _tabled(lines: list[str]) -> str:
+    """Aligned rows as a table in Markdown; other lines as they are, those without indent as headings.
+
+    >>> print(_tabled(["  torque_Nm  N m  required  above 0  torque", "  run        -    required  number   a run"]))
+    | name | unit | default | allowed | meaning |
+    |---|---|---|---|---|
+    | `torque_Nm` | N m | required | above 0 | torque |
+    | `run` | - | required | number | a run |
+    """
+    length = max(map(len, lines))
+    blank = "".join(" " if all(line[i : i + 1] in ("", " ") for line in lines) else "x" for i in range(length))
+    spans = [match.span() for match in re.finditer(r"x+(?: x+)*", blank)]
+    if len(spans) in HEADS:
+        rows = [" | ".join(line[start:end].strip().replace("|", "\\|") for start, end in spans) for line in lines]
+        marked = (f"| `{name}` |{rest} |" for name, _, rest in (row.partition(" |") for row in rows))
+        return "\n".join([HEADS[len(spans)], "|---" * len(spans) + "|", *marked])
+    return "\n\n".join(line.strip() if line[:1] in ("", " ") else f"## {line}" for line in lines)
 
 
 def _printed(*words: str) -> str:

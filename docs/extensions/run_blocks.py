@@ -6,6 +6,7 @@ Each page has a copy of the examples and traces of its own; its blocks run there
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -68,7 +69,7 @@ class _InPage:
             timeout=LIMIT_S,
             check=False,
         )
-        if found.returncode != status:
+        if found.returncode != status or "Exception ignored" in found.stdout:
             raise RuntimeError(f"{words[-1]!r} ended with status {found.returncode}, not {status}:\n{found.stdout}")
         return found.stdout.rstrip()
 
@@ -92,7 +93,7 @@ class Run(SphinxDirective, _InPage):
     """Commands of a shell (or one Python program) with what they print, cut to ``head`` and ``tail`` lines.
 
     ``quiet`` leaves out what they print; a ``hidden`` one shows nothing, and holds what the text around it says.
-    ``with`` names a script of the page that runs meanwhile.
+    ``wrap`` folds long lines. ``with`` names a script of the page that runs meanwhile.
     """
 
     has_content = True
@@ -103,22 +104,28 @@ class Run(SphinxDirective, _InPage):
         "status": directives.nonnegative_int,
         "quiet": directives.flag,
         "hidden": directives.flag,
+        "wrap": directives.flag,
         "with": directives.unchanged_required,
     }
 
     def run(self) -> list[nodes.Node]:
         shown: list[nodes.Node] = []
         python = bool(self.arguments) and self.arguments[0] == "python"
-        programs = ["\n".join(self.content)] if python else [line for line in self.content if line.strip()]
+        whole = "\n".join(self.content)
+        programs = [whole] if python else re.findall(r"^(?:.*\\\n)*.+$", whole, re.MULTILINE)
         meanwhile = self.start(self.options["with"]) if "with" in self.options else None
         try:
             for program in programs:
                 words = [sys.executable, "-W", "error", "-c", program] if python else ["bash", "-c", program]
                 output = self.output(words, self.options.get("status", 0))
                 output = shortened(output, self.options.get("head"), self.options.get("tail"))
-                shown += [_literal(program, "python")] if python else [_literal(f"$ {program}", "console")]
+                shown += (
+                    [_literal(program, "python")]
+                    if python
+                    else [_literal("$ " + program.replace("\n", "\n> "), "console")]
+                )
                 if output and "quiet" not in self.options:
-                    shown.append(_literal(output, "text", "output"))
+                    shown.append(_literal(output, "text", "output", *(["wrap"] if "wrap" in self.options else [])))
         except (RuntimeError, subprocess.TimeoutExpired) as error:
             raise self.error(f"{self.env.docname}: {error}") from None
         finally:

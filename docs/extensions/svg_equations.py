@@ -14,8 +14,7 @@ DISPLAY_SIZE = 20.0
 log = logging.getLogger(__name__)
 
 
-def _set(node: nodes.Element, *size: float) -> str:
-    tex = " ".join(node.astext().split())
+def _set(node: nodes.Element, tex: str, *size: float) -> str:
     found = equation(tex, *size)
     if found.startswith("<code>"):
         log.warning("this formula cannot be set: %s", tex, location=node)
@@ -23,12 +22,13 @@ def _set(node: nodes.Element, *size: float) -> str:
 
 
 def _inline(translator: Any, node: nodes.Element) -> None:
-    translator.body.append(_set(node))
+    translator.body.append(_set(node, " ".join(node.astext().split())))
     raise nodes.SkipNode
 
 
 def _display(translator: Any, node: nodes.Element) -> None:
-    translator.body.append(f'<div class="display">{_set(node, DISPLAY_SIZE)}</div>')
+    tex = " ".join(node.astext().split()).replace(r"\frac", r"\dfrac")
+    translator.body.append(f'<div class="display">{_set(node, tex, DISPLAY_SIZE)}</div>')
     raise nodes.SkipNode
 
 
