@@ -86,6 +86,7 @@ def test_numbers_that_the_workbook_shows_in_percent_are_reported(book):
         TABLE.encode("utf-16-be"),
         gzip.compress(TABLE.replace(",", ";").encode("utf-16")),
     ],
+    ids=["gzip", "utf-16", "utf-16-le", "utf-16-be", "gzip of utf-16"],
 )
 def test_compressed_tables_and_utf_16_are_read(data, tmp_path):
     path = tmp_path / "t.csv.gz"
@@ -116,7 +117,7 @@ def test_a_gzip_file_that_unpacks_without_end_is_refused(tmp_path, monkeypatch):
         open_file(tmp_path / "t.gz", {})
 
 
-@pytest.mark.parametrize("data", [b"\x89PNG\r\n" + bytes(range(256)) * 8, bytes(3000)])
+@pytest.mark.parametrize("data", [b"\x89PNG\r\n" + bytes(range(256)) * 8, bytes(3000)], ids=["picture", "zeros"])
 def test_what_is_no_text_is_refused(data, tmp_path):
     (tmp_path / "t.dat").write_bytes(data)
     with pytest.raises(InputError, match="is not a text file or workbook"):

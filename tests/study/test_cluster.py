@@ -73,6 +73,7 @@ def cluster():
         ("localhost", "an address is tcp://HOST:PORT"),
         ("tcp://localhost:http", "no Dask scheduler answers there"),
     ],
+    ids=["nobody there", "no port", "no number"],
 )
 def test_a_wrong_address_is_bad_input_at_once(address, said, write_study, tmp_path, capfd):
     begun = time.monotonic()
