@@ -12,7 +12,7 @@ from mixedlub.commands.console import case_folder, output_folder, say, tell, wit
 from profiles.errors import InputError
 
 NAME = "simulate"
-EXAMPLE = "mixedlub simulate examples/case --out out/simulate"
+EXAMPLE = "mixedlub new case --out my_case && mixedlub simulate my_case"
 
 
 def command(
