@@ -16,12 +16,12 @@ import typer
 from mixedlub.commands import check, diagnose, effects, import_files, kinds, new, profile, prove, simulate, study
 from mixedlub.commands.console import (
     drop_empty_folders,
+    fail,
     forget_folder,
     forget_traceback,
     is_full,
     note,
     opened,
-    printable,
     save_traceback,
     say,
     tell,
@@ -101,7 +101,7 @@ def _run(words: list[str]) -> int:
     except (Exception, KeyboardInterrupt) as error:
         message, status = _what_went_wrong(error, what_is_kept(PARTIAL.get(words[0], "")))
         drop_empty_folders()
-        print("mixedlub: " + " ".join(printable(message).split()), file=sys.stderr)
+        fail(message)
         return status
 
 

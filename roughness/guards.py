@@ -17,7 +17,6 @@ from roughness.probability import NormalProbability, extreme_limit
 
 _HEADER_TOLERANCE = 0.05
 _SAY = 0.05  # of m4, that one place or the height step may hold unsaid
-_CONTACT = 2.0  # times more or less contact than that of Gaussian heights, from which it is said
 _COMPARED = ("a", "q", "z", "t", "p", "v")
 
 
@@ -232,8 +231,8 @@ def _shape(gaussian: NormalProbability | None) -> Iterator[str]:
             f"only {gaussian.independent_heights:.0f} independent heights: whether they are Gaussian was "
             "judged by the shape alone"
         )
-    ratio = gaussian.contact_ratio[1]
-    if gaussian.verdict == "gaussian" and not 1.0 / _CONTACT <= ratio <= _CONTACT:
+    if gaussian.misleads:
+        ratio = gaussian.contact_ratio[1]
         yield f"called Gaussian, yet real contact at a gap of 2 sigma is {ratio:.2f} times the Gaussian one"
     if gaussian.verdict in ("plateau", "not_gaussian"):
         yield f"heights are {gaussian.words}" if gaussian.verdict == "not_gaussian" else gaussian.words

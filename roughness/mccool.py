@@ -48,7 +48,7 @@ def summit_radius(m4: Values) -> Values:
 def summit_sigma(m0: Values, m2: Values, m4: Values) -> Values:
     r"""Standard deviation of summit heights (m), :math:`\sigma_s = \sqrt{(1 - 0.8968/\alpha)\,m_0}`.
 
-    Below alpha = 3/2 the theory has no summits; alpha is held at 3/2 there, as `roughness.guards` says of a trace.
+    Below alpha = 3/2, which no isotropic Gaussian surface has, 3/2 is used.
 
     >>> round(float(summit_sigma(0.16, 0.01, 0.004)), 6)
     0.370918

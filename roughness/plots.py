@@ -24,9 +24,16 @@ _MOST_POINTS = 4000
 
 
 def trace_figure(
-    *profiles: Profile, excerpt: float | None = None, convention: str = "ISO 4287:1997", sections: int | None = None
+    *profiles: Profile,
+    excerpt: float | None = None,
+    one_scale: bool = True,
+    convention: str = "ISO 4287:1997",
+    sections: int | None = None,
 ) -> Figure:
-    """Heights along each profile, all to one scale; ``excerpt`` shows only that length (m) of the middle."""
+    """Heights along each profile, all to ``one_scale`` or each to its own.
+
+    ``excerpt`` shows only that length (m) of the middle.
+    """
 
     def draw(axes: Axes, profile: Profile) -> None:
         x, z = profile.positions, profile.heights
@@ -37,15 +44,16 @@ def trace_figure(
         x, low, high = _envelope(x, z)
         axes.fill_between(x * 1e3, low * 1e6, high * 1e6, color=_LINE, linewidth=0.4)
         axes.axhline(0.0, color="0.6", linewidth=0.6)
-        axes.set_title(f"{profile.name}   {_heights(profile, convention, sections)}", loc="left", fontsize=9)
+        axes.set_title(f"{profile.name}: {_heights(profile, convention, sections)}", loc="left", fontsize=9)
         axes.set_ylabel("height (µm)")
 
     figure, panels = _panels(profiles, draw, columns=1, width=7.0, height=1.7)
-    highest = max(float(np.abs(p.heights).max()) for p in profiles) * 1.08e6
-    for axes in panels:
-        axes.set_ylim(-highest, highest)
-        axes.set_xlim(left=0.0)
-        axes.margins(x=0.0)
+    highest = [float(np.abs(p.heights).max()) * 1.08e6 for p in profiles]
+    longest = max(p.length if excerpt is None else min(excerpt, p.length) for p in profiles)
+    for axes, own in zip(panels, highest):
+        reach = max(highest) if one_scale else own
+        axes.set_ylim(-reach, reach)
+        axes.set_xlim(0.0, longest * 1e3)
     panels[-1].set_xlabel("distance along the trace (mm)")
     return figure
 
@@ -67,28 +75,40 @@ def probability_figure(*profiles: Profile, results: Sequence[NormalProbability] 
         q = ndtri((np.arange(ordered.size) + 0.625) / (ordered.size + 0.25))
         keep = np.unique(np.searchsorted(q, np.linspace(q[0], q[-1], 700)).clip(0, q.size - 1))
         line = r.mean + r.sigma * r.quantiles
-        axes.fill_betweenx(r.quantiles, (line - r.band) * 1e6, (line + r.band) * 1e6, color="0.85", linewidth=0)
+        band = (line - r.band) * 1e6, (line + r.band) * 1e6
+        axes.fill_betweenx(r.quantiles, *band, color="0.85", linewidth=0, label="99 of 100 Gaussian profiles")
         reach = np.array([q[0], q[-1]])
-        axes.plot((r.mean + r.sigma * reach) * 1e6, reach, color=_MARK, linewidth=1.0)
-        axes.plot(ordered[keep] * 1e6, q[keep], ".", color=_LINE, markersize=2.5)
+        axes.plot((r.mean + r.sigma * reach) * 1e6, reach, color=_MARK, linewidth=1.0, label="Gaussian")
+        axes.plot(ordered[keep] * 1e6, q[keep], ".", color=_LINE, markersize=2.5, label="heights")
         for percent in (r.from_percent, r.to_percent):
             at = ndtri(percent / 100)
-            axes.plot((r.mean + r.sigma * at) * 1e6, at, "_", color=_MARK, markersize=14, markeredgewidth=1.5)
+            end = (r.mean + r.sigma * at) * 1e6
+            axes.plot(end, at, "_", color=_MARK, markersize=14, markeredgewidth=1.5, label="ends of the line's range")
         axes.set_yticks(ndtri(np.array(_PERCENT) / 100), [f"{p:g}" for p in _PERCENT])
         span = 1.06 * max(float(np.abs(ordered[[0, -1]]).max()), 3.2 * r.sigma) * 1e6
         axes.set_xlim(-span, span)
         axes.grid(color="0.92", linewidth=0.6)
         axes.set_axisbelow(True)
-        axes.set_title(
-            f"{profile.name}: {r.verdict.replace('_', ' ')}\nline from {r.from_percent:.1f} to "
-            f"{r.to_percent:.1f} %, sigma {r.sigma * 1e6:.3g} µm",
-            loc="left",
-            fontsize=9,
-        )
+        axes.set_title(_judged(profile.name, r), loc="left", fontsize=9)
         axes.set_ylabel("heights below (%)")
         axes.set_xlabel("height (µm)")
 
-    return _panels(profiles, draw, columns=3, width=3.4, height=3.2)[0]
+    figure, panels = _panels(profiles, draw, columns=3, width=3.4, height=3.3)
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles[:4], labels[:4], loc="outside upper left", ncols=4 if len(profiles) > 1 else 2)
+    return figure
+
+
+def _judged(name: str, r: NormalProbability) -> str:
+    """What a panel is headed by: verdict, on how many heights it rests, and what contradicts it."""
+    lines = [
+        f"{name}: {r.verdict.replace('_', ' ')}",
+        f"{r.independent_heights:.0f} independent heights, sigma {r.sigma * 1e6:.3g} µm",
+        f"line from {r.from_percent:.1f} to {r.to_percent:.1f} %",
+    ]
+    if r.misleads:
+        lines.append(f"but contact {r.contact_ratio[1]:.2g} × Gaussian at 2 sigma")
+    return "\n".join(lines)
 
 
 def abbott_figure(*profiles: Profile, convention: str = "ISO 4287:1997") -> Figure:
@@ -193,4 +213,4 @@ def _spread(f: np.ndarray, g: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.nd
 
 def _heights(profile: Profile, convention: str, sections: int | None) -> str:
     p = height_parameters(profile, convention=convention, sections=sections)
-    return f"Ra {p.Ra * 1e6:.3g}  Rq {p.Rq * 1e6:.3g}  Rz {p.Rz * 1e6:.3g} µm"
+    return f"Ra {p.Ra * 1e6:.3g}, Rq {p.Rq * 1e6:.3g}, Rz {p.Rz * 1e6:.3g} µm"

@@ -16,6 +16,7 @@ TOLERANCE = 0.1
 BULK = 80.0
 """Percentage of the heights, those from 20 to 80 % among them, on the straight part that is called the bulk."""
 
+_CONTACT = 2.0  # times more or less contact than that of Gaussian heights, from which it is said
 _REACH = 3.0902323061678132  # normal quantile of 99.9 %
 _LEAST_REACH = 1.6448536269514722  # normal quantile of 95 %
 _FEWEST = 30.0  # independent heights below which the band would forgive any shape
@@ -69,6 +70,11 @@ class NormalProbability:
         from scipy.special import ndtr
 
         return 100.0 * ndtr(self.quantiles)
+
+    @property
+    def misleads(self) -> bool:
+        """Whether heights called Gaussian make far more or less contact than Gaussian ones, by their tails."""
+        return self.verdict == "gaussian" and not 1.0 / _CONTACT <= self.contact_ratio[1] <= _CONTACT
 
 
 def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> NormalProbability:

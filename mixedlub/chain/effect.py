@@ -144,7 +144,7 @@ class Effect:
             entry("contains", f"the law of {law}, at " + ", ".join(f"{n} {v:g}" for n, v in values.items()))
             for law, values in self.contains.items()
         ]
-        head = f"{self.id}: {self.summary}"
+        head = entry(f"{self.id}: ", self.summary, indent=2)
         tail = entry("separated by", self.separated_by)
         return "\n".join([head, "", *said, "", "parameters", *numbers, *laws, "", tail])
 

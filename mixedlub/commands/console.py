@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import errno
+import shutil
 import sys
 import tempfile
 import traceback
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from textwrap import fill
+from typing import TextIO
 from unicodedata import category
 
 from mixedlub.schema.findings import Finding, grouped
@@ -108,18 +111,37 @@ def within_range(where: str) -> Iterator[None]:
 
 def say(text: str = "") -> None:
     """A line for the user."""
-    print(printable(text), flush=True)
+    _print(text, sys.stdout)
 
 
 def tell(found: Iterable[Finding]) -> None:
     """Findings on stderr, those of one kind as one."""
     for one in grouped(found):
-        print(f"{one.severity}: {printable(str(one))}", file=sys.stderr, flush=True)
+        _print(f"{one.severity}: {one}", sys.stderr)
 
 
 def note(text: str) -> None:
     """Something assumed, ignored or doubtful that the user should know."""
-    print(f"note: {printable(text)}", file=sys.stderr, flush=True)
+    _print(f"note: {text}", sys.stderr)
+
+
+def fail(text: str) -> None:
+    """Why a command could not do what was asked, in one line."""
+    _print("mixedlub: " + " ".join(text.split()), sys.stderr)
+
+
+def _print(text: str, stream: TextIO) -> None:
+    """Text made printable; on a terminal, lines that are too wide for it go on between words, set in."""
+    shown = printable(text)
+    if stream.isatty():
+        width = shutil.get_terminal_size().columns
+        shown = "\n".join(line if len(line) <= width else _wrapped(line, width) for line in shown.split("\n"))
+    print(shown, file=stream, flush=True)
+
+
+def _wrapped(line: str, width: int) -> str:
+    hanging = " " * (len(line) - len(line.lstrip()) + 2)
+    return fill(line, width, subsequent_indent=hanging, break_long_words=False, break_on_hyphens=False)
 
 
 def printable(text: str) -> str:

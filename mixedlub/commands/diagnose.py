@@ -10,7 +10,7 @@ import typer
 from mixedlub.commands.console import busy, case_folder, output_folder, say, tell, within_range
 
 NAME = "diagnose"
-EXAMPLE = "mixedlub diagnose examples/case --out out/diagnose"
+EXAMPLE = "mixedlub new case --out my_case && mixedlub diagnose my_case"
 
 
 def command(

@@ -13,7 +13,10 @@ import typer
 from profiles.errors import InputError
 
 NAME = "import"
-EXAMPLE = "mixedlub import examples/case/recordings.csv --out out/import --answers examples/case/system.toml"
+EXAMPLE = (
+    "mixedlub new case --out my_case && "
+    "mixedlub import my_case/recordings.csv --answers my_case/system.toml --out imported"
+)
 
 
 def command(

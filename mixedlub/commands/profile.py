@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mixedlub.atomic import writing
+from mixedlub.chain.effect import entry
 from mixedlub.commands.console import note, output_folder, say
 from profiles.errors import InputError
 
@@ -18,13 +19,15 @@ if TYPE_CHECKING:
     from profiles import Profile
 
 NAME = "profile"
-EXAMPLE = "mixedlub profile profiles/traces/0258.txt --out out/profile"
+EXAMPLE = "mixedlub profile shipped:0258 --out out/profile"
 
 Record = Mapping[str, Any]
 
 
 def command(
-    files: Annotated[list[Path], typer.Argument(metavar="FILE...", help="Traces in any known format.")],
+    files: Annotated[
+        list[Path], typer.Argument(metavar="FILE...", help="Traces in any known format, or shipped:NAME.")
+    ],
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Folder for profile.json and figures; default out/profile/NAME.")
     ] = None,
@@ -75,11 +78,17 @@ def command(
 
     ISO parameters, spectral moments, asperities and Gaussian verdict, with figures.
     """
+    from mixedlub.rig.build import SHIPPED_MARK, shipped_trace
     from profiles import read
     from roughness import trace_record
     from roughness.guards import overruled
 
-    traces = each_read(files, lambda file: read(file, unit=unit, spacing=spacing))
+    def trace_of(file: Path) -> Profile:
+        if str(file).startswith(SHIPPED_MARK):
+            return shipped_trace(str(file), "FILE")
+        return read(file, unit=unit, spacing=spacing)
+
+    traces = each_read(files, trace_of)
     with named_options():
         told_already = {f"{file}: {text}" for file, trace in zip(files, traces) for text in overruled(trace)}
         for text in sorted(told_already):
@@ -100,7 +109,7 @@ def command(
             )
         found.append(evaluated)
     records: list[dict[str, Any]] = [{**record, "file": str(file)} for file, (_, record) in zip(files, found)]
-    folder = output_folder(out, NAME, files[0].stem)
+    folder = output_folder(out, NAME, _stem(files[0]))
     for record in records:
         for line in told(record):
             say(line)
@@ -110,7 +119,9 @@ def command(
     with writing(folder) as aside:
         (aside / "profile.json").write_text(json.dumps(records, indent=1) + "\n", encoding="utf-8")
         if figures:
-            _draw(aside / "figures", [file.stem for file in files], traces, [profile for profile, _ in found], records)
+            _draw(
+                aside / "figures", [_stem(file) for file in files], traces, [profile for profile, _ in found], records
+            )
     if not figures and (folder / "figures").exists():
         note(f"{folder / 'figures'} is of an earlier run; without --no-figures it is drawn anew")
     say(f"details in {folder / 'profile.json'}" + (f", figures in {folder / 'figures'}" if figures else ""))
@@ -152,28 +163,43 @@ def named_options(file: Path | None = None, trace: Profile | None = None) -> Ite
         raise InputError(rule, where=place, value=error.value) from None
 
 
+def _stem(file: Path) -> str:
+    """By what the results of a trace are named."""
+    return file.stem.rpartition(":")[2]
+
+
 def told(record: Record) -> Iterator[str]:
-    """A trace in a few lines."""
+    """A trace in a few lines, none wider than a terminal."""
     p, m, a, g = (record[key] for key in ("parameters", "moments", "asperities", "gaussian"))
     yield str(record["file"])
-    yield f"  steps      {'; '.join(record['steps']) or 'none: evaluated as read'}"
-    yield f"  by         {p['convention']}, sampling lengths: {p['sections']}"
-    yield "  heights    " + "   ".join(f"{name} {_number(p[key], 5)}{unit}" for name, key, unit in _HEIGHTS)
-    yield f"  moments    m0 {_number(m['m0_um2'])} um2   m2 {_number(m['m2'])}   m4 {_number(m['m4_per_um2'])} 1/um2"
-    yield (
-        f"  asperities {_number(a['density_per_mm2'])} per mm2   radius {_number(a['radius_um'])} um   "
-        f"sigma {_number(a['sigma_um'])} um   Nayak alpha {_number(a['nayak'])}"
+    yield _entry("steps", "; ".join(record["steps"]) or "none: evaluated as read")
+    yield _entry("by", f"{p['convention']}, sampling lengths: {p['sections']}")
+    yield _entry("heights", ", ".join(f"{name} {_number(p[key], 5)}{unit}" for name, key, unit in _HEIGHTS))
+    yield _entry(
+        "moments", f"m0 {_number(m['m0_um2'])} um2, m2 {_number(m['m2'])}, m4 {_number(m['m4_per_um2'])} 1/um2"
+    )
+    yield _entry(
+        "asperities",
+        f"{_number(a['density_per_mm2'])} per mm2, radius {_number(a['radius_um'])} um, "
+        f"sigma {_number(a['sigma_um'])} um, Nayak alpha {_number(a['nayak'])}",
     )
     for row in a["short_cutoff_band"]:
         if row["short_cutoff_um"] != m["short_cutoff_um"]:
-            yield (
-                f"    at short cut-off {_number(row['short_cutoff_um'])} um: m2 {_number(row['m2'])}, "
+            yield _entry(
+                "",
+                f"at short cut-off {_number(row['short_cutoff_um'])} um: m2 {_number(row['m2'])}, "
                 f"m4 {_number(row['m4_per_um2'])} 1/um2, {_number(row['density_per_mm2'])} per mm2, "
-                f"radius {_number(row['radius_um'])} um"
+                f"radius {_number(row['radius_um'])} um",
             )
-    yield f"  Gaussian?  {g['words']}" if "words" in g else "  Gaussian?  cannot be judged, so not taken as Gaussian"
+    yield _entry("Gaussian?", g.get("words", "cannot be judged, so not taken as Gaussian"))
 
 
+def _entry(name: str, text: str) -> str:
+    """A name and what is said of it, wrapped."""
+    return entry(f"  {name}", text, _INDENT)
+
+
+_INDENT = 13
 _HEIGHTS = (
     *((name, f"{name}_um", " um") for name in ("Ra", "Rq", "Rz")),
     *((name, name, "") for name in ("Rsk", "Rku", "Rdq")),

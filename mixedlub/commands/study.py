@@ -15,7 +15,7 @@ from mixedlub.commands.console import busy, note, output_folder, say, tell, with
 from profiles.errors import InputError, nearest
 
 NAME = "study"
-EXAMPLE = "mixedlub study examples/study_21_pairings.toml --out out/study"
+EXAMPLE = "mixedlub new study --out my_study && mixedlub study my_study/study.toml"
 
 
 def command(
@@ -74,7 +74,9 @@ def command(
 
                 text = given.decode("utf-8-sig")
                 with busy("drawing figures") as doing:
-                    write_page(results, aside, (*study.notes, *warnings), given=text, formats=formats, doing=doing)
+                    seen = (*study.notes, *warnings)
+                    of_heights = write_page(results, aside, seen, given=text, formats=formats, doing=doing)
+                tell(of_heights)
             write_record(aside, folder, study, file, given)
         checkpoint.clear(folder)
     page = folder / "index.html"

@@ -12,11 +12,13 @@ def mesh_loss(
     sliding_speed: np.ndarray,
     path_weight: np.ndarray,
 ) -> np.ndarray:
-    r"""Sliding power lost in the mesh, mean over a mesh cycle (W); the last axis, the path, shrinks to one.
+    r"""Sliding power lost in the mesh, mean over a mesh cycle (W).
 
     .. math:: P = \frac{1}{p_{bt}} \int_A^E \mu\, F\, |v_s|\, dx,\quad F = s\, T_1 / r_{b1}
 
-    ``path_weight`` carries dx/p_bt. Source: A. Arana, J. Larranaga, I. Ulacia, Proc. IMechE J 233 (2019) 303, eq. 29.
+    ``path_weight`` carries dx/p_bt; the last axis, the path, shrinks to one.
+
+    Source: A. Arana, J. Larranaga, I. Ulacia, Proc. IMechE J 233 (2019) 303, eq. 29.
 
     >>> path = np.array([[0.25, 0.5, 0.25]])
     >>> float(mesh_loss(np.full((1, 3), 0.05), np.ones((1, 3)), np.array([[1000.0]]), 2.0, path)[0, 0])
@@ -51,7 +53,7 @@ def rolling_loss(
 
 
 def power_loss(mesh_loss: np.ndarray, rolling_loss: np.ndarray) -> np.ndarray:
-    """Power lost, all that the chain knows of (W).
+    """Total power loss (W): sliding and rolling in the mesh.
 
     >>> float(power_loss(100.0, 2.0))
     102.0

@@ -153,7 +153,7 @@ def _table() -> str:
         if e.stage != stage:
             stage = e.stage
             lines += ["", stage]
-        lines.append(f"  {e.id:{widest}}  {e.summary}")
+        lines.append(entry(f"  {e.id}", e.summary, widest + 4))
     return "\n".join(lines)
 
 

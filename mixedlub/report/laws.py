@@ -16,6 +16,7 @@ _INLINE = re.compile(r":math:`([^`]+)`")
 _DISPLAY = re.compile(r"\.\. math::(.*?)(?:\n\s*\n|\Z)", re.DOTALL)
 DISPLAY_SIZE = 20.0
 
+_SENTENCE = re.compile(r"(?<=[.:;]) (?=[A-Z`])")
 _SOURCE = re.compile(r"Source: (.*?)(?:\n\s*\n|\Z)", re.DOTALL)
 
 
@@ -26,7 +27,7 @@ class Told:
     gives: str
     says: str
     source: str
-    effect: bool = False
+    effect: str = ""
 
 
 def laws_used(model: Model) -> Iterator[Told]:
@@ -35,20 +36,21 @@ def laws_used(model: Model) -> Iterator[Told]:
         gives = ", ".join(name.replace("_", " ") for name in step.outputs)
         if step.effect is not None:
             (e,) = find([step.effect])
-            yield Told(gives, _inlined(e.summary) + _displayed(e.equation), escape(e.source), effect=True)
+            said = _inlined(e.summary) + _displayed(e.equation)
+            yield Told(gives, said, escape(e.source), effect=e.id.replace("_", " "))
         else:
             yield told((inspect.getdoc(step.law) or "").partition(">>>")[0], gives)
 
 
 def told(docstring: str, gives: str) -> Told:
-    """A docstring taken apart.
+    """A docstring taken apart; its sentences on names of the program are left out.
 
-    >>> told("Height (m).\\n\\nSource: A. Author, 1999.", "height")
-    Told(gives='height', says='Height (m).', source='A. Author, 1999.', effect=False)
+    >>> told("Height (m). ``z`` has two axes.\\n\\nSource: A. Author, 1999.", "height")
+    Told(gives='height', says='Height (m).', source='A. Author, 1999.', effect='')
     """
     source = _SOURCE.search(docstring)
     parts = _DISPLAY.split(_SOURCE.sub("", docstring))
-    says = "".join(_displayed(part) if i % 2 else _inlined(" ".join(part.split())) for i, part in enumerate(parts))
+    says = "".join(_displayed(part) if i % 2 else _inlined(_for_readers(part)) for i, part in enumerate(parts))
     return Told(gives, says, escape(" ".join(source[1].split())) if source else "")
 
 
@@ -56,7 +58,13 @@ def _displayed(tex: str) -> str:
     return f'<div class="display">{equation(" ".join(tex.split()), DISPLAY_SIZE)}</div>'
 
 
+def _for_readers(text: str) -> str:
+    """Sentences without code in backquotes, which is there for programmers."""
+    sentences = _SENTENCE.split(" ".join(text.split()))
+    return " ".join(s for s in sentences if "`" not in _INLINE.sub("", s))
+
+
 def _inlined(text: str) -> str:
     """Escaped text with its inline formulas set."""
-    parts = _INLINE.split(text.replace("``", ""))
+    parts = _INLINE.split(text)
     return "".join(equation(part) if i % 2 else escape(part) for i, part in enumerate(parts))

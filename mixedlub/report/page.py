@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -23,12 +22,13 @@ from mixedlub.report.surfaces import (
     traced,
 )
 from mixedlub.schema.findings import Finding, grouped
-from mixedlub.schema.section import FileTable
+from mixedlub.schema.section import FileTable, Key, table
 from mixedlub.study import counted, factors
 from mixedlub.study.checkpoint import fingerprint
-from mixedlub.study.results import COLUMNS, DEFINITIONS, Results
-from mixedlub.study.schema import Options
-from mixedlub.version import installed_version
+from mixedlub.study.plan import Study
+from mixedlub.study.record import assumed, resolved
+from mixedlub.study.results import COLUMNS, DEFINITIONS, Results, versions
+from mixedlub.study.schema import Options, StudyFile
 
 MOST_SURFACES = 12
 
@@ -41,8 +41,11 @@ def write_page(
     given: str = "",
     formats: Sequence[str] = ("svg",),
     doing: Callable[[str], None] = lambda text: None,
-) -> None:
-    """``index.html`` and ``figures/`` in a folder; ``given`` is the study file, ``doing`` hears what is drawn."""
+) -> list[Finding]:
+    """``index.html`` and ``figures/`` in a folder; what was found doubtful about the heights of the traces.
+
+    ``given`` is the study file as text, ``doing`` hears what is drawn.
+    """
     from jinja2 import Environment
 
     drawings = folder / "figures"
@@ -58,10 +61,11 @@ def write_page(
         shown.append({"name": drawn.name, "caption": drawn.caption, "svg": as_svg(drawn.figure)})
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(files("mixedlub.report").joinpath("template.html").read_text(encoding="utf-8"))
-    doubtful = grouped([*notes, *not_gaussian(judged), *height_notes(profiles, judged)])
-    said = {"notes": doubtful, "provenance": provenance(study), "given": given}
+    of_heights = [*not_gaussian(judged), *height_notes(profiles, judged)]
+    said = {"notes": grouped([*notes, *of_heights]), "provenance": provenance(study), "given": given}
     page = template.render(**content(results), **said, figures=shown)
     (folder / "index.html").write_text(page, encoding="utf-8")
+    return of_heights
 
 
 def content(results: Results) -> dict[str, Any]:
@@ -80,15 +84,16 @@ def content(results: Results) -> dict[str, Any]:
         "roughness_table": roughness_table(results),
         "loss_table": loss_table(results),
         "surfaces": surface_rows(study),
-        "pair": study.pair,
+        "gears": input_rows(study, "gears"),
+        "geometry": geometry_rows(study),
+        "lubricant": input_rows(study, "lubricant"),
         "oil": oil_rows(results),
-        "sharing": file.gears.load_sharing,
         "options": option_rows(file.options),
         "effects": [(e, study.plan.parameters[e.id]) for e in study.effects],
         "laws": list(laws_used(study.plan.model())),
         "definitions": [(column, DEFINITIONS[name]) for name, (column, _) in COLUMNS.items()],
         "fingerprint": fingerprint(study.plan),
-        "versions": f"mixedlub {installed_version()}, NumPy {np.__version__}, Python {sys.version.split()[0]}",
+        "versions": ", ".join(f"{name} {version}" for name, version in versions().items()),
     }
 
 
@@ -160,6 +165,46 @@ def oil_rows(results: Results) -> list[tuple[str, str, str, str]]:
     stress = float(inputs["eyring_stress"]) * 1e-6
     rows = zip(levels, eta, alpha)
     return [(f"{t:g}", f"{e * 1e3:.3g}", f"{a * 1e9:.3g}", f"{stress:g}") for t, e, a in rows][:MOST_SURFACES]
+
+
+def input_rows(study: Study, section: str) -> list[tuple[str, str, str, str]]:
+    """Every key of a section as used: name, value with unit, whether it is assumed, meaning."""
+    used, taken = resolved(study)["inputs"][section], set(assumed(study))
+    return [
+        (name, f"{_written(value)} {key.unit}".strip(), "assumed" if f"{place}.{name}" in taken else "", key.meaning)
+        for place, name, value, key in _keys(section, used)
+    ]
+
+
+def _keys(place: str, used: Mapping[str, Any]) -> Iterator[tuple[str, str, Any, Key]]:
+    """Table, name, value and description of each key that has a value, those of tables within it last."""
+    described = table(StudyFile, place)
+    for key in described.fields:
+        if key.name in used and not isinstance(used[key.name], Mapping):
+            yield place, key.name, used[key.name], key
+    for name, inner in used.items():
+        if isinstance(inner, Mapping):
+            yield from _keys(f"{place}.{name}", inner)
+
+
+def _written(value: object) -> str:
+    if isinstance(value, (tuple, list)):
+        return " / ".join(_written(v) for v in value)
+    return f"{value:.7g}" if isinstance(value, float) else str(value)
+
+
+def geometry_rows(study: Study) -> list[tuple[str, str]]:
+    """What follows from the gears: quantity, and value with unit."""
+    pair = study.pair
+    rows = [
+        ("transverse contact ratio", f"{pair.contact_ratio:.4f}"),
+        ("overlap ratio", f"{pair.overlap_ratio:.4f}"),
+        ("working transverse pressure angle", f"{np.degrees(pair.working_pressure_angle):.4f} °"),
+        ("backlash at the pitch circles", f"{pair.backlash * 1e6:.4g} µm"),
+        ("reduced modulus E′", f"{pair.reduced_modulus * 1e-9:.4g} GPa"),
+        ("points of the mesh that are computed", str(study.mesh.position.size)),
+    ]
+    return rows if pair.helix_angle else [row for row in rows if row[0] != "overlap ratio"]
 
 
 def option_rows(options: Options) -> list[tuple[str, str, str, bool]]:

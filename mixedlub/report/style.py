@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+SMALL = 7.5
+"""Points of the smallest text: that of legends, and of titles of several words."""
 SETTINGS: dict[Any, Any] = {
     "font.size": 8.5,
     "axes.titlesize": 9,
@@ -25,7 +27,7 @@ SETTINGS: dict[Any, Any] = {
     "grid.linewidth": 0.6,
     "axes.axisbelow": True,
     "legend.frameon": False,
-    "legend.fontsize": 7.5,
+    "legend.fontsize": SMALL,
     "lines.linewidth": 1.3,
     "lines.markersize": 3.6,
     "xtick.major.width": 0.7,
@@ -54,20 +56,37 @@ def shades(count: int) -> np.ndarray:
     return matplotlib.colormaps["viridis_r"](np.linspace(0.12, 0.95, max(count, 2)))[:count]
 
 
-def panels(count: int, columns: int, *, height: float = 2.2) -> tuple[Figure, list[Axes]]:
-    """A figure of equal panels with common axes; surplus places stay empty."""
+def panels(count: int, columns: int, *, height: float = 2.2, sharey: bool = True) -> tuple[Figure, list[Axes], int]:
+    """A figure of equal panels, all with the scale of x and, where asked for, of y; and how many stand in a row."""
     from matplotlib.figure import Figure
 
-    columns = min(columns, count)
+    columns = 2 if count == 4 else min(columns, count)
     rows = -(-count // columns)
     figure = Figure(figsize=(WIDTH, height * rows + 0.5), layout="constrained")
-    axes = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+    axes = figure.subplots(rows, columns, sharex=True, sharey=sharey, squeeze=False)
+    for panel in axes.flat:
+        panel.tick_params(labelbottom=True)
     for empty in axes.flat[count:]:
         empty.set_visible(False)
-    for column in range(columns):
-        last = (count - 1 - column) // columns
-        axes[last, column].tick_params(labelbottom=True)
-    return figure, list(axes.flat[:count])
+    return figure, list(axes.flat[:count]), columns
+
+
+def legend_above(
+    figure: Figure, entries: Axes | tuple[Sequence[Any], Sequence[str]], title: str, columns: int = 6
+) -> None:
+    """A legend over the whole width above the panels, clear of the data, in as many rows as it needs."""
+    handles, labels = entries if isinstance(entries, tuple) else entries.get_legend_handles_labels()
+    figure.legend(
+        handles,
+        labels,
+        title=title,
+        title_fontsize=SMALL,
+        alignment="left",
+        loc="outside upper left",
+        ncols=min(columns, len(labels)),
+        columnspacing=1.2,
+        handletextpad=0.4,
+    )
 
 
 def normalised_axis(axes: Axes, most: float) -> None:

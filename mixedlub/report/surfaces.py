@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     Judged = dict[str, NormalProbability]
 
 SHOWN = 8
+EXCERPT = 1.5e-3
+"""Length of a trace that is drawn (m): single asperities are still seen."""
+UNLIKE = 5.0
+"""Highest over lowest trace from which one scale would show the lowest as a line."""
 
 
 def surface_rows(study: Study) -> list[tuple[str, ...]]:
@@ -55,17 +59,21 @@ def surface_figures(study: Study, profiles: Mapping[str, Profile], judged: Judge
 
     count = sum(study.file.surfaces[name].profile is not None for name in study.surfaces)
     first = "" if len(profiles) == count else f" (the first {len(profiles)} of {count})"
+    heights = [float(np.ptp(profile.heights)) for profile in profiles.values()]
+    own = max(heights) > UNLIKE * min(heights)
+    scale = "each to its own scale of height, as they differ much" if own else "all to one scale"
     with styled():
         yield Drawn(
             "traces",
-            f"Roughness profiles{first}, all to one scale: 1.5 mm from the middle of each.",
-            trace_figure(*profiles.values(), excerpt=1.5e-3),
+            f"Roughness profiles{first}, {scale}: 1.5 mm from the middle of each.",
+            trace_figure(*profiles.values(), excerpt=EXCERPT, one_scale=not own),
         )
         yield Drawn(
             "probability",
-            f"Normal probability plots of the profile heights{first}: a Gaussian surface follows the straight line, "
-            "and the band holds 99 of 100 Gaussian profiles of the same autocorrelation. Heights beyond the red "
-            "marks are no part of what is called Gaussian.",
+            f"Normal probability plots of the profile heights{first}. A Gaussian surface follows the straight line, "
+            "and the band holds 99 of 100 Gaussian profiles of the same autocorrelation. The line describes the "
+            "heights between the two ticks; a profile of few independent heights shows no more than the middle of "
+            "the distribution.",
             probability_figure(*profiles.values(), results=list(judged.values())),
         )
 

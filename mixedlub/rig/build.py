@@ -52,6 +52,10 @@ def sharing(section: system_file.LoadSharing, folder: Path) -> Sharing:
     return section.chosen.build(section, folder)
 
 
+DEFAULT_BASE = "mineral"
+"""Base stock of an oil that names none: most gear oils are mineral."""
+
+
 @cache
 def named_bases() -> dict[str, dict[str, Any]]:
     """Typical oils by base stock, each number with its source in the file."""
@@ -65,10 +69,10 @@ def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (
     """
     section = section or system_file.Lubricant()
     known = {k: v for k, v in section.model_dump().items() if v is not None and k not in ("name", "base")}
-    base = named_bases()[section.base or "mineral"]
+    base = named_bases()[section.base or DEFAULT_BASE]
     assumed = [key for key in base if key not in known and key != "source" and key not in unread]
     if assumed:
-        stock = section.base or "mineral (assumed)"
+        stock = section.base or f"{DEFAULT_BASE} (assumed)"
         listed = ", ".join(f"{key} = {base[key]}" for key in assumed)
         report(finding("oil_typical", f"{listed} not given; taken as typical of base {stock}", "lubricant"))
     full = {**base, **known}
@@ -102,6 +106,11 @@ def _trace(named: str, folder: Path, key: str) -> Profile:
 
     if not named.startswith(SHIPPED_MARK):
         return read(named_file(folder, named, key))
+    return shipped_trace(named, key)
+
+
+def shipped_trace(named: str, key: str) -> Profile:
+    """A trace that comes with the package, by its name behind the mark; ``key`` is where it is named."""
     wanted = named.removeprefix(SHIPPED_MARK)
     if wanted not in SHIPPED:
         raise InputError(f"no such shipped trace; {nearest(wanted, SHIPPED)}", where=key, value=named)

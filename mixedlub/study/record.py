@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from mixedlub.atomic import is_alive
-from mixedlub.rig.build import ZERO_CELSIUS
+from mixedlub.rig.build import DEFAULT_BASE, ZERO_CELSIUS
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.surface import Surface
 from mixedlub.schema.section import Section
@@ -40,8 +40,11 @@ def resolved(study: Study) -> dict[str, Any]:
         "tip_diameter_mm": [_plain(2e3 * radius) for radius in pair.tip_radii],
         "centre_distance_mm": _plain(pair.working_centre_distance * 1e3),
     }
-    inputs["gears"]["load_sharing"].pop("model" if file.gears.load_sharing.table else "table", None)
-    inputs["lubricant"] = _oil(study.oil) | {"base": base_stock(study)}
+    if file.gears.load_sharing.model != "ldp":
+        inputs["gears"]["load_sharing"] = file.gears.load_sharing.model_dump(
+            include={"model", "table"}, exclude_none=True
+        )
+    inputs["lubricant"] = _oil(study.oil) | _base(study)
     inputs["surfaces"] = {name: _moments(s, file.surfaces[name]) for name, s in study.surfaces.items()}
     inputs.setdefault("pairings", {"every": list(study.surfaces)})
     inputs["effects"] = {name: dict(values) for name, values in study.plan.parameters.items()}
@@ -57,9 +60,12 @@ def resolved(study: Study) -> dict[str, Any]:
     }
 
 
-def base_stock(study: Study) -> str:
-    """Base stock of the oil whose typical values fill what is left out; the default of `mixedlub.rig.build`."""
-    return (study.file.lubricant and study.file.lubricant.base) or "mineral"
+def _base(study: Study) -> dict[str, str]:
+    """Base stock of the oil, where it is given or its typical values fill what is left out."""
+    given = study.file.lubricant and study.file.lubricant.base
+    if given:
+        return {"base": given}
+    return {"base": DEFAULT_BASE} if any(key.startswith("lubricant.") for key in assumed(study)) else {}
 
 
 def assumed(study: Study) -> Iterator[str]:
@@ -70,7 +76,8 @@ def assumed(study: Study) -> Iterator[str]:
     sharing = file.gears.load_sharing
     yield from _left_out(sharing, "gears.load_sharing", tuple(sharing.chosen.keys.model_fields))
     given = {} if file.lubricant is None else file.lubricant.model_dump(exclude_none=True)
-    yield from (f"lubricant.{key}" for key in ("base", *_oil(study.oil)) if key not in given and key != "name")
+    left_out = [key for key in _oil(study.oil) if key not in given and key != "name"]
+    yield from (f"lubricant.{key}" for key in (*left_out, *(["base"] if left_out and "base" not in given else [])))
     for name in study.surfaces:
         section, keys = file.surfaces[name], ("thermal_conductivity_W_mK", "density_kg_m3", "specific_heat_J_kgK")
         yield from _left_out(section, f"surfaces.{name}", keys)

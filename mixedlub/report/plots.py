@@ -1,0 +1,274 @@
+"""The plots of a study, after those of Hong, Aneshansley and Talbot: functions of its results."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mixedlub.report.style import SMALL, WIDTH, legend_above, normalised_axis, panels, shades
+from mixedlub.study.results import Results
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+MOST_LEVELS = 6
+MOST_TORQUES = 3
+MOST_PAIRINGS = 300
+LONGEST = 22
+SIDE_BY_SIDE = 24
+"""Letters of two names that fit above a panel of a third of the width."""
+MOST_MARKED = 25
+"""Levels along an axis up to which each is marked."""
+WIDE = 100.0
+"""Largest over smallest value from which an axis is logarithmic: the small ones would lie on its foot."""
+LEAST_RATIO = 1e-4
+"""Boundary area ratio below which it has no part in friction, and a logarithmic axis ends."""
+UNLIKE = 4.0
+"""Largest loss of one panel over that of another from which each has its own scale."""
+
+AXIS = {
+    "composite_roughness": ("composite roughness Rq (µm)", 1e6),
+    "film_parameter": ("film parameter (-)", 1.0),
+    "area_ratio": ("boundary area ratio (-)", 1.0),
+    "power_loss": ("power loss (W)", 1.0),
+}
+"""Label of each quantity, and the factor from SI to its unit."""
+
+
+def some(count: int, most: int) -> np.ndarray:
+    """Places of at most so many levels, spread evenly, ends included.
+
+    >>> some(4, 6).tolist(), some(10, 4).tolist()
+    ([0, 1, 2, 3], [0, 3, 6, 9])
+    """
+    return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
+
+
+def spread(levels: Sequence[float], most: int) -> np.ndarray:
+    """Places of at most so many levels, lowest first, whatever their order in the study.
+
+    >>> spread([3000, 500, 1500], 6).tolist()
+    [1, 2, 0]
+    """
+    return np.argsort(levels)[some(len(levels), most)]
+
+
+def shown(levels: Sequence[float]) -> list[str]:
+    """Levels in four digits, more where two of them would read the same.
+
+    >>> shown([68.7342, 2987.12, 12000]), shown([0.98711, 0.98714])
+    (['68.73', '2987', '12000'], ['0.98711', '0.98714'])
+    """
+    for digits in range(4, 17):
+        found = [np.format_float_positional(v, digits, unique=False, fractional=False, trim="-") for v in levels]
+        if len(set(found)) == len(set(levels)):
+            break
+    return found
+
+
+def paired_title(results: Results, pairing: int, more: str = "") -> str:
+    """A pairing above a panel, a line a surface where both do not fit into one."""
+    pinion, gear = (s if len(s) <= LONGEST else f"{s[: LONGEST - 1]}…" for s in results.study.pairings[pairing])
+    between = " /\n" if len(pinion) + len(gear) > SIDE_BY_SIDE else " / "
+    names = between.join(s.replace("$", r"\$") for s in (pinion, gear))
+    return f"{names}\n{more}" if more else names
+
+
+def _whose(results: Results) -> str:
+    return results.study.file.options.conditions_of
+
+
+def _marker(count: int) -> str:
+    return "o" if count <= MOST_MARKED else ""
+
+
+def over_speed(results: Results, quantity: str, chosen: Sequence[int] | np.ndarray, theta: int) -> Figure:
+    """A quantity over speed, a line a torque, a panel a pairing."""
+    levels = results.study.file.conditions
+    order = np.argsort(levels.speed_rpm)
+
+    def values(pairing: int, torque: int) -> np.ndarray:
+        return results[quantity][pairing, theta, torque][order]
+
+    figure, axes = _over(results, quantity, chosen, np.array(levels.speed_rpm)[order], values)
+    for panel in axes:
+        if panel.get_xlabel():
+            panel.set_xlabel(f"{_whose(results)} speed (rpm)")
+        panel.set_xlim(left=0.0)
+    return figure
+
+
+def over_temperature(results: Results, chosen: Sequence[int] | np.ndarray) -> Figure:
+    """Power loss over oil temperature at the highest speed, a line a torque, a panel a pairing."""
+    levels = results.study.file.conditions
+    order, fastest = np.argsort(levels.oil_temperature_C), int(np.argmax(levels.speed_rpm))
+
+    def values(pairing: int, torque: int) -> np.ndarray:
+        return results["power_loss"][pairing, :, torque, fastest][order]
+
+    figure, axes = _over(results, "power_loss", chosen, np.array(levels.oil_temperature_C)[order], values)
+    for panel in axes:
+        if panel.get_xlabel():
+            panel.set_xlabel("oil temperature (°C)")
+    return figure
+
+
+def _over(
+    results: Results,
+    quantity: str,
+    chosen: Sequence[int] | np.ndarray,
+    x: np.ndarray,
+    values: Callable[[int, int], np.ndarray],
+) -> tuple[Figure, Sequence[Axes]]:
+    """A quantity over a condition, a line a torque, a panel a pairing; those on the lower edge have a label."""
+    torques = spread(results.study.file.conditions.torque_Nm, MOST_LEVELS)
+    labels = _torque_labels(results, torques)
+    figure, axes, columns = panels(len(chosen), 3)
+    for panel, pairing in zip(axes, chosen):
+        for colour, t, label in zip(shades(len(torques)), torques, labels):
+            panel.plot(x, values(pairing, t), marker=_marker(x.size), color=colour, label=label)
+        sigma = results["composite_roughness"][pairing, 0, 0, 0] * 1e6
+        panel.set_title(paired_title(results, pairing, f"Rq {sigma:.3f} µm"), loc="left")
+    for number, panel in enumerate(axes):
+        if number % columns == 0:
+            panel.set_ylabel(AXIS[quantity][0])
+        # Below an incomplete row every panel is labelled, so that all rows are of one height.
+        if number + columns >= len(axes) or len(axes) % columns:
+            panel.set_xlabel("-")
+        if quantity == "power_loss" and number % columns == columns - 1:
+            normalised_axis(panel, float(results["power_loss"].max()))
+    drawn = np.concatenate([values(p, t) for p in chosen for t in torques])
+    if quantity == "area_ratio" and is_wide(drawn):
+        axes[0].set_yscale("log")
+        axes[0].set_ylim(bottom=max(LEAST_RATIO, 0.7 * drawn[drawn > 0].min()), top=1.5 * drawn.max())
+    else:
+        axes[0].set_ylim(bottom=0.0)
+    legend_above(figure, axes[0], f"{_whose(results)} torque")
+    return figure, axes
+
+
+def is_wide(values: np.ndarray) -> bool:
+    """Whether values differ so much that a linear axis would show the small ones as nothing."""
+    return bool(values.max() > 0) and float(values.min()) * WIDE < float(values.max())
+
+
+def _torque_labels(results: Results, places: Sequence[int] | np.ndarray) -> list[str]:
+    return [f"{text} Nm" for text in shown([results.study.file.conditions.torque_Nm[t] for t in places])]
+
+
+def loss_over(results: Results, quantity: str, theta: int, *, fitted: bool = False) -> Figure:
+    """Power loss of the pairings over a quantity, a panel a torque, a colour a speed; lines are fitted to all."""
+    levels = results.study.file.conditions
+    torques, speeds = spread(levels.torque_Nm, MOST_TORQUES), spread(levels.speed_rpm, MOST_LEVELS)
+    own_scales = has_own_scales(results, theta)
+    figure, axes, _ = panels(len(torques), 3, height=2.9, sharey=not own_scales)
+    squares: list[list[str]] = [[] for _ in speeds]
+    for panel, t, text, letter in zip(axes, torques, _torque_labels(results, torques), "abc"):
+        for colour, n, fits in zip(shades(len(speeds)), speeds, squares):
+            x = results[quantity][:, theta, t, n] * AXIS[quantity][1]
+            y = results["power_loss"][:, theta, t, n]
+            fits.append(_line(panel, x, y, colour) if fitted else "")
+            _points(panel, x, y, results["asperity_load_ratio"][:, theta, t, n] <= 1.0, _alike(results), colour)
+        panel.set_title(f"({letter}) {text}", loc="left")
+        panel.set_xlabel(AXIS[quantity][0])
+        panel.set_ylim(bottom=0.0)
+        if quantity == "film_parameter":
+            panel.axvline(1.0, color="0.35", linewidth=0.8, linestyle=(0, (4, 3)))
+    names = [f"{text} rpm" for text in shown([levels.speed_rpm[n] for n in speeds])]
+    if fitted:
+        letters = ", ".join(f"({letter})" for letter, _ in zip("abc", torques))
+        names = [f"{name}: R² {', '.join(fits)}" for name, fits in zip(names, squares)]
+    title = f"{_whose(results)} speed" + (f", and R² of its lines in {letters}" if fitted else "")
+    handles = [_mark("o", colour) for colour in shades(len(speeds))]
+    legend_above(figure, (handles[::-1], names[::-1]), title, columns=2 if fitted else 6)
+    axes[0].set_ylabel(AXIS["power_loss"][0])
+    if results[quantity].min() < 0.3 * results[quantity].max():
+        axes[0].set_xlim(left=0.0)
+    if not own_scales:
+        normalised_axis(axes[-1], float(results["power_loss"].max()))
+    return figure
+
+
+def has_own_scales(results: Results, theta: int) -> bool:
+    """Whether losses at the torques drawn differ so much that one scale would leave a panel empty."""
+    torques = spread(results.study.file.conditions.torque_Nm, MOST_TORQUES)
+    most = results["power_loss"][:, theta, torques].max(axis=(0, 2))
+    return bool(most.max() > UNLIKE * most.min())
+
+
+def _alike(results: Results) -> np.ndarray:
+    return np.array([a == b for a, b in results.study.pairings])
+
+
+def _mark(shape: str, colour: Any) -> Any:
+    from matplotlib.lines import Line2D
+
+    return Line2D([], [], marker=shape, color=colour, linestyle="")
+
+
+def _line(panel: Axes, x: np.ndarray, y: np.ndarray, colour: Any) -> str:
+    """A straight line fitted to all points; its coefficient of determination."""
+    if np.ptp(x) <= 1e-12 * np.abs(x).max() or np.ptp(y) == 0:
+        return "–"
+    slope, start = np.polyfit(x, y, 1)
+    ends = np.array([x.min(), x.max()])
+    panel.plot(ends, start + slope * ends, color=colour, linewidth=0.9)
+    return f"{np.corrcoef(x, y)[0, 1] ** 2:.3f}"
+
+
+def _points(panel: Axes, x: np.ndarray, y: np.ndarray, within: np.ndarray, alike: np.ndarray, colour: Any) -> None:
+    """Points of the pairings, the outermost among those that are drawn where they are many."""
+    few = np.zeros(x.size, dtype=bool)
+    few[np.argsort(x)[some(x.size, MOST_PAIRINGS)]] = True
+    few[[y.argmin(), y.argmax()]] = True
+    for shape, inside in (("o", within), ("v", ~within)):
+        for face, side in ((colour, alike), ("white", ~alike)):
+            at = few & inside & side
+            panel.plot(x[at], y[at], shape, color=colour, markerfacecolor=face, markeredgewidth=0.8)
+
+
+def film_and_friction(results: Results, theta: int) -> Figure:
+    """Film thickness over speed, and friction of the smoothest and roughest pairing."""
+    from matplotlib.figure import Figure
+
+    levels = results.study.file.conditions
+    torques, order = spread(levels.torque_Nm, MOST_LEVELS), np.argsort(levels.speed_rpm)
+    rpm = np.array(levels.speed_rpm)[order]
+    sigma = results["composite_roughness"][:, 0, 0, 0]
+    ends = tuple(dict.fromkeys((int(sigma.argmin()), int(sigma.argmax()))))
+    film = "all pairings" if one_film(results) else paired_title(results, ends[0])
+    draw: list[tuple[str, np.ndarray, str]] = [
+        ("mean film thickness (µm)", results["film_thickness"][ends[0], theta] * 1e6, f"film: {film}"),
+        *(
+            (
+                "mean friction coefficient (-)",
+                results["mean_friction"][i, theta],
+                f"friction: {paired_title(results, i)}",
+            )
+            for i in ends
+        ),
+    ]
+    figure = Figure(figsize=(WIDTH, 2.9), layout="constrained")
+    axes = figure.subplots(1, len(draw), squeeze=False)[0]
+    for panel, (label, values, title) in zip(axes, draw):
+        for colour, t, text in zip(shades(len(torques)), torques, _torque_labels(results, torques)):
+            panel.plot(rpm, values[t, order], marker=_marker(rpm.size), color=colour, label=text)
+        panel.set_title(title, loc="left", fontsize=SMALL)
+        panel.set_ylabel(label)
+        panel.set_xlabel(f"{_whose(results)} speed (rpm)")
+        panel.set_xlim(left=0.0)
+        panel.set_ylim(bottom=0.0)
+    top = 1.05 * float(results["mean_friction"][list(ends), theta].max())
+    for panel in axes[1:]:
+        panel.set_ylim(0.0, top)
+    legend_above(figure, axes[0], f"{_whose(results)} torque")
+    return figure
+
+
+def one_film(results: Results) -> bool:
+    """Whether the film is the same for all pairings; some effects make it depend on the surfaces."""
+    film = results["film_thickness"]
+    return bool(np.allclose(film, film[:1], rtol=1e-9, atol=0.0))
