@@ -1,0 +1,47 @@
+"""The base model at the conditions of a case, nothing fitted."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from mixedlub.case.folder import Case
+from mixedlub.case.forward import Forward
+from mixedlub.schema.findings import report
+from mixedlub.schema.table import BOOKKEEPING, Table
+from profiles.errors import InputError
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+def simulate(case: Case, at: Table | None = None) -> pd.DataFrame:
+    """Runs and simulated readings, then the conditions, and the recorded readings where there are any.
+
+    The rows are those of recordings and conditions, or of the table ``at``; each run stands once.
+    """
+    import pandas as pd
+
+    tables = [table for table in ((case.recordings, case.conditions) if at is None else (at,)) if table is not None]
+    if not tables:
+        raise InputError(
+            "has neither recordings.csv nor conditions.csv; name a table with --at", where=str(case.folder)
+        )
+    parts = []
+    for table in tables:
+        forward = Forward(case, table)
+        for one in forward.notes:
+            report(one)
+        simulated = pd.DataFrame({"run": table["run"], case.quantity: forward.nominal()})
+        parts.append(pd.concat([simulated, conditions_of(case, table)], axis=1))
+    return pd.concat(parts, ignore_index=True).drop_duplicates("run")
+
+
+def conditions_of(case: Case, table: Table) -> pd.DataFrame:
+    """The conditions of the rows of a table, and behind them, as ``recorded_QUANTITY``, what was recorded."""
+    import pandas as pd
+
+    names = [c.name for c in (*BOOKKEEPING, *case.kind.columns) if c.name in table]
+    found = {name: table[name] for name in names}
+    if case.quantity in table:
+        found[f"recorded_{case.quantity}"] = table[case.quantity]
+    return pd.DataFrame(found)
