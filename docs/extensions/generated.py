@@ -5,11 +5,9 @@ from __future__ import annotations
 import ast
 import contextlib
 import io
-import itertools
 import pkgutil
-import re
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -20,8 +18,10 @@ ROOT = Path(__file__).parents[2]
 LAW_MODULES = ("roughness.mccool", "roughness.integrals")
 """Laws of surfaces that the chain calls; those of `mixedlub.laws` come first."""
 TITLES = {"mccool": "McCool's asperities", "integrals": "Integrals of Gaussian heights"}
-HEADS = {5: "| name | unit | default | allowed | meaning |", 4: "| name | default | allowed | meaning |"}
-"""Heads of the tables of `mixedlub kinds`, by their columns; the unit is left out where no row has one."""
+COLUMN_HEAD = ("column", "unit", "needed", "allowed", "meaning")
+KEY_HEAD = ("key", "unit", "default", "allowed", "meaning")
+WITH_PAGES = ("laws", "effects")
+"""Rooms of public names that other pages list."""
 BASELINES = (
     "right verdict, one effect, identifiable",
     "right or honestly tied, one effect, all",
@@ -50,8 +50,8 @@ def pieces() -> dict[str, str]:
         "score_rigs": scores.all_rows(others[scores.TOOL]),
         "missed_rigs": scores.missed(others[scores.TOOL]),
         "by_kind": scores.by_kind(rigs),
-        "options": _options(),
-        "results": _results(),
+        "study_keys": _study_keys(),
+        "api": _api(),
         "rooms": _rooms(),
         "ranges": _ranges(),
     }
@@ -95,31 +95,69 @@ def _commands() -> Iterator[tuple[str, str]]:
 
 
 def _kinds() -> Iterator[tuple[str, str]]:
-    from mixedlub.kinds import KINDS
+    """A page for each kind of case: its columns, and the keys that it takes."""
+    from mixedlub.kinds import KINDS, kind
+    from mixedlub.report.format_reference import EVERY_CASE, common_rows, kind_rows
+    from mixedlub.schema.section import tables
+    from mixedlub.schema.system_file import System
 
-    for kind in KINDS:
-        text = _printed("kinds", kind).splitlines()
-        groups = [list(lines) for _, lines in itertools.groupby(text, lambda line: len(line) - len(line.lstrip()))]
-        yield f"kinds/{kind}", f"# {kind}\n\n" + "\n\n".join(map(_tabled, groups)) + "\n"
+    for name in KINDS:
+        k = kind(name)
+        taken = {*EVERY_CASE, *k.sections, *k.uses}
+        parts = [f"# {name}", f"{k.about.rstrip('.')}.", "## Columns", _table(COLUMN_HEAD, kind_rows(k))]
+        parts += ["Columns of every kind:", _table(COLUMN_HEAD, common_rows()), "## Keys of system.toml"]
+        for table in tables(System):
+            if table.name.split(".")[0] in taken:
+                use = " Optional for this kind." if table.name.split(".")[0] in k.uses else ""
+                parts += _keys(table, use)
+        yield f"kinds/{name}", "\n\n".join(parts) + "\n"
 
 
-def _tabled(lines: list[str]) -> str:
-    """Aligned rows as a table in Markdown; other lines as they are, those without indent as headings.
+def _study_keys() -> str:
+    from mixedlub.schema.section import tables
+    from mixedlub.study.schema import StudyFile
 
-    >>> print(_tabled(["  torque_Nm  N m  required  above 0  torque", "  run        -    required  number   a run"]))
-    | name | unit | default | allowed | meaning |
-    |---|---|---|---|---|
-    | `torque_Nm` | N m | required | above 0 | torque |
-    | `run` | - | required | number | a run |
+    return "\n\n".join(part for table in tables(StudyFile) for part in _keys(table))
+
+
+def _keys(table: Any, use: str = "") -> Iterator[str]:
+    """A table of a file: its meaning and its keys, each with the meanings of its values."""
+    from mixedlub.report.format_reference import key_row
+
+    yield f"### [{table.title}]" if table.title else "### Top of the file"
+    if table.meaning:
+        yield f"{table.meaning[:1].upper()}{table.meaning[1:]}.{use}"
+    rows = []
+    for key in table.keys:
+        *facts, meaning = key_row(key)
+        values = "; ".join(f"`{value}`: {text}" for value, text in key.values.items())
+        rows.append((*facts, f"{meaning} ({values})" if values else meaning))
+    if rows:
+        yield _table(KEY_HEAD, rows)
+
+
+def _table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
+    """A table in Markdown, the first column as code.
+
+    >>> print(_table(("key", "meaning"), [("teeth", "numbers of teeth")]))
+    | key | meaning |
+    |---|---|
+    | `teeth` | numbers of teeth |
     """
-    length = max(map(len, lines))
-    blank = "".join(" " if all(line[i : i + 1] in ("", " ") for line in lines) else "x" for i in range(length))
-    spans = [match.span() for match in re.finditer(r"x+(?: x+)*", blank)]
-    if len(spans) in HEADS:
-        rows = [" | ".join(line[start:end].strip().replace("|", "\\|") for start, end in spans) for line in lines]
-        marked = (f"| `{name}` |{rest} |" for name, _, rest in (row.partition(" |") for row in rows))
-        return "\n".join([HEADS[len(spans)], "|---" * len(spans) + "|", *marked])
-    return "\n\n".join(line.strip() if line[:1] in ("", " ") else f"## {line}" for line in lines)
+    lines = [f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
+    cells = ([cell.replace("|", "\\|") for cell in row] for row in rows)
+    return "\n".join([*lines, *(f"| `{name}` | {' | '.join(rest)} |" for name, *rest in cells)])
+
+
+def _api() -> str:
+    """Every public name of the package, and the public names of its rooms that have no page of their own."""
+    import mixedlub
+
+    parts = [f".. autofunction:: mixedlub.{name}" for name in mixedlub.PUBLIC]
+    found = [f"```{{eval-rst}}\n{chr(10).join(parts)}\n```"]
+    for name in (*(f"mixedlub.{room}" for room in mixedlub.ROOMS if room not in WITH_PAGES), *mixedlub.BESIDE):
+        found.append(f"## {name}\n\n```{{eval-rst}}\n.. automodule:: {name}\n   :members:\n```")
+    return "\n\n".join(found)
 
 
 def _printed(*words: str) -> str:
@@ -147,31 +185,6 @@ def _rooms() -> str:
         about = (ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or "").partition("\n")[0]
         if not room.startswith("__"):
             lines.append(f"| `mixedlub/{room}` | {about} |")
-    return "\n".join(lines)
-
-
-def _options() -> str:
-    """The options of a study with their choices, the default first."""
-    from mixedlub.study.options import MEANINGS
-    from mixedlub.study.schema import Options
-
-    lines = ["| option | value | meaning |", "|---|---|---|"]
-    for name, schema in Options.model_json_schema()["properties"].items():
-        default = schema.get("default")
-        for choice in sorted(schema.get("enum", ["number"]), key=lambda c: c != default):
-            value = f'`"{choice}"`' if "enum" in schema else f"number, default {'-' if default is None else default}"
-            mark = " (default)" if choice == default else ""
-            meaning = MEANINGS.get(name, {}).get(choice, schema.get("description", name.replace("_", " ")))
-            lines.append(f"| `{name}` | {value}{mark} | {meaning} |")
-    return "\n".join(lines)
-
-
-def _results() -> str:
-    """The columns of the table of a study."""
-    from mixedlub.study.results import COLUMNS, DEFINITIONS
-
-    lines = ["| column | holds |", "|---|---|"]
-    lines += [f"| `{column}` | {DEFINITIONS[name][1]} |" for name, (column, _) in COLUMNS.items()]
     return "\n".join(lines)
 
 

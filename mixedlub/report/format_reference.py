@@ -47,7 +47,7 @@ def kinds_text(name: str | None = None) -> str:
     lines += [] if name else ["`mixedlub kinds study` shows the keys of a study file."]
     for k in chosen:
         lines += ["", *_kind(k)]
-    lines += ["", "columns of every kind (conditions.csv has all but the reading)", *_aligned(_common())]
+    lines += ["", "columns of every kind (conditions.csv has all but the reading)", *_aligned(common_rows())]
     lines += ["", "keys of system.toml: unit, default, what is allowed, meaning"]
     for table in tables(System):
         if table.name.split(".")[0] in taken:
@@ -78,9 +78,14 @@ def _kind(k: Kind) -> Iterator[str]:
     if k.part_rigs:
         rigs = " or ".join(k.part_rigs)
         yield from _wrapped(f"readings of the rig {rigs} are compared with a part of the base model", 2, 4)
+    yield from _aligned(kind_rows(k), indent=4)
+
+
+def kind_rows(k: Kind) -> list[Row]:
+    """The columns of a kind, its readings last."""
     one = "reading" if len(k.readings) == 1 else "one of these"
     rows = [_column(c) for c in (*k.columns, *k.channels)]
-    yield from _aligned([*rows, *(_column(c, needed=one) for c in k.readings)], indent=4)
+    return [*rows, *(_column(c, needed=one) for c in k.readings)]
 
 
 def _named(sections: Sequence[str]) -> str:
@@ -93,7 +98,8 @@ def _named(sections: Sequence[str]) -> str:
     return " ".join(f"[{titles[section]}]" for section in sections)
 
 
-def _common() -> list[Row]:
+def common_rows() -> list[Row]:
+    """The columns that every kind has."""
     sd, check = sd_column("READING"), check_column("CHECK")
     return [*map(_column, (RUN, *BOOKKEEPING)), _column(sd, unit="as read"), _column(check, unit="any")]
 
@@ -140,12 +146,13 @@ def _users(table: FileTable) -> Iterator[str]:
 
 def _keys(table: FileTable) -> Iterator[str]:
     """The keys of a table; below them the meaning of each value of those that have few."""
-    for key, lines in zip(table.keys, _blocks([_key(key) for key in table.keys], 2), strict=True):
+    for key, lines in zip(table.keys, _blocks([key_row(key) for key in table.keys], 2), strict=True):
         yield from lines
         yield from _aligned([(toml_value(value), meaning) for value, meaning in key.values.items()], indent=6)
 
 
-def _key(key: Key) -> Row:
+def key_row(key: Key) -> Row:
+    """A key with its unit, its default, what it may hold, and its meaning."""
     allowed, numeric = _allowed(key.type, key)
     unit = (key.unit or "-") if numeric else ""
     default = "required" if key.required else _default(key.field.get_default(call_default_factory=True))

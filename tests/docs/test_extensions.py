@@ -2,6 +2,7 @@
 
 import doctest
 import importlib
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -14,6 +15,7 @@ from mixedlub.kinds import KINDS
 
 ROOT = Path(__file__).parents[2]
 EXTENSIONS = ROOT / "docs/extensions"
+PAGES = [path for path in (ROOT / "docs").rglob("*.md") if "made" not in path.parts]
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -121,3 +123,10 @@ def test_a_command_may_go_over_several_lines(built):
     assert complaints == ""
     assert "one two" in html
     assert "three" in html
+
+
+def test_pieces_that_pages_include_are_there():
+    import generated
+
+    included = re.findall(r"\{include\} (?:\.\./)*made/(\w+)\.md", "".join(p.read_text() for p in PAGES))
+    assert set(included) == set(generated.pieces())
