@@ -11,7 +11,7 @@ from mixedlub.atomic import writing
 from mixedlub.commands.console import case_folder, output_folder, say, tell, within_range
 
 NAME = "simulate"
-EXAMPLE = "mixedlub simulate examples/case --out out/simulate"
+EXAMPLE = "mixedlub new case --out my_case && mixedlub simulate my_case"
 
 
 def command(

@@ -274,7 +274,7 @@ def test_simulate_meets_the_base_values_of_the_practice_cases(case, shared, tmp_
     with (tmp_path / "simulation.csv").open() as file:
         header, *lines = csv.reader(file)
     assert header[0] == "run"
-    found = {int(run): float(value) for run, value in lines}
+    found = {int(run): float(value) for run, value, *_ in lines}
     assert found.keys() == nominal.keys()
     for run, value in found.items():
         assert value == pytest.approx(nominal[run], rel=5e-4), run
