@@ -19,11 +19,12 @@ from mixedlub.diagnosis.assessment.extrapolation import beyond_recorded
 from mixedlub.diagnosis.assessment.location import Region, passed_by, region
 from mixedlub.diagnosis.assessment.mismatch_test import Mismatch, told_from_nothing
 from mixedlub.diagnosis.assessment.model_averaging import Predicted, averaged, leaders, outlier_chances
-from mixedlub.diagnosis.assessment.posterior import Key, Posterior
+from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.assessment.prediction import Refined
 from mixedlub.diagnosis.assessment.published_laws import Contained, contained
 from mixedlub.diagnosis.assessment.validity import beyond_range, unpublished
 from mixedlub.diagnosis.assessment.verdict import judge
+from mixedlub.diagnosis.explanation import DISCREPANCY, Explanation
 from mixedlub.diagnosis.labels import effect_words
 from mixedlub.diagnosis.search.noise_selection import weighed
 from mixedlub.diagnosis.search.search import Progress, Search
@@ -40,7 +41,7 @@ class Diagnosis:
     found: Search
     test: Mismatch
     posterior: Posterior
-    refined: dict[Key, Refined]
+    refined: dict[Explanation, Refined]
     recorded: Predicted
     wanted: Predicted | None
     outlier_chance: np.ndarray
@@ -167,7 +168,7 @@ def _cautions(
     found: Search,
     judged: Posterior,
     kept: HeldOut,
-    refined: dict[Key, Refined],
+    refined: dict[Explanation, Refined],
     predicted: np.ndarray,
     wrong: np.ndarray,
 ) -> list[Finding]:
@@ -176,10 +177,10 @@ def _cautions(
     case, rows = problem.case, problem.rows
     read = (case.quantity, f"{case.quantity}_sd", case.system.recording.check)
     taken_at = Table({n: v for n, v in rows.columns.items() if n not in read}, rows.source)
-    at_one_place = judged.verdict == "unknown" and found.unknown.best.at is not None
+    at_one_place = judged.verdict == DISCREPANCY and found.unknown.best.at is not None
     said = unsure_odds(judged)
     said += against(judged.verdict, kept, taken_at, problem.level(problem.y), predicted, wrong, at_one_place)
-    if isinstance(judged.verdict, str):
+    if judged.verdict.discrepancy:
         return said
     named, own = refined[judged.verdict], slice(problem.calibration_size, None)
     said += beyond_range(problem, judged.verdict, named.z)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -11,13 +11,11 @@ import numpy as np
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward, Run
 from mixedlub.chain.effect import Effect
+from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.effects import catalogue, known_in
 from mixedlub.recording.correlated_error import STILL, Wander
 from mixedlub.recording.noise import seen_noise
 from mixedlub.schema.table import Table
-
-Explanation = tuple[str, ...]
-"""Effect ids in order; empty for "none"."""
 
 STEP = 1e-4
 """Step of the differences, in prior standard deviations: far above rounding, far below what laws curve by."""
@@ -106,7 +104,8 @@ class Problem:
     def effects(self, explanation: Explanation) -> list[Effect]:
         """The effects an explanation names, with the parameters that are unknown here."""
         known = known_in(self.case.kind.name)
-        return [known[name].holding(self.held[name]) if name in self.held else known[name] for name in explanation]
+        every = (known[name] for name in explanation.effects)
+        return [e.holding(self.held[e.id]) if e.id in self.held else e for e in every]
 
     def size(self, explanation: Explanation) -> int:
         """Length of the coordinate vector of an explanation."""
@@ -182,7 +181,7 @@ class Problem:
         return self.take(rows).with_together(1.0 + (self.together - 1.0) * len(rows) / self.y.size)
 
 
-def effects_of(explanation: Explanation) -> list[Effect]:
-    """The effects an explanation names, with all their parameters."""
+def effects_of(ids: Iterable[str]) -> list[Effect]:
+    """Effects of the catalogue by id, with all their parameters."""
     known = catalogue()
-    return [known[name] for name in explanation]
+    return [known[name] for name in ids]

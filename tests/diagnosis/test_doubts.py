@@ -10,6 +10,7 @@ import pytest
 from mixedlub.case.folder import Case
 from mixedlub.diagnosis.assessment.answer_checks import against, in_a_row, levels_off
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.recording.conditions import jitters
 from mixedlub.recording.noise import nearly_repeated
 from mixedlub.schema.findings import Finding, Severity, codes
@@ -119,4 +120,4 @@ def test_levels_that_the_answer_does_not_foretell_are_told_of(offset: Diagnosis,
     right = np.zeros(len(rows), bool)
     said = against(offset.posterior.verdict, kept, rows, offset.readings, predicted, right)
     assert ("answer_predicts_poorly" in codes(said)) == told
-    assert not against((), kept, rows, offset.readings, predicted, right)
+    assert not against(NOTHING, kept, rows, offset.readings, predicted, right)

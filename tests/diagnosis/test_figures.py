@@ -15,6 +15,7 @@ from mixedlub.diagnosis.assessment.identifiability import confusion
 from mixedlub.diagnosis.assessment.power_law import Absorbed, Unnamed
 from mixedlub.diagnosis.assessment.power_law import unnamed as describe
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.report.figures import charts, figures, maps
 from mixedlub.diagnosis.report.figures.style import as_drawn, blank, inline, look
 from mixedlub.kinds import kind
@@ -177,7 +178,8 @@ def test_evidence_shows_the_probabilities(offset: Diagnosis) -> None:
 
 
 def test_instrument_and_physics_have_their_own_colours() -> None:
-    colours = {charts.colour_of(k) for k in ((), "unknown", ("sensor_offset",), ("inlet_shear_heating",))}
+    every = (NOTHING, DISCREPANCY, Explanation.of("sensor_offset"), Explanation.of("inlet_shear_heating"))
+    colours = {charts.colour_of(k) for k in every}
     assert len(colours) == 4
 
 

@@ -12,9 +12,10 @@ from mixedlub.case.reference_rigs import case, forward
 from mixedlub.diagnosis.assessment.mismatch_test import mismatch_test
 from mixedlub.diagnosis.assessment.posterior import posterior
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.map_fit import Fit, linear_fit, map_fit, outlier_chance
 from mixedlub.diagnosis.inference.reference_evidence import importance_evidence
-from mixedlub.diagnosis.problem import Explanation, Problem
+from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search import search as searching
 from mixedlub.effects import catalogue
 from mixedlub.recording.conditions import coordinates
@@ -39,7 +40,7 @@ def problem(kind: str = "gear_pair", seed: int = 1, extra: float = 0.0, relative
 @pytest.mark.parametrize("kind", ["gear_pair", "disc"])
 def test_a_rerun_near_another_run_is_the_full_run_to_the_last_bit(kind: str) -> None:
     p = problem(kind)
-    explanation = ("inlet_shear_heating", "sensor_gain")
+    explanation = Explanation.of("inlet_shear_heating", "sensor_gain")
     z = np.linspace(-0.5, 0.5, p.size(explanation))
     here = p.run(explanation, z)
     for i in range(z.size):
@@ -61,8 +62,8 @@ def test_evidence_of_a_linear_model_is_the_closed_form() -> None:
     assert fit.evidence - chance == pytest.approx(exact, abs=0.6)
 
 
-@pytest.mark.parametrize("explanation", [(), ("churning",)])
-def test_fast_evidence_agrees_with_importance_sampling(explanation: tuple[str, ...]) -> None:
+@pytest.mark.parametrize("explanation", [NOTHING, Explanation.of("churning")])
+def test_fast_evidence_agrees_with_importance_sampling(explanation: Explanation) -> None:
     p = problem(extra=0.05)
     fit = map_fit(p, explanation, np.zeros(p.size(explanation)))
     sampled = importance_evidence(p, fit, draws=1500)
@@ -74,7 +75,7 @@ def test_planted_outliers_are_found_and_no_others() -> None:
     p = problem()
     y = p.y.copy()
     y[[4, 17]] += 9.0 * p.sd[[4, 17]]
-    fit = map_fit(Problem(p.case, p.rows, p.forward, y, p.sd, p.shared), (), np.zeros(p.size(())))
+    fit = map_fit(Problem(p.case, p.rows, p.forward, y, p.sd, p.shared), NOTHING, np.zeros(p.size(NOTHING)))
     assert np.flatnonzero(outlier_chance(fit.residual) > 0.5).tolist() == [4, 17]
 
 
@@ -114,33 +115,33 @@ def test_rows_without_a_coating_know_the_effect_of_one() -> None:
     """A level left out may hold all readings on coated flanks, or none."""
     p = problem("disc")
     bare = (p.rows["surface_1"] != "coated") & (p.rows["surface_2"] != "coated")
-    explanation = ("coating_insulation",)
+    explanation = Explanation.of("coating_insulation")
     z = np.zeros(p.size(explanation))
     assert np.array_equal(p.take(bare).predict(explanation, z), p.predict(explanation, z)[bare])
-    assert (p.take(~bare).predict(explanation, z) < p.predict((), z[:-1])[~bare]).all()
+    assert (p.take(~bare).predict(explanation, z) < p.predict(NOTHING, z[:-1])[~bare]).all()
 
 
 def test_bending_cannot_rescue_a_wrong_effect_without_bound() -> None:
     found = found_in(problem(extra=0.3))
     for explanation, score in found.scores.items():
-        if explanation:
+        if explanation.effects:
             assert score - found.fits[explanation].evidence <= searching.BEND_MOST
     best = max(found.scores, key=lambda m: found.scores[m])
-    assert found.unknown.evidence > found.scores[("sensor_offset",)] + searching.BEND_MOST
-    assert found.scores[best] > found.scores[("sensor_offset",)] + searching.BEND_MOST
+    assert found.unknown.evidence > found.scores[Explanation.of("sensor_offset")] + searching.BEND_MOST
+    assert found.scores[best] > found.scores[Explanation.of("sensor_offset")] + searching.BEND_MOST
 
 
 def test_a_zero_has_no_form_to_bend_and_an_idle_partner_lends_it_none() -> None:
     p = problem("disc", extra=0.3)
     space = coordinates(p.case, p.rows, p.forward)
     values = space.values(p.case, p.rows, p.forward)
-    zero, pair = ("sensor_offset",), ("contact_creep", "sensor_offset")
-    fits = {m: map_fit(p, m, np.zeros(p.size(m))) for m in ((), zero, pair)}
+    zero, pair = Explanation.of("sensor_offset"), Explanation.of("contact_creep", "sensor_offset")
+    fits = {m: map_fit(p, m, np.zeros(p.size(m))) for m in (NOTHING, zero, pair)}
 
     def gain(stiff: Fit, fit: Fit) -> float:
         return searching.elastic_evidence(p, stiff, fit, space, values) - fit.evidence
 
-    assert gain(fits[()], fits[zero]) == 0.0
+    assert gain(fits[NOTHING], fits[zero]) == 0.0
     against_base, against_zero = (gain(stiff, fits[pair]) for stiff in searching.unbending(fits, pair))
     assert against_zero < 1.0 < against_base
 
@@ -163,17 +164,17 @@ def test_an_effect_without_any_finite_answer_is_not_considered(monkeypatch: pyte
 
     def broken(self: Problem, explanation: Explanation, z: np.ndarray, near: Run | None = None) -> Run:
         found = run(self, explanation, z, near)
-        return replace(found, prediction=found.prediction * np.nan) if "churning" in explanation else found
+        return replace(found, prediction=found.prediction * np.nan) if "churning" in explanation.effects else found
 
     monkeypatch.setattr(Problem, "run", broken)
     found = found_in(p)
     assert "churning" not in [s.id for s in found.sampled]
-    assert ("sensor_gain",) in found.fits
+    assert Explanation.of("sensor_gain") in found.fits
 
 
 def test_readings_left_out_that_lie_too_far_off_make_the_odds_less_sure(offset: Diagnosis) -> None:
     found, test = offset.found, offset.test
-    names = [key for key in found.fits if key]
+    names = [key for key in found.fits if key.effects]
     plain, unsure = (posterior(found, test, inflation=c) for c in (1.0, 4.0))
     best, other = sorted(names, key=lambda key: -found.scores[key])[:2]
     gap = [np.log(p.weights[best] / p.weights[other]) for p in (plain, unsure)]
@@ -181,5 +182,5 @@ def test_readings_left_out_that_lie_too_far_off_make_the_odds_less_sure(offset: 
     level = prior[0] - prior[1]
     assert gap[1] - level == pytest.approx((gap[0] - level) / 4.0)
     others = [max(names, key=lambda key: p.weights[key]) for p in (plain, unsure)]
-    odds = [p.weights[name] / p.weights["unknown"] for p, name in zip((plain, unsure), others, strict=True)]
+    odds = [p.weights[name] / p.weights[DISCREPANCY] for p, name in zip((plain, unsure), others, strict=True)]
     assert odds[1] == pytest.approx(odds[0])

@@ -12,6 +12,7 @@ from mixedlub.case.folder import read_case
 from mixedlub.case.forward import Forward
 from mixedlub.data_checks.audit import check_readings
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.importers import write_case
 from mixedlub.recording.conditions import is_held
 from mixedlub.recording.noise import steadied
@@ -48,7 +49,7 @@ def test_a_large_sd_only_marks_its_reading(make_case, tmp_path: Path) -> None:
 
     folder = make_case(tmp_path, "gear_pair", lambda conditions, base: base + 9.0)
     found = edited(folder, rows=marked)
-    assert found.posterior.verdict == ("sensor_offset",)
+    assert found.posterior.verdict == Explanation.of("sensor_offset")
     assert found.found.problem.sd[0] == pytest.approx(2.0, rel=0.01)
 
 

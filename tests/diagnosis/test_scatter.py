@@ -12,6 +12,7 @@ import pytest
 
 from mixedlub.diagnosis.assessment.mismatch_test import UNTOLD, _cost
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.explanation import NOTHING, Explanation
 from mixedlub.diagnosis.search.noise_inflation import CLEAR, more
 from mixedlub.importers import write_case
 from mixedlub.schema.findings import Finding, codes
@@ -61,14 +62,14 @@ def test_scatter_beyond_what_is_stated_is_no_mismatch(half: Callable[..., Path],
     (note,) = told(d)
     times = float(note.text.split("about ")[1].split(" times")[0])
     assert times == pytest.approx(2.0, rel=0.25)
-    assert d.posterior.verdict == ()
+    assert d.posterior.verdict == NOTHING
     assert not d.test.detected
 
 
 def test_an_effect_stays_visible_through_it(half: Callable[..., Path], excluded: tuple[str, ...]) -> None:
     d = diagnose_case(half(heated), exclude=excluded)
     assert len(told(d)) == 1
-    assert d.posterior.verdict == ("sensor_gain",)
+    assert d.posterior.verdict == Explanation.of("sensor_gain")
 
 
 def test_sds_of_the_readings_are_raised_likewise(make_case: Make, tmp_path: Path, excluded: tuple[str, ...]) -> None:
@@ -81,7 +82,7 @@ def test_sds_of_the_readings_are_raised_likewise(make_case: Make, tmp_path: Path
         csv.writer(file).writerows(rows)
     d = diagnose_case(folder, exclude=excluded)
     assert len(told(d)) == 1
-    assert d.posterior.verdict == ()
+    assert d.posterior.verdict == NOTHING
 
 
 def test_noise_that_nobody_states_is_found_under_an_effect(
@@ -90,7 +91,7 @@ def test_noise_that_nobody_states_is_found_under_an_effect(
     folder = restated(make_case(tmp_path / "case", "disc", heated), "")
     d = diagnose_case(folder, exclude=excluded)
     assert np.median(d.found.problem.sd / d.readings) == pytest.approx(0.02, rel=0.25)
-    assert d.posterior.verdict == ("sensor_gain",)
+    assert d.posterior.verdict == Explanation.of("sensor_gain")
     assert "noise_value_estimated" in codes(d.warnings)
 
 
@@ -111,14 +112,14 @@ def test_noise_that_nobody_states_may_have_a_part_alike_for_all(
     assert noise is not None
     assert noise.absolute == pytest.approx(0.05 * float(np.median(d.readings)), rel=0.4)
     assert noise.relative < 0.03
-    assert d.posterior.verdict == ()
+    assert d.posterior.verdict == NOTHING
 
 
 def test_a_fit_whose_evidence_is_carried_over_raises_no_noise(offset: Diagnosis) -> None:
     """Far behind the best a fit only keeps its distance when the noise is settled anew: its residuals grew since."""
     found = offset.found
-    fit = found.fits["churning",]
-    wild = replace(found, fits={**found.fits, ("churning",): replace(fit, residual=20.0 * fit.residual)})
+    fit = found.fits[Explanation.of("churning")]
+    wild = replace(found, fits={**found.fits, Explanation.of("churning"): replace(fit, residual=20.0 * fit.residual)})
     assert more(found)[0] < CLEAR
     assert more(wild)[0] < CLEAR
 
@@ -163,7 +164,7 @@ def test_sds_of_one_setting_leave_out_a_share_of_the_reading(tmp_path: Path) -> 
     }
     sections = {"kind": "film", "contact": BALL, "recording": {"quantity": "film_thickness_nm"}}
     d = diagnose_case(write_case(tmp_path / "films", sections, columns))
-    assert d.posterior.verdict == ()
+    assert d.posterior.verdict == NOTHING
     assert "scatter_above_stated" in codes(d.warnings)
     assert d.found.problem.one_sd[-1] == pytest.approx(0.02 * recorded[-1], rel=0.6)
 

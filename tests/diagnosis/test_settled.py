@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.inference.map_fit import settled
 
 
@@ -15,7 +16,7 @@ def test_coordinates_go_no_farther_than_the_laws_gain(offset) -> None:
     problem, fit = offset.found.problem, offset.found.none
     absurd = fit.z + 4.0
     z, beside = settled(
-        problem, (), fit.z, absurd, fit.common, lambda prediction: np.zeros((prediction.size, 0)), fit.weight
+        problem, NOTHING, fit.z, absurd, fit.common, lambda prediction: np.zeros((prediction.size, 0)), fit.weight
     )
     assert z == pytest.approx(fit.z)
     assert beside.residual == pytest.approx(fit.residual, abs=1e-9)
@@ -41,6 +42,12 @@ def test_a_part_of_the_way_is_taken_where_a_law_curves() -> None:
             y=np.full(40, np.exp(1.5)), sd=np.full(40, 0.3), predict=lambda names, z: np.full(40, np.exp(z[0]))
         )
         z, _ = settled(
-            curved, (), np.array([start]), np.array([tangent]), np.zeros(40), lambda p: np.zeros((40, 0)), np.ones(40)
+            curved,
+            NOTHING,
+            np.array([start]),
+            np.array([tangent]),
+            np.zeros(40),
+            lambda p: np.zeros((40, 0)),
+            np.ones(40),
         )
         assert z[0] == pytest.approx(nearest, abs=0.15)

@@ -10,8 +10,8 @@ import pytest
 from mixedlub.case.forward import Forward
 from mixedlub.data_checks.audit import check_readings
 from mixedlub.diagnosis.assessment.identifiability import confusion
-from mixedlub.diagnosis.assessment.posterior import Key
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.report.text import words
 from mixedlub.diagnosis.report.text.alternatives import resembling
 from mixedlub.diagnosis.report.text.answer import as_json
@@ -28,14 +28,14 @@ def test_what_is_called_nearest_is_neither_rejected_nor_untestable(unnamed: Diag
     best = nearest(unnamed)
     assert best is not None
     alike = confusion(unnamed.found)
-    every = tuple((name,) for name in alike.ids)
+    every = tuple(Explanation.of(name) for name in alike.ids)
     others = {name: replace(unnamed.found.fits[name], residual=0.0 * unnamed.found.none.residual) for name in every}
     for name in alike.ids:
-        kept = {**unnamed.found.fits, (name,): others[(name,)]}
+        kept = {**unnamed.found.fits, Explanation.of(name): others[Explanation.of(name)]}
         d = replace(unnamed, found=replace(unnamed.found, fits=kept))
         found = nearest(d)
         assert found is not None
-        assert found.names == (name,)
+        assert found.explanation == Explanation.of(name)
         said = " ".join(resembling(d, alike)[0])
         assert name.replace("_", " ") not in said
 
@@ -71,17 +71,24 @@ def test_readings_that_contradict_each_other_are_found(offset: Diagnosis) -> Non
 
 
 def test_probability_of_the_answer_and_of_its_effects_stand_side_by_side(offset: Diagnosis) -> None:
-    several: dict[Key, float] = {("sensor_offset",): 0.87, ("inlet_shear_heating", "sensor_offset"): 0.128}
+    several = {
+        Explanation.of("sensor_offset"): 0.87,
+        Explanation.of("inlet_shear_heating", "sensor_offset"): 0.128,
+    }
     clause = "just as it stands; in any company sensor offset has above 0.99."
     assert f"The probability is that of the answer {clause}" in told(judged(offset, several, 1))[words.ANSWER]
-    assert "in any company" not in told(judged(offset, {("sensor_offset",): 0.97}, 1))[words.ANSWER]
-    pair: dict[Key, float] = {("sensor_offset",): 0.5, ("churning",): 0.2, ("churning", "sensor_offset"): 0.1}
+    assert "in any company" not in told(judged(offset, {Explanation.of("sensor_offset"): 0.97}, 1))[words.ANSWER]
+    pair = {
+        Explanation.of("sensor_offset"): 0.5,
+        Explanation.of("churning"): 0.2,
+        Explanation.of("churning", "sensor_offset"): 0.1,
+    }
     said = told(judged(offset, pair, 2))[words.ANSWER]
     assert "Each probability is that of an answer just as it stands; in any company sensor offset has 0.60." in said
 
 
 def test_what_the_nearest_leaves_is_never_called_noise_alone(unnamed: Diagnosis) -> None:
-    name = next(key for key in unnamed.found.fits if len(key) == 1)
+    name = next(key for key in unnamed.found.fits if len(key.effects) == 1)
     perfect = replace(unnamed.found.fits[name], residual=0.0 * unnamed.found.none.residual)
     fits = {**unnamed.found.fits, name: perfect}
     said = told(replace(unnamed, found=replace(unnamed.found, fits=fits)))[words.UNNAMED]
@@ -112,18 +119,23 @@ def test_what_would_show_rests_on_the_noise(complete: Diagnosis) -> None:
 
 
 def test_what_is_less_probable_and_not_rejected_is_listed(offset: Diagnosis) -> None:
-    left: dict[Key, float] = {("sensor_offset",): 0.9, ("churning",): 0.03, "unknown": 0.02, (): 0.012}
+    left = {
+        Explanation.of("sensor_offset"): 0.9,
+        Explanation.of("churning"): 0.03,
+        DISCREPANCY: 0.02,
+        NOTHING: 0.012,
+    }
     said = told(judged(offset, left, 1))[words.ALIKE]
     assert "Less probable, not excluded: churning (0.03), something unknown (0.02), nothing missing (0.01)." in said
-    sure: dict[Key, float] = {("sensor_offset",): 0.999}
+    sure = {Explanation.of("sensor_offset"): 0.999}
     assert "not excluded: " not in told(judged(offset, sure, 1))[words.ALIKE].replace("nor excluded: ", "")
 
 
 @pytest.mark.parametrize(("off", "strained"), [(-2.04, False), (-2.06, True)])
 def test_strained_is_what_the_table_shows_so(complete: Diagnosis, off: float, strained: bool) -> None:
-    none = complete.refined[()]
+    none = complete.refined[NOTHING]
     z = np.where(np.arange(none.z.size) == 0, off, 0.0)
-    said = told(replace(complete, refined={**complete.refined, (): replace(none, z=z)}))[words.CALIBRATION]
+    said = told(replace(complete, refined={**complete.refined, NOTHING: replace(none, z=z)}))[words.CALIBRATION]
     assert ("Strained" in said) == strained
 
 

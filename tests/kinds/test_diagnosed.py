@@ -33,7 +33,7 @@ def filed(from_files):
 
 
 def tied(d):
-    return [d.posterior.names(key) for key in d.posterior.tied]
+    return [list(key.ids) for key in d.posterior.tied]
 
 
 def named(d):

@@ -13,6 +13,7 @@ from mixedlub.case.folder import read_case
 from mixedlub.case.forward import Forward
 from mixedlub.diagnosis.assessment import mismatch_test as mismatch_module
 from mixedlub.diagnosis.assessment.mismatch_test import KNOWN, UNSURE, UNTOLD, mismatch_test
+from mixedlub.diagnosis.explanation import NOTHING, Explanation
 from mixedlub.diagnosis.inference.map_fit import map_fit
 from mixedlub.diagnosis.inference.reference_evidence import nested_evidence
 from mixedlub.diagnosis.problem import Problem
@@ -41,8 +42,8 @@ def problems(tmp_path_factory: pytest.TempPathFactory) -> list[Problem]:
     return [problem_of(folder) for folder in generate(tmp_path_factory.mktemp("rigs"), seed=31, cases=5, jobs=1)]
 
 
-@pytest.mark.parametrize("explanation", [(), ("sensor_gain",), ("inlet_shear_heating",)])
-def test_fast_evidence_agrees_with_nested_sampling(problems: list[Problem], explanation: tuple[str, ...]) -> None:
+@pytest.mark.parametrize("explanation", [NOTHING, Explanation.of("sensor_gain"), Explanation.of("inlet_shear_heating")])
+def test_fast_evidence_agrees_with_nested_sampling(problems: list[Problem], explanation: Explanation) -> None:
     pytest.importorskip("dynesty")
     p = problems[0]
     fit = map_fit(p, explanation, np.zeros(p.size(explanation)))
@@ -52,7 +53,7 @@ def test_fast_evidence_agrees_with_nested_sampling(problems: list[Problem], expl
 
 def drawn_from(p: Problem, calibration: np.ndarray, rng: np.random.Generator) -> Problem:
     """The same rows read where nothing is missing, at this calibration and with the stated noise."""
-    truth = p.predict((), calibration)
+    truth = p.predict(NOTHING, calibration)
     sd = p.with_sd(truth, truth).sd
     return Problem(p.case, p.rows, p.forward, truth + sd * rng.standard_normal(truth.size), sd, p.shared)
 
@@ -75,9 +76,11 @@ def test_the_bound_of_the_search_alarms_nowhere(searches: list[Search]) -> None:
 
 def calibrated_only(found: Search, drawn: Problem) -> Search:
     """The search's prior draws and smooth functions against other readings, without fits of its own."""
-    none = map_fit(drawn, (), np.zeros(drawn.size(())))
+    none = map_fit(drawn, NOTHING, np.zeros(drawn.size(NOTHING)))
     unnamed = replace(found.unknown, evidence=none.evidence - 50.0)
-    return replace(found, problem=drawn, none=none, fits={(): none}, scores={(): none.evidence}, unknown=unnamed)
+    return replace(
+        found, problem=drawn, none=none, fits={NOTHING: none}, scores={NOTHING: none.evidence}, unknown=unnamed
+    )
 
 
 @pytest.mark.parametrize("scales", [KNOWN, UNTOLD])

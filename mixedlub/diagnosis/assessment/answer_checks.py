@@ -8,7 +8,8 @@ import numpy as np
 
 from mixedlub.case.forward import Forward
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut
-from mixedlub.diagnosis.assessment.posterior import Key, Posterior
+from mixedlub.diagnosis.assessment.posterior import Posterior
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.labels import amount, effect_words, words_of
 from mixedlub.diagnosis.search.noise_inflation import CLEAR, MOST, Raised, more, quiet
 from mixedlub.diagnosis.search.search import Search
@@ -111,7 +112,7 @@ def _size_notes(found: Search, stated: bool, raised: Raised) -> list[Finding]:
 
 
 def against(
-    verdict: Key,
+    verdict: Explanation,
     kept: HeldOut,
     rows: Table,
     y: np.ndarray,
@@ -149,14 +150,14 @@ def against(
         )
         for level, share in levels_off(rows, wrong, y - predicted)
     ]
-    if verdict != () and not at_one_place and kept.score < kept.score_before:
-        answer = "the unnamed mismatch" if verdict == "unknown" else "the answer"
+    if verdict != NOTHING and not at_one_place and kept.score < kept.score_before:
+        answer = "the unnamed mismatch" if verdict == DISCREPANCY else "the answer"
         text = (
             f"{answer} predicts left-out levels no better than calibration alone: outside the recorded conditions rely "
             "on neither"
         )
         found.append(finding("answer_not_predictive", text))
-    elif verdict != () and not at_one_place and kept.after > FAR_OFF:
+    elif verdict != NOTHING and not at_one_place and kept.after > FAR_OFF:
         text = (
             f"the answer predicts left-out levels poorly (rms {kept.after:.3g} sigma, 1 expected): do not extrapolate"
         )

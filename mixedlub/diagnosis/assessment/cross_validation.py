@@ -11,9 +11,10 @@ from functools import partial
 
 import numpy as np
 
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.change_points import elsewhere, places, without
 from mixedlub.diagnosis.inference.map_fit import covariance, linear_fit, log_likelihood, map_fit
-from mixedlub.diagnosis.problem import Explanation, Problem
+from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.recording.conditions import WANDERS_K
 from mixedlub.recording.set_points import set_points
@@ -132,7 +133,7 @@ class LevelsOut:
     folds: tuple[_Fold, ...]
     before: np.ndarray
     inner: np.ndarray
-    left: dict[Explanation | str, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
+    left: dict[Explanation, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
     """What verdicts that were tried leave, each refitted once."""
 
     @classmethod
@@ -146,14 +147,14 @@ class LevelsOut:
             train, test = found.problem.take(~out), found.problem.take(out)
             # A set-up's own error is part of what a left-out reading scatters by.
             wide = test.sd * np.sqrt(1.0 + np.sum(test.shared**2, axis=1))
-            none = map_fit(train, (), found.none.z)
-            before[out] = (test.y - test.predict((), none.z)) / wide
+            none = map_fit(train, NOTHING, found.none.z)
+            before[out] = (test.y - test.predict(NOTHING, none.z)) / wide
             folds.append(_Fold(out, train, test, wide))
         used = np.isin(whole.problem.rows["run"], found.problem.rows["run"])
         inner = (label > label.min()) & (label < label.max()) if ordered else np.ones(label.size, bool)
         return cls(found, used, name, tuple(folds), before, inner)
 
-    def held(self, verdict: Explanation | str, outliers: np.ndarray, inner: bool = False) -> HeldOut:
+    def held(self, verdict: Explanation, outliers: np.ndarray, inner: bool = False) -> HeldOut:
         """How a verdict predicts each level without it; ``inner``: of levels between others."""
         outliers = outliers[self.used]
         if verdict not in self.left:
@@ -173,19 +174,19 @@ class LevelsOut:
             float(log_likelihood(self.before)[0].sum()),
         )
 
-    def _left_by(self, verdict: Explanation | str) -> tuple[np.ndarray, np.ndarray]:
+    def _left_by(self, verdict: Explanation) -> tuple[np.ndarray, np.ndarray]:
         """Residual of every reading and its open variance, the parameters of a verdict refitted without its level."""
         after, open_variance = np.zeros((2, self.before.size))
-        forms = _unnamed_columns(self.found) if verdict == "unknown" else []
+        forms = _unnamed_columns(self.found) if verdict == DISCREPANCY else []
         for f in self.folds:
-            if verdict == "unknown":
+            if verdict == DISCREPANCY:
                 left, variance = _unknown_left(self.found, forms, f.out)
                 after[f.out] = left * f.test.sd / f.wide
                 open_variance[f.out] = variance * (f.test.sd / f.wide) ** 2
-            elif verdict == ():
+            elif verdict == NOTHING:
                 after[f.out] = self.before[f.out]
             else:
-                fit = map_fit(f.train, tuple(verdict), self.found.fits[tuple(verdict)].z, warm=True)
+                fit = map_fit(f.train, verdict, self.found.fits[verdict].z, warm=True)
                 run = f.test.run(fit.explanation, fit.z)
                 # The level left out may be the one that showed where a sudden change stands.
                 found = places(f.train, fit)

@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.diagnosis.assessment.posterior import Key, Posterior
+from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.assessment.prediction import Prediction, Refined, Rows, refine
+from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.recording.conditions import held_at
 from mixedlub.recording.set_points import roundest, set_points
@@ -41,12 +42,12 @@ class NextTest:
 
 
 def next_tests(
-    found: Search, judged: Posterior, refined: dict[Key, Refined], columns: list[Column], varied: list[str]
+    found: Search, judged: Posterior, refined: dict[Explanation, Refined], columns: list[Column], varied: list[str]
 ) -> tuple[NextTest, ...]:
     """The tests whose outcomes tell most, apart from one another; with one explanation left, against the runner-up."""
     keys = [k for k in refined if judged.weights[k] > WORTH]
     if len(keys) < 2:
-        runner = next((k for k in judged.weights if not isinstance(k, str) and k not in keys and k in found.fits), None)
+        runner = next((k for k in judged.weights if k not in keys and k in found.fits), None)
         if runner is None:
             return ()
         refined = {**refined, runner: refine(found, found.fits[runner])}
@@ -68,7 +69,7 @@ def next_tests(
             name: str(x) if isinstance(x, str) else float(f"{x:.6g}") for name, x in values.items()
         }
         if all(_apart(conditions, t.conditions) for t in chosen):
-            names = tuple("+".join(judged.names(k)) for k in keys)
+            names = tuple("+".join(k.ids) for k in keys)
             chosen.append(NextTest(conditions, names, float(bits[i])))
         if len(chosen) == TESTS:
             break

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.diagnosis.assessment.mismatch_test import judged_weight
+from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.inference.map_fit import whitening
 from mixedlub.diagnosis.search.search import Sampled, Search
 
@@ -65,7 +66,7 @@ def confusion(found: Search) -> Confusion:
 
 
 def _signature(found: Search, sampled: Sampled) -> np.ndarray:
-    fit = found.fits.get((sampled.id,))
+    fit = found.fits.get(Explanation.of(sampled.id))
     if fit is not None and fit.evidence > found.none.evidence + WANTED:
         return np.asarray((fit.prediction - found.problem.base(fit.z)) / found.problem.sd)
     middle = int(np.argmin(np.einsum("ij,ij->i", sampled.z, sampled.z)))

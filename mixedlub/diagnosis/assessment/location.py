@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.diagnosis.assessment.posterior import Key
 from mixedlub.diagnosis.discrepancy.local import TURNED
+from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.search.search import CLOCKS, Search
 from mixedlub.recording.conditions import PASSING
@@ -64,11 +64,11 @@ def region(table: Table, columns: list[str], size: np.ndarray) -> Region:
     return Region(tuple(chosen.values()), inside)
 
 
-def passed_by(found: Search, verdict: Key) -> list[str]:
+def passed_by(found: Search, verdict: Explanation) -> list[str]:
     """What tells the time, where the answer goes with that: a place may be a stretch of the programme."""
-    if isinstance(verdict, str):
+    if verdict.discrepancy:
         return [name for name in PASSING if name in found.unknown.best.axes]
-    timed = any(CLOCKS.intersection(e.reads) for e in effects_of(verdict))
+    timed = any(CLOCKS.intersection(e.reads) for e in effects_of(verdict.effects))
     return [name for name in PASSING if timed and name != TURNED]
 
 

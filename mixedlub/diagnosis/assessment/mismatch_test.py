@@ -54,8 +54,7 @@ class Mismatch:
 
 def judged_weight(found: Search) -> np.ndarray:
     """Which readings are outliers, as the best explanation judges: the base model may write off what it lacks."""
-    best = max(found.log_weights.items(), key=lambda item: item[1])[0]
-    return found.unknown.fit.weight if isinstance(best, str) else found.fits[best].weight
+    return found.fit_of(max(found.log_weights, key=found.log_weights.__getitem__)).weight
 
 
 @dataclass(frozen=True, eq=False)

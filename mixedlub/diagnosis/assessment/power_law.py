@@ -13,6 +13,7 @@ from mixedlub.chain.model import Model
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.diagnosis.discrepancy.modulated import log_slope
 from mixedlub.diagnosis.discrepancy.smooth import FACTORS, SIZES
+from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.inference.map_fit import covariance, linear_fit, whitening
 from mixedlub.diagnosis.labels import number, words_of
 from mixedlub.diagnosis.search.search import Search
@@ -114,7 +115,7 @@ def absorbing_stages(found: Search) -> tuple[Absorbed, ...]:
     base = np.hstack([none.slopes, problem.shared])
     plain = linear_fit(none.anchor, base, found.unknown.fit.weight).evidence
     smooth = found.space.columns(found.values, 0.7)
-    calibrated = problem.run((), none.z)
+    calibrated = problem.run(NOTHING, none.z)
     weighed = []
     for stage, names in SLOTS:
         for name in names:
@@ -138,7 +139,7 @@ def features(found: Search) -> dict[str, np.ndarray]:
     for column in case.kind.columns:
         if column.form != "name" and column.name in rows and not column.name.endswith("_C"):
             every[column.name] = np.abs(np.asarray(rows[column.name], dtype=float))
-    inputs = found.problem.run((), found.none.z).record.inputs
+    inputs = found.problem.run(NOTHING, found.none.z).record.inputs
     made = set(inputs) | {name for name, _ in forward.chain}
     parts = [name for name in (*CHAIN[1:], "film_thickness", "composite_roughness") if name in made]
     state = Model(forward.chain, tuple(inputs), tuple(parts))(inputs) if parts else {}

@@ -9,6 +9,7 @@ import numpy as np
 
 from mixedlub.case.forward import Forward
 from mixedlub.diagnosis.discrepancy.modulated import carrier
+from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.inference.change_points import Places, elsewhere, places, sudden_places, without
 from mixedlub.diagnosis.inference.map_fit import Fit, covariance, linear_fit, settled
 from mixedlub.diagnosis.problem import Problem
@@ -126,7 +127,7 @@ class Rows:
         base = self.problem.base(z)
         columns = [slopes, np.zeros((len(self.table), self.found.problem.shared.shape[1]))]
         if refined.bend:
-            net = (mean - self.problem.predict((), self.found.none.z)) / self.problem.sd
+            net = (mean - self.problem.predict(NOTHING, self.found.none.z)) / self.problem.sd
             own = refined.bend * elastic_columns(net, refined.typical, self.found.space, self.values)
             columns.append(own)
             mean = mean + self.problem.sd * (own @ refined.coefficients[-own.shape[1] :])
@@ -138,10 +139,10 @@ class Rows:
         """Prediction of the base model plus the unnamed mismatch; far from the recordings it fades out."""
         found = self.found
         unknown = found.unknown
-        run = self.problem.run((), unknown.z)
-        calibrated, slopes = run.prediction, self.problem.jacobian((), unknown.z, run)
+        run = self.problem.run(NOTHING, unknown.z)
+        calibrated, slopes = run.prediction, self.problem.jacobian(NOTHING, unknown.z, run)
         name = unknown.best.carrier
-        rides = {name: carrier(self.problem, self.problem.run((), found.none.z), unknown.typical, name)}
+        rides = {name: carrier(self.problem, self.problem.run(NOTHING, found.none.z), unknown.typical, name)}
         own = unknown.best.columns(found.space, self.values, rides)
         shared = np.zeros((len(self.table), found.problem.shared.shape[1]))
         every = np.hstack([slopes, shared, own])

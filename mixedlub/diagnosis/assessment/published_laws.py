@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mixedlub.diagnosis.assessment.posterior import Key
+from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.inference.nested_laws import published_odds
 from mixedlub.diagnosis.search.search import Search
 
@@ -35,8 +35,8 @@ class Contained:
         return f"The law of {self.law}, which it contains, is rejected {odds}."
 
 
-def contained(found: Search, verdict: Key) -> tuple[Contained, ...]:
+def contained(found: Search, verdict: Explanation) -> tuple[Contained, ...]:
     """Weigh the published laws that a verdict's effects contain, each with the rest of the verdict fitted again."""
-    if isinstance(verdict, str):
+    if not verdict.effects:
         return ()
     return tuple(Contained(*law) for law in published_odds(found.problem, found.fits[verdict]))

@@ -6,10 +6,10 @@ import numpy as np
 
 from mixedlub.diagnosis.assessment.cross_validation import DEMERIT, HeldOut, LevelsOut
 from mixedlub.diagnosis.assessment.mismatch_test import Mismatch
-from mixedlub.diagnosis.assessment.posterior import MARGIN, Key, Posterior, names_effects, posterior
+from mixedlub.diagnosis.assessment.posterior import MARGIN, Posterior, posterior
+from mixedlub.diagnosis.explanation import DISCREPANCY, Explanation
 from mixedlub.diagnosis.inference.change_points import sudden_places
 from mixedlub.diagnosis.inference.map_fit import outlier_chance
-from mixedlub.diagnosis.problem import Explanation
 from mixedlub.diagnosis.search.search import Search
 
 CANDIDATES = 6
@@ -24,9 +24,9 @@ def judge(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
     best of those tried leaves more there than noise, the odds between names are less sure.
     """
     levels = LevelsOut.of(found)
-    names = sorted(filter(None, found.scores), key=lambda key: -found.log_weights[key])
-    tried: dict[Key, tuple[HeldOut, float]] = {}
-    unnamed: dict[Key, float] = {}
+    names = sorted((key for key in found.scores if key.effects), key=lambda key: -found.log_weights[key])
+    tried: dict[Explanation, tuple[HeldOut, float]] = {}
+    unnamed: dict[Explanation, float] = {}
     while True:
         demerits = {key: demerit for key, (_, demerit) in tried.items()}
         if len(tried) >= CANDIDATES and all(demerits.values()):
@@ -35,15 +35,15 @@ def judge(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
         judged = posterior(found, test, demerits | unnamed)
         first = judged.verdict
         # What stands at one place is not for other levels to foretell.
-        if first in tried and not isinstance(first, str) and not sudden_places(found.problem, first):
+        if first in tried and not sudden_places(found.problem, first):
             inflation = min(kept.inflation for kept, _ in tried.values())
             judged = posterior(found, test, demerits | unnamed, inflation)
-        if names and "unknown" in judged.tied and not unnamed:
+        if names and DISCREPANCY in judged.tied and not unnamed:
             if names[0] not in tried:
                 tried[names[0]] = _held_against(levels, found, names[0])
-            unnamed = {"unknown": _behind(levels, found, names[0], tried[names[0]][0])}
+            unnamed = {DISCREPANCY: _behind(levels, found, names[0], tried[names[0]][0])}
             continue
-        fresh = [key for key in judged.tied if key not in tried and names_effects(key)]
+        fresh = [key for key in judged.tied if key not in tried and key.effects]
         if not fresh or len(tried) >= CANDIDATES:
             key = judged.verdict
             return judged, (tried.get(key) or _held_against(levels, found, key))[0]
@@ -56,20 +56,20 @@ def _behind(levels: LevelsOut, found: Search, name: Explanation, named: HeldOut)
     A name that clearly outdoes it on inner levels ties with it, and stays behind it.
     """
     outliers = outlier_chance(found.unknown.fit.residual) > 0.5
-    behind = levels.held("unknown", outliers).behind(named)
+    behind = levels.held(DISCREPANCY, outliers).behind(named)
     # Readings that only the name takes for wild are among those it has to foretell.
-    if not levels.held("unknown", outliers, inner=True).outdone(levels.held(name, outliers, inner=True)):
+    if not levels.held(DISCREPANCY, outliers, inner=True).outdone(levels.held(name, outliers, inner=True)):
         return behind
-    lead = found.log_weights["unknown"] - found.log_weights[name] - np.log(MARGIN)
+    lead = found.log_weights[DISCREPANCY] - found.log_weights[name] - np.log(MARGIN)
     return max(behind, float(np.clip(lead, 0.0, DEMERIT)))
 
 
-def _held_against(levels: LevelsOut, found: Search, key: Key) -> tuple[HeldOut, float]:
+def _held_against(levels: LevelsOut, found: Search, key: Explanation) -> tuple[HeldOut, float]:
     """How an explanation predicts levels left out, and what a name loses by it."""
-    residual = found.unknown.fit.residual if isinstance(key, str) else found.fits[key].residual
+    residual = found.fit_of(key).residual
     outliers = outlier_chance(residual) > 0.5
     kept = levels.held(key, outliers)
-    if not names_effects(key):
+    if not key.effects:
         return kept, 0.0
     good = residual[~outliers]
     return kept, kept.demerit(float(np.sqrt(np.mean(good**2))) if good.size else 1.0)

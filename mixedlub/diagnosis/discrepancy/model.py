@@ -11,9 +11,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mixedlub.diagnosis.discrepancy.boxes import clearest_box
-from mixedlub.diagnosis.discrepancy.modulated import NOTHING, READING, Carriers, Typical, carriers
+from mixedlub.diagnosis.discrepancy.modulated import ADDITIVE, READING, Carriers, Typical, carriers
 from mixedlub.diagnosis.discrepancy.screening import clearest, first_look
 from mixedlub.diagnosis.discrepancy.smooth import Shape, families, rich
+from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.inference.map_fit import Fit, Linear, covariance, linear_fit, settled, whitening
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.recording.conditions import Coordinates
@@ -50,7 +51,7 @@ def unknown_fit(
     """
     target = none.anchor
     fixed = np.hstack([none.slopes, problem.shared])
-    base = problem.run((), none.z)
+    base = problem.run(NOTHING, none.z)
     typical = Typical.of(problem, base)
     rides = carriers(problem, base, typical)
 
@@ -75,7 +76,7 @@ def unknown_fit(
     count = none.z.size
     errors = fit.coefficients[count : fixed.shape[1]]
     common = problem.shared @ errors
-    z, beside = settled(problem, (), none.z, fit.coefficients[:count], common, lambda prediction: own, fit.weight)
+    z, beside = settled(problem, NOTHING, none.z, fit.coefficients[:count], common, lambda prediction: own, fit.weight)
     coefficients = np.concatenate([z, errors, beside.coefficients])
     return Unknown(
         evidence=_mean_over_shapes({shape: e for each in weighed for shape, e in each.evidence.items()}),
@@ -127,7 +128,7 @@ def _boxes(
     left: np.ndarray, space: Coordinates, values: list[np.ndarray], rides: Carriers
 ) -> Iterator[tuple[list[Shape], float]]:
     """The clearest box by each carrier of the reading, as a family of its own, and the log of how many are like it."""
-    for carrier in (READING, NOTHING):
+    for carrier in (READING, ADDITIVE):
         found = clearest_box(space, values, left, rides[carrier]) if carrier in rides else None
         if found is not None:
             box, cost = found
@@ -141,7 +142,7 @@ def _mean_over_shapes(tried: dict[Shape, float]) -> float:
     """
     groups: dict[bool, dict[tuple[int, str], list[float]]] = {}
     for shape, value in tried.items():
-        halves = groups.setdefault(shape.carrier in (READING, NOTHING), {})
+        halves = groups.setdefault(shape.carrier in (READING, ADDITIVE), {})
         form = "local" if shape.at is not None else shape.form
         halves.setdefault((len(shape.axes), form), []).append(value)
     return _log_mean([_log_mean([_log_mean(alike) for alike in half.values()]) for half in groups.values()])

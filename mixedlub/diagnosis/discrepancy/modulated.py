@@ -15,7 +15,7 @@ from mixedlub.diagnosis.problem import STEP, Problem
 from mixedlub.recording.conditions import clock_of
 from mixedlub.schema.table import Table
 
-READING, NOTHING = "reading", "nothing"
+READING, ADDITIVE = "reading", "addition"
 LATE = "late_temperature"
 """What readings would be at the temperature of a step before, less what they are: nothing that rides on it varies."""
 WARMTH = ("oil_temperature_C", "temperature_C")
@@ -44,13 +44,13 @@ def carriers(problem: Problem, base: Run, typical: Typical) -> dict[str, np.ndar
 
     ``base`` is a run of the base model. Quantities on which no reading hangs are left out.
     """
-    every = {name: carrier(problem, base, typical, name) for name in (READING, NOTHING, LATE, *QUANTITIES)}
+    every = {name: carrier(problem, base, typical, name) for name in (READING, ADDITIVE, LATE, *QUANTITIES)}
     return {name: each for name, each in every.items() if np.max(np.abs(each)) > LEAST}
 
 
 def carrier(problem: Problem, base: Run, typical: Typical, name: str) -> np.ndarray:
     """One of the carriers; zero where the reading does not hang on it or has no finite answer."""
-    if name == NOTHING:
+    if name == ADDITIVE:
         return typical.sd / problem.sd
     if name == LATE:
         return np.nan_to_num(late(problem, base) / problem.sd)

@@ -10,7 +10,7 @@ import numpy as np
 
 from mixedlub.diagnosis.discrepancy.boxes import Box, inside
 from mixedlub.diagnosis.discrepancy.local import Place, finer, places
-from mixedlub.diagnosis.discrepancy.modulated import LATE, NOTHING, READING, Carriers
+from mixedlub.diagnosis.discrepancy.modulated import ADDITIVE, LATE, READING, Carriers
 from mixedlub.diagnosis.discrepancy.waves import CLOCK, FINER, frequencies
 from mixedlub.recording.conditions import PASSING, Coordinates
 
@@ -22,7 +22,7 @@ SIZES = (0.7, 2.0, 6.0, 20.0, 60.0)
 """How large a mismatch of the reading may be, in sigmas."""
 FACTORS = (0.03, 0.1, 0.3, 1.0)
 """How large one of a quantity of the chain may be, in its logarithm."""
-LOCAL = (READING, NOTHING, "running_friction")
+LOCAL = (READING, ADDITIVE, "running_friction")
 """What peaks and steps ride on: in a drive also its friction, without the payload."""
 EVENT, MISCOUNT = "friction_event", "fringe_order"
 """Effects that are the names of a step in time, and of an added step in what moves a film."""
@@ -76,7 +76,7 @@ class Shape:
     @property
     def sizes(self) -> tuple[float, ...]:
         """The sizes it is tried with."""
-        return SIZES if self.carrier in (READING, NOTHING) else FACTORS
+        return SIZES if self.carrier in (READING, ADDITIVE) else FACTORS
 
     def near(self, space: Coordinates, values: list[np.ndarray]) -> list[Shape]:
         """Shapes between those of its family: waves of any period, peaks and steps at any level."""
@@ -115,7 +115,7 @@ def families(
 
 
 def _is_miscount(place: Place, carrier: str) -> bool:
-    return place.width == 0.0 and carrier == NOTHING and place.name not in PASSING
+    return place.width == 0.0 and carrier == ADDITIVE and place.name not in PASSING
 
 
 def _smooth(space: Coordinates, carriers: Carriers) -> list[Shape]:

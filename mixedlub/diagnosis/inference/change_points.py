@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.inference.map_fit import NINETY, Fit, covariance, log_likelihood, map_fit
-from mixedlub.diagnosis.problem import REACH, Explanation, Problem
+from mixedlub.diagnosis.problem import REACH, Problem
 
 FAR, COUNT = 3.0, 121
 """Coordinates between which a place is tried, and how often."""

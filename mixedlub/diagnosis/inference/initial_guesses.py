@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.inference.map_fit import Fit, linear_fit, map_fit, map_fits
 from mixedlub.diagnosis.problem import STEP, Problem
 
@@ -48,7 +49,8 @@ class Sampled:
 
 def sample(problem: Problem, name: str, none: Fit) -> Sampled:
     """Spread draws over the effect's prior, denser where its strength is middling, and the best of a scan."""
-    effect = problem.effects((name,))[0]
+    alone = Explanation.of(name)
+    effect = problem.effects(alone)[0]
     size = len(effect.parameters)
     z = spread(size, SAMPLES[min(size, len(SAMPLES)) - 1])
     blind = len(z)
@@ -58,7 +60,7 @@ def sample(problem: Problem, name: str, none: Fit) -> Sampled:
     change = np.empty((len(z), problem.y.size))
     run = None
     for i, own in enumerate(z):
-        run = problem.run((name,), np.concatenate([none.z, own]), run)
+        run = problem.run(alone, np.concatenate([none.z, own]), run)
         change[i] = (run.prediction - none.prediction) / problem.sd
     usable = np.asarray(np.isfinite(change).all(axis=1))
     return Sampled(name, z[usable], change[usable], int(usable[:blind].sum()))
@@ -68,19 +70,20 @@ def scan(problem: Problem, name: str, none: Fit, place: int, count: int) -> np.n
     """Own coordinates at the best few of evenly spread values of one parameter, the others fitted linearly at each."""
     from scipy.special import ndtri
 
-    size = len(problem.effects((name,))[0].parameters)
+    alone = Explanation.of(name)
+    size = len(problem.effects(alone)[0].parameters)
     others = [k for k in range(size) if k != place]
     fixed = np.hstack([none.slopes, problem.shared])
     tried = []
     for z in ndtri((np.arange(count) + 0.5) / count):
         own = np.zeros(size)
         own[place] = z
-        here = problem.run((name,), np.concatenate([none.z, own]))
+        here = problem.run(alone, np.concatenate([none.z, own]))
         slopes = np.empty((problem.y.size, len(others)))
         for i, k in enumerate(others):
             moved = own.copy()
             moved[k] += STEP
-            there = problem.run((name,), np.concatenate([none.z, moved]), here)
+            there = problem.run(alone, np.concatenate([none.z, moved]), here)
             slopes[:, i] = (there.prediction - here.prediction) / (STEP * problem.sd)
         if not np.isfinite(slopes).all():
             continue
@@ -131,8 +134,9 @@ def fit_single(problem: Problem, none: Fit, sampled: Sampled) -> Fit:
     tries = [starts[i] for i in chosen]
     if none.z @ none.z > STRAINED:
         tries.append(np.concatenate([np.zeros(none.z.size), sampled.z[order[0]]]))
-    found = map_fits(problem, (sampled.id,), tries)
+    alone = Explanation.of(sampled.id)
+    found = map_fits(problem, alone, tries)
     if none.weight.min() < WILD:
         # Wild readings may pull a fit away from where it starts well.
-        found.append(map_fit(problem, (sampled.id,), tries[0], warm=True))
+        found.append(map_fit(problem, alone, tries[0], warm=True))
     return max(found, key=lambda fit: fit.evidence if np.isfinite(fit.evidence) else -np.inf)

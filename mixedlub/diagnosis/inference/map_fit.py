@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mixedlub.case.forward import Run
-from mixedlub.diagnosis.problem import REACH, Explanation, Problem
+from mixedlub.diagnosis.explanation import Explanation
+from mixedlub.diagnosis.problem import REACH, Problem
 
 OUTLIER_SHARE = 0.01
 """Readings that are wrong before anything is known of them: one in a hundred, as rigs that are looked after have."""

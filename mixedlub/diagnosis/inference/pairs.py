@@ -7,9 +7,10 @@ from itertools import combinations
 
 import numpy as np
 
+from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.inference.initial_guesses import Sampled
 from mixedlub.diagnosis.inference.map_fit import Fit, bounded, covariance, whitening
-from mixedlub.diagnosis.problem import Explanation, Problem
+from mixedlub.diagnosis.problem import Problem
 
 LEADERS = 8
 """Effects that pairs are formed with: a pair of which neither leads alone is found by drawing both together."""
@@ -42,10 +43,11 @@ def exchanged(problem: Problem, best: Fit, sampled: tuple[Sampled, ...]) -> list
     Where one effect leads by far, pairs with it fill the list, and two that are right together may not be on it.
     """
     calibration = problem.calibration_size
-    middle = problem.size(best.explanation[:1])
+    first, second = (Explanation.of(name) for name in best.explanation.effects)
+    middle = problem.size(first)
     parts = (best.z[:middle], np.concatenate([best.z[:calibration], best.z[middle:]]))
-    kept = [best.at(problem, (name,), z) for name, z in zip(best.explanation, parts, strict=True)]
-    others = tuple(s for s in sampled if s.id not in best.explanation)
+    kept = [best.at(problem, alone, z) for alone, z in zip((first, second), parts, strict=True)]
+    others = tuple(s for s in sampled if s.id not in best.explanation.effects)
     ranked = _ranked(_beside(problem, kept, [best.weight] * len(kept), others, False))
     return ranked[:EXCHANGED]
 
@@ -68,7 +70,7 @@ def _drawn_together(
     gain = whitened @ none.anchor - 0.5 * np.einsum("ij,ij->i", changes, whitened)
     gain -= 0.5 * np.concatenate([np.einsum("ij,ij->i", s.z, s.z) for s in sampled])
     ends = np.cumsum([len(s.z) for s in sampled])
-    found = {}
+    found: dict[Explanation, tuple[float, np.ndarray]] = {}
     for one, other in combinations(range(len(sampled)), 2):
         a, b = (slice(ends[k] - len(sampled[k].z), ends[k]) for k in (one, other))
         score = gain[a][:, None] + gain[b][None, :] - whitened[a] @ changes[b].T
@@ -76,8 +78,9 @@ def _drawn_together(
         own = {sampled[one].id: sampled[one].z[i], sampled[other].id: sampled[other].z[j]}
         left = none.anchor - sampled[one].change[i] - sampled[other].change[j]
         calibrated = (inner @ (columns.T @ left))[: none.z.size]
-        pair = tuple(sorted(own))
-        found[pair] = (float(score[i, j]), np.concatenate([calibrated, *(own[name] for name in pair)]))
+        pair = Explanation.of(*own)
+        start = np.concatenate([calibrated, *(own[name] for name in pair.effects)])
+        found[pair] = (float(score[i, j]), start)
     return found
 
 
@@ -95,15 +98,15 @@ def _beside(
         left = whitened(fit.anchor[None, :])[0]
         level = fit.evidence if whole else -0.5 * float(left @ fit.anchor)
         for other in sampled:
-            if other.id in fit.explanation:
+            if other.id in fit.explanation.effects:
                 continue
             gain = other.change @ left - 0.5 * np.einsum("ij,ij->i", other.change, whitened(other.change))
             gain -= 0.5 * np.einsum("ij,ij->i", other.z, other.z)
             k = int(np.argmax(gain))
             score = level + float(gain[k])
-            own = {fit.explanation[0]: fit.z[calibration:], other.id: other.z[k]}
-            pair = tuple(sorted(own))
-            start = np.concatenate([fit.z[:calibration], *(own[name] for name in pair)])
+            own = {fit.explanation.effects[0]: fit.z[calibration:], other.id: other.z[k]}
+            pair = Explanation.of(*own)
+            start = np.concatenate([fit.z[:calibration], *(own[name] for name in pair.effects)])
             if pair not in found or score > found[pair][0]:
                 found[pair] = (score, start)
     return found

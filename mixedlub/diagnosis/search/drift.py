@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from mixedlub.diagnosis.discrepancy.waves import TURNED
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING
 from mixedlub.diagnosis.inference.map_fit import linear_fit
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.noise_inflation import ROUNDS, Raised, scaled
@@ -43,7 +44,7 @@ def under_wandering(found: Search, raised: Raised, most: float, trial: Callable[
         if wander == found.problem.wander or times * raised.times * wander.whole > most:
             break
         again = trial(*scaled(found.problem.case, found.problem.rows, times), wander=wander)
-        missing = max(again.log_weights.values()) > again.log_weights[()] + CLEAR
+        missing = max(again.log_weights.values()) > again.log_weights[NOTHING] + CLEAR
         if not missing and wander.size * times > _farthest(found):
             break
         found, raised = again, replace(raised, times=raised.times * times)
@@ -64,16 +65,16 @@ def wandering_of(whole: Search, least: float) -> tuple[Wander, float]:
     forms = [Wander.over(record, size, length) for length in LENGTHS for size in SIZES]
     weights, none, unknown = found.log_weights, found.none, found.unknown
     most, best = max(weights.values()) + CLEAR, (now, 1.0)
-    named = sorted(filter(None, found.fits), key=weights.__getitem__)[-LEADERS:]
+    named = sorted((m for m in found.fits if m.effects), key=weights.__getitem__)[-LEADERS:]
     own = unknown.best.columns(found.space, found.values, unknown.carriers)
     order = np.argsort(clock, kind="stable")
     farthest = _farthest(found)
     noise = [form for form in forms if form.size <= farthest]
-    tried = [(weights[()], none.residual, none.anchor, none.slopes, noise)]
+    tried = [(weights[NOTHING], none.residual, none.anchor, none.slopes, noise)]
     for key in named:
         fit = found.fits[key]
         tried.append((weights[key] - found.scores[key] + fit.evidence, fit.residual, fit.anchor, fit.slopes, forms))
-    tried.append((weights["unknown"], unknown.fit.residual, none.anchor, np.hstack([none.slopes, own]), forms))
+    tried.append((weights[DISCREPANCY], unknown.fit.residual, none.anchor, np.hstack([none.slopes, own]), forms))
     for weight, left, target, slopes, allowed in tried:
         if not allowed or not neighbours_alike(left[order]):
             continue

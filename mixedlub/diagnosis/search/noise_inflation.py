@@ -141,11 +141,8 @@ def _under_other_noise(found: Search, times: np.ndarray) -> tuple[float, int]:
     weights = found.log_weights
     most, best = -np.inf, 0
     for key, weight in weights.items():
-        fit, bent = (
-            (found.unknown.fit, 0.0)
-            if isinstance(key, str)
-            else (found.fits[key], found.scores[key] - found.fits[key].evidence)
-        )
+        fit = found.fit_of(key)
+        bent = found.scores.get(key, fit.evidence) - fit.evidence
         # The evidence of a fit far behind is carried over from another noise: it is no more than its likelihood.
         carried = max(fit.evidence - float(log_likelihood(fit.residual)[0].sum()), 0.0)
         gains = _gains(fit.residual, times)

@@ -9,15 +9,16 @@ from itertools import combinations
 import numpy as np
 
 from mixedlub.diagnosis.discrepancy.model import Unknown, unknown_fit
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.change_points import placed
 from mixedlub.diagnosis.inference.initial_guesses import Sampled, fit_single, sample
-from mixedlub.diagnosis.inference.map_fit import OUTLIER_SHARE, Fit, linear_fit, log_likelihood, map_fit
+from mixedlub.diagnosis.inference.map_fit import OUTLIER_SHARE, Fit, Linear, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.inference.nested_laws import published_gain
 from mixedlub.diagnosis.inference.pairs import ROUNDS, exchanged, promising_pairs
-from mixedlub.diagnosis.problem import Explanation, Problem, effects_of
+from mixedlub.diagnosis.problem import Problem, effects_of
 from mixedlub.recording.conditions import Coordinates
 
-PRIOR = {"none": 0.42, "single": 0.38, "pair": 0.08, "unknown": 0.12}
+PRIOR = {"nothing": 0.42, "single": 0.38, "pair": 0.08, "discrepancy": 0.12}
 """Before any reading: a campaign with nothing missing is as usual as one with one effect, two are rare."""
 LEAST_NONE = 14.0
 """How many times as probable nothing is than one effect: one that readings neither ask for nor exclude is no tie."""
@@ -75,38 +76,45 @@ class Search:
         """The fit of the most probable explanation that the catalogue has, nothing missing among them."""
         return self.fits[max(self.fits, key=self.log_weights.__getitem__)]
 
+    def fit_of(self, explanation: Explanation) -> Fit | Linear:
+        """The fit of any explanation, the discrepancy among them."""
+        return self.unknown.fit if explanation.discrepancy else self.fits[explanation]
+
     @property
-    def log_weights(self) -> dict[str | Explanation, float]:
-        """Log prior plus log evidence of every explanation; "unknown" is its own key."""
+    def log_weights(self) -> dict[Explanation, float]:
+        """Log prior plus log evidence of every explanation."""
         odds = {e.id: self.problem.forward.odds(e) for s in self.sampled for e in effects_of((s.id,))}
         each = list(odds.values())
         pairs = sum(a * b for a, b in combinations(each, 2))
         total = (1.0, sum(each), pairs)
         prior = priors(len(each))
-        found: dict[str | Explanation, float] = {
-            m: s + float(np.log(prior[len(m)] * np.prod([odds[name] for name in m]) / total[len(m)]))
-            for m, s in self.scores.items()
-        }
-        found["unknown"] = self.unknown.evidence + np.log(PRIOR["unknown"])
+        found: dict[Explanation, float] = {}
+        for explanation, score in self.scores.items():
+            size = len(explanation.effects)
+            product = np.prod([odds[name] for name in explanation.effects])
+            found[explanation] = score + float(np.log(prior[size] * product / total[size]))
+        found[DISCREPANCY] = self.unknown.evidence + np.log(PRIOR["discrepancy"])
         return found
 
     @property
     def log_bayes_factor(self) -> float:
         """Log Bayes factor of all explanations together, in their literature forms, against nothing missing."""
         logs = [
-            w if isinstance(m, str) else w - self.scores[m] + self.fits[m].evidence
+            w if m.discrepancy else w - self.scores[m] + self.fits[m].evidence
             for m, w in self.log_weights.items()
-            if m != ()
+            if m != NOTHING
         ]
         nothing, single, pair = priors(len(self.sampled))
-        odds = float(np.logaddexp.reduce(logs)) - self.log_weights[()]
-        return odds + float(np.log(nothing / (single + pair + PRIOR["unknown"])))
+        odds = float(np.logaddexp.reduce(logs)) - self.log_weights[NOTHING]
+        return odds + float(np.log(nothing / (single + pair + PRIOR["discrepancy"])))
 
     @property
     def log_probability(self) -> float:
         """Log probability density of the readings under all explanations together, up to a constant."""
         total = float(np.logaddexp.reduce(list(self.log_weights.values())))
-        return total - float(np.log(sum(priors(len(self.sampled))) + PRIOR["unknown"]) + np.log(self.problem.sd).sum())
+        return total - float(
+            np.log(sum(priors(len(self.sampled))) + PRIOR["discrepancy"]) + np.log(self.problem.sd).sum()
+        )
 
 
 def search(
@@ -126,14 +134,16 @@ def search(
     screen = _search(problem.spread(rows), space, [v[rows] for v in values], exclude, progress)
     progress(f"weighing the leaders on all {problem.y.size} readings")
     ranked = sorted(screen.scores, key=lambda m: -screen.log_weights[m])
-    leaders = dict.fromkeys([(), *ranked[:KEPT]])
+    leaders = dict.fromkeys([NOTHING, *ranked[:KEPT]])
     best = map_fit(problem, ranked[0], screen.fits[ranked[0]].z, warm=True)
-    problem = problem.with_sd(best.prediction, problem.predict((), screen.none.z))
+    problem = problem.with_sd(best.prediction, problem.predict(NOTHING, screen.none.z))
     fits = {m: placed(problem, map_fit(problem, m, screen.fits[m].z, warm=True)) for m in leaders}
     scores = _scores(problem, fits, space, values)
     names = {s.id for s in screen.sampled}
-    unknown = unknown_fit(problem, fits[()], space, values, names)
-    return Search(problem, space, values, fits[()], fits, scores, unknown, screen.sampled, screen.untestable, screen)
+    unknown = unknown_fit(problem, fits[NOTHING], space, values, names)
+    return Search(
+        problem, space, values, fits[NOTHING], fits, scores, unknown, screen.sampled, screen.untestable, screen
+    )
 
 
 def reweighed(found: Search, problem: Problem) -> Search:
@@ -146,9 +156,9 @@ def reweighed(found: Search, problem: Problem) -> Search:
     scale = found.problem.sd / problem.sd
     moved = {m: f.in_sigmas(scale, f.evidence + _counted_anew(f.residual, scale)) for m, f in found.fits.items()}
     then, now = (max(f.evidence for f in fits.values()) - FAR for fits in (found.fits, moved))
-    near = {m for m, f in moved.items() if not m or found.fits[m].evidence > then or f.evidence > now}
+    near = {m for m, f in moved.items() if m == NOTHING or found.fits[m].evidence > then or f.evidence > now}
     fits = {m: placed(problem, map_fit(problem, m, f.z, warm=True)) if m in near else f for m, f in moved.items()}
-    none, scores = fits[()], _scores(problem, fits, found.space, found.values)
+    none, scores = fits[NOTHING], _scores(problem, fits, found.space, found.values)
     unknown = unknown_fit(problem, none, found.space, found.values, {s.id for s in found.sampled})
     sampled = tuple(replace(s, change=s.change * scale) for s in found.sampled)
     return replace(found, problem=problem, none=none, fits=fits, scores=scores, unknown=unknown, sampled=sampled)
@@ -177,8 +187,8 @@ def priors(effects: int) -> tuple[float, float, float]:
     ((0.42, 0.38, 0.08), [0.89, 0.38, 0.02])
     """
     if effects == 0:
-        return PRIOR["none"], 0.0, 0.0
-    nothing = min(max(PRIOR["none"], LEAST_NONE * PRIOR["single"] / effects), 1.0)
+        return PRIOR["nothing"], 0.0, 0.0
+    nothing = min(max(PRIOR["nothing"], LEAST_NONE * PRIOR["single"] / effects), 1.0)
     return nothing, PRIOR["single"], PRIOR["pair"] * min(1.0, effects / WHOLE)
 
 
@@ -186,25 +196,25 @@ def _search(
     problem: Problem, space: Coordinates, values: list[np.ndarray], exclude: Sequence[str], progress: Progress
 ) -> Search:
     progress("calibrating the base model")
-    none = map_fit(problem, (), np.zeros(problem.size(())))
+    none = map_fit(problem, NOTHING, np.zeros(problem.size(NOTHING)))
     # Readings do not tell their own noise: those that happen to be low would count for more.
     problem = problem.with_sd(none.prediction, none.prediction)
-    none = map_fit(problem, (), none.z)
+    none = map_fit(problem, NOTHING, none.z)
     effects = problem.forward.effects(exclude)
     progress(f"trying {len(effects)} effects")
     drawn = [s for s in (sample(problem, e.id, none) for e in effects) if len(s.z)]
     sampled = tuple(s for s in drawn if s.testable)
     untestable = tuple(s for s in drawn if not s.testable)
-    singles: dict[Explanation, Fit] = {(s.id,): fit_single(problem, none, s) for s in sampled}
+    singles: dict[Explanation, Fit] = {Explanation.of(s.id): fit_single(problem, none, s) for s in sampled}
     if singles:
         best = max(singles.values(), key=lambda f: f.evidence)
         if best.evidence > none.evidence + 3.0:
             old = problem.sd
             problem = problem.with_sd(best.prediction, none.prediction)
-            none = map_fit(problem, (), none.z)
+            none = map_fit(problem, NOTHING, none.z)
             singles = _again(problem, singles, best, old / problem.sd)
             sampled = tuple(replace(s, change=s.change * (old / problem.sd)) for s in sampled)
-    fits: dict[Explanation, Fit] = {(): none, **singles}
+    fits: dict[Explanation, Fit] = {NOTHING: none, **singles}
     progress("trying pairs of effects")
     for pair, start in promising_pairs(problem, none, singles, sampled):
         if one_in_time(pair, problem, none):
@@ -235,13 +245,13 @@ def _scores(
 def _exchange(problem: Problem, none: Fit, fits: dict[Explanation, Fit], sampled: tuple[Sampled, ...]) -> None:
     """Put other effects in the place of either of the best two, until no pair is better; adds to the fits."""
     for _ in range(ROUNDS):
-        best = max((f for m, f in fits.items() if len(m) == 2), key=lambda f: f.evidence, default=None)
+        best = max((f for m, f in fits.items() if len(m.effects) == 2), key=lambda f: f.evidence, default=None)
         if best is None:
             return
         for pair, start in exchanged(problem, best, sampled):
             if pair not in fits and not one_in_time(pair, problem, none):
                 fits[pair] = map_fit(problem, pair, start)
-        if best.evidence >= max(f.evidence for m, f in fits.items() if len(m) == 2):
+        if best.evidence >= max(f.evidence for m, f in fits.items() if len(m.effects) == 2):
             return
 
 
@@ -251,7 +261,7 @@ def one_in_time(pair: Explanation, problem: Problem, none: Fit) -> bool:
     What changes and what reads it are then one function of time between them, however good the fit. A condition that
     wanders by the way, and that neither effect nor, beyond noise, the base model asks for, moves nothing.
     """
-    effects, inputs = effects_of(pair), problem.forward.inputs
+    effects, inputs = effects_of(pair.effects), problem.forward.inputs
     asked = {name for e in effects for name in e.reads if name in inputs and np.ptp(inputs[name]) > 0.0}
     still = np.ptp(none.prediction) <= np.median(problem.sd)
     return any(e.stage == "measurement" for e in effects) and bool(still) and asked <= CLOCKS
@@ -262,7 +272,7 @@ def shows(problem: Problem, fit: Fit, fits: Mapping[Explanation, Fit]) -> bool:
 
     The seconds after a start could be any effect that passes quickly.
     """
-    parts = (other for m, other in fits.items() if set(m) < set(fit.explanation))
+    parts = (other for m, other in fits.items() if set(m.effects) < set(fit.explanation.effects))
     nets = (np.abs(fit.prediction - other.prediction) / problem.sd for other in parts)
     return all(np.count_nonzero(net >= MOVED * net.max()) >= OUTLIER_SHARE * net.size for net in nets)
 
@@ -279,7 +289,7 @@ def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: 
 
 def bendable(explanation: Explanation) -> int:
     """How many of its effects have a form that could be a little wrong: exact ones have not; none where one is free."""
-    effects = effects_of(explanation)
+    effects = effects_of(explanation.effects)
     return 0 if any(e.free_form for e in effects) else sum(not e.exact for e in effects)
 
 
@@ -288,8 +298,8 @@ def unbending(fits: Mapping[Explanation, Fit], explanation: Explanation) -> tupl
 
     The second keeps an effect that does nothing beside an exact one from bending what that one does.
     """
-    exact = tuple(e.id for e in effects_of(explanation) if e.exact)
-    return (fits[()], *([fits[exact]] if exact and exact in fits else []))
+    exact = Explanation(tuple(e.id for e in effects_of(explanation.effects) if e.exact))
+    return (fits[NOTHING], *([fits[exact]] if exact != NOTHING and exact in fits else []))
 
 
 def elastic_evidence(problem: Problem, stiff: Fit, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:

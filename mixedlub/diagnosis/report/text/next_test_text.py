@@ -26,7 +26,7 @@ SETUPS = (
 
 def next_test(d: Diagnosis) -> tuple[str, ...]:
     """What to run next, or that no test is worth it."""
-    if d.posterior.verdict == "unknown":
+    if d.posterior.verdict.discrepancy:
         period = wave_period(d)
         if period:
             return (

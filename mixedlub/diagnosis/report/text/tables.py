@@ -39,7 +39,7 @@ Cells = tuple[tuple[str, ...], ...]
 
 def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
     """Fitted parameters of the answer's effects, with a sentence on those that the readings hardly tell."""
-    if isinstance(d.posterior.verdict, str) or d.posterior.verdict == ():
+    if not d.posterior.verdict.effects:
         return (), ()
     refined = verdict_fit(d)
     moved = np.max(np.abs(refined.fit.slopes), axis=0) > UNMOVED
@@ -161,7 +161,6 @@ def _switches_off(d: Diagnosis, e: Effect, p: Parameter) -> bool:
     if p.null is None:
         return False
     problem, key, z = d.found.problem, d.posterior.verdict, verdict_fit(d).z
-    assert not isinstance(key, str)
     values = problem.parameters(key, z)
     others = {name: fitted for name, fitted in values.items() if name != e.id}
     at_null = {**others, e.id: {**values[e.id], p.name: p.null}}
@@ -246,7 +245,7 @@ def one_way(forward: Forward) -> list[str]:
 
 def _calibrated(d: Diagnosis) -> tuple[np.ndarray, np.ndarray]:
     """Coordinates of the calibration under the verdict, and their sd."""
-    if d.posterior.verdict == "unknown":
+    if d.posterior.verdict.discrepancy:
         return d.found.unknown.z, np.sqrt(np.diag(d.found.unknown.covariance))
     refined = verdict_fit(d)
     return refined.z, refined.spread

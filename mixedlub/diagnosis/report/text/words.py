@@ -11,7 +11,8 @@ from mixedlub.chain.plain_text import plain_equation
 from mixedlub.diagnosis.assessment.identifiability import confusion
 from mixedlub.diagnosis.assessment.power_law import Absorbed, Unnamed
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.discrepancy.modulated import NOTHING, READING
+from mixedlub.diagnosis.discrepancy.modulated import ADDITIVE, READING
+from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.labels import (
     STAGE_WORDS,
     effect_words,
@@ -133,16 +134,16 @@ def _noise(d: Diagnosis) -> str:
     """Whose noise a chi-square is of, where the recording states none."""
     if d.noise_stated:
         return ""
-    beside = AS_IF_NOTHING if d.posterior.verdict == () else "beside what is missing"
+    beside = AS_IF_NOTHING if d.posterior.verdict == NOTHING else "beside what is missing"
     return f"; the noise was estimated {beside}"
 
 
 def _left_out(d: Diagnosis) -> Section:
     judged = d.posterior
-    if isinstance(judged.verdict, str) or judged.verdict == ():
+    if not judged.verdict.effects:
         return Section(LEFT_OUT, ())
     sentences: list[str] = []
-    for e in effects_of(judged.verdict):
+    for e in effects_of(judged.verdict.effects):
         sentences += [
             f"{with_names(effect_words(e.id))}, {probability_words(d, e.id)}, in {STAGE_WORDS[e.stage]}: {e.summary}",
             equation_sentence(e),
@@ -220,7 +221,7 @@ def _form(d: Diagnosis, along: str) -> str:
 
 
 def _carried(carrier: str) -> str:
-    outside = {READING: "a share of the reading", NOTHING: "an addition to the reading"}
+    outside = {READING: "a share of the reading", ADDITIVE: "an addition to the reading"}
     return outside.get(carrier, f"a factor on {words_of(carrier)}")
 
 
@@ -235,7 +236,7 @@ def _gain(d: Diagnosis) -> tuple[str, ...]:
     for axis in d.found.space.axes:
         split = split.replace(axis.name, words_of(axis.name))
     how = f"({split}, {kept.folds} folds; 1 is noise)"
-    if d.posterior.verdict == ():
+    if d.posterior.verdict == NOTHING:
         return (f"Calibration alone predicts left-out levels to {kept.before:.2f} sigma {how}.",)
     change = f"from {kept.before:.2f} sigma with calibration alone to {kept.after:.2f} sigma with the answer {how}."
     if kept.after > 0.95 * kept.before:
