@@ -29,6 +29,7 @@ from mixedlub.diagnosis.labels import effect_words
 from mixedlub.diagnosis.search.noise_selection import weighed
 from mixedlub.diagnosis.search.search import Progress, Search
 from mixedlub.effects import find
+from mixedlub.recording.readings import readings_of, rows_of
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.table import Table
 
@@ -105,15 +106,14 @@ def diagnose_case(
     """Read the case and work out what its simulation lacks."""
     find(list(exclude))
     case = read_case(folder)
-    assert case.recordings is not None
-    rows = case.recordings
+    rows = rows_of(case)
     asked = case.conditions if predict is None else read_conditions(case, predict)
     if predict is not None:
         refuse_used_runs(case, asked, predict)
     wanted, assumed = _completed(asked, rows)
     forward = Forward(case, rows)
-    y = np.asarray(rows[case.quantity], dtype=float)
-    warnings = [*case.notes, *assumed, *hidden(case, wanted), *forward.notes, *audit(case, rows, y, forward)]
+    checks = audit(case, rows, readings_of(case), forward)
+    warnings = [*case.notes, *assumed, *hidden(case, wanted), *forward.notes, *checks]
     warnings += likelier_notes(forward)
     left_out = tuple(e.id for e in forward.effects() if e.id in exclude)
     if left_out:
@@ -123,7 +123,7 @@ def diagnose_case(
         there = Forward(case, wanted)
         there.nominal()
         warnings += [note for note in there.notes if note not in forward.notes] + beyond_recorded(case, wanted)
-    tried = weighed(case, rows, forward, y, exclude, progress)
+    tried = weighed(case, forward, exclude, progress)
     progress("testing against nothing missing")
     found, test = told_from_nothing(tried, level)
     case, rows = found.problem.case, found.problem.rows

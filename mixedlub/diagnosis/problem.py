@@ -15,6 +15,7 @@ from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.effects import catalogue, known_in
 from mixedlub.recording.correlated_error import STILL, Wander
 from mixedlub.recording.noise import seen_noise
+from mixedlub.recording.readings import readings_of, rows_of
 from mixedlub.schema.table import Table
 
 STEP = 1e-4
@@ -51,16 +52,10 @@ class Problem:
     wander: Wander = STILL
 
     @classmethod
-    def of(
-        cls,
-        case: Case,
-        rows: Table,
-        forward: Forward,
-        y: np.ndarray,
-        together: float = 1.0,
-        wander: Wander = STILL,
-    ) -> Problem:
-        """The problem of a recording whose noise is known."""
+    def of(cls, case: Case, forward: Forward | None = None, together: float = 1.0, wander: Wander = STILL) -> Problem:
+        """The problem of a recording whose noise is known; with its ``forward`` model if that was built before."""
+        rows, y = rows_of(case), readings_of(case)
+        forward = Forward(case, rows) if forward is None else forward
         sd, setups = seen_noise(case, rows, y, forward.predict())
         one = cls(case, rows, forward, np.log(y) if case.kind.logarithmic else y, sd, setups, wander=wander)
         return one.with_together(together)

@@ -182,12 +182,13 @@ def held_at(name: str, values: np.ndarray) -> float | None:
     return roundest(*(float(np.quantile(near, share)) for share in (0.25, 0.75)))
 
 
-def _wanders(name: str, case: Case, table: Table, forward: Forward) -> bool:
+def _wanders(name: str, forward: Forward) -> bool:
     """Whether a condition only wandered about its set-point: little, and hardly moving a base model that reads it."""
+    table = forward.table
     if name not in table or not jitters(name, table[name]):
         return False
     steady = Table({**table.columns, name: np.full(len(table), np.median(table[name]))}, table.source)
-    here, there = forward.predict(), Forward(case, steady).predict()
+    here, there = forward.predict(), Forward(forward.case, steady).predict()
     return 0.0 < float(np.max(np.abs(there - here))) <= MOVES * float(np.median(np.abs(here)))
 
 
@@ -205,9 +206,9 @@ class Coordinates:
         """Which of the axes a condition is."""
         return [axis.name for axis in self.axes].index(name)
 
-    def values(self, case: Case, table: Table, forward: Forward) -> list[np.ndarray]:
-        """The conditions of a table, one array an axis."""
-        every = raw_coordinates(case, table, forward)
+    def values(self, forward: Forward) -> list[np.ndarray]:
+        """The conditions of the rows that a model predicts, one array an axis."""
+        every = raw_coordinates(forward)
         return [every[axis.name] for axis in self.axes]
 
     def columns(
@@ -227,8 +228,9 @@ class Coordinates:
         return np.hstack(found) / np.sqrt(len(found))
 
 
-def raw_coordinates(case: Case, table: Table, forward: Forward) -> dict[str, np.ndarray]:
-    """Condition columns of a table, the surfaces as a pair and as a composite roughness."""
+def raw_coordinates(forward: Forward) -> dict[str, np.ndarray]:
+    """Condition columns of a model's rows, the surfaces as a pair and as a composite roughness."""
+    case, table = forward.case, forward.table
     found: dict[str, np.ndarray] = {}
     names = [c for c in case.kind.columns if c.form == "name" and c.name in table]
     for column in case.kind.columns:
@@ -246,11 +248,11 @@ def raw_coordinates(case: Case, table: Table, forward: Forward) -> dict[str, np.
     return found
 
 
-def coordinates(case: Case, table: Table, forward: Forward) -> Coordinates:
+def coordinates(forward: Forward) -> Coordinates:
     """The axes along which a recording varies; what was held counts only where nothing else varies."""
-    every = {name: np.unique(values) for name, values in raw_coordinates(case, table, forward).items()}
+    every = {name: np.unique(values) for name, values in raw_coordinates(forward).items()}
     varied = {name: levels for name, levels in every.items() if levels.size > 1}
-    held = [k for k, v in varied.items() if is_held(k, v) or _rolls(k, v, case) or _wanders(k, case, table, forward)]
+    held = [k for k, v in varied.items() if is_held(k, v) or _rolls(k, v, forward.case) or _wanders(k, forward)]
     swept = {k: v for k, v in varied.items() if k not in held}
     axes = []
     for name, levels in (swept or varied).items():

@@ -8,6 +8,7 @@ import numpy as np
 
 from mixedlub.case.folder import Case
 from mixedlub.recording.conditions import PASSING, Coordinates, jitters
+from mixedlub.recording.readings import readings_of, rows_of
 from mixedlub.recording.set_points import near_values
 from mixedlub.schema import system_file
 from mixedlub.schema.table import Table
@@ -34,10 +35,10 @@ CROSSINGS, SMALLEST = 121, 1e-6
 """Levels at which noise that is alike for all may be as large as that in proportion, and the smallest over the top."""
 
 
-def is_stated(case: Case, rows: Table) -> bool:
+def is_stated(case: Case) -> bool:
     """Whether the recording says how much its readings scatter."""
     stated = case.system.recording.noise
-    return f"{case.quantity}_sd" in rows or (stated is not None and stated.of_single)
+    return f"{case.quantity}_sd" in rows_of(case) or (stated is not None and stated.of_single)
 
 
 def setups_differ(case: Case) -> bool:
@@ -171,15 +172,13 @@ def _neighbours(case: Case, rows: Table) -> np.ndarray:
     return np.exp(-0.5 * distance)
 
 
-def estimated(
-    case: Case, rows: Table, y: np.ndarray, base: np.ndarray, space: Coordinates, values: list[np.ndarray]
-) -> Case:
+def estimated(case: Case, base: np.ndarray, space: Coordinates, values: list[np.ndarray]) -> Case:
     """The case with the noise its readings show: from repeats, else from what a smooth fit leaves over.
 
     Repeats scatter alike, in proportion to their size, or by both, whichever makes them most probable. Without them
     positive readings that span WIDE or more are taken to scatter in proportion.
     """
-    group = repeated(case, rows)
+    y, group = readings_of(case), repeated(case)
     if group is not None:
         size = np.maximum(np.abs(medians(y, group))[group], 1e-9 * float(np.max(np.abs(y))) + 1e-300)
         if case.kind.logarithmic:
@@ -210,14 +209,18 @@ def _by_size(y: np.ndarray, size: np.ndarray, group: np.ndarray) -> tuple[float,
     return found
 
 
-def noise_from_repeats(case: Case, rows: Table, y: np.ndarray) -> float:
+def noise_from_repeats(case: Case, y: np.ndarray) -> float:
     """Standard deviation from readings at equal conditions; zero when there are fewer than five repeats."""
-    group = repeated(case, rows)
+    group = repeated(case)
     return 0.0 if group is None else pooled_sd(y, group)
 
 
-def repeated(case: Case, rows: Table) -> np.ndarray | None:
+def repeated(case: Case) -> np.ndarray | None:
     """Group of each reading by equal conditions, numbered from 0; None where fewer than five are repeats."""
+    return _groups(case, rows_of(case))
+
+
+def _groups(case: Case, rows: Table) -> np.ndarray | None:
     names = [*(c.name for c in (*case.kind.columns, *case.kind.channels)), "rig", "setup"]
     keys = [np.unique(rows[name], return_inverse=True)[1] for name in names if name in rows]
     if not keys:
@@ -227,11 +230,12 @@ def repeated(case: Case, rows: Table) -> np.ndarray | None:
     return group if group.size - int(group.max()) - 1 >= 5 else None
 
 
-def nearly_repeated(case: Case, rows: Table) -> np.ndarray | None:
+def nearly_repeated(case: Case) -> np.ndarray | None:
     """The same by conditions that are equal but for what they jitter about their set-points.
 
     None where all of them jitter: readings at one set-point are no repeats of what was to be told.
     """
+    rows = rows_of(case)
     columns, told = {}, False
     conditions = {c.name for c in case.kind.columns}
     for name in rows.columns:
@@ -244,7 +248,7 @@ def nearly_repeated(case: Case, rows: Table) -> np.ndarray | None:
         else:
             columns[name] = near_values(values)
             told |= name in conditions and bool(columns[name].any())
-    return repeated(case, Table(columns, rows.source)) if told else None
+    return _groups(case, Table(columns, rows.source)) if told else None
 
 
 def medians(y: np.ndarray, group: np.ndarray) -> np.ndarray:

@@ -54,7 +54,7 @@ def test_a_single_condition_that_jitters_makes_no_repeats() -> None:
     case: Case = p.case
     names = [c.name for c in case.kind.columns if c.form != "name" and c.name in p.rows]
     one = Table({"run": np.arange(1, 9), names[0]: 100.0 + 0.3 * np.arange(8.0)}, "recordings.csv")
-    assert nearly_repeated(case, one) is None
+    assert nearly_repeated(replace(case, recordings=one)) is None
 
 
 def test_a_level_run_in_one_go_is_no_matter_of_time() -> None:

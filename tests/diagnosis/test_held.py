@@ -17,7 +17,7 @@ def axes(folder: Path, **columns: np.ndarray) -> list[str]:
     assert case.recordings is not None
     kept = {k: v for k, v in case.recordings.columns.items() if k not in ("time_s", "sequence")}
     table = Table({**kept, **columns})
-    return [axis.name for axis in coordinates(case, table, Forward(case, table)).axes]
+    return [axis.name for axis in coordinates(Forward(case, table)).axes]
 
 
 def rows(folder: Path) -> int:

@@ -81,8 +81,8 @@ def test_planted_outliers_are_found_and_no_others() -> None:
 
 def found_in(p: Problem) -> searching.Search:
     """The search with a few effects left in."""
-    space = coordinates(p.case, p.rows, p.forward)
-    return searching.search(p, space, space.values(p.case, p.rows, p.forward), OTHERS)
+    space = coordinates(p.forward)
+    return searching.search(p, space, space.values(p.forward), OTHERS)
 
 
 def test_nothing_missing_is_not_detected_and_a_loss_is() -> None:
@@ -133,8 +133,8 @@ def test_bending_cannot_rescue_a_wrong_effect_without_bound() -> None:
 
 def test_a_zero_has_no_form_to_bend_and_an_idle_partner_lends_it_none() -> None:
     p = problem("disc", extra=0.3)
-    space = coordinates(p.case, p.rows, p.forward)
-    values = space.values(p.case, p.rows, p.forward)
+    space = coordinates(p.forward)
+    values = space.values(p.forward)
     zero, pair = Explanation.of("sensor_offset"), Explanation.of("contact_creep", "sensor_offset")
     fits = {m: map_fit(p, m, np.zeros(p.size(m))) for m in (NOTHING, zero, pair)}
 
@@ -148,14 +148,14 @@ def test_a_zero_has_no_form_to_bend_and_an_idle_partner_lends_it_none() -> None:
 
 def test_unstated_noise_is_what_repeats_or_smoothness_show() -> None:
     p = problem(relative=0.02)
-    space = coordinates(p.case, p.rows, p.forward)
-    values = space.values(p.case, p.rows, p.forward)
+    space = coordinates(p.forward)
+    values = space.values(p.forward)
     level = float(np.sqrt(np.mean(p.sd**2)))
     assert noise_from_smoothness(p.y, p.forward.predict(), space, values) == pytest.approx(level, rel=0.5)
     doubled = p.rows.take(np.repeat(np.arange(len(p.rows)), 2))
     rng = np.random.default_rng(2)
     y = np.repeat(p.y, 2) + 0.5 * rng.standard_normal(2 * p.y.size)
-    assert noise_from_repeats(p.case, doubled, y) == pytest.approx(0.5, rel=0.25)
+    assert noise_from_repeats(replace(p.case, recordings=doubled), y) == pytest.approx(0.5, rel=0.25)
 
 
 def test_an_effect_without_any_finite_answer_is_not_considered(monkeypatch: pytest.MonkeyPatch) -> None:

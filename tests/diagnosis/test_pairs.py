@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mixedlub.case.forward import Forward
 from mixedlub.diagnosis.diagnose import diagnose_case
 from mixedlub.diagnosis.explanation import NOTHING, Explanation
 from mixedlub.diagnosis.inference.change_points import placed
@@ -131,8 +130,7 @@ def test_a_fault_of_the_channel_is_no_second_effect_where_nothing_but_time_moves
     warmth = 118.0 + 2.0 * np.sin(time / 500.0)
     columns = {"time_s": time, "oil_temperature_C": warmth, "friction_coefficient": np.linspace(0.1, 0.11, 60)}
     case = make(system("friction_history", "friction_coefficient"), columns)
-    assert case.recordings is not None
-    p = Problem.of(case, case.recordings, Forward(case, case.recordings), columns["friction_coefficient"])
+    p = Problem.of(case)
     none = map_fit(p, NOTHING, np.zeros(p.size(NOTHING)))
     pair = Explanation.of("sensor_drift", "tribofilm_growth")
     assert one_in_time(pair, p, none)

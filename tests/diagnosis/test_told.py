@@ -67,7 +67,8 @@ def test_readings_that_contradict_each_other_are_found(offset: Diagnosis) -> Non
     twice = {name: np.tile(values, 2) for name, values in rows.columns.items()}
     y = np.concatenate([offset.recorded.base, 2.0 * offset.recorded.base])
     table = Table({**twice, offset.case.quantity: y}, "recordings.csv")
-    assert "repeats_contradictory" in codes(check_readings(offset.case, table, y, Forward(offset.case, table)))
+    case = replace(offset.case, recordings=table)
+    assert "repeats_contradictory" in codes(check_readings(case, table, y, Forward(offset.case, table)))
 
 
 def test_probability_of_the_answer_and_of_its_effects_stand_side_by_side(offset: Diagnosis) -> None:

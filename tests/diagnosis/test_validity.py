@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from mixedlub.case import reference_rigs
@@ -10,6 +12,7 @@ from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.effects import catalogue, find
 from mixedlub.schema.findings import Severity
+from mixedlub.schema.table import Table
 
 CREEP = find(["contact_creep"])
 ROWS = {"slide_roll_ratio": np.array([[0.02], [0.4], [0.9], [1.2]])}
@@ -35,7 +38,8 @@ def test_a_fit_is_judged_by_the_quantities_it_passes_through() -> None:
     """A third of the readings of the standard disc slide at 0.6."""
     forward = reference_rigs.forward("disc")
     y = forward.predict()
-    problem = Problem.of(forward.case, forward.table, forward, y)
+    rows = Table({**forward.table.columns, forward.case.quantity: y}, forward.table.source)
+    problem = Problem.of(replace(forward.case, recordings=rows), forward)
     z = np.zeros(problem.size(Explanation.of("contact_creep")))
     (said,) = beyond_range(problem, Explanation.of("contact_creep"), z)
     assert f"in {y.size // 3} of {y.size} readings it is up to 0.6" in said.text

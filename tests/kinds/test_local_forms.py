@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from mixedlub.case.forward import Forward
 from mixedlub.diagnosis.assessment.power_law import unnamed
 from mixedlub.diagnosis.diagnose import diagnose_case
 from mixedlub.diagnosis.discrepancy.modulated import late
@@ -199,14 +198,12 @@ def test_a_temperature_that_lags_has_caught_up_after_a_pause(make):
     celsius = 40.0 + 15.0 * np.sin(time / 160.0)
     columns = {"time_s": time, "temperature_C": celsius, "viscosity_mPa_s": 50.0 - 0.5 * celsius}
     case = make(system("viscosity", "viscosity_mPa_s"), columns)
-    rows = case.recordings
-    whole = Problem.of(case, rows, Forward(case, rows), rows["viscosity_mPa_s"])
+    whole = Problem.of(case)
     moved = late(whole, whole.run(NOTHING, np.zeros(whole.calibration_size)))
     slope = np.diff(celsius)
     per_kelvin = moved[1:30] / slope[:29]
     assert moved[30] == pytest.approx(np.median(per_kelvin) * slope[29] / 100.0, rel=0.3)
-    asked = rows.take(np.array([5, 30, 40]))
-    few = Problem.of(case, asked, Forward(case, asked, 50.0), asked["viscosity_mPa_s"])
+    few = whole.take(np.array([5, 30, 40]))
     assert late(few, few.run(NOTHING, np.zeros(few.calibration_size))) == pytest.approx(moved[[5, 30, 40]], rel=1e-6)
 
 

@@ -10,7 +10,6 @@ import pytest
 from scipy.stats import binom
 
 from mixedlub.case.folder import read_case
-from mixedlub.case.forward import Forward
 from mixedlub.diagnosis.assessment import mismatch_test as mismatch_module
 from mixedlub.diagnosis.assessment.mismatch_test import KNOWN, UNSURE, UNTOLD, mismatch_test
 from mixedlub.diagnosis.explanation import NOTHING, Explanation
@@ -29,11 +28,7 @@ KEPT = ("inlet_shear_heating", "churning", "starvation", "sensor_offset", "senso
 
 
 def problem_of(folder: Path) -> Problem:
-    case = read_case(folder)
-    rows = case.recordings
-    assert rows is not None
-    y = np.asarray(rows[case.quantity], dtype=float)
-    return Problem.of(case, rows, Forward(case, rows), y)
+    return Problem.of(read_case(folder))
 
 
 @pytest.fixture(scope="module")
@@ -65,8 +60,8 @@ def searches(problems: list[Problem]) -> list[Search]:
     found = []
     for p in problems[:3]:
         drawn = drawn_from(p, np.linspace(-1.0, 1.0, p.calibration_size), np.random.default_rng(0))
-        space = coordinates(p.case, p.rows, p.forward)
-        found.append(search(drawn, space, space.values(p.case, p.rows, p.forward), others))
+        space = coordinates(p.forward)
+        found.append(search(drawn, space, space.values(p.forward), others))
     return found
 
 

@@ -104,7 +104,7 @@ class Rows:
         scale = float(found.problem.forward.inputs["reading_scale"])
         self.forward = Forward(found.problem.case, table, scale)
         self.table = table
-        self.values = found.space.values(found.problem.case, table, self.forward)
+        self.values = found.space.values(self.forward)
         known = found.problem
         start = known.seen(self.forward.predict(known.calibration(found.none.z))) if level is None else level
         self.sd, _ = _noise_at(known, table, start)

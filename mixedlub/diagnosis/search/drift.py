@@ -36,14 +36,14 @@ ALIKE = 2.0
 def under_wandering(found: Search, raised: Raised, most: float, trial: Callable[..., Search]) -> tuple[Search, Raised]:
     """The search under what readings are off by as it wanders, and how much of the noise is then that of single ones.
 
-    ``raised`` is how much more than stated that was, and ``most`` what repeats allow; ``trial`` searches for a case,
-    its readings and a ``wander``. Where nothing may be missing it wanders no farther than neighbours differ by.
+    ``raised`` is how much more than stated that was, and ``most`` what repeats allow; ``trial`` searches for a case
+    and a ``wander``. Where nothing may be missing it wanders no farther than neighbours differ by.
     """
     for _ in range(ROUNDS):
         wander, times = wandering_of(found, 1.0 / raised.times)
         if wander == found.problem.wander or times * raised.times * wander.whole > most:
             break
-        again = trial(*scaled(found.problem.case, found.problem.rows, times), wander=wander)
+        again = trial(scaled(found.problem.case, times), wander=wander)
         missing = max(again.log_weights.values()) > again.log_weights[NOTHING] + CLEAR
         if not missing and wander.size * times > _farthest(found):
             break

@@ -12,6 +12,7 @@ from mixedlub.case.folder import Case
 from mixedlub.diagnosis.inference.map_fit import log_likelihood
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.recording.noise import BOTH, PARTS, medians, pooled_sd, with_noise
+from mixedlub.recording.readings import readings_of, rows_of
 from mixedlub.schema.table import Table
 
 FACTORS = np.array([1.1, 1.25, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 4.0, 6.0, 10.0])
@@ -37,9 +38,9 @@ ENOUGH = 10
 
 
 class Trial(Protocol):
-    """A search for a case and its readings, or what it makes of a ``near`` one under their noise."""
+    """A search for a case, or what it makes of a ``near`` one under its noise."""
 
-    def __call__(self, case: Case, rows: Table, near: Search | None = None) -> Search: ...
+    def __call__(self, case: Case, near: Search | None = None) -> Search: ...
 
 
 @dataclass(frozen=True)
@@ -49,17 +50,15 @@ class Raised:
     times: float = 1.0
     share: float = 0.0
 
-    def of(self, case: Case, rows: Table) -> tuple[Case, Table]:
-        """The case and its readings with it."""
+    def of(self, case: Case) -> Case:
+        """The case with it."""
         if self.share:
-            name = f"{case.quantity}_sd"
-            sd = np.hypot(rows[name].astype(float), self.share * np.abs(rows[case.quantity].astype(float)))
-            rows = Table({**rows.columns, name: sd}, rows.source)
-            case = replace(case, recordings=rows)
-        return scaled(case, rows, self.times)
+            sd = rows_of(case)[f"{case.quantity}_sd"].astype(float)
+            case = _with_sds(case, np.hypot(sd, self.share * np.abs(readings_of(case))))
+        return scaled(case, self.times)
 
 
-def stated_or_more(case: Case, rows: Table, trial: Trial, most: float) -> tuple[Search, Raised]:
+def stated_or_more(case: Case, trial: Trial, most: float) -> tuple[Search, Raised]:
     """The search under the stated noise, or under more where the readings say so clearly, and how much more.
 
     Every explanation is weighed again with its residuals against more noise. That is believed where the best of
@@ -68,30 +67,30 @@ def stated_or_more(case: Case, rows: Table, trial: Trial, most: float) -> tuple[
     Repeats at equal conditions bound it by ``most``: what they agree on is no noise. Without such, a column of sds may
     hold what one setting repeats to, and a share of the reading is lacking.
     """
-    found, raised = trial(case, rows), Raised()
-    if f"{case.quantity}_sd" in rows and np.isinf(most):
-        found, raised = _with_share(case, rows, trial, found)
+    found, raised = trial(case), Raised()
+    if f"{case.quantity}_sd" in rows_of(case) and np.isinf(most):
+        found, raised = _with_share(case, trial, found)
     for needed in (CLEAR, *[0.0] * (ROUNDS - 1)):
         gain, factor = more(found)
         if gain <= needed or raised.times * factor > most:
             break
         raised = replace(raised, times=raised.times * factor)
-        found = trial(*raised.of(case, rows))
+        found = trial(raised.of(case))
     return found, raised
 
 
-def _with_share(case: Case, rows: Table, trial: Trial, found: Search) -> tuple[Search, Raised]:
+def _with_share(case: Case, trial: Trial, found: Search) -> tuple[Search, Raised]:
     """The search under the share of the reading, beside the sds told, that makes the readings most probable.
 
     Looked for uphill from a usual share and from the one that residuals under the sds ask for. Shares in between are
     weighed from where the search of the nearest one stands; that of the best one is then made whole.
     """
-    tried = {-1: found, USUAL: trial(*Raised(share=SHARES[USUAL]).of(case, rows))}
+    tried = {-1: found, USUAL: trial(Raised(share=SHARES[USUAL]).of(case))}
 
     def height(i: int) -> float:
         if i not in tried:
             near = min((j for j in tried if j >= 0), key=lambda j: abs(j - i))
-            tried[i] = trial(*Raised(share=SHARES[i]).of(case, rows), near=tried[near])
+            tried[i] = trial(Raised(share=SHARES[i]).of(case), near=tried[near])
         return tried[i].log_probability
 
     gain, asked = _lacking(found)
@@ -104,7 +103,7 @@ def _with_share(case: Case, rows: Table, trial: Trial, found: Search) -> tuple[S
     if best < 0 or height(best) <= height(-1) + WEAKER:
         return found, Raised()
     raised = Raised(share=float(SHARES[best]))
-    whole = tried[best] if best == USUAL else trial(*raised.of(case, rows))
+    whole = tried[best] if best == USUAL else trial(raised.of(case))
     return (whole, raised) if whole.log_probability > height(-1) + WEAKER else (found, Raised())
 
 
@@ -151,17 +150,17 @@ def _under_other_noise(found: Search, times: np.ndarray) -> tuple[float, int]:
     return most - max(weights.values()), best
 
 
-def shown(case: Case, rows: Table, trial: Trial) -> Search:
+def shown(case: Case, trial: Trial) -> Search:
     """The search under the estimated noise, or as much less or more as makes the readings most probable.
 
     What is left over then says how much of it goes in proportion to the reading and how much is alike for all: few
     repeats tell that less well than all readings do.
     """
-    found = _fitting(case, rows, trial)
+    found = _fitting(case, trial)
     gain, other = _other_parts(found)
     if gain < BOTH:
         return found
-    again = trial(other, rows)
+    again = trial(other)
     return again if again.log_probability > found.log_probability + BOTH else found
 
 
@@ -178,21 +177,21 @@ def _other_parts(found: Search) -> tuple[float, Case]:
     return gain, with_noise(problem.case, *noises[which])
 
 
-def _fitting(case: Case, rows: Table, trial: Trial) -> Search:
+def _fitting(case: Case, trial: Trial) -> Search:
     """The search under the multiple of the case's noise that its own residuals ask for.
 
     What is left over under one noise asks for the next, which is kept while the readings are more probable under it;
     half the way is tried where it is not. A start far too low stays there, for what is then fitted follows the noise:
     the estimate from a smooth fit is none.
     """
-    found = trial(case, rows)
+    found = trial(case)
     for _ in range(STEPS):
         _, best = _under_other_noise(found, MULTIPLES[:, None])
         asked = float(MULTIPLES[best])
         for step in (asked, np.sqrt(asked)):
             if abs(np.log(step)) < NEARLY:
                 return found
-            again = trial(*scaled(found.problem.case, rows, float(step)))
+            again = trial(scaled(found.problem.case, float(step)))
             if again.log_probability > found.log_probability:
                 break
         else:
@@ -201,10 +200,10 @@ def _fitting(case: Case, rows: Table, trial: Trial) -> Search:
     return found
 
 
-def under_its_own(found: Search, trial: Callable[[Case, Table], Search]) -> Search:
+def under_its_own(found: Search, trial: Callable[[Case], Search]) -> Search:
     """The search under the noise that the calibrated base model would need if nothing were missing."""
     gain, times = louder(found.none.residual)
-    return trial(*scaled(found.problem.case, found.problem.rows, times)) if gain > 0.0 else found
+    return trial(scaled(found.problem.case, times)) if gain > 0.0 else found
 
 
 def louder(residual: np.ndarray) -> tuple[float, float]:
@@ -236,12 +235,16 @@ def quiet(found: Search) -> bool:
     return spare >= ENOUGH and float(left @ left) < 0.25 * spare
 
 
-def scaled(case: Case, rows: Table, factor: float) -> tuple[Case, Table]:
-    """The case and its readings with ``factor`` times the noise of a single reading."""
-    name = f"{case.quantity}_sd"
+def scaled(case: Case, factor: float) -> Case:
+    """The case with ``factor`` times the noise of a single reading."""
+    name, rows = f"{case.quantity}_sd", rows_of(case)
     if name in rows:
-        rows = Table({**rows.columns, name: factor * rows[name]}, rows.source)
-        return replace(case, recordings=rows), rows
+        return _with_sds(case, factor * rows[name])
     noise = case.system.recording.noise
     assert noise is not None
-    return with_noise(case, factor * noise.relative, factor * noise.absolute), rows
+    return with_noise(case, factor * noise.relative, factor * noise.absolute)
+
+
+def _with_sds(case: Case, sd: np.ndarray) -> Case:
+    rows = rows_of(case)
+    return replace(case, recordings=Table({**rows.columns, f"{case.quantity}_sd": sd}, rows.source))

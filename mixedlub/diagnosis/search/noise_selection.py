@@ -18,20 +18,20 @@ from mixedlub.diagnosis.search.search import MANY, Progress, Search, reweighed, 
 from mixedlub.recording.conditions import SERIES, coordinates
 from mixedlub.recording.correlated_error import STILL, Wander
 from mixedlub.recording.noise import estimated, is_stated, repeated
-from mixedlub.schema.table import Table
+from mixedlub.recording.readings import rows_of
 
 
 @dataclass(frozen=True, eq=False)
 class Weighed:
     """The search, how much more than the stated noise it took, and what weighs everything under other noise.
 
-    That takes the case, its readings, how many of them tell as much as one, and how their errors wander.
+    That takes the case, how many of its readings tell as much as one, and how their errors wander.
     """
 
     found: Search
     raised: Raised
     stated: bool
-    again: Callable[[Case, Table, float, Wander], Search]
+    again: Callable[[Case, float, Wander], Search]
 
     @property
     def times(self) -> float:
@@ -46,55 +46,54 @@ class Weighed:
         found = self.found
         kept, wander = found.problem.together, found.problem.wander
         if not self.stated:
-            found = under_its_own(found, lambda case, rows: self.again(case, rows, kept, wander))
+            found = under_its_own(found, lambda case: self.again(case, kept, wander))
         lasts = lasting_alone(found)
-        return found if lasts <= kept else self.again(found.problem.case, found.problem.rows, lasts, wander)
+        return found if lasts <= kept else self.again(found.problem.case, lasts, wander)
 
 
-def weighed(
-    case: Case, rows: Table, forward: Forward, y: np.ndarray, exclude: Sequence[str], progress: Progress
-) -> Weighed:
+def weighed(case: Case, forward: Forward, exclude: Sequence[str], progress: Progress) -> Weighed:
     """Every explanation weighed under the stated noise or what readings ask for, else under the noise they show.
 
     Where noise lasts over several readings, so many count as one; where it wanders, readings share it. A logged series
     tells first how long its noise lasts, a shorter one hardly can. Everything is then weighed again.
     """
-    space = coordinates(case, rows, forward)
-    values = space.values(case, rows, forward)
+    space = coordinates(forward)
+    values = space.values(forward)
 
-    def trial(case: Case, rows: Table, together: float = 1.0, wander: Wander = STILL) -> Search:
-        return search(Problem.of(case, rows, forward, y, together, wander), space, values, exclude, progress)
+    def trial(case: Case, together: float = 1.0, wander: Wander = STILL) -> Search:
+        return search(Problem.of(case, forward, together, wander), space, values, exclude, progress)
 
-    few = spread_rows(values, y.size) if y.size > MANY else None
+    count = len(rows_of(case))
+    few = spread_rows(values, count) if count > MANY else None
 
-    def seek(case: Case, rows: Table, near: Search | None = None) -> Search:
-        problem = Problem.of(case, rows, forward, y)
+    def seek(case: Case, near: Search | None = None) -> Search:
+        problem = Problem.of(case, forward)
         problem = problem if few is None else problem.take(few)
         if near is not None:
             return reweighed(near, problem)
         return search(problem, space, values if few is None else [v[few] for v in values], exclude, progress)
 
-    stated, raised, most = is_stated(case, rows), Raised(), np.inf
+    stated, raised, most = is_stated(case), Raised(), np.inf
     if stated:
-        group = repeated(case, rows)
+        group = repeated(case)
         if group is not None:
-            whole = Problem.of(case, rows, forward, y)
+            whole = Problem.of(case, forward)
             most = repeats_allow(whole.y, whole.sd, group)
-        found, raised = stated_or_more(case, rows, seek, most)
-        case, rows = raised.of(case, rows)
+        found, raised = stated_or_more(case, seek, most)
+        case = raised.of(case)
     else:
-        found = shown(estimated(case, rows, y, forward.predict(), space, values), rows, seek)
+        found = shown(estimated(case, forward.predict(), space, values), seek)
         case = found.problem.case
     if few is not None:
-        found = trial(case, rows)
-    together = lasting(found) if y.size >= SERIES else 1.0
+        found = trial(case)
+    together = lasting(found) if count >= SERIES else 1.0
     if together > 1.0:
-        found = trial(case, rows, together)
+        found = trial(case, together)
     found, raised = under_wandering(found, raised, most, partial(trial, together=together))
-    case, rows, wander = found.problem.case, found.problem.rows, found.problem.wander
+    case, wander = found.problem.case, found.problem.wander
     if wander.size and together > 1.0:
-        found = trial(case, rows, wander=wander)
+        found = trial(case, wander=wander)
     longer = lasting(found)
     if longer > found.problem.together:
-        found = trial(case, rows, longer, wander)
+        found = trial(case, longer, wander)
     return Weighed(found, raised, stated, trial)
