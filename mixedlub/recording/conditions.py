@@ -9,6 +9,8 @@ import numpy as np
 
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
+from mixedlub.kinds.kind import CONSTANT_WITHIN, varies
+from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.recording.set_points import roundest
 from mixedlub.schema.table import Table
 
@@ -21,12 +23,16 @@ SMOOTHEST = 4
 JITTER = 1e-6
 """Keeps the kernel of close nodes invertible."""
 LEAST = 1e-300
-HELD = 0.01
-"""A condition that spans less than this share of its size was held: what it wanders is no variation to learn from."""
 ROLLING = 0.02
 """Slide-roll ratio up to which a film is one of pure rolling: it takes less than a twentieth of what heats it."""
-WANDERS, WANDERS_K, MOVES = 0.1, 6.0, 0.005
-"""One that spans less than the first, or so many kelvin, was held if the base model moves by less than the last."""
+NOISY_WITHIN = 0.1
+"""Largest span of a noisy constant, as a share of its size: a measured set point scatters this far at most; judgement.
+
+This is not the question of `CONSTANT_WITHIN`. There no value within the span is told from another. Here the values
+scatter farther, and only because hardly one of them is repeated do they count as measurements of one set point.
+"""
+NEGLIGIBLE_CHANGE = 0.005
+"""Largest change of the base model, as a share of its median, by which a noisy constant may be left out; judgement."""
 MOSTLY = 0.9
 """Share of the readings that lie about a set-point where the others are a start-up."""
 SERIES = 400
@@ -129,16 +135,24 @@ def clock_of(rows: Table, ties: bool = False) -> np.ndarray | None:
     return clock if times == clock.size or (ties and 2 * times > clock.size) else None
 
 
-def is_held(name: str, levels: np.ndarray) -> bool:
-    """Whether a condition was held: it spans next to nothing of its size.
+def is_constant(name: str, values: np.ndarray) -> bool:
+    """Whether a condition was held constant, so that readings cannot show how they depend on it.
 
-    >>> is_held("oil_temperature_C", np.array([31.0, 32.3])), is_held("speed_rpm", np.array([500.0, 520.0]))
+    >>> is_constant("oil_temperature_C", np.array([31.0, 36.0])), is_constant("speed_rpm", np.array([500.0, 520.0]))
     (True, False)
     """
-    if levels.dtype.kind in "US" or name in PASSING:
+    if values.dtype.kind in "US" or name in PASSING:
         return False
-    size = levels + 273.15 if name.endswith("temperature_C") else levels
-    return float(np.ptp(size)) <= HELD * float(np.max(np.abs(size)))
+    return not varies(_absolute(name, values))
+
+
+def _absolute(name: str, values: np.ndarray) -> np.ndarray:
+    """Values from an absolute zero: temperatures in kelvin."""
+    return values + ZERO_CELSIUS if _is_temperature(name) else values
+
+
+def _is_temperature(name: str) -> bool:
+    return name.endswith("temperature_C")
 
 
 def _rolls(name: str, levels: np.ndarray, case: Case) -> bool:
@@ -146,50 +160,53 @@ def _rolls(name: str, levels: np.ndarray, case: Case) -> bool:
     return case.quantity == "film_thickness_nm" and name == "slide_roll_ratio" and bool(np.abs(levels).max() <= ROLLING)
 
 
-def jitters(name: str, values: np.ndarray) -> bool:
-    """Whether values lie within a tenth of their size and hardly one comes again, as what is measured about one does.
+def is_noisy_constant(name: str, values: np.ndarray) -> bool:
+    """Whether values are noisy measurements of one set point: within NOISY_WITHIN, and hardly one repeated.
 
-    Temperatures lie within a few kelvin.
+    Temperatures lie within the span of a constant one.
 
-    >>> jitters("load_N", np.array([19.9, 20.1, 20.3, 19.7])), jitters("load_N", np.array([20.0, 21.0, 20.0, 21.0]))
+    >>> load = np.array([19.9, 20.1, 20.3, 19.7])
+    >>> is_noisy_constant("load_N", load), is_noisy_constant("load_N", np.array([20.0, 21.0, 20.0, 21.0]))
     (True, False)
     """
     if values.dtype.kind in "US" or name in PASSING or 2 * np.unique(values).size <= values.size:
         return False
-    if name.endswith("temperature_C"):
-        return bool(np.ptp(values) <= WANDERS_K)
-    return bool(np.ptp(values) <= WANDERS * np.max(np.abs(values)))
+    return bool(np.ptp(values) <= _noisy_span(name, float(np.max(np.abs(_absolute(name, values))))))
 
 
-def held_at(name: str, values: np.ndarray) -> float | None:
-    """The set-point about which nearly all readings of a condition only jitter; None where it was varied, or repeats.
+def _noisy_span(name: str, size: float) -> float:
+    """Largest span of a noisy constant of this size in absolute units."""
+    return (CONSTANT_WITHIN if _is_temperature(name) else NOISY_WITHIN) * size
 
-    What is rare and far from it, as a start-up, is no set-point to return to.
+
+def noisy_set_point(name: str, values: np.ndarray) -> float | None:
+    """The set point about which nearly all values of a condition scatter; None where it was varied or is exact.
+
+    A few values far from it, as of a start-up, do not count.
 
     >>> load = np.concatenate([[4.9, 12.0], 50.0 + 0.01 * np.arange(-20, 20)])
-    >>> held_at("load_N", load), held_at("load_N", np.arange(42.0)), held_at("load_N", np.full(42, 50.0))
-    (50.0, None, None)
+    >>> [noisy_set_point("load_N", values) for values in (load, np.arange(42.0), np.full(42, 50.0))]
+    [50.0, None, None]
     """
     if values.dtype.kind in "US" or name in PASSING:
         return None
-    off = np.abs(values - np.median(values))
-    near = values[
-        off <= (0.5 * WANDERS_K if name.endswith("temperature_C") else 0.5 * WANDERS * abs(np.median(values)))
-    ]
-    many = jitters(name, near) or np.unique(near).size > NODES
+    middle = np.median(values)
+    span = _noisy_span(name, abs(float(np.median(_absolute(name, values)))))
+    near = values[np.abs(values - middle) <= 0.5 * span]
+    many = is_noisy_constant(name, near) or np.unique(near).size > NODES
     if near.size < MOSTLY * values.size or not many:
         return None
     return roundest(*(float(np.quantile(near, share)) for share in (0.25, 0.75)))
 
 
-def _wanders(name: str, forward: Forward) -> bool:
-    """Whether a condition only wandered about its set-point: little, and hardly moving a base model that reads it."""
+def _is_negligible(name: str, forward: Forward) -> bool:
+    """Whether a noisy constant changes a base model that reads it, and by next to nothing."""
     table = forward.table
-    if name not in table or not jitters(name, table[name]):
+    if name not in table or not is_noisy_constant(name, table[name]):
         return False
     steady = Table({**table.columns, name: np.full(len(table), np.median(table[name]))}, table.source)
     here, there = forward.predict(), Forward(forward.case, steady).predict()
-    return 0.0 < float(np.max(np.abs(there - here))) <= MOVES * float(np.median(np.abs(here)))
+    return 0.0 < float(np.max(np.abs(there - here))) <= NEGLIGIBLE_CHANGE * float(np.median(np.abs(here)))
 
 
 def _kernel(a: np.ndarray, b: np.ndarray, length: float) -> np.ndarray:
@@ -249,10 +266,12 @@ def raw_coordinates(forward: Forward) -> dict[str, np.ndarray]:
 
 
 def coordinates(forward: Forward) -> Coordinates:
-    """The axes along which a recording varies; what was held counts only where nothing else varies."""
+    """The axes along which a recording varies; constant conditions count only where nothing else varies."""
     every = {name: np.unique(values) for name, values in raw_coordinates(forward).items()}
     varied = {name: levels for name, levels in every.items() if levels.size > 1}
-    held = [k for k, v in varied.items() if is_held(k, v) or _rolls(k, v, forward.case) or _wanders(k, forward)]
+    held = [
+        k for k, v in varied.items() if is_constant(k, v) or _rolls(k, v, forward.case) or _is_negligible(k, forward)
+    ]
     swept = {k: v for k, v in varied.items() if k not in held}
     axes = []
     for name, levels in (swept or varied).items():

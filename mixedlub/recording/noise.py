@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from mixedlub.case.folder import Case
-from mixedlub.recording.conditions import PASSING, Coordinates, jitters
+from mixedlub.recording.conditions import PASSING, Coordinates, is_noisy_constant
 from mixedlub.recording.readings import readings_of, rows_of
 from mixedlub.recording.set_points import near_values
 from mixedlub.schema import system_file
@@ -243,7 +243,7 @@ def nearly_repeated(case: Case) -> np.ndarray | None:
         if values.dtype.kind in "US" or name in PASSING:
             columns[name] = values
             told |= name in conditions and np.unique(values).size > 1
-        elif jitters(name, values):
+        elif is_noisy_constant(name, values):
             columns[name] = np.zeros(len(rows))
         else:
             columns[name] = near_values(values)

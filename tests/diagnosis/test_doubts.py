@@ -11,7 +11,7 @@ from mixedlub.case.folder import Case
 from mixedlub.diagnosis.assessment.answer_checks import against, in_a_row, levels_off
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.explanation import NOTHING
-from mixedlub.recording.conditions import jitters
+from mixedlub.recording.conditions import is_noisy_constant
 from mixedlub.recording.noise import nearly_repeated
 from mixedlub.schema.findings import Finding, Severity, codes
 from mixedlub.schema.table import Table
@@ -46,7 +46,7 @@ def test_wrong_readings_apart_are_not(offset: Diagnosis) -> None:
     ("celsius", "about"), [([0.0, 5.0, 10.0, 20.0, 25.0], False), ([99.0, 100.4, 100.1, 101.2], True)]
 )
 def test_temperatures_some_kelvin_apart_were_meant(celsius: list[float], about: bool) -> None:
-    assert jitters("temperature_C", np.array(celsius)) is about
+    assert is_noisy_constant("temperature_C", np.array(celsius)) is about
 
 
 def test_a_single_condition_that_jitters_makes_no_repeats() -> None:

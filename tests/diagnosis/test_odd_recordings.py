@@ -14,7 +14,7 @@ from mixedlub.data_checks.audit import check_readings
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.importers import write_case
-from mixedlub.recording.conditions import is_held
+from mixedlub.recording.conditions import is_constant
 from mixedlub.recording.noise import steadied
 from mixedlub.schema.findings import codes
 
@@ -115,7 +115,7 @@ def test_many_wrong_readings_are_told(make_case, tmp_path: Path) -> None:
 
 
 def test_time_since_an_epoch_is_not_held() -> None:
-    assert not is_held("time_s", 1.7e9 + np.linspace(0.0, 3600.0, 20))
+    assert not is_constant("time_s", 1.7e9 + np.linspace(0.0, 3600.0, 20))
 
 
 def test_a_load_under_another_name_is_asked_for_and_not_a_set_up(tmp_path: Path) -> None:

@@ -16,13 +16,16 @@ from mixedlub.diagnosis.inference.change_points import elsewhere, places, withou
 from mixedlub.diagnosis.inference.map_fit import covariance, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.search import Search
-from mixedlub.recording.conditions import WANDERS_K
+from mixedlub.recording.conditions import is_constant
 from mixedlub.recording.set_points import set_points
 
 MOST_FOLDS = 8
 """Levels left out in turn, at most; more are joined."""
-NARROW = 0.2
-"""Share of its size within which a condition may have been held about a set-point."""
+WIDE_SPAN = 0.2
+"""Span of a condition, as a share of its size, from which leaving out its levels is a test of prediction; judgement.
+
+It only ranks conditions that were varied: levels that lie close together predict one another whatever the law.
+"""
 TOLERATED = 0.3
 """Share of the mismatch on levels left out that the right law, in another literature form, may leave."""
 DEMERIT = 20.0
@@ -256,8 +259,8 @@ def _folds(found: Search) -> tuple[str, np.ndarray, bool]:
         count = int(np.unique(label).size)
         span = 1.0 if axis.named else float(np.ptp(values) / np.max(np.abs(values)))
         warm = axis.name.endswith("temperature_C")
-        swept = np.ptp(values) > WANDERS_K if warm else span > NARROW
-        rank = bool(swept), count, span
+        wide = not is_constant(axis.name, values) if warm else span > WIDE_SPAN
+        rank = bool(wide), count, span
         if count >= 3 and (best is None or rank > best[:3]):
             best = (*rank, axis.name, np.unique(label, return_inverse=True)[1], not axis.named)
     if best is None:

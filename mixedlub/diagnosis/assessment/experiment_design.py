@@ -13,7 +13,7 @@ from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.assessment.prediction import Prediction, Refined, Rows, refine
 from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.search.search import Search
-from mixedlub.recording.conditions import held_at
+from mixedlub.recording.conditions import noisy_set_point
 from mixedlub.recording.set_points import roundest, set_points
 from mixedlub.schema.table import Column, Table
 
@@ -99,7 +99,7 @@ def candidates(
     axes: list[np.ndarray] = []
     for condition in conditions:
         levels = np.unique(set_points(table[condition.name]))
-        at = held_at(condition.name, table[condition.name])
+        at = noisy_set_point(condition.name, table[condition.name])
         if at is not None:
             levels = np.array([at])
         elif varied is not None and condition.name not in varied and levels.dtype.kind not in "US":

@@ -8,7 +8,7 @@ import numpy as np
 
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import amount, conditions_text, explanation_words, range_text, words_of
-from mixedlub.recording.conditions import PASSING, held_at
+from mixedlub.recording.conditions import PASSING, noisy_set_point
 from mixedlub.recording.noise import setups_differ
 from mixedlub.schema.table import Table
 
@@ -81,7 +81,7 @@ def _refined(d: Diagnosis) -> tuple[str, ...]:
     shape, space = d.found.unknown.best, d.found.space
     table = d.recorded.table
     cuts = d.region.where if shape.at is None else ()
-    cuts = tuple(cut for cut in cuts if held_at(cut["column"], table[cut["column"]]) is None)
+    cuts = tuple(cut for cut in cuts if noisy_set_point(cut["column"], table[cut["column"]]) is None)
     names = [range_text(cut) for cut in cuts if "values" in cut]
     ranges = [cut for cut in cuts if "values" not in cut]
     passed = [range_text(cut) for cut in ranges if cut["column"] in PASSING]
