@@ -17,8 +17,8 @@ from mixedlub.recording.noise import (
     noise,
     noise_from_repeats,
     pooled_sd,
-    seen_noise,
     setups_differ,
+    transformed_noise,
 )
 from mixedlub.rig.plausibility import far_off
 from mixedlub.schema.findings import Finding, Severity, finding, listed
@@ -236,7 +236,7 @@ def _contradicting(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> 
     if group is None or not is_stated(case):
         return []
     repeats = pooled_sd(_without_drift(case, rows, y, base, group), group)
-    typical = float(np.median(seen_noise(case, rows, y)[0]))
+    typical = float(np.median(transformed_noise(case, rows, y)[0]))
     if repeats <= CONTRADICTING * typical:
         return []
     unit = "" if case.kind.logarithmic else f" {unit_of(case.quantity)}".rstrip()

@@ -14,7 +14,7 @@ class Explanation:
     """
 
     effects: tuple[str, ...] = ()
-    discrepancy: bool = False
+    is_discrepancy: bool = False
 
     @classmethod
     def of(cls, *effects: str) -> Explanation:
@@ -24,10 +24,10 @@ class Explanation:
     @property
     def ids(self) -> tuple[str, ...]:
         """The explanation as files of the answer write it."""
-        return self.effects or (("unknown",) if self.discrepancy else ("none",))
+        return self.effects or (("unknown",) if self.is_discrepancy else ("none",))
 
 
 NOTHING = Explanation()
 """The calibrated base model explains the readings."""
-DISCREPANCY = Explanation(discrepancy=True)
+DISCREPANCY = Explanation(is_discrepancy=True)
 """A smooth or local function of the conditions, fitted without physics, explains them."""

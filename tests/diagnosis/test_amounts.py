@@ -36,7 +36,7 @@ def drive(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
 def test_a_share_is_told_as_an_amount(offset: Diagnosis) -> None:
     one = judged(offset, {Explanation.of("sensor_offset"): 0.97}, 1)
     row = section(one, words.LEFT_OUT).table[1]
-    size = float(offset.found.problem.forward.inputs["reading_scale"])
+    size = float(offset.search.problem.forward.inputs["reading_scale"])
     made = float(row[-1].rpartition(": ")[2].removesuffix(" W"))
     assert made == pytest.approx(float(row[2]) * size, rel=0.01)
     assert made == pytest.approx(9.0, rel=0.2)

@@ -29,16 +29,16 @@ def test_a_temperature_that_wanders_by_a_degree_is_no_axis(make_case: Callable[.
     folder = make_case(tmp_path / "case", "viscosity")
     count = rows(folder)
     pressure = np.linspace(0.1, 500.0, count)
-    wander = 40.0 + np.linspace(-0.7, 0.7, count)
-    assert axes(folder, pressure_MPa=pressure, temperature_C=wander) == ["pressure_MPa"]
+    drifting = 40.0 + np.linspace(-0.7, 0.7, count)
+    assert axes(folder, pressure_MPa=pressure, temperature_C=drifting) == ["pressure_MPa"]
     assert "temperature_C" in axes(folder, pressure_MPa=pressure, temperature_C=np.linspace(40.0, 60.0, count))
 
 
 def test_what_wanders_counts_where_nothing_else_varies(make_case: Callable[..., Path], tmp_path: Path) -> None:
     folder = make_case(tmp_path / "case", "viscosity")
     count = rows(folder)
-    wander = 40.0 + np.linspace(-0.7, 0.7, count)
-    assert axes(folder, pressure_MPa=np.full(count, 0.1), temperature_C=wander) == ["temperature_C"]
+    drifting = 40.0 + np.linspace(-0.7, 0.7, count)
+    assert axes(folder, pressure_MPa=np.full(count, 0.1), temperature_C=drifting) == ["temperature_C"]
 
 
 @pytest.mark.parametrize(("span", "counts"), [(4.0, False), (9.0, True)])

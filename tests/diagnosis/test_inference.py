@@ -66,9 +66,9 @@ def test_evidence_of_a_linear_model_is_the_closed_form() -> None:
 def test_fast_evidence_agrees_with_importance_sampling(explanation: Explanation) -> None:
     p = problem(extra=0.05)
     fit = map_fit(p, explanation, np.zeros(p.size(explanation)))
-    sampled = importance_evidence(p, fit, draws=1500)
-    assert sampled.effective_share > 0.05
-    assert fit.evidence == pytest.approx(sampled.value, abs=0.3 + 3.0 * sampled.error)
+    slow = importance_evidence(p, fit, draws=1500)
+    assert slow.effective_share > 0.05
+    assert fit.evidence == pytest.approx(slow.value, abs=0.3 + 3.0 * slow.error)
 
 
 def test_planted_outliers_are_found_and_no_others() -> None:
@@ -125,10 +125,10 @@ def test_bending_cannot_rescue_a_wrong_effect_without_bound() -> None:
     found = found_in(problem(extra=0.3))
     for explanation, score in found.scores.items():
         if explanation.effects:
-            assert score - found.fits[explanation].evidence <= searching.BEND_MOST
+            assert score - found.fits[explanation].evidence <= searching.FORM_ERROR_GAIN_CAP
     best = max(found.scores, key=lambda m: found.scores[m])
-    assert found.unknown.evidence > found.scores[Explanation.of("sensor_offset")] + searching.BEND_MOST
-    assert found.scores[best] > found.scores[Explanation.of("sensor_offset")] + searching.BEND_MOST
+    assert found.discrepancy.evidence > found.scores[Explanation.of("sensor_offset")] + searching.FORM_ERROR_GAIN_CAP
+    assert found.scores[best] > found.scores[Explanation.of("sensor_offset")] + searching.FORM_ERROR_GAIN_CAP
 
 
 def test_a_zero_has_no_form_to_bend_and_an_idle_partner_lends_it_none() -> None:
@@ -139,10 +139,10 @@ def test_a_zero_has_no_form_to_bend_and_an_idle_partner_lends_it_none() -> None:
     fits = {m: map_fit(p, m, np.zeros(p.size(m))) for m in (NOTHING, zero, pair)}
 
     def gain(stiff: Fit, fit: Fit) -> float:
-        return searching.elastic_evidence(p, stiff, fit, space, values) - fit.evidence
+        return searching.form_error_evidence(p, stiff, fit, space, values) - fit.evidence
 
     assert gain(fits[NOTHING], fits[zero]) == 0.0
-    against_base, against_zero = (gain(stiff, fits[pair]) for stiff in searching.unbending(fits, pair))
+    against_base, against_zero = (gain(stiff, fits[pair]) for stiff in searching.reference_fits(fits, pair))
     assert against_zero < 1.0 < against_base
 
 
@@ -168,14 +168,14 @@ def test_an_effect_without_any_finite_answer_is_not_considered(monkeypatch: pyte
 
     monkeypatch.setattr(Problem, "run", broken)
     found = found_in(p)
-    assert "churning" not in [s.id for s in found.sampled]
+    assert "churning" not in [s.id for s in found.draws]
     assert Explanation.of("sensor_gain") in found.fits
 
 
 def test_readings_left_out_that_lie_too_far_off_make_the_odds_less_sure(offset: Diagnosis) -> None:
-    found, test = offset.found, offset.test
+    found, test = offset.search, offset.test
     names = [key for key in found.fits if key.effects]
-    plain, unsure = (posterior(found, test, inflation=c) for c in (1.0, 4.0))
+    plain, unsure = (posterior(found, test, overdispersion=c) for c in (1.0, 4.0))
     best, other = sorted(names, key=lambda key: -found.scores[key])[:2]
     gap = [np.log(p.weights[best] / p.weights[other]) for p in (plain, unsure)]
     prior = [found.log_weights[key] - found.scores[key] for key in (best, other)]

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mixedlub.diagnosis.assessment.mismatch_test import UNTOLD, _cost
+from mixedlub.diagnosis.assessment.mismatch_test import UNSTATED_NOISE_SCALES, _cost
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.explanation import NOTHING, Explanation
-from mixedlub.diagnosis.search.noise_inflation import CLEAR, more
+from mixedlub.diagnosis.search.noise_inflation import CLEAR_GAIN, best_inflation
 from mixedlub.importers import write_case
 from mixedlub.schema.findings import Finding, codes
 
@@ -90,7 +90,7 @@ def test_noise_that_nobody_states_is_found_under_an_effect(
 ) -> None:
     folder = restated(make_case(tmp_path / "case", "disc", heated), "")
     d = diagnose_case(folder, exclude=excluded)
-    assert np.median(d.found.problem.sd / d.readings) == pytest.approx(0.02, rel=0.25)
+    assert np.median(d.search.problem.sd / d.readings) == pytest.approx(0.02, rel=0.25)
     assert d.posterior.verdict == Explanation.of("sensor_gain")
     assert "noise_value_estimated" in codes(d.warnings)
 
@@ -117,11 +117,11 @@ def test_noise_that_nobody_states_may_have_a_part_alike_for_all(
 
 def test_a_fit_whose_evidence_is_carried_over_raises_no_noise(offset: Diagnosis) -> None:
     """Far behind the best a fit only keeps its distance when the noise is settled anew: its residuals grew since."""
-    found = offset.found
+    found = offset.search
     fit = found.fits[Explanation.of("churning")]
     wild = replace(found, fits={**found.fits, Explanation.of("churning"): replace(fit, residual=20.0 * fit.residual)})
-    assert more(found)[0] < CLEAR
-    assert more(wild)[0] < CLEAR
+    assert best_inflation(found)[0] < CLEAR_GAIN
+    assert best_inflation(wild)[0] < CLEAR_GAIN
 
 
 def test_repeats_bound_the_noise_of_very_many_readings(
@@ -166,15 +166,15 @@ def test_sds_of_one_setting_leave_out_a_share_of_the_reading(tmp_path: Path) -> 
     d = diagnose_case(write_case(tmp_path / "films", sections, columns))
     assert d.posterior.verdict == NOTHING
     assert "scatter_above_stated" in codes(d.warnings)
-    assert d.found.problem.one_sd[-1] == pytest.approx(0.02 * recorded[-1], rel=0.6)
+    assert d.search.problem.single_sd[-1] == pytest.approx(0.02 * recorded[-1], rel=0.6)
 
 
 def test_readings_that_others_write_off_cost_nothing_missing_what_it_would_keep(complete: Diagnosis) -> None:
-    found = complete.found
-    fixed = np.hstack([found.none.slopes, found.problem.shared])
+    found = complete.search
+    fixed = np.hstack([found.null_fit.slopes, found.problem.shared])
     low = complete.readings < np.quantile(complete.readings, 0.7)
-    assert _cost(found, fixed, found.none.weight, UNTOLD) < 0.2
-    assert _cost(found, fixed, np.where(low, 1e-3, 1.0), UNTOLD) > 1.0
+    assert _cost(found, fixed, found.null_fit.weight, UNSTATED_NOISE_SCALES) < 0.2
+    assert _cost(found, fixed, np.where(low, 1e-3, 1.0), UNSTATED_NOISE_SCALES) > 1.0
 
 
 def test_noise_of_very_many_readings_is_estimated_though_a_share_of_them_is_looked_at(tmp_path: Path) -> None:

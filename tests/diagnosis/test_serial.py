@@ -33,9 +33,9 @@ def answer(make, friction: np.ndarray) -> Diagnosis:
 def test_noise_that_lasts_is_no_mismatch(make, correlation: float) -> None:
     """A first-order series tells (1 - r)/(1 + r) of its readings' number: 9 for one at r = 0.8."""
     d = answer(make, 0.1 * (1.0 + 0.01 * lasting_noise(correlation, 3)))
-    together = d.found.problem.together
+    count = d.search.problem.n_per_effective
     assert d.posterior.verdict == NOTHING
-    assert (together == 1.0) if correlation == 0.0 else (4.0 < together < 18.0)
+    assert (count == 1.0) if correlation == 0.0 else (4.0 < count < 18.0)
     assert ("residuals_autocorrelated" in codes(d.warnings)) == (correlation > 0.0)
 
 

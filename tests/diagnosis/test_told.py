@@ -27,12 +27,14 @@ from .test_words import judged, told
 def test_what_is_called_nearest_is_neither_rejected_nor_untestable(unnamed: Diagnosis) -> None:
     best = nearest(unnamed)
     assert best is not None
-    alike = confusion(unnamed.found)
+    alike = confusion(unnamed.search)
     every = tuple(Explanation.of(name) for name in alike.ids)
-    others = {name: replace(unnamed.found.fits[name], residual=0.0 * unnamed.found.none.residual) for name in every}
+    others = {
+        name: replace(unnamed.search.fits[name], residual=0.0 * unnamed.search.null_fit.residual) for name in every
+    }
     for name in alike.ids:
-        kept = {**unnamed.found.fits, Explanation.of(name): others[Explanation.of(name)]}
-        d = replace(unnamed, found=replace(unnamed.found, fits=kept))
+        kept = {**unnamed.search.fits, Explanation.of(name): others[Explanation.of(name)]}
+        d = replace(unnamed, search=replace(unnamed.search, fits=kept))
         found = nearest(d)
         assert found is not None
         assert found.explanation == Explanation.of(name)
@@ -63,7 +65,7 @@ def test_contradicting_readings_come_before_an_unnamed_mismatch(unnamed: Diagnos
 
 
 def test_readings_that_contradict_each_other_are_found(offset: Diagnosis) -> None:
-    rows = offset.found.problem.rows
+    rows = offset.search.problem.rows
     twice = {name: np.tile(values, 2) for name, values in rows.columns.items()}
     y = np.concatenate([offset.recorded.base, 2.0 * offset.recorded.base])
     table = Table({**twice, offset.case.quantity: y}, "recordings.csv")
@@ -89,18 +91,18 @@ def test_probability_of_the_answer_and_of_its_effects_stand_side_by_side(offset:
 
 
 def test_what_the_nearest_leaves_is_never_called_noise_alone(unnamed: Diagnosis) -> None:
-    name = next(key for key in unnamed.found.fits if len(key.effects) == 1)
-    perfect = replace(unnamed.found.fits[name], residual=0.0 * unnamed.found.none.residual)
-    fits = {**unnamed.found.fits, name: perfect}
-    said = told(replace(unnamed, found=replace(unnamed.found, fits=fits)))[words.UNNAMED]
+    name = next(key for key in unnamed.search.fits if len(key.effects) == 1)
+    perfect = replace(unnamed.search.fits[name], residual=0.0 * unnamed.search.null_fit.residual)
+    fits = {**unnamed.search.fits, name: perfect}
+    said = told(replace(unnamed, search=replace(unnamed.search, fits=fits)))[words.UNNAMED]
     assert "no more than noise" not in said
     assert "It is not the answer (probability below 0.01): its fit alone would do" in said
     assert "100 %" not in said
 
 
 def test_the_nearest_has_its_chi_square_in_the_noise_of_a_reading(unnamed: Diagnosis) -> None:
-    lasting = replace(unnamed.found, problem=unnamed.found.problem.with_together(9.0))
-    one, nine = nearest(unnamed), nearest(replace(unnamed, found=lasting))
+    lasting = replace(unnamed.search, problem=unnamed.search.problem.with_n_per_effective(9.0))
+    one, nine = nearest(unnamed), nearest(replace(unnamed, search=lasting))
     assert one is not None
     assert nine is not None
     np.testing.assert_allclose(nine.before, 9.0 * one.before)
@@ -134,9 +136,9 @@ def test_what_is_less_probable_and_not_rejected_is_listed(offset: Diagnosis) -> 
 
 @pytest.mark.parametrize(("off", "strained"), [(-2.04, False), (-2.06, True)])
 def test_strained_is_what_the_table_shows_so(complete: Diagnosis, off: float, strained: bool) -> None:
-    none = complete.refined[NOTHING]
-    z = np.where(np.arange(none.z.size) == 0, off, 0.0)
-    said = told(replace(complete, refined={**complete.refined, NOTHING: replace(none, z=z)}))[words.CALIBRATION]
+    null_fit = complete.refined[NOTHING]
+    z = np.where(np.arange(null_fit.z.size) == 0, off, 0.0)
+    said = told(replace(complete, refined={**complete.refined, NOTHING: replace(null_fit, z=z)}))[words.CALIBRATION]
     assert ("Strained" in said) == strained
 
 

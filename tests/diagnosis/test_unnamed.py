@@ -15,7 +15,15 @@ from mixedlub.chain.effect import Effect
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut
 from mixedlub.diagnosis.assessment.mismatch_test import mismatch_test
 from mixedlub.diagnosis.assessment.posterior import posterior
-from mixedlub.diagnosis.discrepancy.modulated import ADDITIVE, LATE, QUANTITIES, READING, Typical, carriers, log_slope
+from mixedlub.diagnosis.discrepancy.modulated import (
+    ADDITIVE,
+    QUANTITIES,
+    READING,
+    THERMAL_LAG,
+    TypicalSizes,
+    log_slope,
+    scalings_of,
+)
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.map_fit import log_likelihood, map_fit
 from mixedlub.diagnosis.problem import Problem
@@ -41,8 +49,8 @@ def test_film_and_shear_carry_with_the_signs_of_lubrication() -> None:
     p = problem("disc")
     z = np.zeros(p.calibration_size)
     base = p.run(NOTHING, z)
-    found = carriers(p, base, Typical.of(p, base))
-    assert set(found) - {LATE} == {READING, ADDITIVE, *QUANTITIES} - {"running_friction"}
+    found = scalings_of(p, base, TypicalSizes.of(p, base))
+    assert set(found) - {THERMAL_LAG} == {READING, ADDITIVE, *QUANTITIES} - {"running_friction"}
     assert (found["film_thickness"] < 0).all()
     assert (found["shear_stress"] > 0).all()
 
@@ -55,7 +63,7 @@ def test_a_mismatch_of_the_film_is_taken_for_one() -> None:
     temperature = p.rows["oil_temperature_C"]
     bend = np.sin(3.0 * (temperature - temperature.min()) / np.ptp(temperature))
     found = found_in(Problem(p.case, p.rows, p.forward, p.y + 0.6 * bend * slope, p.sd, p.shared))
-    assert found.unknown.best.carrier == "film_thickness"
+    assert found.discrepancy.best.modulates == "film_thickness"
 
 
 def test_a_mismatch_of_two_conditions_is_taken_for_one_of_two() -> None:
@@ -64,7 +72,7 @@ def test_a_mismatch_of_two_conditions_is_taken_for_one_of_two() -> None:
     torque, temperature = p.rows["torque_Nm"], p.rows["oil_temperature_C"]
     light, cold = (np.exp(-3.0 * (x - x.min()) / np.ptp(x)) for x in (torque, temperature))
     found = found_in(Problem(p.case, p.rows, p.forward, p.y * (1.0 + 0.12 * light * cold), p.sd, p.shared))
-    assert set(found.unknown.best.axes) == {"torque_Nm", "oil_temperature_C"}
+    assert set(found.discrepancy.best.axes) == {"torque_Nm", "oil_temperature_C"}
 
 
 def test_an_oil_of_another_coefficient_has_no_other_law() -> None:
@@ -117,7 +125,7 @@ def test_a_name_that_fails_on_levels_left_out_loses_its_place() -> None:
 
 @pytest.mark.parametrize(("after", "rows", "loses"), [(1.0, 150, False), (1.3, 150, False), (2.2, 150, True)])
 def test_the_demerit_spares_what_chance_and_another_form_leave(after: float, rows: int, loses: bool) -> None:
-    assert (HeldOut(3.0, after, "", 5, rows, after, 0.0, 0.0).demerit(1.0) > 0.0) is loses
+    assert (HeldOut(3.0, after, "", 5, rows, after, 0.0, 0.0).log_odds_penalty(1.0) > 0.0) is loses
 
 
 def test_an_effect_that_is_seldom_missing_has_lower_odds(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -12,10 +12,10 @@ from mixedlub.chain.effect import Parameter
 from mixedlub.chain.plain_text import plain_equation
 from mixedlub.chain.priors import Normal
 from mixedlub.data_checks.audit import SCARCE, audit
-from mixedlub.diagnosis.assessment.answer_checks import against
+from mixedlub.diagnosis.assessment.answer_checks import answer_warnings
 from mixedlub.diagnosis.assessment.experiment_design import NextTest
 from mixedlub.diagnosis.assessment.posterior import Posterior
-from mixedlub.diagnosis.assessment.power_law import unnamed as describe
+from mixedlub.diagnosis.assessment.power_law import describe_discrepancy as describe
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.labels import effect_words, number, with_names
@@ -30,7 +30,7 @@ from mixedlub.schema.findings import Severity, codes, finding, of_severity
 
 def told(d: Diagnosis) -> dict[str, str]:
     """Sentences of each section joined."""
-    extra = describe(d.found) if DISCREPANCY in d.posterior.tied else None
+    extra = describe(d.search) if DISCREPANCY in d.posterior.tied else None
     return {
         s.title: " ".join([*s.alarms, *s.sentences, *s.items, *(" ".join(row) for row in s.table)])
         for s in words.sections(d, extra)
@@ -149,15 +149,15 @@ def test_doubts_about_the_data_stand_above_the_headline(offset: Diagnosis) -> No
 def test_wrong_unit_and_sign_are_doubts(
     offset: Diagnosis, change: Callable[[np.ndarray], np.ndarray], wanted: str
 ) -> None:
-    rows = offset.found.problem.rows
-    notes = audit(offset.case, rows, change(offset.recorded.base), offset.found.problem.forward)
+    rows = offset.search.problem.rows
+    notes = audit(offset.case, rows, change(offset.recorded.base), offset.search.problem.forward)
     assert codes(of_severity(notes, Severity.DOUBT)) == [wanted]
 
 
 def test_very_many_wrong_readings_are_a_doubt(offset: Diagnosis) -> None:
     wrong = np.arange(offset.readings.size) % 3 == 0
     rows, predicted = offset.recorded.table, offset.recorded.predicted
-    notes = against(offset.posterior.verdict, offset.heldout, rows, offset.readings, predicted, wrong)
+    notes = answer_warnings(offset.posterior.verdict, offset.heldout, rows, offset.readings, predicted, wrong)
     assert (notes[0].code, notes[0].severity) == ("outliers_many", Severity.DOUBT)
 
 
@@ -172,7 +172,7 @@ def vague(d: Diagnosis, spread: float) -> Diagnosis:
     key = d.posterior.verdict
     fit = d.refined[key]
     covariance = fit.covariance.copy()
-    place = np.arange(d.found.problem.calibration_size, covariance.shape[0])
+    place = np.arange(d.search.problem.calibration_size, covariance.shape[0])
     covariance[place, place] = spread**2
     return replace(d, refined={**d.refined, key: replace(fit, covariance=covariance)})
 
@@ -197,7 +197,7 @@ def test_of_several_vague_parameters_only_their_combined_effect_is_known() -> No
 
 def test_sensor_offset_has_the_size_that_it_is_a_share_of(offset: Diagnosis) -> None:
     rows = section(judged(offset, {Explanation.of("sensor_offset"): 0.97}, 1), words.LEFT_OUT).table
-    size = float(np.median(np.abs(offset.found.problem.forward.predict())))
+    size = float(np.median(np.abs(offset.search.problem.forward.predict())))
     assert rows[1][-1].startswith(f"added to every reading, over its typical size ({number(size)} W)")
 
 
@@ -226,7 +226,7 @@ def test_temperature_of_an_answer_is_in_celsius(offset: Diagnosis, monkeypatch: 
 
 @pytest.mark.parametrize("p", [1e-304, 3e-7, 0.004, 0.3])
 def test_page_and_text_have_the_same_p_value(offset: Diagnosis, p: float) -> None:
-    d = replace(offset, test=replace(offset.test, p_value=p, lenient=False))
+    d = replace(offset, test=replace(offset.test, p_value=p, noise_adapted=False))
     card = html._cards(d)[0][0]
     assert f"(p {'' if 'below' in card else '= '}{card}; " in told(d)[words.MISMATCH]
 
@@ -270,7 +270,7 @@ def test_unknown_is_said_with_place_and_stage(unnamed: Diagnosis) -> None:
 
 
 def test_empirical_form_is_marked_as_such(teeth: Diagnosis) -> None:
-    extra = describe(teeth.found)
+    extra = describe(teeth.search)
     assert extra.law is not None
     form = next(s for s in words.sections(teeth, extra) if s.title == words.UNNAMED)
     assert any("empirical (a description, not physics)" in s for s in form.sentences)

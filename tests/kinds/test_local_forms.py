@@ -5,7 +5,7 @@ import pytest
 
 from mixedlub.diagnosis.assessment.power_law import unnamed
 from mixedlub.diagnosis.diagnose import diagnose_case
-from mixedlub.diagnosis.discrepancy.modulated import late
+from mixedlub.diagnosis.discrepancy.modulated import thermal_lag
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.report.text.words import as_text, sections
@@ -30,7 +30,7 @@ def drive(extra, seed=1, relative=0.01):
 
 
 def told(found):
-    return " ".join(as_text("", sections(found, unnamed(found.found))).split())
+    return " ".join(as_text("", sections(found, unnamed(found.search))).split())
 
 
 def resonance(speed, order):
@@ -42,7 +42,7 @@ def test_a_resonance_is_no_heap_of_outliers(make):
     found = diagnose_case(make(*drive(resonance)).folder)
     assert found.test.detected
     assert found.posterior.verdict == DISCREPANCY
-    shape = found.found.unknown.best
+    shape = found.search.discrepancy.best
     assert (shape.form, shape.axes) == ("peak", ("speed_rpm",))
     assert shape.at == pytest.approx(AT, rel=0.01)
     assert len(found.outlier_runs) <= 2  # of 25 readings, on the flanks of another form
@@ -74,7 +74,7 @@ def remounted(speed, order):
 def test_what_changes_at_one_moment_is_told_with_its_run(make):
     found = diagnose_case(make(*drive(remounted)).folder)
     assert found.posterior.verdict == DISCREPANCY
-    assert found.found.unknown.best.form == "step"
+    assert found.search.discrepancy.best.form == "step"
     rows = found.case.recordings
     run = rows["run"][rows["sequence"] > 0.6][0]
     assert f"is a step at run {run:g}," in told(found)
@@ -90,8 +90,8 @@ def test_a_sample_that_was_changed_is_no_drift(make):
     columns = {"temperature_C": celsius, "sequence": order, "viscosity_mPa_s": read}
     found = diagnose_case(make(system("viscosity", "viscosity_mPa_s"), columns).folder)
     assert found.posterior.verdict == DISCREPANCY
-    assert found.found.unknown.best.form == "step"
-    assert found.found.unknown.best.at == pytest.approx(2 / 3, abs=0.06)
+    assert found.search.discrepancy.best.form == "step"
+    assert found.search.discrepancy.best.at == pytest.approx(2 / 3, abs=0.06)
 
 
 def test_a_friction_event_keeps_its_name(make):
@@ -145,7 +145,7 @@ def test_a_step_is_unnamed_where_its_name_is_excluded(make):
     case = make(system("friction_history", "friction_coefficient"), columns)
     found = diagnose_case(case.folder, exclude=["friction_event"])
     assert found.posterior.verdict == DISCREPANCY
-    assert found.found.unknown.best.form == "step"
+    assert found.search.discrepancy.best.form == "step"
 
 
 def films(dent=1.0, repeats=1):
@@ -162,7 +162,7 @@ def test_a_corner_of_conditions_is_no_heap_of_outliers(make, repeats):
     """A dimple: films are a quarter thicker under a small load and fast sliding, and repeats agree on it."""
     found = diagnose_case(make(*films(1.25, repeats)).folder)
     assert found.posterior.verdict == DISCREPANCY
-    box = {name: (low, high) for name, low, high in found.found.unknown.best.box}
+    box = {name: (low, high) for name, low, high in found.search.discrepancy.best.box}
     assert set(box) == {"entrainment_speed_m_s", "slide_roll_ratio", "load_N"}
     assert box["slide_roll_ratio"] == (0.75, np.inf)
     assert box["load_N"] == (-np.inf, 35.0)
@@ -187,7 +187,7 @@ def test_what_the_reading_before_left_behind_is_not_noise(make):
     columns |= {"load_N": np.full(32, 20.0), "slide_roll_ratio": np.zeros(32), "sequence": np.linspace(0.0, 1.0, 32)}
     found = diagnose_case(make(system("film", "film_thickness_nm", contact=BALL), columns).folder)
     assert found.posterior.verdict == DISCREPANCY
-    assert found.found.unknown.best.form == "delay"
+    assert found.search.discrepancy.best.form == "delay"
     assert "goes with the temperature of the reading before" in told(found)
     assert "Wait longer after a change of temperature" in told(found)
 
@@ -199,21 +199,23 @@ def test_a_temperature_that_lags_has_caught_up_after_a_pause(make):
     columns = {"time_s": time, "temperature_C": celsius, "viscosity_mPa_s": 50.0 - 0.5 * celsius}
     case = make(system("viscosity", "viscosity_mPa_s"), columns)
     whole = Problem.of(case)
-    moved = late(whole, whole.run(NOTHING, np.zeros(whole.calibration_size)))
+    moved = thermal_lag(whole, whole.run(NOTHING, np.zeros(whole.calibration_size)))
     slope = np.diff(celsius)
     per_kelvin = moved[1:30] / slope[:29]
     assert moved[30] == pytest.approx(np.median(per_kelvin) * slope[29] / 100.0, rel=0.3)
     few = whole.take(np.array([5, 30, 40]))
-    assert late(few, few.run(NOTHING, np.zeros(few.calibration_size))) == pytest.approx(moved[[5, 30, 40]], rel=1e-6)
+    assert thermal_lag(few, few.run(NOTHING, np.zeros(few.calibration_size))) == pytest.approx(
+        moved[[5, 30, 40]], rel=1e-6
+    )
 
 
 @pytest.mark.parametrize("wander", [1.0, 4.0])
-def test_levels_left_out_are_those_of_the_condition_that_was_varied(make, wander):
+def test_levels_left_out_are_those_of_the_condition_that_was_varied(make, scatter):
     """Seven films over nine times the speed; the load is measured and jitters by a few per cent or more."""
     rng = np.random.default_rng(2)
     speed = np.geomspace(0.12, 1.06, 7)
     columns = {
-        "load_N": 20.0 + wander * np.array([0.305, -0.108, 0.179, 0.191, 0.381, -0.743, -0.342]),
+        "load_N": 20.0 + scatter * np.array([0.305, -0.108, 0.179, 0.191, 0.381, -0.743, -0.342]),
         "sequence": np.linspace(0.0, 1.0, 7),
         "entrainment_speed_m_s": speed,
         "slide_roll_ratio": np.zeros(7),
@@ -236,5 +238,5 @@ def test_a_film_that_rolls_is_not_swept_in_its_sliding(make):
         "film_thickness_nm": 560.0 * speed**0.6 * (1.0 + 0.01 * rng.standard_normal(10)),
     }
     found = diagnose_case(make(system("film", "film_thickness_nm", contact=BALL), columns).folder)
-    assert [axis.name for axis in found.found.space.axes] == ["entrainment_speed_m_s"]
+    assert [axis.name for axis in found.search.space.axes] == ["entrainment_speed_m_s"]
     assert "speed" in found.heldout.split

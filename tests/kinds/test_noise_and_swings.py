@@ -24,7 +24,7 @@ def test_what_swings_in_time_is_no_noise(make, periods, height):
     found = diagnose_case(make(*hunting(periods, height)).folder)
     assert found.test.detected
     assert found.posterior.verdict == DISCREPANCY
-    assert found.found.unknown.best.waves == pytest.approx(periods, abs=0.2)
+    assert found.search.discrepancy.best.waves == pytest.approx(periods, abs=0.2)
     assert found.case.system.recording.noise.relative <= max(0.01, 0.1 * height)  # a triangle is not all cosine
 
 
@@ -59,7 +59,7 @@ def test_a_condition_that_is_cycled_makes_no_wave(make):
     columns = {"time_s": TIME, "load_N": load, "friction_coefficient": friction}
     found = diagnose_case(make(system("friction_history", "friction_coefficient"), columns).folder)
     assert found.test.detected
-    assert not found.found.unknown.best.waves
+    assert not found.search.discrepancy.best.waves
 
 
 def test_a_wave_is_not_foretold_far_beyond_its_record(make):

@@ -280,8 +280,8 @@ def test_the_answer_says_whether_roelands_law_would_do(make, plant, holds):
 def test_ripple_is_found_whatever_its_order(make, order):
     found = diagnose_case(make(*planted_ripple(order)).folder)
     assert found.posterior.verdict == Explanation.of("periodic_mesh")
-    z = found.found.fits[Explanation.of("periodic_mesh")].z
-    values = found.found.problem.parameters(Explanation.of("periodic_mesh"), z)["periodic_mesh"]
+    z = found.search.fits[Explanation.of("periodic_mesh")].z
+    values = found.search.problem.parameters(Explanation.of("periodic_mesh"), z)["periodic_mesh"]
     assert values["order"] == pytest.approx(order, rel=0.01)
     assert np.hypot(values["cosine"], values["sine"]) == pytest.approx(0.2, rel=0.1)
 
@@ -319,7 +319,7 @@ def test_planted_size_of_stribeck_friction_is_found(make):
 def test_a_power_law_turns_its_sign_with_the_direction(make):
     speed = np.concatenate([np.linspace(-200.0, -10.0, 20), np.linspace(10.0, 200.0, 20)])
     friction = np.sign(speed) * (1.0 + 2.0 * (speed / 200.0) ** 2)
-    law = power_law(diagnose_case(make(*drive(friction, speed_rpm=speed)).folder, exclude=tuple(catalogue())).found)
+    law = power_law(diagnose_case(make(*drive(friction, speed_rpm=speed)).folder, exclude=tuple(catalogue())).search)
     assert law is not None
     assert dict(law.factors) == {"speed_rpm": 2}
     assert law.coefficient == pytest.approx(2.0 * (law.middles[0] / 200.0) ** 2, rel=0.1)
@@ -331,7 +331,7 @@ def test_a_power_law_of_what_keeps_its_sign_is_found_in_both_directions(make):
     speed, load = np.tile(SPEED, 4), np.repeat([1.0, 2.0, 4.0, 8.0], SPEED.size)
     payload = np.sign(speed) + 0.3 * speed / 200.0 + 0.3 * load
     found = diagnose_case(make(*drive(payload, speed_rpm=speed, load_N=load)).folder, exclude=tuple(catalogue()))
-    law = power_law(found.found)
+    law = power_law(found.search)
     assert law is not None
     assert dict(law.factors) == {"load_N": 1}
     assert not law.odd
@@ -351,7 +351,7 @@ def test_a_motor_torque_that_contains_the_friction_is_no_condition(make) -> None
     sections, columns = drive(0.5 + 0.2 * speed / 120.0 + torque - torque / (1.0 + 0.02 * torque), speed_rpm=speed)
     columns |= {"torque_Nm": torque, "motor_torque_Nm": torque + columns["friction_torque_Nm"]}
     d = diagnose_case(make(sections, columns).folder)
-    assert "motor_torque_Nm" not in [axis.name for axis in d.found.space.axes]
+    assert "motor_torque_Nm" not in [axis.name for axis in d.search.space.axes]
     assert "torque_constant" in d.posterior.verdict.effects
 
 

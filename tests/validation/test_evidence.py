@@ -11,7 +11,7 @@ from scipy.stats import binom
 
 from mixedlub.case.folder import read_case
 from mixedlub.diagnosis.assessment import mismatch_test as mismatch_module
-from mixedlub.diagnosis.assessment.mismatch_test import KNOWN, UNSURE, UNTOLD, mismatch_test
+from mixedlub.diagnosis.assessment.mismatch_test import BAYES_FACTOR_MARGIN, KNOWN, UNTOLD, mismatch_test
 from mixedlub.diagnosis.explanation import NOTHING, Explanation
 from mixedlub.diagnosis.inference.map_fit import map_fit
 from mixedlub.diagnosis.inference.reference_evidence import nested_evidence
@@ -66,15 +66,20 @@ def searches(problems: list[Problem]) -> list[Search]:
 
 
 def test_the_bound_of_the_search_alarms_nowhere(searches: list[Search]) -> None:
-    assert all(found.log_bayes_factor < np.log(UNSURE / LEVEL) for found in searches)
+    assert all(found.log_bayes_factor < np.log(BAYES_FACTOR_MARGIN / LEVEL) for found in searches)
 
 
 def calibrated_only(found: Search, drawn: Problem) -> Search:
     """The search's prior draws and smooth functions against other readings, without fits of its own."""
-    none = map_fit(drawn, NOTHING, np.zeros(drawn.size(NOTHING)))
-    unnamed = replace(found.unknown, evidence=none.evidence - 50.0)
+    null_fit = map_fit(drawn, NOTHING, np.zeros(drawn.size(NOTHING)))
+    unnamed = replace(found.discrepancy, evidence=null_fit.evidence - 50.0)
     return replace(
-        found, problem=drawn, none=none, fits={NOTHING: none}, scores={NOTHING: none.evidence}, unknown=unnamed
+        found,
+        problem=drawn,
+        null_fit=null_fit,
+        fits={NOTHING: null_fit},
+        scores={NOTHING: null_fit.evidence},
+        discrepancy=unnamed,
     )
 
 

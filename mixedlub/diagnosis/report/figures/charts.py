@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mixedlub.diagnosis.assessment.posterior import TIE
-from mixedlub.diagnosis.assessment.power_law import Unnamed
+from mixedlub.diagnosis.assessment.power_law import DescribedDiscrepancy
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.labels import axis_label, conditions_text, explanation_words, words_of
@@ -29,7 +29,7 @@ FOLD = 58
 
 def colour_of(key: Explanation) -> str:
     """Physics, instrument, nothing and the unnamed each have their colour."""
-    if key.discrepancy:
+    if key.is_discrepancy:
         return UNNAMED
     if key == NOTHING:
         return MUTED
@@ -97,13 +97,13 @@ def heldout(d: Diagnosis) -> Figure:
     axes.grid(axis="y", visible=False)
     axes.tick_params(axis="y", length=0)
     split = kept.split
-    for axis in d.found.space.axes:
+    for axis in d.search.space.axes:
         split = split.replace(axis.name, words_of(axis.name))
     axes.set_xlabel(f"rms error on left-out readings (sigma)\n{split}, {kept.folds} folds")
     return figure
 
 
-def absorbing_stages(extra: Unnamed) -> Figure | None:
+def absorbing_stages(extra: DescribedDiscrepancy) -> Figure | None:
     """Of an unnamed mismatch: how well each stage could take it up; none where all could alike."""
     from matplotlib.ticker import MaxNLocator
 
@@ -126,7 +126,7 @@ def absorbing_stages(extra: Unnamed) -> Figure | None:
     return figure
 
 
-def empirical_form(d: Diagnosis, extra: Unnamed) -> Figure | None:
+def empirical_form(d: Diagnosis, extra: DescribedDiscrepancy) -> Figure | None:
     """The power law of an unnamed mismatch against what was recorded; none where no law holds."""
     law = extra.law
     if law is None:

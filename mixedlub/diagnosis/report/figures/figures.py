@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mixedlub.diagnosis.assessment.identifiability import confusion
-from mixedlub.diagnosis.assessment.power_law import Unnamed
+from mixedlub.diagnosis.assessment.power_law import DescribedDiscrepancy
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.labels import axis_label, words_of
@@ -39,9 +39,9 @@ MOST_LEVELS, BINS = 12, 10
 """Levels that a profile shows one by one, and into how many bins it takes more."""
 
 
-def all_figures(d: Diagnosis, extra: Unnamed | None = None) -> dict[str, Figure]:
+def all_figures(d: Diagnosis, extra: DescribedDiscrepancy | None = None) -> dict[str, Figure]:
     """Every figure that the case has something to show in, by file name, in reading order."""
-    alike = confusion(d.found)
+    alike = confusion(d.search)
     named = tuple(dict.fromkeys(n for k in d.posterior.tied for n in k.effects))
     with look():
         drawn = {

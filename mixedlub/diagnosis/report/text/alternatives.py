@@ -59,14 +59,14 @@ def _resemblance(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
     hidden = unshown(d, alike)
     unseen = [name for name in hidden if name not in told]
     improbable = [name for name in _improbable(d) if name not in (*hidden, *told)]
-    every = judged.inclusion(d.found)
+    every = judged.inclusion(d.search)
     open_still = _open_still(d, every, (*hidden, *told))
     if open_still:
         said.append(f"Less probable, not excluded: {', '.join(open_still)}.")
     rejected = ", ".join(effect_words(name) for name in improbable if name not in twins)
     if rejected:
-        why = "Weighed and rejected" if verdict or judged.verdict.discrepancy else "Would show here, and did not"
-        under = "" if verdict or judged.verdict.discrepancy or d.noise_stated else f"; {HIDDEN}"
+        why = "Weighed and rejected" if verdict or judged.verdict.is_discrepancy else "Would show here, and did not"
+        under = "" if verdict or judged.verdict.is_discrepancy or d.noise_stated else f"; {HIDDEN}"
         said.append(f"{why} (probability below {REJECTED:g} each{under}): {rejected}.")
     close = ", ".join(effect_words(name) for name in improbable if name in twins)
     if close:
@@ -106,7 +106,7 @@ def _with_chance(name: str, every: Mapping[str, float]) -> str:
 def _improbable(d: Diagnosis) -> list[str]:
     """Improbable effects; faults of the channel are none of them where single readings have one."""
     weighed = {
-        name: p for name, p in d.posterior.inclusion(d.found).items() if name not in NOTHING.ids + DISCREPANCY.ids
+        name: p for name, p in d.posterior.inclusion(d.search).items() if name not in NOTHING.ids + DISCREPANCY.ids
     }
     faulty = bool(d.outlier_runs)
     return [e.id for e in effects_of(weighed) if weighed[e.id] < REJECTED and not (faulty and "reading" in e.acts_on)]

@@ -34,7 +34,7 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
             "rows": d.test.rows,
         },
         "verdict": verdict,
-        "probabilities": d.posterior.inclusion(d.found),
+        "probabilities": d.posterior.inclusion(d.search),
         "tied": [list(key.ids) for key in d.posterior.tied],
         "stage": d.posterior.stages(),
         "location": {
@@ -72,23 +72,23 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
 def verdict_fit(d: Diagnosis) -> Refined:
     """The refined fit of the verdict; of the calibrated base where the verdict is unknown."""
     key = d.posterior.verdict
-    return d.refined[NOTHING if key.discrepancy else key]
+    return d.refined[NOTHING if key.is_discrepancy else key]
 
 
 def verdict_residual(d: Diagnosis) -> np.ndarray:
     """(recorded - fitted)/sd of a single reading after the verdict."""
-    unknown = d.posterior.verdict.discrepancy
-    left = d.found.unknown.fit.residual if unknown else verdict_fit(d).residual
-    return d.found.problem.of_one(left)
+    discrepancy = d.posterior.verdict.is_discrepancy
+    left = d.search.discrepancy.fit.residual if discrepancy else verdict_fit(d).residual
+    return d.search.problem.single_reading_units(left)
 
 
 def effect_records(d: Diagnosis) -> list[dict[str, Any]]:
     """The verdict's effects with their fitted parameters."""
     refined = verdict_fit(d)
     spread = refined.spread
-    place = d.found.problem.calibration_size
+    place = d.search.problem.calibration_size
     records = []
-    for e in d.found.problem.effects(refined.fit.explanation):
+    for e in d.search.problem.effects(refined.fit.explanation):
         parameters = []
         for p in e.parameters:
             value, low, high = _told(refined, p.prior, place, spread[place])
@@ -102,14 +102,14 @@ def effect_records(d: Diagnosis) -> list[dict[str, Any]]:
 
 def calibration_record(d: Diagnosis) -> dict[str, dict[str, float]]:
     """Calibrated inputs under the verdict, with 90 % intervals."""
-    if d.posterior.verdict.discrepancy:
-        unknown = d.found.unknown
-        z, spread = unknown.z, np.sqrt(np.diag(unknown.covariance))
+    if d.posterior.verdict.is_discrepancy:
+        discrepancy = d.search.discrepancy
+        z, spread = discrepancy.z, np.sqrt(np.diag(discrepancy.covariance))
     else:
         refined = verdict_fit(d)
         z, spread = refined.z, refined.spread
     record = {}
-    for i, c in enumerate(d.found.problem.forward.calibrations):
+    for i, c in enumerate(d.search.problem.forward.calibrations):
         value, low, high = interval(c.parameter.prior, z[i], spread[i])
         record[c.name] = {"value": value, "low90": low, "high90": high}
     return record
@@ -123,7 +123,7 @@ def interval(prior: Prior, z: float, spread: float) -> tuple[float, float, float
 
 def _told(refined: Refined, prior: Prior, index: int, spread: float) -> tuple[float, float, float]:
     """The same of a coordinate of a fit; that of a place from all places where it may stand."""
-    for stands in refined.places:
+    for stands in refined.change_points:
         if stands.index == index:
             low, value, high = (prior.value(stands.at(share)) for share in (0.05, 0.5, 0.95))
             return value, low, high

@@ -71,7 +71,7 @@ def headline(d: Diagnosis) -> str:
     """The verdict in one sentence; where readings are few or all wrong, after one that says so."""
     count = d.readings.size
     said = _verdict(d)
-    if d.posterior.verdict.discrepancy and "repeats_contradictory" in codes(d.warnings):
+    if d.posterior.verdict.is_discrepancy and "repeats_contradictory" in codes(d.warnings):
         said = f"Readings at equal conditions contradict each other: check instrument and set-up first. {said}"
     if count < SCARCE:
         said = f"Only {count} readings: take this as a hint, not as a finding. {said}"
@@ -96,7 +96,7 @@ def _verdict(d: Diagnosis) -> str:
     p = chance(judged.weights[judged.verdict])
     if judged.verdict == NOTHING:
         return f"Nothing is missing that these readings could show: the calibrated model explains them ({p})."
-    if judged.verdict.discrepancy:
+    if judged.verdict.is_discrepancy:
         count = len(d.excluded)
         which = f"of those weighed explains ({count} left out on request)" if count else "of the catalogue explains"
         return f"Something is missing that no one effect {which}, nor any two tried together (probability {p})."
@@ -122,13 +122,13 @@ def _rest(d: Diagnosis) -> list[str]:
 
 def _common(d: Diagnosis) -> list[str]:
     """Effects that are in every one of several tied explanations."""
-    named = [set(k.effects) for k in d.posterior.tied if not k.discrepancy]
+    named = [set(k.effects) for k in d.posterior.tied if not k.is_discrepancy]
     return sorted(set.intersection(*named)) if len(named) == len(d.posterior.tied) > 1 else []
 
 
 def _beside(d: Diagnosis, common: list[str]) -> str:
     """A tie all of whose explanations share something, and the readings leave open what comes beside it."""
-    judged, inclusion = d.posterior, d.posterior.inclusion(d.found)
+    judged, inclusion = d.posterior, d.posterior.inclusion(d.search)
     shared = " and ".join(f"{effect_words(name)} ({chance(inclusion[name])})" for name in common)
     each = []
     for key in judged.tied[:MOST_TIED]:
@@ -165,7 +165,7 @@ def standing(d: Diagnosis) -> list[str]:
 def _each(d: Diagnosis, told: set[str]) -> list[str]:
     """How probable the effects of the answer are in any company, where that differs from the answer as a whole."""
     judged = d.posterior
-    every, own = judged.inclusion(d.found), chance(judged.weights[judged.verdict])
+    every, own = judged.inclusion(d.search), chance(judged.weights[judged.verdict])
     names = [name for name in judged.verdict.effects if name not in told and chance(every[name]) != own]
     if not names:
         return []
@@ -177,7 +177,7 @@ def _each(d: Diagnosis, told: set[str]) -> list[str]:
 def probability_words(d: Diagnosis, name: str) -> str:
     """How probable one effect of the verdict is, and with what it was counted."""
     key = d.posterior.verdict
-    own, every = chance(d.posterior.weights[key]), chance(d.posterior.inclusion(d.found)[name])
+    own, every = chance(d.posterior.weights[key]), chance(d.posterior.inclusion(d.search)[name])
     if own == every:
         return f"probability {every}"
     if len(key.effects) == 1:

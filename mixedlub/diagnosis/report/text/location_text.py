@@ -33,7 +33,7 @@ def where(d: Diagnosis) -> tuple[str, ...]:
     most = int(np.argmax(np.abs(z)))
     run, conditions = int(d.recorded.table["run"][most]), reading_conditions(d, most)
     said: tuple[str, ...] = (located(d), f"Largest at run {run} ({conditions}): {z[most]:+.1f} sigma.")
-    if d.posterior.verdict.discrepancy and d.found.problem.calibration_size and not d.region.inside.all():
+    if d.posterior.verdict.is_discrepancy and d.search.problem.calibration_size and not d.region.inside.all():
         said = (*said, LEVEL)
     turned = np.sign(d.residuals[0]) != np.sign(z)
     return (*said, SPREAD) if turned.mean() > TURNED else said

@@ -39,16 +39,16 @@ class Nearest:
 
 def nearest(d: Diagnosis) -> Nearest | None:
     """What takes up most of a mismatch that has no name; None where a name is tied or there is nothing to take up."""
-    found, tied = d.found, d.posterior.tied
-    if DISCREPANCY not in tied or found.unknown.best.form == "wave" or any(key.effects for key in tied):
+    found, tied = d.search, d.posterior.tied
+    if DISCREPANCY not in tied or found.discrepancy.best.form == "wave" or any(key.effects for key in tied):
         return None
     good = d.counted
 
     def squares(residual: np.ndarray) -> float:
-        return float(np.sum(found.problem.of_one(residual[good]) ** 2))
+        return float(np.sum(found.problem.single_reading_units(residual[good]) ** 2))
 
     left = {key: squares(fit.residual) for key, fit in found.fits.items()}
-    most = left[NOTHING] - squares(found.unknown.fit.residual)
+    most = left[NOTHING] - squares(found.discrepancy.fit.residual)
     names = [key for key in left if key.effects and left[key] < left[NOTHING]]
     if most <= 0.0 or not names:
         return None
