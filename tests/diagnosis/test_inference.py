@@ -107,7 +107,7 @@ def test_very_many_readings_give_the_answer_of_all(monkeypatch: pytest.MonkeyPat
 def test_a_spread_of_very_many_readings_has_each_once_and_every_level(count: int) -> None:
     levels = np.arange(count) % 4
     rows = searching.spread_rows([np.linspace(0.0, 1.0, count), levels.astype(float)], count)
-    assert np.unique(rows).size == searching.SPREAD
+    assert np.unique(rows).size == searching.SUBSET
     assert np.unique(levels[rows]).size == 4
 
 
