@@ -16,8 +16,8 @@ from mixedlub.recording.noise import (
     noise,
     noise_from_repeats,
     pooled_sd,
-    seen_noise,
     setups_differ,
+    transformed_noise,
 )
 from mixedlub.rig.plausibility import far_off
 from mixedlub.schema.findings import Finding, Severity, finding, listed
@@ -61,13 +61,13 @@ CONTRADICTING = 4.0
 
 def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[Finding]:
     """Findings on the files and the readings; an error where the recording cannot be diagnosed."""
-    return [*far_off(case.rig), *check_readings(case, rows, y, forward), *_noise_source(case, rows, y)]
+    return [*far_off(case.rig), *check_readings(case, rows, y, forward), *_noise_source(case, y)]
 
 
 def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[Finding]:
     """What is implausible in the readings and their conditions; an error where they cannot be diagnosed."""
     _readable(case, y)
-    if all(np.unique(values).size == 1 for values in raw_coordinates(case, rows, forward).values()):
+    if all(np.unique(values).size == 1 for values in raw_coordinates(forward).values()):
         where = str(case.folder / "recordings.csv")
         raise InputError("all readings were taken at the same conditions; vary at least one", where=where)
     base = forward.nominal()
@@ -231,11 +231,11 @@ def _sliding(rows: Table) -> list[Finding]:
 
 def _contradicting(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[Finding]:
     """Readings at equal conditions that scatter far more than the stated noise."""
-    group = nearly_repeated(case, rows)
-    if group is None or not is_stated(case, rows):
+    group = nearly_repeated(case)
+    if group is None or not is_stated(case):
         return []
     repeats = pooled_sd(_without_drift(case, rows, y, base, group), group)
-    typical = float(np.median(seen_noise(case, rows, y)[0]))
+    typical = float(np.median(transformed_noise(case, rows, y)[0]))
     if repeats <= CONTRADICTING * typical:
         return []
     unit = "" if case.kind.logarithmic else f" {unit_of(case.quantity)}".rstrip()
@@ -293,7 +293,7 @@ def _misread(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, told: np.
 
 def _sds(case: Case, rows: Table, y: np.ndarray) -> np.ndarray:
     """What a reading scatters by, as stated; else a twentieth of the usual one."""
-    return noise(case, rows, y)[0] if is_stated(case, rows) else np.full(y.size, UNSTATED * float(np.median(np.abs(y))))
+    return noise(case, rows, y)[0] if is_stated(case) else np.full(y.size, UNSTATED * float(np.median(np.abs(y))))
 
 
 def _warm(rows: Table) -> list[Finding]:
@@ -348,14 +348,14 @@ def _without_drift(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, gro
     return left - grown * (float(apart @ within) / spread) if spread > 0.0 else left
 
 
-def _repeats(case: Case, rows: Table, y: np.ndarray) -> float:
-    return noise_from_repeats(case, rows, np.log(y) if case.kind.logarithmic else y)
+def _repeats(case: Case, y: np.ndarray) -> float:
+    return noise_from_repeats(case, np.log(y) if case.kind.logarithmic else y)
 
 
-def _noise_source(case: Case, rows: Table, y: np.ndarray) -> list[Finding]:
+def _noise_source(case: Case, y: np.ndarray) -> list[Finding]:
     """Where the scatter of a reading comes from when the recording does not state it."""
-    if is_stated(case, rows):
+    if is_stated(case):
         return []
-    source = "repeats" if _repeats(case, rows, y) > 0 else "the fit"
+    source = "repeats" if _repeats(case, y) > 0 else "the fit"
     text = f"no noise given: the standard deviation of a reading is estimated from {source}"
     return [finding("noise_estimated", text)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.case.folder import Case
-from mixedlub.recording.conditions import jitters
+from mixedlub.recording.conditions import is_noisy_constant
 from mixedlub.recording.set_points import near_values
 from mixedlub.schema.findings import Finding, finding, listed
 from mixedlub.schema.table import Table
@@ -67,7 +67,7 @@ def _points(case: Case, rows: Table) -> np.ndarray:
         values = rows[name]
         if values.dtype.kind in "US":
             keys.append(np.unique(values, return_inverse=True)[1].reshape(-1))
-        elif not jitters(name, values):
+        elif not is_noisy_constant(name, values):
             keys.append(near_values(values))
     return np.unique(np.column_stack(keys), axis=0, return_inverse=True)[1].reshape(-1)
 

@@ -11,23 +11,30 @@ import numpy as np
 from mixedlub.case.folder import Case, hidden, read_case, read_conditions, refuse_used_runs
 from mixedlub.case.forward import Forward
 from mixedlub.data_checks.audit import audit
-from mixedlub.diagnosis.assessment.answer_checks import against, likelier_notes, scatter_notes, unsure_odds
+from mixedlub.diagnosis.assessment.answer_checks import (
+    answer_warnings,
+    noise_notes,
+    overdispersion_warning,
+    prior_odds_notes,
+)
 from mixedlub.diagnosis.assessment.check_channel import Check, check_channel
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut
 from mixedlub.diagnosis.assessment.experiment_design import NextTest, next_tests
 from mixedlub.diagnosis.assessment.extrapolation import beyond_recorded
-from mixedlub.diagnosis.assessment.location import Region, passed_by, region
-from mixedlub.diagnosis.assessment.mismatch_test import Mismatch, told_from_nothing
+from mixedlub.diagnosis.assessment.location import Region, region, time_columns
+from mixedlub.diagnosis.assessment.mismatch_test import Mismatch, mismatch_against_null
 from mixedlub.diagnosis.assessment.model_averaging import Predicted, averaged, leaders, outlier_chances
-from mixedlub.diagnosis.assessment.posterior import Key, Posterior
+from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.assessment.prediction import Refined
 from mixedlub.diagnosis.assessment.published_laws import Contained, contained
 from mixedlub.diagnosis.assessment.validity import beyond_range, unpublished
 from mixedlub.diagnosis.assessment.verdict import judge
+from mixedlub.diagnosis.explanation import DISCREPANCY, Explanation
 from mixedlub.diagnosis.labels import effect_words
-from mixedlub.diagnosis.search.noise_selection import weighed
+from mixedlub.diagnosis.search.noise_selection import search_under_noise
 from mixedlub.diagnosis.search.search import Progress, Search
 from mixedlub.effects import find
+from mixedlub.recording.readings import readings_of, rows_of
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.table import Table
 
@@ -37,10 +44,10 @@ class Diagnosis:
     """Everything the answer says, and what it was computed from."""
 
     case: Case
-    found: Search
+    search: Search
     test: Mismatch
     posterior: Posterior
-    refined: dict[Key, Refined]
+    refined: dict[Explanation, Refined]
     recorded: Predicted
     wanted: Predicted | None
     outlier_chance: np.ndarray
@@ -55,7 +62,7 @@ class Diagnosis:
     @property
     def readings(self) -> np.ndarray:
         """The recorded numbers in the unit of their column."""
-        return self.found.problem.level(self.found.problem.y)
+        return self.search.problem.inverse(self.search.problem.y)
 
     @property
     def check(self) -> Check | None:
@@ -65,7 +72,7 @@ class Diagnosis:
 
     @property
     def counted(self) -> np.ndarray:
-        """Which readings are more probably right than wrong; all where none is, for something has to be told of."""
+        """Readings that are more probably good than outliers; all of them if there is none."""
         right = self.outlier_chance <= 0.5
         return right if right.any() else ~right
 
@@ -78,20 +85,20 @@ class Diagnosis:
     @property
     def residuals(self) -> tuple[np.ndarray, np.ndarray]:
         """(recorded - simulated)/sd, as they are compared, with the calibrated base model and with the answer."""
-        problem, p, sd = self.found.problem, self.recorded, self.seen_sd
-        return (problem.y - problem.seen(p.calibrated)) / sd, (problem.y - problem.seen(p.predicted)) / sd
+        problem, p, sd = self.search.problem, self.recorded, self.seen_sd
+        return (problem.y - problem.transform(p.calibrated)) / sd, (problem.y - problem.transform(p.predicted)) / sd
 
     @property
     def missing(self) -> tuple[np.ndarray, np.ndarray]:
         """What the base model at the answer's calibration lacks, in the reading's unit: as recorded, as explained."""
-        problem, p = self.found.problem, self.recorded
-        base = problem.level(problem.seen(p.predicted) - p.mismatch_z * self.seen_sd)
+        problem, p = self.search.problem, self.recorded
+        base = problem.inverse(problem.transform(p.predicted) - p.mismatch_z * self.seen_sd)
         return self.readings - base, p.predicted - base
 
     @property
     def outlier_runs(self) -> list[int]:
         """Runs that are more probably outliers than not."""
-        return [int(r) for r in self.found.problem.rows["run"][self.outlier_chance > 0.5]]
+        return [int(r) for r in self.search.problem.rows["run"][self.outlier_chance > 0.5]]
 
 
 def diagnose_case(
@@ -104,16 +111,15 @@ def diagnose_case(
     """Read the case and work out what its simulation lacks."""
     find(list(exclude))
     case = read_case(folder)
-    assert case.recordings is not None
-    rows = case.recordings
+    rows = rows_of(case)
     asked = case.conditions if predict is None else read_conditions(case, predict)
     if predict is not None:
         refuse_used_runs(case, asked, predict)
     wanted, assumed = _completed(asked, rows)
     forward = Forward(case, rows)
-    y = np.asarray(rows[case.quantity], dtype=float)
-    warnings = [*case.notes, *assumed, *hidden(case, wanted), *forward.notes, *audit(case, rows, y, forward)]
-    warnings += likelier_notes(forward)
+    checks = audit(case, rows, readings_of(case), forward)
+    warnings = [*case.notes, *assumed, *hidden(case, wanted), *forward.notes, *checks]
+    warnings += prior_odds_notes(forward)
     left_out = tuple(e.id for e in forward.effects() if e.id in exclude)
     if left_out:
         named = ", ".join(effect_words(name) for name in left_out)
@@ -122,31 +128,31 @@ def diagnose_case(
         there = Forward(case, wanted)
         there.nominal()
         warnings += [note for note in there.notes if note not in forward.notes] + beyond_recorded(case, wanted)
-    tried = weighed(case, rows, forward, y, exclude, progress)
+    tried = search_under_noise(case, forward, exclude, progress)
     progress("testing against nothing missing")
-    found, test = told_from_nothing(tried, level)
-    case, rows = found.problem.case, found.problem.rows
-    warnings += scatter_notes(found, tried.stated, tried.raised)
+    search, test = mismatch_against_null(tried, level)
+    case, rows = search.problem.case, search.problem.rows
+    warnings += noise_notes(search, tried.stated, tried.inflation)
     progress("leaving levels out")
-    judged, kept = judge(found, test)
-    kept = kept.of_one(found.screened.problem.together)
-    refined = leaders(found, judged)
+    judged, kept = judge(search, test)
+    kept = kept.single_reading_units(search.full_screen.problem.n_per_effective)
+    refined = leaders(search, judged)
     progress("predicting")
-    recorded = averaged(found, judged, refined, rows)
-    other = None if wanted is None else averaged(found, judged, refined, wanted)
-    chance = outlier_chances(found, judged, refined)
+    recorded = averaged(search, judged, refined, rows)
+    other = None if wanted is None else averaged(search, judged, refined, wanted)
+    chance = outlier_chances(search, judged, refined)
     columns = [c for c in case.kind.columns if c.name in rows]
-    swept = {axis.name for axis in found.space.axes}
+    swept = {axis.name for axis in search.space.axes}
     varied = [c.name for c in columns if c.form == "name" or c.name in swept] or [c.name for c in columns]
-    passing = [n for n in passed_by(found, judged.verdict) if n in rows and n not in varied]
+    passing = [n for n in time_columns(search, judged.verdict) if n in rows and n not in varied]
     place = region(rows, [*varied, *passing], np.where(chance > 0.5, 0.0, recorded.mismatch_z))
-    laws = contained(found, judged.verdict)
-    tests = next_tests(found, judged, refined, columns, varied)
-    warnings += _cautions(found, judged, kept, refined, recorded.predicted, chance > 0.5)
+    laws = contained(search, judged.verdict)
+    tests = next_tests(search, judged, refined, columns, varied)
+    warnings += _cautions(search, judged, kept, refined, recorded.predicted, chance > 0.5)
     said = tuple(warnings)
     return Diagnosis(
         case,
-        found,
+        search,
         test,
         judged,
         refined,
@@ -164,22 +170,22 @@ def diagnose_case(
 
 
 def _cautions(
-    found: Search,
+    search: Search,
     judged: Posterior,
     kept: HeldOut,
-    refined: dict[Key, Refined],
+    refined: dict[Explanation, Refined],
     predicted: np.ndarray,
     wrong: np.ndarray,
 ) -> list[Finding]:
     """What speaks against the answer: its odds, what it writes off, ranges and parameters that no law has."""
-    problem = found.problem
+    problem = search.problem
     case, rows = problem.case, problem.rows
     read = (case.quantity, f"{case.quantity}_sd", case.system.recording.check)
     taken_at = Table({n: v for n, v in rows.columns.items() if n not in read}, rows.source)
-    at_one_place = judged.verdict == "unknown" and found.unknown.best.at is not None
-    said = unsure_odds(judged)
-    said += against(judged.verdict, kept, taken_at, problem.level(problem.y), predicted, wrong, at_one_place)
-    if isinstance(judged.verdict, str):
+    at_one_place = judged.verdict == DISCREPANCY and search.discrepancy.best.at is not None
+    said = overdispersion_warning(judged)
+    said += answer_warnings(judged.verdict, kept, taken_at, problem.inverse(problem.y), predicted, wrong, at_one_place)
+    if judged.verdict.is_discrepancy:
         return said
     named, own = refined[judged.verdict], slice(problem.calibration_size, None)
     said += beyond_range(problem, judged.verdict, named.z)

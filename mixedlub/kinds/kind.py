@@ -18,8 +18,11 @@ from mixedlub.schema import system_file
 from mixedlub.schema.table import Column, Table
 
 Inputs = dict[str, Any]
-WANDERS = 0.02
-"""Share of its size by which a quantity that is held may wander."""
+CONSTANT_WITHIN = 0.02
+"""Largest span of a constant condition, as a share of its size in absolute units; judgement.
+
+Controllers hold load and speed within 1 % and oil temperature within 3 K; at 2 % a temperature may span 6 K.
+"""
 SUBJECTS = ("gears", "contact", "drive", "oil")
 """What recordings are of, in the order in which kinds are listed."""
 
@@ -132,12 +135,12 @@ def gears_out(table: Table) -> np.ndarray:
 
 
 def varies(values: np.ndarray) -> bool:
-    """Whether readings were taken at more than one value; what is held wanders a little, of a temperature 6 K.
+    """Whether a condition, in absolute units, was varied or held constant: the one definition of both.
 
     >>> varies(np.array([20.0, 20.3])), varies(np.array([20.0, 21.0]))
     (False, True)
     """
-    return bool(np.ptp(values) > WANDERS * np.max(np.abs(values)))
+    return bool(np.ptp(values) > CONSTANT_WITHIN * np.max(np.abs(values)))
 
 
 def column(values: np.ndarray | float) -> np.ndarray:

@@ -1,1 +1,1 @@
-"""What a recording says of itself: conditions, set points, noise and correlated error."""
+"""Properties of a recording: conditions, set points, noise and correlated error."""

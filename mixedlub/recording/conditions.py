@@ -1,4 +1,4 @@
-"""Smooth functions of the test conditions, as columns: what an unnamed mismatch may look like."""
+"""Test conditions: which of them varied, and smooth functions of them as columns."""
 
 from __future__ import annotations
 
@@ -9,40 +9,46 @@ import numpy as np
 
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
+from mixedlub.kinds.kind import CONSTANT_WITHIN, varies
+from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.recording.set_points import roundest
 from mixedlub.schema.table import Table
 
 NODES = 12
-"""Nodes of the functions along a condition, at most: what is finer is a wave, a peak or a step."""
+"""Most nodes of the functions along a condition: finer structure is a wave, a peak or a step. Judgement."""
 PASSING = ("sequence", "time_s", "position_deg")
-"""Conditions that only pass on: where they start from is no size."""
-SMOOTHEST = 4
-"""How many functions of a number go into products with those of another condition."""
+"""Conditions that pass by themselves, whose origin is arbitrary."""
+FUNCTIONS_IN_PRODUCTS = 4
+"""Functions of a numeric condition that enter products with those of another: a limit on cost."""
 JITTER = 1e-6
-"""Keeps the kernel of close nodes invertible."""
-LEAST = 1e-300
-HELD = 0.01
-"""A condition that spans less than this share of its size was held: what it wanders is no variation to learn from."""
-ROLLING = 0.02
-"""Slide-roll ratio up to which a film is one of pure rolling: it takes less than a twentieth of what heats it."""
-WANDERS, WANDERS_K, MOVES = 0.1, 6.0, 0.005
-"""One that spans less than the first, or so many kelvin, was held if the base model moves by less than the last."""
-MOSTLY = 0.9
-"""Share of the readings that lie about a set-point where the others are a start-up."""
+"""Diagonal added to the kernel of close nodes, so that it can be inverted: rounding."""
+SMALLEST = 1e-300
+PURE_ROLLING = 0.02
+"""Slide-roll ratio up to which a film measurement is pure rolling: it has less than 5 % of the heat of full sliding."""
+NOISY_WITHIN = 0.1
+"""Largest span of a noisy constant, as a share of its size; judgement.
+
+`CONSTANT_WITHIN` answers another question: below it, differences between values are never used. Here values differ by
+more, and count as measurements of one set point only because hardly any value is repeated.
+"""
+NEGLIGIBLE_CHANGE = 0.005
+"""Largest change of the base model, as a share of its median, by which a noisy constant may be left out; judgement."""
+MOST_READINGS = 0.9
+"""Share of the readings near a set point if the others are a start-up; judgement."""
 SERIES = 400
-"""Readings from which a table is a logged series: nobody sets so many conditions by hand."""
-HEAD = 0.005
-"""Share of a series from which a logarithm of time is told apart: a start-up is shorter."""
+"""Readings from which a table is a logged series: nobody sets so many conditions by hand. Judgement."""
+START_UP_SHARE = 0.005
+"""Share of a series below which times count as one on a logarithmic axis, because a start-up is shorter. Judgement."""
 LOST_AFTER = 2.0
-"""Periods beyond a record after which a wave is out of step, as its period is not known that well."""
+"""Periods beyond a record after which the phase of a wave is unknown; judgement."""
 
 
 @dataclass(frozen=True, eq=False)
 class Coordinate:
-    """One condition scaled to 0..1, or a name; ``nodes`` are the places its functions are anchored at.
+    """One condition scaled to 0..1, or a name; ``nodes`` are the places of its functions.
 
-    A condition ``folded`` at a size has both signs, and on either side goes by the logarithm beyond that size. What
-    lies below the ``floor`` of one that goes by the logarithm is one place.
+    A condition with both signs has a ``symmetric_log`` scale, linear below that size. Values below the ``floor`` of a
+    logarithmic scale count as one.
     """
 
     name: str
@@ -50,8 +56,8 @@ class Coordinate:
     low: float = 0.0
     span: float = 1.0
     logarithmic: bool = False
-    folded: float = 0.0
-    floor: float = LEAST
+    symmetric_log: float = 0.0
+    floor: float = SMALLEST
 
     @property
     def named(self) -> bool:
@@ -67,32 +73,32 @@ class Coordinate:
     def scale(self, values: np.ndarray) -> np.ndarray:
         """Values on the 0..1 axis."""
         seen = np.maximum(values, self.floor) if self.logarithmic else values
-        return (unrolled(seen, self.logarithmic, self.folded) - self.low) / self.span
+        return (unrolled(seen, self.logarithmic, self.symmetric_log) - self.low) / self.span
 
     def wave(self, values: np.ndarray, waves: float) -> np.ndarray:
-        """A cosine and a sine that go through ``waves`` periods from the lowest to the highest value."""
+        """A cosine and a sine with ``waves`` periods from the lowest to the highest value."""
         low, high = self.ends
         turn = 2.0 * np.pi * waves * (values - low) / (high - low)
-        return np.column_stack([np.cos(turn), np.sin(turn)]) * self.kept(values, waves)[:, None]
+        return np.column_stack([np.cos(turn), np.sin(turn)]) * self.phase_known(values, waves)[:, None]
 
-    def kept(self, values: np.ndarray, waves: float) -> np.ndarray:
-        """Share of a wave that is foretold: one within the record, and none a few periods beyond it."""
+    def phase_known(self, values: np.ndarray, waves: float) -> np.ndarray:
+        """Share of a wave whose phase is known: one within the record, falling to none a few periods beyond it."""
         low, high = self.ends
         beyond = np.maximum(np.maximum(low - values, values - high), 0.0) * waves / (high - low)
         return np.exp(-((beyond / LOST_AFTER) ** 2))
 
     def about(self, values: np.ndarray, at: float, width: float) -> np.ndarray:
-        """A bell about a value, ``width`` a share of the range, or without width a step there.
+        """A bell of ``width`` (share of the range) about a value, or a step there if the width is zero.
 
-        Of a condition with both signs there is one on either side.
+        A condition with both signs has one on either side.
         """
         x = self.scale(values)
-        sides = (1.0, -1.0) if self.folded and at else (1.0,)
+        sides = (1.0, -1.0) if self.symmetric_log and at else (1.0,)
         off = [side * (x - self.scale(np.array(side * at))) for side in sides]
         return np.column_stack([np.exp(-0.5 * (d / width) ** 2) if width else (d >= 0.0).astype(float) for d in off])
 
     def functions(self, values: np.ndarray, length: float) -> np.ndarray:
-        """Columns whose random combination is a smooth function of the condition, variance one."""
+        """Columns whose random combination is a smooth function of the condition with variance one."""
         if self.named:
             return (values[:, None] == self.nodes[None, :]).astype(float)
         nodes = self.nodes
@@ -102,21 +108,21 @@ class Coordinate:
         return _kernel(self.scale(values), nodes, length) @ (vectors[:, keep] / np.sqrt(size[keep]))[:, ::-1]
 
 
-def unrolled(values: np.ndarray, logarithmic: bool, folded: float) -> np.ndarray:
-    """Values as they are, by their logarithm, or by that on either side of zero.
+def unrolled(values: np.ndarray, logarithmic: bool, symmetric_log: float) -> np.ndarray:
+    """Values on a linear, logarithmic or symmetric logarithmic scale.
 
     >>> unrolled(np.array([-99.0, 0.0, 1.0]), False, 1.0).round(3).tolist()
     [-4.605, 0.0, 0.693]
     """
-    if folded:
-        return np.asarray(np.sign(values) * np.log1p(np.abs(values) / folded))
+    if symmetric_log:
+        return np.asarray(np.sign(values) * np.log1p(np.abs(values) / symmetric_log))
     return np.log(values) if logarithmic else values
 
 
 def clock_of(rows: Table, ties: bool = False) -> np.ndarray | None:
-    """What tells the order in which readings were taken; None where nothing does, or not of every one.
+    """The column with the order of the readings; None where there is none, or where it has ties.
 
-    With ``ties`` several may have one time, as where a logger writes whole seconds.
+    With ``ties`` half of the readings may share a time, as where a logger writes whole seconds.
 
     >>> log = Table({"time_s": np.array([0.0, 1.0, 1.0, 2.0])}, "log")
     >>> clock_of(log), clock_of(log, ties=True).tolist()
@@ -129,66 +135,82 @@ def clock_of(rows: Table, ties: bool = False) -> np.ndarray | None:
     return clock if times == clock.size or (ties and 2 * times > clock.size) else None
 
 
-def is_held(name: str, levels: np.ndarray) -> bool:
-    """Whether a condition was held: it spans next to nothing of its size.
+def is_constant(name: str, values: np.ndarray) -> bool:
+    """Whether a condition was held constant, so that readings cannot show how they depend on it.
 
-    >>> is_held("oil_temperature_C", np.array([31.0, 32.3])), is_held("speed_rpm", np.array([500.0, 520.0]))
+    >>> is_constant("oil_temperature_C", np.array([31.0, 36.0])), is_constant("speed_rpm", np.array([500.0, 520.0]))
     (True, False)
     """
-    if levels.dtype.kind in "US" or name in PASSING:
+    if values.dtype.kind in "US" or name in PASSING:
         return False
-    size = levels + 273.15 if name.endswith("temperature_C") else levels
-    return float(np.ptp(size)) <= HELD * float(np.max(np.abs(size)))
+    return not varies(_absolute(name, values))
 
 
-def _rolls(name: str, levels: np.ndarray, case: Case) -> bool:
-    """Whether sliding is what is left of it in pure rolling, where a film's thickness is read."""
-    return case.quantity == "film_thickness_nm" and name == "slide_roll_ratio" and bool(np.abs(levels).max() <= ROLLING)
+def _absolute(name: str, values: np.ndarray) -> np.ndarray:
+    """Values from an absolute zero: temperatures in kelvin."""
+    return values + ZERO_CELSIUS if _is_temperature(name) else values
 
 
-def jitters(name: str, values: np.ndarray) -> bool:
-    """Whether values lie within a tenth of their size and hardly one comes again, as what is measured about one does.
+def _is_temperature(name: str) -> bool:
+    return name.endswith("temperature_C")
 
-    Temperatures lie within a few kelvin.
 
-    >>> jitters("load_N", np.array([19.9, 20.1, 20.3, 19.7])), jitters("load_N", np.array([20.0, 21.0, 20.0, 21.0]))
+def _is_pure_rolling(name: str, levels: np.ndarray, case: Case) -> bool:
+    """Whether a film measurement was in pure rolling, with a residual slide-roll ratio."""
+    return (
+        case.quantity == "film_thickness_nm"
+        and name == "slide_roll_ratio"
+        and bool(np.abs(levels).max() <= PURE_ROLLING)
+    )
+
+
+def is_noisy_constant(name: str, values: np.ndarray) -> bool:
+    """Whether values are noisy measurements of one set point: within NOISY_WITHIN, and hardly one repeated.
+
+    Temperatures lie within the span of a constant one.
+
+    >>> load = np.array([19.9, 20.1, 20.3, 19.7])
+    >>> is_noisy_constant("load_N", load), is_noisy_constant("load_N", np.array([20.0, 21.0, 20.0, 21.0]))
     (True, False)
     """
     if values.dtype.kind in "US" or name in PASSING or 2 * np.unique(values).size <= values.size:
         return False
-    if name.endswith("temperature_C"):
-        return bool(np.ptp(values) <= WANDERS_K)
-    return bool(np.ptp(values) <= WANDERS * np.max(np.abs(values)))
+    return bool(np.ptp(values) <= _noisy_span(name, float(np.max(np.abs(_absolute(name, values))))))
 
 
-def held_at(name: str, values: np.ndarray) -> float | None:
-    """The set-point about which nearly all readings of a condition only jitter; None where it was varied, or repeats.
+def _noisy_span(name: str, size: float) -> float:
+    """Largest span of a noisy constant of this size in absolute units."""
+    return (CONSTANT_WITHIN if _is_temperature(name) else NOISY_WITHIN) * size
 
-    What is rare and far from it, as a start-up, is no set-point to return to.
+
+def noisy_set_point(name: str, values: np.ndarray) -> float | None:
+    """The set point about which nearly all values of a condition scatter; None where it was varied or is exact.
+
+    A few values far from it, as of a start-up, do not count.
 
     >>> load = np.concatenate([[4.9, 12.0], 50.0 + 0.01 * np.arange(-20, 20)])
-    >>> held_at("load_N", load), held_at("load_N", np.arange(42.0)), held_at("load_N", np.full(42, 50.0))
-    (50.0, None, None)
+    >>> [noisy_set_point("load_N", values) for values in (load, np.arange(42.0), np.full(42, 50.0))]
+    [50.0, None, None]
     """
     if values.dtype.kind in "US" or name in PASSING:
         return None
-    off = np.abs(values - np.median(values))
-    near = values[
-        off <= (0.5 * WANDERS_K if name.endswith("temperature_C") else 0.5 * WANDERS * abs(np.median(values)))
-    ]
-    many = jitters(name, near) or np.unique(near).size > NODES
-    if near.size < MOSTLY * values.size or not many:
+    middle = np.median(values)
+    span = _noisy_span(name, abs(float(np.median(_absolute(name, values)))))
+    near = values[np.abs(values - middle) <= 0.5 * span]
+    many = is_noisy_constant(name, near) or np.unique(near).size > NODES
+    if near.size < MOST_READINGS * values.size or not many:
         return None
     return roundest(*(float(np.quantile(near, share)) for share in (0.25, 0.75)))
 
 
-def _wanders(name: str, case: Case, table: Table, forward: Forward) -> bool:
-    """Whether a condition only wandered about its set-point: little, and hardly moving a base model that reads it."""
-    if name not in table or not jitters(name, table[name]):
+def _is_negligible(name: str, forward: Forward) -> bool:
+    """Whether a noisy constant changes a base model that reads it, and by next to nothing."""
+    table = forward.table
+    if name not in table or not is_noisy_constant(name, table[name]):
         return False
     steady = Table({**table.columns, name: np.full(len(table), np.median(table[name]))}, table.source)
-    here, there = forward.predict(), Forward(case, steady).predict()
-    return 0.0 < float(np.max(np.abs(there - here))) <= MOVES * float(np.median(np.abs(here)))
+    here, there = forward.predict(), Forward(forward.case, steady).predict()
+    return 0.0 < float(np.max(np.abs(there - here))) <= NEGLIGIBLE_CHANGE * float(np.median(np.abs(here)))
 
 
 def _kernel(a: np.ndarray, b: np.ndarray, length: float) -> np.ndarray:
@@ -197,25 +219,25 @@ def _kernel(a: np.ndarray, b: np.ndarray, length: float) -> np.ndarray:
 
 @dataclass(frozen=True, eq=False)
 class Coordinates:
-    """The conditions of a case along which its readings were varied."""
+    """The axes along which the conditions of a case varied."""
 
     axes: tuple[Coordinate, ...]
 
     def place(self, name: str) -> int:
-        """Which of the axes a condition is."""
+        """Index of the axis of a condition."""
         return [axis.name for axis in self.axes].index(name)
 
-    def values(self, case: Case, table: Table, forward: Forward) -> list[np.ndarray]:
-        """The conditions of a table, one array an axis."""
-        every = raw_coordinates(case, table, forward)
+    def values(self, forward: Forward) -> list[np.ndarray]:
+        """The conditions of the rows that a model predicts, one array an axis."""
+        every = raw_coordinates(forward)
         return [every[axis.name] for axis in self.axes]
 
     def columns(
         self, values: list[np.ndarray], length: float, only: tuple[str, ...] = (), interactions: bool = False
     ) -> np.ndarray:
-        """Function columns over some axes or all, with products of pairs if wanted; total variance about one."""
+        """Function columns over some axes or all, with products of pairs on request; total variance about one."""
         blocks = [
-            (axis.functions(v, length), None if axis.named else SMOOTHEST)
+            (axis.functions(v, length), None if axis.named else FUNCTIONS_IN_PRODUCTS)
             for axis, v in zip(self.axes, values, strict=True)
             if not only or axis.name in only
         ]
@@ -227,8 +249,9 @@ class Coordinates:
         return np.hstack(found) / np.sqrt(len(found))
 
 
-def raw_coordinates(case: Case, table: Table, forward: Forward) -> dict[str, np.ndarray]:
-    """Condition columns of a table, the surfaces as a pair and as a composite roughness."""
+def raw_coordinates(forward: Forward) -> dict[str, np.ndarray]:
+    """Condition columns of a model's rows, the surfaces as a pair and as a composite roughness."""
+    case, table = forward.case, forward.table
     found: dict[str, np.ndarray] = {}
     names = [c for c in case.kind.columns if c.form == "name" and c.name in table]
     for column in case.kind.columns:
@@ -246,11 +269,15 @@ def raw_coordinates(case: Case, table: Table, forward: Forward) -> dict[str, np.
     return found
 
 
-def coordinates(case: Case, table: Table, forward: Forward) -> Coordinates:
-    """The axes along which a recording varies; what was held counts only where nothing else varies."""
-    every = {name: np.unique(values) for name, values in raw_coordinates(case, table, forward).items()}
+def coordinates(forward: Forward) -> Coordinates:
+    """The axes along which a recording varies; constant conditions count only where nothing else varies."""
+    every = {name: np.unique(values) for name, values in raw_coordinates(forward).items()}
     varied = {name: levels for name, levels in every.items() if levels.size > 1}
-    held = [k for k, v in varied.items() if is_held(k, v) or _rolls(k, v, case) or _wanders(k, case, table, forward)]
+    held = [
+        k
+        for k, v in varied.items()
+        if is_constant(k, v) or _is_pure_rolling(k, v, forward.case) or _is_negligible(k, forward)
+    ]
     swept = {k: v for k, v in varied.items() if k not in held}
     axes = []
     for name, levels in (swept or varied).items():
@@ -259,14 +286,14 @@ def coordinates(case: Case, table: Table, forward: Forward) -> Coordinates:
             continue
         logarithmic = bool(levels[0] > 0 and levels[-1] / levels[0] > 3.0 and name != "sequence")
         both = levels[0] < 0.0 < levels[-1] and name not in PASSING
-        folded = float(np.abs(levels[levels != 0.0]).min()) if both else 0.0
-        # Decades of time that hold next to no readings are those of the start-up.
+        symmetric_log = float(np.abs(levels[levels != 0.0]).min()) if both else 0.0
+        # The first decades of a logarithmic time axis hold only the start-up.
         series = name in PASSING and logarithmic and levels.size >= SERIES
-        floor = float(levels[int(HEAD * levels.size)]) if series else LEAST
-        x = unrolled(np.maximum(levels, floor) if logarithmic else levels, logarithmic, folded)
+        floor = float(levels[int(START_UP_SHARE * levels.size)]) if series else SMALLEST
+        x = unrolled(np.maximum(levels, floor) if logarithmic else levels, logarithmic, symmetric_log)
         low, span = float(x[0]), float(x[-1] - x[0])
         nodes = (x - low) / span
         if nodes.size > NODES:
             nodes = np.linspace(0.0, 1.0, NODES)
-        axes.append(Coordinate(name, nodes, low, span, logarithmic, folded, floor))
+        axes.append(Coordinate(name, nodes, low, span, logarithmic, symmetric_log, floor))
     return Coordinates(tuple(axes))

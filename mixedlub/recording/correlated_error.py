@@ -1,4 +1,4 @@
-"""Noise that wanders in time: neighbouring readings are off by much the same, and the farther apart the less."""
+"""Correlated error: a slow drift of the readings with an exponential autocorrelation."""
 
 from __future__ import annotations
 
@@ -9,18 +9,21 @@ import numpy as np
 from mixedlub.recording.conditions import clock_of
 from mixedlub.schema.table import Table
 
-EACH, MOST = 3, 48
-"""Readings to each of its columns, and how many there are at most: what goes faster is noise of single readings."""
-STEPS = 20
+READINGS_PER_COLUMN = 3
+"""Readings to each of its columns: faster components cannot be separated from white noise."""
+MOST_COLUMNS = 48
+"""Most columns: a limit on cost."""
+NEWTON_STEPS = 20
+"""Newton steps to the roots of the frequency equation: more than double precision needs."""
 
 
 @dataclass(frozen=True)
-class Wander:
-    r"""An error that wanders, ``size`` times as large as the noise of a single reading, none if zero.
+class CorrelatedError:
+    r"""A correlated error of ``size`` times the noise of a single reading; zero is none.
 
     Its covariance is :math:`s^2 e^{-|q - q'|/l}` with q the share of the record and l the ``length``: an
-    Ornstein-Uhlenbeck process, which readings at equal steps show as an autoregression of order one (G. E. Uhlenbeck,
-    L. S. Ornstein, Phys. Rev. 36 (1930) 823). The record is from ``start`` over ``span`` on its clock.
+    Ornstein-Uhlenbeck process, an autoregression of order one at equal steps (G. E. Uhlenbeck, L. S. Ornstein, Phys.
+    Rev. 36 (1930) 823). The record is from ``start`` over ``span`` on its clock, and has ``count`` columns.
     """
 
     size: float = 0.0
@@ -30,19 +33,19 @@ class Wander:
     count: int = 1
 
     @classmethod
-    def over(cls, clock: np.ndarray, size: float, length: float) -> Wander:
-        """One over the record of a clock, followed by as many columns as its readings can tell."""
-        count = max(min(clock.size // EACH, MOST), 1)
+    def over(cls, clock: np.ndarray, size: float, length: float) -> CorrelatedError:
+        """The error over the record of a clock, with as many columns as its readings can resolve."""
+        count = max(min(clock.size // READINGS_PER_COLUMN, MOST_COLUMNS), 1)
         return cls(size, length, float(clock.min()), float(np.ptp(clock)), count)
 
     @property
-    def whole(self) -> float:
-        """Standard deviation of a reading with it, in that of a single one without."""
+    def total_sd(self) -> float:
+        """Total standard deviation of a reading, over that of the white noise alone."""
         return float(np.hypot(1.0, self.size))
 
     @property
-    def lasts(self) -> float:
-        """After what time on the clock it is forgotten."""
+    def correlation_time(self) -> float:
+        """Correlation time on the clock."""
         return self.length * self.span
 
     def columns(self, rows: Table) -> np.ndarray:
@@ -50,15 +53,15 @@ class Wander:
         clock = clock_of(rows, ties=True) if self.size else None
         if clock is None:
             return np.zeros((len(rows), 0))
-        return self.size * wandering((clock - self.start) / self.span, self.length, self.count)
+        return self.size * karhunen_loeve_columns((clock - self.start) / self.span, self.length, self.count)
 
 
-STILL = Wander()
-"""No error that wanders."""
+UNCORRELATED = CorrelatedError()
+"""No correlated error."""
 
 
-def wandering(share: np.ndarray, length: float, count: int) -> np.ndarray:
-    r"""The first components of what wanders over shares 0 to 1, each times its standard deviation; variance one in all.
+def karhunen_loeve_columns(share: np.ndarray, length: float, count: int) -> np.ndarray:
+    r"""Leading Karhunen-Loeve components over shares 0 to 1, each times its standard deviation; total variance one.
 
     .. math:: \sqrt{\lambda}\,\frac{\cos(\omega x)}{\sqrt{(1 + \sin\omega/\omega)/2}},\quad
               \lambda = \frac{2 l}{1 + (\omega l)^2},\quad x = q - \tfrac12
@@ -67,13 +70,13 @@ def wandering(share: np.ndarray, length: float, count: int) -> np.ndarray:
     exponential covariance: R. G. Ghanem, P. D. Spanos, Stochastic Finite Elements, Springer (1991), section 2.3. So few
     components that they lack some of the variance are what wanders a little more smoothly, and carry all of it.
 
-    >>> columns = wandering(np.array([0.2, 0.5, 0.6]), 0.2, 400)
+    >>> columns = karhunen_loeve_columns(np.array([0.2, 0.5, 0.6]), 0.2, 400)
     >>> (columns @ columns.T)[1].round(2).tolist()   # exp(-1.5), 1, exp(-0.5)
     [0.22, 1.0, 0.61]
     """
     order = np.arange(count)
     omega = np.pi * (order + 1.0)
-    for _ in range(STEPS):
+    for _ in range(NEWTON_STEPS):
         over = omega - np.pi * order - 2.0 * np.arctan(1.0 / (omega * length))
         omega = omega - over / (1.0 + 2.0 * length / (1.0 + (omega * length) ** 2))
     even = order % 2 == 0

@@ -1,4 +1,4 @@
-"""How much a reading scatters: as stated, as repeats show, or as a smooth fit leaves over."""
+"""Noise of the readings: as stated, from repeats, or from the residuals of a smooth fit."""
 
 from __future__ import annotations
 
@@ -7,47 +7,52 @@ from dataclasses import replace
 import numpy as np
 
 from mixedlub.case.folder import Case
-from mixedlub.recording.conditions import PASSING, Coordinates, jitters
+from mixedlub.recording.conditions import PASSING, Coordinates, is_noisy_constant
+from mixedlub.recording.readings import readings_of, rows_of
 from mixedlub.recording.set_points import near_values
 from mixedlub.schema import system_file
 from mixedlub.schema.table import Table
 
-FEW = 30
-"""Tests from which an sd counts as known: its own scatter is then 13 %."""
-FAR_ABOVE = 5.0
-"""Times its like from which an sd marks a reading to be ignored."""
-LOW, HIGHEST = 0.52, 1.23
-"""Mean of ln s below that of the true sd over the variance of ln s, and that variance, both of two tests."""
-SEVERAL = 2000
-"""Most readings whose sds are compared with one another: beyond, the wild ones even out."""
-WIDE = 3.0
-"""Ratio of the largest to the smallest reading from which noise goes in proportion where nothing else tells."""
-TRUSTED = 10
-"""Repeats from which a wild one among them can be told."""
+KNOWN_FROM = 30
+"""Tests from which a standard deviation counts as known: its own standard error is then 13 %."""
+MARKS_UNUSABLE = 5.0
+"""Ratio to similar readings from which a standard deviation marks a reading as unusable; judgement."""
+LOG_SD_BIAS = 0.52
+"""Bias of ln s over its variance, for the standard deviation s of two tests: derived from the chi distribution."""
+LOG_SD_VARIANCE = 1.23
+"""Variance of ln s for two tests: derived from the chi distribution."""
+MOST_COMPARED = 2000
+"""Most readings whose standard deviations are compared pairwise: a limit on cost."""
+RELATIVE_FROM = 3.0
+"""Ratio of largest to smallest reading from which noise is taken as relative, if nothing else is known. Judgement."""
+OUTLIERS_FROM = 10
+"""Repeats from which outliers among them are left out; judgement."""
 PARTS = ((1.0, 0.0), (1.0, 0.03), (1.0, 0.1), (1.0, 0.3), (1.0, 1.0), (0.3, 1.0), (0.0, 1.0))
-"""Shares of a reading's own size and of the typical one in its noise that are tried."""
-BOTH = 2.0
-"""What both parts of a noise have to gain over one of them, in log probability."""
+"""Mixtures of relative and absolute noise that are tried: shares of the reading and of the typical reading."""
+MIXTURE_GAIN = 2.0
+"""Gain in log probability from which noise has both parts: about that of one further parameter (AIC)."""
 PARTNERS = 12
-"""Readings of its group that each one is compared with, at most."""
-CROSSINGS, SMALLEST = 121, 1e-6
-"""Levels at which noise that is alike for all may be as large as that in proportion, and the smallest over the top."""
+"""Readings of its group with which each reading is compared at most: a limit on cost."""
+CROSSINGS = 121
+"""Ratios of absolute to relative noise that are tried: a grid."""
+SMALLEST_LEVEL = 1e-6
+"""Smallest level of that grid, over the largest reading."""
 
 
-def is_stated(case: Case, rows: Table) -> bool:
-    """Whether the recording says how much its readings scatter."""
+def is_stated(case: Case) -> bool:
+    """Whether the recording states the noise of its readings."""
     stated = case.system.recording.noise
-    return f"{case.quantity}_sd" in rows or (stated is not None and stated.of_single)
+    return f"{case.quantity}_sd" in rows_of(case) or (stated is not None and stated.of_single)
 
 
 def setups_differ(case: Case) -> bool:
-    """Whether the recording says how much a set-up is off as a whole."""
+    """Whether the recording states the error of a set-up."""
     stated = case.system.recording.noise
     return stated is not None and stated.of_setups
 
 
 def with_noise(case: Case, relative: float, absolute: float) -> Case:
-    """The case with other noise of a single reading than it states."""
+    """The case with another noise of a single reading."""
     noise = (case.system.recording.noise or system_file.Noise()).model_copy(
         update={"relative": float(relative), "absolute": float(absolute)}
     )
@@ -55,10 +60,10 @@ def with_noise(case: Case, relative: float, absolute: float) -> Case:
     return replace(case, system=case.system.model_copy(update={"recording": recording}))
 
 
-def seen_noise(
+def transformed_noise(
     case: Case, rows: Table, level: np.ndarray, expected: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """`noise` of readings as they are compared: relative where that is by the logarithm."""
+    """`noise` of the transformed readings: relative where these are logarithms."""
     if case.kind.logarithmic:
         sd, shared = noise(case, rows, level)
         return sd / np.abs(level), shared
@@ -68,17 +73,17 @@ def seen_noise(
 def noise(
     case: Case, rows: Table, level: np.ndarray, expected: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Standard deviation of each reading and, in sigmas, the columns of errors shared within a set-up.
+    """Standard deviation of each reading and, in units of it, columns of the errors shared within a set-up.
 
-    ``level`` is the size of the readings. Relative errors of a set-up are shares of what the model ``expected``,
-    calibrated or not: as shares of the readings they would stand in for a model of any form.
+    ``level`` is the size of the readings. Relative errors of a set-up are shares of the ``expected`` prediction: as
+    shares of the readings they would fit a discrepancy of any form.
     """
     quantity = case.quantity
     stated = case.system.recording.noise
     if f"{quantity}_sd" in rows:
         sd = rows[f"{quantity}_sd"].astype(float)
-        if sd.size <= SEVERAL:
-            sd = steadied(sd, level, _neighbours(case, rows))
+        if sd.size <= MOST_COMPARED:
+            sd = shrunk_sd(sd, level, _neighbours(case, rows))
     else:
         relative, absolute = (stated.relative, stated.absolute) if stated is not None else (0.0, 0.0)
         sd = np.hypot(relative * np.abs(level), absolute)
@@ -97,25 +102,24 @@ def noise(
     return sd, shared
 
 
-def steadied(sd: np.ndarray, level: np.ndarray, near: np.ndarray) -> np.ndarray:
-    r"""Standard deviations that jump between like readings were estimated from few tests: each takes in the others'.
+def shrunk_sd(sd: np.ndarray, level: np.ndarray, near: np.ndarray) -> np.ndarray:
+    r"""Standard deviations from few tests, shrunk towards those of readings at similar conditions.
 
     .. math:: \ln s_i \leftarrow (1-w) \ln s_i + w \left(\frac{\sum_j K_{ij} \ln s_j}{\sum_j K_{ij}} + 0.52 v\right)
               ,\quad w = \frac{v}{v + v_0}
 
-    ``near`` (n, n) weighs how alike the conditions of two readings are, one for the same; v is half the squared
-    jump of ln s between like readings, from its median. Of n tests the logarithm of an sd scatters by a variance
-    1/(2(n - 1)), and lies 0.5 to 0.8 of that below the true one's; v_0 is that of FEW tests. What goes smoothly
-    stays as stated, and so does an sd more than FAR_ABOVE its like: few tests do not give that, it marks a reading
-    to be ignored.
+    ``near`` (n, n) is the similarity of the conditions of two readings, one for equal ones; v is half the squared
+    difference of ln s between similar readings, from its median. For n tests ln s has the variance 1/(2(n - 1)) and a
+    bias of 0.5 to 0.8 of that; v_0 is the variance for KNOWN_FROM tests. Standard deviations that vary smoothly stay as
+    stated, and so does one more than MARKS_UNUSABLE times that of similar readings: it marks the reading as unusable.
     Moderation of variances by their like: G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3 (2004) 3.
 
     >>> near = np.ones((4, 4))
-    >>> steadied(np.array([1.0, 1.0, 1.0, 1.0]), np.ones(4), near).tolist()
+    >>> shrunk_sd(np.array([1.0, 1.0, 1.0, 1.0]), np.ones(4), near).tolist()
     [1.0, 1.0, 1.0, 1.0]
-    >>> steadied(np.array([0.3, 3.0, 1.0, 1.0]), np.ones(4), near).round(1).tolist()
+    >>> shrunk_sd(np.array([0.3, 3.0, 1.0, 1.0]), np.ones(4), near).round(1).tolist()
     [1.8, 1.9, 1.8, 1.8]
-    >>> steadied(np.array([1.0, 1.0, 1.0, 900.0]), np.ones(4), near).tolist()
+    >>> shrunk_sd(np.array([1.0, 1.0, 1.0, 900.0]), np.ones(4), near).tolist()
     [1.0, 1.0, 1.0, 900.0]
     """
     others = near - np.diag(np.diag(near))
@@ -134,26 +138,26 @@ def steadied(sd: np.ndarray, level: np.ndarray, near: np.ndarray) -> np.ndarray:
     log = np.log(sd)
     share = size if jumps(log - size) < jumps(log) else np.zeros(sd.size)
     v = jumps(log - share)
-    weight = v / (v + 0.5 / (FEW - 1))
-    pooled = near @ (log - share) / near.sum(axis=1) + share + LOW * min(v, HIGHEST)
+    weight = v / (v + 0.5 / (KNOWN_FROM - 1))
+    pooled = near @ (log - share) / near.sum(axis=1) + share + LOG_SD_BIAS * min(v, LOG_SD_VARIANCE)
     moved = (1.0 - weight) * log + weight * pooled
-    return np.where(log > pooled + np.log(FAR_ABOVE), sd, np.exp(moved))
+    return np.where(log > pooled + np.log(MARKS_UNUSABLE), sd, np.exp(moved))
 
 
-def by_level(sd: np.ndarray, level: np.ndarray) -> tuple[float, float]:
-    r"""Noise in proportion to the level and noise that is alike for all, as standard deviations show.
+def fit_noise_model(sd: np.ndarray, level: np.ndarray) -> tuple[float, float]:
+    r"""Relative and absolute noise (b, a) that fit standard deviations best, by least absolute error of the logarithm.
 
     .. math:: s^2 = (b y)^2 + a^2
 
-    The form whose logarithm lies the least off, so that up to a half of them may be of another kind.
+    Up to half of the standard deviations may be outliers.
 
     >>> level = np.array([1.0, 10.0, 20.0, 100.0, 400.0])
-    >>> [[round(x, 1) for x in by_level(sd, level)] for sd in (np.hypot(0.1 * level, 2.0), np.full(5, 2.0))]
+    >>> [[round(x, 1) for x in fit_noise_model(sd, level)] for sd in (np.hypot(0.1 * level, 2.0), np.full(5, 2.0))]
     [[0.1, 2.0], [0.0, 2.0]]
     """
     size = np.abs(level)
     top = max(float(size.max()), 1e-290)
-    crossings = np.geomspace(0.1 * max(float(size.min()), SMALLEST * top), 10.0 * top, CROSSINGS)
+    crossings = np.geomspace(0.1 * max(float(size.min()), SMALLEST_LEVEL * top), 10.0 * top, CROSSINGS)
     log = np.log(sd / np.hypot(size, crossings[:, None]))
     shares = np.median(log, axis=1)
     best = int(np.argmin(np.abs(log - shares[:, None]).sum(axis=1)))
@@ -162,7 +166,7 @@ def by_level(sd: np.ndarray, level: np.ndarray) -> tuple[float, float]:
 
 
 def _neighbours(case: Case, rows: Table) -> np.ndarray:
-    """How alike the conditions of the readings are: falls with the number of levels between them."""
+    """Similarity of the conditions of the readings; it falls with the number of levels between them."""
     distance = np.zeros((len(rows), len(rows)))
     for name in (*(c.name for c in case.kind.columns), "rig", "setup"):
         if name in rows:
@@ -171,28 +175,28 @@ def _neighbours(case: Case, rows: Table) -> np.ndarray:
     return np.exp(-0.5 * distance)
 
 
-def estimated(
-    case: Case, rows: Table, y: np.ndarray, base: np.ndarray, space: Coordinates, values: list[np.ndarray]
-) -> Case:
-    """The case with the noise its readings show: from repeats, else from what a smooth fit leaves over.
+def estimated(case: Case, base: np.ndarray, space: Coordinates, values: list[np.ndarray]) -> Case:
+    """The case with noise estimated from repeats, else from the residuals of a smooth fit.
 
-    Repeats scatter alike, in proportion to their size, or by both, whichever makes them most probable. Without them
-    positive readings that span WIDE or more are taken to scatter in proportion.
+    For repeats the most probable mixture of relative and absolute noise is taken. Without them the noise is relative
+    where positive readings span a factor of RELATIVE_FROM or more.
     """
-    group = repeated(case, rows)
+    y, group = readings_of(case), repeated(case)
     if group is not None:
         size = np.maximum(np.abs(medians(y, group))[group], 1e-9 * float(np.max(np.abs(y))) + 1e-300)
         if case.kind.logarithmic:
             return with_noise(case, pooled_sd(y / size, group), 0.0)
         return with_noise(case, *_by_size(y, size, group))
-    wide = bool(np.all(y > 0) and np.all(base > 0) and (case.kind.logarithmic or np.ptp(np.log(y)) > np.log(WIDE)))
+    wide = bool(
+        np.all(y > 0) and np.all(base > 0) and (case.kind.logarithmic or np.ptp(np.log(y)) > np.log(RELATIVE_FROM))
+    )
     if wide:
         return with_noise(case, noise_from_smoothness(np.log(y), np.log(base), space, values), 0.0)
     return with_noise(case, 0.0, noise_from_smoothness(y, base, space, values))
 
 
 def _by_size(y: np.ndarray, size: np.ndarray, group: np.ndarray) -> tuple[float, float]:
-    """Noise in proportion to size and noise that is alike for all, as makes the repeats most probable."""
+    """Relative and absolute noise that make the repeats most probable."""
     count = np.bincount(group)[group]
     several = count > 1
     left = ((y - medians(y, group)[group]) / np.sqrt(1.0 - 1.0 / np.maximum(count, 2)))[several]
@@ -203,21 +207,27 @@ def _by_size(y: np.ndarray, size: np.ndarray, group: np.ndarray) -> tuple[float,
         scale = np.hypot(own * size, common * typical)
         share = max(pooled_sd(y / scale, group), 1e-300)
         sd = share * scale[several]
-        # Student's t with four degrees of freedom: readings that a noise leaves far off count against it.
-        score = spare * float(np.mean(np.log(sd) + 2.5 * np.log1p((left / sd) ** 2 / 4.0))) + BOTH * (own * common > 0)
+        # Student's t with four degrees of freedom, so that outliers count against a noise that is too small.
+        score = spare * float(np.mean(np.log(sd) + 2.5 * np.log1p((left / sd) ** 2 / 4.0))) + MIXTURE_GAIN * (
+            own * common > 0
+        )
         if score < best:
             best, found = score, (share * own, share * common * typical)
     return found
 
 
-def noise_from_repeats(case: Case, rows: Table, y: np.ndarray) -> float:
+def noise_from_repeats(case: Case, y: np.ndarray) -> float:
     """Standard deviation from readings at equal conditions; zero when there are fewer than five repeats."""
-    group = repeated(case, rows)
+    group = repeated(case)
     return 0.0 if group is None else pooled_sd(y, group)
 
 
-def repeated(case: Case, rows: Table) -> np.ndarray | None:
+def repeated(case: Case) -> np.ndarray | None:
     """Group of each reading by equal conditions, numbered from 0; None where fewer than five are repeats."""
+    return _groups(case, rows_of(case))
+
+
+def _groups(case: Case, rows: Table) -> np.ndarray | None:
     names = [*(c.name for c in (*case.kind.columns, *case.kind.channels)), "rig", "setup"]
     keys = [np.unique(rows[name], return_inverse=True)[1] for name in names if name in rows]
     if not keys:
@@ -227,24 +237,25 @@ def repeated(case: Case, rows: Table) -> np.ndarray | None:
     return group if group.size - int(group.max()) - 1 >= 5 else None
 
 
-def nearly_repeated(case: Case, rows: Table) -> np.ndarray | None:
-    """The same by conditions that are equal but for what they jitter about their set-points.
+def nearly_repeated(case: Case) -> np.ndarray | None:
+    """Group of each reading by nearly equal conditions: noisy constants are left out, set points are rounded.
 
-    None where all of them jitter: readings at one set-point are no repeats of what was to be told.
+    None where all conditions are noisy constants, because readings at one set point are not repeats.
     """
-    columns, told = {}, False
+    rows = rows_of(case)
+    columns, varied = {}, False
     conditions = {c.name for c in case.kind.columns}
     for name in rows.columns:
         values = rows[name]
         if values.dtype.kind in "US" or name in PASSING:
             columns[name] = values
-            told |= name in conditions and np.unique(values).size > 1
-        elif jitters(name, values):
+            varied |= name in conditions and np.unique(values).size > 1
+        elif is_noisy_constant(name, values):
             columns[name] = np.zeros(len(rows))
         else:
             columns[name] = near_values(values)
-            told |= name in conditions and bool(columns[name].any())
-    return repeated(case, Table(columns, rows.source)) if told else None
+            varied |= name in conditions and bool(columns[name].any())
+    return _groups(case, Table(columns, rows.source)) if varied else None
 
 
 def medians(y: np.ndarray, group: np.ndarray) -> np.ndarray:
@@ -260,7 +271,7 @@ def pooled_sd(y: np.ndarray, group: np.ndarray) -> float:
 
     Two readings of a group differ by N(0, 2 sd^2) whatever the group's size, so the median absolute difference is
     sqrt(2) Phi^-1(3/4) sd = 0.9539 sd. Readings beyond four times what that gives, off the median of their group,
-    are left out (6e-5 of good ones), and the rest pooled. Below TRUSTED repeats that median is too uncertain to
+    are left out (6e-5 of good ones), and the rest pooled. Below OUTLIERS_FROM repeats that median is too uncertain to
     leave anything out by.
 
     >>> y = np.array([1.0, 3.0, 2.0, 3.0, 11.0, 13.0, 12.0, 13.0, 21.0, 23.0, 22.0, 21.0, 31.0, 33.0, 32.0, 90.0])
@@ -270,7 +281,7 @@ def pooled_sd(y: np.ndarray, group: np.ndarray) -> float:
     count, middle = np.bincount(group), medians(y, group)
     limit = 4.0 * _typical_difference(y, group, count) / 0.9539 * np.sqrt(1.0 - 1.0 / count)
     keep = np.abs(y - middle[group]) <= limit[group]
-    if not keep.any() or not limit.any() or group.size - count.size < TRUSTED:
+    if not keep.any() or not limit.any() or group.size - count.size < OUTLIERS_FROM:
         keep = np.ones(y.size, bool)
     _, kept = np.unique(group[keep], return_inverse=True)
     size = np.bincount(kept)
@@ -299,10 +310,10 @@ def _typical_difference(y: np.ndarray, group: np.ndarray, count: np.ndarray) -> 
 
 
 def noise_from_smoothness(y: np.ndarray, base: np.ndarray, space: Coordinates, values: list[np.ndarray]) -> float:
-    """Standard deviation of what a smooth function of the conditions leaves over, outliers set aside.
+    """Standard deviation of the residuals of a smooth function of the conditions, without outliers.
 
-    The function may scale and shift the base model. It is the richest that uses up no more than half of what
-    the different conditions can tell; the count of what it used up is taken off.
+    The function may scale and shift the base model. It is the most flexible one that uses no more than half of the
+    degrees of freedom; those that it uses are subtracted.
     """
     flat = np.column_stack([np.ones(y.size), base])
     rich = ((0.25, True), (0.25, False), (0.7, False))
@@ -320,7 +331,7 @@ def noise_from_smoothness(y: np.ndarray, base: np.ndarray, space: Coordinates, v
 
 
 def _left_over(y: np.ndarray, columns: np.ndarray) -> tuple[float, float]:
-    """Standard deviation that a ridge fit leaves over, and how many coefficients it used up."""
+    """Residual standard deviation of a ridge fit, and its effective number of coefficients."""
     keep = np.ones(y.size, bool)
     sd, spent = float(np.std(y)), 0.0
     ridge = 1e-4 * np.eye(columns.shape[1])

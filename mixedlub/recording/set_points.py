@@ -1,21 +1,23 @@
-"""The set-points of a condition, about which what was measured of it jitters."""
+"""Set points of a condition, from measured values that scatter about them."""
 
 from __future__ import annotations
 
 import numpy as np
 
-NEAR_SIZE, NEAR_SPAN = 0.015, 0.005
-"""Neighbours no farther apart than this share of their size, or of the whole span, may belong to one set-point."""
+NEAR_SIZE = 0.015
+"""Distance of neighbours, as a share of their size, up to which they may belong to one set point; judgement."""
+NEAR_SPAN = 0.005
+"""The same as a share of the whole span; judgement."""
 WIDEST = 2.0
-"""A set-point is no wider than so many of those distances: beyond, the condition was swept."""
+"""Largest width of a set point in units of those distances; a wider range was swept. Judgement."""
 
 
 def set_points(values: np.ndarray) -> np.ndarray:
-    """Each value replaced by the roundest number at its set-point, where the condition was set and not swept.
+    """Each value replaced by the roundest number of its set point, unless the condition was swept.
 
     >>> set_points(np.array([2.996, 8.994, 3.001, 9.003])).tolist()
     [3.0, 9.0, 3.0, 9.0]
-    >>> set_points(np.array([1000.0, 1010.0, 1000.0, 1010.0])).tolist()   # meant
+    >>> set_points(np.array([1000.0, 1010.0, 1000.0, 1010.0])).tolist()   # set
     [1000.0, 1010.0, 1000.0, 1010.0]
     >>> set_points(np.array([0.101, 0.13, 0.17, 2.2, 0.1, 0.131, 0.169, 2.21])).tolist()   # swept up and down
     [0.1, 0.13, 0.17, 2.2, 0.1, 0.13, 0.17, 2.2]
@@ -36,7 +38,7 @@ def set_points(values: np.ndarray) -> np.ndarray:
 
 
 def near_values(values: np.ndarray) -> np.ndarray:
-    """Number of the place of each value, one for those that are all but equal; each its own where they were swept.
+    """Index of the set point of each value; every value its own where the condition was swept.
 
     >>> near_values(np.array([0.5, 0.1, 0.1001, 0.2])).tolist()
     [2, 0, 0, 1]
@@ -49,7 +51,7 @@ def near_values(values: np.ndarray) -> np.ndarray:
 
 
 def _labels(ranked: np.ndarray, least: float) -> np.ndarray | None:
-    """Cluster of each ranked value, neighbours nearer than ``least`` taken together; None where they are too wide."""
+    """Cluster of each ranked value, with neighbours nearer than ``least`` joined; None where a cluster is too wide."""
     label = np.concatenate([[0], np.cumsum(np.diff(ranked) > np.maximum(NEAR_SIZE * np.abs(ranked[1:]), least))])
     first = np.searchsorted(label, np.arange(label[-1] + 1))
     last = np.searchsorted(label, np.arange(label[-1] + 1), side="right") - 1
@@ -58,7 +60,7 @@ def _labels(ranked: np.ndarray, least: float) -> np.ndarray | None:
 
 
 def _clusters(ranked: np.ndarray, least: float) -> np.ndarray | None:
-    """The set-points of ranked values, neighbours nearer than ``least`` taken together; None where they were swept."""
+    """Set points of ranked values, with neighbours nearer than ``least`` joined; None where the condition was swept."""
     label = _labels(ranked, least)
     if label is None or 2 * (label[-1] + 1) > ranked.size:
         return None
@@ -70,7 +72,7 @@ def _clusters(ranked: np.ndarray, least: float) -> np.ndarray | None:
     exact, times = np.unique(ranked, return_counts=True)
     repeated = np.searchsorted(ranked, exact[times > 1])
     if np.unique(label[repeated]).size < repeated.size:
-        return None  # two values that were each run again stand in one cluster: they were meant
+        return None  # two repeated values in one cluster are two set points
     return np.array([roundest(low, high) for low, high in zip(ranked[first], ranked[last], strict=True)])[label]
 
 
@@ -88,7 +90,7 @@ def roundest(low: float, high: float) -> float:
 
 
 def one_point(low: float, high: float) -> float | None:
-    """The set-point that a range is, if it is no wider than one.
+    """The set point of a range, if it is no wider than one.
 
     >>> one_point(2.996, 3.001), one_point(3.0, 9.0)
     (3.0, None)

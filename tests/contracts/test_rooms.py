@@ -29,7 +29,17 @@ ROOMS = {
         *("data_checks", "study", "report", "diagnosis", "importers", "api", "validation"),
         *("commands", "cli", "__main__"),
     ),
-    "diagnosis": ("problem", "labels", "inference", "discrepancy", "search", "assessment", "diagnose", "report"),
+    "diagnosis": (
+        "explanation",
+        "problem",
+        "labels",
+        "inference",
+        "discrepancy",
+        "search",
+        "assessment",
+        "diagnose",
+        "report",
+    ),
     "diagnosis/report": ("text", "figures", "html", "files"),
 }
 """By folder, its rooms and loose modules, each behind those that it may import."""

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mixedlub.diagnosis.assessment.answer_checks import levels_off
+from mixedlub.diagnosis.assessment.answer_checks import outlier_levels
 from mixedlub.diagnosis.assessment.mismatch_test import beyond_noise
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.report.files import files
@@ -34,8 +34,8 @@ def test_no_number_is_told_of_no_reading(written: dict[str, str], teeth: Diagnos
 
 
 def test_that_nothing_is_missing_is_not_said_where_every_reading_counts_as_wrong(teeth: Diagnosis) -> None:
-    lost = replace(teeth.found.none, residual=np.full(teeth.readings.size, 50.0))
-    found = replace(teeth.found, none=lost)
+    lost = replace(teeth.search.null_fit, residual=np.full(teeth.readings.size, 50.0))
+    found = replace(teeth.search, null_fit=lost)
     test = beyond_noise(found, 10.0, replace(teeth.test, p_value=0.5, detected=False))
     assert test.detected
     assert 0.0 < test.p_value < 1e-300
@@ -49,5 +49,5 @@ def test_the_headline_begins_with_it(written: dict[str, str], teeth: Diagnosis) 
 
 def test_levels_are_not_told_one_by_one_where_nearly_all_is_wrong() -> None:
     table = Table({"run": np.arange(1, 41), "speed_rpm": np.repeat([100.0, 200.0], 20)})
-    assert levels_off(table, np.arange(40) < 20, np.ones(40))
-    assert not levels_off(table, np.arange(40) < 36, np.ones(40))
+    assert outlier_levels(table, np.arange(40) < 20, np.ones(40))
+    assert not outlier_levels(table, np.arange(40) < 36, np.ones(40))

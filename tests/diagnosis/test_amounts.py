@@ -9,6 +9,7 @@ import pytest
 
 from mixedlub.case.folder import read_case
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.explanation import NOTHING, Explanation
 from mixedlub.diagnosis.labels import number
 from mixedlub.diagnosis.report.text import tables, words
 from mixedlub.diagnosis.report.text.answer import calibration_record
@@ -33,9 +34,9 @@ def drive(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
 
 
 def test_a_share_is_told_as_an_amount(offset: Diagnosis) -> None:
-    one = judged(offset, {("sensor_offset",): 0.97}, 1)
+    one = judged(offset, {Explanation.of("sensor_offset"): 0.97}, 1)
     row = section(one, words.LEFT_OUT).table[1]
-    size = float(offset.found.problem.forward.inputs["reading_scale"])
+    size = float(offset.search.problem.forward.inputs["reading_scale"])
     made = float(row[-1].rpartition(": ")[2].removesuffix(" W"))
     assert made == pytest.approx(float(row[2]) * size, rel=0.01)
     assert made == pytest.approx(9.0, rel=0.2)
@@ -77,9 +78,9 @@ def test_inputs_taken_from_the_readings_are_not_called_stated(
 
 
 def test_parameters_that_may_each_be_nothing_are_known_together(drive: Diagnosis) -> None:
-    sure = judged(drive, {("direction_dependence",): 0.97}, 1)
+    sure = judged(drive, {Explanation.of("direction_dependence"): 0.97}, 1)
     said, table = tables.parameters(sure)
     assert all(float(row[3].split(" to ")[0]) < 0.0 < float(row[3].split(" to ")[1]) for row in table[1:])
     assert any("asymmetry and viscous asymmetry alone may be nothing, not all at once" in text for text in said)
-    unsure = judged(drive, {("direction_dependence",): 0.5, (): 0.4}, 2)
+    unsure = judged(drive, {Explanation.of("direction_dependence"): 0.5, NOTHING: 0.4}, 2)
     assert not any("alone may be nothing" in text for text in tables.parameters(unsure)[0])

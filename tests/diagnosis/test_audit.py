@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -33,6 +34,11 @@ def told(case: Case, change: Change) -> list[Finding]:
     assert case.recordings is not None
     y = change(np.array(case.recordings[case.quantity], dtype=float))
     return check_readings(case, case.recordings, y, Forward(case, case.recordings))
+
+
+def with_rows(case: Case, rows: Table, y: np.ndarray) -> list[Finding]:
+    """The findings where other rows were recorded."""
+    return check_readings(replace(case, recordings=rows), rows, y, Forward(case, rows))
 
 
 def first(count: int, value: float = 0.0333) -> Change:
@@ -72,7 +78,7 @@ def test_equal_readings_at_equal_conditions_are_not_stuck(case: Case) -> None:
     assert case.recordings is not None
     again = case.recordings.take(np.array([*([0] * 20), *range(20, 72)]))
     y = np.array(again[case.quantity], dtype=float)
-    assert check_readings(case, again, y, Forward(case, again)) == []
+    assert with_rows(case, again, y) == []
     assert codes(told(case, first(20, y[0]))) == ["channel_stuck"]
 
 
@@ -98,7 +104,7 @@ def test_slide_roll_ratios_in_percent_are_asked_about(case: Case) -> None:
     rows = case.recordings
     assert rows is not None
     rows = Table({**rows.columns, "slide_roll_ratio": 100.0 * rows["slide_roll_ratio"]})
-    notes = check_readings(case, rows, np.array(rows[case.quantity], dtype=float), Forward(case, rows))
+    notes = with_rows(case, rows, np.array(rows[case.quantity], dtype=float))
     assert "slide_roll_ratio_in_percent" in codes(notes)
 
 
@@ -155,7 +161,7 @@ def test_temperatures_of_a_room_in_kelvin_are_asked_about(case: Case) -> None:
     rows = case.recordings
     assert rows is not None
     kelvin = Table({**rows.columns, "oil_temperature_C": rows["oil_temperature_C"] * 0.0 + 298.15}, rows.source)
-    notes = check_readings(case, kelvin, np.array(rows[case.quantity], dtype=float), Forward(case, rows))
+    notes = with_rows(case, kelvin, np.array(rows[case.quantity], dtype=float))
     assert "temperature_in_kelvin" in codes(notes)
 
 
@@ -210,7 +216,7 @@ def test_repeats_are_held_against_the_sds_in_the_column(
         1.0 + 0.2 * np.random.default_rng(1).standard_normal(twice["run"].size)
     )
     rows = Table({**twice, f"{case.quantity}_sd": np.full(twice["run"].size, column)}, "recordings.csv")
-    notes = check_readings(case, rows, np.asarray(rows[case.quantity]), Forward(case, rows))
+    notes = with_rows(case, rows, np.asarray(rows[case.quantity]))
     assert ("repeats_contradictory" in codes(notes)) is told
 
 
@@ -244,7 +250,7 @@ def entered_again(case: Case, count: int, change: Change = lambda y: y) -> list[
     later = Table({**again.columns, "run": order + 1, "sequence": order / order[-1]}, again.source)
     y = change(np.array(later[case.quantity], dtype=float))
     rows = Table({**later.columns, case.quantity: y}, later.source)
-    return check_readings(case, rows, y, Forward(case, rows))
+    return with_rows(case, rows, y)
 
 
 def test_rows_that_were_entered_twice_are_counted(case: Case) -> None:
@@ -268,7 +274,7 @@ def test_repeats_that_are_alike_by_rounding_are_not_taken_for_a_table_entered_tw
     pasted = np.concatenate([np.arange(216), np.arange(60 if places > 3 else 0)]).astype(int)
     order = {"run": np.arange(1, pasted.size + 1), "sequence": np.linspace(0.0, 1.0, pasted.size)}
     table = Table({**rows.take(pasted).columns, **order, case.quantity: y[pasted]}, "recordings.csv")
-    notes = check_readings(case, table, y[pasted], Forward(case, table))
+    notes = with_rows(case, table, y[pasted])
     assert ("readings_entered_twice" in codes(notes)) is (places > 3)
 
 
@@ -291,10 +297,10 @@ def test_every_second_reading_in_kilowatts_is_told(offset_folder: Path) -> None:
     assert case.recordings is not None
     rows, y = case.recordings, np.array(case.recordings[case.quantity], dtype=float)
     y[::2] /= 1000.0
-    assert "readings_in_two_units" in codes(check_readings(case, rows, y, Forward(case, rows)))
+    assert "readings_in_two_units" in codes(with_rows(case, rows, y))
     few = np.array(case.recordings[case.quantity], dtype=float)
     few[3] /= 1000.0
-    assert "readings_in_two_units" not in codes(check_readings(case, rows, few, Forward(case, rows)))
+    assert "readings_in_two_units" not in codes(with_rows(case, rows, few))
 
 
 def test_losses_above_the_power_put_in_are_told(offset_folder: Path) -> None:
@@ -302,7 +308,7 @@ def test_losses_above_the_power_put_in_are_told(offset_folder: Path) -> None:
     assert case.recordings is not None
     y = np.array(case.recordings[case.quantity], dtype=float)
     light = Table({**case.recordings.columns, "torque_Nm": case.recordings["torque_Nm"] / 1000.0}, "recordings.csv")
-    assert "loss_above_input_power" in codes(check_readings(case, light, y, Forward(case, light)))
+    assert "loss_above_input_power" in codes(with_rows(case, light, y))
     sound = check_readings(case, case.recordings, y, Forward(case, case.recordings))
     assert "loss_above_input_power" not in codes(sound)
 
@@ -331,6 +337,6 @@ def test_a_friction_that_lost_its_sign_is_told(tmp_path: Path, payload: float, t
 def test_a_time_that_runs_backwards_is_doubted(case: Case, times: np.ndarray, said: str) -> None:
     assert case.recordings is not None
     rows = Table({**case.recordings.columns, "time_s": times})
-    notes = check_readings(case, rows, np.array(rows[case.quantity], dtype=float), Forward(case, rows))
+    notes = with_rows(case, rows, np.array(rows[case.quantity], dtype=float))
     found = [note for note in notes if note.code == "time_backwards"]
     assert [said in note.text for note in found] == [True] * bool(said)

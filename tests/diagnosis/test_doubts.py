@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from mixedlub.case.folder import Case
-from mixedlub.diagnosis.assessment.answer_checks import against, in_a_row, levels_off
+from mixedlub.diagnosis.assessment.answer_checks import answer_warnings, outlier_levels, outlier_streak
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.recording.conditions import jitters
+from mixedlub.diagnosis.explanation import NOTHING
+from mixedlub.recording.conditions import is_noisy_constant
 from mixedlub.recording.noise import nearly_repeated
 from mixedlub.schema.findings import Finding, Severity, codes
 from mixedlub.schema.table import Table
@@ -25,7 +26,7 @@ def told(offset: Diagnosis, wrong: np.ndarray) -> list[Finding]:
     rows, predicted = offset.recorded.table, offset.recorded.predicted
     clock = Table({**rows.columns, "sequence": np.linspace(0.0, 1.0, len(rows))}, rows.source)
     y = predicted * np.where(wrong, 1.5, 1.0)
-    return against(offset.posterior.verdict, offset.heldout, clock, y, predicted, wrong)
+    return answer_warnings(offset.posterior.verdict, offset.heldout, clock, y, predicted, wrong)
 
 
 def test_wrong_readings_that_follow_one_another_are_told_of(offset: Diagnosis) -> None:
@@ -45,7 +46,7 @@ def test_wrong_readings_apart_are_not(offset: Diagnosis) -> None:
     ("celsius", "about"), [([0.0, 5.0, 10.0, 20.0, 25.0], False), ([99.0, 100.4, 100.1, 101.2], True)]
 )
 def test_temperatures_some_kelvin_apart_were_meant(celsius: list[float], about: bool) -> None:
-    assert jitters("temperature_C", np.array(celsius)) is about
+    assert is_noisy_constant("temperature_C", np.array(celsius)) is about
 
 
 def test_a_single_condition_that_jitters_makes_no_repeats() -> None:
@@ -53,14 +54,14 @@ def test_a_single_condition_that_jitters_makes_no_repeats() -> None:
     case: Case = p.case
     names = [c.name for c in case.kind.columns if c.form != "name" and c.name in p.rows]
     one = Table({"run": np.arange(1, 9), names[0]: 100.0 + 0.3 * np.arange(8.0)}, "recordings.csv")
-    assert nearly_repeated(case, one) is None
+    assert nearly_repeated(replace(case, recordings=one)) is None
 
 
 def test_a_level_run_in_one_go_is_no_matter_of_time() -> None:
     rows = {"run": np.arange(1, 41), "sequence": np.linspace(0.0, 1.0, 40), "speed_rpm": np.repeat(np.arange(8.0), 5)}
     wrong = rows["speed_rpm"] == 3.0
-    assert in_a_row(Table(rows), wrong, np.ones(40)) == []
-    assert in_a_row(Table({**rows, "speed_rpm": np.tile(np.arange(8.0), 5)}), wrong, np.ones(40)) == [
+    assert outlier_streak(Table(rows), wrong, np.ones(40)) == []
+    assert outlier_streak(Table({**rows, "speed_rpm": np.tile(np.arange(8.0), 5)}), wrong, np.ones(40)) == [
         16,
         17,
         18,
@@ -71,7 +72,7 @@ def test_a_level_run_in_one_go_is_no_matter_of_time() -> None:
 
 def test_clocks_that_start_anew_make_no_streak() -> None:
     rows = Table({"run": np.arange(1, 31), "time_s": np.tile(np.arange(10.0), 3)})
-    assert in_a_row(rows, rows["time_s"] == 0.0, np.ones(30)) == []
+    assert outlier_streak(rows, rows["time_s"] == 0.0, np.ones(30)) == []
 
 
 def test_a_level_written_off_on_one_side_is_told_of_by_name() -> None:
@@ -80,17 +81,17 @@ def test_a_level_written_off_on_one_side_is_told_of_by_name() -> None:
     rows = Table({"run": np.arange(1, 73), "torque_Nm": np.repeat([50.0, 100.0, 150.0], 24), "speed_rpm": speed})
     left = np.where(speed == 4000.0, -12.0, 0.3)
     wrong = (speed == 4000.0) & (np.arange(72) != 7)
-    assert levels_off(rows, wrong, left) == [("speed 4000 rpm", "5 of the 6")]
-    assert levels_off(rows, wrong, left * (-1.0) ** np.repeat(np.arange(6), 12)) == []
-    assert levels_off(rows, wrong & (np.arange(72) < 36), left) == []
-    assert levels_off(rows, np.isin(np.arange(72), [7, 20, 41]), left) == []
+    assert outlier_levels(rows, wrong, left) == [("speed 4000 rpm", "5 of the 6")]
+    assert outlier_levels(rows, wrong, left * (-1.0) ** np.repeat(np.arange(6), 12)) == []
+    assert outlier_levels(rows, wrong & (np.arange(72) < 36), left) == []
+    assert outlier_levels(rows, np.isin(np.arange(72), [7, 20, 41]), left) == []
 
 
 def test_a_level_about_its_set_point_is_one() -> None:
     celsius = np.repeat([40.0, 60.0, 80.0, 100.0], 6) + np.tile([0.1, -0.1, 0.0, 0.2, -0.2, 0.05], 4)
     rows = Table({"run": np.arange(1, 25), "oil_temperature_C": celsius})
     wrong = np.repeat([False, True, False, False], 6)
-    assert levels_off(rows, wrong, np.ones(24)) == [("oil temperature 60 °C", "all 6")]
+    assert outlier_levels(rows, wrong, np.ones(24)) == [("oil temperature 60 °C", "all 6")]
 
 
 def test_the_level_is_a_doubt_of_the_answer(offset: Diagnosis) -> None:
@@ -117,6 +118,6 @@ def test_levels_that_the_answer_does_not_foretell_are_told_of(offset: Diagnosis,
     rows, predicted = offset.recorded.table, offset.recorded.predicted
     kept = replace(offset.heldout, after=after)
     right = np.zeros(len(rows), bool)
-    said = against(offset.posterior.verdict, kept, rows, offset.readings, predicted, right)
+    said = answer_warnings(offset.posterior.verdict, kept, rows, offset.readings, predicted, right)
     assert ("answer_predicts_poorly" in codes(said)) == told
-    assert not against((), kept, rows, offset.readings, predicted, right)
+    assert not answer_warnings(NOTHING, kept, rows, offset.readings, predicted, right)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.explanation import NOTHING, Explanation
 from mixedlub.diagnosis.report.figures import figures, maps
 from mixedlub.diagnosis.report.text import tables, words
 from mixedlub.importers import write_case
@@ -53,7 +54,7 @@ def left_out(d: Diagnosis) -> words.Section:
 
 
 def test_parameter_that_no_reading_depends_on_is_not_listed(drive: Diagnosis) -> None:
-    assert drive.posterior.verdict == ("stribeck",)
+    assert drive.posterior.verdict == Explanation.of("stribeck")
     said = left_out(drive)
     assert not any(row[1].startswith("thinning") for row in said.table)
     assert any(row[1].startswith("excess") for row in said.table)
@@ -61,18 +62,17 @@ def test_parameter_that_no_reading_depends_on_is_not_listed(drive: Diagnosis) ->
     assert not any("thinning" in s and "not determined" in s for s in said.sentences)
 
 
-def placed(d: Diagnosis, z: float) -> Diagnosis:
+def at_coordinate(d: Diagnosis, z: float) -> Diagnosis:
     """The same answer, the first parameter of its effect so many standard deviations up its prior."""
     key = d.posterior.verdict
-    assert not isinstance(key, str)
     coordinates = d.refined[key].z.copy()
-    coordinates[d.found.problem.calibration_size] = z
+    coordinates[d.search.problem.calibration_size] = z
     return replace(d, refined={**d.refined, key: replace(d.refined[key], z=coordinates)})
 
 
 @pytest.mark.parametrize(("z", "marked"), [(4.5, True), (-3.2, True), (2.0, False)])
 def test_parameter_far_outside_of_what_is_usual_is_marked(drive: Diagnosis, z: float, marked: bool) -> None:
-    said = left_out(placed(drive, z))
+    said = left_out(at_coordinate(drive, z))
     far = "far outside of what is usual (0.0805 to 1.12)"
     assert (far in said.table[1][-1]) == marked
     assert not any("usual (" in row[-1] for row in said.table[2:])
@@ -82,7 +82,7 @@ def test_parameter_far_outside_of_what_is_usual_is_marked(drive: Diagnosis, z: f
 
 def test_one_direction_does_not_tell_dry_friction_from_a_payload(drive: Diagnosis) -> None:
     speed = drive.recorded.table["speed_rpm"]
-    both = drive.found.problem
+    both = drive.search.problem
     assert tables.one_way(both.forward) == []
     for rows in (speed > 0.0, speed < 0.0):
         said = tables.one_way(both.take(np.flatnonzero(rows)).forward)
@@ -96,7 +96,7 @@ def test_a_payload_that_makes_up_for_friction_is_nothing_missing(tmp_path: Path)
     friction *= 1.0 + 0.004 * np.random.default_rng(3).standard_normal(speed.size)
     columns = {"sliding_speed_m_s": speed, "friction_coefficient": friction}
     case = write_case(tmp_path / "case", system("friction_map", "friction_coefficient"), columns)
-    assert diagnose_case(case).posterior.verdict == ()
+    assert diagnose_case(case).posterior.verdict == NOTHING
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -109,4 +109,4 @@ def test_no_payload_is_seen_in_noise_about_zero_nor_in_a_wild_reading(seed: int)
 
 
 def test_only_a_drive_has_a_direction(complete: Diagnosis) -> None:
-    assert tables.one_way(complete.found.problem.forward) == []
+    assert tables.one_way(complete.search.problem.forward) == []

@@ -26,14 +26,14 @@ def lawful(make_case: Callable[..., Path], tmp_path_factory: pytest.TempPathFact
 
 
 def test_law_that_was_put_in_is_found(lawful: Diagnosis) -> None:
-    law = power_law(lawful.found)
+    law = power_law(lawful.search)
     assert law is not None
     assert dict(law.factors) == {"speed_rpm": Fraction(2), "torque_Nm": Fraction(-1, 2)}
     assert not law.relative
 
 
 def test_coefficient_of_the_law_is_right(lawful: Diagnosis) -> None:
-    law = power_law(lawful.found)
+    law = power_law(lawful.search)
     assert law is not None
     middle = dict(zip((name for name, _ in law.factors), law.middles, strict=True))
     put_in = 12.0 * (middle["speed_rpm"] / 1000.0) ** 2 * (middle["torque_Nm"] / 100.0) ** -0.5
@@ -41,7 +41,7 @@ def test_coefficient_of_the_law_is_right(lawful: Diagnosis) -> None:
 
 
 def test_law_is_written_with_units(lawful: Diagnosis) -> None:
-    law = power_law(lawful.found)
+    law = power_law(lawful.search)
     assert law is not None
     assert law.text.startswith("missing part = ")
     assert " W × " in law.text
@@ -50,21 +50,21 @@ def test_law_is_written_with_units(lawful: Diagnosis) -> None:
 
 
 def test_law_predicts_levels_left_out(lawful: Diagnosis) -> None:
-    law = power_law(lawful.found)
+    law = power_law(lawful.search)
     assert law is not None
     assert law.heldout_after < 0.3 * law.heldout_before
 
 
 def test_no_simple_law_for_a_bump(unnamed: Diagnosis) -> None:
-    assert power_law(unnamed.found) is None
+    assert power_law(unnamed.search) is None
 
 
 def test_no_simple_law_where_nothing_is_missing(complete: Diagnosis) -> None:
-    assert power_law(complete.found) is None
+    assert power_law(complete.search) is None
 
 
 def test_features_are_positive_and_differ(unnamed: Diagnosis) -> None:
-    values = features(unnamed.found)
+    values = features(unnamed.search)
     logs = np.array([np.log(v) for v in values.values()])
     assert np.isfinite(logs).all()
     alike = np.corrcoef(logs) - np.eye(len(logs))
@@ -72,7 +72,7 @@ def test_features_are_positive_and_differ(unnamed: Diagnosis) -> None:
 
 
 def test_film_ratio_is_offered_where_there_is_a_film(unnamed: Diagnosis) -> None:
-    assert "film_ratio" in features(unnamed.found)
+    assert "film_ratio" in features(unnamed.search)
 
 
 def test_stage_that_was_changed_absorbs_best(
@@ -91,5 +91,5 @@ def test_stage_that_was_changed_absorbs_best(
         return np.where(conditions["oil_temperature_C"] > 80.0, low, base)
 
     spoilt = make_case(tmp_path_factory.mktemp("boundary_low"), "gear_pair", change)
-    found = diagnose_case(spoilt, exclude=tuple(catalogue())).found
+    found = diagnose_case(spoilt, exclude=tuple(catalogue())).search
     assert absorbing_stages(found)[0].stage == "boundary"

@@ -12,9 +12,10 @@ from matplotlib.collections import PatchCollection
 from matplotlib.figure import Figure
 
 from mixedlub.diagnosis.assessment.identifiability import confusion
-from mixedlub.diagnosis.assessment.power_law import Absorbed, Unnamed
-from mixedlub.diagnosis.assessment.power_law import unnamed as describe
+from mixedlub.diagnosis.assessment.power_law import Absorbed, DescribedDiscrepancy
+from mixedlub.diagnosis.assessment.power_law import describe_discrepancy as describe
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.report.figures import charts, figures, maps
 from mixedlub.diagnosis.report.figures.style import as_drawn, blank, inline, look
 from mixedlub.kinds import kind
@@ -78,7 +79,7 @@ def test_map_has_a_tile_for_every_reading(offset: Diagnosis) -> None:
         figure = maps.residual_map(offset)
     assert figure is not None
     tiles = [c for axes in figure.axes for c in axes.collections if isinstance(c, PatchCollection)]
-    assert sum(len(c.get_paths()) for c in tiles) == 2 * offset.found.problem.y.size
+    assert sum(len(c.get_paths()) for c in tiles) == 2 * offset.search.problem.y.size
 
 
 def test_tiles_carry_the_residuals(offset: Diagnosis) -> None:
@@ -166,7 +167,7 @@ def test_outliers_are_marked(offset: Diagnosis) -> None:
     figure = figures.recorded_against_simulated(offset)
     hollow = figure.axes[0].collections[-1]
     np.testing.assert_allclose(
-        np.sort(hollow.get_offsets()[:, 1]), np.sort(offset.found.problem.y[offset.outlier_chance > 0.5])
+        np.sort(hollow.get_offsets()[:, 1]), np.sort(offset.search.problem.y[offset.outlier_chance > 0.5])
     )
 
 
@@ -177,18 +178,19 @@ def test_evidence_shows_the_probabilities(offset: Diagnosis) -> None:
 
 
 def test_instrument_and_physics_have_their_own_colours() -> None:
-    colours = {charts.colour_of(k) for k in ((), "unknown", ("sensor_offset",), ("inlet_shear_heating",))}
+    every = (NOTHING, DISCREPANCY, Explanation.of("sensor_offset"), Explanation.of("inlet_shear_heating"))
+    colours = {charts.colour_of(k) for k in every}
     assert len(colours) == 4
 
 
 def test_cosines_are_symmetric_with_one_on_the_diagonal(offset: Diagnosis) -> None:
-    alike = confusion(offset.found)
+    alike = confusion(offset.search)
     np.testing.assert_allclose(alike.cosine, alike.cosine.T, atol=1e-9)
     np.testing.assert_allclose(np.diag(alike.cosine), 1.0, atol=1e-9)
 
 
 def test_calibration_takes_its_share_of_every_effect(offset: Diagnosis) -> None:
-    alike = confusion(offset.found)
+    alike = confusion(offset.search)
     assert (alike.absorbed >= 0.0).all()
     assert (alike.absorbed <= 1.0).all()
 
@@ -198,7 +200,7 @@ def test_map_of_conditions_puts_speed_across_torque_up(offset: Diagnosis) -> Non
 
 
 def test_stages_that_absorb_the_unnamed_are_drawn_in_order(unnamed: Diagnosis) -> None:
-    figure = charts.absorbing_stages(describe(unnamed.found))
+    figure = charts.absorbing_stages(describe(unnamed.search))
     assert figure is not None
     widths = [bar.get_width() for bar in figure.axes[0].patches]
     assert widths == sorted(widths, reverse=True)
@@ -209,7 +211,7 @@ def test_tick_labels_of_the_stages_lie_within_the_figure() -> None:
     for top in np.arange(1.0, 2.0, 0.05):
         stages = (*(Absorbed("film", name, float(top)) for name in names), Absorbed("shear", "shear_rate", -3.0))
         with look():
-            figure = charts.absorbing_stages(Unnamed(stages, None))
+            figure = charts.absorbing_stages(DescribedDiscrepancy(stages, None))
         assert figure is not None
         as_drawn(figure)
         drawn = figure.axes[0].get_tightbbox()
@@ -219,8 +221,10 @@ def test_tick_labels_of_the_stages_lie_within_the_figure() -> None:
 
 def test_quantities_that_could_take_it_up_alike_have_no_bars() -> None:
     alike = (Absorbed("boundary", "boundary_friction", 90.0), Absorbed("boundary", "friction", 89.9))
-    assert charts.absorbing_stages(Unnamed(alike, None)) is None
-    assert charts.absorbing_stages(Unnamed((*alike, Absorbed("load", "load_share", 4.0)), None)) is not None
+    assert charts.absorbing_stages(DescribedDiscrepancy(alike, None)) is None
+    assert (
+        charts.absorbing_stages(DescribedDiscrepancy((*alike, Absorbed("load", "load_share", 4.0)), None)) is not None
+    )
 
 
 def test_labels_have_room_beside_whatever_ticks_are_drawn() -> None:
@@ -247,7 +251,7 @@ def overprinted(figure: Figure) -> list[str]:
 
 @pytest.mark.parametrize("largest", [0.0197, 0.9, 1234.5])
 def test_labels_of_the_empirical_form_do_not_overprint(teeth: Diagnosis, largest: float) -> None:
-    extra = describe(teeth.found)
+    extra = describe(teeth.search)
     assert extra.law is not None
     shape = np.linspace(0.0, largest / abs(extra.law.coefficient), extra.law.shape.size)
     with look():
@@ -282,8 +286,8 @@ def test_names_of_levels_differ_where_levels_do() -> None:
 
 
 def test_form_is_drawn_only_where_a_law_holds(unnamed: Diagnosis, teeth: Diagnosis) -> None:
-    assert charts.empirical_form(unnamed, replace(describe(unnamed.found), law=None)) is None
-    assert charts.empirical_form(teeth, describe(teeth.found)) is not None
+    assert charts.empirical_form(unnamed, replace(describe(unnamed.search), law=None)) is None
+    assert charts.empirical_form(teeth, describe(teeth.search)) is not None
 
 
 def test_equal_figures_are_equal_text(offset: Diagnosis) -> None:

@@ -12,9 +12,10 @@ from mixedlub.case.reference_rigs import case, forward
 from mixedlub.diagnosis.assessment.mismatch_test import mismatch_test
 from mixedlub.diagnosis.assessment.posterior import posterior
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.map_fit import Fit, linear_fit, map_fit, outlier_chance
 from mixedlub.diagnosis.inference.reference_evidence import importance_evidence
-from mixedlub.diagnosis.problem import Explanation, Problem
+from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search import search as searching
 from mixedlub.effects import catalogue
 from mixedlub.recording.conditions import coordinates
@@ -39,7 +40,7 @@ def problem(kind: str = "gear_pair", seed: int = 1, extra: float = 0.0, relative
 @pytest.mark.parametrize("kind", ["gear_pair", "disc"])
 def test_a_rerun_near_another_run_is_the_full_run_to_the_last_bit(kind: str) -> None:
     p = problem(kind)
-    explanation = ("inlet_shear_heating", "sensor_gain")
+    explanation = Explanation.of("inlet_shear_heating", "sensor_gain")
     z = np.linspace(-0.5, 0.5, p.size(explanation))
     here = p.run(explanation, z)
     for i in range(z.size):
@@ -61,27 +62,27 @@ def test_evidence_of_a_linear_model_is_the_closed_form() -> None:
     assert fit.evidence - chance == pytest.approx(exact, abs=0.6)
 
 
-@pytest.mark.parametrize("explanation", [(), ("churning",)])
-def test_fast_evidence_agrees_with_importance_sampling(explanation: tuple[str, ...]) -> None:
+@pytest.mark.parametrize("explanation", [NOTHING, Explanation.of("churning")])
+def test_fast_evidence_agrees_with_importance_sampling(explanation: Explanation) -> None:
     p = problem(extra=0.05)
     fit = map_fit(p, explanation, np.zeros(p.size(explanation)))
-    sampled = importance_evidence(p, fit, draws=1500)
-    assert sampled.effective_share > 0.05
-    assert fit.evidence == pytest.approx(sampled.value, abs=0.3 + 3.0 * sampled.error)
+    slow = importance_evidence(p, fit, draws=1500)
+    assert slow.effective_share > 0.05
+    assert fit.evidence == pytest.approx(slow.value, abs=0.3 + 3.0 * slow.error)
 
 
 def test_planted_outliers_are_found_and_no_others() -> None:
     p = problem()
     y = p.y.copy()
     y[[4, 17]] += 9.0 * p.sd[[4, 17]]
-    fit = map_fit(Problem(p.case, p.rows, p.forward, y, p.sd, p.shared), (), np.zeros(p.size(())))
+    fit = map_fit(Problem(p.case, p.rows, p.forward, y, p.sd, p.shared), NOTHING, np.zeros(p.size(NOTHING)))
     assert np.flatnonzero(outlier_chance(fit.residual) > 0.5).tolist() == [4, 17]
 
 
 def found_in(p: Problem) -> searching.Search:
     """The search with a few effects left in."""
-    space = coordinates(p.case, p.rows, p.forward)
-    return searching.search(p, space, space.values(p.case, p.rows, p.forward), OTHERS)
+    space = coordinates(p.forward)
+    return searching.search(p, space, space.values(p.forward), OTHERS)
 
 
 def test_nothing_missing_is_not_detected_and_a_loss_is() -> None:
@@ -106,7 +107,7 @@ def test_very_many_readings_give_the_answer_of_all(monkeypatch: pytest.MonkeyPat
 def test_a_spread_of_very_many_readings_has_each_once_and_every_level(count: int) -> None:
     levels = np.arange(count) % 4
     rows = searching.spread_rows([np.linspace(0.0, 1.0, count), levels.astype(float)], count)
-    assert np.unique(rows).size == searching.SPREAD
+    assert np.unique(rows).size == searching.SUBSET
     assert np.unique(levels[rows]).size == 4
 
 
@@ -114,47 +115,47 @@ def test_rows_without_a_coating_know_the_effect_of_one() -> None:
     """A level left out may hold all readings on coated flanks, or none."""
     p = problem("disc")
     bare = (p.rows["surface_1"] != "coated") & (p.rows["surface_2"] != "coated")
-    explanation = ("coating_insulation",)
+    explanation = Explanation.of("coating_insulation")
     z = np.zeros(p.size(explanation))
     assert np.array_equal(p.take(bare).predict(explanation, z), p.predict(explanation, z)[bare])
-    assert (p.take(~bare).predict(explanation, z) < p.predict((), z[:-1])[~bare]).all()
+    assert (p.take(~bare).predict(explanation, z) < p.predict(NOTHING, z[:-1])[~bare]).all()
 
 
 def test_bending_cannot_rescue_a_wrong_effect_without_bound() -> None:
     found = found_in(problem(extra=0.3))
     for explanation, score in found.scores.items():
-        if explanation:
-            assert score - found.fits[explanation].evidence <= searching.BEND_MOST
+        if explanation.effects:
+            assert score - found.fits[explanation].evidence <= searching.FORM_ERROR_GAIN_CAP
     best = max(found.scores, key=lambda m: found.scores[m])
-    assert found.unknown.evidence > found.scores[("sensor_offset",)] + searching.BEND_MOST
-    assert found.scores[best] > found.scores[("sensor_offset",)] + searching.BEND_MOST
+    assert found.discrepancy.evidence > found.scores[Explanation.of("sensor_offset")] + searching.FORM_ERROR_GAIN_CAP
+    assert found.scores[best] > found.scores[Explanation.of("sensor_offset")] + searching.FORM_ERROR_GAIN_CAP
 
 
 def test_a_zero_has_no_form_to_bend_and_an_idle_partner_lends_it_none() -> None:
     p = problem("disc", extra=0.3)
-    space = coordinates(p.case, p.rows, p.forward)
-    values = space.values(p.case, p.rows, p.forward)
-    zero, pair = ("sensor_offset",), ("contact_creep", "sensor_offset")
-    fits = {m: map_fit(p, m, np.zeros(p.size(m))) for m in ((), zero, pair)}
+    space = coordinates(p.forward)
+    values = space.values(p.forward)
+    zero, pair = Explanation.of("sensor_offset"), Explanation.of("contact_creep", "sensor_offset")
+    fits = {m: map_fit(p, m, np.zeros(p.size(m))) for m in (NOTHING, zero, pair)}
 
     def gain(stiff: Fit, fit: Fit) -> float:
-        return searching.elastic_evidence(p, stiff, fit, space, values) - fit.evidence
+        return searching.form_error_evidence(p, stiff, fit, space, values) - fit.evidence
 
-    assert gain(fits[()], fits[zero]) == 0.0
-    against_base, against_zero = (gain(stiff, fits[pair]) for stiff in searching.unbending(fits, pair))
+    assert gain(fits[NOTHING], fits[zero]) == 0.0
+    against_base, against_zero = (gain(stiff, fits[pair]) for stiff in searching.reference_fits(fits, pair))
     assert against_zero < 1.0 < against_base
 
 
 def test_unstated_noise_is_what_repeats_or_smoothness_show() -> None:
     p = problem(relative=0.02)
-    space = coordinates(p.case, p.rows, p.forward)
-    values = space.values(p.case, p.rows, p.forward)
+    space = coordinates(p.forward)
+    values = space.values(p.forward)
     level = float(np.sqrt(np.mean(p.sd**2)))
     assert noise_from_smoothness(p.y, p.forward.predict(), space, values) == pytest.approx(level, rel=0.5)
     doubled = p.rows.take(np.repeat(np.arange(len(p.rows)), 2))
     rng = np.random.default_rng(2)
     y = np.repeat(p.y, 2) + 0.5 * rng.standard_normal(2 * p.y.size)
-    assert noise_from_repeats(p.case, doubled, y) == pytest.approx(0.5, rel=0.25)
+    assert noise_from_repeats(replace(p.case, recordings=doubled), y) == pytest.approx(0.5, rel=0.25)
 
 
 def test_an_effect_without_any_finite_answer_is_not_considered(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -163,23 +164,23 @@ def test_an_effect_without_any_finite_answer_is_not_considered(monkeypatch: pyte
 
     def broken(self: Problem, explanation: Explanation, z: np.ndarray, near: Run | None = None) -> Run:
         found = run(self, explanation, z, near)
-        return replace(found, prediction=found.prediction * np.nan) if "churning" in explanation else found
+        return replace(found, prediction=found.prediction * np.nan) if "churning" in explanation.effects else found
 
     monkeypatch.setattr(Problem, "run", broken)
     found = found_in(p)
-    assert "churning" not in [s.id for s in found.sampled]
-    assert ("sensor_gain",) in found.fits
+    assert "churning" not in [s.id for s in found.draws]
+    assert Explanation.of("sensor_gain") in found.fits
 
 
 def test_readings_left_out_that_lie_too_far_off_make_the_odds_less_sure(offset: Diagnosis) -> None:
-    found, test = offset.found, offset.test
-    names = [key for key in found.fits if key]
-    plain, unsure = (posterior(found, test, inflation=c) for c in (1.0, 4.0))
+    found, test = offset.search, offset.test
+    names = [key for key in found.fits if key.effects]
+    plain, unsure = (posterior(found, test, overdispersion=c) for c in (1.0, 4.0))
     best, other = sorted(names, key=lambda key: -found.scores[key])[:2]
     gap = [np.log(p.weights[best] / p.weights[other]) for p in (plain, unsure)]
     prior = [found.log_weights[key] - found.scores[key] for key in (best, other)]
     level = prior[0] - prior[1]
     assert gap[1] - level == pytest.approx((gap[0] - level) / 4.0)
     others = [max(names, key=lambda key: p.weights[key]) for p in (plain, unsure)]
-    odds = [p.weights[name] / p.weights["unknown"] for p, name in zip((plain, unsure), others, strict=True)]
+    odds = [p.weights[name] / p.weights[DISCREPANCY] for p, name in zip((plain, unsure), others, strict=True)]
     assert odds[1] == pytest.approx(odds[0])

@@ -19,10 +19,10 @@ def test_without_a_name_the_place_may_be_the_other_end(unnamed: Diagnosis, offse
 
 
 def test_a_mismatch_that_goes_with_names_has_no_levels(unnamed: Diagnosis) -> None:
-    by_name = replace(unnamed.found.unknown.best, axes=("surfaces",), at=None, waves=0.0)
-    found = replace(unnamed.found, unknown=replace(unnamed.found.unknown, best=by_name))
+    by_name = replace(unnamed.search.discrepancy.best, axes=("surfaces",), at=None, waves=0.0)
+    found = replace(unnamed.search, discrepancy=replace(unnamed.search.discrepancy, best=by_name))
     cut = {"column": "pinion_surface", "values": ["polished"]}
-    d = replace(unnamed, found=found, region=replace(unnamed.region, where=(cut,)))
+    d = replace(unnamed, search=found, region=replace(unnamed.region, where=(cut,)))
     assert words._form(d, "surfaces").startswith("differs between surfaces, as ")
     said = " ".join(next_test_text.next_test(d))
     assert "repeat readings with pinion surface polished and with others in its place." in said
@@ -45,8 +45,8 @@ def test_the_reference_that_tells_drift_serves_every_instrument() -> None:
 
 
 def test_only_a_narrow_range_is_read_around(unnamed: Diagnosis) -> None:
-    smooth = replace(unnamed.found.unknown.best, axes=(), at=None)
-    d = replace(unnamed, found=replace(unnamed.found, unknown=replace(unnamed.found.unknown, best=smooth)))
+    smooth = replace(unnamed.search.discrepancy.best, axes=(), at=None)
+    d = replace(unnamed, search=replace(unnamed.search, discrepancy=replace(unnamed.search.discrepancy, best=smooth)))
     asked = {
         ("speed_rpm", 500.0, 1000.0): "refine and repeat the levels around speed 500 to 1000 rpm.",
         ("speed_rpm", 500.0, 2000.0): "read at more levels within speed 500 to 2000 rpm.",

@@ -47,19 +47,16 @@ def test_repeats_count_where_readings_are_compared_by_the_logarithm(
     make_case: Callable[..., Path], tmp_path: Path
 ) -> None:
     case = repeated(make_case(tmp_path / "case", "viscosity"), 0.03)
-    assert case.recordings is not None
-    assert noise_from_repeats(case, case.recordings, seen(case)) == pytest.approx(0.03, rel=0.35)
+    assert noise_from_repeats(case, seen(case)) == pytest.approx(0.03, rel=0.35)
 
 
 def test_a_second_channel_does_not_hide_repeats(make_case: Callable[..., Path], tmp_path: Path) -> None:
     folder = make_case(tmp_path / "case", "disc")
     plain = repeated(make_case(tmp_path / "plain", "disc"), 0.03)
     case = repeated(folder, 0.03, {"coverage": lambda i: 10.0 + i})
-    assert case.recordings is not None
-    assert plain.recordings is not None
-    expected = noise_from_repeats(plain, plain.recordings, seen(plain))
+    expected = noise_from_repeats(plain, seen(plain))
     assert expected > 0
-    assert noise_from_repeats(case, case.recordings, seen(case)) == expected
+    assert noise_from_repeats(case, seen(case)) == expected
 
 
 @pytest.mark.parametrize("sizes", [[2] * 12, [3] * 10, [6] * 3, [1, 2, 3, 6] * 4, [60, 60]])
@@ -131,10 +128,10 @@ def test_sds_in_proportion_to_the_reading_stay_as_stated(make_case: Callable[...
 def test_sds_of_three_tests_come_nearer_to_the_true_one(make_case: Callable[..., Path], tmp_path: Path) -> None:
     folder = make_case(tmp_path / "case", "gear_pair")
     count = len((folder / "recordings.csv").read_text().splitlines()) - 1
-    sampled = np.random.default_rng(4).standard_normal((count, 3)).std(axis=1, ddof=1)
-    found = taken(with_stated(folder, sampled))
-    assert found.min() > 1.5 * sampled.min()
-    assert np.mean(np.log(found) ** 2) < 0.5 * np.mean(np.log(sampled) ** 2)
+    drawn = np.random.default_rng(4).standard_normal((count, 3)).std(axis=1, ddof=1)
+    found = taken(with_stated(folder, drawn))
+    assert found.min() > 1.5 * drawn.min()
+    assert np.mean(np.log(found) ** 2) < 0.5 * np.mean(np.log(drawn) ** 2)
 
 
 def test_sds_that_are_left_out_or_zero_are_those_of_the_others(make_case: Callable[..., Path], tmp_path: Path) -> None:
@@ -180,8 +177,8 @@ def test_conditions_without_an_sd_have_that_of_their_level(
     least = 0.02 * float(y.min())
     case = with_stated(folder, np.hypot(0.02 * y, least))
     assert case.recordings is not None
-    problem = Problem.of(case, case.recordings, Forward(case, case.recordings), y)
+    problem = Problem.of(case)
     wanted = Table({n: c for n, c in case.recordings.columns.items() if not n.endswith("_sd")}, "conditions.csv")
     found, _ = _noise_at(problem, wanted, problem.y)
-    expected = np.hypot(0.02 * y, least) / problem.unit_size(problem.y)
+    expected = np.hypot(0.02 * y, least) / problem.d_inverse(problem.y)
     assert found == pytest.approx(expected, rel=0.1)

@@ -12,9 +12,10 @@ from mixedlub.case.folder import read_case
 from mixedlub.case.forward import Forward
 from mixedlub.data_checks.audit import check_readings
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.importers import write_case
-from mixedlub.recording.conditions import is_held
-from mixedlub.recording.noise import steadied
+from mixedlub.recording.conditions import is_constant
+from mixedlub.recording.noise import shrunk_sd
 from mixedlub.schema.findings import codes
 
 from .conftest import left_out
@@ -48,14 +49,14 @@ def test_a_large_sd_only_marks_its_reading(make_case, tmp_path: Path) -> None:
 
     folder = make_case(tmp_path, "gear_pair", lambda conditions, base: base + 9.0)
     found = edited(folder, rows=marked)
-    assert found.posterior.verdict == ("sensor_offset",)
-    assert found.found.problem.sd[0] == pytest.approx(2.0, rel=0.01)
+    assert found.posterior.verdict == Explanation.of("sensor_offset")
+    assert found.search.problem.sd[0] == pytest.approx(2.0, rel=0.01)
 
 
 def test_sds_of_few_tests_come_near_the_true_one() -> None:
     rng = np.random.default_rng(4)
     few = np.sqrt(rng.chisquare(2, size=60) / 2.0)
-    assert np.sqrt(np.mean(steadied(few, np.ones(60), np.ones((60, 60))) ** 2)) == pytest.approx(1.0, rel=0.15)
+    assert np.sqrt(np.mean(shrunk_sd(few, np.ones(60), np.ones((60, 60))) ** 2)) == pytest.approx(1.0, rel=0.15)
 
 
 def test_conditions_where_the_unnamed_mismatch_has_nothing_to_ride_on_are_predicted(
@@ -114,7 +115,7 @@ def test_many_wrong_readings_are_told(make_case, tmp_path: Path) -> None:
 
 
 def test_time_since_an_epoch_is_not_held() -> None:
-    assert not is_held("time_s", 1.7e9 + np.linspace(0.0, 3600.0, 20))
+    assert not is_constant("time_s", 1.7e9 + np.linspace(0.0, 3600.0, 20))
 
 
 def test_a_load_under_another_name_is_asked_for_and_not_a_set_up(tmp_path: Path) -> None:

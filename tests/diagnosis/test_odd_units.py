@@ -64,7 +64,7 @@ def test_a_sound_recording_is_not_doubted(tmp_path: Path, known: dict[str, Any] 
 
 def test_readings_that_are_all_as_far_from_the_model_are_in_one_unit(offset: Diagnosis) -> None:
     """Nothing parts them, as every ratio is the same."""
-    problem = offset.found.problem
+    problem = offset.search.problem
     base = np.asarray(offset.recorded.base)
     assert of_two_units(offset.case, problem.rows, 7.0 * base, base, 5) == []
 

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.report.html import _cards, render
 from mixedlub.diagnosis.report.text import words
 from mixedlub.diagnosis.report.text.headline import chance, percent
@@ -113,8 +114,12 @@ def test_doubts_stand_above_the_headline_of_the_page(offset: Diagnosis) -> None:
 
 
 def test_list_and_heading_of_a_tie_stand_in_the_page(offset: Diagnosis) -> None:
-    weights = {**offset.posterior.weights, ("sensor_offset",): 0.5, ("inlet_shear_heating",): 0.4}
-    pair = (("sensor_offset",), ("inlet_shear_heating",))
+    weights = {
+        **offset.posterior.weights,
+        Explanation.of("sensor_offset"): 0.5,
+        Explanation.of("inlet_shear_heating"): 0.4,
+    }
+    pair = (Explanation.of("sensor_offset"), Explanation.of("inlet_shear_heating"))
     tied = replace(offset, posterior=replace(offset.posterior, weights=weights, verdict=pair[0], tied=pair))
     page = render(tied, words.sections(tied), {})
     assert page.count("<li>") == 2

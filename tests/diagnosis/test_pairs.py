@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mixedlub.case.forward import Forward
 from mixedlub.diagnosis.diagnose import diagnose_case
-from mixedlub.diagnosis.inference.change_points import placed
-from mixedlub.diagnosis.inference.initial_guesses import Sampled, fit_single, sample
+from mixedlub.diagnosis.explanation import NOTHING, Explanation
+from mixedlub.diagnosis.inference.change_points import integrate_change_points
+from mixedlub.diagnosis.inference.initial_guesses import PriorDraws, fit_single, sample
 from mixedlub.diagnosis.inference.map_fit import Fit, map_fit
 from mixedlub.diagnosis.inference.nested_laws import published_gain, published_odds
 from mixedlub.diagnosis.inference.pairs import exchanged, promising_pairs
@@ -23,26 +23,26 @@ from .test_inference import problem
 __all__ = ["make"]
 
 
-def made_of_two() -> tuple[Problem, Fit, tuple[Sampled, ...], tuple[int, int]]:
+def made_of_two() -> tuple[Problem, Fit, tuple[PriorDraws, ...], tuple[int, int]]:
     """The standard rig with readings of one draw of churning and one of a boundary film, and which draws."""
     p = problem()
-    none = map_fit(p, (), np.zeros(p.size(())))
-    sampled = tuple(sample(p, name, none) for name in ("churning", "boundary_film_temperature", "tip_relief"))
-    first, second = sampled[0], sampled[1]
+    null_fit = map_fit(p, NOTHING, np.zeros(p.size(NOTHING)))
+    draws = tuple(sample(p, name, null_fit) for name in ("churning", "boundary_film_temperature", "tip_relief"))
+    first, second = draws[0], draws[1]
     i, j = (int(np.argmax(np.linalg.norm(s.change, axis=1))) for s in (first, second))
-    return replace(p, y=none.prediction + p.sd * (first.change[i] + second.change[j])), none, sampled, (i, j)
+    return replace(p, y=null_fit.prediction + p.sd * (first.change[i] + second.change[j])), null_fit, draws, (i, j)
 
 
 def test_two_effects_start_where_they_are_best_together() -> None:
     """Readings made of one draw of each of two effects: the pair starts from these draws."""
-    made, none, sampled, (i, j) = made_of_two()
-    p, first, second = made, sampled[0], sampled[1]
-    fitted = map_fit(made, (), none.z)
-    singles = {(s.id,): fit_single(made, fitted, s) for s in sampled}
+    made, null_fit, draws, (i, j) = made_of_two()
+    p, first, second = made, draws[0], draws[1]
+    fitted = map_fit(made, NOTHING, null_fit.z)
+    singles = {(s.id,): fit_single(made, fitted, s) for s in draws}
     starts = [
         start
-        for pair, start in promising_pairs(made, fitted, singles, sampled)
-        if pair == ("boundary_film_temperature", "churning")
+        for pair, start in promising_pairs(made, fitted, singles, draws)
+        if pair == Explanation.of("boundary_film_temperature", "churning")
     ]
     wanted = np.concatenate([second.z[j], first.z[i]])
     assert any(np.allclose(start[p.calibration_size :], wanted) for start in starts)
@@ -50,13 +50,13 @@ def test_two_effects_start_where_they_are_best_together() -> None:
 
 def test_a_second_effect_that_took_the_place_of_another_is_exchanged() -> None:
     """Readings made of one draw of each of two effects, one of them beside a third in the best pair so far."""
-    made, none, sampled, (i, _j) = made_of_two()
-    _p, first, _second = made, sampled[0], sampled[1]
-    start = np.concatenate([none.z, first.z[i], sampled[2].z[0]])
-    best = map_fit(made, ("churning", "tip_relief"), start)
-    found = dict(exchanged(made, best, sampled))
-    assert ("churning", "tip_relief") not in found
-    pair = ("boundary_film_temperature", "churning")
+    made, null_fit, draws, (i, _j) = made_of_two()
+    _p, first, _second = made, draws[0], draws[1]
+    start = np.concatenate([null_fit.z, first.z[i], draws[2].z[0]])
+    best = map_fit(made, Explanation.of("churning", "tip_relief"), start)
+    found = dict(exchanged(made, best, draws))
+    assert best.explanation not in found
+    pair = Explanation.of("boundary_film_temperature", "churning")
     assert map_fit(made, pair, found[pair]).evidence > best.evidence + 20.0
 
 
@@ -66,9 +66,9 @@ def test_half_of_what_is_believed_of_an_effect_is_its_published_law(viscous: flo
     p = problem(relative=0.002)
     held = replace(p, held={"seal_drag": {"viscous": viscous}})
     z = np.append(np.zeros(p.calibration_size), 2.0)
-    made = replace(p, y=held.predict(("seal_drag",), z))
+    made = replace(p, y=held.predict(Explanation.of("seal_drag"), z))
     low, high = gained
-    free = map_fit(made, ("seal_drag",), np.append(z, 0.0))
+    free = map_fit(made, Explanation.of("seal_drag"), np.append(z, 0.0))
     assert low <= published_gain(made, free) < high
 
 
@@ -82,15 +82,15 @@ def test_the_place_of_a_sudden_change_is_found_and_paid_for(make, seed: int) -> 
     held = {"load_N": 20.0, "oil_temperature_C": 40.0, "slide_roll_ratio": 0.0}
     columns = {"entrainment_speed_m_s": speed, **{name: np.full(20, value) for name, value in held.items()}}
     found = diagnose_case(make(sections, {**columns, "film_thickness_nm": film}).folder)
-    fit = found.found.fits["fringe_order",]
-    onset = found.found.problem.parameters(("fringe_order",), fit.z)["fringe_order"]["onset"]
+    fit = found.search.fits[Explanation.of("fringe_order")]
+    onset = found.search.problem.parameters(Explanation.of("fringe_order"), fit.z)["fringe_order"]["onset"]
     assert film[14] < 1e9 * onset < film[15] - 190.0
     gap = np.log(film[15] - 190.0) - np.log(film[14])
     density = 1.0 / np.log(2e-6 / 1e-8)
-    place = found.found.problem.calibration_size + 1
+    place = found.search.problem.calibration_size + 1
     curvature = 1.0 + fit.weight @ fit.slopes[:, place] ** 2
     laplace = -0.5 * fit.z[place] ** 2 - 0.5 * np.log(curvature)
-    paid = placed(found.found.problem, fit).evidence - fit.evidence + laplace
+    paid = integrate_change_points(found.search.problem, fit).evidence - fit.evidence + laplace
     assert paid == pytest.approx(np.log(gap * density), abs=0.7)
 
 
@@ -102,11 +102,11 @@ def test_a_law_beside_a_sudden_change_has_the_odds_that_it_has_alone(make) -> No
     sections = system("film", "film_thickness_nm", contact=BALL)
     columns = {"load_N": 20.0, "oil_temperature_C": 40.0, "slide_roll_ratio": 0.0}
     odds = []
-    for jump, explanation in ((0.0, ("inlet_shear_heating",)), (190.0, ("fringe_order", "inlet_shear_heating"))):
+    for jump, names in ((0.0, ("inlet_shear_heating",)), (190.0, ("fringe_order", "inlet_shear_heating"))):
         readings = {"film_thickness_nm": np.where(np.arange(24) > 19, film + jump, film)}
         held = {name: np.full(24, value) for name, value in columns.items()}
-        found = diagnose_case(make(sections, {"entrainment_speed_m_s": speed, **held, **readings}).folder).found
-        (law,) = published_odds(found.problem, found.fits[explanation])
+        found = diagnose_case(make(sections, {"entrainment_speed_m_s": speed, **held, **readings}).folder).search
+        (law,) = published_odds(found.problem, found.fits[Explanation.of(*names)])
         odds.append(law[2])
     assert odds[1] == pytest.approx(odds[0], abs=0.3)
 
@@ -118,9 +118,10 @@ def test_a_change_whose_place_is_known_costs_no_more_than_laplace_says(make, cou
     friction = 0.1 + 0.03 / (1.0 + np.exp(-(time - 4000.0) / 250.0))
     friction = friction * (1.0 + 0.01 * np.random.default_rng(2).standard_normal(count))
     columns = {"time_s": time, "friction_coefficient": friction}
-    found = diagnose_case(make(system("friction_history", "friction_coefficient"), columns).folder).found
-    fit = map_fit(found.problem, ("friction_event",), found.fits["friction_event",].z, warm=True)
-    assert placed(found.problem, fit).evidence == pytest.approx(fit.evidence, abs=0.5)
+    found = diagnose_case(make(system("friction_history", "friction_coefficient"), columns).folder).search
+    event = Explanation.of("friction_event")
+    fit = map_fit(found.problem, event, found.fits[event].z, warm=True)
+    assert integrate_change_points(found.problem, fit).evidence == pytest.approx(fit.evidence, abs=0.5)
 
 
 def test_a_fault_of_the_channel_is_no_second_effect_where_nothing_but_time_moves_either(make) -> None:
@@ -129,11 +130,10 @@ def test_a_fault_of_the_channel_is_no_second_effect_where_nothing_but_time_moves
     warmth = 118.0 + 2.0 * np.sin(time / 500.0)
     columns = {"time_s": time, "oil_temperature_C": warmth, "friction_coefficient": np.linspace(0.1, 0.11, 60)}
     case = make(system("friction_history", "friction_coefficient"), columns)
-    assert case.recordings is not None
-    p = Problem.of(case, case.recordings, Forward(case, case.recordings), columns["friction_coefficient"])
-    none = map_fit(p, (), np.zeros(p.size(())))
-    pair = ("sensor_drift", "tribofilm_growth")
-    assert one_in_time(pair, p, none)
-    assert not one_in_time(pair, p, replace(none, prediction=none.prediction * np.linspace(1.0, 1.5, 60)))
-    assert not one_in_time(("boundary_film_temperature", "sensor_drift"), p, none)
-    assert not one_in_time(("friction_event", "tribofilm_growth"), p, none)
+    p = Problem.of(case)
+    null_fit = map_fit(p, NOTHING, np.zeros(p.size(NOTHING)))
+    pair = Explanation.of("sensor_drift", "tribofilm_growth")
+    assert one_in_time(pair, p, null_fit)
+    assert not one_in_time(pair, p, replace(null_fit, prediction=null_fit.prediction * np.linspace(1.0, 1.5, 60)))
+    assert not one_in_time(Explanation.of("boundary_film_temperature", "sensor_drift"), p, null_fit)
+    assert not one_in_time(Explanation.of("friction_event", "tribofilm_growth"), p, null_fit)

@@ -10,9 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mixedlub.diagnosis.assessment.mismatch_test import UNTOLD, _cost
+from mixedlub.diagnosis.assessment.mismatch_test import UNSTATED_NOISE_SCALES, _cost
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.search.noise_inflation import CLEAR, more
+from mixedlub.diagnosis.explanation import NOTHING, Explanation
+from mixedlub.diagnosis.search.noise_inflation import CLEAR_GAIN, best_inflation
 from mixedlub.importers import write_case
 from mixedlub.schema.findings import Finding, codes
 
@@ -61,14 +62,14 @@ def test_scatter_beyond_what_is_stated_is_no_mismatch(half: Callable[..., Path],
     (note,) = told(d)
     times = float(note.text.split("about ")[1].split(" times")[0])
     assert times == pytest.approx(2.0, rel=0.25)
-    assert d.posterior.verdict == ()
+    assert d.posterior.verdict == NOTHING
     assert not d.test.detected
 
 
 def test_an_effect_stays_visible_through_it(half: Callable[..., Path], excluded: tuple[str, ...]) -> None:
     d = diagnose_case(half(heated), exclude=excluded)
     assert len(told(d)) == 1
-    assert d.posterior.verdict == ("sensor_gain",)
+    assert d.posterior.verdict == Explanation.of("sensor_gain")
 
 
 def test_sds_of_the_readings_are_raised_likewise(make_case: Make, tmp_path: Path, excluded: tuple[str, ...]) -> None:
@@ -81,7 +82,7 @@ def test_sds_of_the_readings_are_raised_likewise(make_case: Make, tmp_path: Path
         csv.writer(file).writerows(rows)
     d = diagnose_case(folder, exclude=excluded)
     assert len(told(d)) == 1
-    assert d.posterior.verdict == ()
+    assert d.posterior.verdict == NOTHING
 
 
 def test_noise_that_nobody_states_is_found_under_an_effect(
@@ -89,8 +90,8 @@ def test_noise_that_nobody_states_is_found_under_an_effect(
 ) -> None:
     folder = restated(make_case(tmp_path / "case", "disc", heated), "")
     d = diagnose_case(folder, exclude=excluded)
-    assert np.median(d.found.problem.sd / d.readings) == pytest.approx(0.02, rel=0.25)
-    assert d.posterior.verdict == ("sensor_gain",)
+    assert np.median(d.search.problem.sd / d.readings) == pytest.approx(0.02, rel=0.25)
+    assert d.posterior.verdict == Explanation.of("sensor_gain")
     assert "noise_value_estimated" in codes(d.warnings)
 
 
@@ -111,16 +112,16 @@ def test_noise_that_nobody_states_may_have_a_part_alike_for_all(
     assert noise is not None
     assert noise.absolute == pytest.approx(0.05 * float(np.median(d.readings)), rel=0.4)
     assert noise.relative < 0.03
-    assert d.posterior.verdict == ()
+    assert d.posterior.verdict == NOTHING
 
 
 def test_a_fit_whose_evidence_is_carried_over_raises_no_noise(offset: Diagnosis) -> None:
     """Far behind the best a fit only keeps its distance when the noise is settled anew: its residuals grew since."""
-    found = offset.found
-    fit = found.fits["churning",]
-    wild = replace(found, fits={**found.fits, ("churning",): replace(fit, residual=20.0 * fit.residual)})
-    assert more(found)[0] < CLEAR
-    assert more(wild)[0] < CLEAR
+    found = offset.search
+    fit = found.fits[Explanation.of("churning")]
+    wild = replace(found, fits={**found.fits, Explanation.of("churning"): replace(fit, residual=20.0 * fit.residual)})
+    assert best_inflation(found)[0] < CLEAR_GAIN
+    assert best_inflation(wild)[0] < CLEAR_GAIN
 
 
 def test_repeats_bound_the_noise_of_very_many_readings(
@@ -163,17 +164,17 @@ def test_sds_of_one_setting_leave_out_a_share_of_the_reading(tmp_path: Path) -> 
     }
     sections = {"kind": "film", "contact": BALL, "recording": {"quantity": "film_thickness_nm"}}
     d = diagnose_case(write_case(tmp_path / "films", sections, columns))
-    assert d.posterior.verdict == ()
+    assert d.posterior.verdict == NOTHING
     assert "scatter_above_stated" in codes(d.warnings)
-    assert d.found.problem.one_sd[-1] == pytest.approx(0.02 * recorded[-1], rel=0.6)
+    assert d.search.problem.single_sd[-1] == pytest.approx(0.02 * recorded[-1], rel=0.6)
 
 
 def test_readings_that_others_write_off_cost_nothing_missing_what_it_would_keep(complete: Diagnosis) -> None:
-    found = complete.found
-    fixed = np.hstack([found.none.slopes, found.problem.shared])
+    found = complete.search
+    fixed = np.hstack([found.null_fit.slopes, found.problem.shared])
     low = complete.readings < np.quantile(complete.readings, 0.7)
-    assert _cost(found, fixed, found.none.weight, UNTOLD) < 0.2
-    assert _cost(found, fixed, np.where(low, 1e-3, 1.0), UNTOLD) > 1.0
+    assert _cost(found, fixed, found.null_fit.weight, UNSTATED_NOISE_SCALES) < 0.2
+    assert _cost(found, fixed, np.where(low, 1e-3, 1.0), UNSTATED_NOISE_SCALES) > 1.0
 
 
 def test_noise_of_very_many_readings_is_estimated_though_a_share_of_them_is_looked_at(tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ import pytest
 from scipy.signal import lfilter
 
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.schema.findings import codes
 
 from ..kinds.conftest import make, system
@@ -32,16 +33,16 @@ def answer(make, friction: np.ndarray) -> Diagnosis:
 def test_noise_that_lasts_is_no_mismatch(make, correlation: float) -> None:
     """A first-order series tells (1 - r)/(1 + r) of its readings' number: 9 for one at r = 0.8."""
     d = answer(make, 0.1 * (1.0 + 0.01 * lasting_noise(correlation, 3)))
-    together = d.found.problem.together
-    assert d.posterior.verdict == ()
-    assert (together == 1.0) if correlation == 0.0 else (4.0 < together < 18.0)
+    count = d.search.problem.n_per_effective
+    assert d.posterior.verdict == NOTHING
+    assert (count == 1.0) if correlation == 0.0 else (4.0 < count < 18.0)
     assert ("residuals_autocorrelated" in codes(d.warnings)) == (correlation > 0.0)
 
 
 def test_what_is_there_is_still_found_and_a_new_reading_scatters_as_one(make) -> None:
     friction = 0.1 + 0.02 * np.exp(-TIME / 120.0)
     d = answer(make, friction * (1.0 + 0.01 * lasting_noise(0.8, 4)))
-    assert "friction_run_in" in {name for key in d.posterior.tied for name in d.posterior.names(key)}
+    assert "friction_run_in" in {name for key in d.posterior.tied for name in list(key.ids)}
     half = 0.5 * (d.recorded.high90 - d.recorded.low90)
     assert np.median(half) == pytest.approx(1.645 * 0.01 * np.median(friction), rel=0.25)
     assert d.recorded.sd == pytest.approx(0.01 * d.recorded.predicted)
@@ -53,7 +54,7 @@ def test_the_seconds_after_a_start_are_no_effect(make) -> None:
     """A start that settles within 2 s, of 800 s that are held: wrong readings, and nothing missing."""
     friction = 0.1 * (1.0 + 0.01 * np.random.default_rng(5).standard_normal(COUNT)) + 0.04 * np.exp(-TIME / 1.5)
     d = answer(make, friction)
-    assert d.posterior.verdict == ()
+    assert d.posterior.verdict == NOTHING
     assert {1, 2, 3} <= set(d.outlier_runs)
 
 
@@ -63,4 +64,4 @@ def test_noise_of_two_paces_is_no_mismatch(make, seed: int) -> None:
     noise = 0.7 * lasting_noise(0.95, seed) + 0.7 * np.random.default_rng(100 + seed).standard_normal(COUNT)
     d = answer(make, 0.1 * (1.0 + 0.01 * noise))
     assert not d.test.detected
-    assert d.posterior.verdict == ()
+    assert d.posterior.verdict == NOTHING

@@ -7,15 +7,16 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from mixedlub.diagnosis.inference.map_fit import settled
+from mixedlub.diagnosis.explanation import NOTHING
+from mixedlub.diagnosis.inference.map_fit import damped_update
 
 
 def test_coordinates_go_no_farther_than_the_laws_gain(offset) -> None:
     """The tangent's place is made absurd: the fit stays where it was."""
-    problem, fit = offset.found.problem, offset.found.none
+    problem, fit = offset.search.problem, offset.search.null_fit
     absurd = fit.z + 4.0
-    z, beside = settled(
-        problem, (), fit.z, absurd, fit.common, lambda prediction: np.zeros((prediction.size, 0)), fit.weight
+    z, beside = damped_update(
+        problem, NOTHING, fit.z, absurd, fit.common, lambda prediction: np.zeros((prediction.size, 0)), fit.weight
     )
     assert z == pytest.approx(fit.z)
     assert beside.residual == pytest.approx(fit.residual, abs=1e-9)
@@ -40,7 +41,13 @@ def test_a_part_of_the_way_is_taken_where_a_law_curves() -> None:
         curved = SimpleNamespace(
             y=np.full(40, np.exp(1.5)), sd=np.full(40, 0.3), predict=lambda names, z: np.full(40, np.exp(z[0]))
         )
-        z, _ = settled(
-            curved, (), np.array([start]), np.array([tangent]), np.zeros(40), lambda p: np.zeros((40, 0)), np.ones(40)
+        z, _ = damped_update(
+            curved,
+            NOTHING,
+            np.array([start]),
+            np.array([tangent]),
+            np.zeros(40),
+            lambda p: np.zeros((40, 0)),
+            np.ones(40),
         )
         assert z[0] == pytest.approx(nearest, abs=0.15)

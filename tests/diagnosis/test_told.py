@@ -10,8 +10,8 @@ import pytest
 from mixedlub.case.forward import Forward
 from mixedlub.data_checks.audit import check_readings
 from mixedlub.diagnosis.assessment.identifiability import confusion
-from mixedlub.diagnosis.assessment.posterior import Key
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.report.text import words
 from mixedlub.diagnosis.report.text.alternatives import resembling
 from mixedlub.diagnosis.report.text.answer import as_json
@@ -27,15 +27,17 @@ from .test_words import judged, told
 def test_what_is_called_nearest_is_neither_rejected_nor_untestable(unnamed: Diagnosis) -> None:
     best = nearest(unnamed)
     assert best is not None
-    alike = confusion(unnamed.found)
-    every = tuple((name,) for name in alike.ids)
-    others = {name: replace(unnamed.found.fits[name], residual=0.0 * unnamed.found.none.residual) for name in every}
+    alike = confusion(unnamed.search)
+    every = tuple(Explanation.of(name) for name in alike.ids)
+    others = {
+        name: replace(unnamed.search.fits[name], residual=0.0 * unnamed.search.null_fit.residual) for name in every
+    }
     for name in alike.ids:
-        kept = {**unnamed.found.fits, (name,): others[(name,)]}
-        d = replace(unnamed, found=replace(unnamed.found, fits=kept))
+        kept = {**unnamed.search.fits, Explanation.of(name): others[Explanation.of(name)]}
+        d = replace(unnamed, search=replace(unnamed.search, fits=kept))
         found = nearest(d)
         assert found is not None
-        assert found.names == (name,)
+        assert found.explanation == Explanation.of(name)
         said = " ".join(resembling(d, alike)[0])
         assert name.replace("_", " ") not in said
 
@@ -63,36 +65,44 @@ def test_contradicting_readings_come_before_an_unnamed_mismatch(unnamed: Diagnos
 
 
 def test_readings_that_contradict_each_other_are_found(offset: Diagnosis) -> None:
-    rows = offset.found.problem.rows
+    rows = offset.search.problem.rows
     twice = {name: np.tile(values, 2) for name, values in rows.columns.items()}
     y = np.concatenate([offset.recorded.base, 2.0 * offset.recorded.base])
     table = Table({**twice, offset.case.quantity: y}, "recordings.csv")
-    assert "repeats_contradictory" in codes(check_readings(offset.case, table, y, Forward(offset.case, table)))
+    case = replace(offset.case, recordings=table)
+    assert "repeats_contradictory" in codes(check_readings(case, table, y, Forward(offset.case, table)))
 
 
 def test_probability_of_the_answer_and_of_its_effects_stand_side_by_side(offset: Diagnosis) -> None:
-    several: dict[Key, float] = {("sensor_offset",): 0.87, ("inlet_shear_heating", "sensor_offset"): 0.128}
+    several = {
+        Explanation.of("sensor_offset"): 0.87,
+        Explanation.of("inlet_shear_heating", "sensor_offset"): 0.128,
+    }
     clause = "Sensor offset: probability 0.87 alone, above 0.99 alone or with a second effect."
     assert clause in told(judged(offset, several, 1))[words.ANSWER]
-    assert "alone" not in told(judged(offset, {("sensor_offset",): 0.97}, 1))[words.ANSWER]
-    pair: dict[Key, float] = {("sensor_offset",): 0.5, ("churning",): 0.2, ("churning", "sensor_offset"): 0.1}
+    assert "alone" not in told(judged(offset, {Explanation.of("sensor_offset"): 0.97}, 1))[words.ANSWER]
+    pair = {
+        Explanation.of("sensor_offset"): 0.5,
+        Explanation.of("churning"): 0.2,
+        Explanation.of("churning", "sensor_offset"): 0.1,
+    }
     said = told(judged(offset, pair, 2))[words.ANSWER]
     assert "Sensor offset: probability 0.50 alone, 0.60 alone or with a second effect." in said
 
 
 def test_what_the_nearest_leaves_is_never_called_noise_alone(unnamed: Diagnosis) -> None:
-    name = next(key for key in unnamed.found.fits if len(key) == 1)
-    perfect = replace(unnamed.found.fits[name], residual=0.0 * unnamed.found.none.residual)
-    fits = {**unnamed.found.fits, name: perfect}
-    said = told(replace(unnamed, found=replace(unnamed.found, fits=fits)))[words.UNNAMED]
+    name = next(key for key in unnamed.search.fits if len(key.effects) == 1)
+    perfect = replace(unnamed.search.fits[name], residual=0.0 * unnamed.search.null_fit.residual)
+    fits = {**unnamed.search.fits, name: perfect}
+    said = told(replace(unnamed, search=replace(unnamed.search, fits=fits)))[words.UNNAMED]
     assert "no more than noise" not in said
     assert "It is not the answer (probability below 0.01): its fit alone would do" in said
     assert "100 %" not in said
 
 
 def test_the_nearest_has_its_chi_square_in_the_noise_of_a_reading(unnamed: Diagnosis) -> None:
-    lasting = replace(unnamed.found, problem=unnamed.found.problem.with_together(9.0))
-    one, nine = nearest(unnamed), nearest(replace(unnamed, found=lasting))
+    lasting = replace(unnamed.search, problem=unnamed.search.problem.with_n_per_effective(9.0))
+    one, nine = nearest(unnamed), nearest(replace(unnamed, search=lasting))
     assert one is not None
     assert nine is not None
     np.testing.assert_allclose(nine.before, 9.0 * one.before)
@@ -112,18 +122,23 @@ def test_what_would_show_rests_on_the_noise(complete: Diagnosis) -> None:
 
 
 def test_what_is_less_probable_and_not_rejected_is_listed(offset: Diagnosis) -> None:
-    left: dict[Key, float] = {("sensor_offset",): 0.9, ("churning",): 0.03, "unknown": 0.02, (): 0.012}
+    left = {
+        Explanation.of("sensor_offset"): 0.9,
+        Explanation.of("churning"): 0.03,
+        DISCREPANCY: 0.02,
+        NOTHING: 0.012,
+    }
     said = told(judged(offset, left, 1))[words.ALIKE]
     assert "Less probable, not excluded: churning (0.03), something unknown (0.02), nothing missing (0.01)." in said
-    sure: dict[Key, float] = {("sensor_offset",): 0.999}
+    sure = {Explanation.of("sensor_offset"): 0.999}
     assert "not excluded: " not in told(judged(offset, sure, 1))[words.ALIKE].replace("nor excluded: ", "")
 
 
 @pytest.mark.parametrize(("off", "strained"), [(-2.04, False), (-2.06, True)])
 def test_strained_is_what_the_table_shows_so(complete: Diagnosis, off: float, strained: bool) -> None:
-    none = complete.refined[()]
-    z = np.where(np.arange(none.z.size) == 0, off, 0.0)
-    said = told(replace(complete, refined={**complete.refined, (): replace(none, z=z)}))[words.CALIBRATION]
+    null_fit = complete.refined[NOTHING]
+    z = np.where(np.arange(null_fit.z.size) == 0, off, 0.0)
+    said = told(replace(complete, refined={**complete.refined, NOTHING: replace(null_fit, z=z)}))[words.CALIBRATION]
     assert ("Strained" in said) == strained
 
 

@@ -14,9 +14,18 @@ from mixedlub.chain.effect import Effect
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut
 from mixedlub.diagnosis.assessment.mismatch_test import mismatch_test
 from mixedlub.diagnosis.assessment.posterior import posterior
-from mixedlub.diagnosis.discrepancy.modulated import LATE, NOTHING, QUANTITIES, READING, Typical, carriers, log_slope
+from mixedlub.diagnosis.discrepancy.modulated import (
+    ADDITIVE,
+    QUANTITIES,
+    READING,
+    THERMAL_LAG,
+    TypicalSizes,
+    log_slope,
+    scalings_of,
+)
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.map_fit import log_likelihood, map_fit
-from mixedlub.diagnosis.problem import Explanation, Problem
+from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.search import search
 from mixedlub.kinds import kind
 from mixedlub.kinds.standard import OIL
@@ -31,8 +40,8 @@ from .test_inference import found_in, problem
 def test_boundary_friction_carries_in_proportion_to_its_share_of_friction() -> None:
     p = problem("disc")
     z = np.zeros(p.calibration_size)
-    slope = log_slope(p, p.run((), z), "boundary_friction")
-    here = p.predict((), z)
+    slope = log_slope(p, p.run(NOTHING, z), "boundary_friction")
+    here = p.predict(NOTHING, z)
     moved = p.forward.predict({**p.calibration(z), "boundary_friction": 0.1001})
     assert slope == pytest.approx((moved - here) / np.log(1.001), rel=2e-3)
 
@@ -40,9 +49,9 @@ def test_boundary_friction_carries_in_proportion_to_its_share_of_friction() -> N
 def test_film_and_shear_carry_with_the_signs_of_lubrication() -> None:
     p = problem("disc")
     z = np.zeros(p.calibration_size)
-    base = p.run((), z)
-    found = carriers(p, base, Typical.of(p, base))
-    assert set(found) - {LATE} == {READING, NOTHING, *QUANTITIES} - {"running_friction"}
+    base = p.run(NOTHING, z)
+    found = scalings_of(p, base, TypicalSizes.of(p, base))
+    assert set(found) - {THERMAL_LAG} == {READING, ADDITIVE, *QUANTITIES} - {"running_friction"}
     assert (found["film_thickness"] < 0).all()
     assert (found["shear_stress"] > 0).all()
 
@@ -50,12 +59,12 @@ def test_film_and_shear_carry_with_the_signs_of_lubrication() -> None:
 def test_a_mismatch_of_the_film_is_taken_for_one() -> None:
     """Readings of a film that is thinner the colder the oil, made by hand from the chain's own slope."""
     p = problem("disc", seed=3)
-    slope = log_slope(p, p.run((), np.zeros(p.calibration_size)), "film_thickness")
+    slope = log_slope(p, p.run(NOTHING, np.zeros(p.calibration_size)), "film_thickness")
     assert slope is not None
     temperature = p.rows["oil_temperature_C"]
     bend = np.sin(3.0 * (temperature - temperature.min()) / np.ptp(temperature))
     found = found_in(Problem(p.case, p.rows, p.forward, p.y + 0.6 * bend * slope, p.sd, p.shared))
-    assert found.unknown.best.carrier == "film_thickness"
+    assert found.discrepancy.best.modulates == "film_thickness"
 
 
 def test_a_mismatch_of_two_conditions_is_taken_for_one_of_two() -> None:
@@ -64,7 +73,7 @@ def test_a_mismatch_of_two_conditions_is_taken_for_one_of_two() -> None:
     torque, temperature = p.rows["torque_Nm"], p.rows["oil_temperature_C"]
     light, cold = (np.exp(-3.0 * (x - x.min()) / np.ptp(x)) for x in (torque, temperature))
     found = found_in(Problem(p.case, p.rows, p.forward, p.y * (1.0 + 0.12 * light * cold), p.sd, p.shared))
-    assert set(found.unknown.best.axes) == {"torque_Nm", "oil_temperature_C"}
+    assert set(found.discrepancy.best.axes) == {"torque_Nm", "oil_temperature_C"}
 
 
 def test_an_oil_of_another_coefficient_has_no_other_law() -> None:
@@ -79,9 +88,9 @@ def test_an_oil_of_another_coefficient_has_no_other_law() -> None:
     model = Forward(case, rows)
     y = model.predict({"pressure_viscosity": 1.35}) * np.exp(0.01 * np.random.default_rng(0).standard_normal(warm.size))
     p = Problem(case, rows, model, np.log(y), np.full(y.size, 0.01), np.zeros((y.size, 0)))
-    space = coordinates(case, rows, model)
-    weights = search(p, space, space.values(case, rows, model)).log_weights
-    assert all("pressure_viscosity_law" not in m or w < weights["unknown"] - 3.0 for m, w in weights.items())
+    space = coordinates(model)
+    weights = search(p, space, space.values(model)).log_weights
+    assert all("pressure_viscosity_law" not in m.effects or w < weights[DISCREPANCY] - 3.0 for m, w in weights.items())
 
 
 def test_products_with_names_treat_all_names_alike() -> None:
@@ -95,10 +104,10 @@ def test_products_with_names_treat_all_names_alike() -> None:
 
 def test_a_wild_reading_does_not_pull_the_fit() -> None:
     p = problem()
-    clean = map_fit(p, (), np.zeros(p.size(())))
+    clean = map_fit(p, NOTHING, np.zeros(p.size(NOTHING)))
     y = p.y.copy()
     y[7] += 400.0 * p.sd[7]
-    pulled = map_fit(Problem(p.case, p.rows, p.forward, y, p.sd, p.shared), (), np.zeros(p.size(())))
+    pulled = map_fit(Problem(p.case, p.rows, p.forward, y, p.sd, p.shared), NOTHING, np.zeros(p.size(NOTHING)))
     assert np.max(np.abs(pulled.z - clean.z)) < 0.3
     value, weight = log_likelihood(np.array([300.0, 3000.0]))
     assert value[0] - value[1] == pytest.approx(2.0 * np.log(10.0), abs=0.01)
@@ -109,15 +118,15 @@ def test_a_name_that_fails_on_levels_left_out_loses_its_place() -> None:
     found = found_in(problem(extra=0.05))
     test = mismatch_test(found, 0.01)
     before = posterior(found, test)
-    assert before.verdict == ("churning",)
-    after = posterior(found, test, {("churning",): 60.0})
-    assert after.verdict != ("churning",)
-    assert after.weights[("churning",)] < 1e-6
+    assert before.verdict == Explanation.of("churning")
+    after = posterior(found, test, {Explanation.of("churning"): 60.0})
+    assert after.verdict != Explanation.of("churning")
+    assert after.weights[Explanation.of("churning")] < 1e-6
 
 
 @pytest.mark.parametrize(("after", "rows", "loses"), [(1.0, 150, False), (1.3, 150, False), (2.2, 150, True)])
 def test_the_demerit_spares_what_chance_and_another_form_leave(after: float, rows: int, loses: bool) -> None:
-    assert (HeldOut(3.0, after, "", 5, rows, after, 0.0, 0.0).demerit(1.0) > 0.0) is loses
+    assert (HeldOut(3.0, after, "", 5, rows, after, 0.0, 0.0).log_odds_penalty(1.0) > 0.0) is loses
 
 
 def test_an_effect_that_is_seldom_missing_has_lower_odds(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -127,10 +136,10 @@ def test_an_effect_that_is_seldom_missing_has_lower_odds(monkeypatch: pytest.Mon
     here = found.log_weights
     known = search.effects_of
 
-    def rarer(names: Explanation) -> list[Effect]:
+    def rarer(names: list[str]) -> list[Effect]:
         return [replace(e, odds=0.1) if e.id == "churning" else e for e in known(names)]
 
     monkeypatch.setattr(search, "effects_of", rarer)
     there = found.log_weights
-    fallen = {m: here[m] - there[m] for m in (("churning",), ("sensor_gain",))}
-    assert fallen["churning",] - fallen["sensor_gain",] == pytest.approx(np.log(10.0))
+    fallen = {m: here[m] - there[m] for m in map(Explanation.of, ("churning", "sensor_gain"))}
+    assert fallen[Explanation.of("churning")] - fallen[Explanation.of("sensor_gain")] == pytest.approx(np.log(10.0))

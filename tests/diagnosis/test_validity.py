@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from mixedlub.case import reference_rigs
 from mixedlub.diagnosis.assessment.validity import beyond_range, outside, unpublished
+from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.effects import catalogue, find
 from mixedlub.schema.findings import Severity
+from mixedlub.schema.table import Table
 
 CREEP = find(["contact_creep"])
 ROWS = {"slide_roll_ratio": np.array([[0.02], [0.4], [0.9], [1.2]])}
@@ -34,12 +38,13 @@ def test_a_fit_is_judged_by_the_quantities_it_passes_through() -> None:
     """A third of the readings of the standard disc slide at 0.6."""
     forward = reference_rigs.forward("disc")
     y = forward.predict()
-    problem = Problem.of(forward.case, forward.table, forward, y)
-    z = np.zeros(problem.size(("contact_creep",)))
-    (said,) = beyond_range(problem, ("contact_creep",), z)
+    rows = Table({**forward.table.columns, forward.case.quantity: y}, forward.table.source)
+    problem = Problem.of(replace(forward.case, recordings=rows), forward)
+    z = np.zeros(problem.size(Explanation.of("contact_creep")))
+    (said,) = beyond_range(problem, Explanation.of("contact_creep"), z)
     assert f"in {y.size // 3} of {y.size} readings it is up to 0.6" in said.text
     slow = problem.take(np.flatnonzero(forward.table["slide_roll_ratio"] < 0.5))
-    assert beyond_range(slow, ("contact_creep",), z) == []
+    assert beyond_range(slow, Explanation.of("contact_creep"), z) == []
 
 
 def fitted(strength: float, spread: float) -> tuple[np.ndarray, np.ndarray]:

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import diagnose_case
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING
 from mixedlub.importers import write_case
-from mixedlub.recording.correlated_error import STILL, Wander
+from mixedlub.recording.correlated_error import UNCORRELATED, CorrelatedError
 from mixedlub.schema.findings import codes
 from mixedlub.schema.table import Table
 
@@ -34,20 +35,20 @@ def answer_to(folder, friction, clock=CLOCK):
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_wandering_noise_is_no_event(tmp_path, seed):
     d = answer_to(tmp_path, 0.1 * (1.0 + wandering_noise(seed, 0.9, 0.01)))
-    assert d.posterior.verdict in ((), "unknown")
+    assert d.posterior.verdict in (NOTHING, DISCREPANCY)
     assert {"residuals_drift", "residuals_autocorrelated"} & set(codes(d.warnings))
 
 
 def test_noise_that_is_seen_to_wander_is_told_as_that(tmp_path):
     d = answer_to(tmp_path, 0.1 * (1.0 + wandering_noise(3, 0.9, 0.01)))
-    assert d.posterior.verdict == ()
-    assert d.found.problem.wander.size >= 1.0
+    assert d.posterior.verdict == NOTHING
+    assert d.search.problem.correlated_error.size >= 1.0
     assert "residuals_drift" in codes(d.warnings)
 
 
 def test_noise_that_does_not_wander_is_left_as_it_is(tmp_path):
     d = answer_to(tmp_path, 0.1 * (1.0 + wandering_noise(4, 0.0, 0.0)))
-    assert d.found.problem.wander == STILL
+    assert d.search.problem.correlated_error == UNCORRELATED
     assert "residuals_drift" not in codes(d.warnings)
 
 
@@ -61,17 +62,17 @@ def test_noise_that_does_not_wander_is_left_as_it_is(tmp_path):
 )
 def test_what_happens_is_found_in_wandering_noise(tmp_path, form, name):
     d = answer_to(tmp_path, 0.1 * form * (1.0 + wandering_noise(5, 0.8, 0.01)))
-    assert name in d.posterior.verdict
-    assert d.found.problem.wander.size
+    assert name in d.posterior.verdict.effects
+    assert d.search.problem.correlated_error.size
 
 
 def test_an_error_that_wanders_is_the_same_for_some_of_the_rows():
     rows = Table({"time_s": CLOCK}, "rows")
-    wander = Wander.over(CLOCK, 2.0, 0.2)
+    correlated_error = CorrelatedError.over(CLOCK, 2.0, 0.2)
     some = np.arange(0, COUNT, 3)
-    whole, part = wander.columns(rows), wander.columns(rows.take(some))
+    whole, part = correlated_error.columns(rows), correlated_error.columns(rows.take(some))
     assert (part @ part.T) == pytest.approx((whole @ whole.T)[np.ix_(some, some)])
-    assert wander.columns(Table({"load_N": CLOCK}, "rows")).shape == (COUNT, 0)
+    assert correlated_error.columns(Table({"load_N": CLOCK}, "rows")).shape == (COUNT, 0)
 
 
 def test_a_new_reading_scatters_as_the_recorded_ones(tmp_path):
@@ -88,7 +89,7 @@ def test_what_swings_far_beyond_the_noise_is_a_state(tmp_path, count):
     noise = 0.0008 * np.random.default_rng(count).standard_normal(count)
     d = answer_to(tmp_path, np.interp(cycle, *turns) + noise, 533.0 * cycle)
     assert d.test.detected
-    assert d.posterior.verdict != ()
+    assert d.posterior.verdict != NOTHING
 
 
 def test_set_ups_that_are_off_do_not_wander(tmp_path):
@@ -116,5 +117,5 @@ def test_two_readings_of_one_second_change_nothing(tmp_path):
     clock = CLOCK.copy()
     clock[52] = clock[51]
     d = answer_to(tmp_path, friction, clock)
-    assert d.posterior.verdict == ()
-    assert d.found.problem.wander.size
+    assert d.posterior.verdict == NOTHING
+    assert d.search.problem.correlated_error.size

@@ -12,11 +12,12 @@ from mixedlub.chain.effect import Parameter
 from mixedlub.chain.plain_text import plain_equation
 from mixedlub.chain.priors import Normal
 from mixedlub.data_checks.audit import SCARCE, audit
-from mixedlub.diagnosis.assessment.answer_checks import against
+from mixedlub.diagnosis.assessment.answer_checks import answer_warnings
 from mixedlub.diagnosis.assessment.experiment_design import NextTest
-from mixedlub.diagnosis.assessment.posterior import Key, Posterior
-from mixedlub.diagnosis.assessment.power_law import unnamed as describe
+from mixedlub.diagnosis.assessment.posterior import Posterior
+from mixedlub.diagnosis.assessment.power_law import describe_discrepancy as describe
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.labels import effect_words, number, with_names
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.report import html
@@ -29,7 +30,7 @@ from mixedlub.schema.findings import Severity, codes, finding, of_severity
 
 def told(d: Diagnosis) -> dict[str, str]:
     """Sentences of each section joined."""
-    extra = describe(d.found) if "unknown" in d.posterior.tied else None
+    extra = describe(d.search) if DISCREPANCY in d.posterior.tied else None
     return {
         s.title: " ".join([*s.alarms, *s.sentences, *s.items, *(" ".join(row) for row in s.table)])
         for s in words.sections(d, extra)
@@ -41,7 +42,7 @@ def section(d: Diagnosis, title: str) -> words.Section:
     return next(s for s in words.sections(d) if s.title == title)
 
 
-def judged(d: Diagnosis, weights: dict[Key, float], tied: int) -> Diagnosis:
+def judged(d: Diagnosis, weights: dict[Explanation, float], tied: int) -> Diagnosis:
     """The same answer with other probabilities."""
     keys = tuple(weights)
     rest = {k: 1e-6 for k in d.posterior.weights if k not in weights}
@@ -67,12 +68,12 @@ def test_mismatch_is_said(offset: Diagnosis) -> None:
 
 
 def test_instrument_is_not_called_physics(offset: Diagnosis) -> None:
-    said = told(judged(offset, {("sensor_offset",): 0.97}, 1))[words.ANSWER]
+    said = told(judged(offset, {Explanation.of("sensor_offset"): 0.97}, 1))[words.ANSWER]
     assert "No physics is missing; the instrument is at fault: sensor offset (probability 0.97)" in said
 
 
 def test_physics_and_instrument_are_kept_apart(offset: Diagnosis) -> None:
-    said = words.headline(judged(offset, {("inlet_shear_heating", "sensor_offset"): 0.9}, 1))
+    said = words.headline(judged(offset, {Explanation.of("inlet_shear_heating", "sensor_offset"): 0.9}, 1))
     assert said.startswith("Missing physics: inlet shear heating; and a fault of the instrument: sensor offset")
 
 
@@ -87,14 +88,14 @@ def test_left_out_gives_equation_source_strength_and_interval(offset: Diagnosis)
 
 
 def test_tie_is_said_with_the_test_that_separates(offset: Diagnosis) -> None:
-    pair: dict[Key, float] = {("sensor_offset",): 0.5, ("inlet_shear_heating",): 0.4}
+    pair = {Explanation.of("sensor_offset"): 0.5, Explanation.of("inlet_shear_heating"): 0.4}
     said = told(judged(offset, pair, 2))
     assert "A tie. Most probable: sensor offset (0.50). Not excluded: inlet shear heating (0.40)." in said[words.ANSWER]
     assert "To separate them: sensor offset: " in said[words.ALIKE]
 
 
 def test_tests_that_separate_a_tie_are_a_list(offset: Diagnosis) -> None:
-    pair: dict[Key, float] = {("sensor_offset",): 0.5, ("inlet_shear_heating",): 0.4}
+    pair = {Explanation.of("sensor_offset"): 0.5, Explanation.of("inlet_shear_heating"): 0.4}
     alike = section(judged(offset, pair, 2), words.ALIKE)
     assert [item.split(":")[0] for item in alike.items] == ["sensor offset", "inlet shear heating"]
     assert alike.sentences[-1] == "To separate them:"
@@ -102,25 +103,28 @@ def test_tests_that_separate_a_tie_are_a_list(offset: Diagnosis) -> None:
 
 
 def test_in_a_tie_what_was_left_out_is_only_the_best_candidate(offset: Diagnosis) -> None:
-    pair: dict[Key, float] = {("sensor_offset",): 0.5, ("inlet_shear_heating",): 0.4}
+    pair = {Explanation.of("sensor_offset"): 0.5, Explanation.of("inlet_shear_heating"): 0.4}
     tied = words.as_text("Diagnosis", words.sections(judged(offset, pair, 2)))
-    alone = words.as_text("Diagnosis", words.sections(judged(offset, {("sensor_offset",): 0.97}, 1)))
+    alone = words.as_text("Diagnosis", words.sections(judged(offset, {Explanation.of("sensor_offset"): 0.97}, 1)))
     assert "BEST OF THE TIED CANDIDATES" in tied
     assert "TIED" not in alone
 
 
 def test_two_probabilities_of_one_effect_are_told_apart(offset: Diagnosis) -> None:
-    several: dict[Key, float] = {("sensor_offset",): 0.92, ("inlet_shear_heating", "sensor_offset"): 0.079}
+    several = {
+        Explanation.of("sensor_offset"): 0.92,
+        Explanation.of("inlet_shear_heating", "sensor_offset"): 0.079,
+    }
     said = told(judged(offset, several, 1))[words.LEFT_OUT]
     assert "Sensor offset, probability 0.92 alone, above 0.99 alone or with a second effect, in " in said
-    alone = told(judged(offset, {("sensor_offset",): 0.92}, 1))[words.LEFT_OUT]
+    alone = told(judged(offset, {Explanation.of("sensor_offset"): 0.92}, 1))[words.LEFT_OUT]
     assert "Sensor offset, probability 0.92, in " in alone
 
 
 def test_each_effect_of_a_pair_has_its_company_named(offset: Diagnosis) -> None:
-    several: dict[Key, float] = {("sensor_offset",): 0.3, ("churning",): 0.05}
-    key: Key = next(k for k in offset.refined if len(k) == 2 and "sensor_offset" in k)
-    other = next(n for n in key if n != "sensor_offset")
+    several = {Explanation.of("sensor_offset"): 0.3, Explanation.of("churning"): 0.05}
+    key = next(k for k in offset.refined if len(k.effects) == 2 and "sensor_offset" in k.effects)
+    other = next(n for n in key.effects if n != "sensor_offset")
     said = told(judged(offset, {key: 0.6, **several}, 1))[words.LEFT_OUT]
     assert f"Sensor offset, probability 0.60 together with {effect_words(other)}, 0.90 overall" in said
 
@@ -142,15 +146,15 @@ def test_doubts_about_the_data_stand_above_the_headline(offset: Diagnosis) -> No
 def test_wrong_unit_and_sign_are_doubts(
     offset: Diagnosis, change: Callable[[np.ndarray], np.ndarray], wanted: str
 ) -> None:
-    rows = offset.found.problem.rows
-    notes = audit(offset.case, rows, change(offset.recorded.base), offset.found.problem.forward)
+    rows = offset.search.problem.rows
+    notes = audit(offset.case, rows, change(offset.recorded.base), offset.search.problem.forward)
     assert codes(of_severity(notes, Severity.DOUBT)) == [wanted]
 
 
 def test_very_many_wrong_readings_are_a_doubt(offset: Diagnosis) -> None:
     wrong = np.arange(offset.readings.size) % 3 == 0
     rows, predicted = offset.recorded.table, offset.recorded.predicted
-    notes = against(offset.posterior.verdict, offset.heldout, rows, offset.readings, predicted, wrong)
+    notes = answer_warnings(offset.posterior.verdict, offset.heldout, rows, offset.readings, predicted, wrong)
     assert (notes[0].code, notes[0].severity) == ("outliers_many", Severity.DOUBT)
 
 
@@ -163,17 +167,16 @@ def test_headline_of_few_readings_is_cautious(teeth: Diagnosis, offset: Diagnosi
 def vague(d: Diagnosis, spread: float) -> Diagnosis:
     """The same answer, its effects' parameters known to so many standard deviations of their priors."""
     key = d.posterior.verdict
-    assert not isinstance(key, str)
     fit = d.refined[key]
     covariance = fit.covariance.copy()
-    place = np.arange(d.found.problem.calibration_size, covariance.shape[0])
+    place = np.arange(d.search.problem.calibration_size, covariance.shape[0])
     covariance[place, place] = spread**2
     return replace(d, refined={**d.refined, key: replace(fit, covariance=covariance)})
 
 
 @pytest.mark.parametrize(("spread", "marked"), [(0.95, True), (0.3, False)])
 def test_parameters_that_readings_do_not_tell_are_marked(offset: Diagnosis, spread: float, marked: bool) -> None:
-    left_out = section(vague(judged(offset, {("sensor_offset",): 0.97}, 1), spread), words.LEFT_OUT)
+    left_out = section(vague(judged(offset, {Explanation.of("sensor_offset"): 0.97}, 1), spread), words.LEFT_OUT)
     assert len(left_out.table) == 2
     assert all(row[-1].startswith(f"[{tables.UNDETERMINED}] ") == marked for row in left_out.table[1:])
     assert any(tables.UNDETERMINED in s for s in left_out.sentences) == marked
@@ -190,8 +193,8 @@ def test_of_several_vague_parameters_only_their_combined_effect_is_known() -> No
 
 
 def test_sensor_offset_has_the_size_that_it_is_a_share_of(offset: Diagnosis) -> None:
-    rows = section(judged(offset, {("sensor_offset",): 0.97}, 1), words.LEFT_OUT).table
-    size = float(np.median(np.abs(offset.found.problem.forward.predict())))
+    rows = section(judged(offset, {Explanation.of("sensor_offset"): 0.97}, 1), words.LEFT_OUT).table
+    size = float(np.median(np.abs(offset.search.problem.forward.predict())))
     assert rows[1][-1].startswith(f"added to every reading, over its typical size ({number(size)} W)")
 
 
@@ -209,7 +212,7 @@ def test_name_keeps_its_letters_at_the_start_of_a_sentence() -> None:
 
 
 def test_temperature_of_an_answer_is_in_celsius(offset: Diagnosis, monkeypatch: pytest.MonkeyPatch) -> None:
-    one = judged(offset, {("sensor_offset",): 0.97}, 1)
+    one = judged(offset, {Explanation.of("sensor_offset"): 0.97}, 1)
     kelvin = Parameter("offset", "K", Normal(350.0, 10.0), "temperature")
     warm = [replace(catalogue()["sensor_offset"], parameters=(kelvin,))]
     monkeypatch.setattr(Problem, "effects", lambda problem, key: warm)
@@ -220,7 +223,7 @@ def test_temperature_of_an_answer_is_in_celsius(offset: Diagnosis, monkeypatch: 
 
 @pytest.mark.parametrize("p", [1e-304, 3e-7, 0.004, 0.3])
 def test_page_and_text_have_the_same_p_value(offset: Diagnosis, p: float) -> None:
-    d = replace(offset, test=replace(offset.test, p_value=p, lenient=False))
+    d = replace(offset, test=replace(offset.test, p_value=p, noise_adapted=False))
     card = html._cards(d)[0][0]
     assert f"(p {'' if 'below' in card else '= '}{card}; " in told(d)[words.MISMATCH]
 
@@ -239,14 +242,17 @@ def test_bits_and_nats_are_explained(offset: Diagnosis, unnamed: Diagnosis) -> N
 
 def test_long_ties_are_cut_short(offset: Diagnosis) -> None:
     names = ("sensor_offset", "sensor_gain", "churning", "inlet_shear_heating")
-    every: dict[Key, float] = {("unknown"): 0.3, (): 0.2, **{(n,): 0.1 for n in names}}
+    every = {Explanation.of("unknown"): 0.3, NOTHING: 0.2, **{Explanation.of(n): 0.1 for n in names}}
     said = words.headline(judged(offset, every, 6))
     assert said.endswith("; 1 less probable one.")
     assert "inlet shear heating" not in said
 
 
 def test_what_tied_explanations_share_is_said(offset: Diagnosis) -> None:
-    pair: dict[Key, float] = {("sensor_offset",): 0.6, ("inlet_shear_heating", "sensor_offset"): 0.39}
+    pair = {
+        Explanation.of("sensor_offset"): 0.6,
+        Explanation.of("inlet_shear_heating", "sensor_offset"): 0.39,
+    }
     said = told(judged(offset, pair, 2))[words.ANSWER]
     assert "In every explanation left: sensor offset (0.99)." in said
     assert "A tie in what acts as well: nothing else (0.60); inlet shear heating (0.39)." in said
@@ -261,7 +267,7 @@ def test_unknown_is_said_with_place_and_stage(unnamed: Diagnosis) -> None:
 
 
 def test_empirical_form_is_marked_as_such(teeth: Diagnosis) -> None:
-    extra = describe(teeth.found)
+    extra = describe(teeth.search)
     assert extra.law is not None
     form = next(s for s in words.sections(teeth, extra) if s.title == words.UNNAMED)
     assert any("empirical (a description, not physics)" in s for s in form.sentences)
@@ -304,7 +310,7 @@ def test_warnings_come_last(teeth: Diagnosis) -> None:
 
 def advised(d: Diagnosis, bits: float, **conditions: float | str) -> str:
     """The words on the next test where it is this one."""
-    sound: dict[Key, float] = {("sensor_offset",): 0.9}
+    sound = {Explanation.of("sensor_offset"): 0.9}
     test = NextTest(conditions, ("sensor_offset", "none"), bits)
     return told(replace(judged(d, sound, 1), next_tests=(test,)))[words.NEXT]
 
@@ -322,7 +328,7 @@ def test_a_next_test_within_the_recording_does_not(offset: Diagnosis) -> None:
 
 def test_no_useful_test_is_said(offset: Diagnosis) -> None:
     assert advised(offset, 0.001, speed_rpm=1000.0).startswith("No useful test: no single reading")
-    alone = replace(judged(offset, {("sensor_offset",): 0.9}, 1), next_tests=())
+    alone = replace(judged(offset, {Explanation.of("sensor_offset"): 0.9}, 1), next_tests=())
     assert told(alone)[words.NEXT].startswith("No useful test: there is no second explanation")
 
 

@@ -42,7 +42,7 @@ def test_case_folders_do_not_tell_the_truth(truth: dict) -> None:
 
 
 def test_concealed_loss_is_named(second: Diagnosis, truth: dict) -> None:
-    assert second.posterior.names(second.posterior.verdict) == list(truth["concealed"])
+    assert list(second.posterior.verdict.ids) == list(truth["concealed"])
 
 
 def test_spoilt_reading_is_found(second: Diagnosis, truth: dict) -> None:

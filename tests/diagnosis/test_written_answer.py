@@ -49,7 +49,7 @@ def test_mismatch_field(answer: tuple[Diagnosis, dict[str, Any]]) -> None:
     assert field["detected"] == (field["p_value"] <= field["level"])
     assert number(field["chi2_before"])
     assert field["chi2_before"] >= 0
-    assert field["rows"] == d.found.problem.y.size
+    assert field["rows"] == d.search.problem.y.size
 
 
 def test_verdict_and_ties(answer: tuple[Diagnosis, dict[str, Any]]) -> None:

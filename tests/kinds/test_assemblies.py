@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import diagnose_case
+from mixedlub.diagnosis.explanation import NOTHING, Explanation
 
 from .conftest import system
 
@@ -32,7 +33,7 @@ def drive(load_share, spread, seed=1):
 def test_a_load_that_counts_is_found_across_assemblies(make, spread):
     found = diagnose_case(make(*drive(1.0, spread)).folder)
     assert found.test.detected
-    assert found.posterior.verdict == ("load_dependent_friction",)
+    assert found.posterior.verdict == Explanation.of("load_dependent_friction")
 
 
 @pytest.mark.parametrize("spread", [0.05, 0.2])
@@ -44,5 +45,5 @@ def test_calibration_does_not_run_away_from_readings_it_does_not_fit(make, sprea
 
 def test_assemblies_that_differ_are_no_physics(make):
     found = diagnose_case(make(*drive(0.0, 0.2)).folder)
-    assert found.posterior.verdict == ()
+    assert found.posterior.verdict == NOTHING
     assert np.median(found.recorded.predicted / found.readings) == pytest.approx(1.0, abs=0.3)

@@ -33,7 +33,7 @@ def filed(from_files):
 
 
 def tied(d):
-    return [d.posterior.names(key) for key in d.posterior.tied]
+    return [list(key.ids) for key in d.posterior.tied]
 
 
 def named(d):
@@ -42,7 +42,7 @@ def named(d):
 
 
 def chance(d, name):
-    return d.posterior.inclusion(d.found)[name]
+    return d.posterior.inclusion(d.search)[name]
 
 
 def said(d):
@@ -78,7 +78,7 @@ def test_last_film_is_told_to_be_a_fringe_off(typed):
 def test_film_at_high_speed_is_met_within_three_per_cent_after_ten_to_fourteen_before(typed):
     d = typed("ehd_film_31C_50N")
     slow = d.recorded.table["entrainment_speed_m_s"] < 1.0
-    isothermal = d.found.problem.forward.predict()
+    isothermal = d.search.problem.forward.predict()
     level = np.median(d.readings[slow] / isothermal[slow])
     assert 1.10 < level * isothermal[19] / d.readings[19] < 1.15
     assert d.recorded.predicted[19] == pytest.approx(d.readings[19], rel=0.03)

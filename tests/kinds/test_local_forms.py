@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from mixedlub.case.forward import Forward
 from mixedlub.diagnosis.assessment.power_law import unnamed
 from mixedlub.diagnosis.diagnose import diagnose_case
-from mixedlub.diagnosis.discrepancy.modulated import late
+from mixedlub.diagnosis.discrepancy.modulated import thermal_lag
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.report.text.words import as_text, sections
 
@@ -30,7 +30,7 @@ def drive(extra, seed=1, relative=0.01):
 
 
 def told(found):
-    return " ".join(as_text("", sections(found, unnamed(found.found))).split())
+    return " ".join(as_text("", sections(found, unnamed(found.search))).split())
 
 
 def resonance(speed, order):
@@ -41,8 +41,8 @@ def resonance(speed, order):
 def test_a_resonance_is_no_heap_of_outliers(make):
     found = diagnose_case(make(*drive(resonance)).folder)
     assert found.test.detected
-    assert found.posterior.verdict == "unknown"
-    shape = found.found.unknown.best
+    assert found.posterior.verdict == DISCREPANCY
+    shape = found.search.discrepancy.best
     assert (shape.form, shape.axes) == ("peak", ("speed_rpm",))
     assert shape.at == pytest.approx(AT, rel=0.01)
     assert len(found.outlier_runs) <= 2  # of 25 readings, on the flanks of another form
@@ -54,7 +54,7 @@ def test_wild_readings_at_many_places_are_no_peak(make):
     wild = np.arange(7, 140, 23)
     columns["friction_torque_Nm"][wild] *= 1.0 + 0.25 * (-1.0) ** np.arange(wild.size)
     found = diagnose_case(make(about, columns).folder)
-    assert found.posterior.verdict == ()
+    assert found.posterior.verdict == NOTHING
     assert found.outlier_runs == [int(r) for r in found.case.recordings["run"][wild]]
 
 
@@ -63,7 +63,7 @@ def test_few_wild_readings_at_one_place_are_no_peak(make):
     there = np.flatnonzero(columns["speed_rpm"] == np.round(AT, 2))[:2]
     columns["friction_torque_Nm"][there] *= 1.25
     found = diagnose_case(make(about, columns).folder)
-    assert found.posterior.verdict == ()
+    assert found.posterior.verdict == NOTHING
     assert found.outlier_runs == [int(r) for r in found.case.recordings["run"][there]]
 
 
@@ -73,8 +73,8 @@ def remounted(speed, order):
 
 def test_what_changes_at_one_moment_is_told_with_its_run(make):
     found = diagnose_case(make(*drive(remounted)).folder)
-    assert found.posterior.verdict == "unknown"
-    assert found.found.unknown.best.form == "step"
+    assert found.posterior.verdict == DISCREPANCY
+    assert found.search.discrepancy.best.form == "step"
     rows = found.case.recordings
     run = rows["run"][rows["sequence"] > 0.6][0]
     assert f"is a step at run {run:g}," in told(found)
@@ -89,9 +89,9 @@ def test_a_sample_that_was_changed_is_no_drift(make):
     read = read * (1.0 + 0.01 * np.random.default_rng(2).standard_normal(36))
     columns = {"temperature_C": celsius, "sequence": order, "viscosity_mPa_s": read}
     found = diagnose_case(make(system("viscosity", "viscosity_mPa_s"), columns).folder)
-    assert found.posterior.verdict == "unknown"
-    assert found.found.unknown.best.form == "step"
-    assert found.found.unknown.best.at == pytest.approx(2 / 3, abs=0.06)
+    assert found.posterior.verdict == DISCREPANCY
+    assert found.search.discrepancy.best.form == "step"
+    assert found.search.discrepancy.best.at == pytest.approx(2 / 3, abs=0.06)
 
 
 def test_a_friction_event_keeps_its_name(make):
@@ -99,7 +99,7 @@ def test_a_friction_event_keeps_its_name(make):
     friction = np.where(time > 4000.0, 0.13, 0.1) * (1.0 + 0.01 * np.random.default_rng(3).standard_normal(60))
     columns = {"time_s": time, "friction_coefficient": friction}
     found = diagnose_case(make(system("friction_history", "friction_coefficient"), columns).folder)
-    assert found.posterior.verdict == ("friction_event",)
+    assert found.posterior.verdict == Explanation.of("friction_event")
 
 
 def test_creep_that_few_readings_show_is_found_beside_running_in(make):
@@ -113,7 +113,7 @@ def test_creep_that_few_readings_show_is_found_beside_running_in(make):
     friction = worn * -np.expm1(-330.0 * slip / worn) * (1.0 + 0.008 * np.random.default_rng(4).standard_normal(60))
     columns = {"time_s": time, "slide_roll_ratio": slip, "friction_coefficient": friction}
     found = diagnose_case(make(system("friction_history", "friction_coefficient"), columns).folder)
-    assert "contact_creep" in found.posterior.verdict
+    assert "contact_creep" in found.posterior.verdict.effects
     assert not found.outlier_runs
 
 
@@ -135,7 +135,7 @@ def test_a_passing_disturbance_is_no_lasting_event(make):
     friction = friction * (1.0 + 0.01 * np.random.default_rng(5).standard_normal(60))
     columns = {"time_s": time, "friction_coefficient": friction}
     found = diagnose_case(make(system("friction_history", "friction_coefficient"), columns).folder)
-    assert ("unknown" in found.posterior.tied) or found.posterior.verdict == "unknown"
+    assert (DISCREPANCY in found.posterior.tied) or found.posterior.verdict == DISCREPANCY
 
 
 def test_a_step_is_unnamed_where_its_name_is_excluded(make):
@@ -144,8 +144,8 @@ def test_a_step_is_unnamed_where_its_name_is_excluded(make):
     columns = {"time_s": time, "friction_coefficient": friction}
     case = make(system("friction_history", "friction_coefficient"), columns)
     found = diagnose_case(case.folder, exclude=["friction_event"])
-    assert found.posterior.verdict == "unknown"
-    assert found.found.unknown.best.form == "step"
+    assert found.posterior.verdict == DISCREPANCY
+    assert found.search.discrepancy.best.form == "step"
 
 
 def films(dent=1.0, repeats=1):
@@ -161,8 +161,8 @@ def films(dent=1.0, repeats=1):
 def test_a_corner_of_conditions_is_no_heap_of_outliers(make, repeats):
     """A dimple: films are a quarter thicker under a small load and fast sliding, and repeats agree on it."""
     found = diagnose_case(make(*films(1.25, repeats)).folder)
-    assert found.posterior.verdict == "unknown"
-    box = {name: (low, high) for name, low, high in found.found.unknown.best.box}
+    assert found.posterior.verdict == DISCREPANCY
+    box = {name: (low, high) for name, low, high in found.search.discrepancy.best.box}
     assert set(box) == {"entrainment_speed_m_s", "slide_roll_ratio", "load_N"}
     assert box["slide_roll_ratio"] == (0.75, np.inf)
     assert box["load_N"] == (-np.inf, 35.0)
@@ -172,7 +172,7 @@ def test_a_corner_of_conditions_is_no_heap_of_outliers(make, repeats):
 
 
 def test_films_without_a_dent_have_no_box(make):
-    assert diagnose_case(make(*films()).folder).posterior.verdict == ()
+    assert diagnose_case(make(*films()).folder).posterior.verdict == NOTHING
 
 
 def test_what_the_reading_before_left_behind_is_not_noise(make):
@@ -186,8 +186,8 @@ def test_what_the_reading_before_left_behind_is_not_noise(make):
     columns = {"entrainment_speed_m_s": speed, "oil_temperature_C": celsius, "film_thickness_nm": film}
     columns |= {"load_N": np.full(32, 20.0), "slide_roll_ratio": np.zeros(32), "sequence": np.linspace(0.0, 1.0, 32)}
     found = diagnose_case(make(system("film", "film_thickness_nm", contact=BALL), columns).folder)
-    assert found.posterior.verdict == "unknown"
-    assert found.found.unknown.best.form == "delay"
+    assert found.posterior.verdict == DISCREPANCY
+    assert found.search.discrepancy.best.form == "delay"
     assert "goes with the temperature of the reading before" in told(found)
     assert "Wait longer after a change of temperature" in told(found)
 
@@ -198,24 +198,24 @@ def test_a_temperature_that_lags_has_caught_up_after_a_pause(make):
     celsius = 40.0 + 15.0 * np.sin(time / 160.0)
     columns = {"time_s": time, "temperature_C": celsius, "viscosity_mPa_s": 50.0 - 0.5 * celsius}
     case = make(system("viscosity", "viscosity_mPa_s"), columns)
-    rows = case.recordings
-    whole = Problem.of(case, rows, Forward(case, rows), rows["viscosity_mPa_s"])
-    moved = late(whole, whole.run((), np.zeros(whole.calibration_size)))
+    whole = Problem.of(case)
+    moved = thermal_lag(whole, whole.run(NOTHING, np.zeros(whole.calibration_size)))
     slope = np.diff(celsius)
     per_kelvin = moved[1:30] / slope[:29]
     assert moved[30] == pytest.approx(np.median(per_kelvin) * slope[29] / 100.0, rel=0.3)
-    asked = rows.take(np.array([5, 30, 40]))
-    few = Problem.of(case, asked, Forward(case, asked, 50.0), asked["viscosity_mPa_s"])
-    assert late(few, few.run((), np.zeros(few.calibration_size))) == pytest.approx(moved[[5, 30, 40]], rel=1e-6)
+    few = whole.take(np.array([5, 30, 40]))
+    assert thermal_lag(few, few.run(NOTHING, np.zeros(few.calibration_size))) == pytest.approx(
+        moved[[5, 30, 40]], rel=1e-6
+    )
 
 
 @pytest.mark.parametrize("wander", [1.0, 4.0])
-def test_levels_left_out_are_those_of_the_condition_that_was_varied(make, wander):
+def test_levels_left_out_are_those_of_the_condition_that_was_varied(make, scatter):
     """Seven films over nine times the speed; the load is measured and jitters by a few per cent or more."""
     rng = np.random.default_rng(2)
     speed = np.geomspace(0.12, 1.06, 7)
     columns = {
-        "load_N": 20.0 + wander * np.array([0.305, -0.108, 0.179, 0.191, 0.381, -0.743, -0.342]),
+        "load_N": 20.0 + scatter * np.array([0.305, -0.108, 0.179, 0.191, 0.381, -0.743, -0.342]),
         "sequence": np.linspace(0.0, 1.0, 7),
         "entrainment_speed_m_s": speed,
         "slide_roll_ratio": np.zeros(7),
@@ -238,5 +238,5 @@ def test_a_film_that_rolls_is_not_swept_in_its_sliding(make):
         "film_thickness_nm": 560.0 * speed**0.6 * (1.0 + 0.01 * rng.standard_normal(10)),
     }
     found = diagnose_case(make(system("film", "film_thickness_nm", contact=BALL), columns).folder)
-    assert [axis.name for axis in found.found.space.axes] == ["entrainment_speed_m_s"]
+    assert [axis.name for axis in found.search.space.axes] == ["entrainment_speed_m_s"]
     assert "speed" in found.heldout.split

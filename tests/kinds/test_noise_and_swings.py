@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import diagnose_case
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING
 from mixedlub.schema.findings import codes
 
 from .conftest import TIME, drive, noisy, system
@@ -22,8 +23,8 @@ def hunting(periods, height):
 def test_what_swings_in_time_is_no_noise(make, periods, height):
     found = diagnose_case(make(*hunting(periods, height)).folder)
     assert found.test.detected
-    assert found.posterior.verdict == "unknown"
-    assert found.found.unknown.best.waves == pytest.approx(periods, abs=0.2)
+    assert found.posterior.verdict == DISCREPANCY
+    assert found.search.discrepancy.best.waves == pytest.approx(periods, abs=0.2)
     assert found.case.system.recording.noise.relative <= max(0.01, 0.1 * height)  # a triangle is not all cosine
 
 
@@ -41,14 +42,14 @@ def test_noise_of_readings_through_zero_is_told_from_repeats(make):
     assert not found.test.detected
 
 
-@pytest.mark.parametrize(("times", "verdict"), [(2.0, ()), (9.0, "unknown")])
+@pytest.mark.parametrize(("times", "verdict"), [(2.0, NOTHING), (9.0, DISCREPANCY)])
 def test_scatter_far_beyond_what_is_stated_is_not_called_noise(make, times, verdict):
     friction = noisy(np.full(TIME.size, 0.1), 0.01 * times, seed=8)
     columns = {"time_s": TIME, "friction_coefficient": friction}
     found = diagnose_case(make(system("friction_history", "friction_coefficient"), columns).folder)
     assert found.posterior.verdict == verdict
     assert {"scatter_above_stated", "scatter_unexplained"} & set(codes(found.warnings))
-    assert found.test.detected == (verdict == "unknown")
+    assert found.test.detected == (verdict == DISCREPANCY)
 
 
 def test_a_condition_that_is_cycled_makes_no_wave(make):
@@ -58,7 +59,7 @@ def test_a_condition_that_is_cycled_makes_no_wave(make):
     columns = {"time_s": TIME, "load_N": load, "friction_coefficient": friction}
     found = diagnose_case(make(system("friction_history", "friction_coefficient"), columns).folder)
     assert found.test.detected
-    assert not found.found.unknown.best.waves
+    assert not found.search.discrepancy.best.waves
 
 
 def test_a_wave_is_not_foretold_far_beyond_its_record(make):
@@ -74,7 +75,7 @@ def test_a_wave_is_not_foretold_far_beyond_its_record(make):
 def test_scatter_has_no_period(make):
     found = diagnose_case(make(*hunting(8.3, 0.0)).folder)
     assert not found.test.detected
-    assert found.posterior.verdict == ()
+    assert found.posterior.verdict == NOTHING
 
 
 def test_a_scan_does_not_make_false_alarms(make):
@@ -83,4 +84,4 @@ def test_a_scan_does_not_make_false_alarms(make):
     quiet = drive(np.full(80, 2.0), speed_rpm=np.where(angle < 180.0, 50.0, 60.0), position_deg=angle)
     found = diagnose_case(make(*quiet).folder)
     assert not found.test.detected
-    assert found.posterior.verdict == ()
+    assert found.posterior.verdict == NOTHING

@@ -4,7 +4,12 @@ import numpy as np
 import pytest
 
 from mixedlub.diagnosis.diagnose import diagnose_case
-from mixedlub.diagnosis.inference.change_points import anywhere, places, sudden_places
+from mixedlub.diagnosis.explanation import Explanation
+from mixedlub.diagnosis.inference.change_points import (
+    change_point_coordinates,
+    change_point_posterior,
+    profile_change_point,
+)
 from mixedlub.diagnosis.report.text.answer import effect_records
 from mixedlub.effects import known_in
 
@@ -27,7 +32,7 @@ def gap(make):
 
 def test_a_place_between_readings_is_as_open_as_they_leave_it(gap):
     """By its slope where it happened to be fitted it was known to 12 nm."""
-    assert gap.posterior.verdict == ("fringe_order",)
+    assert gap.posterior.verdict == Explanation.of("fringe_order")
     (record,) = effect_records(gap)
     onset = record["parameters"][1]
     assert onset["low90"] < 225e-9
@@ -48,13 +53,13 @@ def test_between_them_both_values_are_predicted(gap):
 def test_all_places_sum_to_the_same_however_closely_they_are_tried(make):
     """The evidence of a sharp change is found without being told where to look."""
     case = make(*planted_event())
-    found = diagnose_case(case.folder).found
-    problem, fit = found.problem, found.fits[("friction_event",)]
-    (place,) = sudden_places(problem, fit.explanation)
+    found = diagnose_case(case.folder).search
+    problem, fit = found.problem, found.fits[Explanation.of("friction_event")]
+    (place,) = change_point_coordinates(problem, fit.explanation)
     sums = []
     for more in (np.array([0.0]), np.linspace(-1.0, 1.0, 2001)):
-        tried, log = anywhere(problem, fit, place, more)
+        tried, log = profile_change_point(problem, fit, place, more)
         sums.append(np.trapezoid(np.exp(log - log.max()), tried[:, place]))
     assert sums[0] == pytest.approx(sums[1], rel=0.1)
-    (stands,) = places(problem, fit)
+    (stands,) = change_point_posterior(problem, fit)
     assert stands.at(0.05) < fit.z[place] < stands.at(0.95)

@@ -6,6 +6,7 @@ import pytest
 from mixedlub.case.forward import Forward
 from mixedlub.diagnosis.assessment.power_law import power_law
 from mixedlub.diagnosis.diagnose import diagnose_case
+from mixedlub.diagnosis.explanation import NOTHING, Explanation
 from mixedlub.effects import catalogue
 from mixedlub.schema.table import Table
 
@@ -267,7 +268,7 @@ def planted_roelands():
 @pytest.mark.parametrize(("plant", "holds"), [(planted_roelands, True), (planted_pressure_law, False)])
 def test_the_answer_says_whether_roelands_law_would_do(make, plant, holds):
     found = diagnose_case(make(*plant()).folder)
-    assert found.posterior.verdict == ("pressure_viscosity_law",)
+    assert found.posterior.verdict == Explanation.of("pressure_viscosity_law")
     (roelands,) = found.contained
     assert roelands.law == "Roelands"
     assert (roelands.log_odds > -2.3) == holds
@@ -278,9 +279,9 @@ def test_the_answer_says_whether_roelands_law_would_do(make, plant, holds):
 @pytest.mark.parametrize("order", [3.0, 9.0, 17.0, 31.0])
 def test_ripple_is_found_whatever_its_order(make, order):
     found = diagnose_case(make(*planted_ripple(order)).folder)
-    assert found.posterior.verdict == ("periodic_mesh",)
-    z = found.found.fits["periodic_mesh",].z
-    values = found.found.problem.parameters(("periodic_mesh",), z)["periodic_mesh"]
+    assert found.posterior.verdict == Explanation.of("periodic_mesh")
+    z = found.search.fits[Explanation.of("periodic_mesh")].z
+    values = found.search.problem.parameters(Explanation.of("periodic_mesh"), z)["periodic_mesh"]
     assert values["order"] == pytest.approx(order, rel=0.01)
     assert np.hypot(values["cosine"], values["sine"]) == pytest.approx(0.2, rel=0.1)
 
@@ -304,7 +305,7 @@ def test_a_payload_as_large_as_friction_is_no_physics(make):
     clean = 1.467 * np.sign(speed) + 0.16 * speed / 200.0 + 1.543
     scatter = np.random.default_rng(3).standard_normal(speed.size) * np.hypot(0.01 * clean, 0.004)
     found = diagnose_case(make(sections, {"friction_torque_Nm": clean + scatter, "speed_rpm": speed}).folder)
-    assert found.posterior.verdict == ()
+    assert found.posterior.verdict == NOTHING
 
 
 def test_planted_size_of_stribeck_friction_is_found(make):
@@ -318,7 +319,7 @@ def test_planted_size_of_stribeck_friction_is_found(make):
 def test_a_power_law_turns_its_sign_with_the_direction(make):
     speed = np.concatenate([np.linspace(-200.0, -10.0, 20), np.linspace(10.0, 200.0, 20)])
     friction = np.sign(speed) * (1.0 + 2.0 * (speed / 200.0) ** 2)
-    law = power_law(diagnose_case(make(*drive(friction, speed_rpm=speed)).folder, exclude=tuple(catalogue())).found)
+    law = power_law(diagnose_case(make(*drive(friction, speed_rpm=speed)).folder, exclude=tuple(catalogue())).search)
     assert law is not None
     assert dict(law.factors) == {"speed_rpm": 2}
     assert law.coefficient == pytest.approx(2.0 * (law.middles[0] / 200.0) ** 2, rel=0.1)
@@ -330,7 +331,7 @@ def test_a_power_law_of_what_keeps_its_sign_is_found_in_both_directions(make):
     speed, load = np.tile(SPEED, 4), np.repeat([1.0, 2.0, 4.0, 8.0], SPEED.size)
     payload = np.sign(speed) + 0.3 * speed / 200.0 + 0.3 * load
     found = diagnose_case(make(*drive(payload, speed_rpm=speed, load_N=load)).folder, exclude=tuple(catalogue()))
-    law = power_law(found.found)
+    law = power_law(found.search)
     assert law is not None
     assert dict(law.factors) == {"load_N": 1}
     assert not law.odd
@@ -350,8 +351,8 @@ def test_a_motor_torque_that_contains_the_friction_is_no_condition(make) -> None
     sections, columns = drive(0.5 + 0.2 * speed / 120.0 + torque - torque / (1.0 + 0.02 * torque), speed_rpm=speed)
     columns |= {"torque_Nm": torque, "motor_torque_Nm": torque + columns["friction_torque_Nm"]}
     d = diagnose_case(make(sections, columns).folder)
-    assert "motor_torque_Nm" not in [axis.name for axis in d.found.space.axes]
-    assert "torque_constant" in d.posterior.verdict
+    assert "motor_torque_Nm" not in [axis.name for axis in d.search.space.axes]
+    assert "torque_constant" in d.posterior.verdict.effects
 
 
 @pytest.mark.parametrize(("effect_id", "drifts"), [("force_offset", False), ("force_drift", True)])
@@ -361,7 +362,7 @@ def test_zero_error_of_the_force_weighs_as_one_over_the_load(make, effect_id: st
     force = 0.05 * (TIME / 7200.0 if drifts else 1.0)
     columns = {"time_s": TIME, "load_N": load, "friction_coefficient": noisy(0.1 + force / load, 0.003)}
     found = diagnose_case(make(system("friction_history", "friction_coefficient"), columns).folder)
-    assert found.posterior.verdict == (effect_id,)
+    assert found.posterior.verdict == Explanation.of(effect_id)
 
 
 def test_a_force_at_one_load_has_no_zero_error_of_its_own(make) -> None:
@@ -371,7 +372,7 @@ def test_a_force_at_one_load_has_no_zero_error_of_its_own(make) -> None:
 
 
 def test_grease_that_cools_after_walther_needs_no_other_effect(make):
-    assert diagnose_case(make(*planted_grease()).folder).posterior.verdict == ("grease_temperature",)
+    assert diagnose_case(make(*planted_grease()).folder).posterior.verdict == Explanation.of("grease_temperature")
 
 
 def test_an_unnamed_oil_that_cools_after_vogel_is_no_offset_of_the_viscometer(make):
@@ -383,7 +384,7 @@ def test_an_unnamed_oil_that_cools_after_vogel_is_no_offset_of_the_viscometer(ma
     sections = system("viscosity", "viscosity_mPa_s")
     sections["recording"]["noise"] = {"relative": 0.007}
     found = diagnose_case(make(sections, columns).folder)
-    assert found.posterior.names(found.posterior.verdict) == ["none"]
+    assert list(found.posterior.verdict.ids) == ["none"]
     offset = {**columns, "viscosity_mPa_s": columns["viscosity_mPa_s"] + 3.0}
     found = diagnose_case(make(sections, offset).folder)
-    assert found.posterior.names(found.posterior.verdict) == ["sensor_offset"]
+    assert list(found.posterior.verdict.ids) == ["sensor_offset"]

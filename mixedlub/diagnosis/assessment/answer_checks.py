@@ -8,9 +8,16 @@ import numpy as np
 
 from mixedlub.case.forward import Forward
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut
-from mixedlub.diagnosis.assessment.posterior import Key, Posterior
+from mixedlub.diagnosis.assessment.posterior import Posterior
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.labels import amount, effect_words, words_of
-from mixedlub.diagnosis.search.noise_inflation import CLEAR, MOST, Raised, more, quiet
+from mixedlub.diagnosis.search.noise_inflation import (
+    CLEAR_GAIN,
+    MOST_INFLATION,
+    NoiseInflation,
+    best_inflation,
+    noise_overstated,
+)
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.recording.conditions import PASSING, clock_of
 from mixedlub.recording.set_points import set_points
@@ -19,7 +26,7 @@ from mixedlub.schema.table import Table
 from mixedlub.schema.units import unit_of
 
 MANY_WRONG = 0.1
-"""Share of wrong readings from which the answer is doubted: ten times what is usual."""
+"""Share of outliers from which the answer is doubted: ten times the prior share. Judgement."""
 LEAST_STREAK, RARE = 3, 0.05
 """Consecutive outliers that are reported, where fewer such streaks than that are expected by chance."""
 MOST_OF_LEVEL = 0.75
@@ -32,7 +39,7 @@ LARGE = 0.1
 """Share of a reading from which estimated noise is doubted."""
 
 
-def likelier_notes(forward: Forward) -> list[Finding]:
+def prior_odds_notes(forward: Forward) -> list[Finding]:
     """Effects whose prior odds are raised, by what is known before any reading is seen."""
     found = []
     for e in forward.effects():
@@ -46,40 +53,40 @@ def likelier_notes(forward: Forward) -> list[Finding]:
     return found
 
 
-def scatter_notes(found: Search, stated: bool, raised: Raised) -> list[Finding]:
+def noise_notes(search: Search, stated: bool, inflation: NoiseInflation) -> list[Finding]:
     """What the readings show of their noise, where that is not what the recording states."""
-    lasting = found.problem.together
+    lasting = search.problem.n_per_effective
     text = f"residuals are autocorrelated: about {lasting:.2g} consecutive readings carry the information of one"
     series = [finding("residuals_autocorrelated", text)] if lasting > 1.0 else []
-    return [*series, *_drift_notes(found), *_size_notes(found, stated, raised)]
+    return [*series, *_drift_notes(search), *_size_notes(search, stated, inflation)]
 
 
-def _drift_notes(found: Search) -> list[Finding]:
-    wander, rows = found.problem.wander, found.problem.rows
-    if not wander.size:
+def _drift_notes(search: Search) -> list[Finding]:
+    correlated_error, rows = search.problem.correlated_error, search.problem.rows
+    if not correlated_error.size:
         return []
-    length = wander.lasts
+    length = correlated_error.correlation_time
     over = (
         f"{100.0 * length:.2g} % of the programme" if "sequence" in rows else amount(float(f"{length:.2g}"), "time_s")
     )
     text = (
-        f"residuals drift slowly ({wander.size:.2g} times the noise of a reading, correlation time about {over}); the "
-        "drift is treated as noise, and events of that size cannot be distinguished from it"
+        f"residuals drift slowly ({correlated_error.size:.2g} times the noise of a reading, correlation time about "
+        f"{over}); the drift is treated as noise, and events of that size cannot be distinguished from it"
     )
     return [finding("residuals_drift", text)]
 
 
-def _size_notes(found: Search, stated: bool, raised: Raised) -> list[Finding]:
-    times = raised.times
-    whole = times * found.problem.wander.whole
-    if raised.share:
+def _size_notes(search: Search, stated: bool, inflation: NoiseInflation) -> list[Finding]:
+    times = inflation.factor
+    whole = times * search.problem.correlated_error.total_sd
+    if inflation.extra_relative:
         text = (
-            f"readings scatter {100.0 * raised.share:.2g} % more than the stated standard deviations, which may be "
-            "repeatability only; the noise was taken as that much larger"
+            f"readings scatter {100.0 * inflation.extra_relative:.2g} % more than the stated standard deviations, "
+            "which may be repeatability only; the noise was taken as that much larger"
         )
         return [finding("scatter_above_stated", text)]
     scatter = "with every explanation tried, readings scatter about {:.2g} times as much as stated"
-    if stated and whole > MOST:
+    if stated and whole > MOST_INFLATION:
         text = (
             f"{scatter.format(whole)}, which is too much for a wrongly stated noise: either an effect of another form "
             "is present, or what is stated is not the noise of a reading; the answer was found under noise that large"
@@ -87,18 +94,18 @@ def _size_notes(found: Search, stated: bool, raised: Raised) -> list[Finding]:
         return [finding("scatter_unexplained", text)]
     if times > 1.0:
         return [finding("scatter_above_stated", f"{scatter.format(times)}: the noise was taken as that much larger")]
-    noise = found.problem.case.system.recording.noise
+    noise = search.problem.case.system.recording.noise
     if not stated and noise is not None:
-        unit = unit_of(found.problem.case.quantity)
+        unit = unit_of(search.problem.case.quantity)
         parts = [f"{100.0 * noise.relative:.2g} % of it"] if noise.relative else []
         parts += [f"{noise.absolute:.2g} {unit}".rstrip()] if noise.absolute else []
-        said = f"the noise of a reading was estimated as {' and '.join(parts)}"
-        sd = found.problem.one_sd * found.problem.unit_size(found.problem.y)
-        if np.median(sd) <= LARGE * np.median(np.abs(found.problem.level(found.problem.y))):
-            return [finding("noise_value_estimated", said)]
-        text = f"{said}, more than rigs have: rows may be of different things, or the noise contains what is missing"
+        estimate = f"the noise of a reading was estimated as {' and '.join(parts)}"
+        sd = search.problem.single_sd * search.problem.d_inverse(search.problem.y)
+        if np.median(sd) <= LARGE * np.median(np.abs(search.problem.inverse(search.problem.y))):
+            return [finding("noise_value_estimated", estimate)]
+        text = f"{estimate}, more than rigs have: rows may differ in kind, or the noise contains what is missing"
         return [finding("noise_estimate_large", text)]
-    if stated and more(found)[0] > CLEAR:
+    if stated and best_inflation(search)[0] > CLEAR_GAIN:
         text = (
             "for every explanation tried, the residuals exceed the repeatability of the readings: an effect of another "
             "form is present"
@@ -107,11 +114,11 @@ def _size_notes(found: Search, stated: bool, raised: Raised) -> list[Finding]:
     text = (
         "readings scatter by less than half of the stated noise: with a noise nearer to theirs the test could show more"
     )
-    return [finding("scatter_below_stated", text)] if quiet(found) else []
+    return [finding("scatter_below_stated", text)] if noise_overstated(search) else []
 
 
-def against(
-    verdict: Key,
+def answer_warnings(
+    verdict: Explanation,
     kept: HeldOut,
     rows: Table,
     y: np.ndarray,
@@ -134,7 +141,7 @@ def against(
         if turned.mean() > 0.5:
             text = f"{turned.sum()} of {wrong.sum()} outliers have the expected size with the opposite sign"
             found.append(finding("outliers_opposite_sign", text))
-    streak = in_a_row(rows, wrong, y - predicted)
+    streak = outlier_streak(rows, wrong, y - predicted)
     if streak:
         text = (
             f"the {len(streak)} readings are consecutive outliers on one side; this is not chance, and the answer does "
@@ -147,16 +154,16 @@ def against(
             f"{share} readings are outliers on one side; this is not chance, and the answer does not explain it",
             level,
         )
-        for level, share in levels_off(rows, wrong, y - predicted)
+        for level, share in outlier_levels(rows, wrong, y - predicted)
     ]
-    if verdict != () and not at_one_place and kept.score < kept.score_before:
-        answer = "the unnamed mismatch" if verdict == "unknown" else "the answer"
+    if verdict != NOTHING and not at_one_place and kept.score < kept.score_before:
+        answer = "the unnamed mismatch" if verdict == DISCREPANCY else "the answer"
         text = (
             f"{answer} predicts left-out levels no better than calibration alone: outside the recorded conditions rely "
             "on neither"
         )
         found.append(finding("answer_not_predictive", text))
-    elif verdict != () and not at_one_place and kept.after > FAR_OFF:
+    elif verdict != NOTHING and not at_one_place and kept.after > FAR_OFF:
         text = (
             f"the answer predicts left-out levels poorly (rms {kept.after:.3g} sigma, 1 expected): do not extrapolate"
         )
@@ -164,11 +171,11 @@ def against(
     return found
 
 
-def unsure_odds(judged: Posterior) -> list[Finding]:
-    """That the probabilities were lowered, where left-out levels asked for it clearly."""
-    if judged.inflation < WORTH_TELLING:
+def overdispersion_warning(judged: Posterior) -> list[Finding]:
+    """That probabilities were made less extreme, where left-out levels are overdispersed."""
+    if judged.overdispersion < WORTH_TELLING:
         return []
-    times = np.sqrt(judged.inflation)
+    times = np.sqrt(judged.overdispersion)
     text = (
         f"left-out levels are predicted {times:.2g} times worse than expected: the explanation is incomplete, and the "
         "odds between effects were lowered"
@@ -176,12 +183,12 @@ def unsure_odds(judged: Posterior) -> list[Finding]:
     return [finding("explanation_incomplete", text)]
 
 
-def in_a_row(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[int]:
+def outlier_streak(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[int]:
     """Runs of the longest streak in time of wrong readings on one side, if chance would hardly make one.
 
     >>> table = Table({"run": np.arange(1, 41), "time_s": np.arange(40.0)})
     >>> wrong = np.isin(np.arange(40), [0, 1, 2, 17])
-    >>> in_a_row(table, wrong, np.ones(40)), in_a_row(table, wrong, (-1.0) ** np.arange(40))
+    >>> outlier_streak(table, wrong, np.ones(40)), outlier_streak(table, wrong, (-1.0) ** np.arange(40))
     ([1, 2, 3], [])
     """
     clock = clock_of(rows)
@@ -200,7 +207,7 @@ def in_a_row(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[int]:
     return [] if _one_level(rows, streak) else [int(run) for run in rows["run"][streak]]
 
 
-def levels_off(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[tuple[str, str]]:
+def outlier_levels(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[tuple[str, str]]:
     """Levels nearly all of whose readings are wrong on one side, if chance would hardly make one, and how many are.
 
     None where all levels are like that.

@@ -1,4 +1,4 @@
-"""How a second channel, kept back from every fit, goes with what the answer predicts."""
+"""Correlation of the predictions with a second channel that was not fitted."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-FEWEST = 5
-"""Readings from which a correlation is told."""
+LEAST_READINGS = 5
+"""Least readings for a correlation; judgement."""
 
 
 @dataclass(frozen=True)
@@ -31,6 +31,6 @@ def check_channel(column: str, channel: np.ndarray, predicted: np.ndarray) -> Ch
     """
     used = np.isfinite(channel) & np.isfinite(predicted)
     a, b = np.asarray(channel, dtype=float)[used], np.asarray(predicted, dtype=float)[used]
-    if a.size < FEWEST or np.ptp(a) == 0.0 or np.ptp(b) == 0.0:
+    if a.size < LEAST_READINGS or np.ptp(a) == 0.0 or np.ptp(b) == 0.0:
         return Check(column, None, int(a.size))
     return Check(column, round(float(np.corrcoef(a, b)[0, 1]), 12), int(a.size))

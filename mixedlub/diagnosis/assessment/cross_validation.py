@@ -1,7 +1,7 @@
-"""Does the verdict predict conditions it was not fitted to: whole levels left out, its parameters refitted.
+"""Cross-validation by level: refit the verdict without each level and predict it.
 
-Which effect it names, which readings are outliers, how much readings scatter and the form of an unnamed mismatch stay
-as all readings chose them; laws are held against the levels as published, without the bending that predictions have.
+The verdict, the outliers, the noise and the form of a discrepancy are those of all readings; only parameters are
+refitted. Laws are used as published, without the error of form that predictions have.
 """
 
 from __future__ import annotations
@@ -11,38 +11,44 @@ from functools import partial
 
 import numpy as np
 
-from mixedlub.diagnosis.inference.change_points import elsewhere, places, without
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
+from mixedlub.diagnosis.inference.change_points import average_over_change_points, change_point_posterior, drop_columns
 from mixedlub.diagnosis.inference.map_fit import covariance, linear_fit, log_likelihood, map_fit
-from mixedlub.diagnosis.problem import Explanation, Problem
+from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.search import Search
-from mixedlub.recording.conditions import WANDERS_K
+from mixedlub.recording.conditions import is_constant
 from mixedlub.recording.set_points import set_points
 
 MOST_FOLDS = 8
-"""Levels left out in turn, at most; more are joined."""
-NARROW = 0.2
-"""Share of its size within which a condition may have been held about a set-point."""
-TOLERATED = 0.3
-"""Share of the mismatch on levels left out that the right law, in another literature form, may leave."""
-DEMERIT = 20.0
-"""Most that failing on levels left out costs in log odds: no doubt is left then."""
-LEAST = 0.3
-"""Smallest mismatch, in squared sigmas, of which a share left over is told."""
-CHANCE = 5.0
-"""How much better than the unnamed mismatch a name may predict levels left out by chance, in log probability."""
-FORETOLD, NOISY = 0.8, 2.0
-"""Share of the mismatch on inner levels that a name foretells so that no unnamed form may rule it out; and how many
-times their variance readings may lie off there."""
-LESS = 0.5
-"""Share of what an unnamed form leaves there, above noise, from which down a name clearly leaves less."""
+"""Most folds; further levels are joined. A limit on cost."""
+WIDE_SPAN = 0.2
+"""Span of a condition, as a share of its size, from which leaving out its levels is a test of prediction; judgement.
+
+It only ranks conditions that were varied: levels that lie close together predict one another whatever the law.
+"""
+TOLERATED_SHARE = 0.3
+"""Share of the mismatch on left-out levels that the right law may leave in another published form; judgement."""
+MOST_PENALTY = 20.0
+"""Largest penalty in log odds: 2e-9 leaves no doubt."""
+LEAST_MISMATCH = 0.3
+"""Least mismatch, in squared standard deviations, of which a share is judged; judgement."""
+CHANCE_GAIN = 5.0
+"""Gain in log probability on left-out levels, of effects over the discrepancy, that may be chance; judgement."""
+PREDICTED_SHARE = 0.8
+"""Share of the mismatch on inner levels that effects must predict not to be ruled out by a discrepancy; judgement."""
+MOST_OVERDISPERSION = 2.0
+"""Largest overdispersion of such a prediction; judgement.
+"""
+CLEARLY_LESS = 0.5
+"""Share of the discrepancy's excess error below which effects clearly predict better; judgement."""
 
 
 @dataclass(frozen=True)
 class HeldOut:
-    """Rms of (recorded - predicted)/sd on levels left out, calibration only and with the verdict; sd as of the problem.
+    """Rms of (recorded - predicted)/sd on left-out levels, with calibration alone and with the verdict.
 
-    ``surprise`` is that of the verdict over noise and what the other levels leave open of its parameters together,
-    ``score`` the log probability of the readings under both, ``score_before`` that with calibration only.
+    ``standardised_rms`` is that of the verdict with the prediction variance added to the noise. ``score`` is the log
+    probability of the readings under both, ``score_before`` that with calibration alone.
     """
 
     before: float
@@ -50,71 +56,71 @@ class HeldOut:
     split: str
     folds: int
     readings: int
-    surprise: float
+    standardised_rms: float
     score: float
     score_before: float
 
-    def of_one(self, together: float) -> HeldOut:
-        """The same in sigmas of a single reading, where so many tell as much as one."""
-        times = float(np.sqrt(together))
+    def single_reading_units(self, n_per_effective: float) -> HeldOut:
+        """The same in standard deviations of a single reading, where several count as one."""
+        times = float(np.sqrt(n_per_effective))
         return replace(self, before=times * self.before, after=times * self.after)
 
     @property
-    def inflation(self) -> float:
-        r"""How many times their variance readings left out lie off, :math:`\hat c = s^2/(1 + 2\sqrt{2/n})`; 1 or more.
+    def overdispersion(self) -> float:
+        r"""Overdispersion of left-out readings, :math:`\hat c = s^2/(1 + 2\sqrt{2/n})`; at least 1.
 
-        Noise and what other levels leave open are known; what is beyond them, and beyond two standard errors of
-        chance, makes every log probability of the readings too steep by as much: J.-D. Lebreton, K. P. Burnham,
-        J. Clobert, D. R. Anderson, Ecol. Monogr. 62 (1992) 67.
+        Noise and prediction variance are known. An excess beyond two standard errors means that log probabilities are
+        overconfident by this factor: J.-D. Lebreton, K. P. Burnham, J. Clobert, D. R. Anderson, Ecol. Monogr. 62 (1992)
+        67.
 
-        >>> [round(HeldOut(9.0, s, "", 5, 200, s, 0.0, 0.0).inflation, 1) for s in (1.0, 2.0)]
+        >>> [round(HeldOut(9.0, s, "", 5, 200, s, 0.0, 0.0).overdispersion, 1) for s in (1.0, 2.0)]
         [1.0, 3.3]
         """
-        return float(max(self.surprise**2 / (1.0 + 2.0 * np.sqrt(2.0 / self.readings)), 1.0))
+        return float(max(self.standardised_rms**2 / (1.0 + 2.0 * np.sqrt(2.0 / self.readings)), 1.0))
 
-    def demerit(self, rms: float) -> float:
-        """What a named law loses in log odds if it leaves much of the mismatch unexplained on levels left out.
+    def log_odds_penalty(self, rms: float) -> float:
+        """Penalty in log odds of effects that leave much of the mismatch on left-out levels.
 
-        A law that is a little wrong still explains most of it there; what fits all readings but fails there is
-        another law in disguise. ``rms`` is that of the residual with all readings fitted; two standard errors of its
-        square are allowed for chance, and what the other levels cannot tell of the parameters is no failure.
+        A law in a slightly wrong form still explains most of it there. Effects that fit all readings but fail there are
+        another law in disguise. ``rms`` is that of the residuals with all readings fitted. Two standard errors of its
+        square are allowed for chance, and prediction variance is not counted as failure.
 
         >>> well, badly = (HeldOut(3.0, rms, "", 5, 200, rms, 0.0, 0.0) for rms in (1.1, 2.6))
-        >>> well.demerit(1.0), badly.demerit(1.0) > 5.0
+        >>> well.log_odds_penalty(1.0), badly.log_odds_penalty(1.0) > 5.0
         (0.0, True)
         """
         noise = max(rms, 1.0) ** 2
-        missing = max(self.before**2 - noise, LEAST)
-        left = max(self.surprise**2 - noise * (1.0 + 2.0 * np.sqrt(2.0 / self.readings)), 0.0)
-        return float(min(DEMERIT * max(left / missing - TOLERATED, 0.0), DEMERIT))
+        missing = max(self.before**2 - noise, LEAST_MISMATCH)
+        left = max(self.standardised_rms**2 - noise * (1.0 + 2.0 * np.sqrt(2.0 / self.readings)), 0.0)
+        return float(min(MOST_PENALTY * max(left / missing - TOLERATED_SHARE, 0.0), MOST_PENALTY))
 
-    def behind(self, name: HeldOut) -> float:
-        """What the unnamed mismatch loses in log odds if a name predicts levels left out better than it does.
+    def penalty_against(self, name: HeldOut) -> float:
+        """Penalty in log odds of the discrepancy if effects predict left-out levels better.
 
-        It follows any readings, and where it does not carry over to others and a law does, the law has seen more. A
-        law that tells no more there than calibration alone has seen nothing.
+        The discrepancy fits any readings, so prediction decides. Effects that predict no better than calibration alone
+        give no penalty.
         """
-        told = min(name.score - self.score, name.score - name.score_before)
-        return float(np.clip(told - CHANCE, 0.0, DEMERIT))
+        gain = min(name.score - self.score, name.score - name.score_before)
+        return float(np.clip(gain - CHANCE_GAIN, 0.0, MOST_PENALTY))
 
-    def outdone(self, name: HeldOut) -> bool:
-        """Whether a name foretells nearly all of the mismatch on levels left out and this, the unnamed, clearly less.
+    def dominated_by(self, name: HeldOut) -> bool:
+        """Whether effects predict nearly all of the mismatch on left-out levels, and this discrepancy clearly less.
 
-        What follows the readings that closely that it foretells no others cannot rule a name out. Both are told on
-        inner levels: beyond the others any law goes on and any free form ends.
+        A discrepancy that overfits cannot rule out such effects. Both are judged on inner levels, because beyond them
+        laws extrapolate and flexible forms do not.
 
         >>> ripple, stribeck = (HeldOut(3.9, left, "", 8, 144, s, 0.0, 0.0) for left, s in ((3.7, 1.0), (1.6, 1.4)))
-        >>> ripple.outdone(stribeck), stribeck.outdone(ripple)
+        >>> ripple.dominated_by(stribeck), stribeck.dominated_by(ripple)
         (True, False)
         """
         missing, left = name.before**2 - 1.0, name.after**2 - 1.0
-        near = left < (1.0 - FORETOLD) * missing and name.inflation < NOISY
-        return missing > LEAST and near and left < LESS * (self.after**2 - 1.0)
+        near = left < (1.0 - PREDICTED_SHARE) * missing and name.overdispersion < MOST_OVERDISPERSION
+        return missing > LEAST_MISMATCH and near and left < CLEARLY_LESS * (self.after**2 - 1.0)
 
 
 @dataclass(frozen=True, eq=False)
 class _Fold:
-    """One level left out: its rows, the problem of the others and its own, and what its readings scatter by."""
+    """One fold: rows left out, the problems of the other rows and of these, and the noise of these."""
 
     out: np.ndarray
     train: Problem
@@ -124,37 +130,37 @@ class _Fold:
 
 @dataclass(frozen=True, eq=False)
 class LevelsOut:
-    """The levels of one condition left out in turn, and how calibration alone predicts them."""
+    """The folds of one condition, and the prediction of each by calibration alone."""
 
-    found: Search
+    search: Search
     used: np.ndarray
     name: str
     folds: tuple[_Fold, ...]
     before: np.ndarray
     inner: np.ndarray
-    left: dict[Explanation | str, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
-    """What verdicts that were tried leave, each refitted once."""
+    left: dict[Explanation, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
+    """Residuals and prediction variance of the explanations that were tried."""
 
     @classmethod
     def of(cls, whole: Search) -> LevelsOut:
-        """Leave out each level of the condition with the most levels (up to 8)."""
-        found = whole.screened
+        """Folds over the levels of the condition with most levels (up to 8)."""
+        found = whole.full_screen
         name, label, ordered = _folds(found)
         folds, before = [], np.zeros(found.problem.y.size)
         for k in range(int(label.max()) + 1):
             out = label == k
             train, test = found.problem.take(~out), found.problem.take(out)
-            # A set-up's own error is part of what a left-out reading scatters by.
+            # The error of its set-up is part of the noise of a left-out reading.
             wide = test.sd * np.sqrt(1.0 + np.sum(test.shared**2, axis=1))
-            none = map_fit(train, (), found.none.z)
-            before[out] = (test.y - test.predict((), none.z)) / wide
+            null_fit = map_fit(train, NOTHING, found.null_fit.z)
+            before[out] = (test.y - test.predict(NOTHING, null_fit.z)) / wide
             folds.append(_Fold(out, train, test, wide))
         used = np.isin(whole.problem.rows["run"], found.problem.rows["run"])
         inner = (label > label.min()) & (label < label.max()) if ordered else np.ones(label.size, bool)
         return cls(found, used, name, tuple(folds), before, inner)
 
-    def held(self, verdict: Explanation | str, outliers: np.ndarray, inner: bool = False) -> HeldOut:
-        """How a verdict predicts each level without it; ``inner``: of levels between others."""
+    def held(self, verdict: Explanation, outliers: np.ndarray, inner: bool = False) -> HeldOut:
+        """How an explanation predicts each level without it; ``inner``: only levels between others."""
         outliers = outliers[self.used]
         if verdict not in self.left:
             self.left[verdict] = self._left_by(verdict)
@@ -173,35 +179,37 @@ class LevelsOut:
             float(log_likelihood(self.before)[0].sum()),
         )
 
-    def _left_by(self, verdict: Explanation | str) -> tuple[np.ndarray, np.ndarray]:
-        """Residual of every reading and its open variance, the parameters of a verdict refitted without its level."""
+    def _left_by(self, verdict: Explanation) -> tuple[np.ndarray, np.ndarray]:
+        """Residuals and prediction variance of all readings, parameters refitted without their level."""
         after, open_variance = np.zeros((2, self.before.size))
-        forms = _unnamed_columns(self.found) if verdict == "unknown" else []
+        forms = _discrepancy_columns(self.search) if verdict == DISCREPANCY else []
         for f in self.folds:
-            if verdict == "unknown":
-                left, variance = _unknown_left(self.found, forms, f.out)
+            if verdict == DISCREPANCY:
+                left, variance = _discrepancy_left(self.search, forms, f.out)
                 after[f.out] = left * f.test.sd / f.wide
                 open_variance[f.out] = variance * (f.test.sd / f.wide) ** 2
-            elif verdict == ():
+            elif verdict == NOTHING:
                 after[f.out] = self.before[f.out]
             else:
-                fit = map_fit(f.train, tuple(verdict), self.found.fits[tuple(verdict)].z, warm=True)
+                fit = map_fit(f.train, verdict, self.search.fits[verdict].z, warm=True)
                 run = f.test.run(fit.explanation, fit.z)
-                # The level left out may be the one that showed where a sudden change stands.
-                found = places(f.train, fit)
-                gain, (variance, _, _) = elsewhere(
+                # The level left out may be the one that determines a change point.
+                found = change_point_posterior(f.train, fit)
+                gain, (variance, _, _) = average_over_change_points(
                     found, fit.z, partial(f.test.predict, fit.explanation), run.prediction
                 )
                 after[f.out] = (f.test.y - run.prediction - gain) / f.wide
                 sudden = [p.index for p in found]
-                slopes = without(f.test.jacobian(fit.explanation, fit.z, run), sudden) * (f.test.sd / f.wide)[:, None]
-                columns = np.hstack([without(fit.slopes, sudden), f.train.shared])
+                slopes = (
+                    drop_columns(f.test.jacobian(fit.explanation, fit.z, run), sudden) * (f.test.sd / f.wide)[:, None]
+                )
+                columns = np.hstack([drop_columns(fit.slopes, sudden), f.train.shared])
                 open_variance[f.out] = _open_variance(columns, fit.weight, slopes) + variance / f.wide**2
         return after, open_variance
 
 
 def _open_variance(columns: np.ndarray, weight: np.ndarray, slopes: np.ndarray) -> np.ndarray:
-    """Variance, in sigmas, of predictions with these slopes by what a fit to other readings leaves open.
+    """Prediction variance, in units of the noise, of predictions with these slopes after a fit to other readings.
 
     ``columns`` are the slopes of that fit; ``slopes`` has the first of them.
     """
@@ -209,25 +217,25 @@ def _open_variance(columns: np.ndarray, weight: np.ndarray, slopes: np.ndarray) 
     return np.asarray(np.einsum("ij,jk,ik->i", slopes, own, slopes))
 
 
-def _unnamed_columns(found: Search) -> list[np.ndarray]:
-    """Columns of the unnamed mismatch, of a peak or a step wherever it may stand."""
-    shapes = found.unknown.best.elsewhere(found.space, found.values)
-    return [shape.columns(found.space, found.values, found.unknown.carriers) for shape in shapes]
+def _discrepancy_columns(search: Search) -> list[np.ndarray]:
+    """Columns of the discrepancy; of a peak or a step, at all candidate places."""
+    shapes = search.discrepancy.best.at_other_places(search.space, search.values)
+    return [shape.columns(search.space, search.values, search.discrepancy.scalings) for shape in shapes]
 
 
-def _unknown_left(found: Search, forms: list[np.ndarray], out: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Residual of left-out readings under the unnamed mismatch fitted to the others (linearised), its open variance.
+def _discrepancy_left(search: Search, forms: list[np.ndarray], out: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Residuals of left-out readings under the discrepancy fitted to the others (linearised), and prediction variance.
 
-    Which of its ``forms`` it is, is for the other readings to say as well.
+    The other readings also decide between its ``forms``.
     """
-    problem, none = found.problem, found.none
+    problem, null_fit = search.problem, search.null_fit
     log, left, variance = [], [], []
     for own in forms:
-        columns = np.hstack([none.slopes, problem.shared, own])
-        fit = linear_fit(none.anchor[~out], columns[~out])
-        blind = np.hstack([none.slopes, np.zeros_like(problem.shared), own])[out]
+        columns = np.hstack([null_fit.slopes, problem.shared, own])
+        fit = linear_fit(null_fit.anchor[~out], columns[~out])
+        blind = np.hstack([null_fit.slopes, np.zeros_like(problem.shared), own])[out]
         log.append(fit.evidence)
-        left.append(none.anchor[out] - blind @ fit.coefficients)
+        left.append(null_fit.anchor[out] - blind @ fit.coefficients)
         variance.append(_open_variance(columns[~out], fit.weight, blind))
     chance = np.exp(np.array(log) - max(log))
     chance = chance / chance.sum()
@@ -235,14 +243,13 @@ def _unknown_left(found: Search, forms: list[np.ndarray], out: np.ndarray) -> tu
     return mean, chance @ (np.array(variance) + (np.array(left) - mean) ** 2)
 
 
-def _folds(found: Search) -> tuple[str, np.ndarray, bool]:
-    """The condition with the most levels, the level of every reading, and whether levels have an order.
+def _folds(search: Search) -> tuple[str, np.ndarray, bool]:
+    """The condition with most levels, the level of every reading, and whether levels have an order.
 
-    One that spans little of its size comes behind all others, and of as many levels the one that spans most goes:
-    what jitters about a set-point has levels too.
+    Conditions of a narrow span come last, because a noisy constant has levels too; of equal ones the widest is taken.
     """
     best: tuple[bool, int, float, str, np.ndarray, bool] | None = None
-    for axis, values in zip(found.space.axes, found.values, strict=True):
+    for axis, values in zip(search.space.axes, search.values, strict=True):
         if axis.name in ("sequence", "composite_roughness_um"):
             continue
         values = set_points(values)
@@ -255,10 +262,10 @@ def _folds(found: Search) -> tuple[str, np.ndarray, bool]:
         count = int(np.unique(label).size)
         span = 1.0 if axis.named else float(np.ptp(values) / np.max(np.abs(values)))
         warm = axis.name.endswith("temperature_C")
-        swept = np.ptp(values) > WANDERS_K if warm else span > NARROW
-        rank = bool(swept), count, span
+        wide = not is_constant(axis.name, values) if warm else span > WIDE_SPAN
+        rank = bool(wide), count, span
         if count >= 3 and (best is None or rank > best[:3]):
             best = (*rank, axis.name, np.unique(label, return_inverse=True)[1], not axis.named)
     if best is None:
-        return "", np.arange(found.problem.y.size) % min(5, found.problem.y.size), False
+        return "", np.arange(search.problem.y.size) % min(5, search.problem.y.size), False
     return best[3:]

@@ -1,4 +1,4 @@
-"""Which test to run next: the conditions whose outcome would tell the remaining explanations apart best."""
+"""Experiment design: the conditions whose reading would separate the remaining explanations best."""
 
 from __future__ import annotations
 
@@ -9,22 +9,25 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.diagnosis.assessment.posterior import Key, Posterior
-from mixedlub.diagnosis.assessment.prediction import Prediction, Refined, Rows, refine
+from mixedlub.diagnosis.assessment.posterior import Posterior
+from mixedlub.diagnosis.assessment.prediction import NewRows, Prediction, Refined, refine
+from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.search.search import Search
-from mixedlub.recording.conditions import held_at
+from mixedlub.recording.conditions import noisy_set_point
 from mixedlub.recording.set_points import roundest, set_points
 from mixedlub.schema.table import Column, Table
 
-MOST = 600
-"""Conditions that are looked at."""
+MOST_CONDITIONS = 600
+"""Most conditions that are evaluated: a limit on cost."""
 SEED = 1
-LEAST = 1e-12
+SMALLEST_WEIGHT = 1e-12
 """Smallest probability of an explanation: its logarithm is taken."""
-WORTH, RIVALS = 0.01, 5
-"""Probability from which an explanation is worth a test, and how many are told apart at once."""
-COUNTED = 0.05
-"""Least weight of a rival in the choice of a test: one that is nearly excluded is still to be excluded."""
+WORTH_TESTING = 0.01
+"""Probability from which an explanation is included in the choice of a test; judgement."""
+MOST_RIVALS = 5
+"""Most explanations that a test has to separate: a limit on cost."""
+LEAST_WEIGHT = 0.05
+"""Least weight of a rival in the choice of a test, so that improbable ones can still be excluded; judgement."""
 TESTS = 3
 """Tests that are proposed."""
 NODES = 21
@@ -41,25 +44,25 @@ class NextTest:
 
 
 def next_tests(
-    found: Search, judged: Posterior, refined: dict[Key, Refined], columns: list[Column], varied: list[str]
+    search: Search, judged: Posterior, refined: dict[Explanation, Refined], columns: list[Column], varied: list[str]
 ) -> tuple[NextTest, ...]:
-    """The tests whose outcomes tell most, apart from one another; with one explanation left, against the runner-up."""
-    keys = [k for k in refined if judged.weights[k] > WORTH]
+    """The tests with most expected information; with one explanation left, against the runner-up."""
+    keys = [k for k in refined if judged.weights[k] > WORTH_TESTING]
     if len(keys) < 2:
-        runner = next((k for k in judged.weights if not isinstance(k, str) and k not in keys and k in found.fits), None)
+        runner = next((k for k in judged.weights if k not in keys and k in search.fits), None)
         if runner is None:
             return ()
-        refined = {**refined, runner: refine(found, found.fits[runner])}
+        refined = {**refined, runner: refine(search, search.fits[runner])}
         keys = [*keys, runner]
-    keys = keys[:RIVALS]
-    case = found.problem.case
-    table = candidates(found.problem.rows, columns, case.kind.limits(case.system), varied)
-    rows = Rows(found, table)
+    keys = keys[:MOST_RIVALS]
+    case = search.problem.case
+    table = candidates(search.problem.rows, columns, case.kind.limits(case.system), varied)
+    rows = NewRows(search, table)
     predictions = [rows.of_fit(refined[k]) for k in keys]
     weights = np.array([judged.weights[k] for k in keys])
     finite = np.isfinite(np.array([p.mean + p.variance for p in predictions])).all(axis=0)
-    # Improbable rivals count for the choice, not for what it is said to tell.
-    worth = np.where(finite, expected_bits(np.maximum(weights, COUNTED), predictions, rows.sd), 0.0)
+    # Improbable rivals count in the choice of a test, not in its stated information.
+    worth = np.where(finite, expected_bits(np.maximum(weights, LEAST_WEIGHT), predictions, rows.sd), 0.0)
     bits = np.where(finite, expected_bits(weights, predictions, rows.sd), 0.0)
     chosen: list[NextTest] = []
     for i in np.argsort(worth)[::-1]:
@@ -68,7 +71,7 @@ def next_tests(
             name: str(x) if isinstance(x, str) else float(f"{x:.6g}") for name, x in values.items()
         }
         if all(_apart(conditions, t.conditions) for t in chosen):
-            names = tuple("+".join(judged.names(k)) for k in keys)
+            names = tuple("+".join(k.ids) for k in keys)
             chosen.append(NextTest(conditions, names, float(bits[i])))
         if len(chosen) == TESTS:
             break
@@ -98,7 +101,7 @@ def candidates(
     axes: list[np.ndarray] = []
     for condition in conditions:
         levels = np.unique(set_points(table[condition.name]))
-        at = held_at(condition.name, table[condition.name])
+        at = noisy_set_point(condition.name, table[condition.name])
         if at is not None:
             levels = np.array([at])
         elif varied is not None and condition.name not in varied and levels.dtype.kind not in "US":
@@ -114,9 +117,9 @@ def candidates(
             )
         axes.append(levels if levels.size <= 8 else levels[np.linspace(0, levels.size - 1, 8).astype(int)])
     grid = list(product(*axes))
-    if len(grid) > MOST:
+    if len(grid) > MOST_CONDITIONS:
         # At random: every so many would go round with the levels of a condition, and miss some of them.
-        kept = np.random.default_rng(SEED).choice(len(grid), MOST, replace=False)
+        kept = np.random.default_rng(SEED).choice(len(grid), MOST_CONDITIONS, replace=False)
         grid = [grid[i] for i in np.sort(kept)]
     columns = {condition.name: np.array([row[i] for row in grid]) for i, condition in enumerate(conditions)}
     columns["run"] = np.arange(1, len(grid) + 1)
@@ -133,7 +136,7 @@ def expected_bits(weights: np.ndarray, predictions: list[Prediction], sd: np.nda
     >>> expected_bits(np.array([0.5, 0.5]), [near, far], np.ones(1)).round(3).tolist()
     [1.0]
     """
-    share = np.maximum(weights, LEAST)
+    share = np.maximum(weights, SMALLEST_WEIGHT)
     share = share / share.sum()
     mean = np.array([p.mean for p in predictions])
     spread = np.sqrt(np.array([p.variance for p in predictions]) + sd**2)

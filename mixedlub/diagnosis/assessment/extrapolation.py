@@ -23,18 +23,18 @@ def beyond_recorded(case: Case, wanted: Table | None) -> list[Finding]:
     rows = case.recordings
     if wanted is None or rows is None:
         return []
-    said: dict[int, list[str]] = {}
+    beyond: dict[int, list[str]] = {}
     for column in case.kind.columns:
         if column.name in wanted and column.name in rows:
             for run, words in _beyond(column, wanted, rows):
-                said.setdefault(run, []).append(words)
-    if not said:
+                beyond.setdefault(run, []).append(words)
+    if not beyond:
         return []
-    listed = [f"run {run}: {', '.join(words)}" for run, words in list(said.items())[:SHOWN]]
-    more = f"; and {len(said) - SHOWN} more runs" if len(said) > SHOWN else ""
+    listed = [f"run {run}: {', '.join(words)}" for run, words in list(beyond.items())[:SHOWN]]
+    more = f"; and {len(beyond) - SHOWN} more runs" if len(beyond) > SHOWN else ""
     text = (
-        f"{len(said)} of {len(wanted)} conditions to predict are outside the recorded range; their intervals hold only "
-        f"if the laws also hold there ({'; '.join(listed)}{more})"
+        f"{len(beyond)} of {len(wanted)} conditions to predict are outside the recorded range; their intervals hold "
+        f"only if the laws also hold there ({'; '.join(listed)}{more})"
     )
     return [finding("prediction_extrapolates", text, wanted.source)]
 

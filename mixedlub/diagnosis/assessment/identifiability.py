@@ -1,4 +1,4 @@
-"""Which effects look alike at the recorded conditions, once calibration has taken its share."""
+"""Identifiability: which effects have nearly the same signature at the recorded conditions after calibration."""
 
 from __future__ import annotations
 
@@ -7,22 +7,23 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.diagnosis.assessment.mismatch_test import judged_weight
+from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.inference.map_fit import whitening
-from mixedlub.diagnosis.search.search import Sampled, Search
+from mixedlub.diagnosis.search.search import PriorDraws, Search
 
-WANTED = 3.0
-"""Gain in log evidence from which an effect's fitted form is used rather than the middle of its prior."""
+FITTED_GAIN = 3.0
+"""Gain in log evidence from which an effect's fitted form replaces its prior median: odds of 20."""
 VISIBLE = 3.0
-"""Sigmas from which an effect shows."""
+"""Change in standard deviations from which an effect is visible; judgement."""
 
 
 @dataclass(frozen=True, eq=False)
 class Confusion:
-    """Cosines between the effects' signatures, and how visible each one is.
+    """Cosines between the signatures of the effects, and their visibility.
 
-    ``cosine`` has shape (effects, effects): 1 means that these readings cannot tell the two apart, -1 that one
-    is the other with the sign turned. ``visibility`` is the size in sigmas of what is left of an effect of
-    usual strength when calibration has adapted to it; ``absorbed`` the share that calibration took.
+    ``cosine`` has shape (effects, effects): 1 means that these readings cannot separate two effects, -1 that one is the
+    other with the opposite sign. ``visibility`` is the median size of an effect in standard deviations after
+    calibration; ``absorbed`` is the share that calibration takes.
     """
 
     ids: tuple[str, ...]
@@ -31,30 +32,30 @@ class Confusion:
     absorbed: np.ndarray
 
     def unseen(self) -> tuple[str, ...]:
-        """Effects that these readings would not show at their usual strength."""
+        """Effects that are not visible in these readings at a typical strength."""
         return tuple(name for name, size in zip(self.ids, self.visibility, strict=True) if size < VISIBLE)
 
 
-def confusion(found: Search) -> Confusion:
+def confusion(search: Search) -> Confusion:
     """Compare the effects' signatures at the recorded conditions under the base model's fit.
 
     A signature is the change of the readings in sigmas, as fitted where the recording asks for the effect,
     otherwise at the draw nearest the middle of its prior.
     """
-    found = found.screened
-    none = found.none
-    columns = np.hstack([none.slopes, found.problem.shared])
-    weight = judged_weight(found)
+    search = search.full_screen
+    null_fit = search.null_fit
+    columns = np.hstack([null_fit.slopes, search.problem.shared])
+    weight = judged_weight(search)
     left_over = whitening(columns, weight)
 
     ids, signatures, visibility, absorbed = [], [], [], []
-    for sampled in (*found.sampled, *found.untestable):
-        size = np.sqrt(np.maximum(np.einsum("ij,ij->i", sampled.change, left_over(sampled.change)), 0.0))
-        raw = np.sqrt(np.einsum("ij,ij->i", sampled.change * weight, sampled.change))
-        ids.append(sampled.id)
+    for draws in (*search.draws, *search.untestable):
+        size = np.sqrt(np.maximum(np.einsum("ij,ij->i", draws.change, left_over(draws.change)), 0.0))
+        raw = np.sqrt(np.einsum("ij,ij->i", draws.change * weight, draws.change))
+        ids.append(draws.id)
         visibility.append(float(np.median(size)))
         absorbed.append(1.0 - float(np.median(size)) / max(float(np.median(raw)), 1e-12))
-        signatures.append(_signature(found, sampled))
+        signatures.append(_signature(search, draws))
     if not ids:
         return Confusion((), np.zeros((0, 0)), np.zeros(0), np.zeros(0))
     each = np.array(signatures)
@@ -64,9 +65,9 @@ def confusion(found: Search) -> Confusion:
     return Confusion(tuple(ids), cosine, np.array(visibility), np.array(absorbed))
 
 
-def _signature(found: Search, sampled: Sampled) -> np.ndarray:
-    fit = found.fits.get((sampled.id,))
-    if fit is not None and fit.evidence > found.none.evidence + WANTED:
-        return np.asarray((fit.prediction - found.problem.base(fit.z)) / found.problem.sd)
-    middle = int(np.argmin(np.einsum("ij,ij->i", sampled.z, sampled.z)))
-    return sampled.change[middle]
+def _signature(search: Search, draws: PriorDraws) -> np.ndarray:
+    fit = search.fits.get(Explanation.of(draws.id))
+    if fit is not None and fit.evidence > search.null_fit.evidence + FITTED_GAIN:
+        return np.asarray((fit.prediction - search.problem.base(fit.z)) / search.problem.sd)
+    middle = int(np.argmin(np.einsum("ij,ij->i", draws.z, draws.z)))
+    return draws.change[middle]

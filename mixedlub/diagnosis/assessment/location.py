@@ -1,4 +1,4 @@
-"""Where simulation and recording part: which readings, and the range of conditions they share."""
+"""Location of the mismatch: readings, and the range of conditions that they share."""
 
 from __future__ import annotations
 
@@ -7,47 +7,49 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.diagnosis.assessment.posterior import Key
 from mixedlub.diagnosis.discrepancy.local import TURNED
+from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.search.search import CLOCKS, Search
 from mixedlub.recording.conditions import PASSING
 from mixedlub.recording.set_points import set_points
 from mixedlub.schema.table import Table
 
-NOWHERE = 1e-9
-"""Mismatch in sigmas below which there is none."""
-LARGE = 0.5
-"""Share of the largest mismatch from which a reading is one of those to be marked off."""
-CUTS, LEVELS = 3, 12
-"""Conditions that are cut at most, and ends of a cut that are tried along one."""
-BETTER = 0.02
-"""Gain in F-score that another cut has to bring."""
+NO_MISMATCH = 1e-9
+"""Mismatch in standard deviations below which there is none: rounding."""
+LARGE_SHARE = 0.5
+"""Share of the largest mismatch from which a reading belongs to the region; judgement."""
+MOST_CUTS = 3
+"""Conditions that are cut at most; presentation."""
+MOST_ENDS = 12
+"""Ends of a cut that are tried along one condition: a limit on cost."""
+LEAST_GAIN = 0.02
+"""Gain in F-score by which a further cut is accepted; judgement."""
 
 
 @dataclass(frozen=True, eq=False)
 class Region:
-    """Conditions joined by "and", and which readings they hold."""
+    """A box of conditions, and the readings within it."""
 
     where: tuple[dict[str, Any], ...]
     inside: np.ndarray
 
 
 def region(table: Table, columns: list[str], size: np.ndarray) -> Region:
-    """The box of conditions that best marks off the readings with the largest mismatch.
+    """The box of conditions that best separates the readings with the largest mismatch.
 
-    ``size`` is the mismatch of each reading in sigmas. Up to three conditions are cut, each cut kept only
-    if it marks the large readings off better (F-score).
+    ``size`` is the mismatch of each reading in standard deviations. Up to MOST_CUTS conditions are cut; a cut is kept
+    if it improves the F-score.
     """
     absolute = np.abs(size)
     top = float(absolute.max(initial=0.0))
-    if top < NOWHERE:
+    if top < NO_MISMATCH:
         return Region((), np.ones(absolute.size, bool))
-    large = absolute >= max(LARGE * top, np.median(absolute))
+    large = absolute >= max(LARGE_SHARE * top, np.median(absolute))
     inside = np.ones(absolute.size, bool)
     chosen: dict[str, dict[str, Any]] = {}
     score = _f_score(inside, large)
-    for _ in range(CUTS):
+    for _ in range(MOST_CUTS):
         best: tuple[float, str, dict[str, Any], np.ndarray] | None = None
         for name in columns:
             if name in chosen:
@@ -56,7 +58,7 @@ def region(table: Table, columns: list[str], size: np.ndarray) -> Region:
                 value = _f_score(inside & mask, large)
                 if best is None or value > best[0]:
                     best = (value, name, cut, mask)
-        if best is None or best[0] < score + BETTER:
+        if best is None or best[0] < score + LEAST_GAIN:
             break
         score, name, cut, mask = best
         chosen[name] = cut
@@ -64,11 +66,11 @@ def region(table: Table, columns: list[str], size: np.ndarray) -> Region:
     return Region(tuple(chosen.values()), inside)
 
 
-def passed_by(found: Search, verdict: Key) -> list[str]:
-    """What tells the time, where the answer goes with that: a place may be a stretch of the programme."""
-    if isinstance(verdict, str):
-        return [name for name in PASSING if name in found.unknown.best.axes]
-    timed = any(CLOCKS.intersection(e.reads) for e in effects_of(verdict))
+def time_columns(search: Search, verdict: Explanation) -> list[str]:
+    """Columns of time or position on which the answer depends, so that its region may be a part of the programme."""
+    if verdict.is_discrepancy:
+        return [name for name in PASSING if name in search.discrepancy.best.axes]
+    timed = any(CLOCKS.intersection(e.reads) for e in effects_of(verdict.effects))
     return [name for name in PASSING if timed and name != TURNED]
 
 
@@ -80,8 +82,8 @@ def _cuts(name: str, values: np.ndarray) -> list[tuple[dict[str, Any], np.ndarra
         return [({"column": name, "values": [str(level)]}, values == level) for level in levels]
     points = set_points(values)
     levels = np.unique(points)
-    if levels.size > LEVELS:
-        levels = np.unique(np.quantile(points, np.linspace(0.0, 1.0, LEVELS)))
+    if levels.size > MOST_ENDS:
+        levels = np.unique(np.quantile(points, np.linspace(0.0, 1.0, MOST_ENDS)))
     found = []
     for i, low in enumerate(levels):
         for j in range(i, levels.size):

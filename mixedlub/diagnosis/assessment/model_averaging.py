@@ -1,4 +1,4 @@
-"""Predictions and outliers, averaged over the explanations that carry the answer."""
+"""Bayesian model averaging of predictions and outlier probabilities."""
 
 from __future__ import annotations
 
@@ -6,16 +6,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.diagnosis.assessment.posterior import Key, Posterior
-from mixedlub.diagnosis.assessment.prediction import Prediction, Refined, Rows, refine
+from mixedlub.diagnosis.assessment.posterior import Posterior
+from mixedlub.diagnosis.assessment.prediction import NewRows, Prediction, Refined, refine
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.map_fit import NINETY, outlier_chance
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.schema.table import Table
 
-AVERAGED = 6
-"""Explanations whose predictions are averaged, at most."""
-SMALL = 2e-3
-"""Probability below which an explanation adds nothing to a prediction that could be seen."""
+MOST_AVERAGED = 6
+"""Most explanations that are averaged: a limit on cost."""
+NEGLIGIBLE = 2e-3
+"""Probability below which an explanation is left out of the average; judgement."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,56 +33,58 @@ class Predicted:
     sd: np.ndarray
 
 
-def leaders(found: Search, judged: Posterior) -> dict[Key, Refined]:
-    """The explanations that carry the answer, refined; none always among them."""
-    leaders = [k for k, w in judged.weights.items() if w >= SMALL and not isinstance(k, str)][:AVERAGED]
-    if () not in leaders:
-        leaders.append(())
-    return {k: refine(found, found.fits[k]) for k in leaders}
+def leaders(search: Search, judged: Posterior) -> dict[Explanation, Refined]:
+    """The most probable explanations, refined; nothing missing is always among them."""
+    leaders = [k for k, w in judged.weights.items() if w >= NEGLIGIBLE and not k.is_discrepancy][:MOST_AVERAGED]
+    if NOTHING not in leaders:
+        leaders.append(NOTHING)
+    return {k: refine(search, search.fits[k]) for k in leaders}
 
 
-def averaged(found: Search, judged: Posterior, refined: dict[Key, Refined], table: Table) -> Predicted:
-    """Predictions of a table, each explanation as much as it is probable."""
-    problem = found.problem
+def averaged(search: Search, judged: Posterior, refined: dict[Explanation, Refined], table: Table) -> Predicted:
+    """Model average of the predictions of a table, weighted by posterior probability."""
+    problem = search.problem
     own = table is problem.rows
-    rows = Rows(found, table, found.none.prediction if own else None)
-    calibrated = rows.problem.predict((), found.none.z)
-    each: dict[Key, Prediction] = {k: rows.of_fit(r) for k, r in refined.items() if judged.weights[k] >= SMALL}
-    if judged.weights["unknown"] >= SMALL:
-        each["unknown"] = rows.of_unknown()
+    rows = NewRows(search, table, search.null_fit.prediction if own else None)
+    calibrated = rows.problem.predict(NOTHING, search.null_fit.z)
+    each: dict[Explanation, Prediction] = {
+        k: rows.of_fit(r) for k, r in refined.items() if judged.weights[k] >= NEGLIGIBLE
+    }
+    if judged.weights[DISCREPANCY] >= NEGLIGIBLE:
+        each[DISCREPANCY] = rows.of_discrepancy()
     means = np.array([p.mean for p in each.values()])
     variances = np.array([p.ends for p in each.values()])
-    # An explanation with no finite answer at a row does not speak there; the verdict always does.
-    speaks = np.isfinite(means + variances.sum(axis=1)) | np.array([k == judged.verdict for k in each])[:, None]
-    share = np.array([judged.weights[k] for k in each])[:, None] * speaks
+    # An explanation that is not finite at a row is left out there, except the verdict.
+    is_finite = np.isfinite(means + variances.sum(axis=1)) | np.array([k == judged.verdict for k in each])[:, None]
+    share = np.array([judged.weights[k] for k in each])[:, None] * is_finite
     share = share / share.sum(axis=0)
-    means, variances = np.where(speaks, means, 0.0), np.where(speaks[:, None], variances, 0.0)
-    mean = each[()].mean if judged.verdict == () else (share * means).sum(axis=0)
+    means, variances = np.where(is_finite, means, 0.0), np.where(is_finite[:, None], variances, 0.0)
+    mean = each[NOTHING].mean if judged.verdict == NOTHING else (share * means).sum(axis=0)
     between = (share * (means - mean) ** 2).sum(axis=0)
     within = (share[:, None] * variances).sum(axis=0)
     sd, shared_variance = rows.noise_at(mean)
     below, above = NINETY * np.sqrt(sd**2 + shared_variance + within + between)
     at_verdict = each[judged.verdict].base
-    mismatch = np.zeros(mean.size) if judged.verdict == () else (mean - at_verdict) / sd
+    mismatch = np.zeros(mean.size) if judged.verdict == NOTHING else (mean - at_verdict) / sd
     nominal = rows.forward.predict()
-    ends = problem.level(mean - below), problem.level(mean + above)
-    size = np.abs(problem.level(mean)) if problem.case.kind.logarithmic else 1.0
+    ends = problem.inverse(mean - below), problem.inverse(mean + above)
+    size = np.abs(problem.inverse(mean)) if problem.case.kind.logarithmic else 1.0
     return Predicted(
-        table, nominal, problem.level(calibrated), problem.level(mean), *ends, mismatch, np.asarray(sd * size)
+        table, nominal, problem.inverse(calibrated), problem.inverse(mean), *ends, mismatch, np.asarray(sd * size)
     )
 
 
-def outlier_chances(found: Search, judged: Posterior, refined: dict[Key, Refined]) -> np.ndarray:
-    """Chance that each reading is an outlier, averaged over the explanations that carry the answer."""
-    chance = np.zeros(found.problem.y.size)
+def outlier_chances(search: Search, judged: Posterior, refined: dict[Explanation, Refined]) -> np.ndarray:
+    """Probability that each reading is an outlier, averaged over explanations."""
+    chance = np.zeros(search.problem.y.size)
     total = 0.0
     for key, weight in judged.weights.items():
-        if key == "unknown":
-            residual = found.unknown.fit.residual
+        if key.is_discrepancy:
+            residual = search.discrepancy.fit.residual
         elif key in refined:
             residual = refined[key].residual
         else:
             continue
-        chance += weight * outlier_chance(found.problem.of_one(residual))
+        chance += weight * outlier_chance(search.problem.single_reading_units(residual))
         total += weight
     return chance / max(total, 1e-300)

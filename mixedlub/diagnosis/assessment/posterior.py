@@ -9,103 +9,89 @@ import numpy as np
 
 from mixedlub.chain.effect import STAGES
 from mixedlub.diagnosis.assessment.mismatch_test import Mismatch
-from mixedlub.diagnosis.problem import Explanation, effects_of
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
+from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.search.search import PRIOR, Search, priors
 
 TIE = 0.1
-"""Share of the verdict's probability from which an explanation ties with it."""
+"""Ratio to the verdict's probability from which an explanation ties with it; presentation."""
 FLOOR = 1e-6
-"""Nothing is told as certain."""
+"""Probabilities are clipped to [1e-6, 1 - 1e-6]."""
 MARGIN = 1.25
-"""Odds by which the test puts "nothing missing" behind the best explanation or ahead of it: just enough to be told."""
-
-Key = str | Explanation
-
-
-def names_effects(key: Key) -> bool:
-    """Whether an explanation names effects: neither "nothing missing" nor the unnamed."""
-    return not isinstance(key, str) and bool(key)
+"""Odds by which the test puts "nothing missing" behind or ahead of the best explanation: the least that is visible."""
 
 
 @dataclass(frozen=True)
 class Posterior:
-    """Probability of every explanation, the verdict first; ``unknown`` is keyed by its name, none by ().
+    """Probability of every explanation, the verdict first.
 
-    Log odds between names were taken as ``inflation`` times smaller than the readings give them.
+    Log odds between effects were divided by ``overdispersion``.
     """
 
-    weights: Mapping[Key, float]
-    verdict: Key
-    tied: tuple[Key, ...]
-    inflation: float = 1.0
+    weights: Mapping[Explanation, float]
+    verdict: Explanation
+    tied: tuple[Explanation, ...]
+    overdispersion: float = 1.0
 
-    def names(self, key: Key) -> list[str]:
-        """The explanation as the answer writes it."""
-        if isinstance(key, str):
-            return [key]
-        return list(key) or ["none"]
-
-    def inclusion(self, found: Search) -> dict[str, float]:
+    def inclusion(self, search: Search) -> dict[str, float]:
         """Probability that each effect is part of the explanation; none and unknown as explanations."""
-        chance = {s.id: 0.0 for s in found.sampled} | untold(found)
+        chance = {s.id: 0.0 for s in search.draws} | prior_of_untestable(search)
         for key, weight in self.weights.items():
-            if not isinstance(key, str):
-                for name in key:
-                    chance[name] += weight
-        chance = {"none": self.weights.get((), 0.0), "unknown": self.weights.get("unknown", 0.0), **chance}
+            for name in key.effects:
+                chance[name] += weight
+        alone = {name: self.weights.get(key, 0.0) for key in (NOTHING, DISCREPANCY) for name in key.ids}
+        chance = {**alone, **chance}
         return {name: float(np.clip(value, FLOOR, 1.0 - FLOOR)) for name, value in chance.items()}
 
     def stages(self) -> dict[str, float]:
         """Probability that each stage of the chain is part of the explanation."""
         chance = dict.fromkeys(STAGES, 0.0)
         for key, weight in self.weights.items():
-            if not isinstance(key, str):
-                for stage in {e.stage for e in effects_of(key)}:
-                    chance[stage] += weight
+            for stage in {e.stage for e in effects_of(key.effects)}:
+                chance[stage] += weight
         return {stage: float(np.clip(value, FLOOR, 1.0 - FLOOR)) for stage, value in chance.items()}
 
 
-def untold(found: Search) -> dict[str, float]:
-    """Chance of the effects that move no reading: as probable as they were before."""
-    looked = (*found.sampled, *found.untestable)
-    odds = {e.id: found.problem.forward.odds(e) for s in looked for e in effects_of((s.id,))}
+def prior_of_untestable(search: Search) -> dict[str, float]:
+    """Probability of the effects that change no reading: their prior."""
+    looked = (*search.draws, *search.untestable)
+    odds = {e.id: search.problem.forward.odds(e) for s in looked for e in effects_of((s.id,))}
     nothing, single, pair = priors(len(odds))
-    single /= nothing + single + pair + PRIOR["unknown"]
-    return {s.id: single * odds[s.id] / sum(odds.values()) for s in found.untestable}
+    single /= nothing + single + pair + PRIOR["discrepancy"]
+    return {s.id: single * odds[s.id] / sum(odds.values()) for s in search.untestable}
 
 
 def posterior(
-    found: Search, test: Mismatch, demerits: Mapping[Key, float] | None = None, inflation: float = 1.0
+    search: Search, test: Mismatch, penalties: Mapping[Explanation, float] | None = None, overdispersion: float = 1.0
 ) -> Posterior:
-    """Normalised weights; whether anything is missing at all is for the test to decide.
+    """Normalised weights, in agreement with the test against nothing missing.
 
-    The evidence ranks the explanations, less the ``demerits`` of those that failed on levels left out. Where it
-    and the test disagree on "none", its weight is moved just far enough that the most probable explanation agrees
-    with the test. What scatters more than noise can, and follows nothing, is something unnamed. Where even the best
-    name leaves readings ``inflation`` times their variance off, they tell names apart by that much less; the odds of
-    the first name against what is none stay.
+    Explanations are ranked by their evidence less the ``penalties`` of cross-validation. Where this and the test
+    disagree on nothing missing, its weight is moved just far enough to agree. Scatter beyond any noise that no
+    explanation follows counts as a discrepancy. Where even the best effects are overdispersed on left-out levels, log
+    odds between effects are divided by ``overdispersion``; their odds against the other explanations stay.
     """
-    log: dict[Key, float] = dict(found.log_weights)
-    for key, demerit in (demerits or {}).items():
-        log[key] -= demerit
-    names = [key for key in log if names_effects(key)]
-    if names and inflation > 1.0:
-        told = {k: found.scores[k] - (demerits or {}).get(k, 0.0) for k in names if not isinstance(k, str)}
+    log = dict(search.log_weights)
+    for key, log_odds_penalty in (penalties or {}).items():
+        log[key] -= log_odds_penalty
+    names = [key for key in log if key.effects]
+    if names and overdispersion > 1.0:
+        relative = {k: search.scores[k] - (penalties or {}).get(k, 0.0) for k in names}
         foremost = max(log[key] for key in names)
-        log |= {key: log[key] + value * (1.0 / inflation - 1.0) for key, value in told.items()}
+        log |= {key: log[key] + value * (1.0 / overdispersion - 1.0) for key, value in relative.items()}
         back = foremost - max(log[key] for key in names)
         log |= {key: log[key] + back for key in names}
-    if test.unfollowed and log[()] > log["unknown"]:
-        log[()], log["unknown"] = log["unknown"], log[()]
-    others = [value for key, value in log.items() if key != ()]
+    if test.unexplained_scatter and log[NOTHING] > log[DISCREPANCY]:
+        log[NOTHING], log[DISCREPANCY] = log[DISCREPANCY], log[NOTHING]
+    others = [value for key, value in log.items() if key != NOTHING]
     best = max(others, default=-np.inf)
-    if test.detected and log[()] >= best:
-        log[()] = best - np.log(MARGIN)
-    elif not test.detected and log[()] <= best:
-        log[()] = best + np.log(MARGIN)
+    if test.detected and log[NOTHING] >= best:
+        log[NOTHING] = best - np.log(MARGIN)
+    elif not test.detected and log[NOTHING] <= best:
+        log[NOTHING] = best + np.log(MARGIN)
     top = max(log.values())
     total = sum(np.exp(v - top) for v in log.values())
     weights = {key: float(np.exp(v - top) / total) for key, v in sorted(log.items(), key=lambda item: -item[1])}
     verdict = next(iter(weights))
     tied = tuple(key for key, w in weights.items() if w >= TIE * weights[verdict])
-    return Posterior(weights, verdict, tied, inflation)
+    return Posterior(weights, verdict, tied, overdispersion)

@@ -1,4 +1,4 @@
-"""What can be said of a mismatch without a name: the stage that can absorb it, and the shortest power law."""
+"""Description of a discrepancy: the stage that can absorb it, and the shortest power law."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ import numpy as np
 from mixedlub.chain.model import Model
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.diagnosis.discrepancy.modulated import log_slope
-from mixedlub.diagnosis.discrepancy.smooth import FACTORS, SIZES
+from mixedlub.diagnosis.discrepancy.smooth import LOG_FACTOR_SIZES, READING_SIZES
+from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.inference.map_fit import covariance, linear_fit, whitening
 from mixedlub.diagnosis.labels import number, words_of
 from mixedlub.diagnosis.search.search import Search
@@ -28,21 +29,21 @@ SLOTS = (
     ("load", ("load_share", "line_load")),
     ("loss", ("power_loss", "tangential_friction", "friction")),
 )
-ALIKE = 0.999
-"""Cosine of two quantities from which they are one at these conditions."""
-BEAM = 12
-"""Forms that are kept and made longer at each step."""
-CELLS = 4_000_000
+COLLINEAR = 0.999
+"""Correlation of two quantities from which they are equivalent at these conditions; judgement."""
+BEAM_WIDTH = 12
+"""Forms that are kept and extended at each step: a limit on cost."""
+BLOCK_CELLS = 4_000_000
 MOST_BLOCKS = 6
 RELATIVE, TURNING = 0, 2
-"""Places among the carriers: the base model's reading, one, and the direction of motion where there are two."""
+"""Indices of the scalings: the base model's reading, one, and the direction of motion where there are two."""
 MOST_READINGS = 1500
-"""Readings that forms are tried on."""
+"""Most readings on which forms are tried: a limit on cost."""
 SEED = 1
-GAIN = 3.0
-"""Log evidence that a form has to gain to be told."""
-WORTH = 0.7
-"""Error on levels left out, as a share of that without the form, from which it is no description."""
+LEAST_GAIN = 3.0
+"""Gain in log evidence from which a form is reported: odds of 20."""
+MOST_ERROR_SHARE = 0.7
+"""Ratio of the error on left-out levels with and without the form, above which it is rejected; judgement."""
 
 
 @dataclass(frozen=True)
@@ -95,26 +96,26 @@ class Law:
 
 
 @dataclass(frozen=True)
-class Unnamed:
+class DescribedDiscrepancy:
     """The stages that absorb the mismatch at all, best first, and the power law, if one holds on levels left out."""
 
     stages: tuple[Absorbed, ...]
     law: Law | None
 
 
-def unnamed(found: Search) -> Unnamed:
+def describe_discrepancy(search: Search) -> DescribedDiscrepancy:
     """Describe a mismatch for which the catalogue has no name."""
-    stages = tuple(stage for stage in absorbing_stages(found) if stage.evidence > 0.0)
-    return Unnamed(stages, power_law(found))
+    stages = tuple(stage for stage in absorbing_stages(search) if stage.evidence > 0.0)
+    return DescribedDiscrepancy(stages, power_law(search))
 
 
-def absorbing_stages(found: Search) -> tuple[Absorbed, ...]:
+def absorbing_stages(search: Search) -> tuple[Absorbed, ...]:
     """Weigh a smooth free factor on one quantity a stage, linearised at the calibrated base model."""
-    problem, none = found.problem, found.none
-    base = np.hstack([none.slopes, problem.shared])
-    plain = linear_fit(none.anchor, base, found.unknown.fit.weight).evidence
-    smooth = found.space.columns(found.values, 0.7)
-    calibrated = problem.run((), none.z)
+    problem, null_fit = search.problem, search.null_fit
+    base = np.hstack([null_fit.slopes, problem.shared])
+    plain = linear_fit(null_fit.anchor, base, search.discrepancy.fit.weight).evidence
+    smooth = search.space.columns(search.values, 0.7)
+    calibrated = problem.run(NOTHING, null_fit.z)
     weighed = []
     for stage, names in SLOTS:
         for name in names:
@@ -123,22 +124,22 @@ def absorbing_stages(found: Search) -> tuple[Absorbed, ...]:
                 continue
             own = smooth * (slope / problem.sd)[:, None]
             each = [
-                linear_fit(none.anchor, np.hstack([base, size * own]), found.unknown.fit.weight).evidence
-                for size in FACTORS
+                linear_fit(null_fit.anchor, np.hstack([base, size * own]), search.discrepancy.fit.weight).evidence
+                for size in LOG_FACTOR_SIZES
             ]
             weighed.append(Absorbed(stage, name, float(np.logaddexp.reduce(each) - np.log(len(each)) - plain)))
             break
     return tuple(sorted(weighed, key=lambda a: -a.evidence))
 
 
-def features(found: Search) -> dict[str, np.ndarray]:
+def features(search: Search) -> dict[str, np.ndarray]:
     """Positive quantities that vary over the recording, one number a reading; look-alikes of earlier ones left out."""
-    case, rows, forward = found.problem.case, found.problem.rows, found.problem.forward
+    case, rows, forward = search.problem.case, search.problem.rows, search.problem.forward
     every: dict[str, np.ndarray] = {}
     for column in case.kind.columns:
         if column.form != "name" and column.name in rows and not column.name.endswith("_C"):
             every[column.name] = np.abs(np.asarray(rows[column.name], dtype=float))
-    inputs = found.problem.run((), found.none.z).record.inputs
+    inputs = search.problem.run(NOTHING, search.null_fit.z).record.inputs
     made = set(inputs) | {name for name, _ in forward.chain}
     parts = [name for name in (*CHAIN[1:], "film_thickness", "composite_roughness") if name in made]
     state = Model(forward.chain, tuple(inputs), tuple(parts))(inputs) if parts else {}
@@ -153,7 +154,7 @@ def features(found: Search) -> dict[str, np.ndarray]:
         if not (np.isfinite(value).all() and (value > 0).all()) or np.ptp(np.log(value)) < 0.05:
             continue
         shape = _standard(np.log(value))
-        if all(abs(np.mean(shape * _standard(np.log(other)))) < ALIKE for other in kept.values()):
+        if all(abs(np.mean(shape * _standard(np.log(other)))) < COLLINEAR for other in kept.values()):
             kept[name] = value
     return kept
 
@@ -183,10 +184,10 @@ class _Search:
         return self.share.T[carrier] * np.exp(np.clip(powers @ self.logs.T, -30.0, 30.0))
 
     def evidence(self, powers: np.ndarray, carrier: np.ndarray) -> np.ndarray:
-        """Log evidence of each form over nothing, its amplitude averaged over SIZES."""
+        """Log evidence of each form over nothing, its amplitude averaged over READING_SIZES."""
         whitened = whitening(self.fixed, self.weight)
         found = np.empty(len(powers))
-        step = max(1, CELLS // self.target.size)
+        step = max(1, BLOCK_CELLS // self.target.size)
         for start in range(0, len(powers), step):
             part = slice(start, start + step)
             each = self.columns(powers[part], carrier[part])
@@ -194,10 +195,10 @@ class _Search:
             seen = whitened(each)
             power = np.einsum("ij,ij->i", seen, each)
             along = (seen @ self.target) ** 2
-            square = np.array(SIZES)[:, None] ** 2
+            square = np.array(READING_SIZES)[:, None] ** 2
             grown = 1.0 + square * np.maximum(power, 0.0)
             value = 0.5 * (square * along / grown - np.log(grown))
-            found[part] = np.logaddexp.reduce(value, axis=0) - np.log(len(SIZES))
+            found[part] = np.logaddexp.reduce(value, axis=0) - np.log(len(READING_SIZES))
         return found
 
     def best(self) -> tuple[float, np.ndarray, int]:
@@ -209,7 +210,7 @@ class _Search:
         leaders.sort(key=lambda item: -item[0])
         thirds = [
             _with(powers, place, b)
-            for _, powers, _ in leaders[:BEAM]
+            for _, powers, _ in leaders[:BEAM_WIDTH]
             if np.count_nonzero(powers) == 2
             for place in range(count)
             if powers[place] == 0
@@ -227,7 +228,7 @@ class _Search:
         every, carrier = np.tile(powers, (count, 1)), np.repeat(np.arange(count), len(powers))
         forms = comb(len(self.names), size) * (2 * len(EXPONENTS)) ** size
         score = self.evidence(every, carrier) - np.log(count * forms)
-        order = np.argsort(-score, kind="stable")[:BEAM]
+        order = np.argsort(-score, kind="stable")[:BEAM_WIDTH]
         return [(float(score[i]), every[i], int(carrier[i])) for i in order]
 
 
@@ -253,34 +254,34 @@ def _with(powers: np.ndarray, place: int, b: Fraction) -> np.ndarray:
     return changed
 
 
-def power_law(found: Search) -> Law | None:
+def power_law(search: Search) -> Law | None:
     """The shortest power law that predicts whole levels it was not fitted to; None where there is none.
 
     The law is chosen anew in every fold; it must lower the held-out error clearly over all folds, and in most
     of the conditions whose levels are left out in turn.
     """
-    values = features(found)
+    values = features(search)
     if not values:
         return None
-    problem, none = found.problem, found.none
+    problem, null_fit = search.problem, search.null_fit
     names = tuple(values)
     middles = np.array([float(f"{np.exp(np.mean(np.log(v))):.2g}") for v in values.values()])
     logs = np.log(np.array(list(values.values())).T / middles)
-    one = problem.sd * problem.unit_size(found.none.prediction)
-    level = problem.level(none.prediction)
-    share = np.column_stack([level, np.ones_like(level), *_turning(found)]) / one[:, None]
-    fixed = np.hstack([none.slopes, problem.shared])
-    whole = _Search(names, logs, share, fixed, none.anchor, found.unknown.fit.weight)
+    one = problem.sd * problem.d_inverse(search.null_fit.prediction)
+    level = problem.inverse(null_fit.prediction)
+    share = np.column_stack([level, np.ones_like(level), *_turning(search)]) / one[:, None]
+    fixed = np.hstack([null_fit.slopes, problem.shared])
+    whole = _Search(names, logs, share, fixed, null_fit.anchor, search.discrepancy.fit.weight)
     count = min(problem.y.size, MOST_READINGS)
     thin = np.sort(np.random.default_rng(SEED).choice(problem.y.size, count, replace=False))
     every = whole.take(thin)
     score, powers, carrier = every.best()
-    if score < GAIN:
+    if score < LEAST_GAIN:
         return None
-    before, after, wins = _held_out(found, every, thin)
-    if after > WORTH * before or not wins:
+    before, after, wins = _held_out(search, every, thin)
+    if after > MOST_ERROR_SHARE * before or not wins:
         return None
-    in_single = float(np.sqrt(problem.together))
+    in_single = float(np.sqrt(problem.n_per_effective))
     own = whole.columns(powers[None], np.array([carrier]))[0]
     coefficient, sd, c = _coefficient(whole, own)
     chosen = np.flatnonzero(powers)
@@ -301,17 +302,17 @@ def power_law(found: Search) -> Law | None:
     )
 
 
-def _turning(found: Search) -> list[np.ndarray]:
+def _turning(search: Search) -> list[np.ndarray]:
     """The direction of motion of every reading as a sign, where both were run."""
-    speed = found.problem.forward.inputs.get("drive_speed")
+    speed = search.problem.forward.inputs.get("drive_speed")
     if speed is None or np.ptp(np.sign(speed)) == 0.0:
         return []
-    return [np.broadcast_to(np.sign(speed)[:, 0], found.problem.y.shape)]
+    return [np.broadcast_to(np.sign(speed)[:, 0], search.problem.y.shape)]
 
 
 def _coefficient(every: _Search, own: np.ndarray) -> tuple[float, float, np.ndarray]:
     """Coefficient of a column, its sd and all coefficients, the prior of the coefficient wide open."""
-    scale = SIZES[-1] / np.sqrt(np.mean(own**2))
+    scale = READING_SIZES[-1] / np.sqrt(np.mean(own**2))
     columns = np.column_stack([every.fixed, own * scale])
     fit = linear_fit(every.target, columns, every.weight)
     spread = covariance(columns, fit.weight)
@@ -320,10 +321,10 @@ def _coefficient(every: _Search, own: np.ndarray) -> tuple[float, float, np.ndar
     return float(coefficients[-1]), float(np.sqrt(spread[-1, -1]) * scale), coefficients
 
 
-def _held_out(found: Search, every: _Search, thin: np.ndarray) -> tuple[float, float, bool]:
+def _held_out(search: Search, every: _Search, thin: np.ndarray) -> tuple[float, float, bool]:
     """Rms error in sigmas on levels left out, without a law and with one chosen on the others; do most splits win."""
     squares: list[tuple[float, float]] = []
-    for axis, values in zip(found.space.axes, found.values, strict=True):
+    for axis, values in zip(search.space.axes, search.values, strict=True):
         levels, label = np.unique(values[thin], return_inverse=True)
         if levels.size < 3 or axis.name == "sequence":
             continue

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mixedlub.diagnosis.assessment.posterior import Key
+from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.inference.nested_laws import published_odds
 from mixedlub.diagnosis.search.search import Search
 
-REJECTED = -4.6
-"""Log odds from which a law is said to be rejected: one to a hundred."""
-EQUAL = -2.3
-"""Log odds from which it cannot be excluded: one to ten."""
+REJECTED_BELOW = -4.6
+"""Log odds below which a law is rejected: one to a hundred."""
+OPEN_FROM = -2.3
+"""Log odds from which a law cannot be excluded: one to ten."""
 
 
 @dataclass(frozen=True)
@@ -28,15 +28,15 @@ class Contained:
         odds = f"(log odds {self.log_odds:+.1f})"
         if self.log_odds > 0.0:
             return f"The law of {self.law}, which it contains, does as well {odds}."
-        if self.log_odds > EQUAL:
+        if self.log_odds > OPEN_FROM:
             return f"The law of {self.law}, which it contains, cannot be excluded {odds}."
-        if self.log_odds > REJECTED:
+        if self.log_odds > REJECTED_BELOW:
             return f"The law of {self.law}, which it contains, does less well {odds}."
         return f"The law of {self.law}, which it contains, is rejected {odds}."
 
 
-def contained(found: Search, verdict: Key) -> tuple[Contained, ...]:
+def contained(search: Search, verdict: Explanation) -> tuple[Contained, ...]:
     """Weigh the published laws that a verdict's effects contain, each with the rest of the verdict fitted again."""
-    if isinstance(verdict, str):
+    if not verdict.effects:
         return ()
-    return tuple(Contained(*law) for law in published_odds(found.problem, found.fits[verdict]))
+    return tuple(Contained(*law) for law in published_odds(search.problem, search.fits[verdict]))

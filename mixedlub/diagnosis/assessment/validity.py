@@ -9,9 +9,10 @@ import numpy as np
 
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.inference.map_fit import NINETY
 from mixedlub.diagnosis.labels import effect_words, number, words_of
-from mixedlub.diagnosis.problem import Explanation, Problem, effects_of
+from mixedlub.diagnosis.problem import Problem, effects_of
 from mixedlub.schema.findings import Finding, finding
 
 SLACK = 1e-6
@@ -26,7 +27,7 @@ def beyond_range(problem: Problem, explanation: Explanation, z: np.ndarray) -> l
     state: dict[str, Any] = dict(record.inputs)
     for made in record.made:
         state.update(made)
-    return outside(effects_of(explanation), state, problem.y.size)
+    return outside(effects_of(explanation.effects), state, problem.y.size)
 
 
 def unpublished(effects: Sequence[Effect], z: np.ndarray, spread: np.ndarray) -> list[Finding]:

@@ -1,75 +1,75 @@
-"""The verdict: probabilities, with what ties held against levels left out until nothing new ties."""
+"""The verdict: probabilities, corrected by cross-validation until no new explanation ties."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.diagnosis.assessment.cross_validation import DEMERIT, HeldOut, LevelsOut
+from mixedlub.diagnosis.assessment.cross_validation import MOST_PENALTY, HeldOut, LevelsOut
 from mixedlub.diagnosis.assessment.mismatch_test import Mismatch
-from mixedlub.diagnosis.assessment.posterior import MARGIN, Key, Posterior, names_effects, posterior
-from mixedlub.diagnosis.inference.change_points import sudden_places
+from mixedlub.diagnosis.assessment.posterior import MARGIN, Posterior, posterior
+from mixedlub.diagnosis.explanation import DISCREPANCY, Explanation
+from mixedlub.diagnosis.inference.change_points import change_point_coordinates
 from mixedlub.diagnosis.inference.map_fit import outlier_chance
-from mixedlub.diagnosis.problem import Explanation
 from mixedlub.diagnosis.search.search import Search
 
 CANDIDATES = 6
-"""Names held against levels left out, at most: each costs as many fits as there are levels."""
+"""Most explanations that are cross-validated; each costs as many fits as there are levels. A limit on cost."""
 
 
-def judge(found: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
-    """Probabilities, with the verdict and what ties with it first held against levels left out.
+def judge(search: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
+    """Posterior probabilities, with cross-validation of the verdict and of all that ties with it.
 
-    When CANDIDATES names were tried, the others are taken to fail like the best of those that did. The unnamed
-    mismatch is held against the first name, and hardly more probable where that clearly outdoes it. Where even the
-    best of those tried leaves more there than noise, the odds between names are less sure.
+    When CANDIDATES were tried, the others get the least penalty among those. The discrepancy is compared with the first
+    effects, and is hardly more probable where these clearly predict better. Where even the best of those tried is
+    overdispersed on left-out levels, the odds between effects are reduced.
     """
-    levels = LevelsOut.of(found)
-    names = sorted(filter(None, found.scores), key=lambda key: -found.log_weights[key])
-    tried: dict[Key, tuple[HeldOut, float]] = {}
-    unnamed: dict[Key, float] = {}
+    levels = LevelsOut.of(search)
+    names = sorted((key for key in search.scores if key.effects), key=lambda key: -search.log_weights[key])
+    tried: dict[Explanation, tuple[HeldOut, float]] = {}
+    discrepancy_penalty: dict[Explanation, float] = {}
     while True:
-        demerits = {key: demerit for key, (_, demerit) in tried.items()}
-        if len(tried) >= CANDIDATES and all(demerits.values()):
-            rest = min(demerits.values())
-            demerits = {key: demerits.get(key, rest) for key in names}
-        judged = posterior(found, test, demerits | unnamed)
+        penalties = {key: log_odds_penalty for key, (_, log_odds_penalty) in tried.items()}
+        if len(tried) >= CANDIDATES and all(penalties.values()):
+            rest = min(penalties.values())
+            penalties = {key: penalties.get(key, rest) for key in names}
+        judged = posterior(search, test, penalties | discrepancy_penalty)
         first = judged.verdict
-        # What stands at one place is not for other levels to foretell.
-        if first in tried and not isinstance(first, str) and not sudden_places(found.problem, first):
-            inflation = min(kept.inflation for kept, _ in tried.values())
-            judged = posterior(found, test, demerits | unnamed, inflation)
-        if names and "unknown" in judged.tied and not unnamed:
+        # Other levels cannot predict a change point.
+        if first in tried and not change_point_coordinates(search.problem, first):
+            overdispersion = min(kept.overdispersion for kept, _ in tried.values())
+            judged = posterior(search, test, penalties | discrepancy_penalty, overdispersion)
+        if names and DISCREPANCY in judged.tied and not discrepancy_penalty:
             if names[0] not in tried:
-                tried[names[0]] = _held_against(levels, found, names[0])
-            unnamed = {"unknown": _behind(levels, found, names[0], tried[names[0]][0])}
+                tried[names[0]] = _cross_validated(levels, search, names[0])
+            discrepancy_penalty = {DISCREPANCY: _discrepancy_penalty(levels, search, names[0], tried[names[0]][0])}
             continue
-        fresh = [key for key in judged.tied if key not in tried and names_effects(key)]
+        fresh = [key for key in judged.tied if key not in tried and key.effects]
         if not fresh or len(tried) >= CANDIDATES:
             key = judged.verdict
-            return judged, (tried.get(key) or _held_against(levels, found, key))[0]
-        tried[fresh[0]] = _held_against(levels, found, fresh[0])
+            return judged, (tried.get(key) or _cross_validated(levels, search, key))[0]
+        tried[fresh[0]] = _cross_validated(levels, search, fresh[0])
 
 
-def _behind(levels: LevelsOut, found: Search, name: Explanation, named: HeldOut) -> float:
-    """What the unnamed mismatch loses in log odds against the first name, by what both foretell.
+def _discrepancy_penalty(levels: LevelsOut, search: Search, name: Explanation, named: HeldOut) -> float:
+    """Penalty of the discrepancy in log odds against the most probable effects, by cross-validation.
 
-    A name that clearly outdoes it on inner levels ties with it, and stays behind it.
+    Effects that clearly predict inner levels better are put just ahead of it.
     """
-    outliers = outlier_chance(found.unknown.fit.residual) > 0.5
-    behind = levels.held("unknown", outliers).behind(named)
-    # Readings that only the name takes for wild are among those it has to foretell.
-    if not levels.held("unknown", outliers, inner=True).outdone(levels.held(name, outliers, inner=True)):
-        return behind
-    lead = found.log_weights["unknown"] - found.log_weights[name] - np.log(MARGIN)
-    return max(behind, float(np.clip(lead, 0.0, DEMERIT)))
+    outliers = outlier_chance(search.discrepancy.fit.residual) > 0.5
+    penalty_against = levels.held(DISCREPANCY, outliers).penalty_against(named)
+    # Outliers of the effects alone count, so that they cannot drop what they do not explain.
+    if not levels.held(DISCREPANCY, outliers, inner=True).dominated_by(levels.held(name, outliers, inner=True)):
+        return penalty_against
+    lead = search.log_weights[DISCREPANCY] - search.log_weights[name] - np.log(MARGIN)
+    return max(penalty_against, float(np.clip(lead, 0.0, MOST_PENALTY)))
 
 
-def _held_against(levels: LevelsOut, found: Search, key: Key) -> tuple[HeldOut, float]:
-    """How an explanation predicts levels left out, and what a name loses by it."""
-    residual = found.unknown.fit.residual if isinstance(key, str) else found.fits[key].residual
+def _cross_validated(levels: LevelsOut, search: Search, key: Explanation) -> tuple[HeldOut, float]:
+    """Cross-validation of an explanation, and its penalty in log odds."""
+    residual = search.fit_of(key).residual
     outliers = outlier_chance(residual) > 0.5
     kept = levels.held(key, outliers)
-    if not names_effects(key):
+    if not key.effects:
         return kept, 0.0
     good = residual[~outliers]
-    return kept, kept.demerit(float(np.sqrt(np.mean(good**2))) if good.size else 1.0)
+    return kept, kept.log_odds_penalty(float(np.sqrt(np.mean(good**2))) if good.size else 1.0)

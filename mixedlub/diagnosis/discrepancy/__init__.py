@@ -1,1 +1,1 @@
-"""The mismatch that no effect of the catalogue explains."""
+"""Model discrepancy: what no effect of the catalogue explains, as a flexible function of the conditions."""

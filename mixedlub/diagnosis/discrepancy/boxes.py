@@ -1,4 +1,4 @@
-"""Forms tied to a box of conditions: what is there only where two or more of them are in a range each."""
+"""Discrepancy within a box: a shift where two or more conditions lie within a range each."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from functools import cached_property
 
 import numpy as np
 
-from mixedlub.diagnosis.discrepancy.local import DERIVED, edges, made_of, thinned
+from mixedlub.diagnosis.discrepancy.local import DERIVED, edges, is_identifiable, thinned
 from mixedlub.recording.conditions import PASSING, Coordinates
 from mixedlub.recording.set_points import set_points
 
 SEEDS = 12
-"""Readings, those farthest off, from whose own conditions a box is grown."""
-ROUNDS = 6
-"""Times the ranges of a box are gone through at most."""
+"""Readings with the largest residuals from which a box is grown: a limit on cost."""
+MOST_SWEEPS = 6
+"""Sweeps over the ranges of a box at most: a limit on cost."""
 
 Box = tuple[tuple[str, float, float], ...]
 
@@ -22,9 +22,9 @@ Box = tuple[tuple[str, float, float], ...]
 def clearest_box(
     space: Coordinates, values: list[np.ndarray], left: np.ndarray, scale: np.ndarray
 ) -> tuple[Box, float] | None:
-    """The box whose readings are most together on one side, and the log of how many there are like it.
+    """The box with the largest log likelihood gain, and the log of the number of equivalent boxes.
 
-    ``left`` are residuals in sigmas, ``scale`` is what a mismatch there goes by. A box of one condition is a step or
+    ``left`` are standardised residuals, ``scale`` multiplies the discrepancy there. A box of one condition is a step or
     a peak, and none is of so few readings that they may be outliers.
     """
     grid = _Grid.of(space, values)
@@ -34,7 +34,9 @@ def clearest_box(
         grid.grown(seed, left * scale, scale**2) for seed in np.argsort(np.abs(left * scale))[::-1][:SEEDS].tolist()
     )
     usable = [
-        (worth, box) for worth, box in grown if grid.cut(box).sum() > 1 and made_of(grid.holds(box).astype(float), True)
+        (worth, box)
+        for worth, box in grown
+        if grid.cut(box).sum() > 1 and is_identifiable(grid.holds(box).astype(float), True)
     ]
     if not usable:
         return None
@@ -43,7 +45,7 @@ def clearest_box(
 
 
 def inside(box: Box, space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
-    """Which rows a box holds."""
+    """Rows within a box."""
     held = np.ones(values[0].size, bool)
     for name, low, high in box:
         v = values[space.place(name)]
@@ -64,7 +66,7 @@ class _Grid:
 
     @classmethod
     def of(cls, space: Coordinates, values: list[np.ndarray]) -> _Grid:
-        """The grid of what was set and has a measure; open at all ends."""
+        """The grid of all numeric conditions that were set, open at all ends."""
         found = []
         for axis, v in zip(space.axes, values, strict=True):
             if axis.named or axis.name in (*PASSING, DERIVED):
@@ -87,19 +89,19 @@ class _Grid:
 
     @cached_property
     def ranges(self) -> np.ndarray:
-        """Log of how many ranges each condition has."""
+        """Log of the number of ranges of each condition."""
         return np.log(self.counts * (self.counts + 1) / 2.0)
 
     def cut(self, box: np.ndarray) -> np.ndarray:
-        """Along which conditions a box does not reach from end to end."""
+        """Conditions along which a box does not span the whole range."""
         return np.asarray((box[:, 0] > 0) | (box[:, 1] < self.counts - 1))
 
     def cost(self, box: np.ndarray) -> float:
-        """Log of how many boxes there are with ranges of the same conditions."""
+        """Log of the number of boxes with ranges of the same conditions."""
         return float(self.ranges[self.cut(box)].sum())
 
     def holds(self, box: np.ndarray) -> np.ndarray:
-        """Which readings a box holds."""
+        """Readings within a box."""
         return np.asarray(((self.cells >= box[:, :1]) & (self.cells <= box[:, 1:])).all(axis=0))
 
     def named(self, box: np.ndarray) -> Box:
@@ -108,13 +110,13 @@ class _Grid:
         return tuple((name, float(at[low]), float(at[high + 1])) for name, at, (low, high), own in ranges if own)
 
     def grown(self, seed: int, pull: np.ndarray, power: np.ndarray) -> tuple[float, np.ndarray]:
-        """Log likelihood gained by the box about a reading, less the log of the boxes like it, and the box.
+        """Penalised log likelihood gain of the box grown from a reading, and the box.
 
-        Each range in turn is made the best one with the others as they are.
+        Each range in turn is optimised with the others fixed; the penalty is the log of the number of such boxes.
         """
         box = np.column_stack([self.cells[:, seed]] * 2)
         worth = -np.inf
-        for _ in range(ROUNDS):
+        for _ in range(MOST_SWEEPS):
             before = worth
             for k, count in enumerate(self.counts):
                 box[k] = 0, count - 1

@@ -1,4 +1,4 @@
-"""Forms tied to one place of one condition: a peak about it, such as a resonance, or a step there."""
+"""Local discrepancy at one value of one condition: a peak, such as a resonance, or a step."""
 
 from __future__ import annotations
 
@@ -6,31 +6,31 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.diagnosis.discrepancy.waves import goes_with, stepped_levels
+from mixedlub.diagnosis.discrepancy.waves import is_explained_by, stepped_levels
 from mixedlub.diagnosis.inference.map_fit import OUTLIER_SHARE
 from mixedlub.recording.conditions import PASSING, Coordinates
 from mixedlub.recording.set_points import set_points
 
 WIDTHS = (0.01, 0.03, 0.1)
-"""Standard deviations of a peak, as shares of the condition's range: the least is one level alone."""
-LEVELS = 5
-"""Levels of a condition, on either side of zero, from which its smooth functions do not follow a peak anyhow."""
+"""Standard deviations of a peak, as shares of the range of the condition: a grid; the least is a single level."""
+LEAST_LEVELS = 5
+"""Levels of a condition from which local forms are tried; the smooth form follows a peak among fewer."""
 MOST_PLACES = 40
-"""Places of a condition that are tried at first; those between the best ones are tried later."""
-FEWEST = 3.0
-"""Readings that a form has to be made of, and no fewer than outliers are usual: fewer are outliers."""
+"""Places of a condition that are tried first; the best ones are refined later. A limit on cost."""
+LEAST_READINGS = 3.0
+"""Least effective readings within a local form: fewer are outliers."""
 MOST_SHARE = 0.4
-"""Share of the readings that a peak may cover: more are a trend."""
-SAME = 0.75
-"""Share of what happens at one time that goes with a condition from which it is that condition's."""
+"""Share of the readings that a peak may cover; more is a trend. Judgement."""
+CONFOUNDED = 0.75
+"""Share of the variance of a form in time that a condition explains, from which the form is left to it. Judgement."""
 DERIVED, TURNED = "composite_roughness_um", "position_deg"
 
 
 @dataclass(frozen=True)
 class Place:
-    """Where on a condition a form stands; ``width`` is a peak's standard deviation as a share of the range.
+    """Value of a condition at which a local form lies; ``width`` is that of a peak as a share of the range.
 
-    No width stands for a step.
+    A step has width zero.
     """
 
     name: str
@@ -38,42 +38,44 @@ class Place:
     width: float
 
 
-def places(space: Coordinates, values: list[np.ndarray], timeless: bool) -> list[Place]:
-    """Peaks and steps that a recording could show; no steps in time where those are ``timeless``.
+def candidate_places(space: Coordinates, values: list[np.ndarray], timeless: bool) -> list[Place]:
+    """Peaks and steps that a recording could show; no steps in time if ``timeless``.
 
-    What in time goes with the levels of a condition, which were run one after the other, is left to that condition.
+    Forms in time that coincide with consecutive levels of a condition are left to that condition.
     """
     found: list[Place] = []
     for i, axis in enumerate(space.axes):
         if axis.named or axis.name in (DERIVED, TURNED):
             continue
         levels = levels_of(space, values, i)
-        if levels.size < LEVELS:
+        if levels.size < LEAST_LEVELS:
             continue
         points = set_points(values[i])
         passing = axis.name in PASSING
         stepped = stepped_levels(values, i) if passing else []
         for at, edge in zip(thinned(levels), thinned(edges(levels)), strict=True):
-            told: list[np.ndarray] = []
+            tried: list[np.ndarray] = []
             for width in WIDTHS if passing and timeless else (*WIDTHS, 0.0):
-                stands = float(at if width else edge)
-                near = axis.about(points, stands, width).sum(axis=1)
-                if any(goes_with(near[:, None], label, SAME) for label in stepped):
+                value = float(at if width else edge)
+                near = axis.about(points, value, width).sum(axis=1)
+                if any(is_explained_by(near[:, None], label, CONFOUNDED) for label in stepped):
                     continue
-                if made_of(near, width > 0.0) and not any(np.allclose(near, other, atol=0.05) for other in told):
-                    found.append(Place(axis.name, stands, width))
-                    told.append(near)
+                if is_identifiable(near, width > 0.0) and not any(
+                    np.allclose(near, other, atol=0.05) for other in tried
+                ):
+                    found.append(Place(axis.name, value, width))
+                    tried.append(near)
     return found
 
 
 def levels_of(space: Coordinates, values: list[np.ndarray], axis: int) -> np.ndarray:
-    """Set-points of a condition; of one with both signs those on the positive side."""
+    """Set points of a condition; absolute values where it has both signs."""
     points = set_points(values[axis])
-    return np.unique(np.abs(points) if space.axes[axis].folded else points)
+    return np.unique(np.abs(points) if space.axes[axis].symmetric_log else points)
 
 
 def edges(levels: np.ndarray) -> np.ndarray:
-    """Where steps stand: midway from each level to the next lower one, and at the lowest.
+    """Places of steps: midway between neighbouring levels, and at the lowest level.
 
     >>> edges(np.array([1.0, 3.0, 4.0])).tolist()
     [1.0, 2.0, 3.5]
@@ -81,15 +83,15 @@ def edges(levels: np.ndarray) -> np.ndarray:
     return np.concatenate([levels[:1], 0.5 * (levels[1:] + levels[:-1])])
 
 
-def thinned(places: np.ndarray) -> np.ndarray:
-    """Evenly spread ones of very many places."""
-    if places.size <= MOST_PLACES:
-        return places
-    return places[np.linspace(0, places.size - 1, MOST_PLACES).round().astype(int)]
+def thinned(candidate_places: np.ndarray) -> np.ndarray:
+    """An even subset where there are very many places."""
+    if candidate_places.size <= MOST_PLACES:
+        return candidate_places
+    return candidate_places[np.linspace(0, candidate_places.size - 1, MOST_PLACES).round().astype(int)]
 
 
 def finer(space: Coordinates, values: list[np.ndarray], axis: int, at: float, width: float) -> np.ndarray:
-    """Places about one of the thinned ones, as far as its neighbours."""
+    """Places between the two neighbours of one of the thinned places."""
     levels = levels_of(space, values, axis)
     every = levels if width else edges(levels)
     few = thinned(every)
@@ -98,8 +100,8 @@ def finer(space: Coordinates, values: list[np.ndarray], axis: int, at: float, wi
     return thinned(every[(every >= low) & (every <= high)])
 
 
-def made_of(near: np.ndarray, peak: bool) -> bool:
-    """Whether a form is of enough readings to be no outliers, and, if a peak, of few enough to be no trend."""
+def is_identifiable(near: np.ndarray, peak: bool) -> bool:
+    """Whether a form has enough readings not to be outliers and, if a peak, few enough not to be a trend."""
     readings = float(near.sum() ** 2 / max((near**2).sum(), 1e-300))
-    fewest = max(FEWEST, OUTLIER_SHARE * near.size)
-    return fewest <= readings <= (MOST_SHARE * near.size if peak else near.size - fewest)
+    least = max(LEAST_READINGS, OUTLIER_SHARE * near.size)
+    return least <= readings <= (MOST_SHARE * near.size if peak else near.size - least)

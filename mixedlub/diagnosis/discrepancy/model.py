@@ -1,6 +1,6 @@
-"""The competing explanation that no effect of the catalogue is: a function of the conditions that nobody has named.
+"""Model discrepancy: a function of the conditions without physics, weighed against the effects.
 
-It is a share of the reading, an addition to it, or a factor on one quantity of the chain, such as the film.
+It is relative to the reading, added to it, or a factor on one quantity of the chain, such as film thickness.
 """
 
 from __future__ import annotations
@@ -11,76 +11,77 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mixedlub.diagnosis.discrepancy.boxes import clearest_box
-from mixedlub.diagnosis.discrepancy.modulated import NOTHING, READING, Carriers, Typical, carriers
+from mixedlub.diagnosis.discrepancy.modulated import ADDITIVE, READING, Scalings, TypicalSizes, scalings_of
 from mixedlub.diagnosis.discrepancy.screening import clearest, first_look
-from mixedlub.diagnosis.discrepancy.smooth import Shape, families, rich
-from mixedlub.diagnosis.inference.map_fit import Fit, Linear, covariance, linear_fit, settled, whitening
+from mixedlub.diagnosis.discrepancy.smooth import DiscrepancyForm, candidate_forms, most_flexible
+from mixedlub.diagnosis.explanation import NOTHING
+from mixedlub.diagnosis.inference.map_fit import Fit, Linear, covariance, damped_update, linear_fit, whitening
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.recording.conditions import Coordinates
 
-FULL = 6
-"""Shapes weighed again with their own weights of the readings; the others keep the distance of the quick weighing."""
+FITTED_IN_FULL = 6
+"""Forms of a family that are fitted with their own outliers; the others keep their quick evidence. A limit on cost."""
 
 
 @dataclass(frozen=True, eq=False)
-class Unknown:
-    """Evidence of the unnamed mismatch, averaged over its shapes, and its best shape's fit.
+class Discrepancy:
+    """Evidence of the discrepancy, averaged over its forms, and the fit of its best form.
 
-    ``carriers`` are those of the recording, counted by its ``typical`` sizes.
+    ``scalings`` are those of the recording, in units of its ``typical`` sizes.
     """
 
     evidence: float
-    best: Shape
-    carriers: Carriers
-    typical: Typical
+    best: DiscrepancyForm
+    scalings: Scalings
+    typical: TypicalSizes
     fit: Linear
     covariance: np.ndarray
     z: np.ndarray
 
 
-def unknown_fit(
-    problem: Problem, none: Fit, space: Coordinates, values: list[np.ndarray], names: Collection[str]
-) -> Unknown:
-    """Marginal likelihood of the base model plus an unnamed mismatch, averaged over its shapes.
+def fit_discrepancy(
+    problem: Problem, null_fit: Fit, space: Coordinates, values: list[np.ndarray], names: Collection[str]
+) -> Discrepancy:
+    """Marginal likelihood of the base model plus a discrepancy, averaged over its forms.
 
-    A form that is one of the ``names``, the effects that are tried, is not unnamed.
-
-    Which readings are outliers is settled for each family of shapes by its own clearest: a smooth form takes the crests
-    of a wave and the readings of a peak for outliers.
+    Forms that are effects among ``names`` are left out. Each family of forms decides on outliers by its own best form:
+    a smooth form would take the crests of a wave, or the readings of a peak, for outliers.
     """
-    target = none.anchor
-    fixed = np.hstack([none.slopes, problem.shared])
-    base = problem.run((), none.z)
-    typical = Typical.of(problem, base)
-    rides = carriers(problem, base, typical)
+    target = null_fit.anchor
+    fixed = np.hstack([null_fit.slopes, problem.shared])
+    base = problem.run(NOTHING, null_fit.z)
+    typical = TypicalSizes.of(problem, base)
+    scalings = scalings_of(problem, base, typical)
 
-    def columns_of(shape: Shape) -> np.ndarray:
-        return shape.columns(space, values, rides)
+    def columns_of(shape: DiscrepancyForm) -> np.ndarray:
+        return shape.columns(space, values, scalings)
 
     weighed, clipped = [], first_look(target, fixed)
-    for family in families(space, values, rides, names):
+    for family in candidate_forms(space, values, scalings, names):
         if family[0].form == "smooth":
-            reference = linear_fit(target, np.hstack([fixed, columns_of(rich(space))]))
+            reference = linear_fit(target, np.hstack([fixed, columns_of(most_flexible(space))]))
         else:
             clear, reference = clearest(target, fixed, clipped, columns_of, family, lambda s: s.near(space, values))
             family = list(dict.fromkeys([*family, clear]))
-        weighed.append(_weighed(target, fixed, columns_of, family, reference.weight))
-    for family, cost in _boxes(clipped, space, values, rides):
+        weighed.append(_family_evidence(target, fixed, columns_of, family, reference.weight))
+    for family, cost in _boxes(clipped, space, values, scalings):
         _, reference = clearest(target, fixed, clipped, columns_of, family, lambda s: [s])
-        weighed.append(_weighed(target, fixed, columns_of, family, reference.weight, cost))
+        weighed.append(_family_evidence(target, fixed, columns_of, family, reference.weight, cost))
     best, fit = max(((each.best, each.fit) for each in weighed), key=lambda found: found[1].evidence)
     own = columns_of(best)
     every = np.hstack([fixed, own])
     spread = covariance(every, fit.weight)
-    count = none.z.size
+    count = null_fit.z.size
     errors = fit.coefficients[count : fixed.shape[1]]
     common = problem.shared @ errors
-    z, beside = settled(problem, (), none.z, fit.coefficients[:count], common, lambda prediction: own, fit.weight)
+    z, beside = damped_update(
+        problem, NOTHING, null_fit.z, fit.coefficients[:count], common, lambda prediction: own, fit.weight
+    )
     coefficients = np.concatenate([z, errors, beside.coefficients])
-    return Unknown(
+    return Discrepancy(
         evidence=_mean_over_shapes({shape: e for each in weighed for shape, e in each.evidence.items()}),
         best=best,
-        carriers=rides,
+        scalings=scalings,
         typical=typical,
         fit=replace(fit, coefficients=coefficients, residual=beside.residual, weight=beside.weight),
         covariance=spread,
@@ -89,59 +90,61 @@ def unknown_fit(
 
 
 @dataclass(frozen=True, eq=False)
-class _Weighed:
-    """Log evidence of the shapes of one family in all their sizes, and the fit of the best of them."""
+class _FamilyEvidence:
+    """Log evidence of the forms of one family in all sizes, and the fit of the best one."""
 
-    evidence: dict[Shape, float]
-    best: Shape
+    evidence: dict[DiscrepancyForm, float]
+    best: DiscrepancyForm
     fit: Linear
 
 
-def _weighed(
+def _family_evidence(
     target: np.ndarray,
     fixed: np.ndarray,
-    columns_of: Callable[[Shape], np.ndarray],
-    family: list[Shape],
+    columns_of: Callable[[DiscrepancyForm], np.ndarray],
+    family: list[DiscrepancyForm],
     weight: np.ndarray,
     cost: float = 0.0,
-) -> _Weighed:
-    """Weigh shapes at fixed weights of the readings, and the best few again in full.
+) -> _FamilyEvidence:
+    """Evidence of forms at fixed weights of the readings, and of the best few in full.
 
-    The ``cost`` is the log of how many shapes each of them was picked from.
+    ``cost`` is the log of the number of forms from which each was selected.
     """
-    tried: list[Shape] = []
+    tried: list[DiscrepancyForm] = []
     quick: list[float] = []
     whitened = whitening(fixed, weight)
     for shape in family:
         tried.extend(replace(shape, size=size) for size in shape.sizes)
         quick.extend(_evidence_by_size(target, whitened, columns_of(shape), np.array(shape.sizes)))
     order = np.argsort(quick)[::-1]
-    full = {int(i): linear_fit(target, np.hstack([fixed, columns_of(tried[i])]), weight) for i in order[:FULL]}
+    full = {
+        int(i): linear_fit(target, np.hstack([fixed, columns_of(tried[i])]), weight) for i in order[:FITTED_IN_FULL]
+    }
     offset = full[int(order[0])].evidence - quick[order[0]]
     evidence = {s: (full[i].evidence if i in full else quick[i] + offset) - cost for i, s in enumerate(tried)}
     best = max(full, key=lambda i: full[i].evidence)
-    return _Weighed(evidence, tried[best], full[best])
+    return _FamilyEvidence(evidence, tried[best], full[best])
 
 
 def _boxes(
-    left: np.ndarray, space: Coordinates, values: list[np.ndarray], rides: Carriers
-) -> Iterator[tuple[list[Shape], float]]:
-    """The clearest box by each carrier of the reading, as a family of its own, and the log of how many are like it."""
-    for carrier in (READING, NOTHING):
-        found = clearest_box(space, values, left, rides[carrier]) if carrier in rides else None
+    left: np.ndarray, space: Coordinates, values: list[np.ndarray], scalings: Scalings
+) -> Iterator[tuple[list[DiscrepancyForm], float]]:
+    """The best relative and the best additive box, each as a family, with the log of the number of such boxes."""
+    for carrier in (READING, ADDITIVE):
+        found = clearest_box(space, values, left, scalings[carrier]) if carrier in scalings else None
         if found is not None:
             box, cost = found
-            yield [Shape(tuple(name for name, _, _ in box), 0.0, 1.0, carrier, False, box=box)], cost
+            yield [DiscrepancyForm(tuple(name for name, _, _ in box), 0.0, 1.0, carrier, False, box=box)], cost
 
 
-def _mean_over_shapes(tried: dict[Shape, float]) -> float:
-    """Log mean evidence: half the weight on shapes of the reading, half on those inside the chain, if there are any.
+def _mean_over_shapes(tried: dict[DiscrepancyForm, float]) -> float:
+    """Log mean evidence: half the prior on forms of the reading, half on those within the chain, if there are any.
 
-    In each half those of all conditions, of one and of two, waves, and peaks and steps weigh the same, however many.
+    Within each half every kind of form (of all conditions, of one, of two, waves, local) has the same prior.
     """
     groups: dict[bool, dict[tuple[int, str], list[float]]] = {}
     for shape, value in tried.items():
-        halves = groups.setdefault(shape.carrier in (READING, NOTHING), {})
+        halves = groups.setdefault(shape.modulates in (READING, ADDITIVE), {})
         form = "local" if shape.at is not None else shape.form
         halves.setdefault((len(shape.axes), form), []).append(value)
     return _log_mean([_log_mean([_log_mean(alike) for alike in half.values()]) for half in groups.values()])
@@ -154,7 +157,7 @@ def _log_mean(logs: list[float]) -> float:
 def _evidence_by_size(
     target: np.ndarray, whitened: Callable[[np.ndarray], np.ndarray], own: np.ndarray, sizes: np.ndarray
 ) -> np.ndarray:
-    """Gaussian log evidence for each size, relative to size zero, beside what is whitened away."""
+    """Gaussian log evidence for each size, relative to size zero."""
     seen = whitened(own.T)
     power, turn = np.linalg.eigh(seen @ own)
     power = np.maximum(power, 0.0)

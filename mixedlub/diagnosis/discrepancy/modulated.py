@@ -1,4 +1,4 @@
-"""What an unnamed mismatch may ride on: the reading, nothing, or one quantity of the chain times a free factor."""
+"""What a discrepancy scales with: the reading, nothing (additive), or one quantity of the chain (a free factor)."""
 
 from __future__ import annotations
 
@@ -15,59 +15,61 @@ from mixedlub.diagnosis.problem import STEP, Problem
 from mixedlub.recording.conditions import clock_of
 from mixedlub.schema.table import Table
 
-READING, NOTHING = "reading", "nothing"
-LATE = "late_temperature"
-"""What readings would be at the temperature of a step before, less what they are: nothing that rides on it varies."""
-WARMTH = ("oil_temperature_C", "temperature_C")
+READING, ADDITIVE = "reading", "addition"
+THERMAL_LAG = "late_temperature"
+"""Change of the readings at the temperature of the step before: its form is a constant."""
+TEMPERATURES = ("oil_temperature_C", "temperature_C")
+"""Columns of the temperature that may lag."""
 QUANTITIES = ("film_thickness", "shear_stress", "area_ratio", "boundary_friction", "line_load", "running_friction")
-LEAST = 1e-9
+NEGLIGIBLE = 1e-9
+"""Change in standard deviations below which no reading depends on a quantity."""
 
-Carriers = Mapping[str, np.ndarray]
+Scalings = Mapping[str, np.ndarray]
 
 
 @dataclass(frozen=True)
-class Typical:
-    """Sizes over a recording by which a mismatch is counted: medians of reading over sd and of sd."""
+class TypicalSizes:
+    """Units of a discrepancy over a recording: medians of reading over sd, and of sd."""
 
     share: float
     sd: float
 
     @classmethod
-    def of(cls, problem: Problem, base: Run) -> Typical:
-        """Those of a recording under a run of the base model."""
+    def of(cls, problem: Problem, base: Run) -> TypicalSizes:
+        """The units of a recording, from a run of the base model."""
         share = _share(problem, base)
         return cls(float(np.median(share[share > 0.0])) if share.any() else 1.0, float(np.median(problem.sd)))
 
 
-def carriers(problem: Problem, base: Run, typical: Typical) -> dict[str, np.ndarray]:
-    """Sigmas by which each reading moves: for a share of itself, for one typical sd, for a factor e on a quantity.
+def scalings_of(problem: Problem, base: Run, typical: TypicalSizes) -> dict[str, np.ndarray]:
+    """Change of each reading in standard deviations: for a relative unit, an additive unit, a factor e on a quantity.
 
-    ``base`` is a run of the base model. Quantities on which no reading hangs are left out.
+    ``base`` is a run of the base model. Quantities without influence on the readings are left out.
     """
-    every = {name: carrier(problem, base, typical, name) for name in (READING, NOTHING, LATE, *QUANTITIES)}
-    return {name: each for name, each in every.items() if np.max(np.abs(each)) > LEAST}
+    every = {name: scaling_of(problem, base, typical, name) for name in (READING, ADDITIVE, THERMAL_LAG, *QUANTITIES)}
+    return {name: each for name, each in every.items() if np.max(np.abs(each)) > NEGLIGIBLE}
 
 
-def carrier(problem: Problem, base: Run, typical: Typical, name: str) -> np.ndarray:
-    """One of the carriers; zero where the reading does not hang on it or has no finite answer."""
-    if name == NOTHING:
+def scaling_of(problem: Problem, base: Run, typical: TypicalSizes, name: str) -> np.ndarray:
+    """One of the scalings; zero where the reading does not depend on it or is not finite."""
+    if name == ADDITIVE:
         return typical.sd / problem.sd
-    if name == LATE:
-        return np.nan_to_num(late(problem, base) / problem.sd)
+    if name == THERMAL_LAG:
+        return np.nan_to_num(thermal_lag(problem, base) / problem.sd)
     if name == READING:
         return np.nan_to_num(_share(problem, base) / typical.share)
     slope = log_slope(problem, base, name)
     return np.zeros(problem.y.size) if slope is None else np.nan_to_num(slope / problem.sd, posinf=0.0, neginf=0.0)
 
 
-def late(problem: Problem, base: Run) -> np.ndarray:
-    """Change of the readings if the oil still were as warm as one usual step before; zero where no order is told.
+def thermal_lag(problem: Problem, base: Run) -> np.ndarray:
+    """Change of the readings if the oil temperature lagged by one median time step; zero where no order is known.
 
-    What was recorded tells how warm it was before a row, whichever table holds that; after a pause the step is a
-    small part of what the temperature has changed by since.
+    The temperature before a row is taken from the recording, also for rows of other tables. After a pause the step is a
+    small part of the change since.
     """
     rows, order = problem.rows, clock_of(problem.rows)
-    name = next((n for n in WARMTH if n in rows and np.ptp(rows[n]) > 0.0), None)
+    name = next((n for n in TEMPERATURES if n in rows and np.ptp(rows[n]) > 0.0), None)
     if order is None or name is None:
         return np.zeros(problem.y.size)
     every = [rows]
@@ -81,18 +83,18 @@ def late(problem: Problem, base: Run) -> np.ndarray:
     table = Table({**rows.columns, name: rows[name] + step}, rows.source)
     there = Forward(problem.case, table, float(problem.forward.inputs["reading_scale"]))
     values = {name: move.value for name, move in base.applied.items()}
-    return problem.seen(there.predict(values)) - base.prediction
+    return problem.transform(there.predict(values)) - base.prediction
 
 
 def _share(problem: Problem, base: Run) -> np.ndarray:
-    """Change of what is compared when a reading grows by the factor e, in sigmas, to first order."""
+    """First-order change of the transformed reading by a factor e, in standard deviations."""
     if problem.case.kind.logarithmic:
         return 1.0 / problem.sd
     return np.abs(base.prediction) / problem.sd
 
 
 def log_slope(problem: Problem, base: Run, name: str) -> np.ndarray | None:
-    """Change of the readings, as compared, with the logarithm of a quantity of the chain, all along the path.
+    """Derivative of the transformed readings with respect to the logarithm of a quantity of the chain.
 
     ``base`` is a run of the base model. None where the chain lacks the quantity.
     """
@@ -102,7 +104,7 @@ def log_slope(problem: Problem, base: Run, name: str) -> np.ndarray | None:
     model = Model(forward.chain, tuple(inputs), ("reading",), (_free_factor(name),))
     moved = np.asarray(model(inputs, {"free_factor": {"log_factor": STEP}})["reading"])
     slope = (moved - np.asarray(base.record.wanted["reading"])) / STEP * forward.scale
-    return np.asarray(np.broadcast_to(slope, (problem.y.size, 1))[:, 0] / problem.unit_size(base.prediction))
+    return np.asarray(np.broadcast_to(slope, (problem.y.size, 1))[:, 0] / problem.d_inverse(base.prediction))
 
 
 def _free_factor(name: str) -> Effect:

@@ -1,4 +1,4 @@
-"""Where the fits of one effect start: draws of its prior, and a scan where there are many maxima."""
+"""Starting values for the fits of one effect: draws of its prior, and a scan where there are many maxima."""
 
 from __future__ import annotations
 
@@ -6,86 +6,93 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.inference.map_fit import Fit, linear_fit, map_fit, map_fits
 from mixedlub.diagnosis.problem import STEP, Problem
 
 SAMPLES = (12, 24, 40, 56)
-"""Draws of the prior by the number of parameters: a space of more takes more to be covered."""
-NEAR, APART, STARTS = 25.0, 1.2, 3
-"""A single effect is fitted from this many draws: not far behind the best one, and that far apart."""
-MOVES = 1.0
-"""Squared sigmas by which a draw moves the readings in all, from which they tell of it."""
-WILD = 0.5
-"""Weight below which a reading counts for little."""
+"""Draws of the prior for one, two, three and more parameters: a limit on cost."""
+START_WITHIN = 25.0
+"""Log evidence behind the best draw within which another one is a start; judgement."""
+APART = 1.2
+"""Least distance of two starts in prior standard deviations; judgement."""
+STARTS = 3
+"""Starts of a fit at most: a limit on cost."""
+VISIBLE_FROM = 1.0
+"""Sum of squared changes of the readings, in standard deviations, from which a draw is visible: one in all."""
+OUTLIER_WEIGHT = 0.5
+"""Precision weight below which a reading is treated as an outlier."""
 SCANNED_TO = 3.0
-"""Farthest that a scan takes the parameters it fits linearly."""
+"""Largest coordinate to which a scan takes the parameters that it fits linearly, in prior standard deviations."""
 STRAINED = 25.0
-"""Squared length of calibration coordinates that is beyond what five or so of them would show by chance."""
+"""Squared length of calibration coordinates that five of them exceed with a probability of 1e-4."""
 
 
 @dataclass(frozen=True, eq=False)
-class Sampled:
-    """Places in an effect's prior: coordinates, and the change of the readings in sigmas that each makes.
+class PriorDraws:
+    """Draws of an effect's prior: coordinates, and the change of the readings in standard deviations by each.
 
-    The first ``blind`` of them were drawn without a look at the readings, the others found by a scan.
+    The first ``n_prior`` are independent of the readings, the others were found by a scan.
     """
 
     id: str
     z: np.ndarray
     change: np.ndarray
-    blind: int
+    n_prior: int
 
     @property
-    def moves(self) -> np.ndarray:
-        """Which draws move the readings, by a sigma in all."""
-        return np.asarray(np.einsum("ij,ij->i", self.change, self.change) > MOVES)
+    def visible(self) -> np.ndarray:
+        """Which draws change the readings by more than VISIBLE_FROM."""
+        return np.asarray(np.einsum("ij,ij->i", self.change, self.change) > VISIBLE_FROM)
 
     @property
     def testable(self) -> bool:
-        """Whether any draw moves the readings: an effect that does not explains none."""
-        return bool(self.moves.any())
+        """Whether any draw is visible: an effect that changes no reading explains none."""
+        return bool(self.visible.any())
 
 
-def sample(problem: Problem, name: str, none: Fit) -> Sampled:
-    """Spread draws over the effect's prior, denser where its strength is middling, and the best of a scan."""
-    effect = problem.effects((name,))[0]
+def sample(problem: Problem, name: str, null_fit: Fit) -> PriorDraws:
+    """Low-discrepancy draws of the effect's prior, and the best of a scan."""
+    alone = Explanation.of(name)
+    effect = problem.effects(alone)[0]
     size = len(effect.parameters)
     z = spread(size, SAMPLES[min(size, len(SAMPLES)) - 1])
-    blind = len(z)
+    n_prior = len(z)
     for place, parameter in enumerate(effect.parameters):
         if parameter.scan:
-            z = np.vstack([z, scan(problem, name, none, place, parameter.scan)])
+            z = np.vstack([z, scan(problem, name, null_fit, place, parameter.scan)])
     change = np.empty((len(z), problem.y.size))
     run = None
     for i, own in enumerate(z):
-        run = problem.run((name,), np.concatenate([none.z, own]), run)
-        change[i] = (run.prediction - none.prediction) / problem.sd
+        run = problem.run(alone, np.concatenate([null_fit.z, own]), run)
+        change[i] = (run.prediction - null_fit.prediction) / problem.sd
     usable = np.asarray(np.isfinite(change).all(axis=1))
-    return Sampled(name, z[usable], change[usable], int(usable[:blind].sum()))
+    return PriorDraws(name, z[usable], change[usable], int(usable[:n_prior].sum()))
 
 
-def scan(problem: Problem, name: str, none: Fit, place: int, count: int) -> np.ndarray:
+def scan(problem: Problem, name: str, null_fit: Fit, place: int, count: int) -> np.ndarray:
     """Own coordinates at the best few of evenly spread values of one parameter, the others fitted linearly at each."""
     from scipy.special import ndtri
 
-    size = len(problem.effects((name,))[0].parameters)
+    alone = Explanation.of(name)
+    size = len(problem.effects(alone)[0].parameters)
     others = [k for k in range(size) if k != place]
-    fixed = np.hstack([none.slopes, problem.shared])
+    fixed = np.hstack([null_fit.slopes, problem.shared])
     tried = []
     for z in ndtri((np.arange(count) + 0.5) / count):
         own = np.zeros(size)
         own[place] = z
-        here = problem.run((name,), np.concatenate([none.z, own]))
+        here = problem.run(alone, np.concatenate([null_fit.z, own]))
         slopes = np.empty((problem.y.size, len(others)))
         for i, k in enumerate(others):
             moved = own.copy()
             moved[k] += STEP
-            there = problem.run((name,), np.concatenate([none.z, moved]), here)
+            there = problem.run(alone, np.concatenate([null_fit.z, moved]), here)
             slopes[:, i] = (there.prediction - here.prediction) / (STEP * problem.sd)
         if not np.isfinite(slopes).all():
             continue
-        change = (here.prediction - none.prediction) / problem.sd
-        linear = linear_fit(none.anchor - change, np.hstack([fixed, slopes]), rounds=4)
+        change = (here.prediction - null_fit.prediction) / problem.sd
+        linear = linear_fit(null_fit.anchor - change, np.hstack([fixed, slopes]), rounds=4)
         own[others] = np.clip(linear.coefficients[fixed.shape[1] :], -SCANNED_TO, SCANNED_TO)
         tried.append((linear.evidence - 0.5 * z * z, own))
     best = sorted(tried, key=lambda t: -t[0])[:STARTS]
@@ -108,31 +115,32 @@ def spread(size: int, count: int) -> np.ndarray:
     return ndtri(0.02 + 0.96 * uniform)
 
 
-def fit_single(problem: Problem, none: Fit, sampled: Sampled) -> Fit:
+def fit_single(problem: Problem, null_fit: Fit, draws: PriorDraws) -> Fit:
     """Fit from the most promising draws that lie apart, keep the best.
 
-    A base model strained far from its prior is a bad place to start from: the calibration's prior is tried too.
+    Where the base model's calibration is far from its prior, the prior mean is tried too.
     """
-    columns = np.hstack([none.slopes, problem.shared])
+    columns = np.hstack([null_fit.slopes, problem.shared])
     scores, starts = [], []
-    for z, change in zip(sampled.z, sampled.change, strict=True):
-        linear = linear_fit(none.anchor - change, columns, rounds=4)
+    for z, change in zip(draws.z, draws.change, strict=True):
+        linear = linear_fit(null_fit.anchor - change, columns, rounds=4)
         scores.append(linear.evidence - 0.5 * z @ z)
-        starts.append(np.concatenate([linear.coefficients[: none.z.size], z]))
+        starts.append(np.concatenate([linear.coefficients[: null_fit.z.size], z]))
     order = np.argsort(scores)[::-1]
-    # Where an effect moves nothing it has no slope to climb.
-    order = order[sampled.moves[order]] if sampled.testable else order
+    # Where an effect changes nothing its slope is zero.
+    order = order[draws.visible[order]] if draws.testable else order
     chosen = [order[0]]
     for i in order[1:]:
-        if scores[i] < scores[order[0]] - NEAR or len(chosen) == STARTS:
+        if scores[i] < scores[order[0]] - START_WITHIN or len(chosen) == STARTS:
             break
-        if all(np.max(np.abs(sampled.z[i] - sampled.z[k])) > APART for k in chosen):
+        if all(np.max(np.abs(draws.z[i] - draws.z[k])) > APART for k in chosen):
             chosen.append(i)
     tries = [starts[i] for i in chosen]
-    if none.z @ none.z > STRAINED:
-        tries.append(np.concatenate([np.zeros(none.z.size), sampled.z[order[0]]]))
-    found = map_fits(problem, (sampled.id,), tries)
-    if none.weight.min() < WILD:
-        # Wild readings may pull a fit away from where it starts well.
-        found.append(map_fit(problem, (sampled.id,), tries[0], warm=True))
+    if null_fit.z @ null_fit.z > STRAINED:
+        tries.append(np.concatenate([np.zeros(null_fit.z.size), draws.z[order[0]]]))
+    alone = Explanation.of(draws.id)
+    found = map_fits(problem, alone, tries)
+    if null_fit.weight.min() < OUTLIER_WEIGHT:
+        # Outliers may pull a fit away from a good start.
+        found.append(map_fit(problem, alone, tries[0], warm=True))
     return max(found, key=lambda fit: fit.evidence if np.isfinite(fit.evidence) else -np.inf)

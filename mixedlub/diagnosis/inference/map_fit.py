@@ -8,20 +8,23 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mixedlub.case.forward import Run
-from mixedlub.diagnosis.problem import REACH, Explanation, Problem
+from mixedlub.diagnosis.explanation import Explanation
+from mixedlub.diagnosis.problem import MOST_COORDINATE, Problem
 
 OUTLIER_SHARE = 0.01
-"""Readings that are wrong before anything is known of them: one in a hundred, as rigs that are looked after have."""
+"""Prior fraction of outliers, 1 %; judgement."""
 OUTLIER_WIDTH = 10.0
-"""Half-width of the wrong ones in sigmas: clearly beyond noise, or it would be noise."""
-BOUND = 5.0
-"""Usual residuals beyond which a reading is bounded while a fit is still far off."""
-SAME = 0.1
-"""Standard deviations of the prior within which fits from several starts have come to one place."""
-BETTER, PATIENCE = 2.0, 3
-"""How far laws may gain more by a step than their slopes promise, once so many steps have come out of the worst."""
-PARTS = (1.0, 0.5, 0.25, 0.1, 0.0)
-"""Parts of the way to the coordinates of linearised laws that are tried."""
+"""Half-width of the outlier distribution in standard deviations; judgement: clearly wider than noise."""
+HUBER_BOUND = 5.0
+"""Bound of the Huber loss in a robust prefit, over the median residual; judgement."""
+SAME_WITHIN = 0.1
+"""Prior standard deviations within which two fits have the same result."""
+BOUND_FACTOR = 2.0
+"""Gain that a fit may still make, over that of its linearisation; judgement."""
+PATIENCE = 3
+"""Steps before a fit may be given up; judgement."""
+STEP_LENGTHS = (1.0, 0.5, 0.25, 0.1, 0.0)
+"""Step lengths of a damped update that are tried."""
 NINETY = 1.6449
 """Half-width of a 90 % interval in standard deviations."""
 _LOG_IN = np.log1p(-OUTLIER_SHARE)
@@ -48,14 +51,14 @@ class Fit:
     evidence: float
 
     def in_sigmas(self, scale: np.ndarray, evidence: float) -> Fit:
-        """The same fit counted in other sigmas, ``scale`` times as many a reading."""
+        """The same fit under another noise: residuals are ``scale`` times as large."""
         residual = self.residual * scale
         weight = log_likelihood(residual)[1]
         slopes, common = self.slopes * scale[:, None], self.common * scale
         return replace(self, residual=residual, common=common, slopes=slopes, weight=weight, evidence=evidence)
 
     def at(self, problem: Problem, explanation: Explanation, z: np.ndarray) -> Fit:
-        """Another explanation at coordinates at which nothing was fitted, at the weights of these readings."""
+        """Another explanation at given coordinates, not fitted, with the weights of this fit."""
         run = problem.run(explanation, z)
         residual = (problem.y - run.prediction) / problem.sd - self.common
         slopes = problem.jacobian(explanation, z, run)
@@ -63,14 +66,14 @@ class Fit:
 
     @property
     def anchor(self) -> np.ndarray:
-        """Residual of the linearised model at the middle of the prior."""
+        """Residual of the linearised model at the prior mean."""
         return self.residual + self.common + self.slopes @ self.z
 
 
 def log_likelihood(residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Log density of residuals under normal noise with rare Cauchy errors, and each one's precision weight.
 
-    The wide errors have no scale that a reading could be far beyond, so one wild reading does not pull the fit.
+    The Cauchy tail bounds the influence of a single outlier on the fit.
 
     >>> bool(log_likelihood(np.array([8.0]))[1][0] < 0.02)
     True
@@ -136,7 +139,7 @@ def covariance(columns: np.ndarray, weight: np.ndarray) -> np.ndarray:
 
 
 def whitening(columns: np.ndarray, weight: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
-    """What multiplies rows by the inverse covariance of noise, and of columns with standard-normal priors, together.
+    """A function that multiplies rows by the inverse covariance of noise plus columns with standard-normal priors.
 
     >>> whitening(np.ones((2, 1)), np.ones(2))(np.array([[1.0, 1.0], [1.0, -1.0]])).round(3).tolist()
     [[0.333, 0.333], [1.0, -1.0]]
@@ -156,40 +159,41 @@ def map_fit(
 ) -> Fit:
     """Gauss-Newton with damping to the most probable coordinates, then Laplace's evidence.
 
-    Unless the start is ``warm``, least squares come first, with only those readings bounded that are far beyond the
-    others: from afar every reading looks like an outlier. A climb that after some steps is not in sight of the
-    ``least`` evidence is given up where it stands.
+    Unless the start is ``warm``, a robust (Huber) prefit comes first, because far from the solution every reading looks
+    like an outlier. A fit that cannot reach the ``least`` evidence is given up.
     """
-    state = _started(problem, explanation, start)
-    return _topped(problem, explanation, state if warm else _neared(problem, explanation, state), least)
+    state = _initial_state(problem, explanation, start)
+    return _laplace_fit(problem, explanation, state if warm else _robust_prefit(problem, explanation, state), least)
 
 
 def map_fits(problem: Problem, explanation: Explanation, starts: Sequence[np.ndarray]) -> list[Fit]:
-    """`map_fit` from several starts; those that least squares bring to one place climb on together."""
+    """`map_fit` from several starts; starts whose prefits agree are continued once."""
     found: list[Fit] = []
     places: list[np.ndarray] = []
     for start in starts:
-        state = _neared(problem, explanation, _started(problem, explanation, start))
-        if all(np.max(np.abs(state.z - z)) > SAME for z in places):
+        state = _robust_prefit(problem, explanation, _initial_state(problem, explanation, start))
+        if all(np.max(np.abs(state.z - z)) > SAME_WITHIN for z in places):
             places.append(state.z)
-            found.append(_topped(problem, explanation, state))
+            found.append(_laplace_fit(problem, explanation, state))
     return found
 
 
-def _started(problem: Problem, explanation: Explanation, start: np.ndarray) -> _State:
+def _initial_state(problem: Problem, explanation: Explanation, start: np.ndarray) -> _State:
     shared = np.zeros(problem.shared.shape[1])
-    return _State.at(problem, explanation, np.clip(start, -REACH, REACH), shared, likelihood=log_likelihood)
+    return _State.at(
+        problem, explanation, np.clip(start, -MOST_COORDINATE, MOST_COORDINATE), shared, likelihood=log_likelihood
+    )
 
 
-def _neared(problem: Problem, explanation: Explanation, state: _State) -> _State:
-    """Where least squares lead from afar."""
+def _robust_prefit(problem: Problem, explanation: Explanation, state: _State) -> _State:
+    """Huber prefit from a distant start."""
     first = bounded((problem.y - state.run.prediction) / problem.sd)
-    return _climb(problem, explanation, state, first, tolerance=0.5)
+    return _gauss_newton(problem, explanation, state, first, tolerance=0.5)
 
 
-def _topped(problem: Problem, explanation: Explanation, state: _State, least: float = -np.inf) -> Fit:
-    """The most probable coordinates, and Laplace's evidence there."""
-    state = _climb(problem, explanation, state, log_likelihood, tolerance=2e-3, least=least)
+def _laplace_fit(problem: Problem, explanation: Explanation, state: _State, least: float = -np.inf) -> Fit:
+    """Most probable coordinates, and Laplace's evidence there."""
+    state = _gauss_newton(problem, explanation, state, log_likelihood, tolerance=2e-3, least=least)
     columns = np.hstack([state.slopes, problem.shared])
     curvature = np.eye(columns.shape[1]) + columns.T @ (columns * state.weight[:, None])
     evidence = -state.cost - 0.5 * float(np.linalg.slogdet(curvature)[1])
@@ -199,7 +203,7 @@ def _topped(problem: Problem, explanation: Explanation, state: _State, least: fl
     return Fit(explanation, state.z, prediction, residual, common, state.slopes, state.weight, evidence)
 
 
-def settled(
+def damped_update(
     problem: Problem,
     explanation: Explanation,
     start: np.ndarray,
@@ -208,15 +212,15 @@ def settled(
     columns_at: Callable[[np.ndarray], np.ndarray],
     weight: np.ndarray,
 ) -> tuple[np.ndarray, Linear]:
-    """Coordinates as far from ``start`` towards the ``wanted`` ones as the laws themselves gain by.
+    """The step from ``start`` towards ``wanted`` that gains most under the nonlinear laws, and the linear fit there.
 
-    The wanted ones are those of the linearised laws, which must not be taken at their word where a law curves much.
-    ``columns_at`` gives, for a prediction, the columns that are fitted beside it; with them comes their fit.
+    ``wanted`` solves the linearised laws, which may be poor where a law is curved. ``columns_at`` gives the columns
+    that are fitted in addition to a prediction.
     """
     best: tuple[np.ndarray, Linear] | None = None
     least = np.inf
-    for part in PARTS:
-        z = np.clip(start + part * (wanted - start), -REACH, REACH)
+    for part in STEP_LENGTHS:
+        z = np.clip(start + part * (wanted - start), -MOST_COORDINATE, MOST_COORDINATE)
         prediction = problem.predict(explanation, z)
         left = (problem.y - prediction) / problem.sd - common
         if not np.isfinite(left).all():
@@ -234,14 +238,14 @@ Likelihood = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
 def bounded(start: np.ndarray) -> Likelihood:
-    """Log density and weights of residuals as by Huber: normal up to several times what is usual among ``start``.
+    """Huber log density and weights of residuals, bounded at a multiple of the median of ``start``.
 
     >>> density, weight = bounded(np.zeros(9))(np.array([2.0, 40.0]))
     >>> density.tolist(), weight.tolist()
     ([-2.0, -187.5], [1.0, 0.125])
     """
-    usual = 1.4826 * float(np.median(np.abs(start))) if np.isfinite(start).all() else np.inf
-    bound = BOUND * max(usual, 1.0)
+    typical = 1.4826 * float(np.median(np.abs(start))) if np.isfinite(start).all() else np.inf
+    bound = HUBER_BOUND * max(typical, 1.0)
 
     def likelihood(residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         size = np.maximum(np.abs(residual), 1e-12)
@@ -269,7 +273,7 @@ class _State:
         return cls(z, shared, run, problem.jacobian(explanation, z, run), cost, weight)
 
 
-def _climb(
+def _gauss_newton(
     problem: Problem,
     explanation: Explanation,
     state: _State,
@@ -278,7 +282,7 @@ def _climb(
     tolerance: float,
     least: float = -np.inf,
 ) -> _State:
-    """Damped Gauss-Newton steps until the gain falls below the tolerance, or too much is lacking to the least."""
+    """Damped Gauss-Newton steps until the gain is below the tolerance, or the least evidence is out of reach."""
     z, shared, run, slopes = state.z, state.shared, state.run, state.slopes
     cost, weight = _cost(problem, run.prediction, z, shared, likelihood)
     damping = 1e-2
@@ -288,13 +292,13 @@ def _climb(
         curvature = np.eye(columns.shape[1]) + columns.T @ scaled
         residual = (problem.y - run.prediction) / problem.sd - problem.shared @ shared
         slope = scaled.T @ residual - np.concatenate([z, shared])
-        _hold_at_bounds(curvature, slope, z)
-        if step_number >= PATIENCE and _in_sight(cost, slope, curvature) < least:
+        _project_active_bounds(curvature, slope, z)
+        if step_number >= PATIENCE and _evidence_bound(cost, slope, curvature) < least:
             break
         for _ in range(8):
             step = np.linalg.solve(curvature + damping * np.diag(np.diag(curvature)), slope)
             step *= min(1.0, 2.0 / max(np.max(np.abs(step[: z.size]), initial=0.0), 1e-12))
-            moved = np.clip(z + step[: z.size], -REACH, REACH)
+            moved = np.clip(z + step[: z.size], -MOST_COORDINATE, MOST_COORDINATE)
             moved_shared = shared + step[z.size :]
             tried = problem.run(explanation, moved, run)
             new_cost, new_weight = _cost(problem, tried.prediction, moved, moved_shared, likelihood)
@@ -312,15 +316,15 @@ def _climb(
     return _State(z, shared, run, slopes, cost, weight)
 
 
-def _in_sight(cost: float, slope: np.ndarray, curvature: np.ndarray) -> float:
-    """Log evidence that a climb may come to, with BETTER times the gain that the linearised laws promise."""
+def _evidence_bound(cost: float, slope: np.ndarray, curvature: np.ndarray) -> float:
+    """Bound on the log evidence of a fit: BOUND_FACTOR times the gain predicted by the linearised laws."""
     gain = 0.5 * float(slope @ np.linalg.solve(curvature, slope))
-    return BETTER * gain - cost - 0.5 * float(np.linalg.slogdet(curvature)[1])
+    return BOUND_FACTOR * gain - cost - 0.5 * float(np.linalg.slogdet(curvature)[1])
 
 
-def _hold_at_bounds(curvature: np.ndarray, slope: np.ndarray, z: np.ndarray) -> None:
-    """Take coordinates that press against their bound out of the step, in place; the others then go their full way."""
-    held = np.flatnonzero((np.abs(z) >= REACH) & (slope[: z.size] * z > 0))
+def _project_active_bounds(curvature: np.ndarray, slope: np.ndarray, z: np.ndarray) -> None:
+    """Remove coordinates at an active bound from the step, in place, so that the others keep their full step."""
+    held = np.flatnonzero((np.abs(z) >= MOST_COORDINATE) & (slope[: z.size] * z > 0))
     slope[held] = 0.0
     curvature[held, :] = 0.0
     curvature[:, held] = 0.0

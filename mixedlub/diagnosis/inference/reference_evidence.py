@@ -9,8 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.inference.map_fit import Fit, covariance, log_likelihood
-from mixedlub.diagnosis.problem import Explanation, Problem
+from mixedlub.diagnosis.problem import Problem
 from profiles.errors import InputError
 
 FREEDOM = 6.0

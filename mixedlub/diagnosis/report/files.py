@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from mixedlub.atomic import writing
-from mixedlub.diagnosis.assessment.power_law import Unnamed, unnamed
+from mixedlub.diagnosis.assessment.power_law import DescribedDiscrepancy, describe_discrepancy
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.explanation import DISCREPANCY
 from mixedlub.diagnosis.report.text import words
 from mixedlub.diagnosis.report.text.answer import as_json, predictions_csv
 from mixedlub.diagnosis.search.search import Progress
@@ -42,7 +43,7 @@ def files(d: Diagnosis) -> dict[str, str]:
     from mixedlub.diagnosis.report.figures import figures
     from mixedlub.diagnosis.report.figures.style import as_drawn
 
-    extra = unnamed(d.found) if any(key == "unknown" for key in d.posterior.tied) else None
+    extra = describe_discrepancy(d.search) if DISCREPANCY in d.posterior.tied else None
     parts = words.sections(d, extra)
     drawings = {name: as_drawn(figure) for name, figure in figures.all_figures(d, extra).items()}
     return {
@@ -54,7 +55,7 @@ def files(d: Diagnosis) -> dict[str, str]:
     }
 
 
-def _unnamed_record(extra: Unnamed | None) -> dict[str, Any]:
+def _unnamed_record(extra: DescribedDiscrepancy | None) -> dict[str, Any]:
     """What is known of an unnamed mismatch, as an entry of the answer."""
     if extra is None:
         return {}

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from importlib.resources import files
 
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.labels import number, words_of
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.report.figures.charts import colour_of
@@ -102,7 +103,7 @@ def render(d: Diagnosis, parts: Iterable[Section], drawings: Mapping[str, str]) 
     for name, (section, caption) in CAPTIONS.items():
         if name in drawings:
             section = section if section in titles else INSTEAD.get(section, section)
-            more = SPREADS if name == "residual_map" and d.posterior.verdict != () else ""
+            more = SPREADS if name == "residual_map" and d.posterior.verdict != NOTHING else ""
             pictures[section].append(Picture(Markup(inline(drawings[name], name)), caption + more))
     return template.render(
         title=f"{d.case.name}: what the simulation leaves out",
@@ -129,9 +130,7 @@ def _with_pictures(parts: Iterable[Section], pictures: Mapping[str, list[Picture
 
 def _equations(d: Diagnosis) -> dict[str, str]:
     """Drawings of the verdict's equations by the sentence that they stand for."""
-    if isinstance(d.posterior.verdict, str):
-        return {}
-    return {equation_sentence(e): equation(bare(e.equation)) for e in effects_of(d.posterior.verdict)}
+    return {equation_sentence(e): equation(bare(e.equation)) for e in effects_of(d.posterior.verdict.effects)}
 
 
 def bare(tex: str) -> str:
@@ -148,7 +147,7 @@ def _cards(d: Diagnosis) -> list[tuple[str, str]]:
         (percent(d.posterior.weights[d.posterior.verdict]), "probability of the first explanation"),
         (f"{d.heldout.before:.2f}", "sigma, error on left-out levels with calibration alone"),
     ]
-    if d.posterior.verdict != ():
+    if d.posterior.verdict != NOTHING:
         cards.append((f"{d.heldout.after:.2f}", "sigma, the same with the answer"))
     cards.append((number(float(len(d.outlier_runs))), f"outliers among {d.readings.size} readings"))
     return cards

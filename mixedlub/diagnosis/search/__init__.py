@@ -1,1 +1,1 @@
-"""Every explanation fitted and weighed, under the noise that the readings have."""
+"""Search over explanations and selection of the noise model."""

@@ -1,4 +1,4 @@
-"""Noise that lasts over several readings: how many of them tell as much as one."""
+"""Autocorrelated residuals: how many consecutive readings carry the information of one."""
 
 from __future__ import annotations
 
@@ -7,71 +7,74 @@ import numpy as np
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.recording.conditions import SERIES, clock_of
 
-FEWEST = 16
-"""Stretches of a series from which the variance of their sums can be told."""
-SLOW = 2
-"""Half swings over a recording that are a drift."""
-WILD = 3.0
-"""Sigmas to which a residual counts: wild readings do not last."""
+LEAST_BATCHES = 16
+"""Batches from which the variance of their sums is estimated: its own standard error is then 35 %."""
+DRIFT_HALF_WAVES = 2
+"""Half waves over a recording that count as drift and are removed; judgement."""
+CLIPPED_AT = 3.0
+"""Standard deviations at which a residual is clipped, so that single outliers are not taken for autocorrelation."""
 
 
-def lasting(found: Search) -> float:
-    """How many readings tell as much as one, by what the explanation that follows them best leaves over.
+def variance_inflation(search: Search) -> float:
+    """Readings per effective reading, from the residuals of the explanation that fits best.
 
-    What the most probable name or the unnamed still follows is no noise.
+    The smaller of two values: under the most probable effects and under the discrepancy. What either still explains is
+    not noise.
     """
-    return min(_together(found, left) for left in (found.likely.residual, found.unknown.fit.residual))
+    return min(_inflation_of(search, left) for left in (search.best_named.residual, search.discrepancy.fit.residual))
 
 
-def lasting_alone(found: Search) -> float:
-    """The same by what the calibrated base model leaves over: as it would be if nothing were missing.
+def variance_inflation_under_null(search: Search) -> float:
+    """Readings per effective reading under the null hypothesis, from residuals of the calibrated base model.
 
-    That is of a series at held conditions, or of very many readings: elsewhere what follows one another was run
-    alike. What drifts over the whole of it is no noise that lasts, and how large noise is has been said.
+    Only for a series at constant conditions or of very many readings: elsewhere neighbours share their conditions. Slow
+    drift is removed, and the size of the noise is taken as known.
     """
-    still = np.ptp(found.none.prediction) <= np.median(found.problem.sd)
-    if not still and len(found.problem.rows) < SERIES:
-        return found.problem.together
-    return _together(found, _undrifted(found))
+    still = np.ptp(search.null_fit.prediction) <= np.median(search.problem.sd)
+    if not still and len(search.problem.rows) < SERIES:
+        return search.problem.n_per_effective
+    return _inflation_of(search, _undrifted(search))
 
 
-def _undrifted(found: Search) -> np.ndarray:
-    """What the calibrated base model leaves over, less slow swings, no larger in the mean than noise."""
-    left = np.clip(found.problem.of_one(found.none.residual), -WILD, WILD)
-    clock = clock_of(found.problem.rows)
+def _undrifted(search: Search) -> np.ndarray:
+    """Residuals of the calibrated base model without slow drift, scaled down to the size of the noise."""
+    left = np.clip(search.problem.single_reading_units(search.null_fit.residual), -CLIPPED_AT, CLIPPED_AT)
+    clock = clock_of(search.problem.rows)
     order = np.arange(left.size) if clock is None else np.argsort(np.argsort(clock))
-    swings = np.cos(np.pi * np.outer(order, np.arange(SLOW + 1)) / left.size)
+    swings = np.cos(np.pi * np.outer(order, np.arange(DRIFT_HALF_WAVES + 1)) / left.size)
     left = left - swings @ np.linalg.lstsq(swings, left, rcond=None)[0]
-    return left / max(float(np.sqrt(np.mean(left**2))), 1.0) / np.sqrt(found.problem.together)
+    return left / max(float(np.sqrt(np.mean(left**2))), 1.0) / np.sqrt(search.problem.n_per_effective)
 
 
-def _together(found: Search, left: np.ndarray) -> float:
-    """How many readings tell as much as one under a search, by residuals in its sigmas."""
-    rows = found.problem.rows
+def _inflation_of(search: Search, left: np.ndarray) -> float:
+    """Readings per effective reading of a search, from standardised residuals."""
+    rows = search.problem.rows
     order = clock_of(rows)
     if order is None:
         if len(rows) < SERIES:
-            return found.problem.together
+            return search.problem.n_per_effective
         # A series without a clock was logged in the order of its rows.
         order = np.arange(len(rows))
-    return max(together(found.problem.of_one(left), order), found.problem.together)
+    return max(batch_means_inflation(search.problem.single_reading_units(left), order), search.problem.n_per_effective)
 
 
-def together(left: np.ndarray, clock: np.ndarray) -> float:
-    r"""How many times their variance sums of neighbours in time vary; 1 or more.
+def batch_means_inflation(left: np.ndarray, clock: np.ndarray) -> float:
+    r"""Variance inflation of sums over consecutive residuals, by the method of batch means; at least 1.
 
-    ``left`` are residuals in sigmas. Independent ones make :math:`\sum_n z / \sqrt n` vary as one does, for stretches
-    of any n; noise that lasts makes it vary more, and what goes slowly over the series is known as if there were so
-    many times fewer readings. An excess within two standard errors is chance.
+    ``left`` are standardised residuals. For independent ones :math:`\sum_n z / \sqrt n` has variance one for batches
+    of any length n. For autocorrelated ones it is larger, and a slow trend is known as if there were so many times
+    fewer readings. An excess within two standard errors is chance.
     Batch means: G. S. Fishman, Principles of Discrete Event Simulation (1978).
 
     >>> noise = np.random.default_rng(1).standard_normal(512)
-    >>> together(noise, np.arange(512.0)), round(together(np.repeat(noise, 8), np.arange(4096.0)))
-    (1.0, 7)
+    >>> batch_means_inflation(noise, np.arange(512.0))
+    1.0
+    >>> round(batch_means_inflation(np.repeat(noise, 8), np.arange(4096.0)))
+    7
     """
-    ordered = np.clip(left, -WILD, WILD)[np.argsort(clock, kind="stable")]
+    ordered = np.clip(left, -CLIPPED_AT, CLIPPED_AT)[np.argsort(clock, kind="stable")]
     most, length = 1.0, 2
-    while (count := ordered.size // length) >= FEWEST:
+    while (count := ordered.size // length) >= LEAST_BATCHES:
         sums = ordered[: count * length].reshape(count, length).sum(axis=1)
         times = float(np.mean(sums**2)) / length
         if times > 1.0 + 2.0 * np.sqrt(2.0 / count):

@@ -1,4 +1,4 @@
-"""Whether what readings are off by wanders in time: weighed with every explanation that leads, as noise is."""
+"""Search for a correlated error: a slow drift of the instrument, fitted together with each leading explanation."""
 
 from __future__ import annotations
 
@@ -8,134 +8,149 @@ from dataclasses import replace
 import numpy as np
 
 from mixedlub.diagnosis.discrepancy.waves import TURNED
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING
 from mixedlub.diagnosis.inference.map_fit import linear_fit
 from mixedlub.diagnosis.problem import Problem
-from mixedlub.diagnosis.search.noise_inflation import ROUNDS, Raised, scaled
+from mixedlub.diagnosis.search.noise_inflation import ROUNDS, NoiseInflation, scaled
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.recording.conditions import clock_of
-from mixedlub.recording.correlated_error import Wander
+from mixedlub.recording.correlated_error import CorrelatedError
 
-FEWEST = 40
-"""Readings from which wandering can be told."""
-LENGTHS = (0.02, 0.04, 0.08)
-"""Shares of a record over which it may forget itself: what lasts longer is a state of the surfaces, and no noise."""
-SIZES = (0.5, 1.0, 2.0, 4.0)
-QUIETER = (0.7, 0.5, 0.35)
-"""Shares of the noise that may be that of single readings where the rest of it wanders."""
-LEADERS = 6
-"""Names that are weighed with it, beside nothing missing and the unnamed."""
-MOST = 2.0
-"""Times what neighbours differ by that noise may wander where nothing is missing: what swings farther is a state."""
-CLEAR = 12.0
-"""Gain in log probability from which it is believed, the best of very many being taken, or something is missing."""
-ALIKE = 2.0
-"""Standard errors by which neighbours have to be alike for it to be looked for."""
+LEAST_READINGS = 40
+"""Readings from which a correlated error is looked for; judgement."""
+CORRELATION_SHARES = (0.02, 0.04, 0.08)
+"""Correlation times tried, as shares of the record; a longer one is a change of the surfaces, not noise. Judgement."""
+ERROR_SIZES = (0.5, 1.0, 2.0, 4.0)
+"""Standard deviations of the correlated error tried, over that of a single reading: a grid by factors of two."""
+WHITE_SHARES = (0.7, 0.5, 0.35)
+"""Shares of the noise tried for single readings, where the rest is correlated: a grid."""
+CANDIDATES = 6
+"""Most probable effects for which it is fitted, besides nothing missing and the discrepancy: a limit on cost."""
+MOST_UNDER_NULL = 2.0
+"""Largest correlated error if nothing is missing, over the scatter between neighbours; more is physics. Judgement."""
+CLEAR_GAIN = 12.0
+"""Gain in log probability from which a correlated error or a missing effect is accepted, as the best of many."""
+SIGNIFICANT = 2.0
+"""Standard errors of the lag-1 autocorrelation from which a correlated error is looked for."""
 
 
-def under_wandering(found: Search, raised: Raised, most: float, trial: Callable[..., Search]) -> tuple[Search, Raised]:
-    """The search under what readings are off by as it wanders, and how much of the noise is then that of single ones.
+def search_correlated_error(
+    search: Search, inflation: NoiseInflation, most: float, trial: Callable[..., Search]
+) -> tuple[Search, NoiseInflation]:
+    """Repeat the search with a correlated (Ornstein-Uhlenbeck) error, and return the inflation of the white noise left.
 
-    ``raised`` is how much more than stated that was, and ``most`` what repeats allow; ``trial`` searches for a case,
-    its readings and a ``wander``. Where nothing may be missing it wanders no farther than neighbours differ by.
+    ``inflation`` is that of the stated noise so far, ``most`` the largest that repeats allow. ``trial`` searches for a
+    case and a correlated error. If nothing may be missing, the error is no larger than the scatter between neighbours.
     """
     for _ in range(ROUNDS):
-        wander, times = wandering_of(found, 1.0 / raised.times)
-        if wander == found.problem.wander or times * raised.times * wander.whole > most:
+        correlated_error, times = estimate_correlated_error(search, 1.0 / inflation.factor)
+        if (
+            correlated_error == search.problem.correlated_error
+            or times * inflation.factor * correlated_error.total_sd > most
+        ):
             break
-        again = trial(*scaled(found.problem.case, found.problem.rows, times), wander=wander)
-        missing = max(again.log_weights.values()) > again.log_weights[()] + CLEAR
-        if not missing and wander.size * times > _farthest(found):
+        again = trial(scaled(search.problem.case, times), correlated_error=correlated_error)
+        missing = max(again.log_weights.values()) > again.log_weights[NOTHING] + CLEAR_GAIN
+        if not missing and correlated_error.size * times > _farthest(search):
             break
-        found, raised = again, replace(raised, times=raised.times * times)
-    return found, raised
+        search, inflation = again, replace(inflation, factor=inflation.factor * times)
+    return search, inflation
 
 
-def wandering_of(whole: Search, least: float) -> tuple[Wander, float]:
-    """How what readings are off by wanders, and how many times the noise of single readings is then what it was.
+def estimate_correlated_error(whole: Search, least: float) -> tuple[CorrelatedError, float]:
+    """The most probable correlated error, and the factor on the white noise that remains.
 
-    The best explanation with it has to beat the best one without. The noise may become ``least`` times as large at
-    least: what was taken for that of single readings may be what wanders. Where a shaft turns, neighbours in time are
-    neighbours in its position, and what they share may be that.
+    The best explanation with it must beat the best one without it. The white noise may shrink by the factor ``least``:
+    part of it may have been the correlated error. Where a shaft turns none is fitted, because neighbours in time then
+    share their position.
     """
-    now, found = whole.problem.wander, whole.screened
+    now, found = whole.problem.correlated_error, whole.full_screen
     record, clock = clock_of(whole.problem.rows, ties=True), clock_of(found.problem.rows, ties=True)
-    if record is None or clock is None or clock.size < FEWEST or TURNED in whole.problem.rows:
+    if record is None or clock is None or clock.size < LEAST_READINGS or TURNED in whole.problem.rows:
         return now, 1.0
-    forms = [Wander.over(record, size, length) for length in LENGTHS for size in SIZES]
-    weights, none, unknown = found.log_weights, found.none, found.unknown
-    most, best = max(weights.values()) + CLEAR, (now, 1.0)
-    named = sorted(filter(None, found.fits), key=weights.__getitem__)[-LEADERS:]
-    own = unknown.best.columns(found.space, found.values, unknown.carriers)
+    forms = [CorrelatedError.over(record, size, length) for length in CORRELATION_SHARES for size in ERROR_SIZES]
+    weights, null_fit, discrepancy = found.log_weights, found.null_fit, found.discrepancy
+    most, best = max(weights.values()) + CLEAR_GAIN, (now, 1.0)
+    named = sorted((m for m in found.fits if m.effects), key=weights.__getitem__)[-CANDIDATES:]
+    own = discrepancy.best.columns(found.space, found.values, discrepancy.scalings)
     order = np.argsort(clock, kind="stable")
     farthest = _farthest(found)
     noise = [form for form in forms if form.size <= farthest]
-    tried = [(weights[()], none.residual, none.anchor, none.slopes, noise)]
+    tried = [(weights[NOTHING], null_fit.residual, null_fit.anchor, null_fit.slopes, noise)]
     for key in named:
         fit = found.fits[key]
         tried.append((weights[key] - found.scores[key] + fit.evidence, fit.residual, fit.anchor, fit.slopes, forms))
-    tried.append((weights["unknown"], unknown.fit.residual, none.anchor, np.hstack([none.slopes, own]), forms))
+    flexible = np.hstack([null_fit.slopes, own])
+    tried.append((weights[DISCREPANCY], discrepancy.fit.residual, null_fit.anchor, flexible, forms))
     for weight, left, target, slopes, allowed in tried:
-        if not allowed or not neighbours_alike(left[order]):
+        if not allowed or not is_autocorrelated(left[order]):
             continue
-        gain, wander = _most_probable(found.problem, allowed, least, target, slopes)
+        gain, correlated_error = _most_probable(found.problem, allowed, least, target, slopes)
         if weight + gain > most:
-            most, best = weight + gain, wander
+            most, best = weight + gain, correlated_error
     return best
 
 
-def wandering_variance(found: Search) -> float:
-    """Variance of what wanders in that of single readings, as the most probable name leaves it."""
-    if not found.problem.wander.size:
+def correlated_error_variance(search: Search) -> float:
+    """Variance of the correlated error over that of single readings, from residuals of the most probable effects."""
+    if not search.problem.correlated_error.size:
         return 0.0
-    likely = found.likely
-    own, every = found.problem.wander.columns(found.problem.rows), found.problem.shared
-    errors = np.linalg.lstsq(every, likely.common, rcond=None)[0][-own.shape[1] :]
-    left = found.problem.of_one(likely.residual) + own @ errors
-    return max(float(likely.weight @ left**2 / likely.weight.sum()) - 1.0, 0.0)
+    best_named = search.best_named
+    own, every = search.problem.correlated_error.columns(search.problem.rows), search.problem.shared
+    errors = np.linalg.lstsq(every, best_named.common, rcond=None)[0][-own.shape[1] :]
+    left = search.problem.single_reading_units(best_named.residual) + own @ errors
+    return max(float(best_named.weight @ left**2 / best_named.weight.sum()) - 1.0, 0.0)
 
 
 def _farthest(whole: Search) -> float:
-    """How far noise may wander where nothing is missing, in that of single readings."""
-    found = whole.screened
+    """Largest correlated error if nothing is missing, over the noise of single readings."""
+    found = whole.full_screen
     clock = clock_of(found.problem.rows, ties=True)
     assert clock is not None
-    return MOST * jumping(found.problem.of_one(found.none.residual)[np.argsort(clock, kind="stable")])
+    return MOST_UNDER_NULL * successive_difference_sd(
+        found.problem.single_reading_units(found.null_fit.residual)[np.argsort(clock, kind="stable")]
+    )
 
 
-def jumping(left: np.ndarray) -> float:
-    """Standard deviation of what changes from one residual to the next.
+def successive_difference_sd(left: np.ndarray) -> float:
+    """Standard deviation of the white part of residuals, from their successive differences.
 
-    >>> bool(0.9 < jumping(np.random.default_rng(1).standard_normal(1000) + np.linspace(0.0, 50.0, 1000)) < 1.1)
+    >>> noise = np.random.default_rng(1).standard_normal(1000)
+    >>> bool(0.9 < successive_difference_sd(noise + np.linspace(0.0, 50.0, 1000)) < 1.1)
     True
     """
     return float(np.median(np.abs(np.diff(left)))) * 1.4826 / np.sqrt(2.0)
 
 
-def neighbours_alike(left: np.ndarray) -> bool:
-    """Whether residuals in the order of their clock are more like their neighbours than chance makes them.
+def is_autocorrelated(left: np.ndarray) -> bool:
+    """Whether residuals in order of time have a significant lag-1 autocorrelation.
 
     >>> noise = np.random.default_rng(1).standard_normal(100)
-    >>> neighbours_alike(noise), neighbours_alike(np.repeat(noise, 3))
+    >>> is_autocorrelated(noise), is_autocorrelated(np.repeat(noise, 3))
     (False, True)
     """
     centred = np.clip(left - np.median(left), -3.0, 3.0)
     square = float(centred @ centred)
-    return bool(float(centred[1:] @ centred[:-1]) * np.sqrt(left.size) > ALIKE * square)
+    return bool(float(centred[1:] @ centred[:-1]) * np.sqrt(left.size) > SIGNIFICANT * square)
 
 
 def _most_probable(
-    problem: Problem, forms: Sequence[Wander], least: float, target: np.ndarray, slopes: np.ndarray
-) -> tuple[float, tuple[Wander, float]]:
-    """The wandering, and the noise beside it, that make a linear model's readings most probable; first its gain.
+    problem: Problem, forms: Sequence[CorrelatedError], least: float, target: np.ndarray, slopes: np.ndarray
+) -> tuple[float, tuple[CorrelatedError, float]]:
+    """Gain in log evidence of a linear model, and the correlated error and white noise that give it.
 
-    Where several readings count as one their noise is no longer that of single ones, and stays.
+    Where several readings count as one, the white noise stays as it is.
     """
-    quieter = [*(q for q in QUIETER if q > least), *([least] if least < 1.0 else [])] if problem.together == 1.0 else []
+    quieter = (
+        [*(q for q in WHITE_SHARES if q > least), *([least] if least < 1.0 else [])]
+        if problem.n_per_effective == 1.0
+        else []
+    )
     columns = np.hstack([slopes, problem.setups])
     now = linear_fit(target, np.hstack([slopes, problem.shared])).evidence
-    most, best = -np.inf, (problem.wander, 1.0)
+    most, best = -np.inf, (problem.correlated_error, 1.0)
     for form in forms:
-        own = form.columns(problem.rows) / np.sqrt(problem.together)
+        own = form.columns(problem.rows) / np.sqrt(problem.n_per_effective)
         for times in (1.0, *quieter):
             log = linear_fit(target / times, np.hstack([columns / times, own])).evidence
             log -= target.size * np.log(times)

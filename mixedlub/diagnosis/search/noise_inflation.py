@@ -1,4 +1,4 @@
-"""The search under the noise that is stated, under more where the readings ask for it, under theirs where none is."""
+"""Search with the stated noise, inflated where residuals demand it, or with estimated noise where none is stated."""
 
 from __future__ import annotations
 
@@ -11,112 +11,119 @@ import numpy as np
 from mixedlub.case.folder import Case
 from mixedlub.diagnosis.inference.map_fit import log_likelihood
 from mixedlub.diagnosis.search.search import Search
-from mixedlub.recording.noise import BOTH, PARTS, medians, pooled_sd, with_noise
+from mixedlub.recording.noise import MIXTURE_GAIN, PARTS, medians, pooled_sd, with_noise
+from mixedlub.recording.readings import readings_of, rows_of
 from mixedlub.schema.table import Table
 
 FACTORS = np.array([1.1, 1.25, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 4.0, 6.0, 10.0])
-"""How many times the stated noise may be meant."""
-SHARES = np.array([0.003, 0.006, 0.01, 0.015, 0.02, 0.03, 0.05])
-"""Shares of the reading by which a rig may scatter beyond the sds in a column, which are often those of one setting."""
-USUAL, WEAKER = 2, 4.0
-"""Which of them is usual; gain from which one is believed: sds in a column say less than a noise someone states."""
-SIZES = np.geomspace(0.3, 3.0, 13)
-"""Of an estimated noise, how many times as much another mixture of its parts may have."""
-CLEAR = 8.0
-"""Gain in log probability from which stated noise is not believed; under nothing but noise it stays below 3."""
+"""Inflation factors of the stated noise that are tried: a grid."""
+EXTRA_SHARES = np.array([0.003, 0.006, 0.01, 0.015, 0.02, 0.03, 0.05])
+"""Extra relative noise tried where a column of standard deviations may be repeatability only: a grid."""
+FIRST_SHARE = 2
+"""Index of the share that is tried first: 1 %, as of a rig in good order."""
+SHARE_GAIN = 4.0
+"""Gain in log probability from which extra noise is accepted; judgement.
+
+It is less than CLEAR_GAIN, because a column of standard deviations is weaker evidence than a stated noise.
+"""
+MIXTURE_FACTORS = np.geomspace(0.3, 3.0, 13)
+"""Factors on an estimated noise that are tried with another mixture of its parts: a grid."""
+CLEAR_GAIN = 8.0
+"""Gain in log probability from which stated noise is inflated; measured: under pure noise the gain stays below 3."""
 ROUNDS = 4
-"""Times the noise is raised at most: fits under too little noise follow it, so one step seldom suffices."""
-MOST = 4.0
-"""How many times the stated noise a rig may have: what scatters more is no noise, though nothing follows it."""
-UNLIKELY = 1e-3
-"""Chance of repeats that scatter as little as these under the noise that bounds it."""
-MULTIPLES, NEARLY, STEPS = np.geomspace(0.25, 2.0, 31), 0.1, 5
-"""Of an estimated noise, how much less or more it may be meant, how near is near enough, how often that is asked."""
-ENOUGH = 10
-"""Readings, beyond the coordinates of the base model, from which their scatter is known well enough to judge."""
+"""Most steps of inflation, as fits under too little noise follow it and one step seldom suffices: a limit on cost."""
+MOST_INFLATION = 4.0
+"""Largest inflation of stated noise that is still noise; more scatter is an unexplained discrepancy. Judgement."""
+BOUND_LEVEL = 1e-3
+"""Significance level at which the scatter of repeats bounds the noise; convention."""
+FACTORS_OF_ESTIMATE = np.geomspace(0.25, 2.0, 31)
+"""Factors on an estimated noise that are tried: a grid."""
+CONVERGED = 0.1
+"""Change of the logarithm of an estimated noise below which its iteration has converged: 10 % of the noise."""
+MOST_ITERATIONS = 5
+"""Iterations of an estimated noise at most: a limit on cost."""
+LEAST_FREEDOM = 10
+"""Degrees of freedom from which the scatter of residuals is known well enough to judge the noise: within 22 %."""
 
 
 class Trial(Protocol):
-    """A search for a case and its readings, or what it makes of a ``near`` one under their noise."""
+    """A search for a case, or a ``near`` search weighed again under its noise."""
 
-    def __call__(self, case: Case, rows: Table, near: Search | None = None) -> Search: ...
+    def __call__(self, case: Case, near: Search | None = None) -> Search: ...
 
 
 @dataclass(frozen=True)
-class Raised:
-    """Noise that is taken for the stated: ``times`` as much, after a ``share`` of the reading beside it."""
+class NoiseInflation:
+    """Noise used instead of the stated one: ``extra_relative`` added in quadrature, then multiplied by ``factor``."""
 
-    times: float = 1.0
-    share: float = 0.0
+    factor: float = 1.0
+    extra_relative: float = 0.0
 
-    def of(self, case: Case, rows: Table) -> tuple[Case, Table]:
-        """The case and its readings with it."""
-        if self.share:
-            name = f"{case.quantity}_sd"
-            sd = np.hypot(rows[name].astype(float), self.share * np.abs(rows[case.quantity].astype(float)))
-            rows = Table({**rows.columns, name: sd}, rows.source)
-            case = replace(case, recordings=rows)
-        return scaled(case, rows, self.times)
+    def of(self, case: Case) -> Case:
+        """The case with it."""
+        if self.extra_relative:
+            sd = rows_of(case)[f"{case.quantity}_sd"].astype(float)
+            case = _with_sds(case, np.hypot(sd, self.extra_relative * np.abs(readings_of(case))))
+        return scaled(case, self.factor)
 
 
-def stated_or_more(case: Case, rows: Table, trial: Trial, most: float) -> tuple[Search, Raised]:
-    """The search under the stated noise, or under more where the readings say so clearly, and how much more.
+def search_stated_noise(case: Case, trial: Trial, most: float) -> tuple[Search, NoiseInflation]:
+    """The search under the stated noise, or under inflated noise where the readings clearly demand it.
 
-    Every explanation is weighed again with its residuals against more noise. That is believed where the best of
-    them beats the best one under the stated noise, the unnamed mismatch among them: what goes smoothly with the
-    conditions is a mismatch, what goes with none is noise. Fits under too little noise follow it, and hide a part.
-    Repeats at equal conditions bound it by ``most``: what they agree on is no noise. Without such, a column of sds may
-    hold what one setting repeats to, and a share of the reading is lacking.
+    Every explanation, the discrepancy included, is weighed again with its residuals under more noise. Inflation is
+    accepted where the best of them beats the best one under the stated noise: residuals that vary smoothly with
+    conditions are a discrepancy, the rest is noise. Repeats at equal conditions bound the factor by ``most``. Without
+    repeats a column of standard deviations may be repeatability only, and a share of the reading is added.
     """
-    found, raised = trial(case, rows), Raised()
-    if f"{case.quantity}_sd" in rows and np.isinf(most):
-        found, raised = _with_share(case, rows, trial, found)
-    for needed in (CLEAR, *[0.0] * (ROUNDS - 1)):
-        gain, factor = more(found)
-        if gain <= needed or raised.times * factor > most:
+    found, inflation = trial(case), NoiseInflation()
+    if f"{case.quantity}_sd" in rows_of(case) and np.isinf(most):
+        found, inflation = _with_share(case, trial, found)
+    for needed in (CLEAR_GAIN, *[0.0] * (ROUNDS - 1)):
+        gain, factor = best_inflation(found)
+        if gain <= needed or inflation.factor * factor > most:
             break
-        raised = replace(raised, times=raised.times * factor)
-        found = trial(*raised.of(case, rows))
-    return found, raised
+        inflation = replace(inflation, factor=inflation.factor * factor)
+        found = trial(inflation.of(case))
+    return found, inflation
 
 
-def _with_share(case: Case, rows: Table, trial: Trial, found: Search) -> tuple[Search, Raised]:
-    """The search under the share of the reading, beside the sds told, that makes the readings most probable.
+def _with_share(case: Case, trial: Trial, search: Search) -> tuple[Search, NoiseInflation]:
+    """The search with the extra relative noise that makes the readings most probable.
 
-    Looked for uphill from a usual share and from the one that residuals under the sds ask for. Shares in between are
-    weighed from where the search of the nearest one stands; that of the best one is then made whole.
+    A hill climb starts from a typical share, and from the one that the residuals suggest. Shares in between are weighed
+    from the nearest finished search; the best share is then searched in full.
     """
-    tried = {-1: found, USUAL: trial(*Raised(share=SHARES[USUAL]).of(case, rows))}
+    tried = {-1: search, FIRST_SHARE: trial(NoiseInflation(extra_relative=EXTRA_SHARES[FIRST_SHARE]).of(case))}
 
     def height(i: int) -> float:
         if i not in tried:
             near = min((j for j in tried if j >= 0), key=lambda j: abs(j - i))
-            tried[i] = trial(*Raised(share=SHARES[i]).of(case, rows), near=tried[near])
+            tried[i] = trial(NoiseInflation(extra_relative=EXTRA_SHARES[i]).of(case), near=tried[near])
         return tried[i].log_probability
 
-    gain, asked = _lacking(found)
-    for i in (USUAL, asked) if gain > WEAKER else (USUAL,):
-        beside = [j for j in (i - 1, i + 1) if 0 <= j < SHARES.size]
+    gain, asked = _lacking(search)
+    for i in (FIRST_SHARE, asked) if gain > SHARE_GAIN else (FIRST_SHARE,):
+        beside = [j for j in (i - 1, i + 1) if 0 <= j < EXTRA_SHARES.size]
         step = max(beside, key=height) - i
-        while 0 <= i + step < SHARES.size and height(i + step) > height(i):
+        while 0 <= i + step < EXTRA_SHARES.size and height(i + step) > height(i):
             i += step
     best = max(tried, key=height)
-    if best < 0 or height(best) <= height(-1) + WEAKER:
-        return found, Raised()
-    raised = Raised(share=float(SHARES[best]))
-    whole = tried[best] if best == USUAL else trial(*raised.of(case, rows))
-    return (whole, raised) if whole.log_probability > height(-1) + WEAKER else (found, Raised())
+    if best < 0 or height(best) <= height(-1) + SHARE_GAIN:
+        return search, NoiseInflation()
+    inflation = NoiseInflation(extra_relative=float(EXTRA_SHARES[best]))
+    whole = tried[best] if best == FIRST_SHARE else trial(inflation.of(case))
+    return (whole, inflation) if whole.log_probability > height(-1) + SHARE_GAIN else (search, NoiseInflation())
 
 
-def _lacking(found: Search) -> tuple[float, int]:
-    """Gain in log probability by a share of the reading beside the sds told, and which share is the best."""
-    sd = found.problem.one_sd * found.problem.unit_size(found.problem.y)
-    size = np.abs(found.problem.level(found.problem.y))
-    return _under_other_noise(found, np.hypot(1.0, SHARES[:, None] * size / sd))
+def _lacking(search: Search) -> tuple[float, int]:
+    """Gain in log probability by extra relative noise, and the index of the best share."""
+    sd = search.problem.single_sd * search.problem.d_inverse(search.problem.y)
+    size = np.abs(search.problem.inverse(search.problem.y))
+    return _under_other_noise(search, np.hypot(1.0, EXTRA_SHARES[:, None] * size / sd))
 
 
 def repeats_allow(y: np.ndarray, sd: np.ndarray, group: np.ndarray) -> float:
-    """How many times their sd readings could have whose repeats form these groups, at most.
+    """Largest noise inflation that the scatter of repeated readings allows (0.1 % level).
 
     >>> jumping = 0.1 * np.tile([0.8, 1.0, 1.25, 1.0], 5)
     >>> y = 100.0 + 0.1 * np.random.default_rng(1).standard_normal(20)
@@ -127,25 +134,22 @@ def repeats_allow(y: np.ndarray, sd: np.ndarray, group: np.ndarray) -> float:
 
     spare = group.size - int(group.max()) - 1
     apart = (y - medians(y, group)[group]) / sd
-    return float(pooled_sd(apart, group) * np.sqrt(spare / chdtri(spare, 1.0 - UNLIKELY)))
+    return float(pooled_sd(apart, group) * np.sqrt(spare / chdtri(spare, 1.0 - BOUND_LEVEL)))
 
 
-def more(found: Search) -> tuple[float, float]:
-    """Gain in log probability of the best explanation by more noise over the best without, and the factor."""
-    gain, best = _under_other_noise(found, FACTORS[:, None])
+def best_inflation(search: Search) -> tuple[float, float]:
+    """Gain in log probability of the best explanation by noise inflation, and the factor."""
+    gain, best = _under_other_noise(search, FACTORS[:, None])
     return gain, float(FACTORS[best])
 
 
-def _under_other_noise(found: Search, times: np.ndarray) -> tuple[float, int]:
+def _under_other_noise(search: Search, times: np.ndarray) -> tuple[float, int]:
     """Gain in log probability of the best explanation under noise ``times`` (m, readings) as large, and which of m."""
-    weights = found.log_weights
+    weights = search.log_weights
     most, best = -np.inf, 0
     for key, weight in weights.items():
-        fit, bent = (
-            (found.unknown.fit, 0.0)
-            if isinstance(key, str)
-            else (found.fits[key], found.scores[key] - found.fits[key].evidence)
-        )
+        fit = search.fit_of(key)
+        bent = search.scores.get(key, fit.evidence) - fit.evidence
         # The evidence of a fit far behind is carried over from another noise: it is no more than its likelihood.
         carried = max(fit.evidence - float(log_likelihood(fit.residual)[0].sum()), 0.0)
         gains = _gains(fit.residual, times)
@@ -154,48 +158,46 @@ def _under_other_noise(found: Search, times: np.ndarray) -> tuple[float, int]:
     return most - max(weights.values()), best
 
 
-def shown(case: Case, rows: Table, trial: Trial) -> Search:
-    """The search under the estimated noise, or as much less or more as makes the readings most probable.
+def search_estimated_noise(case: Case, trial: Trial) -> Search:
+    """The search under the estimated noise, scaled so that the readings are most probable.
 
-    What is left over then says how much of it goes in proportion to the reading and how much is alike for all: few
-    repeats tell that less well than all readings do.
+    The residuals then give the relative and the absolute part of the noise, better than a few repeats do.
     """
-    found = _fitting(case, rows, trial)
+    found = _fitting(case, trial)
     gain, other = _other_parts(found)
-    if gain < BOTH:
+    if gain < MIXTURE_GAIN:
         return found
-    again = trial(other, rows)
-    return again if again.log_probability > found.log_probability + BOTH else found
+    again = trial(other)
+    return again if again.log_probability > found.log_probability + MIXTURE_GAIN else found
 
 
-def _other_parts(found: Search) -> tuple[float, Case]:
-    """Gain in log probability by the best other mixture of the parts of noise, and the case with it."""
-    problem = found.problem
-    best = found.likely
+def _other_parts(search: Search) -> tuple[float, Case]:
+    """Gain in log probability by the best other mixture of relative and absolute noise, and the case with it."""
+    problem = search.problem
+    best = search.best_named
     size = problem.noise_size(best.prediction)
     typical = float(np.median(size))
-    scales = SIZES * float(np.median(problem.sd * problem.unit_size(best.prediction))) / typical
+    scales = MIXTURE_FACTORS * float(np.median(problem.sd * problem.d_inverse(best.prediction))) / typical
     noises = [(k * own, k * common * typical) for k in scales for own, common in PARTS]
-    sds = np.array([np.hypot(own * size, common) for own, common in noises]) / problem.unit_size(best.prediction)
-    gain, which = _under_other_noise(found, np.maximum(sds, 1e-300) / problem.sd)
+    sds = np.array([np.hypot(own * size, common) for own, common in noises]) / problem.d_inverse(best.prediction)
+    gain, which = _under_other_noise(search, np.maximum(sds, 1e-300) / problem.sd)
     return gain, with_noise(problem.case, *noises[which])
 
 
-def _fitting(case: Case, rows: Table, trial: Trial) -> Search:
-    """The search under the multiple of the case's noise that its own residuals ask for.
+def _fitting(case: Case, trial: Trial) -> Search:
+    """Iterate the noise: residuals under one noise give the next, kept while the readings become more probable.
 
-    What is left over under one noise asks for the next, which is kept while the readings are more probable under it;
-    half the way is tried where it is not. A start far too low stays there, for what is then fitted follows the noise:
-    the estimate from a smooth fit is none.
+    Half the step is tried where the whole one fails. A start far too low would stay there, because fits then follow
+    the noise; the estimate from a smooth fit is not too low.
     """
-    found = trial(case, rows)
-    for _ in range(STEPS):
-        _, best = _under_other_noise(found, MULTIPLES[:, None])
-        asked = float(MULTIPLES[best])
+    found = trial(case)
+    for _ in range(MOST_ITERATIONS):
+        _, best = _under_other_noise(found, FACTORS_OF_ESTIMATE[:, None])
+        asked = float(FACTORS_OF_ESTIMATE[best])
         for step in (asked, np.sqrt(asked)):
-            if abs(np.log(step)) < NEARLY:
+            if abs(np.log(step)) < CONVERGED:
                 return found
-            again = trial(*scaled(found.problem.case, rows, float(step)))
+            again = trial(scaled(found.problem.case, float(step)))
             if again.log_probability > found.log_probability:
                 break
         else:
@@ -204,19 +206,19 @@ def _fitting(case: Case, rows: Table, trial: Trial) -> Search:
     return found
 
 
-def under_its_own(found: Search, trial: Callable[[Case, Table], Search]) -> Search:
-    """The search under the noise that the calibrated base model would need if nothing were missing."""
-    gain, times = louder(found.none.residual)
-    return trial(*scaled(found.problem.case, found.problem.rows, times)) if gain > 0.0 else found
+def search_null_noise(search: Search, trial: Callable[[Case], Search]) -> Search:
+    """The search under the noise that the calibrated base model needs if nothing is missing."""
+    gain, times = noise_inflation(search.null_fit.residual)
+    return trial(scaled(search.problem.case, times)) if gain > 0.0 else search
 
 
-def louder(residual: np.ndarray) -> tuple[float, float]:
+def noise_inflation(residual: np.ndarray) -> tuple[float, float]:
     """Largest gain of the log likelihood of residuals (in sigmas) by more noise, and how many times the noise.
 
-    >>> gain, times = louder(2.0 * np.random.default_rng(1).standard_normal(100))
+    >>> gain, times = noise_inflation(2.0 * np.random.default_rng(1).standard_normal(100))
     >>> bool(gain > 20.0), times
     (True, 1.6)
-    >>> bool(louder(np.random.default_rng(1).standard_normal(100))[0] < 1.0)
+    >>> bool(noise_inflation(np.random.default_rng(1).standard_normal(100))[0] < 1.0)
     True
     """
     gains = _gains(residual, FACTORS[:, None])
@@ -229,22 +231,26 @@ def _gains(residual: np.ndarray, times: np.ndarray) -> np.ndarray:
     return np.asarray((log_likelihood(residual / times)[0] - logs).sum(axis=1) - log_likelihood(residual)[0].sum())
 
 
-def quiet(found: Search) -> bool:
-    """Whether readings scatter by less than half of their noise about the calibrated base model alone.
+def noise_overstated(search: Search) -> bool:
+    """Whether residuals of the calibrated base model are below half of the stated noise.
 
-    That model has few coordinates to follow noise with: so little is left only if the noise is overstated.
+    That model has few free coordinates, so the noise must be overstated.
     """
-    spare = found.none.residual.size - found.none.z.size
-    left = found.problem.of_one(found.none.residual)
-    return spare >= ENOUGH and float(left @ left) < 0.25 * spare
+    spare = search.null_fit.residual.size - search.null_fit.z.size
+    left = search.problem.single_reading_units(search.null_fit.residual)
+    return spare >= LEAST_FREEDOM and float(left @ left) < 0.25 * spare
 
 
-def scaled(case: Case, rows: Table, factor: float) -> tuple[Case, Table]:
-    """The case and its readings with ``factor`` times the noise of a single reading."""
-    name = f"{case.quantity}_sd"
+def scaled(case: Case, factor: float) -> Case:
+    """The case with ``factor`` times the noise of a single reading."""
+    name, rows = f"{case.quantity}_sd", rows_of(case)
     if name in rows:
-        rows = Table({**rows.columns, name: factor * rows[name]}, rows.source)
-        return replace(case, recordings=rows), rows
+        return _with_sds(case, factor * rows[name])
     noise = case.system.recording.noise
     assert noise is not None
-    return with_noise(case, factor * noise.relative, factor * noise.absolute), rows
+    return with_noise(case, factor * noise.relative, factor * noise.absolute)
+
+
+def _with_sds(case: Case, sd: np.ndarray) -> Case:
+    rows = rows_of(case)
+    return replace(case, recordings=Table({**rows.columns, f"{case.quantity}_sd": sd}, rows.source))

@@ -1,4 +1,4 @@
-"""Every explanation weighed under the noise that the readings have."""
+"""Selection of the noise model: stated, inflated or estimated, with correlation where residuals show it."""
 
 from __future__ import annotations
 
@@ -11,90 +11,98 @@ import numpy as np
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
 from mixedlub.diagnosis.problem import Problem
-from mixedlub.diagnosis.search.autocorrelation import lasting, lasting_alone
-from mixedlub.diagnosis.search.drift import under_wandering
-from mixedlub.diagnosis.search.noise_inflation import Raised, repeats_allow, shown, stated_or_more, under_its_own
+from mixedlub.diagnosis.search.autocorrelation import variance_inflation, variance_inflation_under_null
+from mixedlub.diagnosis.search.drift import search_correlated_error
+from mixedlub.diagnosis.search.noise_inflation import (
+    NoiseInflation,
+    repeats_allow,
+    search_estimated_noise,
+    search_null_noise,
+    search_stated_noise,
+)
 from mixedlub.diagnosis.search.search import MANY, Progress, Search, reweighed, search, spread_rows
 from mixedlub.recording.conditions import SERIES, coordinates
-from mixedlub.recording.correlated_error import STILL, Wander
+from mixedlub.recording.correlated_error import UNCORRELATED, CorrelatedError
 from mixedlub.recording.noise import estimated, is_stated, repeated
-from mixedlub.schema.table import Table
+from mixedlub.recording.readings import rows_of
 
 
 @dataclass(frozen=True, eq=False)
-class Weighed:
-    """The search, how much more than the stated noise it took, and what weighs everything under other noise.
+class NoiseSearch:
+    """The search under the selected noise, its inflation, and a function that repeats the search under another noise.
 
-    That takes the case, its readings, how many of them tell as much as one, and how their errors wander.
+    ``again`` takes the case, the number of readings per effective reading, and the correlated error.
     """
 
-    found: Search
-    raised: Raised
+    search: Search
+    inflation: NoiseInflation
     stated: bool
-    again: Callable[[Case, Table, float, Wander], Search]
+    again: Callable[[Case, float, CorrelatedError], Search]
 
     @property
-    def times(self) -> float:
-        """How many times the stated noise a reading has, with what wanders."""
-        return self.raised.times * self.found.problem.wander.whole
+    def noise_factor(self) -> float:
+        """Total noise of a reading over the stated one, the correlated error included."""
+        return self.inflation.factor * self.search.problem.correlated_error.total_sd
 
-    def alone(self) -> Search:
-        """The search under the noise that the calibrated base model would need if nothing were missing.
+    def null_search(self) -> Search:
+        """The search under the noise that the calibrated base model needs if nothing is missing.
 
-        Noise that is stated is as large as that, and may last longer.
+        Stated noise keeps its size but may be autocorrelated.
         """
-        found = self.found
-        kept, wander = found.problem.together, found.problem.wander
+        result = self.search
+        kept, correlated_error = result.problem.n_per_effective, result.problem.correlated_error
         if not self.stated:
-            found = under_its_own(found, lambda case, rows: self.again(case, rows, kept, wander))
-        lasts = lasting_alone(found)
-        return found if lasts <= kept else self.again(found.problem.case, found.problem.rows, lasts, wander)
+            result = search_null_noise(result, lambda case: self.again(case, kept, correlated_error))
+        lasts = variance_inflation_under_null(result)
+        return result if lasts <= kept else self.again(result.problem.case, lasts, correlated_error)
 
 
-def weighed(
-    case: Case, rows: Table, forward: Forward, y: np.ndarray, exclude: Sequence[str], progress: Progress
-) -> Weighed:
-    """Every explanation weighed under the stated noise or what readings ask for, else under the noise they show.
+def search_under_noise(case: Case, forward: Forward, exclude: Sequence[str], progress: Progress) -> NoiseSearch:
+    """Search all explanations under the stated noise, inflated where residuals demand it, or under estimated noise.
 
-    Where noise lasts over several readings, so many count as one; where it wanders, readings share it. A logged series
-    tells first how long its noise lasts, a shorter one hardly can. Everything is then weighed again.
+    Autocorrelated readings count as fewer; a slow drift is a correlated error that readings share. Autocorrelation is
+    estimated before the drift in a logged series only, which is long enough. Each change of the noise repeats the
+    search.
     """
-    space = coordinates(case, rows, forward)
-    values = space.values(case, rows, forward)
+    space = coordinates(forward)
+    values = space.values(forward)
 
-    def trial(case: Case, rows: Table, together: float = 1.0, wander: Wander = STILL) -> Search:
-        return search(Problem.of(case, rows, forward, y, together, wander), space, values, exclude, progress)
+    def trial(case: Case, n_per_effective: float = 1.0, correlated_error: CorrelatedError = UNCORRELATED) -> Search:
+        return search(Problem.of(case, forward, n_per_effective, correlated_error), space, values, exclude, progress)
 
-    few = spread_rows(values, y.size) if y.size > MANY else None
+    count = len(rows_of(case))
+    few = spread_rows(values, count) if count > MANY else None
 
-    def seek(case: Case, rows: Table, near: Search | None = None) -> Search:
-        problem = Problem.of(case, rows, forward, y)
+    def seek(case: Case, near: Search | None = None) -> Search:
+        problem = Problem.of(case, forward)
         problem = problem if few is None else problem.take(few)
         if near is not None:
             return reweighed(near, problem)
         return search(problem, space, values if few is None else [v[few] for v in values], exclude, progress)
 
-    stated, raised, most = is_stated(case, rows), Raised(), np.inf
+    stated, inflation, most = is_stated(case), NoiseInflation(), np.inf
     if stated:
-        group = repeated(case, rows)
+        group = repeated(case)
         if group is not None:
-            whole = Problem.of(case, rows, forward, y)
+            whole = Problem.of(case, forward)
             most = repeats_allow(whole.y, whole.sd, group)
-        found, raised = stated_or_more(case, rows, seek, most)
-        case, rows = raised.of(case, rows)
+        result, inflation = search_stated_noise(case, seek, most)
+        case = inflation.of(case)
     else:
-        found = shown(estimated(case, rows, y, forward.predict(), space, values), rows, seek)
-        case = found.problem.case
+        result = search_estimated_noise(estimated(case, forward.predict(), space, values), seek)
+        case = result.problem.case
     if few is not None:
-        found = trial(case, rows)
-    together = lasting(found) if y.size >= SERIES else 1.0
-    if together > 1.0:
-        found = trial(case, rows, together)
-    found, raised = under_wandering(found, raised, most, partial(trial, together=together))
-    case, rows, wander = found.problem.case, found.problem.rows, found.problem.wander
-    if wander.size and together > 1.0:
-        found = trial(case, rows, wander=wander)
-    longer = lasting(found)
-    if longer > found.problem.together:
-        found = trial(case, rows, longer, wander)
-    return Weighed(found, raised, stated, trial)
+        result = trial(case)
+    n_per_effective = variance_inflation(result) if count >= SERIES else 1.0
+    if n_per_effective > 1.0:
+        result = trial(case, n_per_effective)
+    result, inflation = search_correlated_error(
+        result, inflation, most, partial(trial, n_per_effective=n_per_effective)
+    )
+    case, correlated_error = result.problem.case, result.problem.correlated_error
+    if correlated_error.size and n_per_effective > 1.0:
+        result = trial(case, correlated_error=correlated_error)
+    longer = variance_inflation(result)
+    if longer > result.problem.n_per_effective:
+        result = trial(case, longer, correlated_error)
+    return NoiseSearch(result, inflation, stated, trial)

@@ -1,4 +1,4 @@
-"""Search over explanations: none, each effect, pairs of effects, and the unnamed."""
+"""Search over explanations: nothing, each effect, pairs of effects, and the discrepancy."""
 
 from __future__ import annotations
 
@@ -8,105 +8,116 @@ from itertools import combinations
 
 import numpy as np
 
-from mixedlub.diagnosis.discrepancy.model import Unknown, unknown_fit
-from mixedlub.diagnosis.inference.change_points import placed
-from mixedlub.diagnosis.inference.initial_guesses import Sampled, fit_single, sample
-from mixedlub.diagnosis.inference.map_fit import OUTLIER_SHARE, Fit, linear_fit, log_likelihood, map_fit
+from mixedlub.diagnosis.discrepancy.model import Discrepancy, fit_discrepancy
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
+from mixedlub.diagnosis.inference.change_points import integrate_change_points
+from mixedlub.diagnosis.inference.initial_guesses import PriorDraws, fit_single, sample
+from mixedlub.diagnosis.inference.map_fit import OUTLIER_SHARE, Fit, Linear, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.inference.nested_laws import published_gain
 from mixedlub.diagnosis.inference.pairs import ROUNDS, exchanged, promising_pairs
-from mixedlub.diagnosis.problem import Explanation, Problem, effects_of
+from mixedlub.diagnosis.problem import Problem, effects_of
 from mixedlub.recording.conditions import Coordinates
 
-PRIOR = {"none": 0.42, "single": 0.38, "pair": 0.08, "unknown": 0.12}
-"""Before any reading: a campaign with nothing missing is as usual as one with one effect, two are rare."""
-LEAST_NONE = 14.0
-"""How many times as probable nothing is than one effect: one that readings neither ask for nor exclude is no tie."""
-WHOLE = 25
-"""Effects from which pairs have all of their prior: beside a first effect each other one is as rare among few."""
-KEPT = 8
-"""Explanations of a share of the rows that are weighed again on all of them."""
-CLOCKS = {"time", "sequence", "ageing"}
-"""Quantities that pass by themselves while a test runs."""
-MOVED = 0.1
-"""Share of what an explanation moves a reading by at most, from which it moves another one too."""
-NEAR = 12.0
-"""Log evidence behind the best within which the published laws that an explanation contains are weighed too."""
-FAR = 60.0
-"""Log evidence behind the best from which a fit is not made again under a new noise, before or with it."""
-MANY, SPREAD = 1200, 600
-"""Readings beyond which a spread of so many stands for all while explanations are sought."""
-SEED = 1
-ELASTIC = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
-"""Relative error of an effect's literature form: its rms and the weight given to it."""
-BEND_LIMIT = 4.0
-BEND_SHARE = 0.01
-BEND_MOST = 30.0
-"""What bending may add to the log evidence, shared by the effects of an explanation.
+PRIOR = {"nothing": 0.42, "single": 0.38, "pair": 0.08, "discrepancy": 0.12}
+"""Prior probabilities before any reading; judgement: nothing missing is as probable as one effect, two are rare."""
+LEAST_NOTHING_ODDS = 14.0
+"""Least prior odds of nothing over each single effect; judgement.
 
-A form wrong by 14 % costs a hundredth of the squares of what it adds. No less than BEND_LIMIT is allowed and no more
-than BEND_MOST: a form a little wrong is not another effect, and another effect not a form a little wrong.
+An effect that readings neither need nor exclude then does not tie with nothing missing.
 """
+FULL_PAIR_PRIOR = 25
+"""Number of effects from which pairs have their whole prior; among fewer it is in proportion. Judgement."""
+REFITTED_ON_ALL = 8
+"""Most probable explanations of a subset that are fitted again to all readings: a limit on cost."""
+CLOCKS = {"time", "sequence", "ageing"}
+"""Quantities that change by themselves while a test runs."""
+AFFECTED = 0.1
+"""Share of the largest change by an explanation from which a reading counts as affected; judgement."""
+PUBLISHED_WITHIN = 12.0
+"""Log evidence behind the best within which published laws of an explanation are weighed: a limit on cost."""
+HOPELESS_BEHIND = 60.0
+"""Log evidence behind the best from which a fit is not repeated under a new noise: a limit on cost."""
+MANY = 1200
+"""Readings beyond which explanations are searched on a subset: a limit on cost."""
+SUBSET = 600
+"""Readings of that subset."""
+SEED = 1
+FORM_ERRORS = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
+"""Relative rms error of an effect's published form, and its prior probability; judgement from the spread of forms."""
+FORM_ERROR_GAIN_SHARE = 0.01
+"""Most that an error of form may add to the log evidence, over the squares of an effect: the cost of 14 % error."""
+FORM_ERROR_GAIN_FLOOR = 4.0
+"""Least bound on that gain; judgement: a small effect may be wrong in form as well."""
+FORM_ERROR_GAIN_CAP = 30.0
+"""Largest bound on that gain; judgement: beyond it another effect is missing, not another form of this one."""
 
 Progress = Callable[[str], None]
 
 
 @dataclass(frozen=True, eq=False)
 class Search:
-    """Everything the search found; ``untestable`` effects move no reading and so are no explanation."""
+    """Result of a search; ``untestable`` effects change no reading, so they explain none."""
 
     problem: Problem
     space: Coordinates
     values: list[np.ndarray]
-    none: Fit
+    null_fit: Fit
     fits: dict[Explanation, Fit]
     scores: dict[Explanation, float]
-    unknown: Unknown
-    sampled: tuple[Sampled, ...]
-    untestable: tuple[Sampled, ...] = ()
+    discrepancy: Discrepancy
+    draws: tuple[PriorDraws, ...]
+    untestable: tuple[PriorDraws, ...] = ()
     screen: Search | None = None
 
     @property
-    def screened(self) -> Search:
+    def full_screen(self) -> Search:
         """The search that looked at every explanation: on a share of the rows where there are very many."""
         return self if self.screen is None else self.screen
 
     @property
-    def likely(self) -> Fit:
+    def best_named(self) -> Fit:
         """The fit of the most probable explanation that the catalogue has, nothing missing among them."""
         return self.fits[max(self.fits, key=self.log_weights.__getitem__)]
 
+    def fit_of(self, explanation: Explanation) -> Fit | Linear:
+        """The fit of any explanation, the discrepancy among them."""
+        return self.discrepancy.fit if explanation.is_discrepancy else self.fits[explanation]
+
     @property
-    def log_weights(self) -> dict[str | Explanation, float]:
-        """Log prior plus log evidence of every explanation; "unknown" is its own key."""
-        odds = {e.id: self.problem.forward.odds(e) for s in self.sampled for e in effects_of((s.id,))}
+    def log_weights(self) -> dict[Explanation, float]:
+        """Log prior plus log evidence of every explanation."""
+        odds = {e.id: self.problem.forward.odds(e) for s in self.draws for e in effects_of((s.id,))}
         each = list(odds.values())
         pairs = sum(a * b for a, b in combinations(each, 2))
         total = (1.0, sum(each), pairs)
         prior = priors(len(each))
-        found: dict[str | Explanation, float] = {
-            m: s + float(np.log(prior[len(m)] * np.prod([odds[name] for name in m]) / total[len(m)]))
-            for m, s in self.scores.items()
-        }
-        found["unknown"] = self.unknown.evidence + np.log(PRIOR["unknown"])
+        found: dict[Explanation, float] = {}
+        for explanation, score in self.scores.items():
+            size = len(explanation.effects)
+            product = np.prod([odds[name] for name in explanation.effects])
+            found[explanation] = score + float(np.log(prior[size] * product / total[size]))
+        found[DISCREPANCY] = self.discrepancy.evidence + np.log(PRIOR["discrepancy"])
         return found
 
     @property
     def log_bayes_factor(self) -> float:
-        """Log Bayes factor of all explanations together, in their literature forms, against nothing missing."""
+        """Log Bayes factor of all explanations together, in their published forms, against nothing missing."""
         logs = [
-            w if isinstance(m, str) else w - self.scores[m] + self.fits[m].evidence
+            w if m.is_discrepancy else w - self.scores[m] + self.fits[m].evidence
             for m, w in self.log_weights.items()
-            if m != ()
+            if m != NOTHING
         ]
-        nothing, single, pair = priors(len(self.sampled))
-        odds = float(np.logaddexp.reduce(logs)) - self.log_weights[()]
-        return odds + float(np.log(nothing / (single + pair + PRIOR["unknown"])))
+        nothing, single, pair = priors(len(self.draws))
+        odds = float(np.logaddexp.reduce(logs)) - self.log_weights[NOTHING]
+        return odds + float(np.log(nothing / (single + pair + PRIOR["discrepancy"])))
 
     @property
     def log_probability(self) -> float:
         """Log probability density of the readings under all explanations together, up to a constant."""
         total = float(np.logaddexp.reduce(list(self.log_weights.values())))
-        return total - float(np.log(sum(priors(len(self.sampled))) + PRIOR["unknown"]) + np.log(self.problem.sd).sum())
+        return total - float(
+            np.log(sum(priors(len(self.draws))) + PRIOR["discrepancy"]) + np.log(self.problem.sd).sum()
+        )
 
 
 def search(
@@ -118,212 +129,225 @@ def search(
 ) -> Search:
     """Fit every explanation worth fitting and weigh them.
 
-    Beyond MANY rows all explanations are tried on a spread of them, and the leaders are weighed on all.
+    Beyond MANY rows all explanations are tried on a subset, and the most probable ones are fitted to all rows.
     """
     if problem.y.size <= MANY:
         return _search(problem, space, values, exclude, progress)
     rows = spread_rows(values, problem.y.size)
-    screen = _search(problem.spread(rows), space, [v[rows] for v in values], exclude, progress)
+    screen = _search(problem.subset(rows), space, [v[rows] for v in values], exclude, progress)
     progress(f"weighing the leaders on all {problem.y.size} readings")
     ranked = sorted(screen.scores, key=lambda m: -screen.log_weights[m])
-    leaders = dict.fromkeys([(), *ranked[:KEPT]])
+    leaders = dict.fromkeys([NOTHING, *ranked[:REFITTED_ON_ALL]])
     best = map_fit(problem, ranked[0], screen.fits[ranked[0]].z, warm=True)
-    problem = problem.with_sd(best.prediction, problem.predict((), screen.none.z))
-    fits = {m: placed(problem, map_fit(problem, m, screen.fits[m].z, warm=True)) for m in leaders}
+    problem = problem.with_sd(best.prediction, problem.predict(NOTHING, screen.null_fit.z))
+    fits = {m: integrate_change_points(problem, map_fit(problem, m, screen.fits[m].z, warm=True)) for m in leaders}
     scores = _scores(problem, fits, space, values)
-    names = {s.id for s in screen.sampled}
-    unknown = unknown_fit(problem, fits[()], space, values, names)
-    return Search(problem, space, values, fits[()], fits, scores, unknown, screen.sampled, screen.untestable, screen)
+    names = {s.id for s in screen.draws}
+    discrepancy = fit_discrepancy(problem, fits[NOTHING], space, values, names)
+    return Search(
+        problem, space, values, fits[NOTHING], fits, scores, discrepancy, screen.draws, screen.untestable, screen
+    )
 
 
-def reweighed(found: Search, problem: Problem) -> Search:
-    """A search again under another noise: its fits climb on from where they stand, and no other is tried.
+def reweighed(search: Search, problem: Problem) -> Search:
+    """Weigh a search again under another noise: its fits are continued, and no explanation is added.
 
-    Those far behind the best one under either noise, by what they leave over, stay where they are.
+    Fits far behind the best one under either noise, by their residuals, are only rescaled.
     """
-    best = found.likely
-    problem = problem.with_sd(best.prediction, found.none.prediction)
-    scale = found.problem.sd / problem.sd
-    moved = {m: f.in_sigmas(scale, f.evidence + _counted_anew(f.residual, scale)) for m, f in found.fits.items()}
-    then, now = (max(f.evidence for f in fits.values()) - FAR for fits in (found.fits, moved))
-    near = {m for m, f in moved.items() if not m or found.fits[m].evidence > then or f.evidence > now}
-    fits = {m: placed(problem, map_fit(problem, m, f.z, warm=True)) if m in near else f for m, f in moved.items()}
-    none, scores = fits[()], _scores(problem, fits, found.space, found.values)
-    unknown = unknown_fit(problem, none, found.space, found.values, {s.id for s in found.sampled})
-    sampled = tuple(replace(s, change=s.change * scale) for s in found.sampled)
-    return replace(found, problem=problem, none=none, fits=fits, scores=scores, unknown=unknown, sampled=sampled)
+    best = search.best_named
+    problem = problem.with_sd(best.prediction, search.null_fit.prediction)
+    scale = search.problem.sd / problem.sd
+    moved = {m: f.in_sigmas(scale, f.evidence + _counted_anew(f.residual, scale)) for m, f in search.fits.items()}
+    then, now = (max(f.evidence for f in fits.values()) - HOPELESS_BEHIND for fits in (search.fits, moved))
+    near = {m for m, f in moved.items() if m == NOTHING or search.fits[m].evidence > then or f.evidence > now}
+    fits = {
+        m: integrate_change_points(problem, map_fit(problem, m, f.z, warm=True)) if m in near else f
+        for m, f in moved.items()
+    }
+    null_fit, scores = fits[NOTHING], _scores(problem, fits, search.space, search.values)
+    discrepancy = fit_discrepancy(problem, null_fit, search.space, search.values, {s.id for s in search.draws})
+    draws = tuple(replace(s, change=s.change * scale) for s in search.draws)
+    return replace(
+        search, problem=problem, null_fit=null_fit, fits=fits, scores=scores, discrepancy=discrepancy, draws=draws
+    )
 
 
 def _counted_anew(residual: np.ndarray, scale: np.ndarray) -> float:
-    """What the log likelihood of residuals gains, up to what all share, by being counted in other sigmas."""
+    """Change of the log likelihood of residuals by other standard deviations, up to a common constant."""
     return float(log_likelihood(residual * scale)[0].sum() - log_likelihood(residual)[0].sum())
 
 
 def spread_rows(values: list[np.ndarray], count: int) -> np.ndarray:
-    """A share of the rows that covers the conditions evenly."""
+    """A subset of the rows that covers the conditions evenly."""
     order = np.lexsort(values[::-1]) if values else np.arange(count)
-    edges = np.linspace(0, count, SPREAD + 1).astype(int)
-    # One of each stretch at random: every so many would go round with the levels of a condition.
+    edges = np.linspace(0, count, SUBSET + 1).astype(int)
+    # One of each stretch at random: every n-th row could coincide with the levels of a condition.
     at = np.random.default_rng(SEED).integers(edges[:-1], edges[1:])
     return np.sort(order[at])
 
 
 def priors(effects: int) -> tuple[float, float, float]:
-    """Priors of nothing, of one effect and of two, beside that of the unnamed, by how many effects there are.
+    """Prior weights of nothing, of one effect and of two, for a number of effects; the discrepancy keeps its own.
 
-    That of nothing is higher where few effects share that of a single one, that of pairs lower.
+    Among few effects the prior of nothing is raised and that of pairs lowered.
 
     >>> priors(30), [round(p, 2) for p in priors(6)]
     ((0.42, 0.38, 0.08), [0.89, 0.38, 0.02])
     """
     if effects == 0:
-        return PRIOR["none"], 0.0, 0.0
-    nothing = min(max(PRIOR["none"], LEAST_NONE * PRIOR["single"] / effects), 1.0)
-    return nothing, PRIOR["single"], PRIOR["pair"] * min(1.0, effects / WHOLE)
+        return PRIOR["nothing"], 0.0, 0.0
+    nothing = min(max(PRIOR["nothing"], LEAST_NOTHING_ODDS * PRIOR["single"] / effects), 1.0)
+    return nothing, PRIOR["single"], PRIOR["pair"] * min(1.0, effects / FULL_PAIR_PRIOR)
 
 
 def _search(
     problem: Problem, space: Coordinates, values: list[np.ndarray], exclude: Sequence[str], progress: Progress
 ) -> Search:
     progress("calibrating the base model")
-    none = map_fit(problem, (), np.zeros(problem.size(())))
-    # Readings do not tell their own noise: those that happen to be low would count for more.
-    problem = problem.with_sd(none.prediction, none.prediction)
-    none = map_fit(problem, (), none.z)
+    null_fit = map_fit(problem, NOTHING, np.zeros(problem.size(NOTHING)))
+    # Noise in proportion to the readings themselves would give low readings more weight.
+    problem = problem.with_sd(null_fit.prediction, null_fit.prediction)
+    null_fit = map_fit(problem, NOTHING, null_fit.z)
     effects = problem.forward.effects(exclude)
     progress(f"trying {len(effects)} effects")
-    drawn = [s for s in (sample(problem, e.id, none) for e in effects) if len(s.z)]
-    sampled = tuple(s for s in drawn if s.testable)
+    drawn = [s for s in (sample(problem, e.id, null_fit) for e in effects) if len(s.z)]
+    draws = tuple(s for s in drawn if s.testable)
     untestable = tuple(s for s in drawn if not s.testable)
-    singles: dict[Explanation, Fit] = {(s.id,): fit_single(problem, none, s) for s in sampled}
+    singles: dict[Explanation, Fit] = {Explanation.of(s.id): fit_single(problem, null_fit, s) for s in draws}
     if singles:
         best = max(singles.values(), key=lambda f: f.evidence)
-        if best.evidence > none.evidence + 3.0:
+        if best.evidence > null_fit.evidence + 3.0:
             old = problem.sd
-            problem = problem.with_sd(best.prediction, none.prediction)
-            none = map_fit(problem, (), none.z)
+            problem = problem.with_sd(best.prediction, null_fit.prediction)
+            null_fit = map_fit(problem, NOTHING, null_fit.z)
             singles = _again(problem, singles, best, old / problem.sd)
-            sampled = tuple(replace(s, change=s.change * (old / problem.sd)) for s in sampled)
-    fits: dict[Explanation, Fit] = {(): none, **singles}
+            draws = tuple(replace(s, change=s.change * (old / problem.sd)) for s in draws)
+    fits: dict[Explanation, Fit] = {NOTHING: null_fit, **singles}
     progress("trying pairs of effects")
-    for pair, start in promising_pairs(problem, none, singles, sampled):
-        if one_in_time(pair, problem, none):
+    for pair, start in promising_pairs(problem, null_fit, singles, draws):
+        if one_in_time(pair, problem, null_fit):
             continue
         fit = map_fit(problem, pair, start)
         if pair not in fits or fit.evidence > fits[pair].evidence:
             fits[pair] = fit
-    _exchange(problem, none, fits, sampled)
-    fits = {m: placed(problem, f) for m, f in fits.items() if shows(problem, f, fits)}
+    _exchange(problem, null_fit, fits, draws)
+    fits = {m: integrate_change_points(problem, f) for m, f in fits.items() if shows(problem, f, fits)}
     scores = _scores(problem, fits, space, values)
-    progress("weighing an unnamed mismatch")
-    unknown = unknown_fit(problem, none, space, values, {s.id for s in sampled})
-    return Search(problem, space, values, none, fits, scores, unknown, sampled, untestable)
+    progress("weighing a discrepancy")
+    discrepancy = fit_discrepancy(problem, null_fit, space, values, {s.id for s in draws})
+    return Search(problem, space, values, null_fit, fits, scores, discrepancy, draws, untestable)
 
 
 def _scores(
     problem: Problem, fits: Mapping[Explanation, Fit], space: Coordinates, values: list[np.ndarray]
 ) -> dict[Explanation, float]:
-    """Evidence of every explanation with forms a little wrong, and with published laws where it is near the best."""
+    """Evidence of every explanation with errors of form, and with published laws where it is near the best."""
     scores = {
-        m: min(elastic_evidence(problem, stiff, f, space, values) for stiff in unbending(fits, m))
+        m: min(form_error_evidence(problem, stiff, f, space, values) for stiff in reference_fits(fits, m))
         for m, f in fits.items()
     }
     best = max(scores.values())
-    return {m: s + (published_gain(problem, fits[m]) if s > best - NEAR else 0.0) for m, s in scores.items()}
+    return {
+        m: s + (published_gain(problem, fits[m]) if s > best - PUBLISHED_WITHIN else 0.0) for m, s in scores.items()
+    }
 
 
-def _exchange(problem: Problem, none: Fit, fits: dict[Explanation, Fit], sampled: tuple[Sampled, ...]) -> None:
-    """Put other effects in the place of either of the best two, until no pair is better; adds to the fits."""
+def _exchange(problem: Problem, null_fit: Fit, fits: dict[Explanation, Fit], draws: tuple[PriorDraws, ...]) -> None:
+    """Exchange either effect of the best pair for others, until no pair is better; adds to the fits."""
     for _ in range(ROUNDS):
-        best = max((f for m, f in fits.items() if len(m) == 2), key=lambda f: f.evidence, default=None)
+        best = max((f for m, f in fits.items() if len(m.effects) == 2), key=lambda f: f.evidence, default=None)
         if best is None:
             return
-        for pair, start in exchanged(problem, best, sampled):
-            if pair not in fits and not one_in_time(pair, problem, none):
+        for pair, start in exchanged(problem, best, draws):
+            if pair not in fits and not one_in_time(pair, problem, null_fit):
                 fits[pair] = map_fit(problem, pair, start)
-        if best.evidence >= max(f.evidence for m, f in fits.items() if len(m) == 2):
+        if best.evidence >= max(f.evidence for m, f in fits.items() if len(m.effects) == 2):
             return
 
 
-def one_in_time(pair: Explanation, problem: Problem, none: Fit) -> bool:
-    """Whether two effects are no two here: one is a fault of the channel, and nothing but time moves either.
+def one_in_time(pair: Explanation, problem: Problem, null_fit: Fit) -> bool:
+    """Whether two effects cannot be separated: one is a fault of the channel, and both depend on time alone.
 
-    What changes and what reads it are then one function of time between them, however good the fit. A condition that
-    wanders by the way, and that neither effect nor, beyond noise, the base model asks for, moves nothing.
+    Their sum is then one function of time, however good the fit. A condition that drifts, and on which neither effect
+    nor the base model depends beyond noise, separates nothing.
     """
-    effects, inputs = effects_of(pair), problem.forward.inputs
-    asked = {name for e in effects for name in e.reads if name in inputs and np.ptp(inputs[name]) > 0.0}
-    still = np.ptp(none.prediction) <= np.median(problem.sd)
-    return any(e.stage == "measurement" for e in effects) and bool(still) and asked <= CLOCKS
+    effects, inputs = effects_of(pair.effects), problem.forward.inputs
+    inputs_read = {name for e in effects for name in e.reads if name in inputs and np.ptp(inputs[name]) > 0.0}
+    still = np.ptp(null_fit.prediction) <= np.median(problem.sd)
+    return any(e.stage == "measurement" for e in effects) and bool(still) and inputs_read <= CLOCKS
 
 
 def shows(problem: Problem, fit: Fit, fits: Mapping[Explanation, Fit]) -> bool:
-    """Whether an explanation, beyond any part of it, moves more readings than outliers are usual.
+    """Whether an explanation affects more readings, beyond any part of it, than are outliers a priori.
 
     The seconds after a start could be any effect that passes quickly.
     """
-    parts = (other for m, other in fits.items() if set(m) < set(fit.explanation))
+    parts = (other for m, other in fits.items() if set(m.effects) < set(fit.explanation.effects))
     nets = (np.abs(fit.prediction - other.prediction) / problem.sd for other in parts)
-    return all(np.count_nonzero(net >= MOVED * net.max()) >= OUTLIER_SHARE * net.size for net in nets)
+    return all(np.count_nonzero(net >= AFFECTED * net.max()) >= OUTLIER_SHARE * net.size for net in nets)
 
 
 def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: np.ndarray) -> dict[Explanation, Fit]:
-    """The fits under a new noise level; those hopelessly behind the best only keep their distance to it.
+    """The fits under a new noise level; those far behind the best only keep their distance to it.
 
     ``scale`` is the old noise over the new.
     """
-    new = {m: map_fit(problem, m, f.z, warm=True) for m, f in singles.items() if f.evidence > best.evidence - FAR}
+    new = {
+        m: map_fit(problem, m, f.z, warm=True)
+        for m, f in singles.items()
+        if f.evidence > best.evidence - HOPELESS_BEHIND
+    }
     shift = new[best.explanation].evidence - best.evidence
     return {m: new[m] if m in new else f.in_sigmas(scale, f.evidence + shift) for m, f in singles.items()}
 
 
-def bendable(explanation: Explanation) -> int:
-    """How many of its effects have a form that could be a little wrong: exact ones have not; none where one is free."""
-    effects = effects_of(explanation)
+def n_inexact(explanation: Explanation) -> int:
+    """Number of effects whose form may be inexact: not those of an exact form, and none if one is descriptive."""
+    effects = effects_of(explanation.effects)
     return 0 if any(e.free_form for e in effects) else sum(not e.exact for e in effects)
 
 
-def unbending(fits: Mapping[Explanation, Fit], explanation: Explanation) -> tuple[Fit, ...]:
-    """The fits that an explanation bends against: the base model, and its exact effects alone.
+def reference_fits(fits: Mapping[Explanation, Fit], explanation: Explanation) -> tuple[Fit, ...]:
+    """Reference fits for the error of form: the base model, and the exact effects of the explanation alone.
 
-    The second keeps an effect that does nothing beside an exact one from bending what that one does.
+    The second keeps an effect without influence from changing the form of an exact one.
     """
-    exact = tuple(e.id for e in effects_of(explanation) if e.exact)
-    return (fits[()], *([fits[exact]] if exact and exact in fits else []))
+    exact = Explanation(tuple(e.id for e in effects_of(explanation.effects) if e.exact))
+    return (fits[NOTHING], *([fits[exact]] if exact != NOTHING and exact in fits else []))
 
 
-def elastic_evidence(problem: Problem, stiff: Fit, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:
-    """Evidence with the effects' forms, what they add to a ``stiff`` fit, allowed to be a little wrong, smoothly."""
-    count = bendable(fit.explanation)
+def form_error_evidence(problem: Problem, stiff: Fit, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:
+    """Evidence with a smooth error of form: of what the effects add to a ``stiff`` reference fit."""
+    count = n_inexact(fit.explanation)
     if not count:
         return fit.evidence
     base = np.hstack([fit.slopes, problem.shared])
     plain = linear_fit(fit.anchor, base, fit.weight).evidence
     net = (fit.prediction - stiff.prediction) / problem.sd
-    bend = elastic_columns(net, typical_size(net), space, values)
+    bend = form_error_columns(net, rms(net), space, values)
     gains = []
-    for size, weight in ELASTIC:
+    for size, weight in FORM_ERRORS:
         if size == 0.0:
             gains.append(np.log(weight))
             continue
         bent = linear_fit(fit.anchor, np.hstack([base, size * bend]), fit.weight).evidence
         gains.append(np.log(weight) + bent - plain)
-    most = float(np.clip(BEND_SHARE * net @ (net * fit.weight), BEND_LIMIT, BEND_MOST))
+    most = float(np.clip(FORM_ERROR_GAIN_SHARE * net @ (net * fit.weight), FORM_ERROR_GAIN_FLOOR, FORM_ERROR_GAIN_CAP))
     return fit.evidence + min(float(np.logaddexp.reduce(gains)), most / count)
 
 
-def typical_size(net: np.ndarray) -> float:
+def rms(net: np.ndarray) -> float:
     """Root mean square."""
     return float(np.sqrt(np.mean(net**2)))
 
 
-def elastic_columns(net: np.ndarray, typical: float, space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
-    """What an explanation adds to the calibrated base, in sigmas, times smooth functions of the numeric conditions.
+def form_error_columns(net: np.ndarray, typical: float, space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
+    """Change by an explanation, in standard deviations, times smooth functions of the numeric conditions.
 
-    Where it adds little a third of its ``typical`` size stands in: another form need not vanish there too.
+    Where the change is small, a third of its ``typical`` size replaces it: another form need not vanish there.
     """
     smooth = [
-        axis.functions(v, 0.35)[:, :8] if axis.folded else axis.functions(v, 0.7)[:, :4]
+        axis.functions(v, 0.35)[:, :8] if axis.symmetric_log else axis.functions(v, 0.7)[:, :4]
         for axis, v in zip(space.axes, values, strict=True)
         if not axis.named and axis.name != "sequence"
     ]

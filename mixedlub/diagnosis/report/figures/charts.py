@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mixedlub.diagnosis.assessment.posterior import TIE, Key
-from mixedlub.diagnosis.assessment.power_law import Unnamed
+from mixedlub.diagnosis.assessment.posterior import TIE
+from mixedlub.diagnosis.assessment.power_law import DescribedDiscrepancy
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.labels import axis_label, conditions_text, explanation_words, words_of
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.report.figures import maps
@@ -26,14 +27,13 @@ FOLD = 58
 """Letters of a line beside a bar."""
 
 
-def colour_of(key: Key) -> str:
+def colour_of(key: Explanation) -> str:
     """Physics, instrument, nothing and the unnamed each have their colour."""
-    if key == "unknown":
+    if key.is_discrepancy:
         return UNNAMED
-    if key == ():
+    if key == NOTHING:
         return MUTED
-    assert not isinstance(key, str)
-    return FAULT if all(e.stage == "measurement" for e in effects_of(key)) else AFTER
+    return FAULT if all(e.stage == "measurement" for e in effects_of(key.effects)) else AFTER
 
 
 def evidence(d: Diagnosis) -> Figure:
@@ -41,10 +41,9 @@ def evidence(d: Diagnosis) -> Figure:
     from matplotlib.lines import Line2D
 
     judged = d.posterior
-    rows: list[tuple[Key, float]] = [(k, w) for k, w in judged.weights.items() if w >= FAINT][:SHOWN]
-    others: tuple[Key, ...] = ((), "unknown")
-    rows += [(key, max(judged.weights[key], FAINT)) for key in others if key not in dict(rows)]
-    names = [explanation_words(judged.names(k)) for k, _ in rows]
+    rows = [(k, w) for k, w in judged.weights.items() if w >= FAINT][:SHOWN]
+    rows += [(key, max(judged.weights[key], FAINT)) for key in (NOTHING, DISCREPANCY) if key not in dict(rows)]
+    names = [explanation_words(k.ids) for k, _ in rows]
     figure = blank(7.2, 1.1 + 0.27 * len(rows))
     axes = figure.add_subplot()
     top = rows[0][1]
@@ -73,7 +72,7 @@ def evidence(d: Diagnosis) -> Figure:
 def heldout(d: Diagnosis) -> Figure:
     """Error on whole levels of conditions left out of the fit, before and after, against noise."""
     kept = d.heldout
-    values = [kept.before] if d.posterior.verdict == () else [kept.before, kept.after]
+    values = [kept.before] if d.posterior.verdict == NOTHING else [kept.before, kept.after]
     names = ["calibration alone", "with the answer"][: len(values)]
     figure = blank(6.2, 1.0 + 0.38 * len(values))
     axes = figure.add_subplot()
@@ -98,13 +97,13 @@ def heldout(d: Diagnosis) -> Figure:
     axes.grid(axis="y", visible=False)
     axes.tick_params(axis="y", length=0)
     split = kept.split
-    for axis in d.found.space.axes:
+    for axis in d.search.space.axes:
         split = split.replace(axis.name, words_of(axis.name))
     axes.set_xlabel(f"rms error on left-out readings (sigma)\n{split}, {kept.folds} folds")
     return figure
 
 
-def absorbing_stages(extra: Unnamed) -> Figure | None:
+def absorbing_stages(extra: DescribedDiscrepancy) -> Figure | None:
     """Of an unnamed mismatch: how well each stage could take it up; none where all could alike."""
     from matplotlib.ticker import MaxNLocator
 
@@ -127,7 +126,7 @@ def absorbing_stages(extra: Unnamed) -> Figure | None:
     return figure
 
 
-def empirical_form(d: Diagnosis, extra: Unnamed) -> Figure | None:
+def empirical_form(d: Diagnosis, extra: DescribedDiscrepancy) -> Figure | None:
     """The power law of an unnamed mismatch against what was recorded; none where no law holds."""
     law = extra.law
     if law is None:

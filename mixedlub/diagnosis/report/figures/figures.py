@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mixedlub.diagnosis.assessment.identifiability import confusion
-from mixedlub.diagnosis.assessment.power_law import Unnamed
+from mixedlub.diagnosis.assessment.power_law import DescribedDiscrepancy
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.labels import axis_label, words_of
 from mixedlub.diagnosis.report.figures import charts, maps
 from mixedlub.diagnosis.report.figures.binning import together
@@ -38,10 +39,10 @@ MOST_LEVELS, BINS = 12, 10
 """Levels that a profile shows one by one, and into how many bins it takes more."""
 
 
-def all_figures(d: Diagnosis, extra: Unnamed | None = None) -> dict[str, Figure]:
+def all_figures(d: Diagnosis, extra: DescribedDiscrepancy | None = None) -> dict[str, Figure]:
     """Every figure that the case has something to show in, by file name, in reading order."""
-    alike = confusion(d.found)
-    named = tuple(dict.fromkeys(n for k in d.posterior.tied if not isinstance(k, str) for n in k))
+    alike = confusion(d.search)
+    named = tuple(dict.fromkeys(n for k in d.posterior.tied for n in k.effects))
     with look():
         drawn = {
             "recorded_against_simulated": recorded_against_simulated(d),
@@ -170,7 +171,7 @@ def _legend(axes: Axes, outliers: bool, beyond: bool) -> None:
 
 def missing_part(d: Diagnosis) -> Figure | None:
     """What the base model lacks, in the unit of the reading, against the conditions: recorded and as explained."""
-    if d.posterior.verdict == ():
+    if d.posterior.verdict == NOTHING:
         return None
     p = d.recorded
     names = [n for n in (maps.frame_of(d).across, maps.frame_of(d).up, maps.frame_of(d).panel) if n]

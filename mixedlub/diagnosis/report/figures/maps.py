@@ -12,7 +12,7 @@ from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import amount, axis_label, effect_words, number, words_of
 from mixedlub.diagnosis.report.figures.binning import together
 from mixedlub.diagnosis.report.figures.style import DIVERGING, INK, MUTED, OUTLIER, PAPER, blank
-from mixedlub.recording.conditions import held_at
+from mixedlub.recording.conditions import noisy_set_point
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -60,7 +60,7 @@ def _varied(d: Diagnosis) -> list[str]:
     table = d.recorded.table
     names = [c.name for c in d.case.kind.columns if c.form != "name" and c.name in table]
     moved = [n for n in names if np.ptp(table[n]) > DRIFT * np.max(np.abs(table[n]))]
-    return [n for n in moved if held_at(n, table[n]) is None]
+    return [n for n in moved if noisy_set_point(n, table[n]) is None]
 
 
 def residual_map(d: Diagnosis) -> Figure | None:

@@ -6,6 +6,7 @@ from collections.abc import Collection, Mapping
 
 from mixedlub.diagnosis.assessment.identifiability import VISIBLE, Confusion
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING
 from mixedlub.diagnosis.labels import effect_words
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.report.text.headline import chance
@@ -27,8 +28,8 @@ HIDDEN = f"the noise was estimated {AS_IF_NOTHING}, and what is taken for noise 
 def resembling(d: Diagnosis, alike: Confusion) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Sentences, and the tests that separate what is tied."""
     said = _resemblance(d, alike)
-    names = dict.fromkeys(name for key in d.posterior.tied if not isinstance(key, str) for name in key)
-    items = tuple(f"{effect_words(e.id)}: {e.separated_by}" for e in effects_of(tuple(names)))
+    names = dict.fromkeys(name for key in d.posterior.tied for name in key.effects)
+    items = tuple(f"{effect_words(e.id)}: {e.separated_by}" for e in effects_of(names))
     if len(d.posterior.tied) < 2 or not items:
         return said, ()
     return (*said, "To separate them:"), items
@@ -36,7 +37,7 @@ def resembling(d: Diagnosis, alike: Confusion) -> tuple[tuple[str, ...], tuple[s
 
 def _resemblance(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
     judged = d.posterior
-    verdict = () if isinstance(judged.verdict, str) else judged.verdict
+    verdict = judged.verdict.effects
     said, twins = [], set()
     for name in verdict:
         i = alike.ids.index(name)
@@ -54,18 +55,18 @@ def _resemblance(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
             )
     # What is told as the nearest to a mismatch without a name shows here and is not simply rejected.
     near = nearest(d)
-    told = () if near is None else near.names
+    told = () if near is None else near.explanation.effects
     hidden = unshown(d, alike)
     unseen = [name for name in hidden if name not in told]
     improbable = [name for name in _improbable(d) if name not in (*hidden, *told)]
-    every = judged.inclusion(d.found)
+    every = judged.inclusion(d.search)
     open_still = _open_still(d, every, (*hidden, *told))
     if open_still:
         said.append(f"Less probable, not excluded: {', '.join(open_still)}.")
     rejected = ", ".join(effect_words(name) for name in improbable if name not in twins)
     if rejected:
-        why = "Weighed and rejected" if verdict or judged.verdict == "unknown" else "Would show here, and did not"
-        under = "" if verdict or judged.verdict == "unknown" or d.noise_stated else f"; {HIDDEN}"
+        why = "Weighed and rejected" if verdict or judged.verdict.is_discrepancy else "Would show here, and did not"
+        under = "" if verdict or judged.verdict.is_discrepancy or d.noise_stated else f"; {HIDDEN}"
         said.append(f"{why} (probability below {REJECTED:g} each{under}): {rejected}.")
     close = ", ".join(effect_words(name) for name in improbable if name in twins)
     if close:
@@ -80,7 +81,7 @@ def _resemblance(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
 
 def unshown(d: Diagnosis, alike: Confusion) -> list[str]:
     """Effects outside the tied explanations that these readings would not show at usual strength."""
-    told = {name for key in d.posterior.tied if not isinstance(key, str) for name in key}
+    told = {name for key in d.posterior.tied for name in key.effects}
     return [name for name in alike.unseen() if name not in told]
 
 
@@ -89,7 +90,7 @@ def _open_still(d: Diagnosis, every: Mapping[str, float], told: Collection[str])
 
     Nothing missing and the unnamed are among it.
     """
-    named = {name for key in d.posterior.tied for name in d.posterior.names(key)}
+    named = {name for key in d.posterior.tied for name in key.ids}
     left = [name for name, p in every.items() if p >= REJECTED and name not in named and name not in told]
     return [_with_chance(name, every) for name in sorted(left, key=lambda n: -every[n])]
 
@@ -102,8 +103,8 @@ def _with_chance(name: str, every: Mapping[str, float]) -> str:
 
 def _improbable(d: Diagnosis) -> list[str]:
     """Improbable effects; faults of the channel are none of them where single readings have one."""
-    weighed = {name: p for name, p in d.posterior.inclusion(d.found).items() if name not in ("none", "unknown")}
+    weighed = {
+        name: p for name, p in d.posterior.inclusion(d.search).items() if name not in NOTHING.ids + DISCREPANCY.ids
+    }
     faulty = bool(d.outlier_runs)
-    return [
-        e.id for e in effects_of(tuple(weighed)) if weighed[e.id] < REJECTED and not (faulty and "reading" in e.acts_on)
-    ]
+    return [e.id for e in effects_of(weighed) if weighed[e.id] < REJECTED and not (faulty and "reading" in e.acts_on)]

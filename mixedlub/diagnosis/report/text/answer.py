@@ -12,6 +12,7 @@ import numpy as np
 from mixedlub.chain.priors import Prior
 from mixedlub.diagnosis.assessment.prediction import Refined
 from mixedlub.diagnosis.diagnose import Diagnosis, Predicted
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING
 from mixedlub.diagnosis.inference.map_fit import NINETY
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.report.text.location_text import located
@@ -21,7 +22,7 @@ from mixedlub.schema.findings import as_records
 
 def as_json(d: Diagnosis) -> dict[str, Any]:
     """The answer by the schema mixedlub-diagnosis/1."""
-    verdict = d.posterior.names(d.posterior.verdict)
+    verdict = list(d.posterior.verdict.ids)
     return {
         "schema": "mixedlub-diagnosis/1",
         "case": d.case.name,
@@ -33,8 +34,8 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
             "rows": d.test.rows,
         },
         "verdict": verdict,
-        "probabilities": d.posterior.inclusion(d.found),
-        "tied": [d.posterior.names(key) for key in d.posterior.tied],
+        "probabilities": d.posterior.inclusion(d.search),
+        "tied": [list(key.ids) for key in d.posterior.tied],
         "stage": d.posterior.stages(),
         "location": {
             "rows": {
@@ -71,25 +72,23 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
 def verdict_fit(d: Diagnosis) -> Refined:
     """The refined fit of the verdict; of the calibrated base where the verdict is unknown."""
     key = d.posterior.verdict
-    return d.refined[() if isinstance(key, str) else key]
+    return d.refined[NOTHING if key.is_discrepancy else key]
 
 
 def verdict_residual(d: Diagnosis) -> np.ndarray:
     """(recorded - fitted)/sd of a single reading after the verdict."""
-    unknown = d.posterior.verdict == "unknown"
-    left = d.found.unknown.fit.residual if unknown else verdict_fit(d).residual
-    return d.found.problem.of_one(left)
+    discrepancy = d.posterior.verdict.is_discrepancy
+    left = d.search.discrepancy.fit.residual if discrepancy else verdict_fit(d).residual
+    return d.search.problem.single_reading_units(left)
 
 
 def effect_records(d: Diagnosis) -> list[dict[str, Any]]:
     """The verdict's effects with their fitted parameters."""
-    if isinstance(d.posterior.verdict, str):
-        return []
     refined = verdict_fit(d)
     spread = refined.spread
-    place = d.found.problem.calibration_size
+    place = d.search.problem.calibration_size
     records = []
-    for e in d.found.problem.effects(refined.fit.explanation):
+    for e in d.search.problem.effects(refined.fit.explanation):
         parameters = []
         for p in e.parameters:
             value, low, high = _told(refined, p.prior, place, spread[place])
@@ -103,14 +102,14 @@ def effect_records(d: Diagnosis) -> list[dict[str, Any]]:
 
 def calibration_record(d: Diagnosis) -> dict[str, dict[str, float]]:
     """Calibrated inputs under the verdict, with 90 % intervals."""
-    if d.posterior.verdict == "unknown":
-        unknown = d.found.unknown
-        z, spread = unknown.z, np.sqrt(np.diag(unknown.covariance))
+    if d.posterior.verdict.is_discrepancy:
+        discrepancy = d.search.discrepancy
+        z, spread = discrepancy.z, np.sqrt(np.diag(discrepancy.covariance))
     else:
         refined = verdict_fit(d)
         z, spread = refined.z, refined.spread
     record = {}
-    for i, c in enumerate(d.found.problem.forward.calibrations):
+    for i, c in enumerate(d.search.problem.forward.calibrations):
         value, low, high = interval(c.parameter.prior, z[i], spread[i])
         record[c.name] = {"value": value, "low90": low, "high90": high}
     return record
@@ -124,7 +123,7 @@ def interval(prior: Prior, z: float, spread: float) -> tuple[float, float, float
 
 def _told(refined: Refined, prior: Prior, index: int, spread: float) -> tuple[float, float, float]:
     """The same of a coordinate of a fit; that of a place from all places where it may stand."""
-    for stands in refined.places:
+    for stands in refined.change_points:
         if stands.index == index:
             low, value, high = (prior.value(stands.at(share)) for share in (0.05, 0.5, 0.95))
             return value, low, high
@@ -133,8 +132,8 @@ def _told(refined: Refined, prior: Prior, index: int, spread: float) -> tuple[fl
 
 def separating_text(names: tuple[str, ...]) -> str:
     """What the catalogue says about telling the named effects apart."""
-    ids = [part for name in names for part in name.split("+") if part not in ("none", "unknown")]
-    return "; ".join(dict.fromkeys(f"{e.id}: {e.separated_by}" for e in effects_of(tuple(ids))))
+    ids = [part for name in names for part in name.split("+") if part not in NOTHING.ids + DISCREPANCY.ids]
+    return "; ".join(dict.fromkeys(f"{e.id}: {e.separated_by}" for e in effects_of(ids)))
 
 
 def predictions_csv(d: Diagnosis) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from mixedlub.data_checks.audit import SCARCE
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.labels import STAGE_WORDS, effect_words, explanation_words, with_names
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.schema.findings import Severity, codes, grouped, of_severity
@@ -70,7 +71,7 @@ def headline(d: Diagnosis) -> str:
     """The verdict in one sentence; where readings are few or all wrong, after one that says so."""
     count = d.readings.size
     said = _verdict(d)
-    if d.posterior.verdict == "unknown" and "repeats_contradictory" in codes(d.warnings):
+    if d.posterior.verdict.is_discrepancy and "repeats_contradictory" in codes(d.warnings):
         said = f"Readings at equal conditions contradict each other: check instrument and set-up first. {said}"
     if count < SCARCE:
         said = f"Only {count} readings: take this as a hint, not as a finding. {said}"
@@ -83,24 +84,23 @@ def _verdict(d: Diagnosis) -> str:
     if common:
         return _beside(d, common)
     if len(judged.tied) > 1:
-        named = [f"{explanation_words(judged.names(k))} ({chance(judged.weights[k])})" for k in judged.tied[:MOST_TIED]]
+        named = [f"{explanation_words(k.ids)} ({chance(judged.weights[k])})" for k in judged.tied[:MOST_TIED]]
         rest = _rest(d)
-        if judged.verdict == ():
+        if judged.verdict == NOTHING:
             others = _listed([*named[1:], *rest], "or")
             return (
-                f"No mismatch beyond noise: nothing needs to be missing ({chance(judged.weights[()])}). A tie all the "
-                f"same: these readings do not exclude {others}."
+                f"No mismatch beyond noise: nothing needs to be missing ({chance(judged.weights[NOTHING])}). A tie all "
+                f"the same: these readings do not exclude {others}."
             )
         return f"A tie. Most probable: {named[0]}. Not excluded: {'; '.join([*named[1:], *rest])}."
     p = chance(judged.weights[judged.verdict])
-    if judged.verdict == ():
+    if judged.verdict == NOTHING:
         return f"Nothing is missing that these readings could show: the calibrated model explains them ({p})."
-    if judged.verdict == "unknown":
+    if judged.verdict.is_discrepancy:
         count = len(d.excluded)
         which = f"of those weighed explains ({count} left out on request)" if count else "of the catalogue explains"
         return f"Something is missing that no one effect {which}, nor any two tried together (probability {p})."
-    assert not isinstance(judged.verdict, str)
-    effects = effects_of(judged.verdict)
+    effects = effects_of(judged.verdict.effects)
     free = [effect_words(e.id) for e in effects if e.free_form]
     physics = [effect_words(e.id) for e in effects if e.stage != "measurement" and not e.free_form]
     faults = [effect_words(e.id) for e in effects if e.stage == "measurement"]
@@ -122,17 +122,17 @@ def _rest(d: Diagnosis) -> list[str]:
 
 def _common(d: Diagnosis) -> list[str]:
     """Effects that are in every one of several tied explanations."""
-    named = [set(k) for k in d.posterior.tied if not isinstance(k, str)]
+    named = [set(k.effects) for k in d.posterior.tied if not k.is_discrepancy]
     return sorted(set.intersection(*named)) if len(named) == len(d.posterior.tied) > 1 else []
 
 
 def _beside(d: Diagnosis, common: list[str]) -> str:
     """A tie all of whose explanations share something, and the readings leave open what acts as well."""
-    judged, inclusion = d.posterior, d.posterior.inclusion(d.found)
+    judged, inclusion = d.posterior, d.posterior.inclusion(d.search)
     shared = " and ".join(f"{effect_words(name)} ({chance(inclusion[name])})" for name in common)
     each = []
     for key in judged.tied[:MOST_TIED]:
-        beside = [name for name in judged.names(key) if name not in common]
+        beside = [name for name in key.ids if name not in common]
         p = chance(judged.weights[key])
         each.append(f"{explanation_words(beside) if beside else 'nothing else'} ({p})")
     return f"In every explanation left: {shared}. A tie in what acts as well: {'; '.join([*each, *_rest(d)])}."
@@ -152,7 +152,7 @@ def standing(d: Diagnosis) -> list[str]:
     judged = d.posterior
     said = _each(d, set(_common(d)))
     stages = {name: p for name, p in judged.stages().items() if p >= 0.05}
-    if judged.verdict != () and stages:
+    if judged.verdict != NOTHING and stages:
         ranked = sorted(stages.items(), key=lambda item: -item[1])
         said.append(
             "Step of the model at fault: " + ", ".join(f"{STAGE_WORDS[s]} ({chance(p)})" for s, p in ranked) + "."
@@ -163,10 +163,8 @@ def standing(d: Diagnosis) -> list[str]:
 def _each(d: Diagnosis, told: set[str]) -> list[str]:
     """How probable the effects of the answer are in all explanations, where that differs from the answer as a whole."""
     judged = d.posterior
-    if isinstance(judged.verdict, str):
-        return []
-    every, own = judged.inclusion(d.found), chance(judged.weights[judged.verdict])
-    names = [name for name in judged.verdict if name not in told and chance(every[name]) != own]
+    every, own = judged.inclusion(d.search), chance(judged.weights[judged.verdict])
+    names = [name for name in judged.verdict.effects if name not in told and chance(every[name]) != own]
     if not names:
         return []
     return [f"{with_names(effect_words(name))}: {probability_words(d, name)}." for name in names]
@@ -175,11 +173,10 @@ def _each(d: Diagnosis, told: set[str]) -> list[str]:
 def probability_words(d: Diagnosis, name: str) -> str:
     """How probable one effect of the verdict is, and with what it was counted."""
     key = d.posterior.verdict
-    assert not isinstance(key, str)
-    own, every = chance(d.posterior.weights[key]), chance(d.posterior.inclusion(d.found)[name])
+    own, every = chance(d.posterior.weights[key]), chance(d.posterior.inclusion(d.search)[name])
     if own == every:
         return f"probability {every}"
-    if len(key) == 1:
+    if len(key.effects) == 1:
         return f"probability {own} alone, {every} alone or with a second effect"
-    beside = explanation_words([other for other in key if other != name])
+    beside = explanation_words([other for other in key.effects if other != name])
     return f"probability {own} together with {beside}, {every} overall"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.labels import number, range_text
 from mixedlub.diagnosis.report.text.outlier_text import reading_conditions
 
@@ -22,13 +23,13 @@ EVEN = 0.3
 
 def where(d: Diagnosis) -> tuple[str, ...]:
     """The place of the mismatch, its largest reading, and why signs in the figures may differ."""
-    if d.posterior.verdict == ():
+    if d.posterior.verdict == NOTHING:
         return ()
     z = _mismatch(d)
     most = int(np.argmax(np.abs(z)))
     run, conditions = int(d.recorded.table["run"][most]), reading_conditions(d, most)
     said: tuple[str, ...] = (located(d), f"Largest at run {run} ({conditions}): {z[most]:+.1f} sigma.")
-    if d.posterior.verdict == "unknown" and d.found.problem.calibration_size and not d.region.inside.all():
+    if d.posterior.verdict.is_discrepancy and d.search.problem.calibration_size and not d.region.inside.all():
         said = (*said, LEVEL)
     turned = np.sign(d.residuals[0]) != np.sign(z)
     return (*said, SPREAD) if turned.mean() > TURNED else said

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mixedlub.diagnosis.assessment.posterior import names_effects
 from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.labels import explanation_words, number
-from mixedlub.diagnosis.problem import Explanation
 from mixedlub.diagnosis.report.text.headline import chance, percent
 
 WORTH = 0.5
@@ -31,7 +30,7 @@ class Nearest:
     No effects where none takes up enough of it.
     """
 
-    names: Explanation
+    explanation: Explanation
     taken: float
     before: float
     after: float
@@ -40,23 +39,23 @@ class Nearest:
 
 def nearest(d: Diagnosis) -> Nearest | None:
     """What takes up most of a mismatch that has no name; None where a name is tied or there is nothing to take up."""
-    found, tied = d.found, d.posterior.tied
-    if "unknown" not in tied or found.unknown.best.form == "wave" or any(names_effects(key) for key in tied):
+    found, tied = d.search, d.posterior.tied
+    if DISCREPANCY not in tied or found.discrepancy.best.form == "wave" or any(key.effects for key in tied):
         return None
     good = d.counted
 
     def squares(residual: np.ndarray) -> float:
-        return float(np.sum(found.problem.of_one(residual[good]) ** 2))
+        return float(np.sum(found.problem.single_reading_units(residual[good]) ** 2))
 
     left = {key: squares(fit.residual) for key, fit in found.fits.items()}
-    most = left[()] - squares(found.unknown.fit.residual)
-    names = [key for key in left if key and left[key] < left[()]]
+    most = left[NOTHING] - squares(found.discrepancy.fit.residual)
+    names = [key for key in left if key.effects and left[key] < left[NOTHING]]
     if most <= 0.0 or not names:
         return None
     # One effect is named unless a second takes up a good part of what it leaves.
-    best = min(names, key=lambda key: left[key] + SECOND * most * (len(key) - 1))
-    taken = min((left[()] - left[best]) / most, 1.0)
-    return Nearest(best if taken >= WORTH else (), taken, left[()], left[best], int(good.sum()))
+    best = min(names, key=lambda key: left[key] + SECOND * most * (len(key.effects) - 1))
+    taken = min((left[NOTHING] - left[best]) / most, 1.0)
+    return Nearest(best if taken >= WORTH else NOTHING, taken, left[NOTHING], left[best], int(good.sum()))
 
 
 def nearest_name(d: Diagnosis) -> list[str]:
@@ -64,13 +63,14 @@ def nearest_name(d: Diagnosis) -> list[str]:
     best = nearest(d)
     if best is None:
         return []
-    if not best.names:
+    if best.explanation == NOTHING:
         return ["No effect of the catalogue takes up a half of it."]
     noisy = best.after < best.count + 2.0 * np.sqrt(2.0 * best.count)
-    p = d.posterior.weights.get(best.names, 0.0)
+    p = d.posterior.weights.get(best.explanation, 0.0)
     why = SUITS if noisy else "what it leaves has another form."
+    named = explanation_words(best.explanation.effects)
     return [
-        f"Nearest in the catalogue: {explanation_words(list(best.names))}, with {percent(best.taken)} of it taken up "
+        f"Nearest in the catalogue: {named}, with {percent(best.taken)} of it taken up "
         f"(chi-square {number(best.before)} to {number(best.after)} for {best.count} readings, of which noise makes "
         f"about {best.count}). It is not the answer (probability {chance(p)}): {why}"
     ]

@@ -8,7 +8,7 @@ import numpy as np
 
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import amount, conditions_text, explanation_words, range_text, words_of
-from mixedlub.recording.conditions import PASSING, held_at
+from mixedlub.recording.conditions import PASSING, noisy_set_point
 from mixedlub.recording.noise import setups_differ
 from mixedlub.schema.table import Table
 
@@ -26,19 +26,19 @@ SETUPS = (
 
 def next_test(d: Diagnosis) -> tuple[str, ...]:
     """What to run next, or that no test is worth it."""
-    if d.posterior.verdict == "unknown":
+    if d.posterior.verdict.is_discrepancy:
         period = wave_period(d)
         if period:
             return (
                 f"Look for what on the rig swings every {period}, as a thermostat or a turning part may. Read at other "
                 "intervals as well: what swings faster than readings are taken shows with a longer period.",
             )
-        if d.found.unknown.best.form == "step" and d.found.unknown.best.axes[0] in PASSING:
+        if d.search.discrepancy.best.form == "step" and d.search.discrepancy.best.axes[0] in PASSING:
             moment = standing_place(d)
             return (f"Look up what was done to the rig or the sample at {moment}, and repeat a reading from before.",)
-        if d.found.unknown.best.form == "delay":
+        if d.search.discrepancy.best.form == "delay":
             return ("Wait longer after a change of temperature, or run the same conditions in another order.",)
-        if set(d.found.unknown.best.axes) <= set(PASSING) and d.found.unknown.best.axes:
+        if set(d.search.discrepancy.best.axes) <= set(PASSING) and d.search.discrepancy.best.axes:
             return ("It goes with time alone: run the programme again, in another order, and see whether it returns.",)
         return _refined(d)
     if not d.next_tests:
@@ -78,10 +78,10 @@ def to_run(conditions: Mapping[str, float | str], recorded: Table) -> str:
 
 def _refined(d: Diagnosis) -> tuple[str, ...]:
     """Where to read again for the form of an unnamed mismatch; names have no levels between them."""
-    shape, space = d.found.unknown.best, d.found.space
+    shape, space = d.search.discrepancy.best, d.search.space
     table = d.recorded.table
     cuts = d.region.where if shape.at is None else ()
-    cuts = tuple(cut for cut in cuts if held_at(cut["column"], table[cut["column"]]) is None)
+    cuts = tuple(cut for cut in cuts if noisy_set_point(cut["column"], table[cut["column"]]) is None)
     names = [range_text(cut) for cut in cuts if "values" in cut]
     ranges = [cut for cut in cuts if "values" not in cut]
     passed = [range_text(cut) for cut in ranges if cut["column"] in PASSING]
@@ -102,27 +102,27 @@ def _refined(d: Diagnosis) -> tuple[str, ...]:
 
 def wave_period(d: Diagnosis) -> str:
     """Period of the unnamed mismatch where it is a wave in time; empty where it is none."""
-    shape = d.found.unknown.best
+    shape = d.search.discrepancy.best
     if not shape.waves:
         return ""
-    low, high = d.found.space.axes[d.found.space.place(shape.axes[0])].ends
+    low, high = d.search.space.axes[d.search.space.place(shape.axes[0])].ends
     return amount(float(f"{(high - low) / shape.waves:.3g}"), shape.axes[0])
 
 
 def standing_place(d: Diagnosis) -> str:
     """Where the unnamed mismatch stands that is a peak or a step; the number of a run where that is what passes."""
-    shape, rows = d.found.unknown.best, d.found.problem.rows
+    shape, rows = d.search.discrepancy.best, d.search.problem.rows
     name, at = shape.axes[0], shape.at or 0.0
     if name == "sequence":
         off = np.where(rows[name] >= at, rows[name] - at, np.inf) if shape.form == "step" else np.abs(rows[name] - at)
         return f"run {rows['run'][np.argmin(off)]:g}"
-    both = d.found.space.axes[d.found.space.place(name)].folded and at
+    both = d.search.space.axes[d.search.space.place(name)].symmetric_log and at
     return f"{words_of(name)} {amount(at, name)}{' in both directions' if both else ''}"
 
 
 def box_place(d: Diagnosis) -> str:
     """The ranges of conditions that an unnamed mismatch is tied to."""
-    rows, held = d.found.problem.rows, d.found.unknown.best.box
+    rows, held = d.search.problem.rows, d.search.discrepancy.best.box
     said = []
     for name, low, high in held:
         values = rows[name]

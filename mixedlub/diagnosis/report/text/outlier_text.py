@@ -42,7 +42,7 @@ def steadied_noise(d: Diagnosis) -> tuple[str, ...]:
     if stated is None:
         return ()
     size = np.abs(d.readings) if d.case.kind.logarithmic else 1.0
-    most = float(np.exp(np.max(np.abs(np.log(d.found.problem.one_sd * size / stated)))))
+    most = float(np.exp(np.max(np.abs(np.log(d.search.problem.single_sd * size / stated)))))
     if most < MUCH:
         return ()
     return (

@@ -39,15 +39,15 @@ Cells = tuple[tuple[str, ...], ...]
 
 def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
     """Fitted parameters of the answer's effects, with a sentence on those that the readings hardly tell."""
-    if isinstance(d.posterior.verdict, str) or d.posterior.verdict == ():
+    if not d.posterior.verdict.effects:
         return (), ()
     refined = verdict_fit(d)
     moved = np.max(np.abs(refined.fit.slopes), axis=0) > UNMOVED
     moved |= np.abs(refined.z) > UNMOVED
-    start = d.found.problem.calibration_size
-    every_company = d.posterior.inclusion(d.found)
+    start = d.search.problem.calibration_size
+    every_company = d.posterior.inclusion(d.search)
     table, said = [COLUMNS], []
-    for e, record in zip(d.found.problem.effects(d.posterior.verdict), effect_records(d), strict=True):
+    for e, record in zip(d.search.problem.effects(d.posterior.verdict), effect_records(d), strict=True):
         places = range(start, start + len(e.parameters))
         start += len(e.parameters)
         if e.free_form:
@@ -130,7 +130,7 @@ def _meaning(d: Diagnosis, p: Parameter, value: float) -> str:
 
 def _whole(d: Diagnosis, name: str) -> tuple[float, str]:
     """An input that a parameter is a share of, as calibrated, and its unit."""
-    forward = d.found.problem.forward
+    forward = d.search.problem.forward
     if name == "reading_scale":
         return float(forward.inputs[name]) * forward.scale, unit_of(d.case.quantity)
     if name == "reference_speed":
@@ -159,8 +159,7 @@ def _switches_off(d: Diagnosis, e: Effect, p: Parameter) -> bool:
     """Whether an effect of the answer does nothing at the null of one parameter, the others as fitted."""
     if p.null is None:
         return False
-    problem, key, z = d.found.problem, d.posterior.verdict, verdict_fit(d).z
-    assert not isinstance(key, str)
+    problem, key, z = d.search.problem, d.posterior.verdict, verdict_fit(d).z
     values = problem.parameters(key, z)
     others = {name: fitted for name, fitted in values.items() if name != e.id}
     at_null = {**others, e.id: {**values[e.id], p.name: p.null}}
@@ -182,13 +181,13 @@ def _reaching_nothing(e: Effect, told: list[tuple[Parameter, dict[str, float]]],
 
 def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
     """What calibration was moved to under the verdict."""
-    if not d.found.problem.forward.calibrations:
+    if not d.search.problem.forward.calibrations:
         return ("The case lets calibration move nothing.",), ()
     z, spread = _calibrated(d)
     given = _given(d.case)
     table = [("input", "stated", "moved to", "90 % interval", "moved by", "meaning")]
     strained = []
-    for i, c in enumerate(d.found.problem.forward.calibrations):
+    for i, c in enumerate(d.search.problem.forward.calibrations):
         value, low, high = interval(c.parameter.prior, z[i], spread[i])
         name = with_names(c.name.replace("_", " "), first=False)
         meaning = c.parameter.meaning
@@ -211,7 +210,7 @@ def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
         "1 sd is the uncertainty of the input, stated by the case or assumed where it states none: within 2 sd it was "
         "moved no further than expected."
     )
-    said += one_way(d.found.problem.forward)
+    said += one_way(d.search.problem.forward)
     if len(d.posterior.tied) > 1:
         said.append("That is with the first of the tied answers; another one moves inputs elsewhere.")
     return tuple(said), tuple(table)
@@ -245,7 +244,7 @@ def one_way(forward: Forward) -> list[str]:
 
 def _calibrated(d: Diagnosis) -> tuple[np.ndarray, np.ndarray]:
     """Coordinates of the calibration under the verdict, and their sd."""
-    if d.posterior.verdict == "unknown":
-        return d.found.unknown.z, np.sqrt(np.diag(d.found.unknown.covariance))
+    if d.posterior.verdict.is_discrepancy:
+        return d.search.discrepancy.z, np.sqrt(np.diag(d.search.discrepancy.covariance))
     refined = verdict_fit(d)
     return refined.z, refined.spread

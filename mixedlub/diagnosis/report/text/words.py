@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.plain_text import plain_equation
 from mixedlub.diagnosis.assessment.identifiability import confusion
-from mixedlub.diagnosis.assessment.power_law import Absorbed, Unnamed
+from mixedlub.diagnosis.assessment.power_law import Absorbed, DescribedDiscrepancy
 from mixedlub.diagnosis.diagnose import Diagnosis
-from mixedlub.diagnosis.discrepancy.modulated import NOTHING, READING
+from mixedlub.diagnosis.discrepancy.modulated import ADDITIVE, READING
+from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.labels import (
     STAGE_WORDS,
     effect_words,
@@ -66,9 +67,9 @@ class Section:
     items: tuple[str, ...] = ()
 
 
-def sections(d: Diagnosis, unnamed: Unnamed | None = None) -> list[Section]:
+def sections(d: Diagnosis, unnamed: DescribedDiscrepancy | None = None) -> list[Section]:
     """The whole answer, question by question."""
-    resemblance, separating = resembling(d, confusion(d.found))
+    resemblance, separating = resembling(d, confusion(d.search))
     found = [
         Section(ANSWER, (headline(d), *standing(d)), alarms=doubts(d)),
         Section(MISMATCH, (*_mismatch(d), *steadied_noise(d))),
@@ -115,14 +116,14 @@ def _mismatch(d: Diagnosis) -> tuple[str, ...]:
         f"It is wrong in {100 * test.level:g} % of the cases in which nothing is missing."
     )
     kept = d.counted
-    squares = d.found.problem.of_one(d.found.none.residual) ** 2
-    strain = float(d.found.none.z @ d.found.none.z)
+    squares = d.search.problem.single_reading_units(d.search.null_fit.residual) ** 2
+    strain = float(d.search.null_fit.z @ d.search.null_fit.z)
     without = "" if kept.all() else ", outliers left out"
     left = number(float(squares[kept].sum()) + strain)
     chi2 = f"chi-square {left} for {int(kept.sum())} readings after calibration{without}{_noise(d)}"
     size = p_words(test.p_value)
     size = f"p {size}" if size[0].isalpha() else f"p = {size}"
-    if test.lenient:
+    if test.noise_adapted:
         size += " even with the noise that this would need" if d.noise_stated else ", the noise left open"
     if test.detected:
         return (f"Yes ({size}; {chi2}).", alarm)
@@ -133,16 +134,16 @@ def _noise(d: Diagnosis) -> str:
     """Whose noise a chi-square is of, where the recording states none."""
     if d.noise_stated:
         return ""
-    beside = AS_IF_NOTHING if d.posterior.verdict == () else "beside what is missing"
+    beside = AS_IF_NOTHING if d.posterior.verdict == NOTHING else "beside what is missing"
     return f"; the noise was estimated {beside}"
 
 
 def _left_out(d: Diagnosis) -> Section:
     judged = d.posterior
-    if isinstance(judged.verdict, str) or judged.verdict == ():
+    if not judged.verdict.effects:
         return Section(LEFT_OUT, ())
     sentences: list[str] = []
-    for e in effects_of(judged.verdict):
+    for e in effects_of(judged.verdict.effects):
         sentences += [
             f"{with_names(effect_words(e.id))}, {probability_words(d, e.id)}, in {STAGE_WORDS[e.stage]}: {e.summary}",
             equation_sentence(e),
@@ -159,9 +160,9 @@ def equation_sentence(e: Effect) -> str:
     return f"Equation: {plain_equation(e.equation)}"
 
 
-def _unnamed(d: Diagnosis, unnamed: Unnamed) -> Section:
+def _unnamed(d: Diagnosis, unnamed: DescribedDiscrepancy) -> Section:
     law = unnamed.law
-    shape = d.found.unknown.best
+    shape = d.search.discrepancy.best
     along = " and ".join(words_of(name) for name in shape.axes) or "all conditions together"
     said = [f"Of all forms tried, the most probable {_form(d, along)}."]
     said += nearest_name(d)
@@ -205,22 +206,22 @@ def told_apart(stages: Sequence[Absorbed]) -> bool:
 
 def _form(d: Diagnosis, along: str) -> str:
     """The most probable form of a mismatch without a name, as a predicate."""
-    shape = d.found.unknown.best
+    shape = d.search.discrepancy.best
     if shape.form == "delay":
         return "goes with the temperature of the reading before: oil or parts had not reached the one that was told"
     if shape.form == "box":
-        return f"is a shift where {box_place(d)}, as {_carried(shape.carrier)}"
+        return f"is a shift where {box_place(d)}, as {_carried(shape.modulates)}"
     if shape.form == "smooth":
-        named = [d.found.space.axes[d.found.space.place(name)].named for name in shape.axes]
+        named = [d.search.space.axes[d.search.space.place(name)].named for name in shape.axes]
         how = "varies smoothly with" if not any(named) else "differs between" if all(named) else "varies with"
-        return f"{how} {along}, as {_carried(shape.carrier)}"
+        return f"{how} {along}, as {_carried(shape.modulates)}"
     if shape.form == "wave":
         return f"is a wave with a period of {wave_period(d)} in {along}"
-    return f"is a {shape.form} at {standing_place(d)}, as {_carried(shape.carrier)}"
+    return f"is a {shape.form} at {standing_place(d)}, as {_carried(shape.modulates)}"
 
 
 def _carried(carrier: str) -> str:
-    outside = {READING: "a share of the reading", NOTHING: "an addition to the reading"}
+    outside = {READING: "a share of the reading", ADDITIVE: "an addition to the reading"}
     return outside.get(carrier, f"a factor on {words_of(carrier)}")
 
 
@@ -232,10 +233,10 @@ def _stage(found: Absorbed) -> str:
 def _gain(d: Diagnosis) -> tuple[str, ...]:
     kept = d.heldout
     split = kept.split
-    for axis in d.found.space.axes:
+    for axis in d.search.space.axes:
         split = split.replace(axis.name, words_of(axis.name))
     how = f"({split}, {kept.folds} folds; 1 is noise)"
-    if d.posterior.verdict == ():
+    if d.posterior.verdict == NOTHING:
         return (f"Calibration alone predicts left-out levels to {kept.before:.2f} sigma {how}.",)
     change = f"from {kept.before:.2f} sigma with calibration alone to {kept.after:.2f} sigma with the answer {how}."
     if kept.after > 0.95 * kept.before:
