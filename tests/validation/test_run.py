@@ -69,13 +69,13 @@ def test_recalibration_finds_the_noise_where_nothing_is_missing(battery, tmp_pat
 
 
 def test_missing_scikit_learn_says_what_to_install(battery, tmp_path, without_learners):
-    with pytest.raises(InputError, match=r"mixedlub\[proof\]"):
+    with pytest.raises(InputError, match=r"pip install scikit-learn"):
         baselines.gaussian_process(battery[0], tmp_path)
 
 
 def test_missing_scikit_learn_is_told_before_any_work(tmp_path, without_learners, capsys):
     CALLS.clear()
-    with pytest.raises(InputError, match=r"pip install 'mixedlub\[proof\]'.*--quick"):
+    with pytest.raises(InputError, match=r"pip install scikit-learn.*--quick"):
         validate(tmp_path / "folder", counted, cases=5, seed=21, jobs=1, baselines=True)
     assert CALLS == []
     assert not (tmp_path / "folder").exists()
