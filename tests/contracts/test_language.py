@@ -16,7 +16,17 @@ DIALECT = (
 """Words used in place of a standard term: residual, drift, prediction, set point, discrepancy, typical."""
 FINISHED = 4.0
 """Most such words per 1,000 words of docstring, in a room that has been rewritten: the level of the best rooms."""
-UNFINISHED: dict[str, float] = {}
+UNFINISHED = {
+    "case": 10.9,
+    "commands": 7.7,
+    "data_checks": 12.1,
+    "diagnosis/report": 14.5,
+    "effects": 5.5,
+    "kinds": 8.4,
+    "report": 5.1,
+    "schema": 7.5,
+    "study": 4.4,
+}
 """Rooms that are not rewritten yet, with their present figure: lower it with every change, never raise it."""
 
 
