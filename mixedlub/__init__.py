@@ -18,6 +18,9 @@ PUBLIC = {
     "surface": "mixedlub.api.rig",
     "power_loss": "mixedlub.api.loss",
     "along_path": "mixedlub.api.loss",
+    "diagnose": "mixedlub.api.diagnosis",
+    "simulate": "mixedlub.api.diagnosis",
+    "Answer": "mixedlub.api.diagnosis",
 }
 """Functions and types that notebooks and other packages may rely on, with the module that defines each."""
 ROOMS = ("case", "effects", "gear", "laws", "study")

@@ -123,6 +123,16 @@ def read_conditions(case: Case, path: Path) -> Table:
     return _sds_told(read_table(path, _columns(case.kind, case.system, False)), f"{case.quantity}_sd")
 
 
+def conditions_for(case: Case, frame: pd.DataFrame) -> Table:
+    """Conditions to predict from a data frame, numbered behind the recorded runs where it has no ``run``."""
+    if RUN.name not in frame and case.recordings is not None:
+        first = int(case.recordings["run"].max()) + 1
+        frame = frame.assign(run=np.arange(first, first + len(frame)))
+    asked = table_of(frame, _columns(case.kind, case.system, False), "conditions")
+    refuse_used_runs(case, asked, Path(asked.source))
+    return asked
+
+
 def hidden(case: Case, wanted: Table | None) -> list[Finding]:
     """Conditions that have the run number of a reading at other conditions: an answer lists each run once."""
     runs = _used_runs(case, wanted)

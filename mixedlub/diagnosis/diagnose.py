@@ -108,13 +108,25 @@ def diagnose_case(
     level: float = 0.01,
     progress: Progress = lambda text: None,
 ) -> Diagnosis:
-    """Read the case and work out what its simulation lacks."""
-    find(list(exclude))
+    """Read the case in a folder, and conditions to ``predict`` in place of its own; then as `diagnosis_of`."""
     case = read_case(folder)
+    if predict is None:
+        return diagnosis_of(case, case.conditions, exclude, level, progress)
+    asked = read_conditions(case, predict)
+    refuse_used_runs(case, asked, predict)
+    return diagnosis_of(case, asked, exclude, level, progress)
+
+
+def diagnosis_of(
+    case: Case,
+    asked: Table | None = None,
+    exclude: Sequence[str] = (),
+    level: float = 0.01,
+    progress: Progress = lambda text: None,
+) -> Diagnosis:
+    """Work out what the simulation of a case lacks, and predict the conditions ``asked`` for."""
+    find(list(exclude))
     rows = rows_of(case)
-    asked = case.conditions if predict is None else read_conditions(case, predict)
-    if predict is not None:
-        refuse_used_runs(case, asked, predict)
     wanted, assumed = _completed(asked, rows)
     forward = Forward(case, rows)
     checks = audit(case, rows, readings_of(case), forward)

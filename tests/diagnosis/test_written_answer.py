@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 import re
 from collections.abc import Callable
@@ -15,7 +13,7 @@ import pytest
 from mixedlub.chain.effect import STAGES
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.report.files import diagnose, write
-from mixedlub.diagnosis.report.text.answer import as_json, predictions_csv
+from mixedlub.diagnosis.report.text.answer import as_json, predictions
 from mixedlub.effects import catalogue
 
 
@@ -153,10 +151,11 @@ def test_unnamed_mismatch_carries_its_description(unnamed_files: dict[str, str])
 
 def test_predictions_have_a_row_a_run(answer: tuple[Diagnosis, dict[str, Any]]) -> None:
     d, _ = answer
-    rows = list(csv.DictReader(io.StringIO(predictions_csv(d))))
-    assert list(rows[0]) == ["run", "base", "calibrated", "predicted", "low90", "high90", "mismatch_z"]
-    assert [int(r["run"]) for r in rows] == d.recorded.table["run"].tolist()
-    assert all(float(r["low90"]) < float(r["predicted"]) < float(r["high90"]) for r in rows)
+    rows = predictions(d)
+    assert list(rows)[:7] == ["run", "base", "calibrated", "predicted", "low90", "high90", "mismatch_z"]
+    assert {"torque_Nm", "speed_rpm", "recorded_power_loss_W"} < set(rows)
+    assert rows["run"].tolist() == d.recorded.table["run"].tolist()
+    assert ((rows["low90"] < rows["predicted"]) & (rows["predicted"] < rows["high90"])).all()
 
 
 def test_the_same_case_twice_gives_the_same_bytes(
@@ -179,8 +178,9 @@ def test_wanted_conditions_are_predicted(offset_folder: Path, excluded: tuple[st
     header = "run,sequence,torque_Nm,speed_rpm,oil_temperature_C,pinion_surface,gear_surface\n"
     wanted.write_text(header + "901,1,75,1200,70,ground,ground\n", encoding="utf-8")
     d = diagnose_case(offset_folder, predict=wanted, exclude=[*excluded, "churning", "sensor_gain"])
-    rows = predictions_csv(d).splitlines()
-    assert rows[-1].startswith("901,")
+    last = predictions(d).iloc[-1]
+    assert last["run"] == 901
+    assert np.isnan(last["recorded_power_loss_W"])
 
 
 def test_a_failed_write_leaves_the_old_answer(tmp_path: Path) -> None:

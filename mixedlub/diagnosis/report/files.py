@@ -12,7 +12,7 @@ from mixedlub.diagnosis.assessment.power_law import DescribedDiscrepancy, descri
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.explanation import DISCREPANCY
 from mixedlub.diagnosis.report.text import words
-from mixedlub.diagnosis.report.text.answer import as_json, predictions_csv
+from mixedlub.diagnosis.report.text.answer import as_json, predictions
 from mixedlub.diagnosis.search.search import Progress
 
 XML = '<?xml version="1.0" encoding="utf-8" standalone="no"?>\n'
@@ -43,16 +43,30 @@ def files(d: Diagnosis) -> dict[str, str]:
     from mixedlub.diagnosis.report.figures import figures
     from mixedlub.diagnosis.report.figures.style import as_drawn
 
-    extra = describe_discrepancy(d.search) if DISCREPANCY in d.posterior.tied else None
+    extra = _described(d)
     parts = words.sections(d, extra)
     drawings = {name: as_drawn(figure) for name, figure in figures.all_figures(d, extra).items()}
     return {
         "diagnosis.json": json.dumps({**as_json(d), **_unnamed_record(extra)}, indent=1, ensure_ascii=False) + "\n",
-        "predictions.csv": predictions_csv(d),
-        "report.txt": words.as_text(f"Diagnosis of {d.case.name}", parts),
+        "predictions.csv": predictions(d).to_csv(index=False, float_format="%.9g", lineterminator="\n"),
+        "report.txt": _text(d, parts),
         "report.html": html.render(d, parts, drawings),
         **{f"figures/{name}.svg": XML + drawing for name, drawing in drawings.items()},
     }
+
+
+def report_text(d: Diagnosis) -> str:
+    """The report in plain words."""
+    return _text(d, words.sections(d, _described(d)))
+
+
+def _text(d: Diagnosis, parts: Sequence[words.Section]) -> str:
+    return words.as_text(f"Diagnosis of {d.case.name}", parts)
+
+
+def _described(d: Diagnosis) -> DescribedDiscrepancy | None:
+    """The model discrepancy in more detail, where it is among the tied explanations."""
+    return describe_discrepancy(d.search) if DISCREPANCY in d.posterior.tied else None
 
 
 def _unnamed_record(extra: DescribedDiscrepancy | None) -> dict[str, Any]:

@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from dataclasses import asdict
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mixedlub.case.simulation import conditions_of
 from mixedlub.chain.priors import Prior
 from mixedlub.diagnosis.assessment.prediction import Refined
-from mixedlub.diagnosis.diagnose import Diagnosis, Predicted
+from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING
 from mixedlub.diagnosis.inference.map_fit import NINETY
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.report.text.location_text import located
 from mixedlub.diagnosis.report.text.next_test_text import beyond
 from mixedlub.schema.findings import as_records
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 def as_json(d: Diagnosis) -> dict[str, Any]:
@@ -136,24 +138,18 @@ def separating_text(names: tuple[str, ...]) -> str:
     return "; ".join(dict.fromkeys(f"{e.id}: {e.separated_by}" for e in effects_of(ids)))
 
 
-def predictions_csv(d: Diagnosis) -> str:
-    """Predictions of the recorded and the wanted rows, each run once."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["run", "base", "calibrated", "predicted", "low90", "high90", "mismatch_z"])
-    written: set[int] = set()
+def predictions(d: Diagnosis) -> pd.DataFrame:
+    """Predictions of the recorded and the wanted rows, each run once; behind them conditions and recorded readings."""
+    import pandas as pd
+
+    parts = []
     for p in (d.recorded, d.wanted):
         if p is not None:
-            writer.writerows(_rows(p, written))
-    return text.getvalue()
+            numbers = {name: getattr(p, name) for name in PREDICTED}
+            columns = pd.DataFrame({"run": p.table["run"], **numbers})
+            parts.append(pd.concat([columns, conditions_of(d.case, p.table)], axis=1))
+    return pd.concat(parts, ignore_index=True).drop_duplicates("run", ignore_index=True)
 
 
-def _rows(p: Predicted, written: set[int]) -> list[list[str]]:
-    rows = []
-    for i, run in enumerate(p.table["run"].tolist()):
-        if run in written:
-            continue
-        written.add(run)
-        numbers = (p.base[i], p.calibrated[i], p.predicted[i], p.low90[i], p.high90[i], p.mismatch_z[i])
-        rows.append([str(run), *(f"{v:.9g}" for v in numbers)])
-    return rows
+PREDICTED = ("base", "calibrated", "predicted", "low90", "high90", "mismatch_z")
+"""Columns of the table of predictions behind the run."""

@@ -1,0 +1,141 @@
+"""What the simulation of a case lacks, as an object for notebooks: summary, tables, figures, files."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mixedlub.case.folder import Case, conditions_for, read_case
+from mixedlub.case.simulation import simulate as simulated
+from mixedlub.diagnosis.diagnose import Diagnosis, diagnosis_of
+from mixedlub.diagnosis.report.files import files, write
+from mixedlub.diagnosis.report.text.answer import as_json, predictions
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Answer:
+    """The answer to the question which physics a simulation lacks; it prints as the report of `mixedlub diagnose`.
+
+    ``diagnosis`` holds everything that it was computed from; what is public is what stands here.
+    """
+
+    diagnosis: Diagnosis
+
+    @cached_property
+    def record(self) -> dict[str, Any]:
+        """The content of `diagnosis.json`."""
+        return as_json(self.diagnosis)
+
+    @property
+    def verdict(self) -> list[str]:
+        """The most probable explanation: effect ids, or ``["none"]``, or ``["unknown"]``."""
+        return list(self.record["verdict"])
+
+    @property
+    def probabilities(self) -> pd.Series:
+        """Posterior probability that each effect is in the explanation, and of none and unknown; largest first."""
+        import pandas as pd
+
+        found = pd.Series(self.record["probabilities"], name="probability").rename_axis("effect")
+        return found.sort_values(ascending=False, kind="stable")
+
+    @property
+    def parameters(self) -> pd.DataFrame:
+        """Parameters of the verdict's effects and of the calibration, with 90 % intervals."""
+        import pandas as pd
+
+        rows = [{"of": e["id"], **parameter} for e in self.record["effects"] for parameter in e["parameters"]]
+        rows += [{"of": "calibration", "name": name, **value} for name, value in self.record["calibration"].items()]
+        return pd.DataFrame(rows, columns=["of", "name", "unit", "value", "low90", "high90"])
+
+    @property
+    def predictions(self) -> pd.DataFrame:
+        """The table of `predictions.csv`: base, calibrated and predicted readings with 90 % intervals, conditions."""
+        return predictions(self.diagnosis)
+
+    @property
+    def findings(self) -> list[str]:
+        """Warnings about the input and the answer."""
+        return [str(one) for one in self.diagnosis.warnings]
+
+    def summary(self) -> str:
+        """The report in plain words."""
+        from mixedlub.diagnosis.report.files import report_text
+
+        return report_text(self.diagnosis)
+
+    __repr__ = summary
+
+    def figures(self) -> dict[str, Figure]:
+        """Every figure of the report, by name."""
+        from mixedlub.diagnosis.report.figures.figures import all_figures
+
+        return all_figures(self.diagnosis)
+
+    def plot_residuals(self, over: str = "run", axes: Axes | None = None) -> Axes:
+        """Residuals in standard deviations over a column of the recording, before and after the answer."""
+        import matplotlib.pyplot as plt
+
+        from mixedlub.diagnosis.labels import axis_label
+
+        axes = plt.gca() if axes is None else axes
+        before, after = self.diagnosis.residuals
+        at = self.diagnosis.recorded.table[over]
+        axes.axhspan(-2.0, 2.0, color="0.93", lw=0)
+        axes.plot(at, before, "o", ms=3, color="0.6", label=f"calibrated base model, rms {_rms(before):.2f}")
+        axes.plot(at, after, "o", ms=3, color="C0", label=f"with the answer, rms {_rms(after):.2f}")
+        axes.set_xlabel(axis_label(over) if over != "run" else "run")
+        axes.set_ylabel("residual (standard deviations of the noise)")
+        axes.legend()
+        return axes
+
+    def write(self, out: str | PathLike[str]) -> Path:
+        """Write what `mixedlub diagnose` writes, and return the folder."""
+        write(files(self.diagnosis), Path(out))
+        return Path(out)
+
+
+def _rms(values: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(values**2)))
+
+
+def diagnose(
+    case: Case | str | PathLike[str],
+    predict: pd.DataFrame | None = None,
+    *,
+    exclude: Sequence[str] = (),
+    level: float = 0.01,
+) -> Answer:
+    """Which physics the base model of a recorded case lacks, how sure that is, and what it predicts.
+
+    The case is one that was read or made (`ml.case`), or its folder; ``predict`` are conditions in place of its own.
+    ``exclude`` are effects left out of the catalogue, ``level`` is that of the mismatch test.
+
+    >>> import mixedlub as ml, numpy as np, pandas as pd
+    >>> speed = np.array([10.0, 20, 50, 100, 200, 300, 400, 500] * 4)
+    >>> torque = (0.5 + 2e-3 * speed + 0.6 * np.exp(-speed / 40)) * (1 + 0.01 * np.cos(7.0 * np.arange(32)))
+    >>> rows = pd.DataFrame({"speed_rpm": speed, "friction_torque_Nm": torque})
+    >>> drive = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm", "noise": {"relative": 0.01}}}
+    >>> ml.diagnose(ml.case.case_of(drive, rows)).verdict
+    ['stribeck']
+    """
+    found = case if isinstance(case, Case) else read_case(Path(case))
+    asked = found.conditions if predict is None else conditions_for(found, predict)
+    return Answer(diagnosis_of(found, asked, exclude, level))
+
+
+def simulate(case: Case | str | PathLike[str], at: pd.DataFrame | None = None) -> pd.DataFrame:
+    """The base model at the conditions of a case, or of the table ``at``: nothing is fitted."""
+    found = case if isinstance(case, Case) else read_case(Path(case))
+    return simulated(found, None if at is None else conditions_for(found, at))
