@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache
+from importlib.metadata import entry_points
 from pathlib import Path, PurePath
 
 from profiles.errors import InputError, refuse_no_file
@@ -44,15 +46,25 @@ def read_source(source: Source) -> Profile:
     if not source.data.strip(b"\x00 \t\r\n"):
         rule = "the file is empty" if b"\x00" not in source.data else "the file holds nothing but zero bytes"
         raise InputError(rule, where=source.where)
-    for reader in READERS:
+    for reader in readers():
         if reader.magic(source):
             with _as_named(source, reader):
                 return reader.read(source)
     if source.data[:4] == b"PK\x03\x04":
         raise InputError("damaged zip archive, which x3p and xlsx files are too: cut off?", where=source.where)
-    formats = "; ".join(reader.format for reader in READERS)
+    formats = "; ".join(reader.format for reader in readers())
     with _as_named(source):
         raise InputError(f"no known profile format; known are {formats}", where=source.where)
+
+
+@cache
+def readers() -> tuple[Reader, ...]:
+    """Every reader in the order of trying: those of other packages (entry points ``mixedlub.readers``) come first.
+
+    An entry point leads to a module with a ``READER``, or to the reader itself.
+    """
+    offered = [point.load() for point in entry_points(group="mixedlub.readers")]
+    return (*(getattr(one, "READER", one) for one in offered), *READERS)
 
 
 @contextmanager

@@ -12,6 +12,7 @@ import numpy as np
 
 from mixedlub.case.import_file import NAME
 from mixedlub.data_checks.case_check import refuse_unreadable
+from mixedlub.discovery import offered
 from mixedlub.importers import pcs, plain, trios
 from mixedlub.importers.attachments import carried, is_share, with_share
 from mixedlub.importers.base import (
@@ -50,7 +51,7 @@ Step = Callable[[str], None]
 """Called with what is being done, and with nothing when it is done."""
 
 READERS: tuple[ModuleType, ...] = (pcs, trios, plain)
-"""Tried in this order; plain tables last because any text matches."""
+"""Tried in this order, after those that other packages offer as ``mixedlub.importers``; any text is a plain table."""
 STEPS = ("reading files", "reading tables", "writing the case", "checking the case")
 
 SCHEMA = "mixedlub-case/1"
@@ -91,7 +92,7 @@ def read(files: Sequence[InputFile], answers: Answers) -> Draft:
 
 
 def _read_one(file: InputFile, answers: Answers) -> Draft:
-    reader = next(r for r in READERS if r.matches(file.text))
+    reader = next(r for r in (*offered("mixedlub.importers"), *READERS) if r.matches(file.text))
     found: Draft = reader.draft(file, answers)
     return found
 

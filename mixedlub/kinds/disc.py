@@ -79,7 +79,7 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
 
 
 def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Calibration, ...]:
-    """An unnamed oil takes broad priors."""
+    """An unspecified oil takes broad priors."""
     return oil_priors.calibrations(system, recorded["oil_temperature_C"] + ZERO_CELSIUS)
 
 

@@ -105,7 +105,7 @@ def _orders(table: Table, recorded: Table) -> Inputs:
 
 
 def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Calibration, ...]:
-    """An unnamed oil takes broad priors; the film law is known as well as film laws agree."""
+    """An unspecified oil takes broad priors; the film law is known as well as film laws agree."""
     oil = oil_priors.calibrations(system, recorded["oil_temperature_C"] + ZERO_CELSIUS)
     return (*oil, *(_of_line(recorded["load_N"]) if _is_line(system) else _of_ball(system)))
 

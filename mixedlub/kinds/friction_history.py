@@ -101,7 +101,7 @@ def _level(system: system_file.System, recorded: Table) -> float:
 
 
 def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Calibration, ...]:
-    """The constant coefficient where nothing is said of it; an unnamed oil where the film is computed."""
+    """The constant coefficient where none is stated; an unspecified oil where the film is computed."""
     if resolved(system, recorded):
         return oil_priors.calibrations(system, recorded["oil_temperature_C"] + ZERO_CELSIUS)
     if _given(system):

@@ -134,13 +134,13 @@ def _warmer(table: Table, recorded: Table) -> np.ndarray:
 
 
 def _load_column(table: Table, recorded: Table) -> str | None:
-    """The column that loads the drive: the torque where a force is told too, if it is ever more than none."""
+    """The column that loads the drive, of those that are not zero throughout: the torque where there is a force too."""
     there = (n for n in reversed(LOADS) if n in table and n in recorded and np.any(recorded[n] != 0.0))
     return next(there, None)
 
 
 def _heavier(table: Table, recorded: Table) -> np.ndarray:
-    """Logarithm of the load of the rows over the middle one recorded; zero where either tells none.
+    """Logarithm of the load of the rows over the geometric mean of the recorded loads; zero where there is no load.
 
     A drive that runs idle carries itself: it counts as loaded by the least load recorded.
     """
@@ -166,7 +166,7 @@ def _motor_torque(table: Table, recorded: Table) -> Inputs:
 
 
 def completed(table: Table, recorded: Table) -> Table:
-    """Rows without the motor's torque: what the shaft and the usual friction ask for, else what is usual."""
+    """Rows without the motor's torque: that of the shaft plus the median friction, else the median motor torque."""
     if MOTOR_TORQUE.name in table or MOTOR_TORQUE.name not in recorded:
         return table
     motor = recorded[MOTOR_TORQUE.name]

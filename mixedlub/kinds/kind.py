@@ -44,7 +44,7 @@ class Kind:
     the column).
     ``logarithmic`` kinds span decades and are compared by the logarithm of the reading. ``part_rigs`` are the
     names in the column ``rig`` whose readings are compared with a part of the base model. ``channels`` are what
-    the instrument tells of itself beside the reading: read as columns, but no condition of the test.
+    the instrument records of itself: read as columns, but no condition of the test.
     ``completed(table, recorded)`` adds to rows that were not recorded what the channels would tell there.
     ``nominal`` are quantities that the base model has before calibration, laid out for effects under other names.
     ``limits(system)`` are the lowest and highest values that a column can have on this rig, by its name.
@@ -52,7 +52,7 @@ class Kind:
 
     For imports and figures: ``either`` are columns of which a table holds one; of a history (``is_history``) the time
     is what a map is drawn over; readings that a logger takes one after the other (``is_logged``) may be thinned out;
-    ``asks_for_oil`` says that the properties of the oil matter enough to be asked for.
+    ``asks_for_oil`` says whether an import asks for the properties of the oil.
     """
 
     name: str
@@ -105,7 +105,7 @@ NO_GEARS = "no_gears"
 
 
 LOADS_DIFFER, LEAST = 1.2, 1e-3
-"""Largest over smallest load from which a constant force is no constant share of it; smallest load told from none."""
+"""Load ratio above which a force offset is distinguishable from a friction offset; smallest load that is not zero."""
 
 
 def inverse_load(system: system_file.System, table: Table, recorded: Table) -> Inputs:
@@ -160,7 +160,7 @@ def ageing(recorded: Table, sequence: np.ndarray) -> np.ndarray:
     """Share of the programme's ageing that is done at each row, at a rate that doubles every 10 K.
 
     That is the rule of thumb of van 't Hoff for reactions, oxidation among them. Where no temperature is recorded it
-    goes with the programme. ``sequence`` has a row a reading, (rows, 1).
+    is that of the programme. ``sequence`` has a row a reading, (rows, 1).
 
     >>> place = np.linspace(0.0, 1.0, 5)
     >>> run = Table({"sequence": place, "temperature_C": np.array([20.0, 20.0, 20.0, 80.0, 80.0])}, "run")

@@ -33,7 +33,7 @@ THINNEST, THICKEST = 0.4e-6, 1.0
 LEVEL = "viscosity_level"
 """What the level was moved to, for the slope that is turned about it."""
 FALLS = ("temperature_viscosity", "known_fall", "fall_from_first")
-"""What else of an oil hangs on how its viscosity falls with temperature."""
+"""Other properties of an oil that depend on how its viscosity falls with temperature."""
 
 
 def missing(system: system_file.System) -> tuple[str, ...]:
@@ -135,7 +135,7 @@ def calibrations(system: system_file.System, temperature: np.ndarray, *, level: 
 
 
 def pivot_of(temperature: np.ndarray) -> float:
-    """The temperature (K) about which an unnamed oil's slope is turned."""
+    """The temperature (K) about which the slope of an unspecified oil is varied."""
     return float(np.exp(np.mean(np.log(temperature))))
 
 

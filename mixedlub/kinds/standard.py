@@ -48,7 +48,7 @@ RELATIVE_NOISE = 0.01
 class StandardRig:
     """One rig of a kind and the test on it.
 
-    ``sections`` are the tables of `system.toml` beside the surfaces; ``noise`` is the absolute part of the standard
+    ``sections`` are the tables of `system.toml` other than the surfaces; ``noise`` is the absolute part of the standard
     deviation of a reading, in its unit; ``conditions`` are what is varied, by the name that fingerprints use: the
     column and its levels, all combined. ``channels(columns, reading)`` are what the instrument records of itself,
     from the conditions and, where it is called, the reading of the base model.

@@ -19,7 +19,7 @@ from mixedlub.schema.table import Column, Table
 AMBIENT_MPA = 0.101325
 NEAR_AMBIENT_MPA = 50.0
 UNREAD = ("eyring_stress_MPa", "thermal_conductivity_W_mK", "specific_heat_J_kgK")
-"""Properties of an oil that its viscosity does not hang on."""
+"""Properties of an oil that its viscosity does not depend on."""
 
 COLUMNS = (
     Column(
@@ -93,7 +93,7 @@ def _level(system: system_file.System, recorded: Table) -> float:
 
 
 def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Calibration, ...]:
-    """An unnamed oil is fitted whole: level and slope against temperature, level and slope against pressure."""
+    """An unspecified oil is fitted with level and slope against temperature, level and slope against pressure."""
     kelvin = recorded["temperature_C"] + oil.ZERO_CELSIUS
     pressurised = float(np.ptp(_pressure(recorded))) > 0
     return tuple(

@@ -25,6 +25,15 @@ def line_hertz_pressure(line_load: np.ndarray, radius: np.ndarray, reduced_modul
     return np.sqrt(line_load * reduced_modulus / (2.0 * np.pi * radius))
 
 
+def mean_hertz_pressure(hertz_pressure: np.ndarray) -> np.ndarray:
+    r"""Mean pressure of a line contact (Pa), :math:`p_m = \pi p_0 / 4`; Hertz 1881.
+
+    >>> round(float(mean_hertz_pressure(0.9642e9)) / 1e9, 4)
+    0.7573
+    """
+    return 0.25 * np.pi * hertz_pressure
+
+
 def line_hertz_half_width(line_load: np.ndarray, radius: np.ndarray, reduced_modulus: np.ndarray) -> np.ndarray:
     r"""Half width of a line contact (m), :math:`b = \sqrt{8 w R / (\pi E')}`; Hertz 1881.
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.slots import FILM
+
 LINE_EXPONENT, POINT_EXPONENT = 0.69, 0.67
 LINE_LOAD_EXPONENT = -0.10
 """Of speed in the regressions of Dowson and Toyoda, and of Hamrock and Dowson, and of load in the first."""
@@ -21,6 +23,7 @@ def _line_groups(
     return viscosity * entrainment_speed / size, line_load / size
 
 
+@FILM.offers("dowson_toyoda_central", "central film of Dowson and Toyoda (which the paper calls minimum)")
 def dowson_toyoda(
     radius: np.ndarray,
     entrainment_speed: np.ndarray,
@@ -47,6 +50,7 @@ def dowson_toyoda(
     return 3.06 * modulus * radius * speed**LINE_EXPONENT * load**LINE_LOAD_EXPONENT
 
 
+@FILM.offers("dowson_higginson_minimum", "minimum film of Dowson and Higginson")
 def dowson_higginson(
     radius: np.ndarray,
     entrainment_speed: np.ndarray,

@@ -4,7 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.slots import MESH_LOSS
 
+
+@MESH_LOSS.offers(
+    "mesh_integral", "power loss by the integral of friction times load times sliding speed over the path"
+)
 def mesh_loss(
     friction: np.ndarray,
     load_share: np.ndarray,
@@ -25,6 +30,22 @@ def mesh_loss(
     100.0
     """
     return over_path(friction, load_share * transmitted_force * sliding_speed * path_weight)
+
+
+@MESH_LOSS.offers("paper", "power loss by the paper's separate averages, its eq. 3 and 4")
+def averaged_mesh_loss(
+    friction: np.ndarray, mean_weight: np.ndarray, mean_sliding_speed: np.ndarray, transmitted_force: np.ndarray
+) -> np.ndarray:
+    r"""Sliding power lost in the mesh from separate averages (W), :math:`P = \hat\mu\, \hat V_s\, F_m`.
+
+    The plain mean of friction over the path, a quarter of the sum of the sliding speeds at its two ends, and
+    the force at the base circle. Source: Hong, Aneshansley, Talbot, Gear Technology, eq. 3 and 4.
+
+    >>> weight = np.array([[0.25, 0.5, 0.25]])
+    >>> float(averaged_mesh_loss(np.full((1, 3), 0.05), weight, 2.0, 1000.0)[0, 0])
+    100.0
+    """
+    return over_path(friction, mean_weight) * (mean_sliding_speed * transmitted_force)
 
 
 def over_path(value: np.ndarray, weight: np.ndarray) -> np.ndarray:

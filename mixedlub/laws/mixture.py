@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.laws.contact import mean_hertz_pressure
+from mixedlub.slots import FILM_FRICTION, MIXTURE
 
+
+@FILM_FRICTION.offers("maximum", "film friction is shear stress over the largest Hertz pressure")
 def fluid_friction(shear_stress: np.ndarray, hertz_pressure: np.ndarray) -> np.ndarray:
     r"""Friction coefficient of the film (-), :math:`\mu_E = \tau / p_0`.
 
@@ -16,6 +20,19 @@ def fluid_friction(shear_stress: np.ndarray, hertz_pressure: np.ndarray) -> np.n
     return shear_stress / hertz_pressure
 
 
+@FILM_FRICTION.offers("mean", "film friction is shear stress over the mean Hertz pressure")
+def fluid_friction_at_mean_pressure(shear_stress: np.ndarray, hertz_pressure: np.ndarray) -> np.ndarray:
+    r"""Friction coefficient of the film (-), :math:`\mu_E = \tau / p_m`, with the mean Hertz pressure.
+
+    A second reading of the contact pressure. Source: Hong, Aneshansley, Talbot, Gear Technology, eq. 2.
+
+    >>> round(float(fluid_friction_at_mean_pressure(22.57e6, 0.9437e9)), 5)
+    0.03045
+    """
+    return shear_stress / mean_hertz_pressure(hertz_pressure)
+
+
+@MIXTURE.offers("tallian", "film and asperity friction weighted by the boundary area ratio, after Tallian")
 def tallian_friction(fluid_friction: np.ndarray, boundary_friction: np.ndarray, area_ratio: np.ndarray) -> np.ndarray:
     r"""Friction coefficient of the contact (-), :math:`\mu = \mu_E (1 - P_B) + \mu_B P_B`.
 

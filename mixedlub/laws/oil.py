@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.slots import VISCOSITY
+
 ROELANDS_PRESSURE = 1.96e8
 ROELANDS_LOG = 9.67
 ZERO_CELSIUS = 273.15
@@ -104,6 +106,7 @@ def warmed_viscosity(
     return viscosity * (1.0 + (1.0 + 0.7 / nu) * np.expm1(gone))
 
 
+@VISCOSITY.offers("roelands", "viscosity in the contact by Roelands")
 def roelands_viscosity(viscosity: np.ndarray, pressure_viscosity: np.ndarray, hertz_pressure: np.ndarray) -> np.ndarray:
     r"""Viscosity under pressure (Pa s), isothermal.
 
@@ -134,6 +137,18 @@ def roelands_coefficient(viscosity: np.ndarray, exponent: float) -> np.ndarray:
     14.81
     """
     return exponent * (np.log(viscosity) + ROELANDS_LOG) / ROELANDS_PRESSURE
+
+
+@VISCOSITY.offers("barus", "viscosity in the contact by Barus (far too high above 0.3 GPa)")
+def barus_in_contact(viscosity: np.ndarray, pressure_viscosity: np.ndarray, hertz_pressure: np.ndarray) -> np.ndarray:
+    r"""Barus viscosity at the largest Hertz pressure (Pa s), :math:`\eta_0 e^{\alpha p_0}`.
+
+    Source: as `barus_viscosity`.
+
+    >>> round(float(barus_in_contact(0.01489, 14.81e-9, 0.9642e9)))
+    23688
+    """
+    return barus_viscosity(viscosity, pressure_viscosity, hertz_pressure)
 
 
 def barus_viscosity(viscosity: np.ndarray, pressure_viscosity: np.ndarray, pressure: np.ndarray) -> np.ndarray:

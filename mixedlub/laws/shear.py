@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.slots import SHEAR
 
+
+@SHEAR.offers("asinh", "effective viscosity such that the stress is tau0 asinh(eta v_s/(h tau0))")
 def ree_eyring(
     contact_viscosity: np.ndarray,
     sliding_speed: np.ndarray,
@@ -22,6 +25,7 @@ def ree_eyring(
     return eyring_stress * np.arcsinh(contact_viscosity * sliding_speed / (film_thickness * eyring_stress))
 
 
+@SHEAR.offers("secant", "effective viscosity eta/cosh(tau_m/tau0), which caps the stress at tau0")
 def ree_eyring_secant(
     contact_viscosity: np.ndarray,
     sliding_speed: np.ndarray,
@@ -32,7 +36,8 @@ def ree_eyring_secant(
 
     .. math:: \tau = \frac{\eta v_s/h}{\sqrt{1 + (\eta v_s/(h\tau_0))^2}} \le \tau_0
 
-    A second reading of the effective viscosity of Hong, Aneshansley, Talbot, eq. 2; it caps friction at tau_0/p.
+    A second reading of the effective viscosity; it caps friction at tau_0/p.
+    Source: Hong, Aneshansley, Talbot, Gear Technology, eq. 2.
 
     >>> round(float(ree_eyring_secant(70.2, 0.7518, 0.2310e-6, 5e6)) / 1e6, 2)
     5.0

@@ -19,10 +19,9 @@ from typing import Any
 import numpy as np
 
 from mixedlub.chain.model import Model, Step
-from mixedlub.laws.contact import asperity_pressure
+from mixedlub.laws.contact import asperity_pressure, mean_hertz_pressure
 from mixedlub.laws.loss import over_path
 from mixedlub.study.cluster import on_cluster
-from mixedlub.study.options import mean_hertz_pressure
 from mixedlub.study.plan import Plan
 
 OUTPUTS = ("power_loss", "mean_friction", "area_ratio", "film_thickness", "film_parameter", "composite_roughness")

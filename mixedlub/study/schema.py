@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import BeforeValidator, Field, create_model, model_validator
 
 from mixedlub.schema.section import Number, Section, Whole, key, table, with_ranges
 from mixedlub.schema.system_file import Gears, RigFile, SurfaceSection
+from mixedlub.slots import SLOTS
 
 MOST_LEVELS = 100_000
 
@@ -78,55 +79,28 @@ class Pairings(Section):
         return self
 
 
-class Options(Section):
+def _laws() -> Any:
+    """An option for each step that has a choice of laws."""
+    fields: dict[str, Any] = {}
+    for slot in SLOTS:
+        names: Any = Literal[tuple(slot.choices)]
+        values = {choice.name: choice.meaning for choice in slot.choices.values()}
+        fields[slot.option] = (names, key(slot.meaning, slot.default, values=values))
+    return create_model("Laws", __base__=Section, **fields)
+
+
+_Laws: Any = _laws()
+
+
+class Options(_Laws):
     """Readings of the model on which its authors leave room; the defaults are those of the base model."""
 
-    film: Literal["dowson_toyoda_central", "dowson_higginson_minimum"] = key(
-        "law of the film thickness",
-        "dowson_toyoda_central",
-        values={
-            "dowson_toyoda_central": "central film of Dowson and Toyoda (which the paper calls minimum)",
-            "dowson_higginson_minimum": "minimum film of Dowson and Higginson",
-        },
-    )
-    viscosity_law: Literal["roelands", "barus"] = key(
-        "law of the viscosity under pressure",
-        "roelands",
-        values={
-            "roelands": "viscosity in the contact by Roelands",
-            "barus": "viscosity in the contact by Barus (far too high above 0.3 GPa)",
-        },
-    )
     viscosity_pressure: Literal["maximum", "mean"] = key(
         "pressure at which the viscosity is taken",
         "maximum",
         values={
             "maximum": "viscosity taken at the largest Hertz pressure",
             "mean": "viscosity taken at the mean Hertz pressure",
-        },
-    )
-    effective_viscosity: Literal["asinh", "secant"] = key(
-        "how the film thins under shear",
-        "asinh",
-        values={
-            "asinh": "effective viscosity such that the stress is tau0 asinh(eta v_s/(h tau0))",
-            "secant": "effective viscosity eta/cosh(tau_m/tau0), which caps the stress at tau0",
-        },
-    )
-    contact_pressure: Literal["maximum", "mean"] = key(
-        "pressure that the shear stress is divided by",
-        "maximum",
-        values={
-            "maximum": "film friction is shear stress over the largest Hertz pressure",
-            "mean": "film friction is shear stress over the mean Hertz pressure",
-        },
-    )
-    averaging: Literal["mesh_integral", "paper"] = key(
-        "how the power loss is averaged over the path of contact",
-        "mesh_integral",
-        values={
-            "mesh_integral": "power loss by the integral of friction times load times sliding speed over the path",
-            "paper": "power loss by the paper's separate averages, its eq. 3 and 4",
         },
     )
     conditions_of: Literal["pinion", "gear"] = key(

@@ -1,58 +1,168 @@
-"""An effect of another package is found; a wrong declaration is refused."""
+"""What another package offers is found: an effect, a kind, laws, a load-sharing model, an importer, a reader."""
 
 from __future__ import annotations
 
+import csv
+import json
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import LogNormal
 
-FOREIGN = '''
-from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import LogNormal
+ROOT = Path(__file__).resolve().parents[2]
+FOREIGN = Path(__file__).with_name("foreign")
+POINTS = {
+    "mixedlub.effects": ("fan_effect",),
+    "mixedlub.kinds": ("fan_kind",),
+    "mixedlub.laws": ("fan_film", "fan_viscosity", "fan_shear", "fan_friction"),
+    "mixedlub.load_sharing": ("fan_sharing",),
+    "mixedlub.importers": ("fan_importer",),
+    "mixedlub.readers": ("fan_reader:READER",),
+}
+"""Entry points of the foreign package by group: a module, or an object in it."""
+STUDY = """
+schema = "mixedlub-study/1"
+conditions = { torque_Nm = [100], speed_rpm = [1500], oil_temperature_C = [60] }
+gears = { teeth = [17, 26], normal_module_mm = 4.2, face_width_mm = 14.0 }
+surfaces = { ground = { profile = "ground.fan", cutoff_mm = 0.8 } }
+"""
+LOSSY = STUDY.replace("14.0 }", '14.0, load_sharing = { model = "lossy", lost_share = 0.05 } }')
+OPTIONS = """
+[options]
+film = "half_film"
+viscosity_law = "linear"
+viscosity_pressure = "mean"
+effective_viscosity = "newton"
+mixture = "film_only"
+"""
+EFFECTS = """
+[effects]
+cooling_fan = { strength = 1000.0 }
+"""
 
-@effect(
-    stage="loss",
-    acts_on="power_loss",
-    parameters=(Parameter("strength", "W", LogNormal(1.0, 0.5), "power of the fan", null=0.0),),
-    equation="P + c",
-    source="the maker of the fan",
-    fingerprint={"load": "-"},
-    separated_by="pulling the plug of the fan and reading again",
-)
-def cooling_fan(power_loss, *, strength):
-    """A fan on the shaft takes power."""
-    return power_loss + strength
-'''
 
-
-def test_effect_of_another_package_appears_in_the_catalogue(tmp_path: Path) -> None:
-    (tmp_path / "fans.py").write_text(FOREIGN, encoding="utf-8")
-    info = tmp_path / "fans-1.0.dist-info"
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the foreign package as an installer leaves it."""
+    folder = tmp_path_factory.mktemp("fans")
+    for file in FOREIGN.glob("*.py"):
+        shutil.copy(file, folder)
+    info = folder / "fans-1.0.dist-info"
     info.mkdir()
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: fans\nVersion: 1.0\n", encoding="utf-8")
-    (info / "entry_points.txt").write_text("[mixedlub.effects]\nfans = fans\n", encoding="utf-8")
-    code = (
-        "from mixedlub.effects import catalogue; from mixedlub.report.effect_pages import effects_text, share;"
-        "print(catalogue()['cooling_fan'].summary); print('cooling_fan' in effects_text());"
-        "print((share('cooling_fan', 'gear_pair') > 0).all())"
-    )
-    root = Path(__file__).resolve().parents[2]
-    path = os.pathsep.join([str(tmp_path), str(root), os.environ.get("PYTHONPATH", "")])
-    run = subprocess.run(
-        [sys.executable, "-c", code],
+    groups = (f"[{group}]\n" + "".join(f"{m.partition(':')[0]} = {m}\n" for m in m_s) for group, m_s in POINTS.items())
+    (info / "entry_points.txt").write_text("\n".join(groups), encoding="utf-8")
+    return folder
+
+
+def run(installed: Path, *arguments: str | Path) -> subprocess.CompletedProcess[str]:
+    """Python with the foreign package installed."""
+    path = os.pathsep.join([str(installed), str(ROOT), os.environ.get("PYTHONPATH", "")])
+    return subprocess.run(
+        [sys.executable, *map(str, arguments)],
         capture_output=True,
         text=True,
         env={**os.environ, "PYTHONPATH": path},
         check=False,
     )
-    assert run.stdout.split("\n")[:3] == ["A fan on the shaft takes power.", "True", "True"], run.stderr
+
+
+def studied(installed: Path, folder: Path, text: str, *options: str) -> tuple[dict[str, float], str]:
+    """The numbers of a study of one condition, and its page where that is written."""
+    folder.mkdir()
+    heights = np.random.default_rng(1).integers(0, 2000, 12_000)
+    (folder / "ground.fan").write_text("FANTRACE " + " ".join(f"{z:x}" for z in heights), encoding="utf-8")
+    (folder / "study.toml").write_text(text, encoding="utf-8")
+    said = run(installed, "-m", "mixedlub", "study", folder / "study.toml", "--out", folder / "out", *options)
+    assert said.returncode == 0, said.stderr
+    with (folder / "out" / "results.csv").open(encoding="utf-8", newline="") as file:
+        (row,) = csv.DictReader(file)
+    numbers = {name: float(cell) for name, cell in row.items() if "surface" not in name}
+    page = folder / "out" / "index.html"
+    return numbers, page.read_text(encoding="utf-8") if page.exists() else ""
+
+
+def test_effect_of_another_package_appears_in_the_catalogue(installed: Path) -> None:
+    code = (
+        "from mixedlub.effects import catalogue; from mixedlub.report.effect_pages import effects_text, share;"
+        "print(catalogue()['cooling_fan'].summary); print('cooling_fan' in effects_text());"
+        "print((share('cooling_fan', 'gear_pair') > 0).all())"
+    )
+    said = run(installed, "-c", code)
+    assert said.stdout.split("\n")[:3] == ["A fan on the shaft takes power.", "True", "True"], said.stderr
+
+
+def test_a_study_runs_with_the_laws_and_the_trace_of_another_package(installed: Path, tmp_path: Path) -> None:
+    base, _ = studied(installed, tmp_path / "base", STUDY, "--no-figures")
+    own, page = studied(installed, tmp_path / "own", LOSSY + OPTIONS)
+    fanned, _ = studied(installed, tmp_path / "fanned", LOSSY + OPTIONS + EFFECTS, "--no-figures")
+    # The film grows with the load to the power -0.1 and is half of that of the base model.
+    assert own["film_thickness_um"] / base["film_thickness_um"] == pytest.approx(0.5 * 0.95**-0.1, rel=1e-9)
+    assert fanned["power_loss_W"] - own["power_loss_W"] == pytest.approx(1000.0, rel=1e-9)
+    for law in ("Half a film", "Taken at the mean Hertz pressure", "Principia", "asperities without friction"):
+        assert law in page
+    assert "rigid teeth that lose a part of the load" in page
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (('"lossy"', '"losy"'), "must be 'ldp', 'rigid' or 'lossy'; nearest known: 'lossy'"),
+        (("0.05", "1.5"), "lost_share: 1.5: must be from 0 to 1"),
+        (('"half_film"', '"half_films"'), "nearest known: 'half_film'"),
+    ],
+)
+def test_wrong_values_of_foreign_keys_are_refused(
+    installed: Path, tmp_path: Path, change: tuple[str, str], said: str
+) -> None:
+    (tmp_path / "study.toml").write_text((LOSSY + OPTIONS).replace(*change), encoding="utf-8")
+    found = run(installed, "-m", "mixedlub", "study", tmp_path / "study.toml")
+    assert found.returncode == 2
+    assert said in found.stderr
+
+
+def test_a_file_of_another_package_is_imported_and_its_kind_diagnosed(installed: Path, tmp_path: Path) -> None:
+    """The drag is the base model's, and 20 mN m more at all speeds."""
+    speed = np.repeat([500.0, 1000.0, 1500.0, 2000.0, 2500.0, 3000.0], 5)
+    drag = 50.0 * (speed / 1000.0) ** 2 + 20.0
+    noisy = drag * (1.0 + 0.005 * np.random.default_rng(3).standard_normal(speed.size))
+    lines = ["FANLOG", *(f"{n:g} {t:.4f}" for n, t in zip(speed, noisy, strict=True))]
+    (tmp_path / "log.fan").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    noise = ("--set", "recording.noise.relative=0.005")
+    found = run(installed, "-m", "mixedlub", "import", tmp_path / "log.fan", "--out", tmp_path / "case", *noise)
+    assert found.returncode == 0, found.stderr
+    found = run(installed, "-m", "mixedlub", "diagnose", tmp_path / "case", "--out", tmp_path / "out")
+    assert found.returncode == 0, found.stderr
+    told = json.loads((tmp_path / "out" / "diagnosis.json").read_text(encoding="utf-8"))
+    assert told["probabilities"]["sensor_offset"] > 0.5
+
+
+def test_the_format_reference_has_the_parts_of_another_package(installed: Path) -> None:
+    text = run(installed, "-m", "mixedlub", "kinds").stdout + run(installed, "-m", "mixedlub", "kinds", "study").stdout
+    for part in ("fan_drag: drag of a fan against its speed", "fan_drag_mNm", "lost_share", '"lossy"'):
+        assert part in text
+    for law in ("half_film", "linear", "newton", "film_only"):
+        assert f'"{law}"' in text
+
+
+def test_a_package_that_cannot_be_loaded_is_named(installed: Path) -> None:
+    info = installed / "fans-1.0.dist-info" / "entry_points.txt"
+    whole = info.read_text(encoding="utf-8")
+    info.write_text(whole.replace("fan_kind = fan_kind", "fan_kind = fan_kinds"), encoding="utf-8")
+    try:
+        found = run(installed, "-m", "mixedlub", "kinds")
+    finally:
+        info.write_text(whole, encoding="utf-8")
+    assert "entry point of mixedlub.kinds: 'fan_kinds': cannot be loaded" in found.stderr
+    assert "Traceback" not in found.stderr
 
 
 def declaration(**changed: Any) -> dict[str, Any]:

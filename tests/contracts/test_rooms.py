@@ -12,21 +12,8 @@ import mixedlub
 HOME = Path(mixedlub.__file__).parent
 ROOMS = {
     "": (
-        *(
-            "version",
-            "atomic",
-            "discovery",
-            "schema",
-            "laws",
-            "chain",
-            "effects",
-            "gear",
-            "rig",
-            "kinds",
-            "case",
-            "recording",
-        ),
-        *("data_checks", "study", "report", "diagnosis", "importers", "api", "validation"),
+        *("version", "atomic", "discovery", "schema", "slots", "laws", "chain", "effects", "gear", "rig", "kinds"),
+        *("case", "recording", "data_checks", "study", "report", "diagnosis", "importers", "api", "validation"),
         *("commands", "cli", "__main__"),
     ),
     "diagnosis": (

@@ -35,6 +35,7 @@ OTHER_ARGUMENTS = {
     "poisson_ratio": ((0.3, 0.25), "-"),
     "value": (np.array([3.0, 2.0]), "Pa"),
     "weight": (np.array([0.3, 0.4]), "-"),
+    "mean_weight": (np.array([0.3]), "-"),
     "given": (0.4, "-"),
     "exponent": (0.6, "-"),
     "per_stress": (2e-8, "1/Pa"),

@@ -3,7 +3,11 @@
 import numpy as np
 import pytest
 
+from mixedlub.chain.base_models import GEAR_LOSS
+from mixedlub.slots import FILM, SLOTS
 from mixedlub.study import read_study, run_study
+from mixedlub.study.options import study_chain
+from mixedlub.study.schema import Options
 
 
 def results(write_study, **options):
@@ -73,3 +77,24 @@ def test_bulk_temperature_rise_is_hotter_oil(write_study):
     warmer = results(write_study, bulk_temperature_rise_K=30.0)
     base = results(write_study)
     assert warmer["power_loss"][:, 0] == pytest.approx(base["power_loss"][:, 1], rel=1e-12)
+
+
+def test_the_default_laws_are_those_of_the_base_model():
+    base = dict(GEAR_LOSS)
+    for slot in SLOTS:
+        assert next(iter(slot.choices)) == slot.default
+        assert slot.choices[slot.default].law is base[slot.quantity]
+    assert study_chain(Options()) == GEAR_LOSS
+
+
+def test_a_law_is_offered_once_and_names_its_source():
+    def film(viscosity):
+        """A film (m). Source: none."""
+        return viscosity
+
+    with pytest.raises(TypeError, match=r"film = 'dowson_toyoda_central' is already defined in mixedlub\.laws\.film"):
+        FILM.offers("dowson_toyoda_central", "another")(film)
+    film.__doc__ = "A film (m)."
+    with pytest.raises(TypeError, match="names no 'Source: '"):
+        FILM.offers("unsourced", "another")(film)
+    assert "unsourced" not in FILM.choices

@@ -1,0 +1,76 @@
+"""Steps of the gear chain that a study chooses a law for, each with the laws that are offered for it.
+
+A law is offered where it is written, so that one file adds a law: the pure function, and above it the slot with the
+name that a study file uses and the meaning of the choice. Other packages name such a module as an entry point of the
+group ``mixedlub.laws``.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from typing import Any, TypeVar
+
+from mixedlub.discovery import loaded
+
+Law = TypeVar("Law", bound=Callable[..., Any])
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A law that is offered for a slot: its name in a study file and what choosing it means."""
+
+    name: str
+    meaning: str
+    law: Callable[..., Any]
+
+
+@dataclass(frozen=True, eq=False)
+class Slot:
+    """A step of the chain: the option that chooses its law, the quantity that it gives, and the law of the base model.
+
+    The arguments of a law are quantities of the glossary; its docstring names the source.
+    """
+
+    option: str
+    quantity: str
+    meaning: str
+    default: str
+    _offered: dict[str, Choice] = field(default_factory=dict, init=False, repr=False)
+
+    def offers(self, name: str, meaning: str) -> Callable[[Law], Law]:
+        """Offer the law below under a name, with what the choice means."""
+
+        def register(law: Law) -> Law:
+            known = self._offered.get(name)
+            if known is not None and known.law.__module__ != law.__module__:
+                raise TypeError(f"{self.option} = {name!r} is already defined in {known.law.__module__}")
+            if "Source: " not in (inspect.getdoc(law) or ""):
+                raise TypeError(f"{self.option} = {name!r}: the docstring of its law names no 'Source: '")
+            self._offered[name] = Choice(name, meaning, law)
+            return law
+
+        return register
+
+    @property
+    def choices(self) -> Mapping[str, Choice]:
+        """The laws by name, that of the base model first."""
+        _load()
+        return dict(sorted(self._offered.items(), key=lambda item: (item[0] != self.default, item[0])))
+
+
+@cache
+def _load() -> None:
+    loaded("mixedlub.laws", "mixedlub.laws")
+
+
+FILM = Slot("film", "film_thickness", "law of the film thickness", "dowson_toyoda_central")
+VISCOSITY = Slot("viscosity_law", "contact_viscosity", "law of the viscosity under pressure", "roelands")
+SHEAR = Slot("effective_viscosity", "shear_stress", "how the film thins under shear", "asinh")
+FILM_FRICTION = Slot("contact_pressure", "fluid_friction", "pressure that the shear stress is divided by", "maximum")
+MIXTURE = Slot("mixture", "friction", "friction of film and asperities together", "tallian")
+MESH_LOSS = Slot("averaging", "mesh_loss", "how the power loss is averaged over the path of contact", "mesh_integral")
+SLOTS = (FILM, VISCOSITY, SHEAR, FILM_FRICTION, MIXTURE, MESH_LOSS)
+"""In the order of the chain."""
