@@ -58,7 +58,7 @@ def said(d: Diagnosis) -> list[tuple[str, str]]:
             for p in effect["parameters"][:4]
         )
         rows.append((effect["id"], values))
-    hidden = unshown(d, confusion(d.found))
+    hidden = unshown(d, confusion(d.search))
     if answer["verdict"] != ["none"] and hidden:
         rows.append(("Too weak to show", ", ".join(hidden)))
     rows += [("Reading", text) for text in faults(d)]
@@ -72,7 +72,7 @@ def said(d: Diagnosis) -> list[tuple[str, str]]:
 def faults(d: Diagnosis) -> list[str]:
     """What the instrument did wrong at the readings that are outliers."""
     found = []
-    table, y = d.recorded.table, d.found.problem.y
+    table, y = d.recorded.table, d.search.problem.y
     for run in d.outlier_runs:
         row = int(np.flatnonzero(table["run"] == run)[0])
         excess, sd = float(y[row] - d.recorded.predicted[row]), float(d.recorded.sd[row])

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
+from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.labels import conditions_text, effect_words, explanation_words
 from mixedlub.diagnosis.report.figures import figures
 from mixedlub.diagnosis.report.figures.charts import evidence
@@ -29,7 +30,7 @@ HERE = Path(__file__).resolve().parent
 
 def first_mismatch(d: Diagnosis) -> Figure:
     """What the plain simulation says of the readings, before anything is fitted."""
-    recorded, base = d.found.problem.y, d.recorded.base
+    recorded, base = d.search.problem.y, d.recorded.base
     speed = d.recorded.table["speed_rpm"]
     figure = blank(6.4, 2.8)
     left, right = figure.subplots(1, 2)
@@ -73,12 +74,13 @@ def error(values: np.ndarray, truth: np.ndarray) -> str:
 def story(first: Diagnosis, second: Diagnosis, truth: dict) -> dict[str, str]:
     """Every number of the README."""
     assert second.wanted is not None
-    recorded, base = first.found.problem.y, first.recorded.base
+    recorded, base = first.search.problem.y, first.recorded.base
     true_loss = np.array([row["loss_W"] for row in truth["withheld"].values()])
     concealed = np.array([row["concealed_W"] for row in truth["withheld"].values()])
     added = second.wanted.mismatch_z * second.wanted.sd
     explained = {s.title: " ".join(s.sentences) for s in words.sections(second)}
-    z = {c.name: float(v) for c, v in zip(second.found.problem.forward.calibrations, second.found.none.z, strict=False)}
+    calibrations = second.search.problem.forward.calibrations
+    z = {c.name: float(v) for c, v in zip(calibrations, second.search.null_fit.z, strict=False)}
     fitted = {c["input"]: c["z"] for c in calibration(second)}
     rows = [
         f"| {name.replace('_', ' ')} | {true:+.1f} | {z[name]:+.1f} | {fitted[name]:+.1f} |"
@@ -86,7 +88,7 @@ def story(first: Diagnosis, second: Diagnosis, truth: dict) -> dict[str, str]:
     ]
     return {
         "first_readings": str(recorded.size),
-        "second_readings": str(second.found.problem.y.size),
+        "second_readings": str(second.search.problem.y.size),
         "first_bias": f"{float(np.mean(recorded - base)):+.1f} W",
         "first_rms": f"{float(np.sqrt(np.mean(((recorded - base) / first.recorded.sd) ** 2))):.1f}",
         "first_p": f"{first.test.p_value:.1g}",
@@ -124,9 +126,9 @@ def left_out(d: Diagnosis) -> str:
 
 def calibration(d: Diagnosis) -> list[dict]:
     """Calibrated inputs under the verdict, in standard deviations from what was stated."""
-    refined = d.refined[d.posterior.verdict if not isinstance(d.posterior.verdict, str) else ()]
+    refined = d.refined[NOTHING if d.posterior.verdict.discrepancy else d.posterior.verdict]
     return [
-        {"input": c.name, "z": float(z)} for c, z in zip(d.found.problem.forward.calibrations, refined.z, strict=False)
+        {"input": c.name, "z": float(z)} for c, z in zip(d.search.problem.forward.calibrations, refined.z, strict=False)
     ]
 
 

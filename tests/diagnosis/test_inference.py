@@ -94,7 +94,7 @@ def test_very_many_readings_give_the_answer_of_all(monkeypatch: pytest.MonkeyPat
     p = problem(extra=0.05)
     all_rows = found_in(p)
     monkeypatch.setattr(searching, "MANY", p.y.size - 1)
-    monkeypatch.setattr(searching, "SPREAD", p.y.size // 2)
+    monkeypatch.setattr(searching, "SUBSET", p.y.size // 2)
     thinned = found_in(p)
     assert thinned.screen is not None
     assert thinned.screen.problem.y.size < p.y.size

@@ -143,7 +143,7 @@ def test_repeats_bound_the_noise_of_very_many_readings(
         csv.writer(file).writerows([rows[0], *lines])
     monkeypatch.setattr("mixedlub.diagnosis.search.noise_selection.MANY", 40)
     monkeypatch.setattr("mixedlub.diagnosis.search.search.MANY", 40)
-    monkeypatch.setattr("mixedlub.diagnosis.search.search.SPREAD", 30)
+    monkeypatch.setattr("mixedlub.diagnosis.search.search.SUBSET", 30)
     d = diagnose_case(folder, exclude=excluded)
     assert told(d) == []
 

@@ -74,18 +74,12 @@ def test_readings_that_contradict_each_other_are_found(offset: Diagnosis) -> Non
 
 
 def test_probability_of_the_answer_and_of_its_effects_stand_side_by_side(offset: Diagnosis) -> None:
-    several = {
-        Explanation.of("sensor_offset"): 0.87,
-        Explanation.of("inlet_shear_heating", "sensor_offset"): 0.128,
-    }
+    several = {Explanation.of("sensor_offset"): 0.87, Explanation.of("inlet_shear_heating", "sensor_offset"): 0.128}
     clause = "Sensor offset: probability 0.87 alone, above 0.99 alone or with a second effect."
     assert clause in told(judged(offset, several, 1))[words.ANSWER]
     assert "alone" not in told(judged(offset, {Explanation.of("sensor_offset"): 0.97}, 1))[words.ANSWER]
-    pair = {
-        Explanation.of("sensor_offset"): 0.5,
-        Explanation.of("churning"): 0.2,
-        Explanation.of("churning", "sensor_offset"): 0.1,
-    }
+    both = Explanation.of("churning", "sensor_offset")
+    pair = {Explanation.of("sensor_offset"): 0.5, Explanation.of("churning"): 0.2, both: 0.1}
     said = told(judged(offset, pair, 2))[words.ANSWER]
     assert "Sensor offset: probability 0.50 alone, 0.60 alone or with a second effect." in said
 

@@ -242,7 +242,7 @@ def test_bits_and_nats_are_explained(offset: Diagnosis, unnamed: Diagnosis) -> N
 
 def test_long_ties_are_cut_short(offset: Diagnosis) -> None:
     names = ("sensor_offset", "sensor_gain", "churning", "inlet_shear_heating")
-    every = {Explanation.of("unknown"): 0.3, NOTHING: 0.2, **{Explanation.of(n): 0.1 for n in names}}
+    every = {DISCREPANCY: 0.3, NOTHING: 0.2, **{Explanation.of(n): 0.1 for n in names}}
     said = words.headline(judged(offset, every, 6))
     assert said.endswith("; 1 less probable one.")
     assert "inlet shear heating" not in said
