@@ -11,6 +11,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, ClassVar
@@ -56,6 +57,12 @@ class _InPage:
             words, cwd=self.folder, env=self.surroundings, stdout=log, stderr=log, start_new_session=True
         )
 
+    def wait_for(self, script: str, text: str) -> None:
+        """Until a script in the background has printed a text."""
+        end = time.monotonic() + LIMIT_S
+        while text not in (self.folder / f"{script}.log").read_text(encoding="utf-8") and time.monotonic() < end:
+            time.sleep(0.1)
+
     def output(self, words: list[str], status: int = 0) -> str:
         """Output of a command in the page's folder; RuntimeError where its exit status is another."""
         found = subprocess.run(
@@ -93,7 +100,8 @@ class Run(SphinxDirective, _InPage):
     """Commands of a shell (or one Python program) with what they print, cut to ``head`` and ``tail`` lines.
 
     ``quiet`` leaves out what they print; a ``hidden`` one shows nothing, and holds what the text around it says.
-    ``wrap`` folds long lines. ``with`` names a script of the page that runs meanwhile.
+    ``wrap`` folds long lines. ``with`` names a script of the page that runs meanwhile, ``once`` it has
+    printed a text.
     """
 
     has_content = True
@@ -106,6 +114,7 @@ class Run(SphinxDirective, _InPage):
         "hidden": directives.flag,
         "wrap": directives.flag,
         "with": directives.unchanged_required,
+        "once": directives.unchanged_required,
     }
 
     def run(self) -> list[nodes.Node]:
@@ -114,6 +123,8 @@ class Run(SphinxDirective, _InPage):
         whole = "\n".join(self.content)
         programs = [whole] if python else re.findall(r"^(?:.*\\\n)*.+$", whole, re.MULTILINE)
         meanwhile = self.start(self.options["with"]) if "with" in self.options else None
+        if meanwhile is not None:
+            self.wait_for(self.options["with"], self.options.get("once", ""))
         try:
             for program in programs:
                 words = [sys.executable, "-W", "error", "-c", program] if python else ["bash", "-c", program]

@@ -130,3 +130,12 @@ def test_pieces_that_pages_include_are_there():
 
     included = re.findall(r"\{include\} (?:\.\./)*made/(\w+)\.md", "".join(p.read_text() for p in PAGES))
     assert set(included) == set(generated.pieces())
+
+
+def test_a_script_runs_beside_a_command_once_it_is_ready(built):
+    html, complaints = built(
+        "```{file} slow.sh\nsleep 0.3; echo ready; touch there; sleep 60\n```\n\n"
+        "```{run}\n:with: slow.sh\n:once: ready\nsleep 0.1; ls there\n```"
+    )
+    assert complaints == ""
+    assert "</span>there\n" in html

@@ -8,8 +8,8 @@ import pytest
 from mixedlub.diagnosis.assessment.mismatch_test import DRAWS
 from mixedlub.diagnosis.assessment.posterior import TIE
 from mixedlub.diagnosis.inference.map_fit import OUTLIER_SHARE
-from mixedlub.diagnosis.inference.nested_laws import SHARE
-from mixedlub.diagnosis.search.noise_inflation import MOST
+from mixedlub.diagnosis.inference.nested_laws import SPIKE
+from mixedlub.diagnosis.search.noise_inflation import MOST_INFLATION
 from mixedlub.effects import catalogue
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -38,10 +38,10 @@ def test_numbers_of_the_inference_are_those_of_the_code():
     assert f"viscosity index exceeds {beyond:g}" in text
     assert {5.0: "five times as high"}[times] in text
     assert f"prior probability of {100 * OUTLIER_SHARE:g} %" in text
-    assert f"up to a factor of {MOST:g}" in text
+    assert f"up to a factor of {MOST_INFLATION:g}" in text
     assert f"{DRAWS} recordings drawn" in text
     assert {0.1: "at least a tenth of its probability"}[TIE] in text
-    assert {0.5: "half of its prior mass lies on this formula"}[SHARE] in text
+    assert {0.5: "half of its prior mass lies on this formula"}[SPIKE] in text
 
 
 def test_real_recordings_are_called_a_development_set():
