@@ -174,9 +174,10 @@ def loss_over(results: Results, quantity: str, theta: int, *, fitted: bool = Fal
             _points(panel, x, y, results["asperity_load_ratio"][:, theta, t, n] <= 1.0, _alike(results), colour)
         panel.set_title(f"({letter}) {text}", loc="left")
         panel.set_xlabel(AXIS[quantity][0])
-        panel.set_ylim(bottom=0.0)
         if quantity == "film_parameter":
             panel.axvline(1.0, color="0.35", linewidth=0.8, linestyle=(0, (4, 3)))
+    for panel in axes:
+        panel.set_ylim(bottom=0.0)
     names = [f"{text} rpm" for text in shown([levels.speed_rpm[n] for n in speeds])]
     if fitted:
         letters = ", ".join(f"({letter})" for letter, _ in zip("abc", torques))
