@@ -124,6 +124,8 @@ def _over(
     values: Callable[[int, int], np.ndarray],
 ) -> tuple[Figure, Sequence[Axes]]:
     """A quantity over a condition, a line a torque, a panel a pairing; those on the lower edge have a label."""
+    from matplotlib.ticker import NullLocator
+
     torques = spread(results.study.file.conditions.torque_Nm, MOST_LEVELS)
     labels = _torque_labels(results, torques)
     figure, axes, columns = panels(len(chosen), 3)
@@ -142,7 +144,9 @@ def _over(
             normalised_axis(panel, float(results["power_loss"].max()))
     drawn = np.concatenate([values(p, t) for p in chosen for t in torques])
     if quantity == "area_ratio" and is_wide(drawn):
-        axes[0].set_yscale("log")
+        for panel in axes:
+            panel.set_yscale("log")
+            panel.yaxis.set_minor_locator(NullLocator())  # finding room for minor ticks takes longest of all
         axes[0].set_ylim(bottom=max(LEAST_RATIO, 0.7 * drawn[drawn > 0].min()), top=1.5 * drawn.max())
     else:
         axes[0].set_ylim(bottom=0.0)
