@@ -34,18 +34,27 @@ def writing(folder: Path) -> Iterator[Path]:
         shutil.rmtree(aside, ignore_errors=True)
 
 
-OWN, EDITED = b"<dc:title>mixedlub</dc:title>", (b"inkscape", b"sodipodi")
-"""What a drawing says that was made here, and one that was worked over since."""
-HEAD = 4096
+OWN = {
+    ".svg": b"<dc:title>mixedlub</dc:title>",
+    ".png": b"Software\x00mixedlub",
+    ".pdf": b"/Creator (mixedlub)",
+}
+"""What a drawing of each format says that was made here."""
+EDITED = (b"inkscape", b"sodipodi")
+"""What a drawing says that was worked over since."""
+ENDS = 4096
+"""Bytes at either end of a drawing among which it says so."""
 
 
 def is_own(path: Path) -> bool:
     """Whether a file is a drawing as an earlier run made it."""
-    if path.suffix != ".svg" or not path.is_file():
+    if path.suffix not in OWN or not path.is_file():
         return False
     with path.open("rb") as file:
-        head = file.read(HEAD)
-    return OWN in head and not any(mark in head for mark in EDITED)
+        ends = file.read(ENDS)
+        file.seek(max(file.tell(), path.stat().st_size - ENDS))
+        ends += file.read()
+    return OWN[path.suffix] in ends and not any(mark in ends for mark in EDITED)
 
 
 def _take_along(before: Path, after: Path) -> None:

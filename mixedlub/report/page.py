@@ -56,9 +56,11 @@ def write_page(
     shown = []
     for drawn in (*surface_figures(study, profiles, judged), *figures(results)):
         doing(f"drawing figures: {drawn.name}")
+        svg = as_svg(drawn.figure)
         for form in formats:
-            save(drawn.figure, drawings / f"{drawn.name}.{form}")
-        shown.append({"name": drawn.name, "caption": drawn.caption, "svg": as_svg(drawn.figure)})
+            path = drawings / f"{drawn.name}.{form}"
+            path.write_text(svg, encoding="utf-8") if form == "svg" else save(drawn.figure, path)
+        shown.append({"name": drawn.name, "caption": drawn.caption, "svg": svg})
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(files("mixedlub.report").joinpath("template.html").read_text(encoding="utf-8"))
     of_heights = [*not_gaussian(judged), *height_notes(profiles, judged)]
@@ -171,20 +173,26 @@ def input_rows(study: Study, section: str) -> list[tuple[str, str, str, str]]:
     """Every key of a section as used: name, value with unit, whether it is assumed, meaning."""
     used, taken = resolved(study)["inputs"][section], set(assumed(study))
     return [
-        (name, f"{_written(value)} {key.unit}".strip(), "assumed" if f"{place}.{name}" in taken else "", key.meaning)
-        for place, name, value, key in _keys(section, used)
+        (
+            name.removeprefix(f"{section}."),
+            f"{_written(value)} {key.unit}".strip(),
+            "assumed" if taken & {name, name.rpartition(".")[0]} else "",
+            key.meaning,
+        )
+        for name, value, key in _keys(section, used)
     ]
 
 
-def _keys(place: str, used: Mapping[str, Any]) -> Iterator[tuple[str, str, Any, Key]]:
-    """Table, name, value and description of each key that has a value, those of tables within it last."""
-    described = table(StudyFile, place)
-    for key in described.fields:
-        if key.name in used and not isinstance(used[key.name], Mapping):
-            yield place, key.name, used[key.name], key
-    for name, inner in used.items():
-        if isinstance(inner, Mapping):
-            yield from _keys(f"{place}.{name}", inner)
+def _keys(place: str, used: Mapping[str, Any]) -> Iterator[tuple[str, Any, Key]]:
+    """Dotted name, value and description of each key that has a value."""
+    for key in table(StudyFile, place).fields:
+        if key.name not in used:
+            continue
+        name, value = f"{place}.{key.name}", used[key.name]
+        if isinstance(value, Mapping):
+            yield from _keys(name, value)
+        else:
+            yield name, value, key
 
 
 def _written(value: object) -> str:

@@ -124,6 +124,8 @@ def _over(
     values: Callable[[int, int], np.ndarray],
 ) -> tuple[Figure, Sequence[Axes]]:
     """A quantity over a condition, a line a torque, a panel a pairing; those on the lower edge have a label."""
+    from matplotlib.ticker import NullLocator
+
     torques = spread(results.study.file.conditions.torque_Nm, MOST_LEVELS)
     labels = _torque_labels(results, torques)
     figure, axes, columns = panels(len(chosen), 3)
@@ -142,7 +144,9 @@ def _over(
             normalised_axis(panel, float(results["power_loss"].max()))
     drawn = np.concatenate([values(p, t) for p in chosen for t in torques])
     if quantity == "area_ratio" and is_wide(drawn):
-        axes[0].set_yscale("log")
+        for panel in axes:
+            panel.set_yscale("log")
+            panel.yaxis.set_minor_locator(NullLocator())  # finding room for minor ticks takes longest of all
         axes[0].set_ylim(bottom=max(LEAST_RATIO, 0.7 * drawn[drawn > 0].min()), top=1.5 * drawn.max())
     else:
         axes[0].set_ylim(bottom=0.0)
@@ -174,9 +178,10 @@ def loss_over(results: Results, quantity: str, theta: int, *, fitted: bool = Fal
             _points(panel, x, y, results["asperity_load_ratio"][:, theta, t, n] <= 1.0, _alike(results), colour)
         panel.set_title(f"({letter}) {text}", loc="left")
         panel.set_xlabel(AXIS[quantity][0])
-        panel.set_ylim(bottom=0.0)
         if quantity == "film_parameter":
             panel.axvline(1.0, color="0.35", linewidth=0.8, linestyle=(0, (4, 3)))
+    for panel in axes:
+        panel.set_ylim(bottom=0.0)
     names = [f"{text} rpm" for text in shown([levels.speed_rpm[n] for n in speeds])]
     if fitted:
         letters = ", ".join(f"({letter})" for letter, _ in zip("abc", torques))

@@ -117,10 +117,6 @@ _MADE_BY = {"pdf": {"Creator": OWNER, "CreationDate": None}, "png": {"Software":
 
 
 def save(figure: Figure, path: Path) -> None:
-    """The figure as a file, in the format that the ending of its name says."""
-    form = path.suffix[1:]
-    if form == "svg":
-        path.write_text(as_svg(figure), encoding="utf-8")
-        return
+    """The figure as a file to print, PDF or PNG by the ending of its name."""
     with styled():
-        figure.savefig(path, dpi=PNG_DPI, metadata=_MADE_BY[form])
+        figure.savefig(path, dpi=PNG_DPI, metadata=_MADE_BY[path.suffix[1:]])

@@ -34,7 +34,7 @@ def test_page_needs_nothing_from_elsewhere(page):
     assert "<script" not in page
     assert not re.search(r"""(?:src|href|url)\s*[=(]\s*["']?(?:https?:)?//""", page)
     links = {link for link in re.findall(r'href="([^"#][^"]*)"', page) if not link.startswith("#")}
-    assert links == {"results.csv", "results.parquet", "figures/"}
+    assert links == {"results.csv", "results.parquet", "resolved.json", "figures/"}
 
 
 def test_page_escapes_what_the_user_wrote(page):
@@ -56,6 +56,25 @@ def test_page_states_options_definitions_warnings_laws_and_effects(page):
         "Composite roughness",
     ):
         assert words in page, words
+
+
+def test_page_states_the_inputs_it_assumed_and_the_study_file(page, folder):
+    import html
+
+    inputs = page[page.index('id="inputs"') : page.index('id="options"')]
+    for key, value in (("tip_diameter_mm", "80.43333 / 118.5333 mm"), ("centre_distance_mm", "91.01667 mm")):
+        assert re.search(rf"<code>{key}</code></td><td>{value} <i>\(assumed\)</i>", inputs), key
+    for words in ("helix_angle_deg", "profile_shift", "load_sharing", "transverse contact ratio"):
+        assert words in inputs, words
+    (given,) = re.findall(r"<details>.*?<pre>(.*?)</pre>", inputs, re.DOTALL)
+    assert html.unescape(given).strip() == (folder.parent / "trial.toml").read_text(encoding="utf-8").strip()
+
+
+def test_laws_are_told_without_names_of_the_program(page):
+    laws = re.sub(r"<svg.*?</svg>", "", page[page.index('id="laws"') :], flags=re.DOTALL)
+    assert "`" not in laws
+    assert not re.search(r"\b(path_weight|contact_width|roughness\.guards|the last axis)\b", laws)
+    assert "film thickness (effect: inlet shear heating)" in laws
 
 
 def test_every_equation_is_set(page):

@@ -1,8 +1,10 @@
 """Figures stay readable whatever the size of the study."""
 
+import numpy as np
 import pytest
 
-from mixedlub.report.figures import MOST_LEVELS, MOST_PAIRINGS, MOST_PANELS, figures
+from mixedlub.report.figures import MOST_PANELS, figures
+from mixedlub.report.plots import MOST_LEVELS, MOST_PAIRINGS
 from mixedlub.study import read_study, run_study
 
 
@@ -21,7 +23,7 @@ def many(tmp_path_factory):
 
 def test_many_levels_are_thinned_and_said(many):
     drawn = {d.name: d for d in figures(many)}
-    assert {name.rpartition("_")[2] for name in drawn} == {"40C", "80C"}
+    assert {name.rpartition("_")[2] for name in drawn} == {"40C", "80C", "temperature"}
     panels = [a for a in drawn["power_loss_equal_40C"].figure.axes if a.lines]
     assert len(panels) == MOST_PANELS
     assert all(len(a.lines) == MOST_LEVELS for a in panels)
@@ -78,6 +80,161 @@ def test_long_names_stay_within_their_panels(write_study):
 
 def test_no_curve_is_cut_by_its_panel(write_study):
     results = run_study(read_study(write_study()))
-    (drawn, *_) = (d for d in figures(results) if d.name.startswith("film_and_friction"))
-    for panel in drawn.figure.axes[1:]:
-        assert max(line.get_ydata().max() for line in panel.lines) < panel.get_ylim()[1]
+    for drawn in figures(results):
+        for panel in (a for a in drawn.figure.axes if a.lines and a.get_yscale() == "linear"):
+            highest = max((np.max(line.get_ydata()) for line in panel.lines if len(line.get_ydata())), default=0.0)
+            assert highest <= panel.get_ylim()[1], drawn.name
+
+
+def test_middle_temperatures_are_drawn_and_captions_say_which_are_left_out(many):
+    drawn = {d.name: d for d in figures(many)}
+    over = drawn["power_loss_equal_temperature"]
+    assert all(list(line.get_xdata()) == [40, 60, 80] for a in over.figure.axes for line in a.lines)
+    for name, figure in drawn.items():
+        if name != over.name:
+            assert "Drawn are 2 of 3 oil temperatures: 40 and 80 °C." in figure.caption, name
+
+
+def test_two_temperatures_need_no_figure_over_temperature(write_study):
+    drawn = list(figures(run_study(read_study(write_study()))))
+    assert not any("temperature" in d.name or "oil temperatures:" in d.caption for d in drawn)
+
+
+@pytest.fixture(scope="module")
+def odd(tmp_path_factory):
+    """Six speeds that are no whole numbers, torques from small to large, surfaces from smooth to rough."""
+    from tests.study.conftest import BASE, toml
+
+    surfaces = {f"surface{i}": {"m0_um2": 0.001 * 8**i, "m2": 0.0025, "m4_per_um2": 0.0036} for i in range(5)}
+    conditions = {
+        "torque_Nm": {"from": 10, "to": 300, "count": 80},
+        "speed_rpm": [0.96071, 0.987142, 961.25, 133.3333, 2987.12, 1500.5],
+        "oil_temperature_C": [60],
+    }
+    path = tmp_path_factory.mktemp("odd") / "odd.toml"
+    data = {**BASE, "surfaces": surfaces, "conditions": conditions}
+    path.write_text("\n".join(f"{key} = {toml(value)}" for key, value in data.items()))
+    return {d.name: d for d in figures(run_study(read_study(path)))}
+
+
+def test_legends_stand_within_the_figure_and_off_the_panels(odd):
+    for name, drawn in odd.items():
+        drawn.figure.draw_without_rendering()
+        (legend,) = drawn.figure.legends
+        box = legend.get_window_extent()
+        assert box.x0 >= 0, name
+        assert box.x1 <= drawn.figure.bbox.x1, name
+        assert box.y1 <= drawn.figure.bbox.y1, name
+        assert not any(box.overlaps(a.get_window_extent()) for a in drawn.figure.axes if a.get_visible()), name
+
+
+def test_levels_are_told_in_four_digits(odd):
+    for name in ("power_loss_equal", "loss_over_film_parameter"):
+        for text in odd[name].figure.legends[0].get_texts():
+            assert len(text.get_text().split()[0].replace(".", "").lstrip("0")) <= 4
+    labels = [t.get_text() for t in odd["loss_over_film_parameter"].figure.legends[0].get_texts()]
+    assert labels == ["2987 rpm", "1500 rpm", "961.2 rpm", "133.3 rpm", "0.9871 rpm", "0.9607 rpm"]
+
+
+def test_labels_of_neighbouring_panels_do_not_touch(odd):
+    for name, drawn in odd.items():
+        drawn.figure.draw_without_rendering()
+        labels = [a.xaxis.label.get_window_extent() for a in drawn.figure.axes if a.get_xlabel() and a.get_visible()]
+        assert not any(a.overlaps(b) for i, a in enumerate(labels) for b in labels[:i]), name
+
+
+def test_panels_of_an_incomplete_row_are_as_large_as_the_others(odd):
+    figure = odd["power_loss_equal"].figure
+    figure.draw_without_rendering()
+    panels = [a for a in figure.axes if a.get_visible() and a.lines]
+    assert len(panels) == 5
+    assert np.ptp([a.get_position().height for a in panels]) < 1e-6
+    assert np.ptp([a.get_position().width for a in panels]) < 1e-6
+    assert all(a.get_xlabel() for a in panels)
+
+
+def test_loss_over_film_parameter_has_points_and_no_line_between_pairings(odd):
+    for panel in odd["loss_over_film_parameter"].figure.axes:
+        lines = [line for line in panel.lines if line.get_linestyle() != "None" and len(set(line.get_xdata())) > 1]
+        assert lines == []
+
+
+def test_a_small_torque_has_a_panel_that_is_not_empty(odd):
+    drawn = odd["loss_over_roughness"]
+    assert "its own scale" in drawn.caption
+    for panel in drawn.figure.axes:
+        highest = max(line.get_ydata().max() for line in panel.lines if len(line.get_ydata()))
+        assert highest > 0.5 * panel.get_ylim()[1]
+
+
+def test_ratios_near_zero_are_on_a_logarithmic_axis(odd):
+    drawn = odd["area_ratio_equal"]
+    assert {a.get_yscale() for a in drawn.figure.axes if a.lines} == {"log"}
+    assert "logarithmic" in drawn.caption
+
+
+def test_points_outside_the_range_of_the_model_have_a_mark_of_their_own(write_study):
+    results = run_study(read_study(write_study()))
+    drawn = {d.name: d for d in figures(results)}["loss_over_roughness_60C"]
+    assert "Triangles: outside the model's range" in drawn.caption
+    outside = (results["asperity_load_ratio"][:, 0] > 1).sum()
+    marked = sum(len(line.get_xdata()) for a in drawn.figure.axes for line in a.lines if line.get_marker() == "v")
+    assert marked == outside
+
+
+def test_the_outermost_pairings_are_among_those_drawn(many):
+    panel = {d.name: d for d in figures(many)}["loss_over_area_ratio_40C"].figure.axes[0]
+    drawn = np.concatenate([line.get_xdata() for line in panel.lines if line.get_linestyle() == "None"])
+    ratio = many["area_ratio"][:, 0, 0]
+    assert drawn.max() == ratio.max()
+    assert drawn.min() == ratio.min()
+
+
+def test_text_stays_text_in_every_format(write_study, tmp_path):
+    from mixedlub.cli import main
+
+    out = tmp_path / "o"
+    assert main(["study", str(write_study()), "--out", str(out), "--format", "svg,pdf,png"]) == 0
+    names = {path.name for path in (out / "figures").iterdir()}
+    stems = {name.rpartition(".")[0] for name in names}
+    assert names == {f"{stem}.{form}" for stem in stems for form in ("svg", "pdf", "png")}
+    assert "pinion speed (rpm)</text>" in (out / "figures" / "power_loss_equal_60C.svg").read_text(encoding="utf-8")
+    assert (out / "figures" / "power_loss_equal_60C.pdf").read_bytes().startswith(b"%PDF")
+    (out / "figures" / "power_loss_equal_60C.pdf").rename(out / "figures" / "of_old.pdf")
+    assert main(["study", str(write_study()), "--out", str(out), "--format", "pdf"]) == 0
+    assert {path.name for path in (out / "figures").iterdir()} == {f"{stem}.pdf" for stem in stems}
+
+
+def test_an_unknown_format_is_bad_input(write_study, tmp_path, capsys):
+    from mixedlub.cli import main
+
+    assert main(["study", str(write_study()), "--out", str(tmp_path / "o"), "--format", "jpeg"]) == 2
+    assert "--format" in capsys.readouterr().err
+
+
+def test_traces_of_very_different_height_have_their_own_scales_and_it_is_said(write_study, tmp_path):
+    from mixedlub.report.surfaces import judgement, surface_figures, traced
+
+    x = np.arange(8000) * 0.5
+    z = np.convolve(np.random.default_rng(1).normal(size=x.size), np.ones(20) / 20, "same") * 5.0
+    np.savetxt(tmp_path / "rough.csv", np.column_stack([x, z]), delimiter=",", header="x (um),z (um)", comments="")
+    surfaces = {"rough_in": {"profile": "rough.csv"}, "polished": {"profile": "shipped:0036"}}
+    study = read_study(write_study(surfaces=surfaces))
+    profiles = traced(study)
+    traces, probability = surface_figures(study, profiles, judgement(profiles))
+    assert "own scale" in traces.caption
+    assert all(
+        max(abs(a.collections[0].get_paths()[0].vertices[:, 1])) > 0.3 * a.get_ylim()[1] for a in traces.figure.axes
+    )
+    assert {t.get_text() for t in probability.figure.legends[0].get_texts()} >= {"heights", "Gaussian"}
+
+
+def test_a_doubtful_verdict_is_doubted_at_its_panel(write_study):
+    from mixedlub.report.surfaces import judgement, surface_figures, traced
+
+    study = read_study(write_study(surfaces={"few": {"profile": "shipped:0122"}}))
+    profiles = traced(study)
+    _, probability = surface_figures(study, profiles, judgement(profiles))
+    title = probability.figure.axes[0].get_title(loc="left")
+    assert "19 independent heights" in title
+    assert "0.14 × Gaussian" in title
