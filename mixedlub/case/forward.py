@@ -121,11 +121,6 @@ class Forward:
         reading = np.asarray(record.wanted["reading"])
         return Run(np.broadcast_to(reading, (len(self.table), 1))[:, 0] * self.scale, record, applied)
 
-    def odds(self, effect: Effect) -> float:
-        """How often an effect is what is missing, over others, by what is known before any reading is seen."""
-        name, beyond, times = effect.likelier or ("", 0.0, 1.0)
-        return effect.odds * (times if name in self.inputs and float(self.inputs[name]) > beyond else 1.0)
-
     def effects(self, exclude: Sequence[str] = ()) -> tuple[Effect, ...]:
         """Effects of the catalogue that these rows could show, with the parameters that are free in this kind."""
         return tuple(

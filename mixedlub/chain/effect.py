@@ -84,7 +84,6 @@ class Effect:
     free_form: bool = False
     exact: bool = False
     over: str = ""
-    likelier: tuple[str, float, float] | None = None
     held: Mapping[str, float] = field(default_factory=dict)
 
     def holding(self, values: Mapping[str, float]) -> Effect:
@@ -123,7 +122,6 @@ class Effect:
         ranges = (f"{n} {low:g} to {high:g}{_unit(GLOSSARY[n].unit)}" for n, (low, high) in self.valid.items())
         odds = f"{self.odds:g} of those of an effect that is missing as often as most" if self.odds < 1.0 else ""
         exact = "exact: it is the effect's definition and does not bend in a fit" if self.exact else ""
-        more = "{1:g} times as often where {2} is beyond {0:g}"
         parts = {
             "stage": self.stage,
             "changes": ", ".join(map(with_symbol, self.acts_on, acted)),
@@ -133,7 +131,6 @@ class Effect:
             "valid": "; ".join(ranges),
             "recordings": ", ".join(self.kinds),
             "prior odds": odds,
-            "more often": more.format(*self.likelier[1:], self.likelier[0]) if self.likelier else "",
             "form": exact,
         }
         said = [entry(name, text) for name, text in parts.items() if text]
@@ -193,7 +190,6 @@ def effect(
     free_form: bool = False,
     exact: bool = False,
     over: str = "",
-    likelier: tuple[str, float, float] | None = None,
 ) -> Callable[[Callable[..., object]], Callable[..., object]]:
     """Register a law as an effect; its signature must say what the declaration says.
 
@@ -204,7 +200,7 @@ def effect(
     the friction of discs, of what shows on neither of the first standard rig that shows it; a film, say, may have
     the opposite sign. ``after`` names effects on the same quantity that come first; ``kinds`` restricts the kinds of
     recording (empty: all). ``odds`` below one say that it is missing less often than others are, before any reading
-    is seen; ``likelier`` is an input, the value beyond which that is more often, and how many times as often.
+    is seen.
     ``contains`` names laws, published or limits, that it becomes at certain values of some parameters. A
     ``free_form`` describes, and names no cause. The form of an ``exact`` one is its definition and cannot be a little
     wrong. One law ``over`` a quantity is no more than calibration where readings were all taken at one value of it.
@@ -229,8 +225,6 @@ def effect(
             raise TypeError(f"{where}: {over!r} is nothing that it reads")
         if not 0.0 < odds <= 1.0:
             raise TypeError(f"{where}: odds {odds!r} must lie above 0 and not above 1")
-        if likelier and (likelier[0] not in GLOSSARY or likelier[2] <= 0.0):
-            raise TypeError(f"{where}: {likelier!r} must name a quantity of the glossary, and times above 0")
         for held, values in (contains or {}).items():
             if not values.keys() <= set(keywords):
                 raise TypeError(f"{where}: {held!r} fixes {sorted(values)}, not all of them parameters")
@@ -255,7 +249,6 @@ def effect(
             free_form=free_form,
             exact=exact,
             over=over,
-            likelier=likelier,
         )
         return law
 

@@ -67,7 +67,6 @@ fall_from_first         | f_1        | -       | logarithm of the first given vi
 oil_density             | rho        | kg/m^3  | density of the oil
 oil_conductivity        | k_f        | W/(m K) | thermal conductivity of the oil
 oil_heat_capacity       | c_f        | J/(kg K) | specific heat of the oil
-viscosity_index         | VI         | -       | how little the oil thins with heat, after ASTM D2270
 eyring_stress           | tau_0      | Pa      | stress at which shear stops being Newtonian
 # roughness (both surfaces together unless a side is named)
 m0                      | m_0        | m^2     | variance of the profile heights

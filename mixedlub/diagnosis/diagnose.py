@@ -15,7 +15,6 @@ from mixedlub.diagnosis.assessment.answer_checks import (
     answer_warnings,
     noise_notes,
     overdispersion_warning,
-    prior_odds_notes,
 )
 from mixedlub.diagnosis.assessment.check_channel import Check, check_channel
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut
@@ -131,7 +130,6 @@ def diagnosis_of(
     forward = Forward(case, rows)
     checks = audit(case, rows, readings_of(case), forward)
     warnings = [*case.notes, *assumed, *hidden(case, wanted), *forward.notes, *checks]
-    warnings += prior_odds_notes(forward)
     left_out = tuple(e.id for e in forward.effects() if e.id in exclude)
     if left_out:
         named = ", ".join(effect_words(name) for name in left_out)

@@ -6,11 +6,6 @@ from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import Between, BetweenLog
 
 REFERENCE = 0.01
-MOST_OF_BASES, THICKENED = 200.0, 0.2
-"""Viscosity index that base oils reach (mineral 100, PAO 160, esters 190); share of the oils in use that hold polymer.
-
-Those are the ones that thin in inlets, so among oils that show it by their index it is so many times as frequent.
-"""
 
 
 @effect(
@@ -47,7 +42,6 @@ Those are the ones that thin in inlets, so among oils that show it by their inde
     "follows shear stress in the inlet, heating follows viscosity times speed squared",
     valid={"slide_roll_ratio": (0.0, 2.0)},
     after=("inlet_shear_heating", "starvation"),
-    likelier=("viscosity_index", MOST_OF_BASES, 1.0 / THICKENED),
 )
 def inlet_shear_thinning(
     film_thickness: np.ndarray,

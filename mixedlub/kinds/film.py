@@ -64,23 +64,12 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
     return {
         **contact_inputs(system.contact, table),
         **oil.inputs(temperature),
-        **_thickener(system, oil),
         **bookkeeping_inputs(system, table),
         **programme(table, recorded),
         **_orders(table, recorded),
         **_middle(oil, recorded),
         "oil_temperature": temperature,
     }
-
-
-def _thickener(system: system_file.System, oil: Lubricant) -> Inputs:
-    """The viscosity index, by which an oil shows that it holds polymer; polyglycols are polymers without one.
-
-    That is of films alone: gears soon cut such polymer to pieces.
-    """
-    if system.lubricant is None or system.lubricant.base == "pag":
-        return {}
-    return {"viscosity_index": oil.viscosity_index}
 
 
 def _middle(oil: Lubricant, recorded: Table) -> Inputs:

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.laws import oil
-from mixedlub.laws.viscosity_index import viscosity_index
 
 
 @dataclass(frozen=True)
@@ -32,12 +31,6 @@ class Lubricant:
         """Dynamic viscosity at ambient pressure (Pa s)."""
         nu = oil.kinematic_viscosity(temperature, self.temperature, self.kinematic_viscosity)
         return nu * self.density(temperature)
-
-    @property
-    def viscosity_index(self) -> float:
-        """Viscosity index (-) by the two known points; nan where it is not defined."""
-        at = np.array([40.0, 100.0]) + oil.ZERO_CELSIUS
-        return viscosity_index(*oil.kinematic_viscosity(at, self.temperature, self.kinematic_viscosity).tolist())
 
     def pressure_coefficient(self, temperature: np.ndarray) -> np.ndarray:
         """Pressure-viscosity coefficient (1/Pa): linear in temperature through its two values."""

@@ -60,13 +60,11 @@ def test_film_mismatch_is_at_high_speed(typed):
     assert cuts[0]["low"] > 0.9
 
 
-def test_film_loss_is_heating_in_a_tie_with_thinning(typed):
+def test_film_loss_is_heating_in_a_tie_with_starvation_and_thinning_is_named_as_alike(typed):
     d = typed("ehd_film_31C_50N")
     assert ["inlet_shear_heating"] in tied(d)
-    assert ["inlet_shear_thinning"] in tied(d)
-    (raised,) = [note for note in d.warnings if note.code == "prior_odds_raised"]
-    assert raised.place == "inlet shear thinning"
-    assert "304" in raised.text
+    assert ["starvation"] in tied(d)
+    assert "inlet shear thinning" in said(d)
 
 
 def test_last_film_is_told_to_be_a_fringe_off(typed):

@@ -6,11 +6,10 @@ from math import comb
 
 import numpy as np
 
-from mixedlub.case.forward import Forward
 from mixedlub.diagnosis.assessment.cross_validation import HeldOut
 from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
-from mixedlub.diagnosis.labels import amount, effect_words, words_of
+from mixedlub.diagnosis.labels import amount, words_of
 from mixedlub.diagnosis.search.noise_inflation import (
     CLEAR_GAIN,
     MOST_INFLATION,
@@ -37,20 +36,6 @@ FAR_OFF = 3.0
 """Error on left-out levels, in sigmas of a reading, from which an answer does not predict them."""
 LARGE = 0.1
 """Share of a reading from which estimated noise is doubted."""
-
-
-def prior_odds_notes(forward: Forward) -> list[Finding]:
-    """Effects whose prior odds are raised, by what is known before any reading is seen."""
-    found = []
-    for e in forward.effects():
-        if e.likelier and forward.odds(e) != e.odds:
-            name, beyond, _ = e.likelier
-            text = (
-                f"prior odds raised {forward.odds(e) / e.odds:.2g}-fold because the {words_of(name)}, "
-                f"{float(forward.inputs[name]):.3g}, exceeds {beyond:g}; the probability depends on this"
-            )
-            found.append(finding("prior_odds_raised", text, effect_words(e.id)))
-    return found
 
 
 def noise_notes(search: Search, stated: bool, inflation: NoiseInflation) -> list[Finding]:

@@ -86,7 +86,7 @@ class Search:
     @property
     def log_weights(self) -> dict[Explanation, float]:
         """Log prior plus log evidence of every explanation."""
-        odds = {e.id: self.problem.forward.odds(e) for s in self.draws for e in effects_of((s.id,))}
+        odds = {e.id: e.odds for s in self.draws for e in effects_of((s.id,))}
         each = list(odds.values())
         pairs = sum(a * b for a, b in combinations(each, 2))
         total = (1.0, sum(each), pairs)
