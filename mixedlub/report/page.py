@@ -177,7 +177,7 @@ def input_rows(study: Study, section: str) -> list[tuple[str, str, str, str]]:
             name.removeprefix(f"{section}."),
             f"{_written(value)} {key.unit}".strip(),
             "assumed" if taken & {name, name.rpartition(".")[0]} else "",
-            key.meaning,
+            key.values.get(str(value), key.meaning),
         )
         for name, value, key in _keys(section, used)
     ]

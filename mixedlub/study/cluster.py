@@ -1,4 +1,4 @@
-"""Blocks of a study on the workers of a Dask scheduler; what goes wrong there becomes one sentence."""
+"""Blocks of a study on the workers of a Dask scheduler; a failure there is reported in one sentence."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is kept beside a result: the study file as given, every input as used, and which files one run wrote."""
+"""What is kept with a result: the study file as given, every input as used, and which files one run wrote."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from roughness.mccool import nayak_parameter, summit_density, summit_radius
 SCHEMA = "mixedlub-study-result/1"
 GIVEN, RESOLVED = "study.toml", "resolved.json"
 WRITTEN = ("results.csv", "results.parquet", "index.html", GIVEN, RESOLVED)
-"""Files of a result beside the folder of figures."""
+"""Files of a result, besides its folder of figures."""
 ENDS = 1 << 20
 """Bytes at either end of a file by which it is recognised: those of a large table need not all be read."""
 
@@ -40,10 +40,9 @@ def resolved(study: Study) -> dict[str, Any]:
         "tip_diameter_mm": [_plain(2e3 * radius) for radius in pair.tip_radii],
         "centre_distance_mm": _plain(pair.working_centre_distance * 1e3),
     }
-    if file.gears.load_sharing.model != "ldp":
-        inputs["gears"]["load_sharing"] = file.gears.load_sharing.model_dump(
-            include={"model", "table"}, exclude_none=True
-        )
+    sharing = file.gears.load_sharing
+    taken = {"model", *sharing.chosen.keys.model_fields}
+    inputs["gears"]["load_sharing"] = sharing.model_dump(include=taken, exclude_none=True)
     inputs["lubricant"] = _oil(study.oil) | _base(study)
     inputs["surfaces"] = {name: _moments(s, file.surfaces[name]) for name, s in study.surfaces.items()}
     inputs.setdefault("pairings", {"every": list(study.surfaces)})

@@ -25,7 +25,6 @@ UNFINISHED = {
     "kinds": 8.4,
     "report": 5.1,
     "schema": 7.5,
-    "study": 4.4,
 }
 """Rooms that are not rewritten yet, with their present figure: lower it with every change, never raise it."""
 
