@@ -1,4 +1,4 @@
-"""A look at the recording before anything is fitted: is it what it says it is."""
+"""Data quality checks: what is implausible in a recording, found before anything is fitted."""
 
 from __future__ import annotations
 
@@ -27,36 +27,39 @@ from mixedlub.schema.units import UNITS, unit_of
 from profiles.errors import InputError
 
 FEWEST = 5
+"""Fewest readings that can be diagnosed."""
 SCARCE = 30
+"""Readings below which ties and wide intervals are to be expected."""
 MOST_SLIDING = 10.0
-"""Slide-roll ratios above it are more likely percent: 2 is pure sliding, more needs surfaces that run against it."""
-ALIKE = 0.05
-"""Half the difference of two directions over their mean up to which they are as large: a payload alone holds more."""
+"""Slide-roll ratio above which percent is more likely: 2 is pure sliding, more needs surfaces moving in opposition."""
+SAME_SIZE = 0.05
+"""Half the difference of two directions over their mean, up to which they count as equal: a payload exceeds it."""
 THINNEST_OIL = 0.4
+"""Viscosity (mPa s) of the thinnest liquid for which the model holds."""
 THINNEST_D341 = 2e-6
 """Kinematic viscosity (m2/s) down to which log log(nu + 0.7) is all of ASTM D341."""
 FAR_FROM_OIL = 30.0
-"""Kelvin from the temperatures at which viscosity is told to which its course is known well enough."""
+"""Kelvin outside the two viscosity points up to which the viscosity-temperature law is accurate enough."""
 STUCK_ROWS, STUCK_SHARE = 5, 0.2
-"""A value that stands in so many rows, and in such a share of them, is looked at."""
+"""Rows with exactly the same reading, and their share of all rows, from which a stuck channel is suspected."""
 STUCK_STEPS, STUCK_SPAN = 3.0, 0.05
-"""Where the base model changes by more steps of the reading than that, and by such a share of its size, it is stuck."""
+"""Change of the base model over these rows that shows a stuck channel: in steps of the reading, and relative."""
 
 
 TOO_LARGE, ALONE = 50.0, 10.0
-"""A reading so many times what the others suggest there, and so many times the largest of them, is doubted."""
+"""Ratio of a reading to its expected value, and to the largest other reading, from which it is implausible."""
 NEGATIVE_SHARE, NEGATIVE_SIGMAS = 0.02, 5.0
-"""So few readings, negative by so many sds, as large as what the others suggest there, are doubted."""
+"""Largest share of negative readings that counts as sign errors, and the sds below zero that each must be."""
 UNSTATED = 0.05
-"""Share of the usual reading that one is taken to scatter by where nothing is stated."""
+"""Standard deviation assumed where none is stated, as a share of the median reading."""
 ORDER = ("run", "sequence", "time_s")
-"""Columns that a row has anew when it is entered again."""
+"""Columns in which a row that is entered twice differs from its copy."""
 TWICE_ROWS, TWICE_SHARE = 3, 0.1
-"""So many different rows, and such a share of them, that come again to the last digit are no chance."""
+"""Number and share of repeated rows, equal to the last digit, that chance does not explain."""
 CHANCE = 2.0
-"""Times as many readings that come again as rounding explains: so many are no chance."""
+"""Ratio of repeated readings to those expected from rounding, above which it is not chance."""
 CONTRADICTING = 4.0
-"""Times the stated noise from which the scatter of repeats contradicts it."""
+"""Ratio of the scatter of repeats to the stated noise, above which they contradict each other."""
 
 
 def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[Finding]:
@@ -94,44 +97,44 @@ def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> 
 
 
 def _readable(case: Case, y: np.ndarray) -> None:
-    """An error where no model can answer: too few readings, or such as the quantity never has."""
+    """Raise an error where no diagnosis is possible: too few readings, or values the quantity never takes."""
     where = f"{case.folder / 'recordings.csv'}: {case.quantity}"
     if y.size < FEWEST:
         raise InputError(f"needs at least {FEWEST} readings to say anything", where=where, value=y.size)
     if case.quantity == "viscosity_mPa_s" and np.median(y) < THINNEST_OIL:
-        said = f"are below the {THINNEST_OIL} mPa s of the thinnest liquid that the model holds for; check the unit"
-        raise InputError(f"readings {said}", where=where, value=float(np.median(y)))
+        rule = f"are below the {THINNEST_OIL} mPa s of the thinnest liquid that the model holds for; check the unit"
+        raise InputError(f"readings {rule}", where=where, value=float(np.median(y)))
 
 
 def _entered_twice(case: Case, rows: Table, y: np.ndarray) -> list[Finding]:
-    """Rows that repeat others in reading and conditions, more of them than rounding makes alike by chance."""
+    """Rows that repeat others in reading and conditions, more often than rounding explains."""
     named = [_numbered(values) for name, values in rows.columns.items() if name not in (*ORDER, case.quantity)]
-    told = np.column_stack([np.zeros(y.size, dtype=int), *named])
-    point = np.unique(told, axis=0, return_inverse=True)[1].reshape(-1)
+    keys = np.column_stack([np.zeros(y.size, dtype=int), *named])
+    point = np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1)
     both = np.column_stack([point, _numbered(y)])
     _, first, count = np.unique(both, axis=0, return_index=True, return_counts=True)
     repeated, coarse = int(np.count_nonzero(count > 1)), 2 * np.unique(y).size < count.size
     if coarse or repeated < max(TWICE_ROWS, TWICE_SHARE * count.size):
         return []
     again = y.size - count.size
-    if again <= CHANCE * _alike_by_rounding(point, y, first):
+    if again <= CHANCE * _expected_ties(point, y, first):
         return []
     text = f"{again} readings repeat others to the last digit, with their conditions: check that none was entered twice"
     return [finding("readings_entered_twice", text)]
 
 
-def _alike_by_rounding(point: np.ndarray, y: np.ndarray, different: np.ndarray) -> float:
-    """Pairs of readings at one point expected to be alike, as those that are ``different`` scatter by few last digits.
+def _expected_ties(point: np.ndarray, y: np.ndarray, different: np.ndarray) -> float:
+    """Expected number of equal pairs of readings at one point, from the scatter of the ``different`` ones.
 
-    Two normal numbers of one sd lie in the same cell of a fine grid with a chance of its step over 2 sqrt(pi) sd.
+    Two normal numbers with one sd round to the same value with a probability of step / (2 sqrt(pi) sd).
     """
-    own, values = point[different], y[different]
-    size = np.bincount(own)
-    mean = np.bincount(own, values) / np.maximum(size, 1)
+    group, values = point[different], y[different]
+    size = np.bincount(group)
+    mean = np.bincount(group, values) / np.maximum(size, 1)
     free = int(np.sum(np.maximum(size - 1, 0)))
     if free == 0:
         return 0.0
-    sd = np.sqrt(np.sum((values - mean[own]) ** 2) / free)
+    sd = np.sqrt(np.sum((values - mean[group]) ** 2) / free)
     step = float(np.min(np.diff(np.unique(y))))
     n = np.bincount(point)
     return float(np.sum(n * (n - 1) / 2.0) * min(step / (2.0 * np.sqrt(np.pi) * sd), 1.0))
@@ -142,7 +145,7 @@ def _numbered(values: np.ndarray) -> np.ndarray:
 
 
 def _parts(case: Case, rows: Table) -> list[Finding]:
-    """Rigs of a part that are compared with the whole model."""
+    """Part rigs whose readings are compared with the whole model."""
     whole = np.setdiff1d(rows["rig"], case.kind.part_rigs) if "rig" in rows else np.array([])
     if whole.size < 2:
         return []
@@ -155,7 +158,7 @@ def _parts(case: Case, rows: Table) -> list[Finding]:
 
 
 def _setups(case: Case, rows: Table) -> list[Finding]:
-    """Set-ups of which nothing says how much they differ."""
+    """Several set-ups without a stated error between them."""
     if "setup" not in rows or setups_differ(case):
         return []
     count = np.unique(rows["setup"]).size
@@ -169,7 +172,7 @@ def _setups(case: Case, rows: Table) -> list[Finding]:
 
 
 def _thin(case: Case, y: np.ndarray, forward: Forward) -> list[Finding]:
-    """Viscosities so low that the equation of the base model is used beyond its range."""
+    """Viscosities below the range of the base model's equation."""
     if case.quantity != "viscosity_mPa_s":
         return []
     kinematic = 1e-3 * np.abs(y) / np.broadcast_to(forward.inputs["oil_density"], (y.size, 1))[:, 0]
@@ -191,15 +194,15 @@ def _scarce(y: np.ndarray) -> list[Finding]:
 
 
 def _more_than_put_in(case: Case, rows: Table, y: np.ndarray) -> list[Finding]:
-    """Losses of gears above the power that the pinion takes in."""
+    """Gear losses above the input power at the pinion."""
     if case.quantity != "power_loss_W":
         return []
     put_in = rows["torque_Nm"] * rows["speed_rpm"] * np.pi / 30.0
     above = int(np.count_nonzero((y > put_in) & ~gears_out(rows)))
     if 2 * above <= y.size:
         return []
-    said = f"{above} of {y.size} losses are above the power put in, torque times speed"
-    text = f"{said}: check the units of torque_Nm, speed_rpm and power_loss_W"
+    excess = f"{above} of {y.size} losses are above the power put in, torque times speed"
+    text = f"{excess}: check the units of torque_Nm, speed_rpm and power_loss_W"
     return [finding("loss_above_input_power", text)]
 
 
@@ -212,11 +215,11 @@ def _of_one_sign(case: Case, rows: Table, y: np.ndarray) -> list[Finding]:
     if min(forth.size, back.size) < FEWEST or np.any(np.sign(y) != np.sign(y[0])):
         return []
     one, other = float(np.median(forth)), float(np.median(back))
-    said = f"{case.quantity} keeps its sign when the drive turns back"
-    if abs(one - other) > ALIKE * abs(one + other):
-        text = f"{said}: right if a payload outweighs friction, otherwise the sign was lost"
+    statement = f"{case.quantity} keeps its sign when the drive turns back"
+    if abs(one - other) > SAME_SIZE * abs(one + other):
+        text = f"{statement}: right if a payload outweighs friction, otherwise the sign was lost"
         return [finding("sign_lost", text, severity=Severity.CAUTION)]
-    text = f"{said}, and its size: friction changes sign with the speed, so check that its sign was not lost"
+    text = f"{statement}, and its size: friction changes sign with the speed, so check that its sign was not lost"
     return [finding("sign_lost", text)]
 
 
@@ -242,12 +245,12 @@ def _contradicting(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> 
     ignored = [note.place for note in case.notes if note.code == "column_near_known"]
     advice = "if they belong to several assemblies or sweeps, name these in a column setup"
     advice = f"a condition may be in a column that is ignored: {'; '.join(ignored)}" if ignored else advice
-    said = f"they scatter by {repeats:.3g}{unit} where the stated noise is {typical:.3g}{unit}; {advice}"
-    return [finding("repeats_contradictory", f"readings at equal conditions contradict each other: {said}")]
+    comparison = f"they scatter by {repeats:.3g}{unit} where the stated noise is {typical:.3g}{unit}; {advice}"
+    return [finding("repeats_contradictory", f"readings at equal conditions contradict each other: {comparison}")]
 
 
 def _stuck(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[Finding]:
-    """A value that repeats exactly in many rows although their conditions differ, while other readings vary."""
+    """A reading that is exactly the same in many rows although their conditions differ."""
     values, counts = np.unique(y, return_counts=True)
     most = int(np.argmax(counts))
     if values.size < 2 or counts[most] < max(STUCK_ROWS, STUCK_SHARE * y.size):
@@ -261,15 +264,15 @@ def _stuck(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[Fin
     if not varied:
         return []
     runs = listed(rows["run"][same].tolist(), STUCK_ROWS)
-    said = f"{counts[most]} of {y.size} readings are exactly {values[most]:g} though {', '.join(varied)} vary"
-    text = f"{said}: check for a channel that was stuck or filled in (runs {runs})"
+    statement = f"{counts[most]} of {y.size} readings are exactly {values[most]:g} though {', '.join(varied)} vary"
+    text = f"{statement}: check for a channel that was stuck or filled in (runs {runs})"
     return [finding("channel_stuck", text)]
 
 
-def _misread(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, told: np.ndarray) -> list[Finding]:
-    """Single readings that are off by a power of ten or by their sign, held against what the others suggest.
+def _misread(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, reported: np.ndarray) -> list[Finding]:
+    """Single readings of implausible size or sign, compared with the base model scaled to the others.
 
-    Those of which it is ``told`` already that their sign is wrong are left out.
+    Readings whose wrong sign is ``reported`` already are left out.
     """
     used = np.abs(base) > 0
     if used.sum() < FEWEST:
@@ -278,26 +281,26 @@ def _misread(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, told: np.
     used &= expected > 0
     large = used & (np.abs(y) > TOO_LARGE * expected)
     large &= np.abs(y) > ALONE * np.max(np.abs(y[~large]), initial=0.0)
-    found = [("reading_too_large", large, "check unit and decimal point")]
+    suspects = [("reading_too_large", large, "check unit and decimal point")]
     if case.kind.is_unsigned(case.quantity):
         least, most = (share * expected for share in AS_LARGE)
         wrong = used & (y < -NEGATIVE_SIGMAS * _sds(case, rows, y)) & (-y > least) & (-y < most)
         if wrong.sum() <= max(1.0, NEGATIVE_SHARE * y.size):
-            found.append(("reading_negative", wrong & ~told, "check the sign"))
+            suspects.append(("reading_negative", wrong & ~reported, "check the sign"))
     return [
         finding(code, f"reads {y[i]:g} where the others suggest {expected[i]:.3g}: {advice}", f"run {rows['run'][i]}")
-        for code, which, advice in found
+        for code, which, advice in suspects
         for i in np.flatnonzero(which)
     ]
 
 
 def _sds(case: Case, rows: Table, y: np.ndarray) -> np.ndarray:
-    """What a reading scatters by, as stated; else a twentieth of the usual one."""
+    """Stated standard deviation of each reading; else a twentieth of the median reading."""
     return noise(case, rows, y)[0] if is_stated(case) else np.full(y.size, UNSTATED * float(np.median(np.abs(y))))
 
 
 def _warm(rows: Table) -> list[Finding]:
-    """Temperatures that are all hotter than oils are, as those of a room are in kelvin."""
+    """Temperatures that are all above those of oils: often a column in kelvin."""
     name = next((n for n in ("oil_temperature_C", "temperature_C") if n in rows), None)
     if name is None or not np.all(rows[name] > ranges()["conditions.oil_temperature_C"].usual[1]):
         return []
@@ -315,17 +318,17 @@ def _beyond_the_oil(case: Case, rows: Table) -> list[Finding]:
     if low - FAR_FROM_OIL <= coldest and hottest <= high + FAR_FROM_OIL:
         return []
     far = hottest if hottest > high + FAR_FROM_OIL else coldest
-    said = f"{far:g} is far from the {low:g} and {high:g} of [lubricant]: viscosity is extrapolated"
+    statement = f"{far:g} is far from the {low:g} and {high:g} of [lubricant]: viscosity is extrapolated"
     factor, added = UNITS["C"]["degF"]
     least, most = (factor * value + added for value in (coldest, hottest))
     if not (low - FAR_FROM_OIL <= least and most <= high + FAR_FROM_OIL):
-        return [finding("viscosity_extrapolated", said, "oil_temperature_C")]
+        return [finding("viscosity_extrapolated", statement, "oil_temperature_C")]
     other = f"{coldest:g} to {hottest:g} °F would be {least:.3g} to {most:.3g} °C"
-    return [finding("temperature_in_fahrenheit", f"{said}; {other}: is it in that unit?", "oil_temperature_C")]
+    return [finding("temperature_in_fahrenheit", f"{statement}; {other}: is it in that unit?", "oil_temperature_C")]
 
 
 def _backwards(rows: Table) -> list[Finding]:
-    """A time that falls from one row to the next, as that of a clock which starts anew at every step."""
+    """A time that decreases from one row to the next: often a clock that restarts at every step."""
     falls = np.flatnonzero(np.diff(rows["time_s"]) < 0.0) + 1 if "time_s" in rows else np.array([], dtype=int)
     if not falls.size:
         return []
@@ -336,16 +339,16 @@ def _backwards(rows: Table) -> list[Finding]:
 
 
 def _without_drift(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, group: np.ndarray) -> np.ndarray:
-    """Readings less the base model, and less what of repeats goes steadily with the programme."""
-    left = np.log(y / base) if case.kind.logarithmic else y - base
-    place = next((rows[name] for name in ("sequence", "time_s") if name in rows), None)
-    if place is None or np.ptp(place) == 0.0:
-        return left
-    grown = (place - place.min()) / np.ptp(place) * (1.0 if case.kind.logarithmic else base)
+    """Readings less the base model, with the linear drift of repeats over the programme removed."""
+    residual = np.log(y / base) if case.kind.logarithmic else y - base
+    position = next((rows[name] for name in ("sequence", "time_s") if name in rows), None)
+    if position is None or np.ptp(position) == 0.0:
+        return residual
+    drift = (position - position.min()) / np.ptp(position) * (1.0 if case.kind.logarithmic else base)
     count = np.bincount(group)
-    within, apart = (x - (np.bincount(group, weights=x) / count)[group] for x in (left, grown))
+    within, apart = (x - (np.bincount(group, weights=x) / count)[group] for x in (residual, drift))
     spread = float(apart @ apart)
-    return left - grown * (float(apart @ within) / spread) if spread > 0.0 else left
+    return residual - drift * (float(apart @ within) / spread) if spread > 0.0 else residual
 
 
 def _repeats(case: Case, y: np.ndarray) -> float:
@@ -353,7 +356,7 @@ def _repeats(case: Case, y: np.ndarray) -> float:
 
 
 def _noise_source(case: Case, y: np.ndarray) -> list[Finding]:
-    """Where the scatter of a reading comes from when the recording does not state it."""
+    """How the noise is estimated where the recording does not state it."""
     if is_stated(case):
         return []
     source = "repeats" if _repeats(case, y) > 0 else "the fit"

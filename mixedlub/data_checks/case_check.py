@@ -1,4 +1,4 @@
-"""Check of a case folder before it is put in place: can `check` and `diagnose` use it."""
+"""Check whether `check` and `diagnose` can use a case folder before it is put in place."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from profiles.errors import InputError
 
 
 def refuse_unreadable(folder: Path, system: system_file.System, complete: bool, shown: Path) -> str:
-    """An error where `check` would give one; else the reason why `diagnose` would refuse the case, or nothing.
+    """Raise the error that `check` would give; else return why `diagnose` would refuse the case, or nothing.
 
-    Of a case that lacks sections (not ``complete``) the tables and the given sections are read. The error names the
-    folder ``shown``, where the case is to be.
+    Of a case that lacks sections (not ``complete``) only the tables and the given sections are read. The error names
+    ``shown``, the folder to which the case will be moved.
     """
     try:
         with collected():

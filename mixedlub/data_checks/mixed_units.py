@@ -1,4 +1,4 @@
-"""Columns in another unit than their name says, or in two: what is a power of ten off, as a whole or in part."""
+"""Columns in the wrong unit, or in two units: all values, or some of them, are wrong by a power of ten."""
 
 from __future__ import annotations
 
@@ -24,34 +24,34 @@ SLIPS: Mapping[float, str] = {
     1e-6: "a millionth of",
 }
 WITHIN = 2.0
-"""How far a slip of the unit may be off its power of ten: the base model itself is that good."""
+"""Factor by which a wrong unit may differ from its power of ten: the accuracy of the base model."""
 PART = 0.1
-"""Share of the readings from which some that are off together are no wild ones."""
+"""Least share of the readings that counts as a second unit rather than as outliers."""
 TEN = 10.0
-"""A power that physics may stand for as well: readings of both parts must be mixed among the conditions."""
+"""A power of ten that physics may also cause: readings of both parts must then be mixed among the conditions."""
 MIXED = 0.5
-"""Share of the smaller part from which its readings stand among the others, by their nearest neighbours."""
+"""Share of the smaller part with a nearest neighbour in the other, from which the parts count as mixed."""
 CLEAR, CLEAR_MIXED = 0.5, 0.25
-"""Share of what the parts are apart that the gap between them is: less where conditions do not part them."""
+"""Gap between two parts over the distance of their medians, at least; less where conditions do not separate them."""
 POWERS = (1e1, 1e2, 1e3, 1e6)
-LEVELS, NEAR, ALIKE = 3, 0.02, 0.15
-"""Levels of a condition that come again a power of ten higher, how near they are, and the readings there."""
+LEVELS, NEAR, SAME_READING = 3, 0.02, 0.15
+"""Levels of a condition that must repeat a power of ten higher; tolerance of conditions, and of readings (log)."""
 WARM, LOW_PRESSURE = 20.0, 100.0
-"""Temperature (degC) and pressure (MPa) at which oils flow as they are used."""
+"""Temperature (degC) from which, and pressure (MPa) up to which, oils have their working viscosity."""
 HARD, YIELDS = 50e9, 0.025
-"""Reduced modulus from which bodies are metals, ceramics or glass, and the share of it at which those yield: bearings
-are rated to 4.2 GPa, 0.018 of that of steel (ISO 76); polymers bear more of theirs."""
+"""Reduced modulus (Pa) of metals, ceramics and glass at least, and Hertz pressure over it at which they yield: bearings
+are rated to 4.2 GPa, 0.018 of the modulus of steel (ISO 76); polymers bear a larger share."""
 APART = 1.5
-"""How much the base model changes between them at least; and the gap between two parts, beside those in them."""
+"""Factor by which the base model differs between two parts at least, and their gap exceeds gaps within them."""
 
 
 def of_another_unit(case: Case, y: np.ndarray, base: np.ndarray, fewest: int) -> list[Finding]:
-    """Readings that are a power of ten off the base model, or of the other sign."""
+    """Readings that differ from the base model by a power of ten, or in sign."""
     both = (np.abs(base) > 0) & (np.abs(y) > 0)
     if both.sum() < fewest:
         return []
     ratio = float(np.median(np.abs(y[both] / base[both])))
-    found = [
+    findings = [
         finding(
             "readings_in_other_unit",
             f"readings are about {words} what the base model gives: check the unit of {case.quantity}",
@@ -61,12 +61,12 @@ def of_another_unit(case: Case, y: np.ndarray, base: np.ndarray, fewest: int) ->
     ]
     if np.mean(base[both] * y[both] < 0) > 0.5:
         text = "most readings have the opposite sign to the base model: check the sign"
-        found.append(finding("sign_opposite_to_model", text))
-    return found
+        findings.append(finding("sign_opposite_to_model", text))
+    return findings
 
 
 def of_two_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewest: int) -> list[Finding]:
-    """Readings of which a part is a power of ten off the others, beside the base model."""
+    """Readings of which a part differs from the rest by a power of ten, relative to the base model."""
     used = (np.abs(base) > 0) & (np.abs(y) > 0)
     if used.sum() < fewest:
         return []
@@ -84,7 +84,7 @@ def of_two_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewes
     if gap < (CLEAR_MIXED if mixed else CLEAR) * apart or (slip == 1.0 and not mixed):
         return []
     lower = f"{int((~upper).sum())} readings are about {10**apart:.2g} times smaller"
-    names = [case.quantity, *(name for name in _sizes(case, kept) if _parted_alike(np.abs(kept[name]), upper))]
+    names = [case.quantity, *(name for name in _sizes(case, kept) if _same_split(np.abs(kept[name]), upper))]
     one = f"{names[0]} is" if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]} are each"
     text = f"{lower}, relative to the base model, than the others: check that {one} in one unit"
     return [finding("readings_in_two_units", text)]
@@ -92,7 +92,7 @@ def of_two_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewes
 
 def conditions_of_two_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[Finding]:
     """Columns that mix two units: levels repeat a power of ten higher while the readings agree."""
-    found = []
+    findings = []
     for name in _sizes(case, rows):
         size = np.abs(rows[name])
         power = _power_between(case, rows, name, y, base) if np.all(size > 0.0) else None
@@ -102,12 +102,12 @@ def conditions_of_two_units(case: Case, rows: Table, y: np.ndarray, base: np.nda
                 f"{count} of {size.size} values are {power:g} times the others where readings and other conditions "
                 "agree: check that the column is in one unit"
             )
-            found.append(finding("condition_in_two_units", text, name))
-    return found
+            findings.append(finding("condition_in_two_units", text, name))
+    return findings
 
 
 def of_odd_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewest: int, scarce: int) -> list[Finding]:
-    """Everything implausible about units; readings are ``scarce`` where too few are there to part them."""
+    """All findings on units; ``fewest`` and ``scarce`` are the fewest readings to compare and to split."""
     return [
         *beyond_usual_sizes(rows, y, case.quantity),
         *too_thick(rows, y, case.quantity),
@@ -118,18 +118,18 @@ def of_odd_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewes
 
 
 def beyond_usual_sizes(rows: Table, y: np.ndarray, quantity: str) -> list[Finding]:
-    """Columns whose largest size is beyond that of any rig, with the unit in which it would be usual."""
+    """Columns whose largest value exceeds that of any rig, with the unit in which it would be typical."""
     columns = {**rows.columns, quantity: y}
     return [
-        found
+        one
         for name in SIZED
         if name in columns
-        for found in beyond_usual(f"recordings.{name}", float(np.max(np.abs(columns[name]))), f"the largest {name}")
+        for one in beyond_usual(f"recordings.{name}", float(np.max(np.abs(columns[name]))), f"the largest {name}")
     ]
 
 
 def too_thick(rows: Table, y: np.ndarray, quantity: str) -> list[Finding]:
-    """Viscosities that are all above those of oils, though not all were read in the cold or under high pressure."""
+    """Viscosities that all exceed those of oils, although some are at room temperature and low pressure."""
     if quantity != "viscosity_mPa_s" or rows["temperature_C"].max() < WARM:
         return []
     if "pressure_MPa" in rows and rows["pressure_MPa"].min() > LOW_PRESSURE:
@@ -138,7 +138,7 @@ def too_thick(rows: Table, y: np.ndarray, quantity: str) -> list[Finding]:
 
 
 def too_hard_pressed(case: Case, rows: Table) -> list[Finding]:
-    """Loads under which hard bodies of a contact would yield many times over."""
+    """Loads at which the Hertz pressure of a contact exceeds the yield limit of hard bodies."""
     contact = case.system.contact
     if contact is None or "load_N" not in rows:
         return []
@@ -156,31 +156,31 @@ def too_hard_pressed(case: Case, rows: Table) -> list[Finding]:
 
 
 def teeth_too_hard_pressed(case: Case, rows: Table, forward: Forward) -> list[Finding]:
-    """Torques under which flanks would yield many times over."""
+    """Torques at which the Hertz pressure exceeds the yield limit of the tooth flanks."""
     if case.system.gears is None or "torque_Nm" not in rows:
         return []
     pressure, modulus = (np.max(forward.base(name)) for name in ("hertz_pressure", "reduced_modulus"))
-    place = f"the largest torque_Nm, {np.max(np.abs(rows['torque_Nm'])):g}"
-    return _yielding(place, pressure, modulus, "torque_Nm, and module and face width in [gears]")
+    where = f"the largest torque_Nm, {np.max(np.abs(rows['torque_Nm'])):g}"
+    return _yielding(where, pressure, modulus, "torque_Nm, and module and face width in [gears]")
 
 
-def _yielding(place: str, pressure: float, modulus: float, cause: str) -> list[Finding]:
-    """That a pressure (Pa) is one under which hard bodies of this reduced modulus (Pa) would yield."""
+def _yielding(where: str, pressure: float, modulus: float, cause: str) -> list[Finding]:
+    """A finding where hard bodies of this reduced modulus (Pa) would yield at this pressure (Pa)."""
     if modulus < HARD or pressure <= YIELDS * modulus:
         return []
     text = (
         f"the Hertz pressure would be {1e-9 * pressure:.3g} GPa, where hard bodies yield below "
         f"{1e-9 * YIELDS * modulus:.2g} GPa: check the unit of {cause}"
     )
-    return [finding("pressure_above_yield", text, place)]
+    return [finding("pressure_above_yield", text, where)]
 
 
 SIZED = ("entrainment_speed_m_s", "sliding_speed_m_s", "film_thickness_nm")
-"""Columns that have a usual size on all rigs; loads, torques and speeds of shafts are those of the machine."""
+"""Columns with a typical size on all rigs; loads, torques and shaft speeds depend on the machine."""
 
 
 def _power_between(case: Case, rows: Table, name: str, y: np.ndarray, base: np.ndarray) -> float | None:
-    """The power of ten between two parts of a condition that are otherwise alike, reading and all."""
+    """The power of ten between two parts of a condition whose other conditions and readings agree."""
     log = np.log10(np.abs(rows[name]))
     upper, gap = _upper_part(log)
     inner = max((_largest_gap(log[part]) for part in (upper, ~upper) if part.any()), default=0.0)
@@ -196,13 +196,13 @@ def _power_between(case: Case, rows: Table, name: str, y: np.ndarray, base: np.n
         if near.mean() < MIXED or np.unique(values[few[near]]).size < LEVELS:
             continue
         pairs = few[near], many[nearest[near]]
-        if _apart(y, *pairs) < ALIKE and _apart(base, *pairs) > np.log(APART):
+        if _apart(y, *pairs) < SAME_READING and _apart(base, *pairs) > np.log(APART):
             return power
     return None
 
 
 def _apart(values: np.ndarray, one: np.ndarray, other: np.ndarray) -> float:
-    """By how much two rows of a pair differ in size, as a logarithm: the middle of all."""
+    """Median difference in size between the rows of each pair, as a logarithm."""
     sizes = np.maximum(np.abs(values), 1e-300)
     return float(np.median(np.abs(np.log(sizes[one] / sizes[other]))))
 
@@ -223,8 +223,8 @@ def _largest_gap(values: np.ndarray) -> float:
     return float(np.max(np.diff(np.sort(values)), initial=0.0))
 
 
-def _parted_alike(sizes: np.ndarray, upper: np.ndarray) -> bool:
-    """Whether a gap of half a decade or more parts a condition as the readings are parted."""
+def _same_split(sizes: np.ndarray, upper: np.ndarray) -> bool:
+    """Whether a gap of half a decade or more splits a condition in the same way as the readings."""
     if np.any(sizes <= 0.0):
         return False
     high, gap = _upper_part(np.log10(sizes))
@@ -232,13 +232,13 @@ def _parted_alike(sizes: np.ndarray, upper: np.ndarray) -> bool:
 
 
 def _sizes(case: Case, rows: Table) -> list[str]:
-    """Conditions that are told by their size: no names, times, angles or temperatures."""
+    """Conditions on a ratio scale: no names, times, angles or temperatures."""
     names = [column.name for column in case.kind.columns if column.form != "name" and column.name in rows]
     return [name for name in names if not name.endswith(("_s", "_deg", "_C")) or name.endswith("_m_s")]
 
 
 def _places(case: Case, rows: Table) -> np.ndarray:
-    """Conditions of each row on axes from 0 to 1, by logarithm where they span decades; a time only where it is one."""
+    """Conditions of each row scaled to 0 to 1, logarithmic over decades; time only where the kind requires it."""
     axes = [np.zeros(len(rows))]
     for column in case.kind.columns:
         if column.name not in rows or (column.name == "time_s" and not column.required):
@@ -256,7 +256,7 @@ def _places(case: Case, rows: Table) -> np.ndarray:
 
 
 def _are_mixed(places: np.ndarray, upper: np.ndarray) -> bool:
-    """Whether points of the smaller part have one of the other part as near as any other of their own.
+    """Whether points of the smaller part are as near to the other part as to their own.
 
     >>> x = np.linspace(0.0, 1.0, 20)[:, None]
     >>> _are_mixed(x, np.arange(20) % 2 == 0), _are_mixed(x, x[:, 0] > 0.6)
@@ -266,6 +266,6 @@ def _are_mixed(places: np.ndarray, upper: np.ndarray) -> bool:
     points = np.unique(places[small].round(9), axis=0)
     if len(points) < LEVELS:
         return False
-    own = cKDTree(points).query(points, k=[2])[0][:, 0]
-    other = cKDTree(places[~small].round(9)).query(points)[0]
-    return bool(np.mean(other <= own) >= MIXED)
+    within = cKDTree(points).query(points, k=[2])[0][:, 0]
+    across = cKDTree(places[~small].round(9)).query(points)[0]
+    return bool(np.mean(across <= within) >= MIXED)

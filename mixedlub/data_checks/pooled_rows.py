@@ -1,4 +1,4 @@
-"""Columns that are not read although they distinguish things: rows of several samples or drives are then pooled."""
+"""Ignored columns that distinguish samples or drives, whose rows are then pooled."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ THINGS = re.compile(
 COUNTING = re.compile(
     r"samples|(?:repeat|repetition|replicate|rep|run|point|index|cycle|step|segment|order|count|no|nr|n|#)s?\.?"
 )
-"""Words of a column that counts readings of one thing."""
+"""Words in the header of a column that counts readings of one specimen."""
 MOST = 20
-"""Different values up to which a column names things (samples, drives) rather than readings: judgement."""
+"""Most different values of a column that names specimens rather than readings: judgement."""
 SHOWN = 3
 """Values that a message lists at most."""
 
 
 def pooled_in(path: Path, table: Table, quantity: str) -> Iterator[Finding]:
-    """A finding for every column of a case's table that is not read and whose groups are pooled."""
+    """One finding for each ignored column of a case's table whose groups are pooled."""
     with path.open(encoding="utf-8-sig", newline="") as file:
         rows = [row for row in csv.reader(file) if any(cell.strip() for cell in row)]
     cells = {h.strip(): [cell.strip() for cell in values] for h, *values in zip(*rows, strict=True)}
@@ -44,18 +44,18 @@ def pooled_in(path: Path, table: Table, quantity: str) -> Iterator[Finding]:
 def grouping_columns(
     free: Mapping[str, Sequence[str]], conditions: Collection[np.ndarray]
 ) -> Iterator[tuple[str, Sequence[str]]]:
-    """The columns that distinguish things, less those that another one refines.
+    """The ignored columns that distinguish specimens, without those that another one subdivides.
 
-    ``free`` are the columns that are not read, ``conditions`` those under which the rows were recorded.
+    ``free`` are the ignored columns, ``conditions`` the recorded test conditions.
     """
-    found = {h: cells for h, cells in free.items() if _few(h, cells) and _distinguishes(h, cells, conditions)}
-    for header, cells in found.items():
-        if not any(_refines(other, cells) for h, other in found.items() if h != header):
+    candidates = {h: cells for h, cells in free.items() if _few(h, cells) and _distinguishes(h, cells, conditions)}
+    for header, cells in candidates.items():
+        if not any(_refines(other, cells) for h, other in candidates.items() if h != header):
             yield header, cells
 
 
 def pooled_words(cells: Sequence[str]) -> str:
-    """What is pooled, in words.
+    """Words for the groups that are pooled.
 
     >>> pooled_words(["oil A", "oil B", "oil A"])
     'rows of 2 different things are pooled (oil A, oil B)'
@@ -76,7 +76,7 @@ def _few(header: str, cells: Sequence[str]) -> bool:
 
 
 def _distinguishes(header: str, cells: Sequence[str], conditions: Collection[np.ndarray]) -> bool:
-    """Whether a column has a name of things, or more than one value at most conditions that are repeated."""
+    """Whether a header names a kind of specimen, or most repeated conditions have more than one value."""
     words = words_of(header).split()
     if all(map(COUNTING.fullmatch, words)):
         return False
@@ -90,5 +90,5 @@ def _distinguishes(header: str, cells: Sequence[str], conditions: Collection[np.
 
 
 def _refines(other: Sequence[str], cells: Sequence[str]) -> bool:
-    """Whether the other column splits the groups of this one further: each of its values belongs to one of them."""
+    """Whether the other column subdivides the groups of this one."""
     return len(set(other)) > len(set(cells)) and len(set(zip(other, cells, strict=True))) == len(set(other))

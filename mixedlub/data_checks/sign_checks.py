@@ -1,4 +1,4 @@
-"""Readings of both signs where one is right: equal conditions have one friction."""
+"""Readings with the wrong sign: friction at equal conditions has one sign."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from mixedlub.schema.table import Table
 
 CLOCKS = ("sequence", "time_s")
 AS_LARGE = (0.67, 1.5)
-"""Of another sign and otherwise the same: the size of one over that of the other."""
+"""Range of the size ratio of two readings that differ in sign only."""
 SMALL, FEW_SMALL = 0.5, 0.1
-"""Readings that scatter about zero have more than this share below half of their middle size."""
+"""Readings scatter about zero if more than this share (second) is below this part (first) of their median size."""
 SHOWN = 5
 
 
 def of_other_sign(case: Case, rows: Table, y: np.ndarray, sd: np.ndarray) -> np.ndarray:
-    """Readings that have the other sign than some as large at the same conditions; ``sd`` is what is told from zero."""
+    """Readings whose sign differs from equally large ones at the same conditions; up to ``sd`` they count as zero."""
     group, moves = _points(case, rows), _moves(case, rows)
     wrong = _against_others(y, group, moves & (np.abs(y) > sd))
     size = np.abs(y[moves & np.isin(group, np.unique(group[wrong]))])
@@ -28,20 +28,22 @@ def of_other_sign(case: Case, rows: Table, y: np.ndarray, sd: np.ndarray) -> np.
 
 
 def both_signs(case: Case, rows: Table, y: np.ndarray, wrong: np.ndarray) -> list[Finding]:
-    """Readings whose sign is ``wrong``."""
+    """A finding on the readings whose sign is ``wrong``."""
     count = int(wrong.sum())
     if not count:
         return []
     sign = "negative" if np.all(y[wrong] < 0.0) else "positive" if np.all(y[wrong] > 0.0) else "of the other sign"
-    said = f"{count} reading{' is' if count == 1 else 's are'} {sign} where others at the same conditions are as large"
+    statement = (
+        f"{count} reading{' is' if count == 1 else 's are'} {sign} where others at the same conditions are as large"
+    )
     channels = f"the signs of {case.quantity} and of the speed" if case.kind.direction is not None else "the sign"
     runs = f"run{'' if count == 1 else 's'} {listed(rows['run'][wrong].tolist(), SHOWN)}"
-    text = f"{case.quantity} has both signs: {said} with the opposite one: check {channels} ({runs})"
+    text = f"{case.quantity} has both signs: {statement} with the opposite one: check {channels} ({runs})"
     return [finding("sign_contradictory", text)]
 
 
 def _against_others(y: np.ndarray, group: np.ndarray, large: np.ndarray) -> np.ndarray:
-    """Readings of the rarer sign of their group, negative ones of as many, beside one as large of the other.
+    """Readings of the rarer sign in their group (negative ones in a tie) that are as large as those of the other sign.
 
     >>> y = np.array([0.1, -0.1, 0.11, 0.1, -0.01, -0.2])
     >>> np.flatnonzero(_against_others(y, np.array([0, 0, 0, 1, 1, 2]), np.ones(6, bool))).tolist()
@@ -59,7 +61,7 @@ def _against_others(y: np.ndarray, group: np.ndarray, large: np.ndarray) -> np.n
 
 
 def _points(case: Case, rows: Table) -> np.ndarray:
-    """Number of the place of each reading: alike where its conditions are, but for jitter and the time."""
+    """Number of the operating point of each reading; jitter and time are ignored."""
     keys = [np.zeros(len(rows), dtype=int)]
     for name in (*(column.name for column in case.kind.columns), "rig", "setup"):
         if name not in rows or name in CLOCKS:
@@ -73,5 +75,5 @@ def _points(case: Case, rows: Table) -> np.ndarray:
 
 
 def _moves(case: Case, rows: Table) -> np.ndarray:
-    """Readings whose friction has a direction: a drive that stands is held either way."""
+    """Readings whose friction has a direction: a drive at rest may be held either way."""
     return np.ones(len(rows), bool) if case.kind.direction is None else case.kind.direction(rows) != 0.0

@@ -1,6 +1,6 @@
-"""The catalogue as text: what an effect is, how it shows, what it is confused with, which test separates it.
+"""The catalogue as text: each effect with its signature, the effects it resembles, and the test that separates them.
 
-Everything comes from the effect's own file or is computed on the standard rigs of `mixedlub.case.reference_rigs`.
+All content comes from the effect's file or is computed on the standard rigs of `mixedlub.case.reference_rigs`.
 """
 
 from __future__ import annotations
@@ -18,24 +18,24 @@ from mixedlub.kinds import KINDS
 
 RIGS = KINDS
 """Standard rigs by kind, in the order in which pages show them."""
-ALIKE = 0.95
-"""Cosine of two signatures above which the standard rig cannot tell them apart."""
+SAME_SIGNATURE = 0.95
+"""Cosine of two signatures above which the standard rig cannot distinguish the effects."""
 
 NEGLIGIBLE = 0.02
-"""Change of the share, over its largest size, below which a condition is said not to matter."""
+"""Change of the share, over its largest size, below which a condition counts as irrelevant."""
 
 _RIG_INDENT = 20
 
 
 def shown(effect: Effect) -> dict[str, float]:
-    """Parameter values that show the effect: the middle of each prior, one sd up it where the middle is null."""
+    """Parameter values that show the effect: the prior median, or one sd above it where the median is null."""
     middle = effect.middle
     return {p.name: p.prior.value(1.0) if middle[p.name] == p.null else middle[p.name] for p in effect.parameters}
 
 
 @cache
 def share(effect_id: str, rig: str) -> np.ndarray | None:
-    """What the effect adds to each reading of a standard rig over the reading; None where it cannot act."""
+    """Relative change of each reading of a standard rig by the effect; None where it cannot act."""
     forward = reference_rigs.forward(rig)
     effect = next((e for e in forward.effects() if e.id == effect_id), None)
     if effect is None:
@@ -47,19 +47,19 @@ def share(effect_id: str, rig: str) -> np.ndarray | None:
 def changes(effect: Effect, rig: str) -> dict[str, float]:
     """Change of the effect's share from the lowest to the highest levels of each condition, over its largest size.
 
-    Conditions are those varied on the rig, by their size where they have a direction, and the quantities that the
-    effect's fingerprint names beside them; for what moves with the programme, its place in that alone.
+    The conditions are those varied on the rig (absolute values where they have a sign) and the quantities named in the
+    effect's fingerprint. For an effect that follows the test programme, it is the position in the programme alone.
     """
-    found = share(effect.id, rig)
-    if found is None or not found.any():
+    shares = share(effect.id, rig)
+    if shares is None or not shares.any():
         return {}
     if "sequence" in effect.reads:
-        place = np.ravel(reference_rigs.forward(rig).inputs["sequence"])
-        sides = {"sequence": (place < 0.2, place > 0.8)}
+        position = np.ravel(reference_rigs.forward(rig).inputs["sequence"])
+        sides = {"sequence": (position < 0.2, position > 0.8)}
     else:
         sides = _sides(effect, rig)
-    largest = np.abs(found).max()
-    return {c: float((found[high].mean() - found[low].mean()) / largest) for c, (low, high) in sides.items()}
+    largest = np.abs(shares).max()
+    return {c: float((shares[high].mean() - shares[low].mean()) / largest) for c, (low, high) in sides.items()}
 
 
 def _sides(effect: Effect, rig: str) -> dict[str, tuple[np.ndarray, np.ndarray]]:
@@ -80,7 +80,7 @@ def _sides(effect: Effect, rig: str) -> dict[str, tuple[np.ndarray, np.ndarray]]
 
 
 def _thirds(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Rows in the lowest and in the highest third of the levels, at least one of them."""
+    """Rows in the lowest and in the highest third of the levels, at least one level each."""
     size = np.abs(values)
     levels = np.unique(size)
     some = max(len(levels) // 3, 1)
@@ -88,36 +88,36 @@ def _thirds(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def fingerprint(effect: Effect, rig: str) -> dict[str, str]:
-    """Sign of `changes`: how the effect's share of the reading moves as each condition grows."""
+    """Sign of `changes`: how the effect's share of the reading changes with each condition."""
     return {c: "0" if abs(v) < NEGLIGIBLE else "+" if v > 0 else "-" for c, v in changes(effect, rig).items()}
 
 
 @cache
 def signatures(rig: str) -> Mapping[str, tuple[np.ndarray, float]]:
-    """The `signature` of each effect at the values that are shown, of those that the rig shows at all."""
+    """The `signature` at the values of `shown`, for each effect that changes the readings of the rig."""
     forward = reference_rigs.forward(rig)
     base = forward.predict()
     changes = {effect.id: share(effect.id, rig) for effect in forward.effects()}
-    found = {name: signature(change * base, rig) for name, change in changes.items() if change is not None}
-    return {name: (vector, left) for name, (vector, left) in found.items() if left > 0.0}
+    projected = {name: signature(change * base, rig) for name, change in changes.items() if change is not None}
+    return {name: (vector, remaining) for name, (vector, remaining) in projected.items() if remaining > 0.0}
 
 
 def signature(change: np.ndarray, rig: str) -> tuple[np.ndarray, float]:
-    """A change of the readings, in standard deviations, as far as calibration cannot imitate it.
+    """The part of a change of the readings that calibration cannot reproduce.
 
-    A unit vector over the rows, and the share of the whole change that is left after projecting out one column
-    an input that calibration may move.
+    Returned are a unit vector over the rows, in standard deviations, and the share of the change that remains after
+    projecting out one column per calibrated input.
     """
     sd, inputs = _calibrated(rig)
     whole = change / sd
-    left = whole - inputs @ (inputs.T @ whole)
-    size = float(np.linalg.norm(left))
-    return (left / size, size / float(np.linalg.norm(whole))) if size > 0.0 else (left, 0.0)
+    remainder = whole - inputs @ (inputs.T @ whole)
+    size = float(np.linalg.norm(remainder))
+    return (remainder / size, size / float(np.linalg.norm(whole))) if size > 0.0 else (remainder, 0.0)
 
 
 @cache
 def _calibrated(rig: str) -> tuple[np.ndarray, np.ndarray]:
-    """Noise of the standard rig's readings, and an orthonormal basis of what calibration does to them."""
+    """Noise of the standard rig's readings, and an orthonormal basis of their changes by calibration."""
     forward = reference_rigs.forward(rig)
     base = forward.predict()
     noise = forward.case.system.recording.noise
@@ -133,10 +133,10 @@ def lookalikes(effect_id: str, rig: str) -> dict[str, float]:
     known = signatures(rig)
     if effect_id not in known:
         return {}
-    own = known[effect_id][0]
-    cosines = {other: float(own @ vector) for other, (vector, _) in known.items() if other != effect_id}
-    alike = {other: c for other, c in cosines.items() if abs(c) > ALIKE}
-    return dict(sorted(alike.items(), key=lambda item: -abs(item[1])))
+    reference = known[effect_id][0]
+    cosines = {other: float(reference @ vector) for other, (vector, _) in known.items() if other != effect_id}
+    similar = {other: c for other, c in cosines.items() if abs(c) > SAME_SIGNATURE}
+    return dict(sorted(similar.items(), key=lambda item: -abs(item[1])))
 
 
 def effects_text(effect_id: str | None = None) -> str:
@@ -164,22 +164,22 @@ def _page(effect: Effect) -> str:
 def _on_rigs(effect: Effect) -> list[str]:
     lines = ["on the standard rig of each kind of recording"]
     for rig in RIGS:
-        found = share(effect.id, rig)
-        if found is None or not found.any():
+        values = share(effect.id, rig)
+        if values is None or not values.any():
             continue
-        low, middle, high = (f"{100 * v:.3g}" for v in np.quantile(found, (0.0, 0.5, 1.0)))
+        low, middle, high = (f"{100 * v:.3g}" for v in np.quantile(values, (0.0, 0.5, 1.0)))
         signs = ", ".join(f"{condition} {sign}" for condition, sign in fingerprint(effect, rig).items())
-        alike = ", ".join(f"{other} ({c:+.2f})" for other, c in lookalikes(effect.id, rig).items())
+        similar = ", ".join(f"{other} ({c:+.2f})" for other, c in lookalikes(effect.id, rig).items())
         about = {
             f"  {rig}": f"{low} to {high} % of the reading, half of them below {middle} %",
             "    fingerprint": f"share of the reading with growing {signs}" if signs else "none",
-            "    looks like": alike or "no other, after calibration",
+            "    looks like": similar or "no other, after calibration",
         }
         if effect.id in signatures(rig):
             about["    calibration"] = f"leaves {100 * signatures(rig)[effect.id][1]:.0f} % of it"
         lines += [entry(name, text, _RIG_INDENT) for name, text in about.items()]
     shares = {rig: share(effect.id, rig) for rig in RIGS}
-    unable = ", ".join(rig for rig, found in shares.items() if found is None)
-    hidden = ", ".join(rig for rig, found in shares.items() if found is not None and not found.any())
+    unable = ", ".join(rig for rig, values in shares.items() if values is None)
+    hidden = ", ".join(rig for rig, values in shares.items() if values is not None and not values.any())
     lines += [entry("  cannot act", f"on {unable}", _RIG_INDENT)] if unable else []
     return [*lines, entry("  shows nothing", f"on {hidden}", _RIG_INDENT)] if hidden else lines

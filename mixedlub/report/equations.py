@@ -1,4 +1,4 @@
-"""Equations as inline SVG: what a docstring says in TeX, readable without script or network."""
+"""Equations as inline SVG: TeX of docstrings, shown without scripts or network."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _GROWING = re.compile(r"\\(?:left|right|big[lr])(?![A-Za-z])")
 
 @lru_cache(maxsize=512)
 def equation(tex: str, size: float = SIZE) -> str:
-    r"""A formula as an `svg` element that sits on the text's line; the TeX itself where it cannot be set.
+    r"""A formula as an `svg` element on the baseline of the text; the TeX itself where it cannot be typeset.
 
     >>> equation(r"\mu = \tau / p_0")[:11], equation(r"\nosuchcommand")
     ('<svg class=', '<code>\\nosuchcommand</code>')
@@ -46,7 +46,7 @@ def equation(tex: str, size: float = SIZE) -> str:
 
 
 def _simplified(tex: str) -> str:
-    r"""TeX within what matplotlib sets.
+    r"""TeX restricted to what matplotlib can typeset.
 
     >>> _simplified(r"\tfrac43 E")
     '\\frac{4}{3} E'
@@ -62,7 +62,7 @@ def _simplified(tex: str) -> str:
 
 
 def _drawing(path: Path) -> str:
-    """SVG path data, y down."""
+    """SVG path data, with y pointing down."""
     letters = {1: "M", 2: "L", 3: "Q", 4: "C", 79: "Z"}
     parts = []
     for vertices, code in path.iter_segments(curves=True, simplify=False):

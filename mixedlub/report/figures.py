@@ -1,4 +1,4 @@
-"""Which figures a study has, and what their captions say."""
+"""The figures of a study and their captions."""
 
 from __future__ import annotations
 
@@ -44,11 +44,11 @@ class Drawn:
 
 
 def figures(results: Results) -> Iterator[Drawn]:
-    """All figures of a study; at its coldest and its hottest oil where there are several temperatures."""
+    """All figures of a study, at its lowest and highest oil temperature."""
     levels = results.study.file.conditions.oil_temperature_C
     with styled():
-        for place in spread(levels, MOST_TEMPERATURES):
-            yield from _at_temperature(results, int(place), len(levels) > 1)
+        for theta in spread(levels, MOST_TEMPERATURES):
+            yield from _at_temperature(results, int(theta), len(levels) > 1)
         if len(levels) > MOST_TEMPERATURES:
             yield _over_temperature(results)
 
@@ -113,12 +113,12 @@ def _log_words(ratios: np.ndarray) -> str:
 
 
 def _symbols(results: Results, theta: int) -> str:
-    """What the symbols mean, how many of the pairings they stand for, and what is special of the scales."""
+    """Meaning of the symbols, number of pairings shown, and a note on the scales."""
     count = len(results.study.pairings)
     outside = (results["asperity_load_ratio"][:, theta] > 1.0).any()
     return "".join(
         (
-            "Filled: both surfaces alike; open: unlike.",
+            "Filled: both surfaces equal; open: different.",
             " Triangles: outside the model's range, as elastic asperities would carry more than the load."
             if outside
             else "",
@@ -129,7 +129,7 @@ def _symbols(results: Results, theta: int) -> str:
 
 
 def _some_of(levels: Sequence[float], most: int, what: str, unit: str) -> str:
-    """Which levels are drawn, as a sentence after a caption; empty where all are.
+    """The levels that are drawn, as a sentence of the caption; empty where all are drawn.
 
     >>> _some_of([500, 1000, 1500, 2000], 2, "speeds", "rpm"), _some_of([500], 2, "speeds", "rpm")
     (' Drawn are 2 of 4 speeds: 500 and 2000 rpm.', '')
@@ -142,17 +142,17 @@ def _some_of(levels: Sequence[float], most: int, what: str, unit: str) -> str:
 
 
 def _groups(results: Results) -> list[tuple[str, str, np.ndarray]]:
-    """Pairings that are drawn together: key, words and places."""
-    alike = any(a == b for a, b in results.study.pairings)
+    """Pairings drawn in one figure: key, words and indices."""
+    has_equal = any(a == b for a, b in results.study.pairings)
     smoothest = smoothest_surface(results)
     return [
-        ("equal", "equal surfaces" if alike else "some pairings", equal_pairings(results)),
+        ("equal", "equal surfaces" if has_equal else "some pairings", equal_pairings(results)),
         ("smooth", f"surfaces paired with {smoothest}", pairings_with(results, smoothest)),
     ]
 
 
 def equal_pairings(results: Results) -> np.ndarray:
-    """Pairings of a surface with itself, smoothest first, at most six; some of all where there are none."""
+    """Pairings of a surface with itself, smoothest first, at most six; a selection of all where there are none."""
     pairings = results.study.pairings
     same = np.array([i for i, (a, b) in enumerate(pairings) if a == b], dtype=int)
     if not same.size:
@@ -161,13 +161,13 @@ def equal_pairings(results: Results) -> np.ndarray:
 
 
 def pairings_with(results: Results, surface: str) -> np.ndarray:
-    """Pairings that a surface takes part in, smoothest first, at most six."""
-    found = [i for i, both in enumerate(results.study.pairings) if surface in both]
-    return _some_by_roughness(results, np.array(found, dtype=int))
+    """Pairings that contain a surface, smoothest first, at most six."""
+    indices = [i for i, both in enumerate(results.study.pairings) if surface in both]
+    return _some_by_roughness(results, np.array(indices, dtype=int))
 
 
 def smoothest_surface(results: Results) -> str:
-    """The surface of least Rq."""
+    """The surface with the smallest Rq."""
     return min(results.study.surfaces.values(), key=lambda s: s.m0).name
 
 

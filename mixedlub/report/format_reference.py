@@ -1,6 +1,6 @@
-"""The formats of files as text: columns of each kind of case, keys of `system.toml` and of a study file.
+"""Reference of the file formats: columns of each kind of case, keys of `system.toml` and of a study file.
 
-All of it comes from where columns and keys are declared: the kinds, and the classes of the files.
+All content comes from the declarations of columns and keys: the kinds, and the classes of the files.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ from profiles.errors import InputError, nearest
 WIDTH = 80
 """Columns of a terminal."""
 LEAST = 22
-"""Columns that a meaning needs to stand beside its key: some three words."""
+"""Columns that a meaning needs to the right of its key: about three words."""
 STUDY = "study"
 EVERY_CASE = ("", "uncertainty", "recording")
 """Tables of `system.toml` that do not depend on its kind."""
 _GAP = "  "
 
 Row = tuple[str, ...]
-"""Facts that stand in columns, and last the meaning."""
+"""The cells of one line; the last one is the meaning."""
 
 
 def kinds_text(name: str | None = None) -> str:
@@ -62,7 +62,7 @@ def _study() -> Iterator[str]:
 
 
 def about(kind_name: str) -> str:
-    """What a kind of case records, in a line.
+    """What a kind of case records, in one line.
 
     >>> about("viscosity")
     'viscosity: viscosity of a sample against temperature and pressure'
@@ -82,14 +82,14 @@ def _kind(k: Kind) -> Iterator[str]:
 
 
 def kind_rows(k: Kind) -> list[Row]:
-    """The columns of a kind, its readings last."""
+    """The columns of a kind, readings last."""
     one = "reading" if len(k.readings) == 1 else "one of these"
     rows = [_column(c) for c in (*k.columns, *k.channels)]
     return [*rows, *(_column(c, needed=one) for c in k.readings)]
 
 
 def _named(sections: Sequence[str]) -> str:
-    """Tables as they are written in the file.
+    """Table names as they are written in the file.
 
     >>> _named(["contact", "surfaces"])
     '[contact] [surfaces.NAME]'
@@ -99,7 +99,7 @@ def _named(sections: Sequence[str]) -> str:
 
 
 def common_rows() -> list[Row]:
-    """The columns that every kind has."""
+    """The columns common to all kinds."""
     sd, check = sd_column("READING"), check_column("CHECK")
     return [*map(_column, (RUN, *BOOKKEEPING)), _column(sd, unit="as read"), _column(check, unit="any")]
 
@@ -118,7 +118,7 @@ def _bounds(c: Column) -> str:
 
 
 def _span(low: float, high: float, number: str = "number") -> str:
-    """What lies between two ends.
+    """Words for a range of numbers.
 
     >>> _span(0.0, 1.0), _span(0.0, np.inf), _span(-np.inf, np.inf)
     ('0 to 1', 'from 0', 'number')
@@ -145,14 +145,14 @@ def _users(table: FileTable) -> Iterator[str]:
 
 
 def _keys(table: FileTable) -> Iterator[str]:
-    """The keys of a table; below them the meaning of each value of those that have few."""
+    """The keys of a table, and the meaning of each allowed value where there are few."""
     for key, lines in zip(table.keys, _blocks([key_row(key) for key in table.keys], 2), strict=True):
         yield from lines
         yield from _aligned([(toml_value(value), meaning) for value, meaning in key.values.items()], indent=6)
 
 
 def key_row(key: Key) -> Row:
-    """A key with its unit, its default, what it may hold, and its meaning."""
+    """A key with its unit, default, allowed values and meaning."""
     allowed, numeric = _allowed(key.type, key)
     unit = (key.unit or "-") if numeric else ""
     default = "required" if key.required else _default(key.field.get_default(call_default_factory=True))
@@ -160,7 +160,7 @@ def key_row(key: Key) -> Row:
 
 
 def _allowed(annotation: Any, key: Key) -> tuple[str, bool]:
-    """What a key may hold, and whether that is numbers."""
+    """The allowed values of a key, and whether they are numbers."""
     of = plain(annotation)
     entries = get_args(of)
     if get_origin(of) is tuple:
@@ -177,7 +177,7 @@ def _allowed(annotation: Any, key: Key) -> tuple[str, bool]:
 
 
 def _default(value: Any) -> str:
-    """A value taken where a key is left out, as TOML in the fewest digits.
+    """The default of a key, as TOML in the fewest digits.
 
     >>> _default((206.0, 0.05)), _default(None), _default(1.5)
     ('[206, 0.05]', '-', '1.5')
@@ -196,11 +196,11 @@ def _aligned(rows: Sequence[Row], indent: int = 2) -> list[str]:
 
 
 def _blocks(rows: Sequence[Row], indent: int) -> Iterator[list[str]]:
-    """The lines of each row, its facts in columns; meanings stand beside them, or below where that leaves no room."""
+    """The lines of each row, in columns; the meaning is in the last one, or below where that one is too narrow."""
     widths = [max(map(len, cells)) for cells in zip(*rows, strict=True)][:-1]
-    beside = indent + sum(widths) + len(_GAP) * len(widths)
-    below = WIDTH - beside < LEAST
+    width_before = indent + sum(widths) + len(_GAP) * len(widths)
+    below = WIDTH - width_before < LEAST
     for *facts, meaning in rows:
         start = " " * indent + _GAP.join(f"{cell:{width}}" for cell, width in zip(facts, widths, strict=True))
-        lines = _wrapped(meaning, *(2 * [indent + 4 if below else beside]))
+        lines = _wrapped(meaning, *(2 * [indent + 4 if below else width_before]))
         yield [start.rstrip(), *lines] if below else [start + lines[0][len(start) :], *lines[1:]]

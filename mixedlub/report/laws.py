@@ -1,4 +1,4 @@
-"""The laws a study used, told from their own docstrings: sentence, equation, source."""
+"""The laws a study used, taken from their docstrings: sentence, equation, source."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ _SOURCE = re.compile(r"Source: (.*?)(?:\n\s*\n|\Z)", re.DOTALL)
 
 
 @dataclass(frozen=True)
-class Told:
-    """A law in words: what it gives, HTML of what it says with its equations set, its source."""
+class LawText:
+    """A law for the page: its outputs, its description as HTML with typeset equations, and its source."""
 
     gives: str
     says: str
@@ -30,28 +30,28 @@ class Told:
     effect: str = ""
 
 
-def laws_used(model: Model) -> Iterator[Told]:
+def laws_used(model: Model) -> Iterator[LawText]:
     """Every step of the chain that the results depend on, in order."""
     for step in model.steps:
         gives = ", ".join(name.replace("_", " ") for name in step.outputs)
         if step.effect is not None:
             (e,) = find([step.effect])
-            said = _inlined(e.summary) + _displayed(e.equation)
-            yield Told(gives, said, escape(e.source), effect=e.id.replace("_", " "))
+            html = _inlined(e.summary) + _displayed(e.equation)
+            yield LawText(gives, html, escape(e.source), effect=e.id.replace("_", " "))
         else:
-            yield told((inspect.getdoc(step.law) or "").partition(">>>")[0], gives)
+            yield law_text((inspect.getdoc(step.law) or "").partition(">>>")[0], gives)
 
 
-def told(docstring: str, gives: str) -> Told:
-    """A docstring taken apart; its sentences on names of the program are left out.
+def law_text(docstring: str, gives: str) -> LawText:
+    """The parts of a docstring; sentences that contain code are left out.
 
-    >>> told("Height (m). ``z`` has two axes.\\n\\nSource: A. Author, 1999.", "height")
-    Told(gives='height', says='Height (m).', source='A. Author, 1999.', effect='')
+    >>> law_text("Height (m). ``z`` has two axes.\\n\\nSource: A. Author, 1999.", "height")
+    LawText(gives='height', says='Height (m).', source='A. Author, 1999.', effect='')
     """
     source = _SOURCE.search(docstring)
     parts = _DISPLAY.split(_SOURCE.sub("", docstring))
     says = "".join(_displayed(part) if i % 2 else _inlined(_for_readers(part)) for i, part in enumerate(parts))
-    return Told(gives, says, escape(" ".join(source[1].split())) if source else "")
+    return LawText(gives, says, escape(" ".join(source[1].split())) if source else "")
 
 
 def _displayed(tex: str) -> str:
@@ -59,12 +59,12 @@ def _displayed(tex: str) -> str:
 
 
 def _for_readers(text: str) -> str:
-    """Sentences without code in backquotes, which is there for programmers."""
+    """The sentences without code in backquotes, which is for programmers."""
     sentences = _SENTENCE.split(" ".join(text.split()))
     return " ".join(s for s in sentences if "`" not in _INLINE.sub("", s))
 
 
 def _inlined(text: str) -> str:
-    """Escaped text with its inline formulas set."""
+    """Escaped text with typeset inline formulas."""
     parts = _INLINE.split(text)
     return "".join(equation(part) if i % 2 else escape(part) for i, part in enumerate(parts))

@@ -1,4 +1,4 @@
-"""The page of a study: one self-contained HTML file, with the figures beside it."""
+"""The page of a study: one self-contained HTML file; the figures are also written as files."""
 
 from __future__ import annotations
 
@@ -42,9 +42,9 @@ def write_page(
     formats: Sequence[str] = ("svg",),
     doing: Callable[[str], None] = lambda text: None,
 ) -> list[Finding]:
-    """``index.html`` and ``figures/`` in a folder; what was found doubtful about the heights of the traces.
+    """Write ``index.html`` and ``figures/`` into a folder; return the findings on the heights of the traces.
 
-    ``given`` is the study file as text, ``doing`` hears what is drawn.
+    ``given`` is the study file as text; ``doing`` is called with the name of each figure.
     """
     from jinja2 import Environment
 
@@ -64,14 +64,14 @@ def write_page(
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(files("mixedlub.report").joinpath("template.html").read_text(encoding="utf-8"))
     of_heights = [*not_gaussian(judged), *height_notes(profiles, judged)]
-    said = {"notes": grouped([*notes, *of_heights]), "provenance": provenance(study), "given": given}
-    page = template.render(**content(results), **said, figures=shown)
+    texts = {"notes": grouped([*notes, *of_heights]), "provenance": provenance(study), "given": given}
+    page = template.render(**content(results), **texts, figures=shown)
     (folder / "index.html").write_text(page, encoding="utf-8")
     return of_heights
 
 
 def content(results: Results) -> dict[str, Any]:
-    """What the page says from the results alone."""
+    """The content of the page that follows from the results alone."""
     study = results.study
     file = study.file
     return {
@@ -105,8 +105,8 @@ def findings(results: Results) -> list[str]:
     loss, ratio, lam = results["power_loss"], results["area_ratio"], results["film_parameter"]
     friction = results["mean_friction"]
 
-    def where(place: int) -> str:
-        p, o, t, s = np.unravel_index(place, loss.shape)
+    def where(index: int) -> str:
+        p, o, t, s = np.unravel_index(index, loss.shape)
         return (
             f"{' / '.join(study.pairings[p])} at {levels.torque_Nm[t]:g} Nm, {levels.speed_rpm[s]:g} rpm, "
             f"oil at {levels.oil_temperature_C[o]:g} °C"
@@ -170,7 +170,7 @@ def oil_rows(results: Results) -> list[tuple[str, str, str, str]]:
 
 
 def input_rows(study: Study, section: str) -> list[tuple[str, str, str, str]]:
-    """Every key of a section as used: name, value with unit, whether it is assumed, meaning."""
+    """Every key of a section as it was used: name, value with unit, 'assumed' for a default, meaning."""
     used, taken = resolved(study)["inputs"][section], set(assumed(study))
     return [
         (
@@ -202,7 +202,7 @@ def _written(value: object) -> str:
 
 
 def geometry_rows(study: Study) -> list[tuple[str, str]]:
-    """What follows from the gears: quantity, and value with unit."""
+    """Derived quantities of the gear pair: name, and value with unit."""
     pair = study.pair
     rows = [
         ("transverse contact ratio", f"{pair.contact_ratio:.4f}"),
@@ -216,7 +216,7 @@ def geometry_rows(study: Study) -> list[tuple[str, str]]:
 
 
 def option_rows(options: Options) -> list[tuple[str, str, str, bool]]:
-    """Option, choice, what it means, whether it is the default."""
+    """Option, choice, its meaning, whether it is the default."""
     standard = Options()
     rows = []
     for key in FileTable(Options, "", "options").fields:

@@ -1,4 +1,4 @@
-"""The plots of a study, after those of Hong, Aneshansley and Talbot: functions of its results."""
+"""The plots of a study, after those of Hong, Aneshansley and Talbot, as functions of its results."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ MOST_TORQUES = 3
 MOST_PAIRINGS = 300
 LONGEST = 22
 SIDE_BY_SIDE = 24
-"""Letters of two names that fit above a panel of a third of the width."""
+"""Characters of two names that fit above a panel of a third of the width."""
 MOST_MARKED = 25
-"""Levels along an axis up to which each is marked."""
+"""Most levels along an axis that have a marker each."""
 WIDE = 100.0
-"""Largest over smallest value from which an axis is logarithmic: the small ones would lie on its foot."""
+"""Largest over smallest value from which an axis is logarithmic: a linear one would hide the small values."""
 LEAST_RATIO = 1e-4
-"""Boundary area ratio below which it has no part in friction, and a logarithmic axis ends."""
-UNLIKE = 4.0
-"""Largest loss of one panel over that of another from which each has its own scale."""
+"""Boundary area ratio below which asperity friction is negligible: the end of a logarithmic axis."""
+SCALE_RATIO = 4.0
+"""Largest loss of one panel over that of another from which each panel has its own scale."""
 
 AXIS = {
     "composite_roughness": ("composite roughness Rq (µm)", 1e6),
@@ -39,7 +39,7 @@ AXIS = {
 
 
 def some(count: int, most: int) -> np.ndarray:
-    """Places of at most so many levels, spread evenly, ends included.
+    """Indices of at most ``most`` levels, evenly spaced, ends included.
 
     >>> some(4, 6).tolist(), some(10, 4).tolist()
     ([0, 1, 2, 3], [0, 3, 6, 9])
@@ -48,7 +48,7 @@ def some(count: int, most: int) -> np.ndarray:
 
 
 def spread(levels: Sequence[float], most: int) -> np.ndarray:
-    """Places of at most so many levels, lowest first, whatever their order in the study.
+    """Indices of at most ``most`` levels, lowest first, independent of their order in the study.
 
     >>> spread([3000, 500, 1500], 6).tolist()
     [1, 2, 0]
@@ -57,20 +57,20 @@ def spread(levels: Sequence[float], most: int) -> np.ndarray:
 
 
 def shown(levels: Sequence[float]) -> list[str]:
-    """Levels in four digits, more where two of them would read the same.
+    """Levels with four digits, or more where two of them would be printed the same.
 
     >>> shown([68.7342, 2987.12, 12000]), shown([0.98711, 0.98714])
     (['68.73', '2987', '12000'], ['0.98711', '0.98714'])
     """
     for digits in range(4, 17):
-        found = [np.format_float_positional(v, digits, unique=False, fractional=False, trim="-") for v in levels]
-        if len(set(found)) == len(set(levels)):
+        texts = [np.format_float_positional(v, digits, unique=False, fractional=False, trim="-") for v in levels]
+        if len(set(texts)) == len(set(levels)):
             break
-    return found
+    return texts
 
 
 def paired_title(results: Results, pairing: int, more: str = "") -> str:
-    """A pairing above a panel, a line a surface where both do not fit into one."""
+    """Title of a pairing; one line per surface where both do not fit into one."""
     pinion, gear = (s if len(s) <= LONGEST else f"{s[: LONGEST - 1]}…" for s in results.study.pairings[pairing])
     between = " /\n" if len(pinion) + len(gear) > SIDE_BY_SIDE else " / "
     names = between.join(s.replace("$", r"\$") for s in (pinion, gear))
@@ -86,7 +86,7 @@ def _marker(count: int) -> str:
 
 
 def over_speed(results: Results, quantity: str, chosen: Sequence[int] | np.ndarray, theta: int) -> Figure:
-    """A quantity over speed, a line a torque, a panel a pairing."""
+    """A quantity over speed, one line per torque, one panel per pairing."""
     levels = results.study.file.conditions
     order = np.argsort(levels.speed_rpm)
 
@@ -102,7 +102,7 @@ def over_speed(results: Results, quantity: str, chosen: Sequence[int] | np.ndarr
 
 
 def over_temperature(results: Results, chosen: Sequence[int] | np.ndarray) -> Figure:
-    """Power loss over oil temperature at the highest speed, a line a torque, a panel a pairing."""
+    """Power loss over oil temperature at the highest speed, one line per torque, one panel per pairing."""
     levels = results.study.file.conditions
     order, fastest = np.argsort(levels.oil_temperature_C), int(np.argmax(levels.speed_rpm))
 
@@ -123,7 +123,7 @@ def _over(
     x: np.ndarray,
     values: Callable[[int, int], np.ndarray],
 ) -> tuple[Figure, Sequence[Axes]]:
-    """A quantity over a condition, a line a torque, a panel a pairing; those on the lower edge have a label."""
+    """A quantity over a condition, one line per torque, one panel per pairing; the lowest panels have a label."""
     from matplotlib.ticker import NullLocator
 
     torques = spread(results.study.file.conditions.torque_Nm, MOST_LEVELS)
@@ -155,7 +155,7 @@ def _over(
 
 
 def is_wide(values: np.ndarray) -> bool:
-    """Whether values differ so much that a linear axis would show the small ones as nothing."""
+    """Whether values differ so much that a linear axis would hide the small ones."""
     return bool(values.max() > 0) and float(values.min()) * WIDE < float(values.max())
 
 
@@ -164,7 +164,7 @@ def _torque_labels(results: Results, places: Sequence[int] | np.ndarray) -> list
 
 
 def loss_over(results: Results, quantity: str, theta: int, *, fitted: bool = False) -> Figure:
-    """Power loss of the pairings over a quantity, a panel a torque, a colour a speed; lines are fitted to all."""
+    """Power loss of the pairings over a quantity, one panel per torque, one colour per speed; lines fit all."""
     levels = results.study.file.conditions
     torques, speeds = spread(levels.torque_Nm, MOST_TORQUES), spread(levels.speed_rpm, MOST_LEVELS)
     own_scales = has_own_scales(results, theta)
@@ -175,7 +175,8 @@ def loss_over(results: Results, quantity: str, theta: int, *, fitted: bool = Fal
             x = results[quantity][:, theta, t, n] * AXIS[quantity][1]
             y = results["power_loss"][:, theta, t, n]
             fits.append(_line(panel, x, y, colour) if fitted else "")
-            _points(panel, x, y, results["asperity_load_ratio"][:, theta, t, n] <= 1.0, _alike(results), colour)
+            within = results["asperity_load_ratio"][:, theta, t, n] <= 1.0
+            _points(panel, x, y, within, _equal_surfaces(results), colour)
         panel.set_title(f"({letter}) {text}", loc="left")
         panel.set_xlabel(AXIS[quantity][0])
         if quantity == "film_parameter":
@@ -201,10 +202,10 @@ def has_own_scales(results: Results, theta: int) -> bool:
     """Whether losses at the torques drawn differ so much that one scale would leave a panel empty."""
     torques = spread(results.study.file.conditions.torque_Nm, MOST_TORQUES)
     most = results["power_loss"][:, theta, torques].max(axis=(0, 2))
-    return bool(most.max() > UNLIKE * most.min())
+    return bool(most.max() > SCALE_RATIO * most.min())
 
 
-def _alike(results: Results) -> np.ndarray:
+def _equal_surfaces(results: Results) -> np.ndarray:
     return np.array([a == b for a, b in results.study.pairings])
 
 
@@ -215,7 +216,7 @@ def _mark(shape: str, colour: Any) -> Any:
 
 
 def _line(panel: Axes, x: np.ndarray, y: np.ndarray, colour: Any) -> str:
-    """A straight line fitted to all points; its coefficient of determination."""
+    """Draw the regression line of all points and return its coefficient of determination."""
     if np.ptp(x) <= 1e-12 * np.abs(x).max() or np.ptp(y) == 0:
         return "–"
     slope, start = np.polyfit(x, y, 1)
@@ -224,14 +225,14 @@ def _line(panel: Axes, x: np.ndarray, y: np.ndarray, colour: Any) -> str:
     return f"{np.corrcoef(x, y)[0, 1] ** 2:.3f}"
 
 
-def _points(panel: Axes, x: np.ndarray, y: np.ndarray, within: np.ndarray, alike: np.ndarray, colour: Any) -> None:
-    """Points of the pairings, the outermost among those that are drawn where they are many."""
-    few = np.zeros(x.size, dtype=bool)
-    few[np.argsort(x)[some(x.size, MOST_PAIRINGS)]] = True
-    few[[y.argmin(), y.argmax()]] = True
+def _points(panel: Axes, x: np.ndarray, y: np.ndarray, within: np.ndarray, equal: np.ndarray, colour: Any) -> None:
+    """Points of the pairings; of very many a selection that includes the extremes."""
+    drawn = np.zeros(x.size, dtype=bool)
+    drawn[np.argsort(x)[some(x.size, MOST_PAIRINGS)]] = True
+    drawn[[y.argmin(), y.argmax()]] = True
     for shape, inside in (("o", within), ("v", ~within)):
-        for face, side in ((colour, alike), ("white", ~alike)):
-            at = few & inside & side
+        for face, side in ((colour, equal), ("white", ~equal)):
+            at = drawn & inside & side
             panel.plot(x[at], y[at], shape, color=colour, markerfacecolor=face, markeredgewidth=0.8)
 
 

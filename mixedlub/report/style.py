@@ -1,4 +1,4 @@
-"""One look for all figures: sizes, colours, and how a figure becomes SVG."""
+"""The common style of all figures: sizes, colours, and conversion to SVG."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SMALL = 7.5
-"""Points of the smallest text: that of legends, and of titles of several words."""
+"""Font size (points) of legends and long titles."""
 SETTINGS: dict[Any, Any] = {
     "font.size": 8.5,
     "axes.titlesize": 9,
@@ -37,12 +37,12 @@ SETTINGS: dict[Any, Any] = {
     "svg.hashsalt": "mixedlub",
 }
 WIDTH = 7.2
-"""Inches of a figure across a page."""
+"""Width of a figure across a page (inches)."""
 
 
 @contextmanager
 def styled() -> Iterator[None]:
-    """Within it, figures are drawn in the one look."""
+    """Context in which figures are drawn in the common style."""
     import matplotlib
 
     with matplotlib.rc_context(SETTINGS):
@@ -50,14 +50,14 @@ def styled() -> Iterator[None]:
 
 
 def shades(count: int) -> np.ndarray:
-    """Colours for ordered levels, light to dark, told apart in grey and by the colour-blind."""
+    """Colours for ordered levels, light to dark; distinct in grey and for the colour-blind."""
     import matplotlib
 
     return matplotlib.colormaps["viridis_r"](np.linspace(0.12, 0.95, max(count, 2)))[:count]
 
 
 def panels(count: int, columns: int, *, height: float = 2.2, sharey: bool = True) -> tuple[Figure, list[Axes], int]:
-    """A figure of equal panels, all with the scale of x and, where asked for, of y; and how many stand in a row."""
+    """A figure of equal panels with a common x axis and, with ``sharey``, y axis; and the number of columns."""
     from matplotlib.figure import Figure
 
     columns = 2 if count == 4 else min(columns, count)
@@ -74,7 +74,7 @@ def panels(count: int, columns: int, *, height: float = 2.2, sharey: bool = True
 def legend_above(
     figure: Figure, entries: Axes | tuple[Sequence[Any], Sequence[str]], title: str, columns: int = 6
 ) -> None:
-    """A legend over the whole width above the panels, clear of the data, in as many rows as it needs."""
+    """A legend above the panels, over the whole width, in as many rows as it needs."""
     handles, labels = entries if isinstance(entries, tuple) else entries.get_legend_handles_labels()
     figure.legend(
         handles,
@@ -90,14 +90,14 @@ def legend_above(
 
 
 def normalised_axis(axes: Axes, most: float) -> None:
-    """A second scale on the right: the same values over the largest of the study."""
+    """A second axis on the right: the values over the largest one of the study."""
     right = axes.secondary_yaxis("right", functions=(lambda y: np.divide(y, most), lambda y: np.multiply(y, most)))
     right.spines["right"].set_visible(True)
     right.set_ylabel("share of largest (-)")
 
 
 FONTS = "'DejaVu Sans', Verdana, 'Bitstream Vera Sans', sans-serif"
-"""Fonts of one width, so that text stays text and still fits where the first of them is missing."""
+"""Fonts of equal width, so that text still fits where the first one is missing."""
 
 
 def as_svg(figure: Figure) -> str:
@@ -105,18 +105,18 @@ def as_svg(figure: Figure) -> str:
     text = io.StringIO()
     with styled():
         figure.savefig(text, format="svg", metadata={"Date": None, "Creator": OWNER})
-    found = text.getvalue()
-    return found[found.index("<svg") :].replace("'DejaVu Sans'", FONTS)
+    svg = text.getvalue()
+    return svg[svg.index("<svg") :].replace("'DejaVu Sans'", FONTS)
 
 
 OWNER = "mixedlub"
-"""What a figure's file says it was made by."""
+"""Creator in the metadata of a figure."""
 PNG_DPI = 300
-"""Dots per inch that journals ask of line art in colour at least."""
+"""Least resolution (dots per inch) that journals require for line art in colour."""
 _MADE_BY = {"pdf": {"Creator": OWNER, "CreationDate": None}, "png": {"Software": OWNER}}
 
 
 def save(figure: Figure, path: Path) -> None:
-    """The figure as a file to print, PDF or PNG by the ending of its name."""
+    """Write a figure for print, as PDF or PNG by the suffix of its name."""
     with styled():
         figure.savefig(path, dpi=PNG_DPI, metadata=_MADE_BY[path.suffix[1:]])

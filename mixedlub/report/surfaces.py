@@ -1,4 +1,4 @@
-"""What the page says of the surfaces: moments and asperities, and the traces where there are any."""
+"""The surfaces on the page: spectral moments and asperities, and the traces where there are any."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 
 SHOWN = 8
 EXCERPT = 1.5e-3
-"""Length of a trace that is drawn (m): single asperities are still seen."""
-UNLIKE = 5.0
-"""Highest over lowest trace from which one scale would show the lowest as a line."""
+"""Length of trace drawn (m): single asperities remain visible."""
+SCALE_RATIO = 5.0
+"""Highest over lowest trace from which each has its own scale: a common one would flatten the lowest."""
 
 
 def surface_rows(study: Study) -> list[tuple[str, ...]]:
@@ -44,7 +44,7 @@ def surface_rows(study: Study) -> list[tuple[str, ...]]:
 
 
 def traced(study: Study) -> dict[str, Profile]:
-    """The filtered profiles of the surfaces that come from traces, at most a figure full."""
+    """The filtered profiles of the surfaces given as traces, at most as many as one figure holds."""
     named = [name for name in study.surfaces if study.file.surfaces[name].profile is not None][:SHOWN]
     with collected():
         profiles = {name: study.rig.profile(name) for name in named}
@@ -52,7 +52,7 @@ def traced(study: Study) -> dict[str, Profile]:
 
 
 def surface_figures(study: Study, profiles: Mapping[str, Profile], judged: Judged) -> Iterator[Drawn]:
-    """Traces and normal probability plots of the surfaces that come from traces."""
+    """Traces and normal probability plots of the surfaces given as traces."""
     if not profiles:
         return
     from roughness.plots import probability_figure, trace_figure
@@ -60,13 +60,13 @@ def surface_figures(study: Study, profiles: Mapping[str, Profile], judged: Judge
     count = sum(study.file.surfaces[name].profile is not None for name in study.surfaces)
     first = "" if len(profiles) == count else f" (the first {len(profiles)} of {count})"
     heights = [float(np.ptp(profile.heights)) for profile in profiles.values()]
-    own = max(heights) > UNLIKE * min(heights)
-    scale = "each to its own scale of height, as they differ much" if own else "all to one scale"
+    separate_scales = max(heights) > SCALE_RATIO * min(heights)
+    scale = "each to its own scale of height, as they differ much" if separate_scales else "all to one scale"
     with styled():
         yield Drawn(
             "traces",
             f"Roughness profiles{first}, {scale}: 1.5 mm from the middle of each.",
-            trace_figure(*profiles.values(), excerpt=EXCERPT, one_scale=not own),
+            trace_figure(*profiles.values(), excerpt=EXCERPT, one_scale=not separate_scales),
         )
         yield Drawn(
             "probability",
@@ -86,7 +86,7 @@ def judgement(profiles: Mapping[str, Profile]) -> Judged:
 
 
 def height_notes(profiles: Mapping[str, Profile], judged: Judged) -> list[Finding]:
-    """What `mixedlub profile` warns of in the numbers of each trace and in its heights being Gaussian."""
+    """The warnings of `mixedlub profile` on the roughness parameters and the height distribution of each trace."""
     from roughness import height_parameters, moments
     from roughness.guards import height_warnings
 
@@ -98,7 +98,7 @@ def height_notes(profiles: Mapping[str, Profile], judged: Judged) -> list[Findin
 
 
 def not_gaussian(judged: Judged) -> list[Finding]:
-    """Surfaces whose heights are not Gaussian, as the asperity theory assumes."""
+    """Surfaces whose heights are not Gaussian, although the asperity theory assumes it."""
     odd = [
         f"{name} ({result.verdict.replace('_', ' ')})"
         for name, result in judged.items()
@@ -111,7 +111,7 @@ def not_gaussian(judged: Judged) -> list[Finding]:
 
 
 def provenance(study: Study) -> list[tuple[str, str]]:
-    """Where each surface comes from: its moments as given, or its trace with what was done to it."""
+    """The source of each surface: moments as given, or a trace with its processing steps."""
     sections = study.file.surfaces
     return [
         (name, f"{sections[name].profile}: {'; '.join(s.steps)}" if sections[name].profile else "moments as given")

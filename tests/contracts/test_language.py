@@ -19,11 +19,8 @@ FINISHED = 4.0
 UNFINISHED = {
     "case": 10.9,
     "commands": 7.7,
-    "data_checks": 12.1,
-    "diagnosis/report": 14.5,
     "effects": 5.5,
     "kinds": 8.4,
-    "report": 5.1,
     "schema": 7.5,
 }
 """Rooms that are not rewritten yet, with their present figure: lower it with every change, never raise it."""

@@ -73,10 +73,10 @@ def at_coordinate(d: Diagnosis, z: float) -> Diagnosis:
 @pytest.mark.parametrize(("z", "marked"), [(4.5, True), (-3.2, True), (2.0, False)])
 def test_parameter_far_outside_of_what_is_usual_is_marked(drive: Diagnosis, z: float, marked: bool) -> None:
     said = left_out(at_coordinate(drive, z))
-    far = "far outside of what is usual (0.0805 to 1.12)"
+    far = "far outside its expected range (0.0805 to 1.12)"
     assert (far in said.table[1][-1]) == marked
     assert not any("usual (" in row[-1] for row in said.table[2:])
-    stretch = f"Stribeck: excess is {far}. Its name is a stretch: something else may act alike."
+    stretch = f"Stribeck: excess is {far}. This effect is doubtful: something else may act in the same way."
     assert (stretch in said.sentences) == marked
 
 
@@ -86,7 +86,7 @@ def test_one_direction_does_not_tell_dry_friction_from_a_payload(drive: Diagnosi
     assert tables.one_way(both.forward) == []
     for rows in (speed > 0.0, speed < 0.0):
         said = tables.one_way(both.take(np.flatnonzero(rows)).forward)
-        assert "one way only, which does not tell coulomb torque from payload torque" in said[0]
+        assert "one way only, which does not distinguish coulomb torque from payload torque" in said[0]
 
 
 def test_a_payload_that_makes_up_for_friction_is_nothing_missing(tmp_path: Path) -> None:

@@ -16,7 +16,7 @@ from mixedlub.diagnosis.report.text import words
 from mixedlub.diagnosis.report.text.alternatives import resembling
 from mixedlub.diagnosis.report.text.answer import as_json
 from mixedlub.diagnosis.report.text.nearest_effect import nearest
-from mixedlub.diagnosis.report.text.tables import _reaching_nothing
+from mixedlub.diagnosis.report.text.tables import _interval_with_null
 from mixedlub.effects import catalogue
 from mixedlub.schema.findings import codes, finding
 from mixedlub.schema.table import Table
@@ -104,7 +104,10 @@ def test_the_nearest_has_its_chi_square_in_the_noise_of_a_reading(unnamed: Diagn
 
 def test_chi_square_says_which_noise_it_is_of(unnamed: Diagnosis, complete: Diagnosis) -> None:
     assert "estimated" not in told(unnamed)[words.MISMATCH]
-    assert "noise was estimated beside what is missing" in told(replace(unnamed, noise_stated=False))[words.MISMATCH]
+    assert (
+        "noise was estimated together with the missing part"
+        in told(replace(unnamed, noise_stated=False))[words.MISMATCH]
+    )
     assert "noise was estimated as if nothing" in told(replace(complete, noise_stated=False))[words.MISMATCH]
 
 
@@ -141,6 +144,6 @@ def test_a_sure_effect_whose_size_may_be_nothing_is_no_contradiction(low: float,
     e = catalogue()["boundary_film_temperature"]
     ends = {"drop": (low, 0.29), "flash": (0.005, 0.64)}
     fitted = [(p, dict(zip(("low90", "high90"), ends.get(p.name, (1.0, 2.0)), strict=True))) for p in e.parameters]
-    notes = _reaching_nothing(e, fitted, chance)
+    notes = _interval_with_null(e, fitted, chance)
     assert bool(notes) == said
-    assert all("interval of drop takes in no effect" in note for note in notes)
+    assert all("interval of drop contains the value without effect" in note for note in notes)

@@ -58,7 +58,7 @@ def test_nothing_missing_is_said(complete: Diagnosis) -> None:
 
 def test_no_mismatch_is_said_with_p_value_and_false_alarm_rate(complete: Diagnosis) -> None:
     said = told(complete)[words.MISMATCH]
-    assert said.startswith("None that can be told from noise")
+    assert said.startswith("None distinguishable from noise")
     assert f"p = {complete.test.p_value:.2g}" in said
     assert "1 % of the cases in which nothing is missing" in said
 
@@ -184,12 +184,12 @@ def test_parameters_that_readings_do_not_tell_are_marked(offset: Diagnosis, spre
 
 def test_of_several_vague_parameters_only_their_combined_effect_is_known() -> None:
     heating, offset = catalogue()["boundary_film_temperature"], catalogue()["sensor_offset"]
-    assert tables._untold(heating, []) == []
-    assert tables._untold(heating, ["drop", "width"]) == [
+    assert tables._undetermined(heating, []) == []
+    assert tables._undetermined(heating, ["drop", "width"]) == [
         "Boundary film temperature: drop and width are not determined by these readings. Only the combined effect of "
         "the parameters is known."
     ]
-    assert "combined" not in tables._untold(offset, ["offset"])[0]
+    assert "combined" not in tables._undetermined(offset, ["offset"])[0]
 
 
 def test_sensor_offset_has_the_size_that_it_is_a_share_of(offset: Diagnosis) -> None:

@@ -188,7 +188,7 @@ def test_what_the_reading_before_left_behind_is_not_noise(make):
     found = diagnose_case(make(system("film", "film_thickness_nm", contact=BALL), columns).folder)
     assert found.posterior.verdict == DISCREPANCY
     assert found.search.discrepancy.best.form == "delay"
-    assert "goes with the temperature of the reading before" in told(found)
+    assert "follows the temperature of the previous reading" in told(found)
     assert "Wait longer after a change of temperature" in told(found)
 
 

@@ -1,1 +1,1 @@
-"""The answer as text, figures, page and files."""
+"""The answer as text, figures, HTML page and files."""

@@ -28,17 +28,17 @@ def diagnose(
 ) -> Diagnosis:
     """Work out what the simulation of a case lacks and write the answer into ``out``.
 
-    Written are diagnosis.json, predictions.csv, report.txt, report.html and figures/. They replace
-    those of an earlier answer when all are written, and the same case gives the same bytes.
+    The files are diagnosis.json, predictions.csv, report.txt, report.html and figures/. They replace
+    those of an earlier answer once all are written. The same case gives the same bytes.
     """
-    found = diagnose_case(case_folder, predict, exclude, level, progress)
+    diagnosis = diagnose_case(case_folder, predict, exclude, level, progress)
     progress("drawing")
-    write(files(found), out)
-    return found
+    write(files(diagnosis), out)
+    return diagnosis
 
 
 def files(d: Diagnosis) -> dict[str, str]:
-    """Everything the answer consists of, by file name."""
+    """The contents of all files of the answer, by file name."""
     from mixedlub.diagnosis.report import html
     from mixedlub.diagnosis.report.figures import figures
     from mixedlub.diagnosis.report.figures.style import as_drawn
@@ -47,7 +47,7 @@ def files(d: Diagnosis) -> dict[str, str]:
     parts = words.sections(d, extra)
     drawings = {name: as_drawn(figure) for name, figure in figures.all_figures(d, extra).items()}
     return {
-        "diagnosis.json": json.dumps({**as_json(d), **_unnamed_record(extra)}, indent=1, ensure_ascii=False) + "\n",
+        "diagnosis.json": json.dumps({**as_json(d), **_discrepancy_record(extra)}, indent=1, ensure_ascii=False) + "\n",
         "predictions.csv": predictions(d).to_csv(index=False, float_format="%.9g", lineterminator="\n"),
         "report.txt": _text(d, parts),
         "report.html": html.render(d, parts, drawings),
@@ -56,7 +56,7 @@ def files(d: Diagnosis) -> dict[str, str]:
 
 
 def report_text(d: Diagnosis) -> str:
-    """The report in plain words."""
+    """The report as plain text."""
     return _text(d, words.sections(d, _described(d)))
 
 
@@ -69,8 +69,8 @@ def _described(d: Diagnosis) -> DescribedDiscrepancy | None:
     return describe_discrepancy(d.search) if DISCREPANCY in d.posterior.tied else None
 
 
-def _unnamed_record(extra: DescribedDiscrepancy | None) -> dict[str, Any]:
-    """What is known of an unnamed mismatch, as an entry of the answer."""
+def _discrepancy_record(extra: DescribedDiscrepancy | None) -> dict[str, Any]:
+    """The discrepancy as an entry of diagnosis.json."""
     if extra is None:
         return {}
     law = extra.law
@@ -95,7 +95,7 @@ def _unnamed_record(extra: DescribedDiscrepancy | None) -> dict[str, Any]:
 
 
 def write(contents: Mapping[str, str], out: Path) -> None:
-    """All files of an answer; drawings of an earlier one give way to these."""
+    """Write all files of an answer in place of those of an earlier one."""
     out.mkdir(parents=True, exist_ok=True)
     with writing(out) as aside:
         for name, text in contents.items():

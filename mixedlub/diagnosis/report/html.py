@@ -1,4 +1,4 @@
-"""The answer as one HTML page that needs nothing beside itself."""
+"""The answer as one self-contained HTML page."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ from mixedlub.version import installed_version
 CAPTIONS = {
     "recorded_against_simulated": (
         MISMATCH,
-        "Recorded against simulated, and what is left in sigmas: left the base model after calibration within its "
+        "Recorded against simulated, and the residuals (sigma): left the base model after calibration within its "
         "stated uncertainty, right with the answer.",
     ),
     "residual_map": (
@@ -49,8 +49,8 @@ CAPTIONS = {
     "profiles": (WHERE, "Mean residual along each condition, with two standard errors."),
     "missing_part": (
         LEFT_OUT,
-        "The missing part of the reading: what was recorded less the base model at the answer's calibration, with "
-        "one standard deviation, and what the answer says. Readings of one level stand side by side.",
+        "The missing part of the reading: recorded minus base model at the answer's calibration, with one "
+        "standard deviation, and the answer's prediction. Readings of one level are drawn next to each other.",
     ),
     "absorbing_stages": (
         UNNAMED,
@@ -65,16 +65,16 @@ CAPTIONS = {
     "evidence": (ALIKE, "The explanations that were weighed, by probability."),
     "confusability": (
         ALIKE,
-        "Which effects look alike at the recorded conditions after calibration has taken its share; those of the "
-        "answer in bold. Right: how large each would be at its usual strength.",
+        "Which effects look similar at the recorded conditions after recalibration; those of the "
+        "answer in bold. Right: how large each would be at its typical strength.",
     ),
     "heldout": (GAIN, "Error on whole levels of conditions that were left out of the fit."),
     "intervals": (GAIN, "Recorded readings against the 90 % predictive intervals."),
-    "next_test": (NEXT, "Where the recommended tests lie among the recorded conditions, and what each would tell."),
+    "next_test": (NEXT, "The recommended tests among the recorded conditions, and the information expected from each."),
 }
 """Section and caption of each figure."""
 INSTEAD = {WHERE: MISMATCH, LEFT_OUT: UNNAMED}
-"""Where pictures stand whose section has nothing to say: where nothing is missing, or nothing that has a name."""
+"""Section for the pictures of an empty section: nothing is missing, or no named effect."""
 SPREADS = (
     " Before: calibrated as if nothing were missing, which spreads the shortfall over all conditions; the text above "
     "keeps the answer's calibration instead, so that signs may differ."
@@ -83,7 +83,7 @@ SPREADS = (
 
 @dataclass(frozen=True)
 class Picture:
-    """A drawing ready to stand in the page."""
+    """A drawing with its caption."""
 
     drawing: str
     caption: str
@@ -122,25 +122,25 @@ def render(d: Diagnosis, parts: Iterable[Section], drawings: Mapping[str, str]) 
 
 
 def _with_pictures(parts: Iterable[Section], pictures: Mapping[str, list[Picture]]) -> list[Section]:
-    """The sections, and one for pictures whose section has nothing to say."""
-    found = list(parts)
-    titles = {part.title for part in found}
-    return found + [Section(title, ()) for title in pictures if title not in titles]
+    """The sections, with an empty one for pictures that have no section."""
+    sections = list(parts)
+    titles = {part.title for part in sections}
+    return sections + [Section(title, ()) for title in pictures if title not in titles]
 
 
 def _equations(d: Diagnosis) -> dict[str, str]:
-    """Drawings of the verdict's equations by the sentence that they stand for."""
+    """Drawings of the verdict's equations, by the sentence that they replace."""
     return {equation_sentence(e): equation(bare(e.equation)) for e in effects_of(d.posterior.verdict.effects)}
 
 
 def bare(tex: str) -> str:
-    """An equation as the drawing takes it: brackets without sizes, every fraction in braces."""
+    """An equation in the form that can be drawn: brackets without sizes, every fraction in braces."""
     tex = re.sub(r"\\[bB]igg?[lr]?(?![a-zA-Z])", "", tex)
     return re.sub(r"\\frac\s+(\w)\s*(\w)", r"\\frac{\1}{\2}", tex)
 
 
 def _cards(d: Diagnosis) -> list[tuple[str, str]]:
-    """The few numbers a reader looks for first."""
+    """The numbers a reader looks for first."""
     p = d.test.p_value
     cards = [
         (p_words(p), "chance of such a mismatch when nothing is missing (p)"),

@@ -1,4 +1,4 @@
-"""Values taken together where a figure has no room for each."""
+"""Binning of values where a figure has no room for each."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from mixedlub.recording.set_points import set_points
 
 
 def together(values: np.ndarray, most: int, bins: int | None = None) -> tuple[np.ndarray, np.ndarray]:
-    """Group of each value, and of each group the value in its middle, one that was recorded.
+    """Group of each value, and the lower median of each group.
 
-    A group is one level as it is printed; where there are more than ``most``, as many ``bins`` with even numbers of
-    values, which never have both signs.
+    A group is one level as it is printed. With more than ``most`` levels, the groups are ``bins`` of about equal
+    counts, each of one sign.
 
     >>> label, place = together(np.array([-9.0, -8.0, -7.0, 5.0, 6.0, 7.0]), 2)
     >>> label.tolist(), place.tolist()
@@ -31,15 +31,15 @@ def together(values: np.ndarray, most: int, bins: int | None = None) -> tuple[np
 
 
 def _binned(count: np.ndarray, sign: np.ndarray, bins: int) -> np.ndarray:
-    """Bin of each level, by how many values each has and, where both are among them, by sign."""
+    """Bin of each level, from the number of values at each level; signs are kept separate."""
     sides = [sign < 0, sign == 0, sign > 0] if sign.min() < 0 < sign.max() else [np.ones(count.size, bool)]
-    found = np.zeros(count.size)
-    for place, side in enumerate(side for side in sides if side.any()):
-        own = count[side]
-        share = max(1, round(bins * own.sum() / count.sum()))
-        rank = (np.cumsum(own) - 0.5 * own) / own.sum()
-        found[side] = place * (bins + 1) + np.floor(share * rank)
-    return np.unique(found, return_inverse=True)[1]
+    label = np.zeros(count.size)
+    for index, side in enumerate(side for side in sides if side.any()):
+        counts = count[side]
+        share = max(1, round(bins * counts.sum() / count.sum()))
+        rank = (np.cumsum(counts) - 0.5 * counts) / counts.sum()
+        label[side] = index * (bins + 1) + np.floor(share * rank)
+    return np.unique(label, return_inverse=True)[1]
 
 
 def _middle(values: np.ndarray) -> float:

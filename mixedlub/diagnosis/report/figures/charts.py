@@ -1,4 +1,4 @@
-"""Charts of the weighing: probabilities, held-out errors, next tests, and what is known of an unnamed mismatch."""
+"""Charts: probabilities, cross-validation errors, next tests, and the form of the discrepancy."""
 
 from __future__ import annotations
 
@@ -15,20 +15,22 @@ from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.report.figures import maps
 from mixedlub.diagnosis.report.figures.style import AFTER, BEFORE, FAULT, GRID, INK, MUTED, SERIES, UNNAMED, blank
 from mixedlub.diagnosis.report.text.headline import chance
-from mixedlub.diagnosis.report.text.words import told_apart
+from mixedlub.diagnosis.report.text.words import distinguishable
 from mixedlub.schema.units import unit_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SHOWN = 10
+"""Most explanations in the chart of probabilities."""
 FAINT = 1e-4
+"""Lower end of the axis of probabilities."""
 FOLD = 58
-"""Letters of a line beside a bar."""
+"""Characters in a line of text at a bar."""
 
 
 def colour_of(key: Explanation) -> str:
-    """Physics, instrument, nothing and the unnamed each have their colour."""
+    """Colour of an explanation: physics, instrument, nothing missing, or discrepancy."""
     if key.is_discrepancy:
         return UNNAMED
     if key == NOTHING:
@@ -37,7 +39,7 @@ def colour_of(key: Explanation) -> str:
 
 
 def evidence(d: Diagnosis) -> Figure:
-    """Probabilities of the explanations on a logarithmic axis; the shaded zone holds those tied with the best."""
+    """Probabilities of the explanations on a logarithmic axis; the shaded zone marks ties with the best."""
     from matplotlib.lines import Line2D
 
     judged = d.posterior
@@ -70,7 +72,7 @@ def evidence(d: Diagnosis) -> Figure:
 
 
 def heldout(d: Diagnosis) -> Figure:
-    """Error on whole levels of conditions left out of the fit, before and after, against noise."""
+    """Cross-validation error over whole levels of conditions, before and after, relative to noise."""
     kept = d.heldout
     values = [kept.before] if d.posterior.verdict == NOTHING else [kept.before, kept.after]
     names = ["calibration alone", "with the answer"][: len(values)]
@@ -78,7 +80,7 @@ def heldout(d: Diagnosis) -> Figure:
     axes = figure.add_subplot()
     axes.barh(names, values, color=[BEFORE, AFTER][: len(values)], height=0.55)
     for place, value in enumerate(values):
-        # The line of the noise may pass behind the number.
+        # The noise line may pass behind the number.
         paper = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
         text = axes.annotate(f"{value:.2f}", (value, place), xytext=(4, 0), textcoords="offset points", va="center")
         text.set(bbox=paper, zorder=4)
@@ -104,10 +106,10 @@ def heldout(d: Diagnosis) -> Figure:
 
 
 def absorbing_stages(extra: DescribedDiscrepancy) -> Figure | None:
-    """Of an unnamed mismatch: how well each stage could take it up; none where all could alike."""
+    """How well each quantity could explain the discrepancy; none where the readings do not distinguish them."""
     from matplotlib.ticker import MaxNLocator
 
-    if not told_apart(extra.stages):
+    if not distinguishable(extra.stages):
         return None
     figure = blank(5.2, 0.95 + 0.27 * len(extra.stages))
     axes = figure.add_subplot()
@@ -116,7 +118,7 @@ def absorbing_stages(extra: DescribedDiscrepancy) -> Figure | None:
     axes.barh(names, values, height=0.55, color=UNNAMED)
     axes.axvline(0.0, color=INK, lw=0.7)
     axes.invert_yaxis()
-    # The ticks are settled before the layout, which makes room only for those that it has seen.
+    # Ticks are fixed before the layout, which makes room only for those present.
     ticks = MaxNLocator(5).tick_values(min(*values, 0.0), max(*values, 0.0))
     axes.set_xticks(ticks)
     axes.set_xlim(ticks[0], ticks[-1])
@@ -127,7 +129,7 @@ def absorbing_stages(extra: DescribedDiscrepancy) -> Figure | None:
 
 
 def empirical_form(d: Diagnosis, extra: DescribedDiscrepancy) -> Figure | None:
-    """The power law of an unnamed mismatch against what was recorded; none where no law holds."""
+    """The power law of the discrepancy against the readings; none where no law holds."""
     law = extra.law
     if law is None:
         return None
@@ -160,7 +162,7 @@ def empirical_form(d: Diagnosis, extra: DescribedDiscrepancy) -> Figure | None:
 
 
 def next_test(d: Diagnosis) -> Figure | None:
-    """Where the recommended tests lie among the recorded conditions, and what each would tell."""
+    """The recommended tests among the recorded conditions, and the information expected from each."""
     tests = [t for t in d.next_tests if t.expected_bits >= 0.01]
     frame = maps.frame_of(d)
     if not tests or not frame.across or not frame.up:
@@ -168,9 +170,9 @@ def next_test(d: Diagnosis) -> Figure | None:
     figure = blank(7.4, 2.9)
     left, right = figure.subplots(1, 2, width_ratios=(1.1, 1.0))
     table = d.recorded.table
-    places, counts = np.unique(np.column_stack([table[frame.across], table[frame.up]]), axis=0, return_counts=True)
+    points, counts = np.unique(np.column_stack([table[frame.across], table[frame.up]]), axis=0, return_counts=True)
     size = 8.0 + 60.0 * counts / counts.max()
-    left.scatter(*places.T, s=size, color=MUTED, alpha=0.45, linewidths=0, label="recorded (area: readings)")
+    left.scatter(*points.T, s=size, color=MUTED, alpha=0.45, linewidths=0, label="recorded (area: readings)")
     at: dict[tuple[float, float], list[int]] = {}
     for place, t in enumerate(tests):
         at.setdefault((float(t.conditions[frame.across]), float(t.conditions[frame.up])), []).append(place)

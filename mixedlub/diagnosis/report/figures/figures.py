@@ -1,4 +1,4 @@
-"""Figures of a diagnosis: functions of the answer that return matplotlib figures."""
+"""Figures of a diagnosis, as functions of the answer."""
 
 from __future__ import annotations
 
@@ -36,11 +36,11 @@ if TYPE_CHECKING:
 
 MOST_POINTS = 1500
 MOST_LEVELS, BINS = 12, 10
-"""Levels that a profile shows one by one, and into how many bins it takes more."""
+"""Most levels that a profile shows separately, and the number of bins for more."""
 
 
 def all_figures(d: Diagnosis, extra: DescribedDiscrepancy | None = None) -> dict[str, Figure]:
-    """Every figure that the case has something to show in, by file name, in reading order."""
+    """Every figure that has content in this case, by file name, in reading order."""
     alike = confusion(d.search)
     named = tuple(dict.fromkeys(n for k in d.posterior.tied for n in k.effects))
     with look():
@@ -62,14 +62,14 @@ def all_figures(d: Diagnosis, extra: DescribedDiscrepancy | None = None) -> dict
 
 
 def _shown(d: Diagnosis) -> np.ndarray:
-    """Rows drawn one by one: all, or an even selection of very many; outliers always."""
+    """Rows that are drawn: all, or an even selection of very many; outliers always."""
     count = d.readings.size
     rows = np.unique(np.linspace(0, count - 1, min(count, MOST_POINTS)).astype(int))
     return np.union1d(rows, np.flatnonzero(d.outlier_chance > 0.5))
 
 
 def recorded_against_simulated(d: Diagnosis) -> Figure:
-    """Recorded against simulated, and what is left in sigmas: calibrated base model and answer side by side."""
+    """Recorded against simulated, and the residuals (sigma), for the calibrated base model and the answer."""
     y, p = d.readings, d.recorded
     rows = _shown(d)
     bad = d.outlier_chance > 0.5
@@ -94,7 +94,7 @@ def recorded_against_simulated(d: Diagnosis) -> Figure:
         top.scatter(simulated[bad], y[bad], s=24, facecolors="none", edgecolors=OUTLIER, linewidths=1.1)
         top.set_title(what)
         top.tick_params(labelbottom=False)
-        _left_over(foot, simulated, z, rows, bad, reach, colour)
+        _residuals(foot, simulated, z, rows, bad, reach, colour)
         rms = float(np.sqrt(np.mean(z[d.counted] ** 2)))
         foot.set_title(f"rms {rms:.2f} sigma", fontsize=8, fontweight="normal", color=MUTED)
         if not logarithmic:
@@ -112,18 +112,24 @@ def recorded_against_simulated(d: Diagnosis) -> Figure:
     return figure
 
 
-def _left_over(
+def _residuals(
     axes: Axes, simulated: np.ndarray, z: np.ndarray, rows: np.ndarray, bad: np.ndarray, reach: float, colour: str
 ) -> None:
-    """What is left in sigmas over what was simulated; what lies beyond the scale stands at its edge."""
-    held = np.clip(z, -reach, reach)
+    """Draw residuals (sigma) over simulated values; those beyond the scale are drawn at its edge."""
+    clipped = np.clip(z, -reach, reach)
     good = rows[~bad[rows]]
     axes.axhspan(-2, 2, color=GRID, lw=0)
-    axes.scatter(simulated[good], held[good], s=9, color=colour, alpha=0.75, linewidths=0)
+    axes.scatter(simulated[good], clipped[good], s=9, color=colour, alpha=0.75, linewidths=0)
     for marker, there in (("o", np.abs(z) <= reach), ("^", z > reach), ("v", z < -reach)):
-        own = bad & there
+        marked = bad & there
         axes.scatter(
-            simulated[own], held[own], s=22, marker=marker, facecolors="none", edgecolors=OUTLIER, linewidths=1.1
+            simulated[marked],
+            clipped[marked],
+            s=22,
+            marker=marker,
+            facecolors="none",
+            edgecolors=OUTLIER,
+            linewidths=1.1,
         )
     axes.set_ylim(-1.08 * reach, 1.08 * reach)
 
@@ -146,12 +152,12 @@ def _one_to_one(axes: Axes, every: np.ndarray, simulated: np.ndarray, sd: np.nda
 
 
 def _noise_along(line: np.ndarray, simulated: np.ndarray, sd: np.ndarray, logarithmic: bool) -> np.ndarray:
-    """The usual sd of readings along a line of simulated values: like values may be known very differently."""
-    label, places = together(simulated, BINS)
-    usual = np.array([np.median(sd[label == k]) for k in range(places.size)])
+    """Median sd of readings along a line of simulated values; readings of similar size may differ much in sd."""
+    label, centres = together(simulated, BINS)
+    typical = np.array([np.median(sd[label == k]) for k in range(centres.size)])
     if logarithmic:
-        return np.asarray(np.exp(np.interp(np.log(line), np.log(places), np.log(usual))))
-    return np.asarray(np.interp(line, places, usual))
+        return np.asarray(np.exp(np.interp(np.log(line), np.log(centres), np.log(typical))))
+    return np.asarray(np.interp(line, centres, typical))
 
 
 def _legend(axes: Axes, outliers: bool, beyond: bool) -> None:
@@ -160,17 +166,17 @@ def _legend(axes: Axes, outliers: bool, beyond: bool) -> None:
 
     marks: list[Line2D | Patch] = [
         Line2D([], [], color=INK, lw=0.8, label="recorded = simulated"),
-        Patch(color=GRID, label="noise, ±2 sd of the usual reading"),
+        Patch(color=GRID, label="noise, ±2 sd of a typical reading"),
     ]
     if outliers:
-        marks.append(Line2D([], [], ls="", marker="o", mfc="none", mec=OUTLIER, label="outlier, counted for little"))
+        marks.append(Line2D([], [], ls="", marker="o", mfc="none", mec=OUTLIER, label="outlier, little weight"))
     if beyond:
         marks.append(Line2D([], [], ls="", marker="^", mfc="none", mec=OUTLIER, label="outlier beyond the scale below"))
     axes.legend(handles=marks, loc="upper left")
 
 
 def missing_part(d: Diagnosis) -> Figure | None:
-    """What the base model lacks, in the unit of the reading, against the conditions: recorded and as explained."""
+    """The missing part, in the unit of the reading, over the conditions: recorded and explained."""
     if d.posterior.verdict == NOTHING:
         return None
     p = d.recorded
@@ -204,22 +210,22 @@ def missing_part(d: Diagnosis) -> Figure | None:
 
 
 def _spread(x: np.ndarray, by: np.ndarray) -> np.ndarray:
-    """Values of few levels pulled apart a little, in the order of another quantity, so that none hides another."""
+    """Spread points of few levels a little, in the order of another quantity, so that none hides another."""
     levels, label = np.unique(x, return_inverse=True)
     if levels.size > 12 or levels.size < 2:
         return x
-    place = np.zeros(x.size)
+    position = np.zeros(x.size)
     for k in range(levels.size):
-        own = np.flatnonzero(label == k)
-        own = own[np.argsort(by[own], kind="stable")]
-        place[own] = np.linspace(-1.0, 1.0, own.size) if own.size > 1 else 0.0
+        members = np.flatnonzero(label == k)
+        members = members[np.argsort(by[members], kind="stable")]
+        position[members] = np.linspace(-1.0, 1.0, members.size) if members.size > 1 else 0.0
     if by_decades(levels):
-        return np.asarray(x * (levels[1:] / levels[:-1]).min() ** (0.22 * place))
-    return np.asarray(x + 0.22 * float(np.diff(levels).min()) * place)
+        return np.asarray(x * (levels[1:] / levels[:-1]).min() ** (0.22 * position))
+    return np.asarray(x + 0.22 * float(np.diff(levels).min()) * position)
 
 
 def profiles(d: Diagnosis) -> Figure | None:
-    """Mean residual along each condition, calibrated base model and answer; bars are two standard errors."""
+    """Mean residual along each condition, before and after; bars are two standard errors."""
     before, after = d.residuals
     good = d.counted
     table = d.recorded.table
@@ -258,17 +264,17 @@ def _profile(axes: Axes, values: np.ndarray, before: np.ndarray, after: np.ndarr
     x = np.arange(levels.size, dtype=float) if named else levels
     count = np.bincount(label)
     axes.axhline(0.0, color=INK, lw=0.7)
-    # A line from one sign to the other would say something of speeds between them that were not run.
+    # A line across zero would suggest readings at speeds that were not run.
     turns = [0, *(np.flatnonzero((x[:-1] < 0) & (x[1:] > 0)) + 1), x.size]
     for z, colour, name in ((before, BEFORE, "before"), (after, AFTER, "after")):
         mean = np.bincount(label, z) / count
         error = 2.0 / np.sqrt(count)
         for start, stop in pairwise(turns):
-            own = slice(start, stop)
+            segment = slice(start, stop)
             axes.errorbar(
-                x[own],
-                mean[own],
-                yerr=error[own],
+                x[segment],
+                mean[segment],
+                yerr=error[segment],
                 color=colour,
                 marker="o",
                 ms=3.2,
@@ -295,18 +301,18 @@ def intervals(d: Diagnosis) -> Figure:
     low, high = ((p.low90 - p.predicted) * scale)[order], ((p.high90 - p.predicted) * scale)[order]
     base = ((p.calibrated - p.predicted) * scale)[order]
     bad = d.outlier_chance[order] > 0.5
-    held = (y >= p.low90) & (y <= p.high90)
-    inside = held[order]
-    place = np.arange(order.size)
+    covered = (y >= p.low90) & (y <= p.high90)
+    inside = covered[order]
+    index = np.arange(order.size)
     figure = blank(7.4, 2.9)
     axes = figure.add_subplot()
-    axes.fill_between(place, low, high, step="mid", color="#cfe3ea", lw=0, label="90 % interval")
-    axes.scatter(place, base, s=16, marker="_", color=BEFORE, linewidths=1.1, label="calibrated base model")
-    axes.scatter(place[inside & ~bad], away[inside & ~bad], s=8, color=INK, linewidths=0, label="inside")
-    axes.scatter(place[~inside & ~bad], away[~inside & ~bad], s=14, color=SERIES[5], linewidths=0, label="outside")
+    axes.fill_between(index, low, high, step="mid", color="#cfe3ea", lw=0, label="90 % interval")
+    axes.scatter(index, base, s=16, marker="_", color=BEFORE, linewidths=1.1, label="calibrated base model")
+    axes.scatter(index[inside & ~bad], away[inside & ~bad], s=8, color=INK, linewidths=0, label="inside")
+    axes.scatter(index[~inside & ~bad], away[~inside & ~bad], s=14, color=SERIES[5], linewidths=0, label="outside")
     reach = 1.25 * float(np.max(np.abs(np.concatenate([low, high, away[~bad], np.quantile(base, [0.02, 0.98])]))))
     if bad.any():
-        _outliers(axes, place[bad], away[bad], reach)
+        _outliers(axes, index[bad], away[bad], reach)
     axes.set_ylim(-reach, reach)
     axes.set_xlim(-1, order.size)
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
@@ -314,21 +320,21 @@ def intervals(d: Diagnosis) -> Figure:
     axes.set_ylabel(f"recorded − predicted ({unit})")
     axes.set_xlabel(f"reading, sorted by predicted {words_of(d.case.quantity)}")
     good = d.counted
-    beside = int((~good).sum())
-    drawn = [f"{beside} outlier{'s' if beside > 1 else ''} not counted"] if beside else []
+    n_outliers = int((~good).sum())
+    drawn = [f"{n_outliers} outlier{'s' if n_outliers > 1 else ''} not counted"] if n_outliers else []
     drawn += [f"{order.size} readings drawn"] if order.size < y.size else []
-    counted = f"{int((held & good).sum())} of {int(good.sum())} readings inside"
+    counted = f"{int((covered & good).sum())} of {int(good.sum())} readings inside"
     axes.set_title("\n".join([counted, ", ".join(drawn)]).rstrip(), fontweight="normal")
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=5, columnspacing=1.2, handletextpad=0.4)
     return figure
 
 
 def _outliers(axes: Axes, place: np.ndarray, away: np.ndarray, reach: float) -> None:
-    """Rings, and triangles at the edge for what lies beyond the scale."""
+    """Draw outliers as rings; those beyond the scale as triangles at its edge."""
     edge = 0.94 * reach
     label: str | None = "outlier"
     for marker, there in (("o", np.abs(away) <= edge), ("^", away > edge), ("v", away < -edge)):
         if there.any():
-            held = np.clip(away[there], -edge, edge)
-            axes.scatter(place[there], held, s=26, marker=marker, facecolors="none", edgecolors=OUTLIER, label=label)
+            clipped = np.clip(away[there], -edge, edge)
+            axes.scatter(place[there], clipped, s=26, marker=marker, facecolors="none", edgecolors=OUTLIER, label=label)
             label = None

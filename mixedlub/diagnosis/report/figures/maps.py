@@ -1,4 +1,4 @@
-"""Maps: residuals over the test conditions and over roll angle, and which effects look alike."""
+"""Maps: residuals over the test conditions and over roll angle, and similarity of the effects."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ MOST_TILES = 2000
 MOST_ROWS = 40
 MOST_EFFECTS = 26
 BLOCK = 0.92
-"""Side of the tiles of one place together, where 1 is the distance to the next."""
+"""Width of a block of tiles; the distance between blocks is 1."""
 LIMIT = 5.0
 DRIFT = 0.05
 
 
 @dataclass(frozen=True)
 class Frame:
-    """Which conditions a map has across, up, and from panel to panel; empty where there is none."""
+    """The conditions along x, along y and over the panels of a map; empty where there is none."""
 
     across: str
     up: str
@@ -43,9 +43,9 @@ class Frame:
 
 
 def frame_of(d: Diagnosis) -> Frame:
-    """The map's axes: the conditions that were varied, each where a reader expects it."""
+    """The axes of the map: the varied conditions, each where a reader expects it."""
     varied = _varied(d)
-    # In a history of friction it is time that tells: it comes before what was set.
+    # In a history of friction time matters most: it comes before the set points.
     chosen = [n for n in ("time_s",) if n in varied and d.case.kind.is_history]
     for wanted in (ACROSS, UP, PANELS)[len(chosen) :]:
         name = next((n for n in wanted if n in varied and n not in chosen), "")
@@ -56,7 +56,7 @@ def frame_of(d: Diagnosis) -> Frame:
 
 
 def _varied(d: Diagnosis) -> list[str]:
-    """Numeric conditions that were varied, by more than they drift by themselves or jitter about a set-point."""
+    """Numeric conditions that were varied by more than drift or noise about a set point."""
     table = d.recorded.table
     names = [c.name for c in d.case.kind.columns if c.form != "name" and c.name in table]
     moved = [n for n in names if np.ptp(table[n]) > DRIFT * np.max(np.abs(table[n]))]
@@ -64,7 +64,7 @@ def _varied(d: Diagnosis) -> list[str]:
 
 
 def residual_map(d: Diagnosis) -> Figure | None:
-    """Residuals over the conditions: calibrated base model above, the answer below."""
+    """Residuals over the conditions: calibrated base model in the upper row, the answer in the lower."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
 
@@ -95,16 +95,16 @@ def residual_map(d: Diagnosis) -> Figure | None:
 
 
 def _limit(z: np.ndarray) -> float:
-    """The end of the colour scale: wide enough for nearly all, never so narrow that noise looks like a finding."""
+    """Limit of the colour scale: it covers nearly all residuals, and is wide enough that noise stays pale."""
     return float(np.clip(np.quantile(np.abs(z), 0.95) if z.size else 0.0, 3.0, 3.0 * LIMIT))
 
 
 def _levels(values: np.ndarray, most: int, name: str) -> tuple[np.ndarray, list[str]]:
-    """Level of each value, and the levels' names; bins where there are too many."""
+    """Level of each value, and the names of the levels; bins where there are too many."""
     if not name:
         return np.zeros(values.size, int), [""]
-    label, places = together(values, most)
-    ends = [[number(float(end(values[label == k]))) for end in (np.min, np.max)] for k in range(places.size)]
+    label, centres = together(values, most)
+    ends = [[number(float(end(values[label == k]))) for end in (np.min, np.max)] for k in range(centres.size)]
     spans = [f"{'' if low == high else f'{low} to '}{amount(float(high), name)}" for low, high in ends]
     return label, [f"{words_of(name)} {span}" for span in spans]
 
@@ -112,9 +112,9 @@ def _levels(values: np.ndarray, most: int, name: str) -> tuple[np.ndarray, list[
 def _tiles(
     axes: Axes, d: Diagnosis, frame: Frame, here: np.ndarray, z: np.ndarray, norm: Normalize, outlier: np.ndarray
 ) -> None:
-    """One panel: a block for every pair of levels, in it a tile for every reading taken there.
+    """Draw one panel: a block for every pair of levels, with a tile for every reading.
 
-    Where readings are very many a tile is the mean of a few.
+    With very many readings, a tile is the mean of a few.
     """
     from matplotlib.collections import PatchCollection
     from matplotlib.patches import Rectangle
@@ -130,8 +130,8 @@ def _tiles(
     for (x, y), members in groups.items():
         members.sort(key=lambda i: _order(d, i))
         shared = [part.tolist() for part in np.array_split(members, min(len(members), most))]
-        for (left, low, wide, tall), own in zip(_block(len(shared)), shared, strict=True):
-            sound = [i for i in own if not outlier[i]]
+        for (left, low, wide, tall), tile_members in zip(_block(len(shared)), shared, strict=True):
+            sound = [i for i in tile_members if not outlier[i]]
             patches.append(Rectangle((x + left, y + low), wide, tall))
             colours.append(float(np.mean(z[sound])) if sound else np.nan)
             if not sound:
@@ -142,8 +142,8 @@ def _tiles(
     tiles.set_array(np.array(colours))
     axes.add_collection(tiles)
     if crosses:
-        place = np.array(crosses)
-        axes.scatter(place[:, 0], place[:, 1], marker="x", s=22, color=OUTLIER, linewidths=1.2)
+        marks = np.array(crosses)
+        axes.scatter(marks[:, 0], marks[:, 1], marker="x", s=22, color=OUTLIER, linewidths=1.2)
     axes.set_xlim(-0.55, len(across_names) - 0.45)
     axes.set_ylim(-0.55, len(up_names) - 0.45)
     axes.set_xticks(range(len(across_names)), across_names, rotation=90 if len(across_names) > 6 else 0)
@@ -154,13 +154,14 @@ def _tiles(
 
 
 def _block(count: int) -> list[tuple[float, float, float, float]]:
-    """A block around the origin cut into ``count`` tiles (left, bottom, width, height), rows as even as they go."""
+    """A block around the origin divided into ``count`` tiles (left, bottom, width, height) in even rows."""
     side = BLOCK
     rows = max(1, round(float(np.sqrt(count / 1.8))))
     tiles, start = [], -0.5 * side
     for row in range(rows):
-        own = count * (row + 1) // rows - count * row // rows
-        tiles += [(start + side * k / own, start + side * row / rows, side / own, side / rows) for k in range(own)]
+        columns = count * (row + 1) // rows - count * row // rows
+        width, bottom = side / columns, start + side * row / rows
+        tiles += [(start + side * k / columns, bottom, width, side / rows) for k in range(columns)]
     return tiles
 
 
@@ -171,14 +172,14 @@ def _ticks(values: np.ndarray) -> tuple[np.ndarray, list[str]]:
 
 
 def _order(d: Diagnosis, row: int) -> tuple[str, ...]:
-    """Readings of one block stand in the same order everywhere: by their other conditions."""
+    """Sort key of the readings in a block: their conditions, so that all blocks have the same order."""
     table = d.recorded.table
     names = [c.name for c in d.case.kind.columns if c.name in table]
     return tuple(f"{table[n][row]:012.4f}" if table[n].dtype.kind == "f" else str(table[n][row]) for n in names)
 
 
 def roll_angle_map(d: Diagnosis) -> Figure | None:
-    """Residuals of tooth friction over roll angle, one row a test condition, before and after."""
+    """Residuals of tooth friction over roll angle, one row per test condition, before and after."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
 
@@ -193,7 +194,7 @@ def roll_angle_map(d: Diagnosis) -> Figure | None:
     order = np.lexsort(keys)
     rows = list(dict.fromkeys(texts[order].tolist()))
     row_of = {text: i for i, text in enumerate(rows)}
-    place = np.array([row_of[text] for text in texts.tolist()])
+    row = np.array([row_of[text] for text in texts.tolist()])
     before, after = d.residuals
     outlier = d.outlier_chance > 0.5
     limit = _limit(before[d.counted])
@@ -203,9 +204,9 @@ def roll_angle_map(d: Diagnosis) -> Figure | None:
     for panel, z, what in zip(
         axes, (before, after), ("before: calibrated base model", "after: with the answer"), strict=True
     ):
-        _cells(panel, np.asarray(table["roll_angle_deg"], dtype=float), place, z, norm)
+        _cells(panel, np.asarray(table["roll_angle_deg"], dtype=float), row, z, norm)
         if outlier.any():
-            panel.scatter(table["roll_angle_deg"][outlier], place[outlier], marker="x", s=14, color=OUTLIER)
+            panel.scatter(table["roll_angle_deg"][outlier], row[outlier], marker="x", s=14, color=OUTLIER)
         panel.set_title(what)
         panel.set_xlabel(axis_label("roll_angle_deg"))
         panel.set_facecolor(PAPER)
@@ -220,18 +221,18 @@ def roll_angle_map(d: Diagnosis) -> Figure | None:
 
 
 def _cells(axes: Axes, x: np.ndarray, row: np.ndarray, z: np.ndarray, norm: Normalize) -> None:
-    """A tile for every reading, reaching half way to its neighbours in the row."""
+    """Draw a tile for every reading, up to half way to its neighbours in the row."""
     from matplotlib.collections import PatchCollection
     from matplotlib.patches import Rectangle
 
     widest = float(np.median(np.diff(np.unique(x)))) if np.unique(x).size > 1 else 1.0
     patches, colours = [], []
     for k in np.unique(row):
-        own = np.flatnonzero(row == k)
-        own = own[np.argsort(x[own], kind="stable")]
-        gap = np.minimum(np.diff(x[own]), 2.0 * widest) / 2.0
+        members = np.flatnonzero(row == k)
+        members = members[np.argsort(x[members], kind="stable")]
+        gap = np.minimum(np.diff(x[members]), 2.0 * widest) / 2.0
         left, right = np.append(widest / 2.0, gap), np.append(gap, widest / 2.0)
-        for i, before, after in zip(own, left, right, strict=True):
+        for i, before, after in zip(members, left, right, strict=True):
             patches.append(Rectangle((x[i] - before, k - 0.44), before + after, 0.88))
             colours.append(z[i])
     tiles = PatchCollection(patches, cmap=DIVERGING, norm=norm, edgecolor="white", linewidth=0.3)
@@ -246,11 +247,11 @@ def _short(name: str, value: float | str) -> str:
 
 
 def confusability(alike: Confusion, emphasised: tuple[str, ...]) -> Figure | None:
-    """Cosines between the effects' signatures, and how visible each is at its usual strength."""
+    """Cosines between the effects' signatures, and how visible each is at its typical strength."""
     if len(alike.ids) < 2:
         return None
     chosen = _chosen(alike, emphasised, MOST_EFFECTS)
-    order = chosen[_alike_together(alike.cosine[np.ix_(chosen, chosen)])]
+    order = chosen[_similarity_order(alike.cosine[np.ix_(chosen, chosen)])]
     cosine = alike.cosine[np.ix_(order, order)]
     names = [effect_words(alike.ids[i]) for i in order]
     count = len(order)
@@ -280,7 +281,7 @@ def confusability(alike: Confusion, emphasised: tuple[str, ...]) -> Figure | Non
     axes.tick_params(length=0)
     bar = figure.colorbar(mesh, ax=axes, location="top", aspect=30, pad=0.01)
     bar.outline.set_visible(False)
-    bar.set_label("cosine between signatures (1: cannot be told apart)")
+    bar.set_label("cosine between signatures (1: indistinguishable)")
     side.barh(np.arange(count) + 0.5, np.maximum(alike.visibility[order], 0.05), height=0.62, color=MUTED)
     side.axvline(VISIBLE, color=INK, lw=0.8, ls="--")
     side.set_xscale("log")
@@ -292,17 +293,17 @@ def confusability(alike: Confusion, emphasised: tuple[str, ...]) -> Figure | Non
 
 
 def _chosen(alike: Confusion, emphasised: tuple[str, ...], most: int) -> np.ndarray:
-    """The effects shown: those of the answer, then those most like them, then the most visible."""
+    """The effects shown: those of the answer, then the most similar, then the most visible."""
     if len(alike.ids) <= most:
         return np.arange(len(alike.ids))
-    own = [alike.ids.index(name) for name in emphasised if name in alike.ids]
-    likeness = np.abs(alike.cosine[own]).max(axis=0) if own else alike.visibility / alike.visibility.max()
-    rank = np.argsort(-(likeness + 10.0 * np.isin(np.arange(len(alike.ids)), own)), kind="stable")
+    answer = [alike.ids.index(name) for name in emphasised if name in alike.ids]
+    likeness = np.abs(alike.cosine[answer]).max(axis=0) if answer else alike.visibility / alike.visibility.max()
+    rank = np.argsort(-(likeness + 10.0 * np.isin(np.arange(len(alike.ids)), answer)), kind="stable")
     return np.sort(rank[:most])
 
 
-def _alike_together(cosine: np.ndarray) -> np.ndarray:
-    """An order in which effects that look alike are neighbours."""
+def _similarity_order(cosine: np.ndarray) -> np.ndarray:
+    """An order in which similar effects are neighbours."""
     from scipy.cluster.hierarchy import leaves_list, linkage
     from scipy.spatial.distance import squareform
 

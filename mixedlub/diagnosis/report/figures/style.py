@@ -1,4 +1,4 @@
-"""What the figures of a diagnosis add to the common look: colours by meaning, plain logarithmic ticks."""
+"""Style of the diagnosis figures, added to the common one: colours by meaning, plain logarithmic ticks."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ RULES: Any = {
 
 @contextmanager
 def look() -> Iterator[None]:
-    """Everything drawn inside has the common look, with what the figures of a diagnosis add to it."""
+    """Context in which figures are drawn in the style of a diagnosis."""
     from matplotlib import rc_context
 
     with styled(), rc_context(RULES):
@@ -54,9 +54,9 @@ def blank(width: float, height: float) -> Figure:
 
 
 def as_drawn(figure: Figure) -> str:
-    """The figure as an `svg` element, its layout done once and not again by saving.
+    """The figure as an `svg` element; the layout is computed once and not again on saving.
 
-    All within the look: where the size of tick labels is another one, there may be more of them than the layout saw.
+    The style applies to both steps: another size of tick labels could add labels that the layout has no room for.
     """
     with look():
         engine = figure.get_layout_engine()
@@ -67,14 +67,14 @@ def as_drawn(figure: Figure) -> str:
 
 
 def inline(svg: str, prefix: str) -> str:
-    """An SVG element with its ids made unique by a prefix, so that many can stand in one page."""
+    """An SVG element with ids made unique by a prefix, so that one page can hold many."""
     body = re.sub(r'\bid="([^"]+)"', rf'id="{prefix}-\1"', svg)
     body = re.sub(r"url\(#([^)]+)\)", rf"url(#{prefix}-\1)", body)
     return re.sub(r'xlink:href="#([^"]+)"', rf'xlink:href="#{prefix}-\1"', body)
 
 
 def wide(values: np.ndarray, ratio: float = 8.0) -> bool:
-    """Whether positive numbers span so much that they belong on a logarithmic axis."""
+    """Whether all values are positive and span enough for a logarithmic axis."""
     return bool((values > 0).all() and values.max() > ratio * values.min())
 
 
@@ -89,7 +89,7 @@ def by_decades(values: np.ndarray) -> bool:
 
 
 def log_ticks(axes: Axes, which: str) -> None:
-    """Plain numbers on a logarithmic axis: at 1, 2, 5, or at the decades where there are many."""
+    """Plain numbers on a logarithmic axis: at 1, 2 and 5, or at decades where there are many."""
     from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
     axis = axes.xaxis if which == "x" else axes.yaxis

@@ -1,1 +1,1 @@
-"""The answer in words and numbers."""
+"""The answer as text and numbers."""

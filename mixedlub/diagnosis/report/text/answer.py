@@ -1,4 +1,4 @@
-"""The answer as other programs read it: `diagnosis.json` and `predictions.csv`."""
+"""The answer for other programs: `diagnosis.json` and `predictions.csv`."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
 
 
 def verdict_fit(d: Diagnosis) -> Refined:
-    """The refined fit of the verdict; of the calibrated base where the verdict is unknown."""
+    """The refined fit of the verdict, or of the calibrated base model where the verdict is a discrepancy."""
     key = d.posterior.verdict
     return d.refined[NOTHING if key.is_discrepancy else key]
 
@@ -80,22 +80,22 @@ def verdict_fit(d: Diagnosis) -> Refined:
 def verdict_residual(d: Diagnosis) -> np.ndarray:
     """(recorded - fitted)/sd of a single reading after the verdict."""
     discrepancy = d.posterior.verdict.is_discrepancy
-    left = d.search.discrepancy.fit.residual if discrepancy else verdict_fit(d).residual
-    return d.search.problem.single_reading_units(left)
+    residual = d.search.discrepancy.fit.residual if discrepancy else verdict_fit(d).residual
+    return d.search.problem.single_reading_units(residual)
 
 
 def effect_records(d: Diagnosis) -> list[dict[str, Any]]:
     """The verdict's effects with their fitted parameters."""
     refined = verdict_fit(d)
     spread = refined.spread
-    place = d.search.problem.calibration_size
+    index = d.search.problem.calibration_size
     records = []
     for e in d.search.problem.effects(refined.fit.explanation):
         parameters = []
         for p in e.parameters:
-            value, low, high = _told(refined, p.prior, place, spread[place])
+            value, low, high = _value_and_interval(refined, p.prior, index, spread[index])
             parameters.append({"name": p.name, "unit": p.unit, "value": value, "low90": low, "high90": high})
-            place += 1
+            index += 1
         record = {"id": e.id, "parameters": parameters, "source": e.source, "equation": e.equation}
         laws = [{"law": c.law, "log_odds": c.log_odds} for c in d.contained if c.effect == e.id]
         records.append({**record, "contains": laws} if laws else record)
@@ -123,23 +123,23 @@ def interval(prior: Prior, z: float, spread: float) -> tuple[float, float, float
     return prior.value(float(z)), min(ends), max(ends)
 
 
-def _told(refined: Refined, prior: Prior, index: int, spread: float) -> tuple[float, float, float]:
-    """The same of a coordinate of a fit; that of a place from all places where it may stand."""
-    for stands in refined.change_points:
-        if stands.index == index:
-            low, value, high = (prior.value(stands.at(share)) for share in (0.05, 0.5, 0.95))
+def _value_and_interval(refined: Refined, prior: Prior, index: int, spread: float) -> tuple[float, float, float]:
+    """Value and 90 % interval of a fitted coordinate; for a change point, quantiles of its posterior."""
+    for change_point in refined.change_points:
+        if change_point.index == index:
+            low, value, high = (prior.value(change_point.at(share)) for share in (0.05, 0.5, 0.95))
             return value, low, high
     return interval(prior, refined.z[index], spread)
 
 
 def separating_text(names: tuple[str, ...]) -> str:
-    """What the catalogue says about telling the named effects apart."""
+    """The catalogue's tests that separate the named effects."""
     ids = [part for name in names for part in name.split("+") if part not in NOTHING.ids + DISCREPANCY.ids]
     return "; ".join(dict.fromkeys(f"{e.id}: {e.separated_by}" for e in effects_of(ids)))
 
 
 def predictions(d: Diagnosis) -> pd.DataFrame:
-    """Predictions of the recorded and the wanted rows, each run once; behind them conditions and recorded readings."""
+    """Predictions of the recorded and requested rows, each run once, with conditions and recorded readings."""
     import pandas as pd
 
     parts = []
@@ -152,4 +152,4 @@ def predictions(d: Diagnosis) -> pd.DataFrame:
 
 
 PREDICTED = ("base", "calibrated", "predicted", "low90", "high90", "mismatch_z")
-"""Columns of the table of predictions behind the run."""
+"""Columns of the table of predictions after the run."""

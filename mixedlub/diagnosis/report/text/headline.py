@@ -1,4 +1,4 @@
-"""The verdict in a few sentences, with what speaks against believing it."""
+"""The verdict in a few sentences, with the findings that question it."""
 
 from __future__ import annotations
 
@@ -10,16 +10,17 @@ from mixedlub.diagnosis.problem import effects_of
 from mixedlub.schema.findings import Severity, codes, grouped, of_severity
 
 NO_ANSWER = (
-    "No answer: every reading counts as wrong, whatever is taken to explain it. Look first at the units and scales of "
-    "all columns; what follows tells nothing of the rig."
+    "No answer: every reading counts as wrong under every explanation. Check first the units and scales of all "
+    "columns; the rest of this report says nothing about the rig."
 )
 MOST_TIED = 5
-"""Tied explanations that are named."""
+"""Most tied explanations that are named."""
 LEAST_P = 1e-300
+"""Smallest p-value that is printed: near the smallest float."""
 
 
 def chance(p: float) -> str:
-    """A probability as it is said: neither certain nor impossible.
+    """A probability as printed: never 0 or 1.
 
     >>> chance(0.853), chance(0.9999), chance(0.001)
     ('0.85', 'above 0.99', 'below 0.01')
@@ -29,7 +30,7 @@ def chance(p: float) -> str:
 
 
 def percent(p: float) -> str:
-    """The same in percent.
+    """A probability in percent, never 0 or 100.
 
     >>> percent(0.853), percent(0.9999), percent(0.001)
     ('85 %', '>99 %', '<1 %')
@@ -39,7 +40,7 @@ def percent(p: float) -> str:
 
 
 def hundredths(p: float) -> int:
-    """A probability in hundredths, rounded once for all that say it: 0 and 100 are said as less and as more.
+    """A probability in hundredths, rounded in the same way wherever it is printed.
 
     >>> [hundredths(p) for p in (0.0049, 0.0055, 0.9945, 0.9951)]
     [0, 1, 99, 100]
@@ -48,7 +49,7 @@ def hundredths(p: float) -> int:
 
 
 def p_words(p: float) -> str:
-    """The p-value of the mismatch test as it is said everywhere.
+    """The p-value of the mismatch test as printed everywhere.
 
     >>> p_words(0.0042), p_words(1e-304)
     ('0.0042', 'below 1e-300')
@@ -57,32 +58,32 @@ def p_words(p: float) -> str:
 
 
 def doubts(d: Diagnosis) -> tuple[str, ...]:
-    """Findings that question the whole answer, as they are printed above it."""
+    """Findings that question the whole answer, printed above it."""
     return tuple(f"Doubtful: {one}." for one in grouped(of_severity(d.warnings, Severity.DOUBT)))
 
 
 def lesser(d: Diagnosis) -> tuple[str, ...]:
     """The other findings, cautions first."""
     others = (of_severity(d.warnings, severity) for severity in (Severity.CAUTION, Severity.NOTE))
-    return tuple(str(one) for found in others for one in grouped(found))
+    return tuple(str(one) for findings in others for one in grouped(findings))
 
 
 def headline(d: Diagnosis) -> str:
-    """The verdict in one sentence; where readings are few or all wrong, after one that says so."""
+    """The verdict in one sentence, preceded by a warning where readings are few or all outliers."""
     count = d.readings.size
-    said = _verdict(d)
+    sentence = _verdict(d)
     if d.posterior.verdict.is_discrepancy and "repeats_contradictory" in codes(d.warnings):
-        said = f"Readings at equal conditions contradict each other: check instrument and set-up first. {said}"
+        sentence = f"Readings at equal conditions contradict each other: check instrument and set-up first. {sentence}"
     if count < SCARCE:
-        said = f"Only {count} readings: take this as a hint, not as a finding. {said}"
-    return f"{NO_ANSWER} {said}" if (d.outlier_chance > 0.5).all() else said
+        sentence = f"Only {count} readings: take this as a hint, not as a finding. {sentence}"
+    return f"{NO_ANSWER} {sentence}" if (d.outlier_chance > 0.5).all() else sentence
 
 
 def _verdict(d: Diagnosis) -> str:
     judged = d.posterior
     common = _common(d)
     if common:
-        return _beside(d, common)
+        return _tie_with_common(d, common)
     if len(judged.tied) > 1:
         named = [f"{explanation_words(k.ids)} ({chance(judged.weights[k])})" for k in judged.tied[:MOST_TIED]]
         rest = _rest(d)
@@ -115,26 +116,26 @@ def _verdict(d: Diagnosis) -> str:
 
 
 def _rest(d: Diagnosis) -> list[str]:
-    """Tied explanations that are not named, as one item of the list."""
+    """The tied explanations beyond those named, as one item of the list."""
     more = len(d.posterior.tied) - MOST_TIED
     return [f"{more} less probable one{'s' if more > 1 else ''}"] if more > 0 else []
 
 
 def _common(d: Diagnosis) -> list[str]:
-    """Effects that are in every one of several tied explanations."""
+    """Effects common to all of several tied explanations."""
     named = [set(k.effects) for k in d.posterior.tied if not k.is_discrepancy]
     return sorted(set.intersection(*named)) if len(named) == len(d.posterior.tied) > 1 else []
 
 
-def _beside(d: Diagnosis, common: list[str]) -> str:
-    """A tie all of whose explanations share something, and the readings leave open what acts as well."""
+def _tie_with_common(d: Diagnosis, common: list[str]) -> str:
+    """A tie whose explanations share some effects and differ in the others."""
     judged, inclusion = d.posterior, d.posterior.inclusion(d.search)
     shared = " and ".join(f"{effect_words(name)} ({chance(inclusion[name])})" for name in common)
     each = []
     for key in judged.tied[:MOST_TIED]:
-        beside = [name for name in key.ids if name not in common]
+        others = [name for name in key.ids if name not in common]
         p = chance(judged.weights[key])
-        each.append(f"{explanation_words(beside) if beside else 'nothing else'} ({p})")
+        each.append(f"{explanation_words(others) if others else 'nothing else'} ({p})")
     return f"In every explanation left: {shared}. A tie in what acts as well: {'; '.join([*each, *_rest(d)])}."
 
 
@@ -147,36 +148,36 @@ def _listed(items: list[str], last: str) -> str:
     return items[0] if len(items) == 1 else f"{'; '.join(items[:-1])}; {last} {items[-1]}"
 
 
-def standing(d: Diagnosis) -> list[str]:
-    """How probable the parts of the answer are by themselves, and where in the chain they act."""
+def probabilities(d: Diagnosis) -> list[str]:
+    """Probabilities of the effects of the answer, and of the steps of the model at fault."""
     judged = d.posterior
-    said = _each(d, set(_common(d)))
+    sentences = _each(d, set(_common(d)))
     stages = {name: p for name, p in judged.stages().items() if p >= 0.05}
     if judged.verdict != NOTHING and stages:
         ranked = sorted(stages.items(), key=lambda item: -item[1])
-        said.append(
+        sentences.append(
             "Step of the model at fault: " + ", ".join(f"{STAGE_WORDS[s]} ({chance(p)})" for s, p in ranked) + "."
         )
-    return said
+    return sentences
 
 
-def _each(d: Diagnosis, told: set[str]) -> list[str]:
-    """How probable the effects of the answer are in all explanations, where that differs from the answer as a whole."""
+def _each(d: Diagnosis, named: set[str]) -> list[str]:
+    """Probability of each effect over all explanations, where it differs from that of the answer."""
     judged = d.posterior
-    every, own = judged.inclusion(d.search), chance(judged.weights[judged.verdict])
-    names = [name for name in judged.verdict.effects if name not in told and chance(every[name]) != own]
+    every, answer = judged.inclusion(d.search), chance(judged.weights[judged.verdict])
+    names = [name for name in judged.verdict.effects if name not in named and chance(every[name]) != answer]
     if not names:
         return []
     return [f"{with_names(effect_words(name))}: {probability_words(d, name)}." for name in names]
 
 
 def probability_words(d: Diagnosis, name: str) -> str:
-    """How probable one effect of the verdict is, and with what it was counted."""
+    """Probability of one effect of the verdict, alone and together with others."""
     key = d.posterior.verdict
-    own, every = chance(d.posterior.weights[key]), chance(d.posterior.inclusion(d.search)[name])
-    if own == every:
+    answer, every = chance(d.posterior.weights[key]), chance(d.posterior.inclusion(d.search)[name])
+    if answer == every:
         return f"probability {every}"
     if len(key.effects) == 1:
-        return f"probability {own} alone, {every} alone or with a second effect"
-    beside = explanation_words([other for other in key.effects if other != name])
-    return f"probability {own} together with {beside}, {every} overall"
+        return f"probability {answer} alone, {every} alone or with a second effect"
+    others = explanation_words([other for other in key.effects if other != name])
+    return f"probability {answer} together with {others}, {every} overall"

@@ -1,4 +1,4 @@
-"""Where simulation and recording part, in words."""
+"""Location of the mismatch in words."""
 
 from __future__ import annotations
 
@@ -16,27 +16,27 @@ SPREAD = (
 )
 LEVEL = "Without a named cause, calibration may have absorbed a constant part; location and sign are then not unique."
 TURNED = 0.2
-"""Share of readings whose sign in the figures is another one, from which that is explained."""
+"""Share of readings with another sign in the figures, from which the report explains the difference."""
 EVEN = 0.3
-"""Share that stays of a mismatch when its signs cancel, below which neither sign is named."""
+"""Net over total mismatch below which no sign is named."""
 
 
 def where(d: Diagnosis) -> tuple[str, ...]:
-    """The place of the mismatch, its largest reading, and why signs in the figures may differ."""
+    """Location of the mismatch, its largest value, and why signs in the figures may differ."""
     if d.posterior.verdict == NOTHING:
         return ()
     z = _mismatch(d)
     most = int(np.argmax(np.abs(z)))
     run, conditions = int(d.recorded.table["run"][most]), reading_conditions(d, most)
-    said: tuple[str, ...] = (located(d), f"Largest at run {run} ({conditions}): {z[most]:+.1f} sigma.")
+    sentences: tuple[str, ...] = (located(d), f"Largest at run {run} ({conditions}): {z[most]:+.1f} sigma.")
     if d.posterior.verdict.is_discrepancy and d.search.problem.calibration_size and not d.region.inside.all():
-        said = (*said, LEVEL)
+        sentences = (*sentences, LEVEL)
     turned = np.sign(d.residuals[0]) != np.sign(z)
-    return (*said, SPREAD) if turned.mean() > TURNED else said
+    return (*sentences, SPREAD) if turned.mean() > TURNED else sentences
 
 
 def located(d: Diagnosis) -> str:
-    """Where the rig reads other than the model without the answer, which way, and how much there and elsewhere."""
+    """Where the rig differs from the model without the answer, in which direction, and by how much."""
     z, inside = _mismatch(d), d.region.inside
     if not z.any():
         return NOWHERE
@@ -52,12 +52,12 @@ def located(d: Diagnosis) -> str:
 
 
 def _mismatch(d: Diagnosis) -> np.ndarray:
-    """The mismatch of each reading in sigmas; what is wrong with a reading itself is none."""
+    """The mismatch of each reading (sigma); zero for outliers."""
     return np.where(d.counted, d.recorded.mismatch_z, 0.0)
 
 
 def _direction(z: np.ndarray, predicted: np.ndarray) -> str:
-    """Whether readings are more or less than expected, or larger or smaller where some are negative.
+    """Whether readings are more or less than expected, or more or less in size where signs are mixed.
 
     >>> _direction(np.array([2.0, 3.0]), np.ones(2)), _direction(np.array([2.0, -3.0]), np.array([1.0, -1.0]))
     ('more', 'more in size, either sign,')
@@ -74,7 +74,7 @@ def _direction(z: np.ndarray, predicted: np.ndarray) -> str:
 
 
 def _share(lacking: np.ndarray, predicted: np.ndarray) -> np.ndarray:
-    """What is missing over the larger of the reading and the model without it: either may be all but 0.
+    """Missing part relative to the larger of the readings with and without it, as either may be near zero.
 
     >>> _share(np.array([3.0, -0.09]), np.array([4.0, 0.0])).tolist()
     [0.75, 1.0]

@@ -1,4 +1,4 @@
-"""The next test in words: what to run, what it would tell, and where it leaves the recorded range."""
+"""The next test in words: what to run, its expected information, and conditions beyond the recorded range."""
 
 from __future__ import annotations
 
@@ -13,33 +13,33 @@ from mixedlub.recording.noise import setups_differ
 from mixedlub.schema.table import Table
 
 USELESS, WEAK = 0.01, 0.1
-"""Bits below which a test is not worth naming, and below which it is not worth much."""
+"""Expected information (bit) below which a test is not named, and below which it is called weak."""
 WAITED_FOR = ("time_s",)
-"""Conditions that nobody sets."""
+"""Conditions that are reached by waiting."""
 HALF = 0.5
-"""Share of what was recorded beyond which a range is no place to read around."""
+"""Share of the recorded range above which an interval is too wide to refine around."""
 SETUPS = (
-    "It goes with a name, as it does where parts were mounted anew and set-ups differ: name these in a column setup "
-    "and say in noise.setup_relative or noise.setup_absolute how far off one may be."
+    "It differs between named parts, as it does where parts were mounted anew and set-ups differ: name these in a "
+    "column setup and give the error of one set-up as noise.setup_relative or noise.setup_absolute."
 )
 
 
 def next_test(d: Diagnosis) -> tuple[str, ...]:
-    """What to run next, or that no test is worth it."""
+    """What to run next, or that no test is useful."""
     if d.posterior.verdict.is_discrepancy:
         period = wave_period(d)
         if period:
             return (
-                f"Look for what on the rig swings every {period}, as a thermostat or a turning part may. Read at other "
-                "intervals as well: what swings faster than readings are taken shows with a longer period.",
+                f"Look for a part of the rig with a period of {period}, such as a thermostat or a rotating part. Read "
+                "at other intervals as well: a swing faster than the sampling appears with a longer period (aliasing).",
             )
         if d.search.discrepancy.best.form == "step" and d.search.discrepancy.best.axes[0] in PASSING:
-            moment = standing_place(d)
+            moment = local_position(d)
             return (f"Look up what was done to the rig or the sample at {moment}, and repeat a reading from before.",)
         if d.search.discrepancy.best.form == "delay":
             return ("Wait longer after a change of temperature, or run the same conditions in another order.",)
         if set(d.search.discrepancy.best.axes) <= set(PASSING) and d.search.discrepancy.best.axes:
-            return ("It goes with time alone: run the programme again, in another order, and see whether it returns.",)
+            return ("It depends on time alone: run the programme again, in another order, and see whether it returns.",)
         return _refined(d)
     if not d.next_tests:
         return ("No useful test: there is no second explanation to distinguish from the first.",)
@@ -56,7 +56,7 @@ def next_test(d: Diagnosis) -> tuple[str, ...]:
 
 
 def to_run(conditions: Mapping[str, float | str], recorded: Table) -> str:
-    """What to set, and when to read where a time passes: none can be set, but waited for.
+    """The conditions to set, and the time at which to read.
 
     >>> import numpy as np
     >>> hour = Table({"time_s": np.array([0.0, 3600.0])})
@@ -68,40 +68,40 @@ def to_run(conditions: Mapping[str, float | str], recorded: Table) -> str:
     'Run load 9 N for longer than recorded, and read at time 4500 s'
     """
     time = {name: value for name, value in conditions.items() if name in WAITED_FOR}
-    held = conditions_text({name: value for name, value in conditions.items() if name not in time})
+    settings = conditions_text({name: value for name, value in conditions.items() if name not in time})
     if not time:
-        return f"Run {held}"
+        return f"Run {settings}"
     later = any(name in recorded and float(value) > float(recorded[name].max()) for name, value in time.items())
-    how = "for longer than recorded" if later else "from the start" if held else "anew from the start"
-    return f"Run {held or 'the test'} {how}, and read at {conditions_text(time)}"
+    how = "for longer than recorded" if later else "from the start" if settings else "anew from the start"
+    return f"Run {settings or 'the test'} {how}, and read at {conditions_text(time)}"
 
 
 def _refined(d: Diagnosis) -> tuple[str, ...]:
-    """Where to read again for the form of an unnamed mismatch; names have no levels between them."""
+    """Where to read again to learn the form of the discrepancy; names have no levels between them."""
     shape, space = d.search.discrepancy.best, d.search.space
     table = d.recorded.table
     cuts = d.region.where if shape.at is None else ()
     cuts = tuple(cut for cut in cuts if noisy_set_point(cut["column"], table[cut["column"]]) is None)
     names = [range_text(cut) for cut in cuts if "values" in cut]
     ranges = [cut for cut in cuts if "values" not in cut]
-    passed = [range_text(cut) for cut in ranges if cut["column"] in PASSING]
+    periods = [range_text(cut) for cut in ranges if cut["column"] in PASSING]
     ranges = [cut for cut in ranges if cut["column"] not in PASSING]
     wide = [range_text(cut) for cut in ranges if cut["high"] - cut["low"] > HALF * np.ptp(table[cut["column"]])]
     around = [text for text in map(range_text, ranges) if text not in wide] or (
-        [standing_place(d)] if shape.at is not None else []
+        [local_position(d)] if shape.at is not None else []
     )
     parts = [f"repeat readings with {', '.join(names)} and with others in its place"] if names else []
     parts += [f"refine and repeat the levels around {', '.join(around)}"] if around else []
     parts += [f"read at more levels within {', '.join(wide)}"] if wide else []
-    parts += [f"run the programme again, with more readings within {', '.join(passed)}"] if passed else []
+    parts += [f"run the programme again, with more readings within {', '.join(periods)}"] if periods else []
     parts = parts or ["refine and repeat the levels of all conditions"]
-    said = (f"To learn its form, {'; '.join(parts)}.",)
+    sentences = (f"To learn its form, {'; '.join(parts)}.",)
     by_name = bool(names) or any(space.axes[space.place(name)].named for name in shape.axes)
-    return (*said, SETUPS) if by_name and not setups_differ(d.case) else said
+    return (*sentences, SETUPS) if by_name and not setups_differ(d.case) else sentences
 
 
 def wave_period(d: Diagnosis) -> str:
-    """Period of the unnamed mismatch where it is a wave in time; empty where it is none."""
+    """Period of the discrepancy where it is a wave in time; empty otherwise."""
     shape = d.search.discrepancy.best
     if not shape.waves:
         return ""
@@ -109,46 +109,47 @@ def wave_period(d: Diagnosis) -> str:
     return amount(float(f"{(high - low) / shape.waves:.3g}"), shape.axes[0])
 
 
-def standing_place(d: Diagnosis) -> str:
-    """Where the unnamed mismatch stands that is a peak or a step; the number of a run where that is what passes."""
+def local_position(d: Diagnosis) -> str:
+    """Position of a discrepancy that is a peak or a step: a condition, or a run of the programme."""
     shape, rows = d.search.discrepancy.best, d.search.problem.rows
     name, at = shape.axes[0], shape.at or 0.0
     if name == "sequence":
-        off = np.where(rows[name] >= at, rows[name] - at, np.inf) if shape.form == "step" else np.abs(rows[name] - at)
-        return f"run {rows['run'][np.argmin(off)]:g}"
+        after = rows[name] - at
+        distance = np.where(after >= 0.0, after, np.inf) if shape.form == "step" else np.abs(after)
+        return f"run {rows['run'][np.argmin(distance)]:g}"
     both = d.search.space.axes[d.search.space.place(name)].symmetric_log and at
     return f"{words_of(name)} {amount(at, name)}{' in both directions' if both else ''}"
 
 
 def box_place(d: Diagnosis) -> str:
-    """The ranges of conditions that an unnamed mismatch is tied to."""
-    rows, held = d.search.problem.rows, d.search.discrepancy.best.box
-    said = []
-    for name, low, high in held:
+    """The ranges of conditions to which the discrepancy is confined."""
+    rows, box = d.search.problem.rows, d.search.discrepancy.best.box
+    ranges = []
+    for name, low, high in box:
         values = rows[name]
         within = values[(values >= low) & (values < high)]
         if np.isinf(low) or np.isinf(high):
             side, end = ("up to", within.max()) if np.isinf(low) else ("from", within.min())
-            said.append(f"{words_of(name)} is {side} {amount(float(end), name)}{'' if np.isinf(low) else ' on'}")
+            ranges.append(f"{words_of(name)} is {side} {amount(float(end), name)}{'' if np.isinf(low) else ' on'}")
         else:
-            said.append(range_text({"column": name, "low": float(within.min()), "high": float(within.max())}))
-    return " and ".join(said)
+            ranges.append(range_text({"column": name, "low": float(within.min()), "high": float(within.max())}))
+    return " and ".join(ranges)
 
 
 def beyond(conditions: Mapping[str, float | str], recorded: Table) -> tuple[str, ...]:
-    """Which conditions of a test lie outside what was recorded; empty where none does.
+    """The conditions of a test outside the recorded range; empty where there are none.
 
     >>> import numpy as np
     >>> beyond({"speed_rpm": 4000.0, "torque_Nm": 50.0}, Table({"speed_rpm": np.array([500.0, 3000.0])}))
     ('beyond the recorded range: speed 4000 rpm (recorded up to 3000 rpm)',)
     """
-    off = []
+    outside = []
     for name, value in conditions.items():
         if isinstance(value, str) or name not in recorded:
             continue
         low, high = float(recorded[name].min()), float(recorded[name].max())
         if value > high:
-            off.append(f"{words_of(name)} {amount(value, name)} (recorded up to {amount(high, name)})")
+            outside.append(f"{words_of(name)} {amount(value, name)} (recorded up to {amount(high, name)})")
         elif value < low:
-            off.append(f"{words_of(name)} {amount(value, name)} (recorded down to {amount(low, name)})")
-    return (f"beyond the recorded range: {', '.join(off)}",) if off else ()
+            outside.append(f"{words_of(name)} {amount(value, name)} (recorded down to {amount(low, name)})")
+    return (f"beyond the recorded range: {', '.join(outside)}",) if outside else ()

@@ -9,6 +9,7 @@ from mixedlub.diagnosis.labels import conditions_text, number, words_of
 from mixedlub.schema.units import unit_of
 
 MUCH = 1.5
+"""Change of a stated standard deviation from which it is reported."""
 
 
 def reading_conditions(d: Diagnosis, row: int) -> str:
@@ -36,8 +37,8 @@ def checked_channel(d: Diagnosis) -> tuple[str, ...]:
     )
 
 
-def steadied_noise(d: Diagnosis) -> tuple[str, ...]:
-    """That stated standard deviations were shrunk towards those of similar readings, where it changed them much."""
+def shrunk_noise(d: Diagnosis) -> tuple[str, ...]:
+    """A sentence where stated standard deviations were shrunk much towards those of similar readings."""
     stated = d.recorded.table.columns.get(f"{d.case.quantity}_sd")
     if stated is None:
         return ()
@@ -52,7 +53,7 @@ def steadied_noise(d: Diagnosis) -> tuple[str, ...]:
 
 
 def outliers(d: Diagnosis) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
-    """The readings that are more probably wrong than right: sentences and a table."""
+    """The probable outliers: sentences and a table."""
     rows = np.flatnonzero(d.outlier_chance > 0.5)
     if not rows.size:
         return (), ()
@@ -71,11 +72,12 @@ def outliers(d: Diagnosis) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]
             )
         )
     more = f" The first {len(table) - 1}:" if rows.size > 12 else ""
-    count = "One reading is" if rows.size == 1 else f"{rows.size} readings are"
-    said = [f"{count} more probably wrong than right, and counted for little.{more}"]
+    many = f"{rows.size} readings are probably outliers and have"
+    count = "One reading is probably an outlier and has" if rows.size == 1 else many
+    sentences = [f"{count} little weight.{more}"]
     for i in rows.tolist():
         excess, sd = float(y[i] - d.recorded.predicted[i]), float(d.recorded.sd[i])
         fault = d.case.kind.reading_fault(d.recorded.table, i, excess, sd)
         if fault is not None:
-            said.append(f"Run {int(d.recorded.table['run'][i])}: {fault}.")
-    return tuple(said), tuple(table)
+            sentences.append(f"Run {int(d.recorded.table['run'][i])}: {fault}.")
+    return tuple(sentences), tuple(table)

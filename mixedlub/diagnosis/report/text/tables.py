@@ -1,4 +1,4 @@
-"""Tables of what was fitted: the parameters of the answer's effects, and what calibration was moved to."""
+"""Tables of the fit: parameters of the answer's effects, and the calibrated inputs."""
 
 from __future__ import annotations
 
@@ -21,96 +21,96 @@ from mixedlub.schema.units import unit_of
 
 STRAINED = 2.0
 """Standard deviations from which an input counts as strained."""
-UNTOLD = 0.8
-"""Share of the prior's 90 % interval from which a fitted one counts as no narrower, where the prior is normal."""
+VAGUE = 0.8
+"""Posterior over prior standard deviation from which a parameter counts as not determined."""
 UNDETERMINED = "not determined by these readings"
 FAR = 3.0
-"""Standard deviations of its prior from which a parameter is far outside of what is usual."""
+"""Standard deviations of its prior from which a parameter is far outside its expected range."""
 UNMOVED = 1e-6
-"""Sigmas by which a parameter moves readings, for one standard deviation of its prior, that are none."""
+"""Change of the readings (sigma), for one standard deviation of the prior, below which a parameter has no influence."""
 RPM = 30.0 / np.pi
-"""Turns a minute in a radian a second."""
+"""Revolutions per minute in one radian per second."""
 SURE = 0.9
-"""Probability from which an effect is sure."""
+"""Probability from which an effect counts as certain."""
 COLUMNS = ("effect", "parameter", "value", "90 % interval", "unit", "meaning")
 
 Cells = tuple[tuple[str, ...], ...]
 
 
 def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
-    """Fitted parameters of the answer's effects, with a sentence on those that the readings hardly tell."""
+    """Fitted parameters of the answer's effects, with sentences on those that the readings hardly determine."""
     if not d.posterior.verdict.effects:
         return (), ()
     refined = verdict_fit(d)
     moved = np.max(np.abs(refined.fit.slopes), axis=0) > UNMOVED
     moved |= np.abs(refined.z) > UNMOVED
     start = d.search.problem.calibration_size
-    every_company = d.posterior.inclusion(d.search)
-    table, said = [COLUMNS], []
+    inclusion = d.posterior.inclusion(d.search)
+    table, sentences = [COLUMNS], []
     for e, record in zip(d.search.problem.effects(d.posterior.verdict), effect_records(d), strict=True):
         places = range(start, start + len(e.parameters))
         start += len(e.parameters)
         if e.free_form:
             continue
         every = list(zip(e.parameters, record["parameters"], places, strict=True))
-        told = [(p, fitted, i) for p, fitted, i in every if p.sudden or moved[i]]
-        said += _unmoved(e, [p for p, _, i in every if not (p.sudden or moved[i])])
-        vague = [p.name.replace("_", " ") for p, _, i in told if refined.spread[i] >= UNTOLD]
-        alone = _untold(replace(e, parameters=tuple(p for p, _, _ in told)), vague)
-        fitted_ones = [(p, fitted) for p, fitted, _ in told]
-        said += alone or _cancelling(e, fitted_ones, every_company[e.id])
-        off = [(p, fitted) for p, fitted in fitted_ones if _switches_off(d, e, p)]
-        said += _reaching_nothing(e, off, every_company[e.id])
-        for p, fitted, i in told:
-            usual = float(p.prior.value(0.0))
-            scaled, unit = in_reach((fitted["value"], fitted["low90"], fitted["high90"]), p.unit, usual)
+        shown = [(p, fitted, i) for p, fitted, i in every if p.sudden or moved[i]]
+        sentences += _unmoved(e, [p for p, _, i in every if not (p.sudden or moved[i])])
+        vague = [p.name.replace("_", " ") for p, _, i in shown if refined.spread[i] >= VAGUE]
+        alone = _undetermined(replace(e, parameters=tuple(p for p, _, _ in shown)), vague)
+        fitted_ones = [(p, fitted) for p, fitted, _ in shown]
+        sentences += alone or _cancelling(e, fitted_ones, inclusion[e.id])
+        switching = [(p, fitted) for p, fitted in fitted_ones if _switches_off(d, e, p)]
+        sentences += _interval_with_null(e, switching, inclusion[e.id])
+        for p, fitted, i in shown:
+            typical = float(p.prior.value(0.0))
+            scaled, unit = in_reach((fitted["value"], fitted["low90"], fitted["high90"]), p.unit, typical)
             value, low, high = (number(x) for x in scaled)
             name = with_symbol(p.name, plain_equation(p.symbol))
             far = _far(p.prior, p.unit) if abs(refined.z[i]) > FAR and not p.sudden else ""
-            said += _stretched(e, p, far)
-            marks = [mark for mark, holds in ((UNDETERMINED, refined.spread[i] >= UNTOLD), (far, far)) if holds]
+            sentences += _stretched(e, p, far)
+            marks = [mark for mark, holds in ((UNDETERMINED, refined.spread[i] >= VAGUE), (far, far)) if holds]
             mark = f"[{'; '.join(marks)}] " if marks else ""
             table.append(
                 (effect_words(e.id), name, value, f"{low} to {high}", unit, f"{mark}{_meaning(d, p, fitted['value'])}")
             )
-    return tuple(said), tuple(table) if len(table) > 1 else ()
+    return tuple(sentences), tuple(table) if len(table) > 1 else ()
 
 
 def _far(prior: Prior, unit: str) -> str:
-    """How a parameter stands that is far outside of what its prior holds for usual, with what that is.
+    """Words for a parameter far outside its prior, with the prior's 90 % range.
 
     >>> from mixedlub.chain.priors import Normal
     >>> _far(Normal(0.0, 0.1), "-"), _far(Between(0.0, 0.05), "1/K")
-    ('far outside of what is usual (-0.164 to 0.164)', 'at the end of what it may be (0 to 0.05)')
+    ('far outside its expected range (-0.164 to 0.164)', 'at the limit of its range (0 to 0.05)')
     """
     if isinstance(prior, Between | BetweenLog):
-        how, ends = "at the end of what it may be", (prior.low, prior.high)
+        how, ends = "at the limit of its range", (prior.low, prior.high)
     else:
-        how, ends = "far outside of what is usual", interval(prior, 0.0, 1.0)[1:]
+        how, ends = "far outside its expected range", interval(prior, 0.0, 1.0)[1:]
     low, high = (number(x) for x in in_reach(ends, unit, float(prior.value(0.0)))[0])
     return f"{how} ({low} to {high})"
 
 
 def _stretched(e: Effect, p: Parameter, far: str) -> list[str]:
-    """That an effect with a parameter so far off may be named for want of a better name."""
+    """Warning that an effect with such a parameter may stand for another one."""
     if not far:
         return []
     return [
-        f"{with_names(effect_words(e.id))}: {p.name.replace('_', ' ')} is {far}. Its name is a stretch: something else "
-        "may act alike."
+        f"{with_names(effect_words(e.id))}: {p.name.replace('_', ' ')} is {far}. This effect is doubtful: "
+        "something else may act in the same way."
     ]
 
 
 def _unmoved(e: Effect, parameters: list[Parameter]) -> list[str]:
-    """That no reading depends on these parameters, which the table therefore leaves out."""
+    """A sentence on parameters without influence on any reading; the table leaves them out."""
     if not parameters:
         return []
     names = " and ".join(with_symbol(p.name, plain_equation(p.symbol)) for p in parameters)
     return [f"{with_names(effect_words(e.id))}: no reading here depends on {names}, which the table leaves out."]
 
 
-def _untold(e: Effect, vague: list[str]) -> list[str]:
-    """What is known of an effect although some of its parameters are not."""
+def _undetermined(e: Effect, vague: list[str]) -> list[str]:
+    """A sentence on the parameters that the readings do not determine, and on what remains known."""
     if not vague:
         return []
     wide = f"{' and '.join(vague)} {'are' if len(vague) > 1 else 'is'} {UNDETERMINED}"
@@ -120,7 +120,7 @@ def _untold(e: Effect, vague: list[str]) -> list[str]:
 
 
 def _meaning(d: Diagnosis, p: Parameter, value: float) -> str:
-    """What a parameter means; with what it is a share of, and what that makes, as numbers with their unit."""
+    """Meaning of a parameter; for a relative one also its reference and its absolute value, with unit."""
     if not p.of:
         return p.meaning
     size, unit = _whole(d, p.of)
@@ -129,7 +129,7 @@ def _meaning(d: Diagnosis, p: Parameter, value: float) -> str:
 
 
 def _whole(d: Diagnosis, name: str) -> tuple[float, str]:
-    """An input that a parameter is a share of, as calibrated, and its unit."""
+    """The calibrated input to which a parameter is relative, and its unit."""
     forward = d.search.problem.forward
     if name == "reading_scale":
         return float(forward.inputs[name]) * forward.scale, unit_of(d.case.quantity)
@@ -143,44 +143,44 @@ def _whole(d: Diagnosis, name: str) -> tuple[float, str]:
     return float(forward.inputs[name]), GLOSSARY[name].unit
 
 
-def _cancelling(e: Effect, told: list[tuple[Parameter, dict[str, float]]], probability: float) -> list[str]:
-    """That an effect is sure although each of its parameters alone may be nothing."""
-    ends = [(p, p.null, f["low90"], f["high90"]) for p, f in told if p.null is not None]
+def _cancelling(e: Effect, fitted: list[tuple[Parameter, dict[str, float]]], probability: float) -> list[str]:
+    """A sentence on a certain effect whose parameters may each be null alone."""
+    ends = [(p, p.null, f["low90"], f["high90"]) for p, f in fitted if p.null is not None]
     if len(ends) < 2 or probability < SURE or not all(low < null < high for _, null, low, high in ends):
         return []
     names = " and ".join(p.name.replace("_", " ") for p, *_ in ends)
     return [
-        f"{with_names(effect_words(e.id))}: each of {names} alone may be nothing, not all at once: only their combined "
-        "effect is known."
+        f"{with_names(effect_words(e.id))}: each of {names} alone may have no effect, but not all at once: only their "
+        "combined effect is known."
     ]
 
 
 def _switches_off(d: Diagnosis, e: Effect, p: Parameter) -> bool:
-    """Whether an effect of the answer does nothing at the null of one parameter, the others as fitted."""
+    """Whether an effect of the answer vanishes at the null value of one parameter, the others as fitted."""
     if p.null is None:
         return False
     problem, key, z = d.search.problem, d.posterior.verdict, verdict_fit(d).z
     values = problem.parameters(key, z)
     others = {name: fitted for name, fitted in values.items() if name != e.id}
     at_null = {**others, e.id: {**values[e.id], p.name: p.null}}
-    one, other = (problem.forward.run(problem.calibration(z), told).prediction for told in (at_null, others))
+    one, other = (problem.forward.run(problem.calibration(z), effects).prediction for effects in (at_null, others))
     return bool(np.allclose(one, other, rtol=1e-9))
 
 
-def _reaching_nothing(e: Effect, told: list[tuple[Parameter, dict[str, float]]], probability: float) -> list[str]:
-    """That an effect is sure although the interval of one that switches it off, a parabola's, takes in nothing."""
-    ends = [(p, f["low90"] < p.null < f["high90"]) for p, f in told if p.null is not None]
+def _interval_with_null(e: Effect, fitted: list[tuple[Parameter, dict[str, float]]], probability: float) -> list[str]:
+    """A sentence on a certain effect although the interval of the parameter that switches it off contains its null."""
+    ends = [(p, f["low90"] < p.null < f["high90"]) for p, f in fitted if p.null is not None]
     names = [p.name.replace("_", " ") for p, within in ends if within]
     if len(names) != 1 or probability < SURE:
         return []
     return [
-        f"{with_names(effect_words(e.id))}: the 90 % interval of {names[0]} takes in no effect, as other parameters "
-        "may make up for much of it. The readings exclude no effect at all: that it acts is known better than how much."
+        f"{with_names(effect_words(e.id))}: the 90 % interval of {names[0]} contains the value without effect, as "
+        "other parameters may compensate for much of it. That the effect acts is certain; its size is not."
     ]
 
 
 def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
-    """What calibration was moved to under the verdict."""
+    """Calibrated inputs under the verdict: sentences and a table."""
     if not d.search.problem.forward.calibrations:
         return ("The case lets calibration move nothing.",), ()
     z, spread = _calibrated(d)
@@ -205,19 +205,19 @@ def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
         )
         if round(abs(z[i]), 1) > STRAINED:
             strained.append(name)
-    said = [f"Strained: {', '.join(strained)} more than {STRAINED:g} sd from what was stated."] if strained else []
-    said.append(
+    sentences = [f"Strained: {', '.join(strained)} more than {STRAINED:g} sd from what was stated."] if strained else []
+    sentences.append(
         "1 sd is the uncertainty of the input, stated by the case or assumed where it states none: within 2 sd it was "
         "moved no further than expected."
     )
-    said += one_way(d.search.problem.forward)
+    sentences += one_way(d.search.problem.forward)
     if len(d.posterior.tied) > 1:
-        said.append("That is with the first of the tied answers; another one moves inputs elsewhere.")
-    return tuple(said), tuple(table)
+        sentences.append("That is with the first of the tied answers; another one moves inputs elsewhere.")
+    return tuple(sentences), tuple(table)
 
 
 def _given(case: Case) -> dict[str, str]:
-    """Where inputs come from that the case does not state: those that follow the readings are taken from them."""
+    """Source of inputs that the case does not state: those that change with the readings are taken from them."""
     quantity, rows = case.quantity, case.recordings
     assert rows is not None
     doubled = Table({**rows.columns, quantity: 2.0 * rows[quantity]}, rows.source)
@@ -230,20 +230,20 @@ def _given(case: Case) -> dict[str, str]:
 
 
 def one_way(forward: Forward) -> list[str]:
-    """That a drive which turned one way only does not tell dry friction from a payload."""
+    """A sentence where a drive turned one way only: dry friction and payload are then not separable."""
     constant = {"coulomb_torque", "payload_torque"}
     names = [c.name.replace("_", " ") for c in forward.calibrations if constant & set(c.needs)]
     speed, fitted = (np.asarray(forward.inputs.get(name, 0.0)) for name in ("drive_speed", "gears_fitted"))
     if len(names) < len(constant) or speed.min() <= 0.0 <= speed.max() or np.ptp(fitted):
         return []
     return [
-        f"The drive turned one way only, which does not tell {' from '.join(names)}: only what they make together is "
-        "known."
+        f"The drive turned one way only, which does not distinguish {' from '.join(names)}: only their combined effect "
+        "is known."
     ]
 
 
 def _calibrated(d: Diagnosis) -> tuple[np.ndarray, np.ndarray]:
-    """Coordinates of the calibration under the verdict, and their sd."""
+    """Standard-normal coordinates of the calibration under the verdict, and their sd."""
     if d.posterior.verdict.is_discrepancy:
         return d.search.discrepancy.z, np.sqrt(np.diag(d.search.discrepancy.covariance))
     refined = verdict_fit(d)

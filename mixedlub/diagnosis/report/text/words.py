@@ -1,4 +1,4 @@
-"""The answer in plain words, on one page: the same sentences in the text and on the page."""
+"""The sections of the report: the same sentences for the text file and the HTML page."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ from mixedlub.diagnosis.labels import (
 )
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.report.text.alternatives import AS_IF_NOTHING, resembling
-from mixedlub.diagnosis.report.text.headline import doubts, headline, lesser, p_words, probability_words, standing
+from mixedlub.diagnosis.report.text.headline import doubts, headline, lesser, p_words, probabilities, probability_words
 from mixedlub.diagnosis.report.text.location_text import where
 from mixedlub.diagnosis.report.text.nearest_effect import nearest_name
-from mixedlub.diagnosis.report.text.next_test_text import box_place, next_test, standing_place, wave_period
-from mixedlub.diagnosis.report.text.outlier_text import checked_channel, outliers, steadied_noise
+from mixedlub.diagnosis.report.text.next_test_text import box_place, local_position, next_test, wave_period
+from mixedlub.diagnosis.report.text.outlier_text import checked_channel, outliers, shrunk_noise
 from mixedlub.diagnosis.report.text.tables import calibration, parameters
 
 WIDTH = 88
-REFITTED = "Parameters were refitted without each level; what the answer is was settled with all of them."
+REFITTED = "Parameters were refitted without each level; the answer itself was selected with all levels."
 ANSWER = "Answer"
 MISMATCH = "Is there a mismatch beyond noise and calibration?"
 WHERE = "Where?"
@@ -40,9 +40,9 @@ UNNAMED = "If it is something unknown"
 ALIKE = "What else could it be?"
 GAIN = "How much better is it on conditions it did not fit?"
 APART = 3.0
-"""Nats from which one quantity is told from another."""
+"""Difference in log evidence (nats) from which two quantities are distinguished."""
 NATS = (
-    f"A nat is a factor 2.7 in the odds: below about {APART:g} nats these readings do not tell the quantities apart, "
+    f"A nat is a factor 2.7 in the odds: below about {APART:g} nats these readings do not distinguish the quantities, "
     "and the two answers may name different ones."
 )
 CHECK = "Does a channel that was not fitted agree?"
@@ -53,10 +53,10 @@ NEXT = "Next test"
 
 @dataclass(frozen=True)
 class Section:
-    """A question, the sentences that answer it, and a table (first row its head) where numbers are asked for.
+    """A question, the sentences that answer it, and a table of numbers (the first row is its header).
 
-    ``heading`` stands over it where the bare question would mislead, ``alarms`` above the first sentence; ``items``
-    are a list that the last sentence announces.
+    ``heading`` replaces the title where the bare question would mislead, ``alarms`` precede the first sentence, and
+    ``items`` are a list that follows the last one.
     """
 
     title: str
@@ -68,14 +68,14 @@ class Section:
 
 
 def sections(d: Diagnosis, unnamed: DescribedDiscrepancy | None = None) -> list[Section]:
-    """The whole answer, question by question."""
+    """All sections of the answer that have content."""
     resemblance, separating = resembling(d, confusion(d.search))
-    found = [
-        Section(ANSWER, (headline(d), *standing(d)), alarms=doubts(d)),
-        Section(MISMATCH, (*_mismatch(d), *steadied_noise(d))),
+    parts = [
+        Section(ANSWER, (headline(d), *probabilities(d)), alarms=doubts(d)),
+        Section(MISMATCH, (*_mismatch(d), *shrunk_noise(d))),
         Section(WHERE, where(d)),
         _left_out(d),
-        *([_unnamed(d, unnamed)] if unnamed is not None else []),
+        *([_discrepancy(d, unnamed)] if unnamed is not None else []),
         Section(ALIKE, resemblance, items=separating),
         Section(GAIN, _gain(d)),
         Section(CHECK, checked_channel(d)),
@@ -84,7 +84,7 @@ def sections(d: Diagnosis, unnamed: DescribedDiscrepancy | None = None) -> list[
         Section(NEXT, next_test(d)),
         Section("Warnings", lesser(d)),
     ]
-    return [s for s in found if s.sentences or s.table or s.items]
+    return [s for s in parts if s.sentences or s.table or s.items]
 
 
 def as_text(title: str, parts: Iterable[Section]) -> str:
@@ -112,30 +112,30 @@ def _wrapped(text: str, start: str) -> list[str]:
 def _mismatch(d: Diagnosis) -> tuple[str, ...]:
     test = d.test
     alarm = (
-        "The test asks whether what is left goes with conditions or as an effect would, not for its chi-square alone. "
+        "The test examines whether residuals follow the conditions or the form of an effect, not only chi-square. "
         f"It is wrong in {100 * test.level:g} % of the cases in which nothing is missing."
     )
     kept = d.counted
     squares = d.search.problem.single_reading_units(d.search.null_fit.residual) ** 2
     strain = float(d.search.null_fit.z @ d.search.null_fit.z)
     without = "" if kept.all() else ", outliers left out"
-    left = number(float(squares[kept].sum()) + strain)
-    chi2 = f"chi-square {left} for {int(kept.sum())} readings after calibration{without}{_noise(d)}"
+    squared = number(float(squares[kept].sum()) + strain)
+    chi2 = f"chi-square {squared} for {int(kept.sum())} readings after calibration{without}{_noise(d)}"
     size = p_words(test.p_value)
     size = f"p {size}" if size[0].isalpha() else f"p = {size}"
     if test.noise_adapted:
-        size += " even with the noise that this would need" if d.noise_stated else ", the noise left open"
+        size += " even with the noise that this would need" if d.noise_stated else ", with the noise estimated"
     if test.detected:
         return (f"Yes ({size}; {chi2}).", alarm)
-    return (f"None that can be told from noise ({size}; {chi2}).", alarm)
+    return (f"None distinguishable from noise ({size}; {chi2}).", alarm)
 
 
 def _noise(d: Diagnosis) -> str:
-    """Whose noise a chi-square is of, where the recording states none."""
+    """How the noise in a chi-square was estimated, where the recording states none."""
     if d.noise_stated:
         return ""
-    beside = AS_IF_NOTHING if d.posterior.verdict == NOTHING else "beside what is missing"
-    return f"; the noise was estimated {beside}"
+    condition = AS_IF_NOTHING if d.posterior.verdict == NOTHING else "together with the missing part"
+    return f"; the noise was estimated {condition}"
 
 
 def _left_out(d: Diagnosis) -> Section:
@@ -151,64 +151,64 @@ def _left_out(d: Diagnosis) -> Section:
             *(c.text for c in d.contained if c.effect == e.id),
             f"To make sure: {e.separated_by}.",
         ]
-    untold, table = parameters(d)
-    return Section(LEFT_OUT, (*sentences, *untold), table, heading=BEST_TIED if len(judged.tied) > 1 else "")
+    notes, table = parameters(d)
+    return Section(LEFT_OUT, (*sentences, *notes), table, heading=BEST_TIED if len(judged.tied) > 1 else "")
 
 
 def equation_sentence(e: Effect) -> str:
-    """The equation of an effect as a sentence of the text."""
+    """The equation of an effect as a sentence."""
     return f"Equation: {plain_equation(e.equation)}"
 
 
-def _unnamed(d: Diagnosis, unnamed: DescribedDiscrepancy) -> Section:
-    law = unnamed.law
+def _discrepancy(d: Diagnosis, discrepancy: DescribedDiscrepancy) -> Section:
+    law = discrepancy.law
     shape = d.search.discrepancy.best
     along = " and ".join(words_of(name) for name in shape.axes) or "all conditions together"
-    said = [f"Of all forms tried, the most probable {_form(d, along)}."]
-    said += nearest_name(d)
-    if unnamed.stages and not told_apart(unnamed.stages):
-        alike = [words_of(found.quantity) for found in unnamed.stages]
-        said.append(
-            "These readings do not tell which quantity could take it up if a factor there were free to vary with every "
-            f"condition: {', '.join(alike[:-1])} and {alike[-1]} do alike."
+    sentences = [f"Of all forms tried, the most probable {_form(d, along)}."]
+    sentences += nearest_name(d)
+    if discrepancy.stages and not distinguishable(discrepancy.stages):
+        equal = [words_of(absorbed.quantity) for absorbed in discrepancy.stages]
+        sentences.append(
+            "These readings do not show which quantity could take it up if a factor there were free to vary with every "
+            f"condition: {', '.join(equal[:-1])} and {equal[-1]} do so equally well."
         )
-    elif unnamed.stages:
-        best, *others = unnamed.stages
+    elif discrepancy.stages:
+        best, *others = discrepancy.stages
         worse = [f"{words_of(o.quantity)} {best.evidence - o.evidence:.1f} nats worse" for o in others[:3]]
-        said.append(
+        sentences.append(
             "Another question is which quantity could take it up if a factor there were free to vary with every "
             f"condition: best {words_of(best.quantity)}{_stage(best)}{'; ' if worse else ''}{'; '.join(worse)}."
         )
         if worse:
-            said.append(NATS)
+            sentences.append(NATS)
     if law is None:
-        said.append(
+        sentences.append(
             "No simple law: no power law of conditions or film quantities predicts levels it was not fitted to."
         )
     else:
-        said.append(
+        sentences.append(
             f"Shortest form found, empirical (a description, not physics): {law.text}. On whole levels left out, of "
             f"one condition after another, the error falls from {law.heldout_before:.2f} to {law.heldout_after:.2f} "
             "sigma."
         )
-    return Section(UNNAMED, tuple(said))
+    return Section(UNNAMED, tuple(sentences))
 
 
-def told_apart(stages: Sequence[Absorbed]) -> bool:
-    """Whether some of the quantities that could take up a mismatch are worse at it than others.
+def distinguishable(stages: Sequence[Absorbed]) -> bool:
+    """Whether the readings distinguish the quantities that could take up a mismatch.
 
-    >>> told_apart([Absorbed("boundary", "boundary_friction", 90.0), Absorbed("boundary", "friction", 89.9)])
+    >>> distinguishable([Absorbed("boundary", "boundary_friction", 90.0), Absorbed("boundary", "friction", 89.9)])
     False
     """
-    ranked = [found.evidence for found in stages]
+    ranked = [absorbed.evidence for absorbed in stages]
     return len(ranked) == 1 or max(ranked, default=0.0) - min(ranked, default=0.0) >= APART
 
 
 def _form(d: Diagnosis, along: str) -> str:
-    """The most probable form of a mismatch without a name, as a predicate."""
+    """The most probable form of the discrepancy, as a predicate."""
     shape = d.search.discrepancy.best
     if shape.form == "delay":
-        return "goes with the temperature of the reading before: oil or parts had not reached the one that was told"
+        return "follows the temperature of the previous reading: oil or parts had not reached the recorded one"
     if shape.form == "box":
         return f"is a shift where {box_place(d)}, as {_carried(shape.modulates)}"
     if shape.form == "smooth":
@@ -217,17 +217,17 @@ def _form(d: Diagnosis, along: str) -> str:
         return f"{how} {along}, as {_carried(shape.modulates)}"
     if shape.form == "wave":
         return f"is a wave with a period of {wave_period(d)} in {along}"
-    return f"is a {shape.form} at {standing_place(d)}, as {_carried(shape.modulates)}"
+    return f"is a {shape.form} at {local_position(d)}, as {_carried(shape.modulates)}"
 
 
-def _carried(carrier: str) -> str:
+def _carried(modulated: str) -> str:
     outside = {READING: "a share of the reading", ADDITIVE: "an addition to the reading"}
-    return outside.get(carrier, f"a factor on {words_of(carrier)}")
+    return outside.get(modulated, f"a factor on {words_of(modulated)}")
 
 
-def _stage(found: Absorbed) -> str:
-    stage = STAGE_WORDS[found.stage]
-    return "" if stage == words_of(found.quantity) else f" ({stage})"
+def _stage(absorbed: Absorbed) -> str:
+    stage = STAGE_WORDS[absorbed.stage]
+    return "" if stage == words_of(absorbed.quantity) else f" ({stage})"
 
 
 def _gain(d: Diagnosis) -> tuple[str, ...]:
