@@ -1,4 +1,4 @@
-"""What a run leaves on disk while it works: one Parquet file a block, so that a killed run goes on.
+"""What a run leaves on disk while it works: one Parquet file a block, so that a killed run can continue.
 
 A block's file is written aside and renamed, so it is whole or absent. The folder's name carries the study's
 fingerprint: parts of another study, or of other code, are never taken for this one's.

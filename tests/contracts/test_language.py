@@ -22,10 +22,8 @@ UNFINISHED = {
     "data_checks": 12.1,
     "diagnosis/report": 14.5,
     "effects": 5.5,
-    "kinds": 8.4,
     "report": 5.1,
     "schema": 7.5,
-    "study": 4.4,
 }
 """Rooms that are not rewritten yet, with their present figure: lower it with every change, never raise it."""
 
