@@ -47,7 +47,14 @@ class _InPage:
     def surroundings(self) -> dict[str, str]:
         """Environment of the commands: this Python's programs first, plain output of one width."""
         path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
-        return {**os.environ, "PATH": path, "COLUMNS": "88", "NO_COLOR": "1", "MPLBACKEND": "agg"}
+        return {
+            **os.environ,
+            "PATH": path,
+            "COLUMNS": "88",
+            "NO_COLOR": "1",
+            "MPLBACKEND": "agg",
+            "PYTHONSAFEPATH": "1",
+        }
 
     def start(self, script: str) -> subprocess.Popen[bytes]:
         """A script of the page started in the background, with a process group of its own."""

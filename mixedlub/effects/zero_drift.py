@@ -1,4 +1,4 @@
-"""A zero that wanders off during the test."""
+"""A zero that drifts during the test."""
 
 import numpy as np
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mixedlub.discovery import declared
-from mixedlub.kinds.kind import SUBJECTS, Kind
+from mixedlub.kinds.kind import Kind
 from profiles.errors import InputError, nearest
 
 
@@ -16,7 +16,7 @@ def kind(name: str, where: str = "kind") -> Kind:
 
 def _sorted() -> dict[str, Kind]:
     found = declared("mixedlub.kinds", "mixedlub.kinds", "KIND")
-    return {one.name: one for one in sorted(found, key=lambda one: (SUBJECTS.index(one.subject), one.name))}
+    return {one.name: one for one in sorted(found, key=lambda one: one.rank)}
 
 
 _KINDS = _sorted()

@@ -84,6 +84,11 @@ class Kind:
             raise TypeError(f"kind {self.name}: subject {self.subject!r} is none of {SUBJECTS}")
 
     @property
+    def rank(self) -> tuple[int, str]:
+        """The place of the kind in lists."""
+        return SUBJECTS.index(self.subject), self.name
+
+    @property
     def about(self) -> str:
         """What is recorded, in the line that begins the module of the kind."""
         return (inspect.getdoc(inspect.getmodule(self.inputs)) or self.name).split("\n")[0]

@@ -13,7 +13,7 @@ from profiles.errors import InputError
 
 
 def _known_kind(name: str) -> str:
-    return one_of(name, [kind.name for kind in declared(*KINDS)])
+    return one_of(name, [kind.name for kind in sorted(declared(*KINDS), key=lambda kind: kind.rank)])
 
 
 def _known_quantity(name: str) -> str:

@@ -136,7 +136,7 @@ def factors(study: Study) -> tuple[str, ...]:
 
 
 def pairings_of(section: Pairings | None, known: Mapping[str, object]) -> tuple[tuple[str, str], ...]:
-    """Pinion and gear surface of each pairing; every unordered pair where nothing is said.
+    """Pinion and gear surface of each pairing; every unordered pair where none is given.
 
     >>> pairings_of(None, {"a": 0, "b": 0})
     (('a', 'a'), ('a', 'b'), ('b', 'b'))

@@ -15,7 +15,7 @@ MOST_LEVELS = 100_000
 
 
 def _levels(value: Any) -> Any:
-    """A list as it stands, or ``{from, to, count}`` spelt out."""
+    """A list unchanged, or ``{from, to, count}`` spelt out."""
     if not isinstance(value, dict):
         return value
     if set(value) != {"from", "to", "count"}:
