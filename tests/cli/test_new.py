@@ -51,8 +51,8 @@ def test_the_readings_of_a_case_are_those_of_its_base_model(tmp_path, capsys):
     main(["new", "case", "--kind", "disc", "--out", str(folder)])
     assert main(["simulate", str(folder), "--out", str(tmp_path / "out")]) == 0
     read, computed = (
-        [float(line.split(",")[-1]) for line in path.read_text(encoding="utf-8").splitlines()[1:]]
-        for path in (folder / "recordings.csv", tmp_path / "out" / "simulation.csv")
+        [float(line.split(",")[column]) for line in path.read_text(encoding="utf-8").splitlines()[1:]]
+        for path, column in ((folder / "recordings.csv", -1), (tmp_path / "out" / "simulation.csv", 1))
     )
     assert read == pytest.approx(computed, rel=0.05)
     assert read != pytest.approx(computed, rel=1e-4)

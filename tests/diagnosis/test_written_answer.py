@@ -154,7 +154,9 @@ def test_predictions_have_a_row_a_run(answer: tuple[Diagnosis, dict[str, Any]]) 
     d, _ = answer
     rows = predictions(d)
     assert list(rows)[:7] == ["run", "base", "calibrated", "predicted", "low90", "high90", "mismatch_z"]
-    assert {"torque_Nm", "speed_rpm", "recorded_power_loss_W"} < set(rows)
+    recorded = d.recorded.table[d.case.quantity]
+    assert rows[f"recorded_{d.case.quantity}"].tolist() == recorded.tolist()
+    assert all(rows[c.name].tolist() == d.recorded.table[c.name].tolist() for c in d.case.kind.columns if c.required)
     assert rows["run"].tolist() == d.recorded.table["run"].tolist()
     assert ((rows["low90"] < rows["predicted"]) & (rows["predicted"] < rows["high90"])).all()
 
