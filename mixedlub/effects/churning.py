@@ -73,7 +73,8 @@ def churning(
 
     The immersion depth is half the wheel's radius; published methods differ by a factor of 6 at high speed. Power is
     proportional to n^(1 + q + p) nu^q: where viscosity resists, it does not also rise with the cube of speed as in air.
-    Between q = 0 and Boness' branch, where thinner oil causes more loss, p rises to Boness' value. The acceleration of gravity makes the form belong to m/s^2.
+    Between q = 0 and Boness' branch, where thinner oil causes more loss, p rises to Boness' value. The acceleration of
+    gravity makes the form belong to m/s^2.
 
     >>> wheel = dict(gear_radius=0.05, face_width=0.02, gear_module=4e-3, gear_teeth=25.0, gears_fitted=1.0)
     >>> speed = 1100 * 3.14159 / 30

@@ -47,8 +47,8 @@ def rolling_resistance(
     """Oil drawn into the contact resists rolling, independently of load.
 
     The ratio to numerical solutions is 0.91 to 1.09 where W is above 1e-4. Laws with a smaller exponent of speed fall
-    with the pressure-viscosity coefficient: exponents of speed 0.658, 0.648, 0.638 go with -0.342, -0.352, -0.358 of G = alpha E'
-    (Goksem and Hargreaves; Zhou and Hoeprich; Pan and Hamrock), here -0.313, -0.347, -0.381.
+    with the pressure-viscosity coefficient: exponents of speed 0.658, 0.648, 0.638 go with -0.342, -0.352, -0.358 of G
+    = alpha E' (Goksem and Hargreaves; Zhou and Hoeprich; Pan and Hamrock), here -0.313, -0.347, -0.381.
 
     >>> contact = (8.3262e-3, 226.374e9, 0.01489, 2.163, 14.81e-9)   # U_l = 3.42e-11, G = 3353
     >>> [round(float(rolling_resistance(0.0, *contact, strength=1.0, exponent=k))) for k in (0.75, 0.658)]

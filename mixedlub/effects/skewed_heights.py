@@ -54,7 +54,8 @@ def skewed_heights(
 ) -> np.ndarray:
     """Heights worn to a plateau have less contact area than Gaussian ones; a few high peaks give more.
 
-    Heights keep their mean and, without narrowing, their standard deviation; the heights of a negatively skewed surface have an upper bound. Narrowing lets the summits of a plateau be smoother than the whole surface with its valleys.
+    Heights keep their mean and, without narrowing, their standard deviation; the heights of a negatively skewed surface
+    have an upper bound. Narrowing lets the summits of a plateau be smoother than the whole surface with its valleys.
 
     >>> area = np.pi * 1e-2 * area_integral(np.array([-1.0, 1.0, 2.0]))
     >>> flat = skewed_heights(area, np.array([-1.0, 1.0, 2.0]), 1e10, 1e-5, 1e-7, skewness=-0.8, narrowing=0.0)
