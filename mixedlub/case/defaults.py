@@ -1,4 +1,4 @@
-"""What is taken where `system.toml` says nothing: each key with the value that the model computes with."""
+"""Defaults that apply where `system.toml` leaves a key out: each key with the value that the model uses."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 SHARING = "rigid: the pairs in contact share equally"
 BROAD = "fitted with a broad prior"
 MINERAL = "mineral"
-"""Base stock of an oil that nothing is said of."""
+"""Base stock of an oil that is not specified."""
 
 
 def gears_taken(section: system_file.Gears) -> dict[str, str]:
-    """Keys of the gears that are not given, with what is taken.
+    """Keys of the gears that are not given, with their defaults.
 
     >>> pair = system_file.Gears(teeth=(17, 26), normal_module_mm=4.0, face_width_mm=14.0)
     >>> gears_taken(pair)["tip_diameter_mm"], gears_taken(pair)["load_sharing"]
@@ -41,7 +41,7 @@ def gears_taken(section: system_file.Gears) -> dict[str, str]:
 
 
 def oil_taken(section: system_file.Lubricant | None) -> dict[str, str]:
-    """Keys of the oil that are not given, with what is taken as typical of its base stock."""
+    """Keys of the oil that are not given, with typical values of its base stock."""
     section = section or system_file.Lubricant()
     typical = build.named_bases()[section.base or MINERAL]
     base = {} if section.base else {"base": f"{MINERAL}, if needed"}
@@ -49,9 +49,9 @@ def oil_taken(section: system_file.Lubricant | None) -> dict[str, str]:
 
 
 def broadly_fitted(system: system_file.System, columns: Mapping[str, np.ndarray]) -> set[str]:
-    """Inputs of which nothing is said, so that a recording of these columns is fitted with a broad prior.
+    """Inputs that are not specified, so that a recording of these columns is fitted with a broad prior for them.
 
-    None where what is said of them is refused, which is told where the case is read.
+    Empty where the case is invalid; reading the case reports that error.
     """
     rules = kind_of(system.kind)
     if any(column.required and column.name not in columns for column in rules.columns):
@@ -64,7 +64,7 @@ def broadly_fitted(system: system_file.System, columns: Mapping[str, np.ndarray]
 
 
 def assumed(case: Case, forward: Forward | None) -> Iterator[str]:
-    """Every default that a case is computed with, a line a table; what an oil lacks is warned of where it is read."""
+    """All defaults used for a case, one line per table; missing oil properties are reported where the oil is read."""
     system, sections = case.system, case.kind.sections
     read = {"boundary_friction"} if forward is None and "surfaces" in sections else _not_fitted(forward)
     if "boundary_friction" not in system.model_fields_set and "boundary_friction" in read:
@@ -82,7 +82,7 @@ def assumed(case: Case, forward: Forward | None) -> Iterator[str]:
 
 
 def _not_fitted(forward: Forward | None) -> set[str]:
-    """Inputs of the rows but for those of which nothing is said, so that the readings have to tell them."""
+    """Inputs of the rows, without those that are not specified and have to be fitted to the readings."""
     if forward is None:
         return set()
     stated = {key for key, sd in forward.case.system.uncertainty.model_dump().items() if sd > 0}
@@ -90,16 +90,16 @@ def _not_fitted(forward: Forward | None) -> set[str]:
 
 
 def _surfaces(system: system_file.System) -> Iterator[str]:
-    """Bodies of steel, and traces levelled by a line, those alike in one line."""
-    alike: dict[tuple[str, ...], list[str]] = {}
+    """Defaults of the surfaces (steel, trace levelled by a line); surfaces with equal defaults share one line."""
+    equal: dict[tuple[str, ...], list[str]] = {}
     for name, section in system.surfaces.items():
-        defaults = {key: getattr(section, key) for key in _open(section)}
-        left = [f"{key} = {_shown(value)}" for key, value in defaults.items() if isinstance(value, float)]
+        values = {key: getattr(section, key) for key in _open(section)}
+        left = [f"{key} = {_shown(value)}" for key, value in values.items() if isinstance(value, float)]
         left += ['form = "line"'] if section.profile is not None and section.form is None else []
-        alike.setdefault(tuple(left), []).append(name)
-    for said, names in alike.items():
-        if said:
-            yield f"surfaces.{', surfaces.'.join(names)}: {', '.join(said)}"
+        equal.setdefault(tuple(left), []).append(name)
+    for defaults, names in equal.items():
+        if defaults:
+            yield f"surfaces.{', surfaces.'.join(names)}: {', '.join(defaults)}"
 
 
 def _line(table: str, values: Mapping[str, str]) -> Iterator[str]:

@@ -1,4 +1,4 @@
-"""A case folder: what the engineer knows of the rig, what the rig recorded, where predictions are wanted."""
+"""A case folder: description of the rig, its recordings, and the conditions to predict."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 SHOWN = 5
-"""Runs that a note lists at most."""
+"""Largest number of runs that a note lists."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Case:
 
     @property
     def quantity(self) -> str:
-        """Name of the column the rig recorded, with its unit."""
+        """Name of the recorded column, with its unit."""
         return self.system.recording.quantity
 
 
@@ -68,7 +68,7 @@ def case_of(
     name: str = "case",
     folder: str | Path = ".",
 ) -> Case:
-    """A case from the sections of its system and tables with the columns of its kind, checked as a folder is.
+    """A case from the sections of its system and from data frames, checked like a case folder.
 
     Files that the system names, such as traces, are read relative to ``folder``.
 
@@ -95,7 +95,7 @@ def _checked(
     where: str,
     table: Callable[[str, tuple[Column, ...]], Table | None],
 ) -> Case:
-    """A case of a parsed system; ``table`` gives its recordings and conditions by the columns they may have."""
+    """The checked case of a parsed system; ``table`` returns its recordings or conditions for the allowed columns."""
     found = kind(system.kind)
     for section in found.sections:
         if not getattr(system, section):
@@ -111,30 +111,30 @@ def _checked(
         recordings = table("recordings", _columns(found, system, True))
         if recordings is not None:
             _refuse_stuck(recordings, quantity, folder)
-            recordings = _sds_told(recordings, f"{quantity}_sd")
+            recordings = _with_filled_sds(recordings, f"{quantity}_sd")
         _report_missing_check(system.recording.check, recordings)
         conditions = table("conditions", _columns(found, system, False))
-        conditions = None if conditions is None else _sds_told(conditions, f"{quantity}_sd")
+        conditions = None if conditions is None else _with_filled_sds(conditions, f"{quantity}_sd")
     return Case(name, folder, system, found, Rig(system, folder), recordings, conditions, tuple(notes))
 
 
 def read_conditions(case: Case, path: Path) -> Table:
     """Another table of conditions for the case."""
-    return _sds_told(read_table(path, _columns(case.kind, case.system, False)), f"{case.quantity}_sd")
+    return _with_filled_sds(read_table(path, _columns(case.kind, case.system, False)), f"{case.quantity}_sd")
 
 
 def conditions_for(case: Case, frame: pd.DataFrame) -> Table:
-    """Conditions to predict from a data frame, numbered behind the recorded runs where it has no ``run``."""
+    """Conditions to predict from a data frame, numbered after the recorded runs where it has no ``run``."""
     if RUN.name not in frame and case.recordings is not None:
         first = int(case.recordings["run"].max()) + 1
         frame = frame.assign(run=np.arange(first, first + len(frame)))
-    asked = table_of(frame, _columns(case.kind, case.system, False), "conditions")
-    refuse_used_runs(case, asked, Path(asked.source))
-    return asked
+    wanted = table_of(frame, _columns(case.kind, case.system, False), "conditions")
+    refuse_used_runs(case, wanted, Path(wanted.source))
+    return wanted
 
 
-def hidden(case: Case, wanted: Table | None) -> list[Finding]:
-    """Conditions that have the run number of a reading at other conditions: an answer lists each run once."""
+def unpredicted_runs(case: Case, wanted: Table | None) -> list[Finding]:
+    """Report conditions whose run number is that of a reading at other conditions; they are not predicted."""
     runs = _used_runs(case, wanted)
     if wanted is None or not runs:
         return []
@@ -143,7 +143,7 @@ def hidden(case: Case, wanted: Table | None) -> list[Finding]:
 
 
 def refuse_used_runs(case: Case, wanted: Table | None, path: Path) -> None:
-    """An error where conditions that are asked for carry the run number of a reading taken at others."""
+    """Refuse conditions whose run number is that of a reading at other conditions."""
     used = _used_runs(case, wanted)
     if used and case.recordings is not None:
         free = int(case.recordings["run"].max()) + 1
@@ -156,14 +156,14 @@ def _used_runs(case: Case, wanted: Table | None) -> list[int]:
         return []
     rows = case.recordings
     _, here, there = np.intersect1d(wanted["run"], rows["run"], return_indices=True)
-    told = (*(c.name for c in BOOKKEEPING), *(c.name for c in case.kind.columns))
-    names = [name for name in told if name in wanted and name in rows]
+    shared = (*(c.name for c in BOOKKEEPING), *(c.name for c in case.kind.columns))
+    names = [name for name in shared if name in wanted and name in rows]
     other = np.any([wanted[name][here] != rows[name][there] for name in names], axis=0)
     return [int(run) for run in wanted["run"][here][other]]
 
 
 def _refuse_stuck(recordings: Table, quantity: str, folder: Path) -> None:
-    """An error where a channel gave one number all along."""
+    """Refuse a recorded channel whose readings are all equal."""
     if np.ptp(recordings[quantity]) == 0 and len(recordings) > 2:
         raise InputError(
             "all readings are the same number; a stuck channel cannot be diagnosed",
@@ -173,7 +173,7 @@ def _refuse_stuck(recordings: Table, quantity: str, folder: Path) -> None:
 
 
 def _report_missing_check(name: str | None, recordings: Table | None) -> None:
-    """Report a check channel that is no column of the recording: it may have been left out."""
+    """Report a check channel that is not a column of the recording."""
     if name is None or recordings is None or name in recordings:
         return
     there = nearest(name, [*recordings.columns, *recordings.ignored])
@@ -181,26 +181,26 @@ def _report_missing_check(name: str | None, recordings: Table | None) -> None:
     report(finding("check_column_missing", text, "system.toml, recording.check"))
 
 
-def _sds_told(table: Table, name: str) -> Table:
-    """The table with standard deviations that are left out, or 0, taken as the median of the others."""
+def _with_filled_sds(table: Table, name: str) -> Table:
+    """The table with missing or zero standard deviations replaced by the median of the others."""
     if name not in table:
         return table
-    told = table[name] > 0.0
-    if told.all():
+    known = table[name] > 0.0
+    if known.all():
         return table
-    if not told.any():
+    if not known.any():
         text = "0 or left out everywhere, so it says nothing of the scatter of a reading and is ignored"
         report(finding("sd_missing", text, f"{table.source}, {name}"))
         return replace(table, columns={k: v for k, v in table.columns.items() if k != name})
-    runs = listed(table["run"][~told].tolist(), SHOWN)
-    middle = float(np.median(table[name][told]))
+    runs = listed(table["run"][~known].tolist(), SHOWN)
+    middle = float(np.median(table[name][known]))
     text = f"0 or left out at run {runs}: taken as the median of the others, {middle:.3g}"
     report(finding("sd_filled", text, f"{table.source}, {name}"))
-    return replace(table, columns={**table.columns, name: np.where(told, table[name], middle)})
+    return replace(table, columns={**table.columns, name: np.where(known, table[name], middle)})
 
 
 def _columns(found: Kind, system: system_file.System, measured: bool) -> tuple[Column, ...]:
-    """What a table of the case may hold; surfaces are those of the system where the kind computes with them."""
+    """Columns that a table of the case may have; surface names are those of the system where the kind uses them."""
     names = tuple(system.surfaces) if "surfaces" in found.sections else ()
     own = (replace(c, names=names) if c.form == "name" and "surface" in c.name else c for c in found.columns)
     reach = found.limits(system)
@@ -209,7 +209,7 @@ def _columns(found: Kind, system: system_file.System, measured: bool) -> tuple[C
 
 
 def _rounded(column: Column, low: float, high: float) -> Column:
-    """The column within what the rig can reach, its ends rounded as recordings are."""
+    """The column limited to the range of the rig, widened by the rounding of recordings."""
     margin = ROUNDED * (high - low)
     return replace(column, at_least=low - margin, at_most=high + margin)
 
@@ -222,4 +222,4 @@ def _measured(found: Kind, system: system_file.System, required: bool) -> tuple[
     return (reading, sd_column(quantity), *([] if check is None else [check_column(check)]))
 
 
-__all__ = ["Case", "case_of", "hidden", "read_case", "read_conditions", "refuse_used_runs"]
+__all__ = ["Case", "case_of", "read_case", "read_conditions", "refuse_used_runs", "unpredicted_runs"]

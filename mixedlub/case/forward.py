@@ -1,4 +1,4 @@
-"""The forward problem of a case: calibration and effect parameters in, readings out."""
+"""The forward model of a case: from calibration and effect parameters to readings."""
 
 from __future__ import annotations
 
@@ -22,20 +22,20 @@ from profiles.errors import InputError
 
 @dataclass(frozen=True, eq=False)
 class Move:
-    """One calibrated input: its value, what it was applied to, and what that changed."""
+    """One applied calibration: its value, the inputs it was applied to, and the inputs it changed."""
 
     value: float
     on: tuple[Any, ...]
     changes: Mapping[str, Any]
 
     def is_of(self, value: float, on: tuple[Any, ...]) -> bool:
-        """Whether this value was applied to these very inputs."""
+        """Whether this value was applied to the same input objects."""
         return self.value == value and all(a is b for a, b in zip(self.on, on, strict=True))
 
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """A prediction with the steps that made it and the calibration applied to the inputs."""
+    """A prediction with its intermediate steps and the calibration applied to the inputs."""
 
     prediction: np.ndarray
     record: Record
@@ -45,7 +45,7 @@ class Run:
 class Forward:
     """Predicts the rows of a table under any set of effects.
 
-    Inputs are laid out once; ``notes`` says what had to be assumed for that.
+    Inputs are built once; ``notes`` lists the assumptions made.
     """
 
     def __init__(self, case: Case, table: Table, reading_scale: float | None = None) -> None:
@@ -79,17 +79,17 @@ class Forward:
     def predict(
         self, calibration: Mapping[str, float] | None = None, parameters: Parameters | None = None
     ) -> np.ndarray:
-        """Readings in the unit of the recorded column, one a row."""
+        """Readings in the unit of the recorded column, one per row."""
         return self.run(calibration, parameters).prediction
 
     def base(self, name: str) -> np.ndarray:
-        """A quantity of the base model before calibration, by its name in the glossary."""
+        """A quantity of the base model before calibration, by its glossary name."""
         if name in self.inputs:
             return np.asarray(self.inputs[name])
         return np.asarray(Model(self.chain, tuple(self.inputs), (name,))(self.inputs)[name])
 
     def nominal(self) -> np.ndarray:
-        """The base model at the nominal calibration, one reading a row; an error where it has no finite answer."""
+        """Readings of the base model at nominal calibration, one per row; a result that is not finite is an error."""
         base = self.predict()
         if not np.isfinite(base).all():
             run = int(self.table["run"][~np.isfinite(base)][0])
@@ -106,7 +106,7 @@ class Forward:
         parameters: Parameters | None = None,
         near: Run | None = None,
     ) -> Run:
-        """Predict, keeping the steps; with a run of the same effects ``near`` by, only what changed is computed."""
+        """Predict and keep the steps; given a run ``near`` with the same effects, only changed steps are recomputed."""
         inputs, applied = dict(self.inputs), {}
         for c in self.calibrations:
             if calibration and c.name in calibration:
@@ -122,7 +122,7 @@ class Forward:
         return Run(np.broadcast_to(reading, (len(self.table), 1))[:, 0] * self.scale, record, applied)
 
     def effects(self, exclude: Sequence[str] = ()) -> tuple[Effect, ...]:
-        """Effects of the catalogue that these rows could show, with the parameters that are free in this kind."""
+        """Effects of the catalogue that apply to these rows, with the parameters that are free in this kind."""
         return tuple(
             e
             for e in known_in(self.case.kind.name).values()

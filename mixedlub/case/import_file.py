@@ -1,4 +1,4 @@
-"""`import.toml` in a case folder: what `mixedlub import` warned of, so that later commands repeat it."""
+"""`import.toml` in a case folder: warnings of `mixedlub import`, which later commands repeat."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ NAME = "import.toml"
 
 
 class ImportFile(Section):
-    """The file: one table ``[[finding]]`` a warning."""
+    """The file: one table ``[[finding]]`` per warning."""
 
     finding: tuple[Finding, ...] = ()
 
 
 def read_import_file(folder: Path) -> tuple[Finding, ...]:
-    """What the import of a case warned of; nothing where the case was not imported."""
+    """Warnings of the import of a case; empty where the case was not imported."""
     file = folder / NAME
     return parse(ImportFile, read_toml(file), str(file)).finding if file.exists() else ()

@@ -1,4 +1,4 @@
-"""The standard rig of every kind of recording as a case, on which the catalogue compares effects."""
+"""The reference rig of each kind of recording as a case, on which the catalogue compares effects."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from mixedlub.schema.table import Table
 
 
 def conditions(name: str) -> dict[str, tuple[str, Levels]]:
-    """What is varied on the standard rig of a kind: by condition, its column and the levels."""
+    """Conditions varied on the reference rig of a kind: by name, the column and its levels."""
     return dict(kind(name).standard.conditions)
 
 
 def table(name: str, **fixed: Any) -> Table:
-    """Every combination of the levels, in an order that hides them; ``fixed`` narrows a condition to given levels."""
+    """All combinations of the levels in randomised order; ``fixed`` restricts a condition to given levels."""
     levels = {column: fixed.get(c, values) for c, (column, values) in conditions(name).items()}
     rows = list(product(*levels.values()))
     columns = {column: np.array(cells) for column, cells in zip(levels, zip(*rows), strict=True)}
     if "surfaces" in conditions(name):
-        # Both surfaces of a contact are alike.
+        # Both surfaces of a contact are the same.
         surfaces = columns[conditions(name)["surfaces"][0]]
         columns |= {c.name: surfaces for c in kind(name).columns if c.form == "name"}
     columns["run"] = np.arange(1, len(rows) + 1)
@@ -42,7 +42,7 @@ def table(name: str, **fixed: Any) -> Table:
 
 @cache
 def case(name: str) -> Case:
-    """The standard rig of a kind."""
+    """The reference rig of a kind."""
     found = kind(name)
     surfaces = {
         s: {"m0_um2": rq**2, "m2": 0.0025, "m4_per_um2": 0.0036}
@@ -67,5 +67,5 @@ def case(name: str) -> Case:
 
 @cache
 def forward(name: str) -> Forward:
-    """The forward problem of the standard rig over all its conditions."""
+    """The forward model of the reference rig at all its conditions."""
     return Forward(case(name), table(name))

@@ -1,4 +1,4 @@
-"""The base model at the conditions of a case, nothing fitted."""
+"""The base model at the conditions of a case, without fitting."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 
 
 def simulate(case: Case, at: Table | None = None) -> pd.DataFrame:
-    """Runs and simulated readings, then the conditions, and the recorded readings where there are any.
+    """Run numbers and simulated readings, then the conditions, then recorded readings where there are any.
 
-    The rows are those of recordings and conditions, or of the table ``at``; each run stands once.
+    The rows are those of recordings and conditions, or of the table ``at``; each run appears once.
     """
     import pandas as pd
 
@@ -37,7 +37,7 @@ def simulate(case: Case, at: Table | None = None) -> pd.DataFrame:
 
 
 def conditions_of(case: Case, table: Table) -> pd.DataFrame:
-    """The conditions of the rows of a table, and behind them, as ``recorded_QUANTITY``, what was recorded."""
+    """The conditions of a table's rows, followed by the recorded readings as ``recorded_QUANTITY``."""
     import pandas as pd
 
     names = [c.name for c in (*BOOKKEEPING, *case.kind.columns) if c.name in table]

@@ -27,7 +27,7 @@ EXAMPLE = "mixedlub new case --out my_case && mixedlub check my_case"
 def command(case: Annotated[Path, typer.Argument(metavar="CASE", help="Case folder with system.toml.")]) -> None:
     """Say what a case folder was understood to hold.
 
-    What is there, what is missing, and what would be assumed for it.
+    What is present, what is missing, and which defaults apply.
     """
     from mixedlub.case.folder import read_case
 
@@ -42,15 +42,20 @@ def command(case: Annotated[Path, typer.Argument(metavar="CASE", help="Case fold
 def understood(case: Case) -> Iterator[str]:
     """The case in plain words, line by line."""
     from mixedlub.case.defaults import assumed
-    from mixedlub.case.folder import hidden
+    from mixedlub.case.folder import unpredicted_runs
 
     yield f"{case.name}: a case of kind {case.system.kind}, recording {case.quantity}."
     if case.system.description:
         yield f"  Described as: {case.system.description}"
-    with collected() as told:
+    with collected() as reported:
         bodies = list(_bodies(case))
         forward = _forward(case)
-    found = [*case.notes, *told, *(() if forward is None else forward.notes), *hidden(case, case.conditions)]
+    found = [
+        *case.notes,
+        *reported,
+        *(() if forward is None else forward.notes),
+        *unpredicted_runs(case, case.conditions),
+    ]
     yield from bodies
     if forward is None:
         yield f"Boundary friction coefficient: {case.system.boundary_friction:g}."
@@ -148,12 +153,12 @@ def _uncertain(case: Case, movable: Sequence[Calibration]) -> Iterator[str]:
 
 
 def _scatter(relative: float, absolute: float, case: Case) -> str:
-    """An error in both its parts, with the unit of the reading."""
+    """Absolute and relative part of a standard deviation, with the unit of the reading."""
     return f"{relative:g} of its value and {f'{absolute:g} {unit_of(case.quantity)}'.rstrip()}"
 
 
 def _checked(case: Case, forward: Forward | None) -> tuple[list[Finding], list[str]]:
-    """Findings on system and readings, and why they cannot be diagnosed or predicted."""
+    """Findings on the system and readings, and the errors that prevent diagnosis or prediction."""
     from mixedlub.case.forward import Forward
     from mixedlub.data_checks.audit import check_readings
     from mixedlub.data_checks.pooled_rows import pooled_in
@@ -178,7 +183,7 @@ def _checked(case: Case, forward: Forward | None) -> tuple[list[Finding], list[s
 
 
 def _forward(case: Case) -> Forward | None:
-    """The forward problem of what was recorded, or of what is wanted."""
+    """The forward model of the recordings, or else of the conditions."""
     from mixedlub.case.forward import Forward
 
     table = case.recordings if case.recordings is not None else case.conditions

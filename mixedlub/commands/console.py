@@ -1,4 +1,4 @@
-"""Where commands write, and what they tell the user."""
+"""Output of commands: folders, messages and tracebacks."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ _made: list[Path] = []
 
 
 def output_folder(out: Path | None, command: str, name: str, *, knows_own: bool = False) -> Path:
-    """The folder to write into, made if need be; ``out/COMMAND/NAME`` where none is given.
+    """The output folder, created if necessary; ``out/COMMAND/NAME`` where none is given.
 
-    A command that ``knows_own`` results checks itself what it would replace.
+    A command that ``knows_own`` results checks for itself which files it would replace.
     """
     folder = Path("out") / command / name if out is None else out
     if (
@@ -46,13 +46,13 @@ def output_folder(out: Path | None, command: str, name: str, *, knows_own: bool 
 
 
 def forget_folder() -> None:
-    """Start afresh: no folder is being written to."""
+    """Forget the output folder of an earlier command."""
     _opened.clear()
     _made.clear()
 
 
 def drop_empty_folders() -> None:
-    """Take away the folders made for results that never came."""
+    """Remove folders that were created for results that were never written."""
     for folder in _made:
         try:
             folder.rmdir()
@@ -61,9 +61,9 @@ def drop_empty_folders() -> None:
 
 
 def what_is_kept(partial: str) -> str:
-    """What is left of a command that was stopped, and how it goes on; nothing where it writes nothing.
+    """What an interrupted command has saved and how to resume it; empty where it writes nothing.
 
-    ``partial`` is the pattern of the files from which the same command goes on; empty where it starts anew.
+    ``partial`` is the pattern of the files from which the same command resumes; empty where it starts again.
     """
     if not _opened:
         return ""
@@ -84,7 +84,7 @@ def case_folder(case: Path) -> Path:
 
 @contextmanager
 def busy(first: str) -> Iterator[Callable[[str], None]]:
-    """A line on stderr that says what is being done, where a person watches; gives the function that changes it."""
+    """A progress line on stderr in an interactive terminal; yields the function that changes its text."""
     from rich.console import Console
 
     console = Console(stderr=True)
@@ -97,7 +97,7 @@ def busy(first: str) -> Iterator[Callable[[str], None]]:
 
 @contextmanager
 def within_range(where: str) -> Iterator[None]:
-    """Bad input gets its place: numbers outside arithmetic that of the input, keys of a case their file."""
+    """Add the place to input errors: the input for arithmetic out of range, the file for keys of a case."""
     from mixedlub.schema.system_file import in_file
 
     try:
@@ -110,28 +110,28 @@ def within_range(where: str) -> Iterator[None]:
 
 
 def say(text: str = "") -> None:
-    """A line for the user."""
+    """Print a line to stdout."""
     _print(text, sys.stdout)
 
 
 def tell(found: Iterable[Finding]) -> None:
-    """Findings on stderr, those of one kind as one."""
+    """Print findings to stderr, those of one kind grouped."""
     for one in grouped(found):
         _print(f"{one.severity}: {one}", sys.stderr)
 
 
 def note(text: str) -> None:
-    """Something assumed, ignored or doubtful that the user should know."""
+    """Print a note to stderr on something assumed, ignored or doubtful."""
     _print(f"note: {text}", sys.stderr)
 
 
 def fail(text: str) -> None:
-    """Why a command could not do what was asked, in one line."""
+    """Print, in one line, why a command failed."""
     _print("mixedlub: " + " ".join(text.split()), sys.stderr)
 
 
 def _print(text: str, stream: TextIO) -> None:
-    """Text made printable; on a terminal, lines that are too wide for it go on between words, set in."""
+    """Text made printable; on a terminal, long lines are wrapped between words and indented."""
     shown = printable(text)
     if stream.isatty():
         width = shutil.get_terminal_size().columns
@@ -145,7 +145,7 @@ def _wrapped(line: str, width: int) -> str:
 
 
 def printable(text: str) -> str:
-    r"""Text without control characters, which a title or a name could use to command the terminal.
+    r"""Text without control characters, which a title or name could use to control the terminal.
 
     >>> printable("red \x1b[31m, next\nline")
     'red \\x1b[31m, next\nline'
@@ -158,7 +158,7 @@ LOG = "mixedlub-error.log"
 
 
 def save_traceback(error: BaseException) -> str:
-    """Where the traceback of an unexpected error is kept, or where it arose if there is no folder for results."""
+    """File in which the traceback of an unexpected error was saved, or its origin if there is no output folder."""
     for folder in _opened:
         try:
             (folder / LOG).write_text("".join(traceback.format_exception(error)), encoding="utf-8")
@@ -171,16 +171,16 @@ def save_traceback(error: BaseException) -> str:
 
 
 def forget_traceback() -> None:
-    """Remove the traceback that an earlier run left in the folder of the results."""
+    """Remove the traceback of an earlier run from the output folder."""
     for folder in _opened:
         (folder / LOG).unlink(missing_ok=True)
 
 
 def is_full(error: OSError) -> bool:
-    """Whether a disk or a quota is full."""
+    """Whether an error means that a disk or quota is full."""
     return error.errno in (errno.ENOSPC, errno.EDQUOT)
 
 
 def opened() -> Path | None:
-    """The folder that is being written to."""
+    """The current output folder."""
     return _opened[0] if _opened else None

@@ -27,7 +27,7 @@ def command(
     out: Annotated[Path, typer.Option(metavar="CASE", help="Case folder to write.")],
     settings: Annotated[
         list[str], typer.Option("--set", metavar="KEY=VALUE", help="An answer, with its key in system.toml.")
-    ] = [],  # noqa: B006  (typer reads the default, nothing changes it)
+    ] = [],  # noqa: B006  (typer reads the default, which is never changed)
     answers: Annotated[
         Path | None,
         typer.Option(metavar="FILE.toml", help="Answers, written as in system.toml; files they name come along."),
@@ -66,7 +66,7 @@ def command(
 
 @contextmanager
 def _progress_bar() -> Iterator[Callable[[str], None]]:
-    """A bar on stderr over the steps of the import, hidden while a question waits; none where nobody watches."""
+    """A progress bar on stderr for the import, hidden while a question is open; only in interactive terminals."""
     from rich.console import Console
 
     console = Console(stderr=True)

@@ -1,4 +1,4 @@
-"""`mixedlub new`: a study file or a case folder to start from, which runs as it is."""
+"""`mixedlub new`: a template of a study file or a case folder, which runs unchanged."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ EXAMPLE = "mixedlub new study --out out/my_study"
 
 STUDY, CASE = "study", "case"
 KIND = "gear_pair"
-"""Kind of case that is made where none is asked for."""
+"""Default kind of a case."""
 ROWS = 40
-"""Readings of a template: enough for `mixedlub diagnose`, few enough to look at."""
+"""Number of readings of a template: enough for `mixedlub diagnose`, few enough to read."""
 NOISE = 0.01
-"""Standard deviation of the made-up readings over their size, as the rigs of the catalogue have it."""
+"""Relative standard deviation of the synthetic readings, as on the reference rigs of the catalogue."""
 SURFACES = ("ground", "superfinished")
-"""Those of the reference rig that a template describes."""
+"""Surfaces of the reference rig that a template describes."""
 
 Given = Mapping[str, Any]
 """Values by key; tables within tables."""
@@ -43,8 +43,8 @@ def command(
 ) -> None:
     """A study or a case to start from.
 
-    A template with the values of an example rig: what may be left out stands as a comment with its meaning. It runs as
-    it is; the readings of a case are made up by the base model.
+    A template with the values of an example rig: optional keys are comments with their meaning. It runs unchanged; the
+    readings of a case are synthetic, from the base model.
     """
     if what not in (STUDY, CASE):
         raise InputError(f"no such template; {nearest(what, (STUDY, CASE))}", where="what", value=what)
@@ -86,7 +86,7 @@ def study_text() -> str:
 
 
 def case_files(kind: str) -> dict[str, str]:
-    """System and recording of a case: the reference rig of a kind, with readings of the base model."""
+    """System and recordings of a case: the reference rig of a kind, with readings of the base model."""
     from mixedlub.kinds import kind as kind_of
     from mixedlub.schema.system_file import System
 
@@ -99,7 +99,7 @@ def case_files(kind: str) -> dict[str, str]:
 
 
 def _reference(kind: str) -> dict[str, Any]:
-    """What is said of the reference rig of a kind, two of its surfaces where it has any."""
+    """Tables of `system.toml` for the reference rig of a kind, with two of its surfaces where it has any."""
     from mixedlub.case import reference_rigs
 
     given = reference_rigs.case(kind).system.model_dump(by_alias=True, exclude_unset=True)
@@ -107,7 +107,7 @@ def _reference(kind: str) -> dict[str, Any]:
 
 
 def _recordings(kind: str) -> str:
-    """Readings of the base model, with noise, at some conditions of the reference rig; a history at one alone."""
+    """Readings of the base model with noise at some conditions of the reference rig; a history at a single one."""
     import numpy as np
 
     from mixedlub.case import reference_rigs
@@ -132,7 +132,7 @@ def _recordings(kind: str) -> str:
 
 
 def _lines(file: type[Section], given: Given, wanted: Collection[str]) -> Iterator[str]:
-    """The tables of a file: keys with the values that are given, the others as comments with an example."""
+    """The tables of a file: given keys with their values, the others as comments with an example."""
     from mixedlub.schema.section import tables
     from mixedlub.schema.toml_file import toml_key
 
@@ -156,7 +156,7 @@ def _table(title: str, table: FileTable, given: Given | None, *, optional: bool 
 
 
 def _keys(table: FileTable, given: Given, *, optional: bool = True) -> Iterator[str]:
-    """The keys of a table, those that are given first; tables within it in one line."""
+    """The keys of a table, given ones first; nested tables as inline tables."""
     from mixedlub.schema.section import section_in
     from mixedlub.schema.toml_file import default_of, toml_value
 

@@ -111,7 +111,7 @@ def command(
     records: list[dict[str, Any]] = [{**record, "file": str(file)} for file, (_, record) in zip(files, found)]
     folder = output_folder(out, NAME, _stem(files[0]))
     for record in records:
-        for line in told(record):
+        for line in summary(record):
             say(line)
         for text in record["warnings"]:
             if f"{record['file']}: {text}" not in told_already:
@@ -128,7 +128,7 @@ def command(
 
 
 def each_read(files: list[Path], read: Callable[[Path], Profile]) -> list[Profile]:
-    """The traces of all files; those that cannot be read are all named in one error."""
+    """The traces of all files; one error names all files that cannot be read."""
     traces: list[Profile] = []
     wrong: list[InputError] = []
     for file in files:
@@ -152,7 +152,7 @@ OPTIONS = ("unit", "spacing", "form", "method", "convention")
 
 @contextmanager
 def named_options(file: Path | None = None, trace: Profile | None = None) -> Iterator[None]:
-    """What is wrong with an option or a trace, under the name it has on the command line."""
+    """Errors of an option or trace, under its name on the command line."""
     try:
         yield
     except InputError as error:
@@ -164,12 +164,12 @@ def named_options(file: Path | None = None, trace: Profile | None = None) -> Ite
 
 
 def _stem(file: Path) -> str:
-    """By what the results of a trace are named."""
+    """Name of the results of a trace."""
     return file.stem.rpartition(":")[2]
 
 
-def told(record: Record) -> Iterator[str]:
-    """A trace in a few lines, none wider than a terminal."""
+def summary(record: Record) -> Iterator[str]:
+    """Summary of a trace in lines that fit a terminal."""
     p, m, a, g = (record[key] for key in ("parameters", "moments", "asperities", "gaussian"))
     yield str(record["file"])
     yield _entry("steps", "; ".join(record["steps"]) or "none: evaluated as read")
@@ -195,7 +195,7 @@ def told(record: Record) -> Iterator[str]:
 
 
 def _entry(name: str, text: str) -> str:
-    """A name and what is said of it, wrapped."""
+    """A name and its text, wrapped."""
     return entry(f"  {name}", text, _INDENT)
 
 

@@ -41,7 +41,7 @@ def command(
     ] = None,
     jobs: Annotated[int, typer.Option(metavar="N", min=1, help="Cases at a time.")] = 2,
 ) -> None:
-    """Put the diagnosis to a blind test.
+    """Test the diagnosis blindly.
 
     Cases with planted effects, made by an independent model of the rigs, are diagnosed, and the score is printed. An
     interrupted run is resumed by the same command.
@@ -82,7 +82,7 @@ def command(
 
 
 def _chosen(kinds: str) -> tuple[str, ...]:
-    """The named kinds, in the order in which they are dealt."""
+    """The named kinds, in the order of the battery."""
     from mixedlub.validation.rigs import KINDS
 
     named = {kind.strip() for kind in kinds.split(",")}

@@ -21,18 +21,18 @@ def command(
     ] = None,
     at: Annotated[Path | None, typer.Option(metavar="conditions.csv", help="Other conditions than the case's.")] = None,
 ) -> None:
-    """The base model at the conditions of a case.
+    """Readings of the base model at the conditions of a case.
 
     Those of recordings.csv and conditions.csv, or of another table; nothing is fitted.
     """
-    from mixedlub.case.folder import hidden, read_case, read_conditions
+    from mixedlub.case.folder import read_case, read_conditions, unpredicted_runs
     from mixedlub.case.simulation import simulate
     from mixedlub.rig.plausibility import far_off
     from mixedlub.schema.findings import collected
 
     with collected() as notes, within_range(str(case)):
         found = read_case(case_folder(case), need_recordings=False)
-        notes += [*found.notes, *far_off(found.rig), *(hidden(found, found.conditions) if at is None else [])]
+        notes += [*found.notes, *far_off(found.rig), *(unpredicted_runs(found, found.conditions) if at is None else [])]
         rows = simulate(found, None if at is None else read_conditions(found, at))
     folder = output_folder(out, NAME, found.name)
     tell(notes)

@@ -39,7 +39,7 @@ def command(
 
     Every pairing of surfaces at every torque, speed and oil temperature: table, figures, one HTML page.
 
-    A run that was stopped, started again with the same inputs, goes on where it was.
+    An interrupted run resumes when it is started again with the same inputs.
     """
     from mixedlub.study import checkpoint, counted, factors, read_study, run_study
     from mixedlub.study.record import check_folder, running, write_record
@@ -90,7 +90,7 @@ FORMATS = ("svg", "pdf", "png")
 
 
 def chosen_formats(text: str) -> tuple[str, ...]:
-    """The formats named in a list with commas."""
+    """The formats named in a comma-separated list."""
     names = tuple(dict.fromkeys(name.strip().lower() for name in text.split(",")))
     for name in names:
         if name not in FORMATS:
@@ -99,7 +99,7 @@ def chosen_formats(text: str) -> tuple[str, ...]:
 
 
 def _resumed(progress: Callable[[int, int], None]) -> Callable[[int, int], None]:
-    """The same progress, that says first how much an earlier run has done."""
+    """The same progress callback, which first reports the blocks of an earlier run."""
     calls = 0
 
     def counted(done: int, of: int) -> None:
@@ -114,7 +114,7 @@ def _resumed(progress: Callable[[int, int], None]) -> Callable[[int, int], None]
 
 @contextmanager
 def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
-    """A bar on stderr for work of many blocks; silent for short work and where nobody watches."""
+    """A progress bar on stderr for work of many blocks, in interactive terminals only."""
     from rich.console import Console
 
     console = Console(stderr=True)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub.case.folder import Case, hidden, read_case, read_conditions, refuse_used_runs
+from mixedlub.case.folder import Case, read_case, read_conditions, refuse_used_runs, unpredicted_runs
 from mixedlub.case.forward import Forward
 from mixedlub.data_checks.audit import audit
 from mixedlub.diagnosis.assessment.answer_checks import (
@@ -129,7 +129,7 @@ def diagnosis_of(
     wanted, assumed = _completed(asked, rows)
     forward = Forward(case, rows)
     checks = audit(case, rows, readings_of(case), forward)
-    warnings = [*case.notes, *assumed, *hidden(case, wanted), *forward.notes, *checks]
+    warnings = [*case.notes, *assumed, *unpredicted_runs(case, wanted), *forward.notes, *checks]
     left_out = tuple(e.id for e in forward.effects() if e.id in exclude)
     if left_out:
         named = ", ".join(effect_words(name) for name in left_out)

@@ -1,4 +1,4 @@
-"""The catalogue of effects: one effect a file, read with those that other packages offer."""
+"""The catalogue of effects: one per module, with those of installed plug-ins."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from profiles.errors import InputError, nearest
 
 @cache
 def catalogue() -> Mapping[str, Effect]:
-    """Every effect by id: those of the package and those other packages offer as ``mixedlub.effects``."""
+    """All effects by id: those of this package and plug-ins of the entry point ``mixedlub.effects``."""
     loaded(__name__, "mixedlub.effects")
     order = sorted(REGISTRY.values(), key=lambda e: (STAGES.index(e.stage), e.id))
     return MappingProxyType({e.id: e for e in order})
@@ -31,7 +31,7 @@ def known_in(kind: str) -> Mapping[str, Effect]:
 
 
 def find(ids: list[str] | tuple[str, ...]) -> tuple[Effect, ...]:
-    """Effects by id, or an error naming the nearest known one."""
+    """Effects by id; an unknown id raises an error that names the nearest known one."""
     known = catalogue()
     for name in ids:
         if name not in known:
@@ -40,11 +40,11 @@ def find(ids: list[str] | tuple[str, ...]) -> tuple[Effect, ...]:
 
 
 def page(effect_id: str) -> Effect:
-    """One effect, which prints as its page; an error names the nearest known one.
+    """One effect; printing it shows its page. An unknown id raises an error that names the nearest known one.
 
     >>> import mixedlub as ml
     >>> print(repr(ml.effects.page("starvation")).splitlines()[0])
-    starvation: Too little oil reaches the inlet above a certain viscosity times speed, and the film falls behind.
+    starvation: Above a certain viscosity times speed the inlet lacks oil; the film is thinner than fully flooded.
     """
     return find((effect_id,))[0]
 

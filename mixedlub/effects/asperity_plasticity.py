@@ -14,7 +14,9 @@ _FARTHEST = 10.0
     stage="contact",
     acts_on="area_ratio",
     parameters=(
-        Parameter("strength", "-", LogNormal(1.0, 0.5), "factor on the area that yielding adds", null=0.0, symbol="c"),
+        Parameter(
+            "strength", "-", LogNormal(1.0, 0.5), "factor on the contact area added by yielding", null=0.0, symbol="c"
+        ),
         Parameter("hardness", "Pa", LogNormal(6e9, 0.6), "indentation hardness of the softer flank", symbol="H"),
     ),
     equation=r"P_B \leftarrow \min\left[1,\ P_B + c\,\pi D R_s\sigma_s F_1(t + w_c)\right],\quad "
@@ -38,10 +40,10 @@ def asperity_plasticity(
     strength: float,
     hardness: float,
 ) -> np.ndarray:
-    """Asperities pressed beyond yield spread to up to twice the area of elastic ones.
+    """Asperities loaded beyond yield deform plastically; their contact area is up to twice the elastic one.
 
     K = 0.454 + 0.41 nu at nu = 0.3. With E* = E'/2, onset is at the plasticity index
-    (E*/H) sqrt(sigma_s/R_s) = (pi K/2) w_c^(-1/2); below 0.6 nothing yields, far above 1 everything does.
+    (E*/H) sqrt(sigma_s/R_s) = (pi K/2) w_c^(-1/2); below 0.6 contacts are elastic, far above 1 plastic.
 
     >>> elastic = np.pi * 1e-2 * area_integral(1.0)
     >>> rough = asperity_plasticity(elastic, 1.0, 1e10, 1e-5, 1e-7, 226e9, strength=1.0, hardness=0.6e9)

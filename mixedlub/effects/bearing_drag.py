@@ -15,21 +15,34 @@ _LEAST = 0.1
     stage="loss",
     acts_on="power_loss",
     parameters=(
-        Parameter("strength", "-", LogNormal(0.6, 1.0), "factor on the torque: size and make", null=0.0, symbol="c"),
         Parameter(
-            "loaded", "-", LogNormal(1.0, 0.8), "factor on the part that load adds, relative to the other", symbol="c_1"
+            "strength",
+            "-",
+            LogNormal(0.6, 1.0),
+            "factor on the torque, for bearing size and design",
+            null=0.0,
+            symbol="c",
         ),
         Parameter(
-            "load_power", "-", Between(1.0, 1.6), "power of load in it: 1 for rollers, about 1.5 for balls", symbol="a"
+            "loaded",
+            "-",
+            LogNormal(1.0, 0.8),
+            "factor on the load-dependent part, relative to the other part",
+            symbol="c_1",
         ),
         Parameter(
-            "rolling_power", "-", Between(0.0, 0.54), "power of load in the torque of rolling in oil", symbol="b"
+            "load_power",
+            "-",
+            Between(1.0, 1.6),
+            "exponent of load in that part: 1 for rollers, about 1.5 for balls",
+            symbol="a",
         ),
+        Parameter("rolling_power", "-", Between(0.0, 0.54), "exponent of load in the rolling torque", symbol="b"),
         Parameter(
             "rubbing",
             "-",
             Between(0.0, 2.0),
-            "rise of the part that load adds where the bearing's film is gone",
+            "relative rise of the load-dependent part where the bearing's film has collapsed",
             symbol="m",
             published=(0.0, 1.4),
         ),
@@ -66,10 +79,10 @@ def bearing_drag(
     rolling_power: float,
     rubbing: float,
 ) -> np.ndarray:
-    """Four rolling bearings turn in oil and carry the tooth force.
+    """Four rolling bearings add drag: one part from rolling in oil, one from the tooth force that they carry.
 
-    Two bearings a shaft, each half the force, as large as a pinion's shaft allows. Palmgren's
-    constant and the force F_r = 3 kN that powers of load turn about make the form belong to SI.
+    Two bearings per shaft carry half the force each; they are as large as the pinion shaft allows. Palmgren's constant
+    and the reference force F_r = 3 kN make the form belong to SI.
 
     >>> gear = dict(transmitted_force=3000.0, pinion_radius=0.036, pinion_speed=157.1, gear_speed=102.7, gears_fitted=1)
     >>> palmgren = dict(strength=1.0, loaded=1.0, load_power=1.0, rolling_power=0.0, rubbing=0.0)

@@ -1,4 +1,4 @@
-"""A film that stays when the speed goes to nothing."""
+"""A boundary film that remains at zero speed."""
 
 import numpy as np
 
@@ -12,13 +12,17 @@ from mixedlub.chain.priors import BetweenLog, LogNormal
     parameters=(
         Parameter("thickness", "m", LogNormal(4e-9, 0.8), "thickness of the layer", null=0.0, symbol="h_b"),
         Parameter(
-            "joining", "-", LogNormal(2.0, 0.4), "1: layer and film add up; large: the thicker alone", symbol="m"
+            "joining",
+            "-",
+            LogNormal(2.0, 0.4),
+            "blending exponent: 1 adds layer and film, large values take the thicker",
+            symbol="m",
         ),
         Parameter(
             "gain",
             "-",
             BetweenLog(0.5, 100.0),
-            "most of the layer that a thin film can fill, over the film; large: a layer that stays at rest",
+            "largest added thickness relative to a thin film; large: the layer remains at rest",
             symbol="g",
         ),
     ),
@@ -33,9 +37,10 @@ from mixedlub.chain.priors import BetweenLog, LogNormal
     kinds=("film",),
 )
 def boundary_film(film_thickness: np.ndarray, *, thickness: float, joining: float, gain: float) -> np.ndarray:
-    """Adsorbed or reacted layers hold the surfaces apart where the fluid film would be thinner than they are.
+    """Adsorbed or reacted layers separate the surfaces where the fluid film is thinner than the layers.
 
-    A layer of thicker fluid is entrained itself: a film much thinner than it gains g times itself and no more.
+    A layer of more viscous fluid must be entrained: a film much thinner than the layer gains at most g times its
+    thickness.
 
     >>> [round(boundary_film(h, thickness=4e-9, joining=2.0, gain=1e9) * 1e9, 2) for h in (3e-9, 400e-9)]
     [5.0, 400.02]

@@ -12,17 +12,28 @@ from mixedlub.laws.mixture import tallian_friction
     acts_on="boundary_friction",
     parameters=(
         Parameter(
-            "drop", "-", Normal(0.35, 0.35), "fall of the logarithm of boundary friction when hot", null=0.0, symbol="d"
+            "drop",
+            "-",
+            Normal(0.35, 0.35),
+            "fall of ln boundary friction under the complete film",
+            null=0.0,
+            symbol="d",
         ),
         Parameter(
-            "activation", "K", Between(318.0, 413.0), "temperature at which half the film is there", symbol=r"\theta_f"
+            "activation",
+            "K",
+            Between(318.0, 413.0),
+            "temperature at which half the film has formed",
+            symbol=r"\theta_f",
         ),
-        Parameter("width", "K", LogNormal(8.0, 0.5), "temperature over which the film forms", symbol="w"),
+        Parameter(
+            "width", "K", LogNormal(8.0, 0.5), "width of the temperature range in which the film forms", symbol="w"
+        ),
         Parameter(
             "flash",
             "-",
             Between(0.0, 1.0),
-            "share of the contact's flash temperature that the film feels",
+            "share of the contact's flash temperature that activates the film",
             null=0.0,
             symbol="s",
             kinds=("gear_pair", "disc", "mesh_friction"),
@@ -57,10 +68,11 @@ def boundary_film_temperature(
     width: float,
     flash: float,
 ) -> np.ndarray:
-    """Additives cover the asperities above a certain temperature and change their friction; a negative drop raises it.
+    """Above a certain temperature additives form a film on the asperities and change boundary friction.
 
-    The surfaces meet warmer than the oil by the flash temperature of their friction before the film changed it; where
-    sliding is not known that is left out.
+    A negative drop raises friction. The film forms at the oil temperature plus a share of the flash temperature, which
+    is computed with the friction without the film. Where the sliding speed is not known the flash temperature is left
+    out.
 
     >>> film = dict(drop=0.7, activation=353.15, width=8.0)
     >>> round(float(boundary_film_temperature(0.1, 353.15, 0.0, 0.0, 0.0, **film, flash=0.0)), 3)

@@ -16,7 +16,7 @@ SLOWEST = 1e-3
             "slope",
             "-",
             Normal(0.0, 0.12),
-            "power of speed; positive with friction modifier",
+            "exponent of speed; positive with friction modifiers",
             null=0.0,
             symbol=r"\kappa",
         ),
@@ -28,7 +28,11 @@ SLOWEST = 1e-3
             symbol="v_r",
         ),
         Parameter(
-            "rolling", "-", Between(0.0, 1.0), "weight of the rolling speed against the sliding speed", symbol="a"
+            "rolling",
+            "-",
+            Between(0.0, 1.0),
+            "weight of the rolling speed: 0 sliding speed, 1 rolling speed",
+            symbol="a",
         ),
     ),
     equation=r"\mu_B \leftarrow \mu_B\,\left[(v^2 + v_0^2)/(v_r^2 + v_0^2)\right]^{\kappa/2},\quad "
@@ -48,11 +52,11 @@ def boundary_speed_dependence(
     reference: float,
     rolling: float,
 ) -> np.ndarray:
-    """The friction of touching asperities grows or falls with the logarithm of speed.
+    """Boundary friction rises or falls with the logarithm of speed.
 
-    Papers plot it against the sliding speed or, at a fixed slide-roll ratio, against the rolling speed. Where between
-    the slowest and the fastest test the stated value belongs is unknown. Below about 1 mm/s it no longer changes,
-    which makes the form belong to m/s.
+    Publications use the sliding speed or, at a fixed slide-roll ratio, the rolling speed. The speed at which the stated
+    value holds is known only to lie within the tested range. Below about 1 mm/s friction no longer changes, which makes
+    the form belong to m/s.
 
     >>> grown = boundary_speed_dependence(0.1, 1.0, 2.0, slope=0.1, reference=0.1, rolling=0.0)
     >>> round(float(grown), 3)   # a decade above the reference

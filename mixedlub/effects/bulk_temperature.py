@@ -7,22 +7,24 @@ from mixedlub.chain.priors import Between, LogNormal
 from mixedlub.laws import heating, oil
 
 EVEN = 0.01
-"""Share of the power that a mesh turns into heat, where it is taken as the same everywhere."""
+"""Share of the transmitted power that becomes heat in the mesh, where this share is taken as constant."""
 LEAST = 0.2
-"""Share of the pressure-viscosity coefficient that no rise takes away: its line ends above zero."""
+"""Share of the pressure-viscosity coefficient that remains at any temperature rise; keeps its linear fall positive."""
 
 
 @effect(
     stage="property",
     acts_on=("viscosity", "pressure_viscosity"),
     parameters=(
-        Parameter("strength", "-", LogNormal(1.0, 0.8), "factor on the rise of the standard", null=0.0, symbol="c"),
-        Parameter("exponent", "-", Between(0.6, 1.0), "power of the heat that the rise goes with", symbol="n"),
+        Parameter(
+            "strength", "-", LogNormal(1.0, 0.8), "factor on the temperature rise of the standard", null=0.0, symbol="c"
+        ),
+        Parameter("exponent", "-", Between(0.6, 1.0), "exponent of the heat in the temperature rise", symbol="n"),
         Parameter(
             "friction",
             "-",
             Between(0.0, 1.0),
-            "1: the heat is the loss that the model has, 0: the same share of the power everywhere",
+            "source of heat: 1 loss of the base model, 0 a constant share of the power",
             symbol="k",
         ),
     ),
@@ -55,10 +57,10 @@ def bulk_temperature(
     exponent: float,
     friction: float,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The mesh warms the teeth above the oil that is recorded, and what they drag in is as warm as they are.
+    """Mesh losses warm the teeth above the recorded oil temperature; the entrained oil has tooth temperature.
 
-    The rise of the standard belongs to the typical reading. The heat is that of the base model before calibration,
-    or one per cent of the power where friction is taken as the same everywhere. The standard's constant makes this
+    The rise of the standard applies at the typical reading. The heat is the loss of the base model before calibration,
+    or one per cent of the power where a constant share is taken. The standard's constant makes this
     form belong to SI.
 
     >>> oil = dict(temperature_viscosity=0.02605, coefficient_fall=0.0036, oil_density=819.6, oil_temperature=343.15)

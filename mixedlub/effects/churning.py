@@ -7,7 +7,7 @@ from mixedlub.chain.priors import Between, LogNormal
 from mixedlub.laws.drag import churning_changenet_velex
 
 TURBULENT = -1.0 / 3.0, 8.0 / 3.0
-"""Power of viscosity and surplus of that of speed in the torque of Boness between Reynolds numbers 2000 and 1e5."""
+"""Exponent of viscosity and excess exponent of speed in Boness' torque, for Reynolds numbers 2000 to 1e5."""
 
 
 @effect(
@@ -15,14 +15,21 @@ TURBULENT = -1.0 / 3.0, 8.0 / 3.0
     acts_on="power_loss",
     parameters=(
         Parameter(
-            "strength", "-", LogNormal(1.0, 0.9), "factor: depth, case, number of wheels that dip", null=0.0, symbol="c"
+            "strength",
+            "-",
+            LogNormal(1.0, 0.9),
+            "factor for immersion depth, housing and number of dipping wheels",
+            null=0.0,
+            symbol="c",
         ),
-        Parameter("viscous", "-", Between(TURBULENT[0], 1.0), "power of viscosity", symbol="q", published=(0.21, 1.0)),
+        Parameter(
+            "viscous", "-", Between(TURBULENT[0], 1.0), "exponent of viscosity", symbol="q", published=(0.21, 1.0)
+        ),
         Parameter(
             "surplus",
             "-",
             Between(0.0, 1.1),
-            "power of speed less that of viscosity less 1, where the latter is not negative",
+            "exponent of speed less that of viscosity less 1, where the viscosity exponent is not negative",
             symbol="p",
             published=(0.0, 1.0),
         ),
@@ -62,12 +69,12 @@ def churning(
     viscous: float,
     surplus: float,
 ) -> np.ndarray:
-    """The wheel that dips into the oil stirs it.
+    """A gear wheel that dips into the oil bath churns it.
 
-    The wheel is taken to dip half its radius; methods differ by a factor 6 at high speed. Power goes as
-    n^(1 + q + p) nu^q, so that oil that resists by viscosity does not also rise as the cube of speed in air does;
-    from q = 0 to Boness' branch, where thinner oil is churned harder, speed's surplus rises to his.
-    The acceleration of gravity makes the form belong to m/s^2.
+    The immersion depth is half the wheel's radius; published methods differ by a factor of 6 at high speed. Power is
+    proportional to n^(1 + q + p) nu^q: where viscosity resists, it does not also rise with the cube of speed as in air.
+    Between q = 0 and Boness' branch, where thinner oil causes more loss, p rises to Boness' value. The acceleration of
+    gravity makes the form belong to m/s^2.
 
     >>> wheel = dict(gear_radius=0.05, face_width=0.02, gear_module=4e-3, gear_teeth=25.0, gears_fitted=1.0)
     >>> speed = 1100 * 3.14159 / 30

@@ -11,7 +11,14 @@ from mixedlub.laws import heating
     stage="shear",
     acts_on="shear_stress",
     parameters=(
-        Parameter("strength", "-", LogNormal(1.0, 1.0), "factor on the rise across the coating", null=0.0, symbol="c"),
+        Parameter(
+            "strength",
+            "-",
+            LogNormal(1.0, 1.0),
+            "factor on the temperature rise across the coating",
+            null=0.0,
+            symbol="c",
+        ),
     ),
     equation=r"\tau \leftarrow \tau' = "
     r"\tau_0 \operatorname{asinh}\left(\sinh\frac{\tau}{\tau_0}\,e^{-\beta_p\Delta T}\right),\quad "
@@ -36,10 +43,10 @@ def coating_insulation(
     *,
     strength: float,
 ) -> np.ndarray:
-    """A coating that conducts badly keeps the heat in the film, which then shears more easily.
+    """A coating of low thermal conductivity keeps heat in the film, which is warmer and shears more easily.
 
-    Valid while the coating is thin against the depth that heat reaches in the time of contact (2-3 um of
-    diamond-like carbon: about 10 us against 20-200 us). Roelands' slope makes the form belong to Pa s.
+    Valid while the coating is thinner than the thermal penetration depth of one contact passage (2-3 um of diamond-like
+    carbon: diffusion time about 10 us, contact time 20-200 us). Roelands' slope makes the form belong to Pa s.
 
     >>> tau = coating_insulation(22.58e6, 5e6, 0.7518, 0.01489, 70.2, 0.026, 6e-6, 2.0, strength=1.0)
     >>> round(float(tau) / 1e6, 1)   # 3 um of diamond-like carbon on each flank

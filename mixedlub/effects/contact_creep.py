@@ -6,7 +6,7 @@ from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import Between, LogNormal
 
 FRICTION, PRESSURE = 0.05, 1e9
-"""Friction coefficient and Hertz pressure (Pa) at which the slip of full sliding is given."""
+"""Reference friction coefficient and Hertz pressure (Pa) of the saturation slip."""
 
 
 @effect(
@@ -22,17 +22,25 @@ FRICTION, PRESSURE = 0.05, 1e9
             symbol="S_0",
         ),
         Parameter(
-            "power", "-", LogNormal(2.4, 0.6), "3 for a point contact of like bodies, 2 for a line contact", symbol="m"
+            "power",
+            "-",
+            LogNormal(2.4, 0.6),
+            "exponent of the creep law: 3 for a point contact of like bodies, 2 for a line contact",
+            symbol="m",
         ),
         Parameter(
             "elastic",
             "-",
             Between(0.0, 1.0),
-            "power of friction times pressure in that slip: 1 where the bodies alone give way",
+            "exponent of friction times pressure in that slip: 1 for elastic shear of the bodies alone",
             symbol="k",
         ),
         Parameter(
-            "of_asperities", "-", Between(0.0, 1.0), "share of the asperities' friction that starts so too", symbol="a"
+            "of_asperities",
+            "-",
+            Between(0.0, 1.0),
+            "share of the asperity friction that follows the creep law too",
+            symbol="a",
         ),
     ),
     equation=r"\mu \leftarrow \mu - [\mu - (1 - a)\,\mu_B P_B]\,(1 - S/S_c)^m\quad (S < S_c),\quad "
@@ -59,12 +67,12 @@ def contact_creep(
     elastic: float,
     of_asperities: float,
 ) -> np.ndarray:
-    """Part of a nominal slip is taken up by elastic shear of the bodies, so friction starts in proportion to slip.
+    """Elastic shear of the bodies takes up part of the slip, so friction at low slip is proportional to slip.
 
-    The bodies creep as far as the traction shears them, so full sliding begins at a slip in proportion to friction
-    and pressure; laws for wheel and rail often have one slip for all. That is for all friction of bodies in contact.
-    With oil between them the film's traction may do so alone, when asperities, which meet and part many times in a
-    passage, slide from their first touch. The pressure of 1 GPa at which S_0 is told makes the form belong to Pa.
+    Creep is proportional to traction, so full sliding begins at a slip proportional to friction and pressure;
+    wheel-rail laws often use one constant slip. In dry contact this holds for all friction. In lubricated contact it
+    may hold for the film's traction only: asperities meet and part many times in a passage and may slide from first
+    touch. The reference pressure of 1 GPa of S_0 makes the form belong to Pa.
 
     >>> S, creep = np.array([0.0, 0.01, 0.05]), dict(saturation_slip=0.02, power=3.0, elastic=1.0)
     >>> contact_creep(0.05, 0.1, 0.2, S, 1e9, **creep, of_asperities=1.0).round(5).tolist()

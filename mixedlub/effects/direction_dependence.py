@@ -14,7 +14,7 @@ from mixedlub.chain.priors import Normal
             "asymmetry",
             "-",
             Normal(0.0, 0.2),
-            "half the difference of the directions over their mean",
+            "half the difference between the directions, relative to their mean",
             null=0.0,
             symbol="a",
         ),
@@ -22,7 +22,7 @@ from mixedlub.chain.priors import Normal
             "viscous_asymmetry",
             "-",
             Normal(0.0, 0.2),
-            "what the viscous part has more of it than the dry part",
+            "asymmetry of the viscous part less that of the dry part",
             null=0.0,
             symbol="b",
         ),
@@ -45,7 +45,7 @@ def direction_dependence(
     asymmetry: float,
     viscous_asymmetry: float,
 ) -> np.ndarray:
-    """The two flanks of a drive rub differently: all friction in proportion, and the viscous part in its own.
+    """The two directions of a drive differ in friction; the viscous part may have an asymmetry of its own.
 
     >>> alike = dict(asymmetry=0.1, viscous_asymmetry=0.0)
     >>> direction_dependence(np.array([2.0, -2.0]), 1.0, np.array([1.0, -1.0]), 1.0, **alike).tolist()

@@ -7,7 +7,7 @@ from mixedlub.chain.priors import Between, LogNormal, Normal
 
 QUARTER = 0.5 * np.pi
 LEAST = 0.1
-"""Share of the force that stays where vibration unloads the teeth."""
+"""Smallest share of the static force that is computed where vibration unloads the teeth."""
 
 
 @effect(
@@ -18,24 +18,24 @@ LEAST = 0.1
             "amplitude",
             "-",
             Normal(0.0, 0.05),
-            "added force at resonance times twice the damping, as a share",
+            "relative added force at resonance, times twice the damping ratio",
             null=0.0,
             symbol="a",
         ),
         Parameter("resonance", "1/s", LogNormal(1500.0, 0.7), "natural frequency of the gear pair", symbol="f_n"),
-        Parameter("damping", "-", LogNormal(0.1, 0.5), "share of critical damping", symbol=r"\zeta"),
+        Parameter("damping", "-", LogNormal(0.1, 0.5), "damping ratio (share of critical damping)", symbol=r"\zeta"),
         Parameter(
             "phase",
             "rad",
             Between(-QUARTER, QUARTER),
-            "0: sliding meets the response where it peaks at resonance, otherwise where it turns its sign there",
+            "phase of sliding and vibration: at 0 the added force peaks at resonance, otherwise it changes sign there",
             symbol=r"\phi",
         ),
         Parameter(
             "second",
             "-",
             Normal(0.0, 0.4),
-            "response to the second harmonic of the mesh, at half the speed, over that to the first",
+            "response to the second mesh harmonic, at half the speed, relative to the first",
             symbol="s",
         ),
     ),
@@ -61,16 +61,15 @@ def dynamic_load(
     phase: float,
     second: float,
 ) -> np.ndarray:
-    """Near resonance of the mesh the teeth carry more or less than the static force where they slide most.
+    """Near mesh resonance the tooth force differs from the static force where the teeth slide most.
 
-    Which of the two is a matter of phase between vibration and roll angle: the amplitude has either sign and most of
-    it averages out over the mesh. The vibration turns by half a period as speed passes the resonance, and the force
-    where sliding is largest may turn from more to less with it. The second harmonic of the mesh meets the resonance at
-    half the speed.
-    Damping of gear pairs is 0.05 to 0.10 of critical. Far below resonance the rise is linear in speed, as in the
-    standard, and at phase 0 quadratic: between the responses to a varying stiffness and to a transmission error. Steel
-    discs of 70 and 110 mm meshing at 20 N/(mm um) resonate at 6.4 kHz by ISO 6336-1, two standard deviations above the
-    middle of the prior; shafts and what turns with them bring that down.
+    The phase between vibration and roll angle sets the sign of the added force, and most of it averages out over the
+    mesh cycle. The phase shifts by half a period across the resonance, so the force where sliding is largest may change
+    from above to below the static force. The second mesh harmonic excites the resonance at half the speed. The damping
+    ratio of gear pairs is 0.05 to 0.10. Far below resonance the rise is linear in speed, as in the standard, and
+    quadratic at phase 0: between the responses to a varying stiffness and to a transmission error. By ISO 6336-1 steel
+    discs of 70 and 110 mm with a mesh stiffness of 20 N/(mm um) resonate at 6.4 kHz, two standard deviations above the
+    prior's median; shafts and attached inertia lower this frequency.
 
     >>> at_resonance = 2 * np.pi * 850.0 / 17   # 3000 rpm at 17 teeth
     >>> pair = dict(amplitude=0.05, resonance=850.0, damping=0.1, second=0.0)
@@ -85,6 +84,6 @@ def dynamic_load(
 
 
 def _response(ratio: np.ndarray, damping: float, phase: float) -> np.ndarray:
-    """Force of one degree of freedom over its drive, in the phase given, times the ratio of frequencies."""
+    """Frequency response of one degree of freedom in the given phase, times the frequency ratio."""
     stiff, lag = 1.0 - ratio**2, 2.0 * damping * ratio
     return np.asarray(ratio * (np.sin(phase) * stiff + np.cos(phase) * lag) / (stiff**2 + lag**2))

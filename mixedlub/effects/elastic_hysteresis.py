@@ -14,7 +14,7 @@ from mixedlub.chain.priors import LogNormal
             "loss_fraction",
             "-",
             LogNormal(0.008, 1.0),
-            "strain energy lost in a cycle, as a share",
+            "share of the elastic strain energy lost per cycle",
             null=0.0,
             symbol=r"\alpha_h",
         ),
@@ -35,9 +35,9 @@ def elastic_hysteresis(
     *,
     loss_fraction: float,
 ) -> np.ndarray:
-    """The bodies do not give back all the work of being flattened, which resists rolling.
+    """The bodies dissipate part of the work of elastic deformation, which resists rolling.
 
-    Steel loses 0.005 to 0.02 of it, which seldom shows beside friction.
+    Steel dissipates 0.005 to 0.02 of it, which is seldom visible against sliding friction.
 
     >>> round(float(elastic_hysteresis(0.0, 214.86e3, 0.142e-3, 8.3262e-3, loss_fraction=0.01)), 1)
     3.9

@@ -11,12 +11,20 @@ from mixedlub.laws import heating
     stage="shear",
     acts_on="shear_stress",
     parameters=(
-        Parameter("strength", "-", LogNormal(1.0, 0.8), "factor on the rise of temperature", null=0.0, symbol="c"),
+        Parameter("strength", "-", LogNormal(1.0, 0.8), "factor on the temperature rise", null=0.0, symbol="c"),
         Parameter(
-            "flash", "-", Between(0.0, 1.0), "weight of the surfaces over that of the film; both at 1/2", symbol="d"
+            "flash",
+            "-",
+            Between(0.0, 1.0),
+            "weight of the surfaces' flash temperature against the film's own rise; 1/2: both in full",
+            symbol="d",
         ),
         Parameter(
-            "pressure", "-", Between(0.0, 1.0), "from the softening at ambient pressure, 0, to Roelands', 1", symbol="k"
+            "pressure",
+            "-",
+            Between(0.0, 1.0),
+            "temperature coefficient: 0 that at ambient pressure, 1 Roelands' at contact pressure",
+            symbol="k",
         ),
     ),
     equation=r"\tau \leftarrow \tau' = "
@@ -51,9 +59,9 @@ def film_heating(
 ) -> np.ndarray:
     """Sliding heats the surfaces and the film between them, and the warmer film shears more easily.
 
-    The stress sets the heat and the heat the stress; both are met at once. Heat of the asperities, by the friction
-    that they have without a film of additives, warms the surfaces too; temperatures are means over the contact. The
-    literature takes beta at ambient pressure (Nahme, Crook) or under that of the contact. Roelands' slope makes the
+    Stress and heat depend on each other and are solved together. Asperity friction (without additive film) warms the
+    surfaces too; temperatures are means over the contact. The literature evaluates beta at ambient pressure (Nahme,
+    Crook) or at contact pressure. Roelands' slope makes the
     form belong to Pa s.
 
     >>> flash = heating.flash_per_friction(0.9437e9, 0.148e-3, 2.2417, 0.7518, 46.0, 7800.0, 470.0)   # steel

@@ -1,4 +1,4 @@
-"""Drag of the air or oil that a drive sets in motion."""
+"""Drag of the air or oil that a drive moves."""
 
 import numpy as np
 
@@ -14,12 +14,12 @@ from mixedlub.chain.priors import Between, LogNormal
             "strength",
             "-",
             LogNormal(0.5, 1.2),
-            "drag at the largest speed of the recording over the typical reading",
+            "drag at the largest speed of the recording, relative to the typical reading",
             null=0.0,
             symbol="c",
             of="reading_scale",
         ),
-        Parameter("exponent", "-", Between(1.5, 2.0), "power of speed", symbol="k", published=(1.5, 2.0)),
+        Parameter("exponent", "-", Between(1.5, 2.0), "exponent of speed", symbol="k", published=(1.5, 2.0)),
     ),
     equation=r"T_r \leftarrow T_r + c\,y_0\,|\omega/\omega_0|^k\operatorname{sgn}\omega",
     source="H. Schlichting, Boundary-Layer Theory, 7th ed., 1979, chapters 5 and 21: a rotating disc has k = 1.5 in "
@@ -40,7 +40,7 @@ def fluid_drag(
     strength: float,
     exponent: float,
 ) -> np.ndarray:
-    """Air or oil is thrown about, so friction grows faster than in proportion to speed, whatever the load.
+    """Moving parts accelerate air or oil; this drag grows more than linearly with speed, independently of load.
 
     >>> fluid_drag(2.0, 2.0, np.array([50.0, 100.0]), 100.0, strength=0.5, exponent=2.0).tolist()
     [2.25, 3.0]

@@ -1,4 +1,4 @@
-"""A zero of the friction force that wanders off during the test."""
+"""Zero drift of the friction force."""
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from mixedlub.chain.priors import Wide
             "drift",
             "-",
             Wide(0.05),
-            "change of the force's zero over the programme at the smallest load, over the typical reading",
+            "zero drift of the force over the programme, as a share of the typical reading at the smallest load",
             null=0.0,
             symbol="d",
             of="reading_scale",
@@ -30,7 +30,7 @@ from mixedlub.chain.priors import Wide
 def force_drift(
     reading: np.ndarray, reading_scale: np.ndarray, inverse_load: np.ndarray, sequence: np.ndarray, *, drift: float
 ) -> np.ndarray:
-    """The friction force is no longer zero at the end; a friction coefficient shows it the more the smaller the load.
+    """The zero of the friction force drifts; the error of a friction coefficient is inverse to the load.
 
     >>> smallest_over_load, place = np.array([1.0, 1.0, 0.25]), np.array([0.0, 1.0, 1.0])
     >>> force_drift(0.1, 0.1, smallest_over_load, place, drift=0.08).round(4).tolist()

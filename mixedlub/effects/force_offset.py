@@ -1,4 +1,4 @@
-"""Zero error of the friction force."""
+"""Zero offset of the friction force."""
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from mixedlub.chain.priors import Wide
             "offset",
             "-",
             Wide(0.05),
-            "error of the force at the smallest load, over the typical reading",
+            "zero offset of the force, as a share of the typical reading at the smallest load",
             null=0.0,
             symbol="a",
             of="reading_scale",
@@ -30,9 +30,9 @@ from mixedlub.chain.priors import Wide
 def force_offset(
     reading: np.ndarray, reading_scale: np.ndarray, inverse_load: np.ndarray, *, offset: float
 ) -> np.ndarray:
-    """The friction force does not read zero at zero; a friction coefficient is off the more the smaller the load.
+    """The friction force has a zero offset; the error of a friction coefficient is inverse to the load.
 
-    Offered where a friction coefficient is recorded at loads that differ: at one load it is `sensor_offset`.
+    Offered where a friction coefficient is recorded at different loads; at one load it equals `sensor_offset`.
 
     >>> smallest_over_load = np.array([1.0, 0.25])
     >>> force_offset(0.1, 0.1, smallest_over_load, offset=0.08).round(4).tolist()

@@ -6,23 +6,35 @@ from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import Between, BetweenLog, LogNormal, Normal
 
 TENTHS = 2.0 * np.log(9.0)
-"""From 10 to 90 % of a logistic step."""
+"""Width of a logistic step from 10 to 90 %, over its scale."""
 
 
 @effect(
     stage="boundary",
     acts_on="boundary_friction",
     parameters=(
-        Parameter("change", "-", Normal(0.0, 0.3), "logarithm of the factor on friction", null=0.0, symbol="c"),
-        Parameter("place", "-", Between(0.0, 1.0), "place in the programme", scan=120, sudden=True, symbol="q_e"),
-        Parameter("width", "-", BetweenLog(0.01, 0.12), "share of the programme from 10 to 90 % of it", symbol="w"),
-        Parameter("later", "-", Between(-1.5, 1.5), "what follows over the change: -1 undoes it", symbol="l"),
-        Parameter("delay", "-", BetweenLog(0.02, 1.0), "share of the programme to 63 % of what follows", symbol="d"),
+        Parameter("change", "-", Normal(0.0, 0.3), "natural logarithm of the factor on friction", null=0.0, symbol="c"),
+        Parameter("place", "-", Between(0.0, 1.0), "position in the programme", scan=120, sudden=True, symbol="q_e"),
+        Parameter(
+            "width",
+            "-",
+            BetweenLog(0.01, 0.12),
+            "duration of the change from 10 to 90 %, as a share of the programme",
+            symbol="w",
+        ),
+        Parameter("later", "-", Between(-1.5, 1.5), "later change relative to the first: -1 cancels it", symbol="l"),
+        Parameter(
+            "delay",
+            "-",
+            BetweenLog(0.02, 1.0),
+            "time to 63 % of the later change, as a share of the programme",
+            symbol="d",
+        ),
         Parameter(
             "abruptness",
             "-",
             LogNormal(1.5, 0.7),
-            "1: what follows sets in at once, above: later",
+            "onset of the later change: 1 immediate, above 1 delayed",
             symbol="k",
         ),
     ),
@@ -48,7 +60,7 @@ def friction_event(
     delay: float,
     abruptness: float,
 ) -> np.ndarray:
-    """Within a short time the surfaces change, as when a film breaks or oil is renewed; it may pass, or go on.
+    """The surfaces change within a short time, as when a film breaks or oil is renewed; the change may fade or grow.
 
     >>> step = dict(change=0.2, place=0.5, width=0.05)
     >>> place = np.array([0.2, 0.6, 0.9])

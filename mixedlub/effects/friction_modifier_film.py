@@ -14,7 +14,7 @@ from mixedlub.chain.priors import LogNormal
             "drop",
             "-",
             LogNormal(0.3, 0.6),
-            "share of dry friction that a full layer takes away",
+            "relative fall of dry friction under a full layer",
             null=0.0,
             symbol="d",
             of="coulomb_torque",
@@ -23,7 +23,7 @@ from mixedlub.chain.priors import LogNormal
             "half_share",
             "-",
             LogNormal(0.1, 1.2),
-            "content for half a layer, over the largest one tested",
+            "content at half coverage, relative to the largest content tested",
             symbol="q_h",
         ),
     ),
@@ -37,7 +37,7 @@ from mixedlub.chain.priors import LogNormal
 def friction_modifier_film(
     coulomb_torque: np.ndarray, additive_fraction: np.ndarray, *, drop: float, half_share: float
 ) -> np.ndarray:
-    """Molecules of the additive cover the surfaces and shear more easily than metal on metal.
+    """Adsorbed additive molecules cover the surfaces and shear more easily than metal on metal.
 
     >>> round(friction_modifier_film(0.16, 0.5, drop=0.4, half_share=0.1), 4)
     0.1067

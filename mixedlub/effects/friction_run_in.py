@@ -14,7 +14,7 @@ from mixedlub.chain.priors import LogNormal
             "excess",
             "-",
             LogNormal(0.3, 0.8),
-            "friction of the fresh surfaces over that run in, less one",
+            "relative excess of friction of the fresh surfaces over the run-in ones",
             null=0.0,
             symbol="a",
         ),
@@ -22,11 +22,11 @@ from mixedlub.chain.priors import LogNormal
             "time_constant",
             "-",
             LogNormal(0.1, 1.2),
-            "share of the programme in which the excess would vanish at its first pace",
+            "time in which the excess would vanish at its initial rate, as a share of the programme",
             symbol="q_r",
         ),
         Parameter(
-            "tail", "-", LogNormal(4.0, 1.2), "large: it ends exponentially; 1: as the reciprocal of time", symbol="m"
+            "tail", "-", LogNormal(4.0, 1.2), "shape of the decay: large exponential, 1 reciprocal of time", symbol="m"
         ),
     ),
     equation=r"\mu_B \leftarrow \mu_B\left[1 + a\left(1 + \frac{q}{m\,q_r}\right)^{-m}\right]",
@@ -39,7 +39,7 @@ from mixedlub.chain.priors import LogNormal
 def friction_run_in(
     boundary_friction: np.ndarray, sequence: np.ndarray, *, excess: float, time_constant: float, tail: float
 ) -> np.ndarray:
-    """Peaks wear off and the track conforms; friction falls to the level of the run-in surfaces.
+    """Asperity peaks wear off and the track conforms; friction falls to the level of run-in surfaces.
 
     >>> ends = dict(excess=0.2, time_constant=0.05)
     >>> friction_run_in(0.1, np.array([0.0, 1.0]), **ends, tail=100.0).round(3).tolist()

@@ -1,4 +1,4 @@
-"""An interference order counted wrong from some film thickness on."""
+"""An interference order that is miscounted above some film thickness."""
 
 import numpy as np
 
@@ -16,7 +16,7 @@ SHARPNESS = 60.0
             "jump",
             "m",
             EitherSign(1.9e-7, 0.25),
-            "error of the reading: 160 to 230 nm an order of visible light, rarely two orders",
+            "error of the reading: 160 to 230 nm per order of visible light, rarely two orders",
             null=0.0,
             symbol="j",
         ),
@@ -24,7 +24,7 @@ SHARPNESS = 60.0
             "onset",
             "m",
             BetweenLog(1e-8, 2e-6),
-            "film thickness from which the count is off",
+            "film thickness above which the order is miscounted",
             scan=60,
             sudden=True,
             symbol="h_s",
@@ -41,7 +41,7 @@ SHARPNESS = 60.0
 def fringe_order(reading: np.ndarray, film_thickness: np.ndarray, *, jump: float, onset: float) -> np.ndarray:
     """All films above the miscounted order read one or more fringes too thick or too thin.
 
-    A smaller jump is no wrong count: see `fringe_step`.
+    A smaller jump is not a miscount; see `fringe_step`.
 
     >>> (fringe_order(np.array([1e-7, 1e-6]), np.array([1e-7, 1e-6]), jump=2e-7, onset=5e-7) * 1e9).round(1).tolist()
     [100.0, 1200.0]

@@ -1,4 +1,4 @@
-"""Films that step where the instrument changes its interference order."""
+"""Film readings that step where the interference order changes."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from mixedlub.chain.priors import Wide
     stage="measurement",
     acts_on="reading",
     parameters=(
-        Parameter("step", "m", Wide(1e-8), "change of the reading from one order to the next", null=0.0, symbol="a"),
+        Parameter("step", "m", Wide(1e-8), "step of the reading per interference order", null=0.0, symbol="a"),
     ),
     equation=r"y \leftarrow y + a\,(N - N_0)",
     source="spacer-layer interferometry: G. J. Johnston, R. Wayte, H. A. Spikes, Tribol. Trans. 34 (1991) 187; a film "
@@ -22,7 +22,7 @@ from mixedlub.chain.priors import Wide
 def fringe_step(
     reading: np.ndarray, fringe_order: np.ndarray, first_fringe_order: np.ndarray, *, step: float
 ) -> np.ndarray:
-    """Every change of the interference order shifts what is read by the same amount, a small part of a fringe.
+    """Each change of the interference order shifts the reading by the same small part of a fringe.
 
     >>> round(fringe_step(120e-9, 4.0, 3.0, step=-20e-9) * 1e9, 1)
     100.0

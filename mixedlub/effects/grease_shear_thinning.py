@@ -1,4 +1,4 @@
-"""Viscous drag of a drive that grows less than in proportion to speed."""
+"""Viscous drag of a drive that grows less than linearly with speed."""
 
 import numpy as np
 
@@ -10,12 +10,14 @@ from mixedlub.chain.priors import BetweenLog, LogNormal
     stage="shear",
     acts_on="viscous_torque",
     parameters=(
-        Parameter("deficit", "-", LogNormal(0.35, 0.35), "one less the flow index of the grease", null=0.0, symbol="d"),
+        Parameter(
+            "deficit", "-", LogNormal(0.35, 0.35), "one minus the flow index of the grease", null=0.0, symbol="d"
+        ),
         Parameter(
             "knee",
             "-",
             BetweenLog(1e-3, 1.0),
-            "share of the reference speed at which thinning sets in",
+            "speed at which thinning begins, as a share of the reference speed",
             symbol="k",
             of="reference_speed",
         ),
@@ -33,10 +35,10 @@ from mixedlub.chain.priors import BetweenLog, LogNormal
 def grease_shear_thinning(
     viscous_torque: np.ndarray, drive_speed: np.ndarray, reference_speed: np.ndarray, *, deficit: float, knee: float
 ) -> np.ndarray:
-    """Grease thins as it is sheared; its drag grows with a power of speed below one.
+    """Grease thins under shear; its drag grows with speed to an exponent below one.
 
-    Below the knee it is a liquid of constant viscosity, as Eyring's is. Drag that hardly grows with speed, with a
-    deficit near one, is Coulomb's and not that of a grease.
+    Below the knee its viscosity is constant, as for an Eyring fluid. A deficit near one means drag that hardly grows
+    with speed, which is Coulomb friction and not grease.
 
     >>> round(float(grease_shear_thinning(1.0, 25.0, 100.0, deficit=0.5, knee=0.0)), 3)
     2.0

@@ -6,9 +6,9 @@ from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import Between, LogNormal
 
 FORTY = 313.15
-"""Kelvins at which fall and convexity are told: 40 degC, where oils are graded."""
+"""Reference temperature (K) of fall and convexity: 40 degC, where oils are graded."""
 NEAREST = 5.0
-"""Kelvins above the temperature of divergence that no grease passes."""
+"""Smallest distance (K) above the divergence temperature that is computed."""
 
 
 @effect(
@@ -19,7 +19,7 @@ NEAREST = 5.0
             "fall_per_kelvin",
             "1/K",
             LogNormal(0.03, 0.5),
-            "relative fall of viscous drag a kelvin at 40 degC",
+            "relative fall of viscous drag per kelvin at 40 degC",
             null=0.0,
             symbol="b",
         ),
@@ -27,7 +27,7 @@ NEAREST = 5.0
             "convexity",
             "-",
             Between(0.0, 3.4),
-            "40 degC in kelvins over its distance from the temperature at which Vogel's viscosity diverges",
+            "313.15 K over the distance of 40 degC from the divergence temperature of Vogel's law",
             symbol="m",
         ),
     ),
@@ -44,7 +44,7 @@ NEAREST = 5.0
 def grease_temperature(
     viscous_torque: np.ndarray, oil_temperature: np.ndarray, *, fall_per_kelvin: float, convexity: float
 ) -> np.ndarray:
-    """Warm grease shears more easily, so the part of friction that grows with speed shrinks.
+    """Warm grease is less viscous, so the part of friction that grows with speed falls.
 
     >>> round(float(grease_temperature(1.0, 333.15, fall_per_kelvin=0.03, convexity=0.0)), 3)
     0.549

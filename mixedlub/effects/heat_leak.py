@@ -11,13 +11,13 @@ from mixedlub.chain.priors import LogNormal
     acts_on="reading",
     parameters=(
         Parameter(
-            "share", "-", LogNormal(0.05, 0.8), "share of the power that leaves by the shafts", null=0.0, symbol="c"
+            "share", "-", LogNormal(0.05, 0.8), "share of the power lost through the shafts", null=0.0, symbol="c"
         ),
         Parameter(
             "wall",
             "1/K",
             LogNormal(0.003, 0.9),
-            "share of the typical power that leaves per kelvin",
+            "share of the typical power lost through walls per kelvin",
             null=0.0,
             symbol="g",
             of="reading_scale",
@@ -39,7 +39,7 @@ def heat_leak(
     share: float,
     wall: float,
 ) -> np.ndarray:
-    """Heat that leaves by shafts and walls is missing from a power measured by the warming of the oil.
+    """Heat lost through shafts and walls is missing from a power measured by the temperature rise of the oil.
 
     >>> round(heat_leak(100.0, 343.15, 298.15, 100.0, share=0.05, wall=0.002), 1)
     86.0

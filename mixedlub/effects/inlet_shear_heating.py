@@ -6,7 +6,7 @@ from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import Between, LogNormal
 
 USUAL = 0.005
-"""Hertz pressure over the reduced modulus at which the published factors are much alike."""
+"""Hertz pressure over reduced modulus at which the published factors nearly agree."""
 
 
 @effect(
@@ -16,7 +16,9 @@ USUAL = 0.005
         Parameter(
             "strength", "-", LogNormal(1.0, 0.6), "factor on both terms of the thermal loading", null=0.0, symbol="c"
         ),
-        Parameter("sliding", "-", LogNormal(1.0, 0.8), "weight of sliding, between the published factors", symbol="d"),
+        Parameter(
+            "sliding", "-", LogNormal(1.0, 0.8), "weight of sliding, which blends the published factors", symbol="d"
+        ),
         Parameter("loading_power", "-", Between(0.5, 0.65), "exponent of the thermal loading", symbol="m"),
         Parameter("pressure_power", "-", Between(0.0, 0.9), "exponent of the Hertz pressure", symbol="q"),
     ),
@@ -46,7 +48,7 @@ def inlet_shear_heating(
     loading_power: float,
     pressure_power: float,
 ) -> np.ndarray:
-    """Shear in the inlet warms the oil, so the film is thinner than the isothermal law says.
+    """Shear in the inlet warms the oil, so the film is thinner than the isothermal law predicts.
 
     The published numerator 1 - 13.2 (p0/E') L^0.42 is written as an exponential, which stays positive; the two
     differ by 2 % at L = 10. Fits of full solutions differ in the exponent of the thermal loading, 0.5 to 0.65, and in

@@ -14,24 +14,24 @@ REFERENCE = 0.01
     parameters=(
         Parameter("index", "-", Between(0.6, 0.97), "power-law index n of the oil", null=1.0, symbol="n"),
         Parameter("critical_stress", "Pa", BetweenLog(3e3, 1e6), "stress at which thinning begins", symbol="G_{cr}"),
-        Parameter("plateau", "-", Between(0.0, 0.9), "share of the film that full thinning leaves", symbol="c"),
+        Parameter("plateau", "-", Between(0.0, 0.9), "share of the film that remains at full thinning", symbol="c"),
         Parameter(
             "stress_rule",
             "-",
             Between(0.0, 1.0),
-            "1: a critical stress starts thinning, 0: a critical rate",
+            "onset criterion: 1 critical stress, 0 critical shear rate",
             symbol="m",
         ),
         Parameter(
             "onset",
             "-",
             Between(1.0, 2.0),
-            "1: thinning sets in as gradually as in Bair's solutions, 2: as in Carreau's and Eyring's fluid",
+            "sharpness of onset: 1 as in Bair's solutions, 2 as in Carreau and Eyring fluids",
             null=1.0,
             symbol="a",
             kinds=("film", "mesh_friction"),
         ),
-        Parameter("sliding", "-", Between(0.0, 1.0), "part that sliding has in the shear of the inlet", symbol="b"),
+        Parameter("sliding", "-", Between(0.0, 1.0), "weight of sliding in the shear rate of the inlet", symbol="b"),
     ),
     equation=r"h \leftarrow h\,\left\{c + (1 - c)\left[1 + (0.79\,((1+bS)N)^{1/(1+0.2bS)})^a\right]"
     r"^{-3.6(1-n)^{1.7}/a}\right\},\quad N = \eta_0^m\,\eta_r^{1-m} u/(h G_{cr}),\ \eta_r = 0.01\,\text{Pa s}",
@@ -56,13 +56,13 @@ def inlet_shear_thinning(
     onset: float,
     sliding: float,
 ) -> np.ndarray:
-    """Polymers align in the inlet, the oil thins, and the film is below that of a Newtonian oil.
+    """Polymers align in the inlet and the oil shear-thins; the film is thinner than that of a Newtonian oil.
 
-    Against an inlet solution within 10 % for N up to 1.6 and 16 % for N 31 at n = 0.75; use for n above 0.6.
-    An oil with polymer has a second Newtonian plateau mu_2/mu_1 and keeps at least (mu_2/mu_1)^0.69 of its film,
-    the exponent of viscosity in the film law. Whether stress or shear rate starts thinning depends on how the
-    polymer relaxes; the reference viscosity 0.01 Pa s between the two makes the form belong to Pa s. Bair's solutions
-    slide and roll; formulae for rolling alone, used where there is sliding, leave its shear out.
+    Agrees with an inlet solution within 10 % for N up to 1.6 and 16 % for N = 31 at n = 0.75; use for n above 0.6. A
+    polymer-containing oil has a second Newtonian plateau mu_2/mu_1 and keeps at least (mu_2/mu_1)^0.69 of its film;
+    0.69 is the exponent of viscosity in the film law. Whether stress or shear rate starts thinning depends on the
+    relaxation of the polymer; the reference viscosity 0.01 Pa s between the two makes the form belong to Pa s. Bair's
+    solutions include sliding; formulas for pure rolling neglect its shear.
 
     >>> oil = dict(index=0.75, critical_stress=5e3, plateau=0.0, stress_rule=1.0, onset=1.0, sliding=1.0)
     >>> h = inlet_shear_thinning(0.2e-6, 15e-3, 2.0, 0.0, **oil)

@@ -6,7 +6,7 @@ from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import Between, BetweenLog, LogNormal
 
 WARM = 313.15
-"""Oil temperature, 40 degC, at which the coefficient is told."""
+"""Reference oil temperature of the coefficient, 40 degC."""
 
 
 @effect(
@@ -17,12 +17,14 @@ WARM = 313.15
             "coefficient",
             "-",
             BetweenLog(0.015, 0.12),
-            "limiting stress over pressure at 40 degC, Lambda",
+            "limiting shear stress over pressure at 40 degC, Lambda",
             null=np.inf,
             symbol=r"\Lambda",
         ),
-        Parameter("sharpness", "-", LogNormal(2.5, 0.7), "how abruptly the stress stops growing", symbol="n"),
-        Parameter("fall", "1/K", Between(0.0, 0.006), "share by which the limit falls in hotter oil", symbol="b"),
+        Parameter("sharpness", "-", LogNormal(2.5, 0.7), "sharpness of the transition to the limit", symbol="n"),
+        Parameter(
+            "fall", "1/K", Between(0.0, 0.006), "relative fall of the limit per kelvin of oil temperature", symbol="b"
+        ),
     ),
     equation=r"\tau \leftarrow \tau\left[1 + \left(\frac{\tau}{\Lambda p_0\,"
     r"e^{-b(\theta_{oil} - 40\,^\circ\text{C})}}\right)^{n}\right]^{-1/n}",
@@ -43,11 +45,11 @@ def limiting_shear_stress(
     sharpness: float,
     fall: float,
 ) -> np.ndarray:
-    """A film under pressure cannot carry more shear than a fixed share of that pressure.
+    """The shear stress of the film cannot exceed a fixed share of its pressure.
 
     Lambda is 0.03 to 0.09 in the literature (naphthenic 0.053, paraffinic 0.047, PAO 0.035, polyglycol 0.044).
 
-    Measured ones fall by up to 0.5 % a kelvin.
+    Measured values fall by up to 0.5 % per kelvin.
 
     >>> law = dict(coefficient=0.05, sharpness=4.0, fall=0.0)
     >>> (limiting_shear_stress(np.array([200e6, 20e6]), 1e9, 313.15, **law) / 1e6).round(1).tolist()

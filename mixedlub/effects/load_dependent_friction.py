@@ -14,12 +14,12 @@ from mixedlub.chain.priors import LogNormal
             "growth",
             "-",
             LogNormal(0.5, 1.0),
-            "dry friction added at the largest load, over T_c",
+            "dry friction added at the largest load, relative to T_c",
             null=0.0,
             symbol="c",
             of="coulomb_torque",
         ),
-        Parameter("power", "-", LogNormal(1.0, 0.35), "power of the load", symbol="n"),
+        Parameter("power", "-", LogNormal(1.0, 0.35), "exponent of load", symbol="n"),
     ),
     equation=r"T_c \leftarrow T_c\,(1 + c\,q_F^n)",
     source="Coulomb's law for the loaded flanks; A. C. Bittencourt, S. Gunnarsson, J. Dyn. Syst. Meas. Control 134 "
@@ -33,10 +33,10 @@ from mixedlub.chain.priors import LogNormal
 def load_dependent_friction(
     coulomb_torque: np.ndarray, load_fraction: np.ndarray, *, growth: float, power: float
 ) -> np.ndarray:
-    """Loaded flanks and bearings add dry friction, by Coulomb's law in proportion to the load.
+    """Loaded flanks and bearings add dry friction, proportional to load by Coulomb's law.
 
-    What is a share of dry friction, as the excess at low speed, grows with it. Rolling bearings have 1.5 where they
-    load themselves, and films, whose friction grows slower than the load, less than 1.
+    Terms relative to dry friction, such as the excess at low speed, grow with it. The exponent is 1.5 for rolling
+    bearings that load themselves and below 1 for films, whose friction grows more slowly than load.
 
     >>> float(load_dependent_friction(2.0, 0.5, growth=0.2, power=1.0))
     2.2

@@ -16,15 +16,23 @@ REFERENCE = 0.01
             "wavelength",
             "m",
             LogNormal(40e-6, 0.9),
-            "length of the waves that carry the roughness",
+            "dominant wavelength of the roughness",
             null=0.0,
             symbol=r"\lambda_w",
         ),
         Parameter(
-            "viscous", "-", Between(0.0, 1.0), "power of viscosity over that of speed, 1 in the source", symbol="a"
+            "viscous",
+            "-",
+            Between(0.0, 1.0),
+            "exponent of viscosity relative to that of speed, 1 in the source",
+            symbol="a",
         ),
         Parameter(
-            "texture", "-", Between(0.0, 1.0), "attenuation of slopes and curvatures over that of heights", symbol="r"
+            "texture",
+            "-",
+            Between(0.0, 1.0),
+            "attenuation of slopes and curvatures relative to that of heights",
+            symbol="r",
         ),
     ),
     equation=r"m_0 \leftarrow m_0 A^2,\ m_{2,4} \leftarrow m_{2,4} A^{2r},\quad "
@@ -54,11 +62,11 @@ def micro_ehl(
     viscous: float,
     texture: float,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The pressure of the film flattens long waves of the roughness inside the contact.
+    """Film pressure flattens long-wavelength roughness inside the contact.
 
-    W is taken from the Hertz pressure, 2 pi (p0/E')^2. Forms differ in whether the inlet's viscosity counts; the
+    W follows from the Hertz pressure, 2 pi (p0/E')^2. Published forms differ in whether inlet viscosity enters; the
     reference viscosity 0.01 Pa s for those without makes the form belong to Pa s. Derived for pure rolling and
-    waves across the motion.
+    transverse roughness.
 
     >>> here = dict(hertz_half_width=0.18e-3, hertz_pressure=0.9642e9, radius=8.3262e-3, reduced_modulus=226.374e9)
     >>> oil = dict(viscosity=0.01489, entrainment_speed=2.163, pressure_viscosity=14.81e-9)

@@ -8,16 +8,24 @@ from mixedlub.chain.priors import Between, LogNormal
 _STIFFNESS = 2e10
 _REFERENCE = 1e5
 SMALL, LEAST_POWER = 1e-2, 1e-5
-"""Slope of the load below which its square is the whole of the effect; power of load that stands for none."""
+"""Slope of the load below which only its quadratic term counts; exponent of load that is treated as zero."""
 
 
 @effect(
     stage="load",
     acts_on="line_load",
     parameters=(
-        Parameter("misalignment", "m", LogNormal(10e-6, 1.0), "gap across the face without load", null=0.0, symbol="f"),
-        Parameter("relief", "-", Between(0.0, 1.0), "power of load with which teeth yield to it", symbol="q"),
-        Parameter("loss_power", "-", Between(0.05, 0.6), "power of load with which friction grows", symbol="m"),
+        Parameter(
+            "misalignment", "m", LogNormal(10e-6, 1.0), "gap across the face width without load", null=0.0, symbol="f"
+        ),
+        Parameter(
+            "relief",
+            "-",
+            Between(0.0, 1.0),
+            "exponent of load in the tooth deflection: 1 elastic teeth, 0 none",
+            symbol="q",
+        ),
+        Parameter("loss_power", "-", Between(0.05, 0.6), "exponent of load in the friction coefficient", symbol="m"),
     ),
     equation=r"w \leftarrow w\left[\frac{(1+x')^{2+m} - (1-x')^{2+m}}{2x'(2+m)}\right]^{1/m}\sqrt{\max(x, 1)},\quad "
     r"x' = \min(x, 1),\quad "
@@ -38,13 +46,13 @@ def misalignment(
     relief: float,
     loss_power: float,
 ) -> np.ndarray:
-    """Flanks out of parallel touch over part of the face, and more load per length meets the same film law.
+    """Misaligned flanks touch over part of the face width only, so the load per length is higher.
 
-    The load is the even one that loses as much power. Teeth as an even bed of springs carry a load that is linear
-    along the face; friction power per length goes with w^(1+m): m is 0.17 for the loss of the standard gear, less for
-    a coefficient that load does not change, more where asperities begin to touch.
-    A load share from a gear program often holds it already. Stiffness and w_r make the form belong to Pa and N/m.
-    A relief of 1 is that of elastic teeth, 0 a width that load does not change.
+    The result is the even line load with the same power loss. Teeth modelled as a uniform elastic foundation carry a
+    load that is linear along the face. Friction power per length is proportional to w^(1+m): m is 0.17 for the loss of
+    the standard gear, less for a friction coefficient independent of load, more where asperity contact begins. The load
+    share of a gear program often includes misalignment already. Stiffness and w_r make the form belong to Pa and N/m. A
+    relief of 1 is that of elastic teeth; at 0 the contact width is independent of load.
 
     >>> load = misalignment(2e5, 2000.0, 0.02, misalignment=10e-6, relief=1.0, loss_power=0.5)   # x = 1: 8/2.5^2
     >>> round(float(load) / 2e5, 3)

@@ -1,4 +1,4 @@
-"""Friction that pulsates with the mesh or the turn of a drive."""
+"""Friction that pulsates with the mesh or rotation of a drive."""
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from mixedlub.chain.priors import Between, BetweenLog, Normal
             "cosine",
             "-",
             Normal(0.0, 0.3),
-            "amplitude in phase with position zero, over T_c",
+            "amplitude of the cosine of position, relative to T_c",
             null=0.0,
             symbol="a",
             of="coulomb_torque",
@@ -23,7 +23,7 @@ from mixedlub.chain.priors import Between, BetweenLog, Normal
             "sine",
             "-",
             Normal(0.0, 0.3),
-            "amplitude a quarter period later, over T_c",
+            "amplitude of the sine of position, relative to T_c",
             null=0.0,
             symbol="b",
             of="coulomb_torque",
@@ -32,10 +32,10 @@ from mixedlub.chain.priors import Between, BetweenLog, Normal
             "turning",
             "-",
             Between(0.0, 1.0),
-            "share that turns its sign with the direction: 0 for a torque of the position, 1 for friction",
+            "share that changes sign with direction: 0 position-dependent torque, 1 friction",
             symbol="r",
         ),
-        Parameter("order", "-", BetweenLog(0.8, 60.0), "pulsations a turn", scan=400, symbol="N"),
+        Parameter("order", "-", BetweenLog(0.8, 60.0), "pulsations per revolution", scan=400, symbol="N"),
     ),
     equation=r"T_f \leftarrow T_f + T_c\,(a\cos N\phi + b\sin N\phi)\,(1 - r + r\operatorname{sgn}\omega)",
     source="mesh-stiffness and eccentricity ripple, e.g. H. N. Ozguven, D. R. Houser, J. Sound Vib. 121 (1988) 383",
@@ -55,9 +55,9 @@ def periodic_mesh(
     turning: float,
     order: float,
 ) -> np.ndarray:
-    """Teeth in mesh and eccentric wheels make the torque pulsate with position.
+    """Tooth meshing and eccentric wheels make the torque pulsate with position.
 
-    A torque of the position keeps its sign in either direction; pulsating friction turns it.
+    A position-dependent torque keeps its sign in both directions; pulsating friction changes it.
 
     >>> ripple, angle = dict(cosine=0.5, sine=0.0, order=4.0), np.array([0.0, np.pi / 4])
     >>> periodic_mesh(2.0, 1.0, angle, 10.0, **ripple, turning=1.0).round(3).tolist()

@@ -6,7 +6,7 @@ from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import Between, LogNormal
 
 NEAR = 1e-6
-"""Of an exponent to one, from where the limit holds."""
+"""Distance of the exponent from one below which the limit is used."""
 
 
 @effect(
@@ -17,7 +17,7 @@ NEAR = 1e-6
             "speed_share",
             "-",
             LogNormal(0.003, 1.5),
-            "speed to the sliding value at the slope of the start, over the largest speed of the recording",
+            "speed at which the initial slope reaches sliding friction, over the largest speed recorded",
             null=0.0,
             symbol="p",
             of="reference_speed",
@@ -26,7 +26,7 @@ NEAR = 1e-6
             "exponent",
             "-",
             Between(0.0, 2.0),
-            "0: gives until it slides, 1: Dahl's usual one, 2: long tail",
+            "Dahl's exponent: 0 linear until sliding, 1 exponential, 2 long tail",
             symbol="i",
         ),
     ),
@@ -49,9 +49,9 @@ def presliding(
     speed_share: float,
     exponent: float,
 ) -> np.ndarray:
-    """Near standstill the contacts only give elastically and friction has not yet reached its sliding value.
+    """Near standstill the contacts deform elastically; friction has not yet reached its sliding value.
 
-    Dahl's stiffness falls as (1 - F/T)^i; with i = 1 friction over a travel x is T (1 - exp(-k x/T)).
+    Dahl's stiffness is proportional to (1 - F/T)^i; with i = 1 friction over a travel x is T (1 - exp(-k x/T)).
 
     >>> presliding(2.0, np.array([-0.1, 100.0]), 100.0, speed_share=0.001, exponent=1.0).round(3).tolist()
     [1.264, 2.0]

@@ -1,4 +1,4 @@
-"""Viscosity under pressure that follows neither one exponential nor one power."""
+"""Pressure-viscosity relation that departs from the laws of Barus and Roelands."""
 
 import numpy as np
 
@@ -30,7 +30,7 @@ CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
             "exponent",
             "-",
             Normal(0.6, 0.1),
-            "exponent of Roelands, one for all temperatures",
+            "Roelands' exponent, the same at all temperatures",
             symbol="Z",
             kinds=SAMPLE,
         ),
@@ -38,7 +38,7 @@ CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
             "slope",
             "-",
             LogNormal(1.0, 0.25),
-            "slope far above the onset over that below, at 40 degC",
+            "slope of ln viscosity far above the onset relative to that below, at 40 degC",
             null=1.0,
             symbol="s",
         ),
@@ -55,7 +55,7 @@ CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
             "slope_with_temperature",
             "-",
             Normal(0.0, 0.3),
-            "log change of that slope per 100 K at 40 degC, in 1/T",
+            "change of the logarithm of that slope per 100 K at 40 degC, linear in 1/T",
             null=0.0,
             symbol="d",
             kinds=CONTACT,
@@ -64,7 +64,7 @@ CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
             "slope_bow",
             "-",
             Normal(0.0, 0.3),
-            "coefficient of the square of that change in 1/T",
+            "quadratic coefficient of that change in 1/T",
             null=0.0,
             symbol="w",
             kinds=CONTACT,
@@ -81,7 +81,7 @@ CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
             "bend_up",
             "1/Pa",
             LogNormal(5e-10, 1.2),
-            "rate at which the slope rises towards the glass",
+            "rate at which the slope rises towards the glass transition",
             null=0.0,
             symbol="B",
         ),
@@ -89,14 +89,14 @@ CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
             "down_with_temperature",
             "-",
             Normal(0.0, 0.5),
-            "log change of the fall per 100 K at 40 degC, in 1/T",
+            "change of the logarithm of the fall rate per 100 K at 40 degC, linear in 1/T",
             symbol="c",
         ),
         Parameter(
             "up_with_temperature",
             "-",
             Normal(-0.8, 1.0),
-            "log change of the rise per 100 K at 40 degC, in 1/T",
+            "change of the logarithm of the rise rate per 100 K at 40 degC, linear in 1/T",
             symbol="b",
         ),
     ),
@@ -143,14 +143,14 @@ def pressure_viscosity_law(
     down_with_temperature: float,
     up_with_temperature: float,
 ) -> np.ndarray:
-    """Viscosity leaves the base's law of pressure (Barus for samples, Roelands in contacts): its logarithm bends.
+    """ln viscosity curves with pressure otherwise than in the base law (Barus for samples, Roelands in contacts).
 
-    It rises more slowly at first and faster again near the glass. At contact pressures Roelands' law, the base of
-    gears and discs, has most of the bend already; a sample in a viscometer starts from the exponential of Barus.
-    The coefficient that makes the film belongs to the inlet, to 0.1 GPa or so: the slope in the contact may differ,
-    and neither need run straight between the temperatures at which the coefficient was measured; how the slope
-    changes is an interpolation of this catalogue. Both bends change exponentially with 1/T. It levels off at a
-    glass. The glass's 1e8 Pa s, 9.67 and p_r make the form belong to Pa s and Pa.
+    Its slope falls at first and rises again towards the glass transition. At contact pressures Roelands' law, the base
+    of gears and discs, contains most of the curvature; a sample in a viscometer starts from Barus' exponential. The
+    coefficient in the film law holds at inlet pressures, up to about 0.1 GPa: the slope in the contact may differ, and
+    neither need be linear between the temperatures at which the coefficient was measured. The temperature dependence of
+    the slope is an interpolation of this catalogue. Both curvatures change exponentially with 1/T. Viscosity is limited
+    to that of a glass. The glass's 1e8 Pa s, 9.67 and p_r make the form belong to Pa s and Pa.
 
     >>> rest = dict(down_with_temperature=0.0, up_with_temperature=0.0, bend_up=0.0, exponent=0.53135)
     >>> rest |= dict(slope=1.0, onset=0.15e9, slope_with_temperature=0.0, slope_bow=0.0)
@@ -180,5 +180,5 @@ def pressure_viscosity_law(
 
 
 def _below(log: np.ndarray, solid: np.ndarray) -> np.ndarray:
-    """A logarithm that levels off at that of a glass, rounded."""
+    """Logarithm of viscosity with a smooth upper limit at that of a glass."""
     return log / (1.0 + (log / solid) ** 8) ** 0.125

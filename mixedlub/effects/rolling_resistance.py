@@ -6,16 +6,21 @@ from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import Between, LogNormal
 
 _PIVOT, _MATERIAL = 3e-11, 3000.0
-"""Speed and material group at which both laws of the source give the same."""
+"""Speed and material parameters at which both laws of the source agree."""
 
 
 @effect(
     stage="loss",
     acts_on="rolling_force",
     parameters=(
-        Parameter("strength", "-", LogNormal(1.0, 0.7), "factor on the resistance", null=0.0, symbol="c"),
+        Parameter("strength", "-", LogNormal(1.0, 0.7), "factor on the rolling resistance", null=0.0, symbol="c"),
         Parameter(
-            "exponent", "-", Between(0.63, 0.77), "power of viscosity times speed", symbol="k", published=(0.66, 0.75)
+            "exponent",
+            "-",
+            Between(0.63, 0.77),
+            "exponent of viscosity times speed",
+            symbol="k",
+            published=(0.66, 0.75),
         ),
     ),
     equation=r"f_r \leftarrow f_r + "
@@ -39,11 +44,11 @@ def rolling_resistance(
     strength: float,
     exponent: float,
 ) -> np.ndarray:
-    """Oil drawn into the contact resists rolling, whatever the load.
+    """Oil drawn into the contact resists rolling, independently of load.
 
-    Against numerical solutions 0.91 to 1.09 where W is above 1e-4. Laws with a smaller power of speed fall with the
-    pressure-viscosity coefficient: powers of speed 0.658, 0.648, 0.638 have -0.342, -0.352, -0.358 of G = alpha E'
-    (Goksem and Hargreaves; Zhou and Hoeprich; Pan and Hamrock), here -0.313, -0.347, -0.381.
+    The ratio to numerical solutions is 0.91 to 1.09 where W is above 1e-4. Laws with a smaller exponent of speed fall
+    with the pressure-viscosity coefficient: exponents of speed 0.658, 0.648, 0.638 go with -0.342, -0.352, -0.358 of G
+    = alpha E' (Goksem and Hargreaves; Zhou and Hoeprich; Pan and Hamrock), here -0.313, -0.347, -0.381.
 
     >>> contact = (8.3262e-3, 226.374e9, 0.01489, 2.163, 14.81e-9)   # U_l = 3.42e-11, G = 3353
     >>> [round(float(rolling_resistance(0.0, *contact, strength=1.0, exponent=k))) for k in (0.75, 0.658)]

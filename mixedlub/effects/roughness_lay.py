@@ -11,11 +11,24 @@ from mixedlub.chain.priors import Between, LogNormal, Normal
     acts_on="film_thickness",
     parameters=(
         Parameter(
-            "lay", "-", Normal(0.0, 0.4), "positive for ridges across the motion, negative along", null=0.0, symbol="a"
+            "lay",
+            "-",
+            Normal(0.0, 0.4),
+            "positive for transverse ridges, negative for longitudinal ridges",
+            null=0.0,
+            symbol="a",
         ),
-        Parameter("onset", "-", LogNormal(0.4, 0.8), "film ratio at which ridges begin to matter", symbol=r"\lambda_r"),
-        Parameter("decay", "-", Between(1.0, 2.2), "power with which it fades in thicker films", symbol="k"),
-        Parameter("saturation", "-", Between(0.0, 1.0), "film ratio below which it grows no more", symbol=r"\lambda_s"),
+        Parameter(
+            "onset", "-", LogNormal(0.4, 0.8), "film parameter at which the lay begins to matter", symbol=r"\lambda_r"
+        ),
+        Parameter("decay", "-", Between(1.0, 2.2), "exponent of the decay in thicker films", symbol="k"),
+        Parameter(
+            "saturation",
+            "-",
+            Between(0.0, 1.0),
+            "film parameter below which the effect is constant",
+            symbol=r"\lambda_s",
+        ),
     ),
     equation=r"h \leftarrow h\,\left[1 + \left(\frac{\lambda_r}{\lambda}\right)^{k}\right]^{a},\quad "
     r"\lambda = \left[(h/\sigma)^4 + \lambda_s^4\right]^{1/4}",
@@ -37,11 +50,11 @@ def roughness_lay(
     decay: float,
     saturation: float,
 ) -> np.ndarray:
-    """Ridges across the motion hold oil back and thicken the film, ridges along it let the oil out.
+    """Transverse roughness ridges retain oil and thicken the film; longitudinal ridges let oil escape.
 
-    The power form keeps the film positive for either sign and any roughness; a = 1, k = 1, lambda_r = 0.15 adds
-    0.15 sigma to the film, a = -1 takes as much away where the film is thick. Where asperities carry the surfaces the
-    film law's gap is not theirs, and the effect stays what it was at lambda_s, 0 to 1.
+    The power form keeps the film positive for either sign and any roughness; a = 1, k = 1, lambda_r = 0.15 adds 0.15
+    sigma to the film; a = -1 removes as much where the film is thick. Where asperities carry the load the film law does
+    not give the gap, and the effect keeps its value at lambda_s, 0 to 1.
 
     >>> round(float(roughness_lay(0.5, 0.5, lay=1.0, onset=0.15, decay=1.0, saturation=0.0)), 3)
     0.575

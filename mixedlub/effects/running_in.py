@@ -10,11 +10,11 @@ from mixedlub.chain.priors import Between, LogNormal
     stage="contact",
     acts_on=("m0", "m2", "m4"),
     parameters=(
+        Parameter("strength", "-", LogNormal(0.45, 0.6), "final fall of ln m0", null=0.0, symbol="s"),
         Parameter(
-            "strength", "-", LogNormal(0.45, 0.6), "fall of the logarithm of m0 in the end", null=0.0, symbol="s"
+            "rate", "-", LogNormal(3.0, 1.0), "duration of the programme over the time constant of the wear", symbol="k"
         ),
-        Parameter("rate", "-", LogNormal(3.0, 1.0), "how many times over it settles within the programme", symbol="k"),
-        Parameter("texture", "-", Between(0.3, 2.5), "fall of slopes and curvatures over that of heights", symbol="r"),
+        Parameter("texture", "-", Between(0.3, 2.5), "fall of ln m2 and ln m4 relative to that of ln m0", symbol="r"),
     ),
     equation=r"m_0 \leftarrow m_0 e^{-s g},\quad m_{2,4} \leftarrow m_{2,4} e^{-s r g},\quad g = 1 - e^{-k q}",
     source="I. V. Kragelsky, M. N. Dobychin, V. S. Kombalov, Friction and Wear: Calculation Methods, 1982: exponential "
@@ -33,7 +33,7 @@ def running_in(
     rate: float,
     texture: float,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The roughness wears smoother in the course of the programme, fast at first.
+    """Surface roughness wears smoother during the programme, fast at first.
 
     >>> m0, m2, _ = running_in(1.0, 1.0, 1.0, 1.0, strength=0.45, rate=30.0, texture=1.6)
     >>> round(float(m0), 2), round(float(m2), 2)   # Rq x 0.8, slopes and curvatures x 0.7

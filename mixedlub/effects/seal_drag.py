@@ -14,9 +14,14 @@ _PIVOT = 20e-6
     acts_on="power_loss",
     parameters=(
         Parameter(
-            "strength", "-", LogNormal(0.5, 1.0), "factor on the torque: size and number of lips", null=0.0, symbol="c"
+            "strength",
+            "-",
+            LogNormal(0.5, 1.0),
+            "factor on the torque, for size and number of lips",
+            null=0.0,
+            symbol="c",
         ),
-        Parameter("viscous", "-", Between(0.0, 0.6), "power of viscosity", symbol="k"),
+        Parameter("viscous", "-", Between(0.0, 0.6), "exponent of viscosity", symbol="k"),
     ),
     equation=r"P_L \leftarrow P_L + "
     r"c\,T_s\,(\omega_1+\omega_2)\left(\frac{\nu}{20\,\text{mm}^2/\text{s}}\right)^{k},\quad "
@@ -39,10 +44,10 @@ def seal_drag(
     strength: float,
     viscous: float,
 ) -> np.ndarray:
-    """A lip seal rubs on each shaft.
+    """A lip seal on each shaft adds friction.
 
-    Shafts as thick as the pinion's pitch radius, and most are thinner. The lip force and 20 mm^2/s make the form
-    belong to N/m and m^2/s.
+    The shaft radius is taken as the pinion's pitch radius; most shafts are thinner. The lip force and 20 mm^2/s make
+    the form belong to N/m and m^2/s.
 
     >>> round(float(seal_drag(0.0, 0.036, 157.1, 102.7, 0.017, 850.0, strength=1.0, viscous=0.0)), 1)
     24.7

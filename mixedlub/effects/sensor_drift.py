@@ -6,7 +6,7 @@ from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import Between, Wide
 
 STEADY = 1e-9
-"""Settling below which a drift is the straight line that it becomes."""
+"""Settling below which the linear limit is used."""
 
 
 @effect(
@@ -18,7 +18,7 @@ STEADY = 1e-9
             "settling",
             "-",
             Between(0.0, 8.0),
-            "length of the programme over the time in which the drift settles; 0: it goes on at one pace",
+            "duration of the programme over the drift's time constant; 0: linear drift",
             null=0.0,
             symbol="s",
             kinds=("gear_pair", "disc", "film", "friction_map", "mesh_friction", "viscosity"),
@@ -33,9 +33,9 @@ STEADY = 1e-9
     contains={"a steady drift": {"settling": 0.0}},
 )
 def sensor_drift(reading: np.ndarray, sequence: np.ndarray, *, drift: float, settling: float) -> np.ndarray:
-    """The channel's scale creeps in the course of the programme.
+    """The gain of the channel drifts during the programme.
 
-    Histories keep the steady drift: what settles there is taken for a surface.
+    In friction histories the drift is linear: a change that settles is attributed to the surfaces.
 
     >>> round(float(sensor_drift(100.0, 0.5, drift=0.06, settling=0.0)), 6)
     103.0

@@ -19,7 +19,7 @@ from mixedlub.chain.priors import Wide
     exact=True,
 )
 def sensor_gain(reading: np.ndarray, *, gain: float) -> np.ndarray:
-    """The channel reads the same share too much everywhere.
+    """Every reading of the channel is too large by the same share.
 
     >>> round(sensor_gain(100.0, gain=0.02), 6)
     102.0

@@ -14,7 +14,7 @@ from mixedlub.chain.priors import Wide
             "offset",
             "-",
             Wide(0.05),
-            "added to every reading, over its typical size",
+            "offset of every reading, relative to the typical reading",
             null=0.0,
             symbol="a",
             of="reading_scale",
@@ -28,7 +28,7 @@ from mixedlub.chain.priors import Wide
     exact=True,
 )
 def sensor_offset(reading: np.ndarray, reading_scale: np.ndarray, *, offset: float) -> np.ndarray:
-    """The channel does not read zero at zero.
+    """The channel has a zero offset.
 
     >>> sensor_offset(100.0, 50.0, offset=0.1)
     105.0

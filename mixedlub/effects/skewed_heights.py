@@ -22,7 +22,13 @@ _SMALL = 1e-4
             null=0.0,
             symbol="S_{sk}",
         ),
-        Parameter("narrowing", "-", Between(0.0, 0.6), "how far the summits' spread follows the plateau", symbol="n"),
+        Parameter(
+            "narrowing",
+            "-",
+            Between(0.0, 0.6),
+            "degree to which the spread of the summits narrows to that of the plateau",
+            symbol="n",
+        ),
     ),
     equation=r"P_B \leftarrow P_B + \pi D R_s\sigma_s\,[w F(t/w) - F_1(t)]\ (0 \leq P_B \leq 1),\quad "
     r"w = e^{n S_{sk}},\quad "
@@ -46,10 +52,10 @@ def skewed_heights(
     skewness: float,
     narrowing: float,
 ) -> np.ndarray:
-    """Heights worn to a plateau, or with a few high peaks, touch less, or more, than Gaussian ones.
+    """Heights worn to a plateau have less contact area than Gaussian ones; a few high peaks give more.
 
-    Heights keep their mean and, without narrowing, their standard deviation; a negatively skewed surface ends at a
-    highest plane. Narrowing lets the summits of a plateau be smoother than the whole surface with its valleys.
+    Heights keep their mean and, without narrowing, their standard deviation; the heights of a negatively skewed surface
+    have an upper bound. Narrowing lets the summits of a plateau be smoother than the whole surface with its valleys.
 
     >>> area = np.pi * 1e-2 * area_integral(np.array([-1.0, 1.0, 2.0]))
     >>> flat = skewed_heights(area, np.array([-1.0, 1.0, 2.0]), 1e10, 1e-5, 1e-7, skewness=-0.8, narrowing=0.0)

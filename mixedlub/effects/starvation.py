@@ -7,7 +7,7 @@ from mixedlub.chain.priors import BetweenLog, LogNormal, Wide
 
 USUAL = 1e9
 LEAST, MOST = 1e-300, 60.0
-"""Ratio to the onset that stands for none; logarithm of a film's loss beyond which there is no film."""
+"""Ratio to the onset that is treated as zero; logarithm of the film's loss beyond which no film remains."""
 
 
 @effect(
@@ -18,13 +18,15 @@ LEAST, MOST = 1e-300, 60.0
             "strength",
             "-",
             LogNormal(0.4, 0.8),
-            "power with which the film falls far above onset",
+            "exponent of the film's fall far above onset",
             null=0.0,
             symbol="s",
         ),
-        Parameter("onset", "N/m", BetweenLog(0.01, 1.0), "viscosity times speed at which oil runs short", symbol="c"),
-        Parameter("steepness", "-", LogNormal(2.5, 0.4), "how sharply starvation sets in", symbol=r"\gamma"),
-        Parameter("width_power", "-", Wide(0.5), "power of the contact's width in the onset", symbol="w"),
+        Parameter(
+            "onset", "N/m", BetweenLog(0.01, 1.0), "viscosity times speed at the onset of starvation", symbol="c"
+        ),
+        Parameter("steepness", "-", LogNormal(2.5, 0.4), "sharpness of the onset", symbol=r"\gamma"),
+        Parameter("width_power", "-", Wide(0.5), "exponent of the contact's width in the onset", symbol="w"),
     ),
     equation=r"h \leftarrow h\,\left[1 + \left(\frac{\eta_0 u}{c\,(p_0/p_u)^w}\right)^{\gamma}\right]^{-s/\gamma},"
     r"\quad p_u = 1\,\text{GPa}",
@@ -45,16 +47,16 @@ def starvation(
     steepness: float,
     width_power: float,
 ) -> np.ndarray:
-    """Too little oil reaches the inlet above a certain viscosity times speed, and the film falls behind.
+    """Above a certain viscosity times speed the inlet lacks oil; the film is thinner than fully flooded.
 
     Chevalier and others write h/h_ff = r/(1 + r^gamma)^(1/gamma) with gamma 2 to 5 and r the supplied over the fully
-    flooded film; here r = (c/(eta u))^s. Power s is 0.1 for a meniscus at fixed distance (Hamrock and Dowson)
-    and 0.7 for a film that cannot grow any more.
+    flooded film; here r = (c/(eta u))^s. The exponent s is 0.1 for a meniscus at fixed distance (Hamrock and Dowson)
+    and 0.7 for a film that no longer grows.
 
     A wide contact takes longer to refill, w = -1 (Cann and others). By Hamrock and Dowson h/h_ff = (f/m*)^0.29 with
-    m* = 3.06 [(R/b)^2 h_ff/R]^0.58 and f the distance of the meniscus in half-widths b: with h_ff after (eta u)^0.67
-    and p0^-0.2, s = 0.113, and w = 3.3 where f stays and 0.7 where the distance does. Width goes with the Hertz
-    pressure; its usual 1 GPa makes the form belong to Pa.
+    m* = 3.06 [(R/b)^2 h_ff/R]^0.58 and f the distance of the meniscus in half-widths b: with h_ff proportional to (eta
+    u)^0.67 p0^-0.2, s = 0.113, and w = 3.3 at constant f, 0.7 at constant distance. Width is proportional to the Hertz
+    pressure; its reference 1 GPa makes the form belong to Pa.
 
     >>> law = dict(strength=1.0, onset=0.1, steepness=1.0, width_power=0.0)   # r = 1, gamma = 1
     >>> round(float(starvation(1.0, 0.1, 1.0, 1e9, **law)), 12)

@@ -14,7 +14,7 @@ from mixedlub.chain.priors import Between, LogNormal
             "excess",
             "-",
             LogNormal(0.3, 0.8),
-            "static over Coulomb friction, less one",
+            "static over Coulomb friction, minus one",
             null=0.0,
             symbol="s",
             of="coulomb_torque",
@@ -23,7 +23,7 @@ from mixedlub.chain.priors import Between, LogNormal
             "speed_share",
             "-",
             LogNormal(0.1, 1.0),
-            "Stribeck speed over the largest speed of the recording, at its mean temperature and middle load",
+            "Stribeck speed over the largest speed of the recording, at mean temperature and middle load",
             symbol="q",
             of="reference_speed",
         ),
@@ -31,21 +31,21 @@ from mixedlub.chain.priors import Between, LogNormal
             "exponent",
             "-",
             LogNormal(1.0, 0.4),
-            "1: exponential as Tustin's, 2: as Gauss' curve, below 1: spread over decades of speed",
+            "exponent of speed: 1 exponential (Tustin), 2 Gaussian, below 1 spread over decades of speed",
             symbol="n",
         ),
         Parameter(
             "thinning",
             "1/K",
             Between(0.0, 0.05),
-            "fall of viscosity a kelvin, by which warm oil needs more speed; 0: the temperature is not the contact's",
+            "relative fall of viscosity per kelvin, which shifts the curve; 0: not the contact's temperature",
             symbol="b",
         ),
         Parameter(
             "load_power",
             "-",
             Between(0.0, 1.0),
-            "power of the load by which a loaded film needs more speed; 1: one curve over speed over load",
+            "exponent of load in the Stribeck speed; 1: one curve against speed over load",
             symbol="k",
         ),
     ),
@@ -76,10 +76,10 @@ def stribeck(
     thinning: float,
     load_power: float,
 ) -> np.ndarray:
-    """At low speed the lubricant film collapses and friction rises above its dry level at speed.
+    """At low speed the lubricant film collapses and friction rises above its Coulomb level.
 
-    A film is as thick at half the viscosity and twice the speed; viscosity falls by 2 to 5 % a kelvin. Hersey's
-    number is viscosity times speed over load.
+    Half the viscosity at twice the speed gives the same film; viscosity falls by 2 to 5 % per kelvin. The Hersey number
+    is viscosity times speed over load.
 
     >>> law = dict(excess=0.5, speed_share=0.1, thinning=0.03, load_power=1.0)
     >>> stribeck(2.0, 2.0, np.array([1e-9, 10.0, 100.0]), 100.0, 0.0, 0.0, exponent=1.0, **law).round(3).tolist()

@@ -14,7 +14,7 @@ from mixedlub.chain.priors import Between, BetweenLog, LogNormal
             "share",
             "-",
             LogNormal(0.01, 0.8),
-            "share of the contact that touches at no film",
+            "share of the contact area that touches at zero film thickness",
             null=0.0,
             symbol="c",
         ),
@@ -22,14 +22,14 @@ from mixedlub.chain.priors import Between, BetweenLog, LogNormal
             "inverse_height",
             "1/m",
             Between(0.0, 1e6),
-            "one over the height that 37 % of the defects exceed",
+            "reciprocal of the height that 37 % of the defects exceed",
             symbol=r"\kappa",
         ),
         Parameter(
             "evenness",
             "-",
             BetweenLog(1.0, 5.0),
-            "1: heights are exponential, 3.6: nearly normal with a scatter of 30 %",
+            "shape of the height distribution: 1 exponential, 3.6 nearly normal with 30 % scatter",
             symbol="m",
         ),
     ),
@@ -50,11 +50,10 @@ from mixedlub.chain.priors import Between, BetweenLog, LogNormal
 def surface_defects(
     area_ratio: np.ndarray, film_thickness: np.ndarray, *, share: float, inverse_height: float, evenness: float
 ) -> np.ndarray:
-    """Scratches and burrs keep touching where the film is thick enough for the rest.
+    """Scratches and burrs remain in contact where the film separates the rest of the surfaces.
 
-    It is rare that all surfaces of a test carry the same share of them. Their heights, a micrometre and more,
-    are their own and not those of the finish; a film of such a thickness buries the lower ones. Each that is higher
-    than the film touches with the same area.
+    The surfaces of a test rarely have the same share of them. Their heights, a micrometre and more, do not follow from
+    the finish; a film of that thickness covers the lower ones. Each defect higher than the film adds the same area.
 
     >>> round(float(surface_defects(0.2, 1e-6, share=0.01, inverse_height=0.0, evenness=1.0)), 3)
     0.208

@@ -14,11 +14,22 @@ _TYPICAL = 2e5
     acts_on="load_share",
     parameters=(
         Parameter(
-            "relief", "m", LogNormal(15e-6, 0.6), "tip relief that the known load sharing lacks", null=0.0, symbol="C_a"
+            "relief",
+            "m",
+            LogNormal(15e-6, 0.6),
+            "tip relief missing from the known load sharing",
+            null=0.0,
+            symbol="C_a",
         ),
-        Parameter("length", "-", Between(0.05, 0.35), "length of the relief over the path of contact", symbol=r"\ell"),
         Parameter(
-            "fade", "-", Between(0.0, 1.0), "power with which load takes it back, 1 for equal springs", symbol="f"
+            "length", "-", Between(0.05, 0.35), "length of the relief relative to the path of contact", symbol=r"\ell"
+        ),
+        Parameter(
+            "fade",
+            "-",
+            Between(0.0, 1.0),
+            "exponent of load with which tooth deflection reduces it, 1 for equal springs",
+            symbol="f",
         ),
     ),
     equation=r"s \leftarrow \frac{s\,e^{-z}}{1 - s_b\,(1 - e^{-z})},\quad "
@@ -45,12 +56,12 @@ def tip_relief(
     length: float,
     fade: float,
 ) -> np.ndarray:
-    """Relieved tips hand their load to the tooth pair in the middle, where sliding is small.
+    """Tip relief shifts load to the tooth pair in the middle of the path of contact, where sliding is small.
 
-    Two pairs share between them, so their shares still add to one and a single pair keeps all.
-    A small relief takes half of x off the share at the tip, as two equal springs do; a large one all of it.
-    A load share from a gear program usually holds the relief already. Equal springs take it back as 1/F (f = 1);
-    where relief and bending of the teeth reach along the path the share changes less with load. The tooth
+    The shares of two pairs in contact still add up to one, and a single pair carries all. A small relief removes half
+    of x from the share at the tip, as for two equal springs; a large one removes all of it. The load share of a gear
+    program usually includes the relief already. For equal springs its influence falls as 1/F (f = 1); where relief and
+    tooth bending extend along the path the share changes less with load. The tooth
     stiffness and the line load w_r = 200 N/mm make the form belong to Pa and N/m.
 
     >>> known = dict(contact_ratio=1.5, transmitted_force=3000.0, contact_width=0.014, face_width=0.014)
@@ -68,5 +79,5 @@ def tip_relief(
 
 
 def _gap(place: np.ndarray, length: float) -> np.ndarray:
-    """Relief at a place along the path over that at the tips."""
+    """Relief at a position on the path of contact, relative to that at the tips."""
     return np.exp(-((place / length) ** 2)) + np.exp(-(((1.0 - place) / length) ** 2))

@@ -1,4 +1,4 @@
-"""A motor's torque constant that is not what its controller assumes."""
+"""A motor torque constant that differs from the one its controller assumes."""
 
 import numpy as np
 
@@ -10,14 +10,12 @@ from mixedlub.chain.priors import LogNormal, Normal
     stage="measurement",
     acts_on="reading",
     parameters=(
-        Parameter(
-            "error", "-", Normal(0.0, 0.08), "share by which the assumed constant is too high", null=0.0, symbol="a"
-        ),
+        Parameter("error", "-", Normal(0.0, 0.08), "relative excess of the assumed constant", null=0.0, symbol="a"),
         Parameter(
             "fall",
             "-",
             LogNormal(0.08, 0.8),
-            "further share lost at the largest torque",
+            "further relative excess at the largest torque, by saturation",
             null=0.0,
             symbol="f",
             of="reference_torque",
@@ -34,7 +32,7 @@ from mixedlub.chain.priors import LogNormal, Normal
 def torque_constant(
     reading: np.ndarray, motor_torque: np.ndarray, reference_torque: np.ndarray, *, error: float, fall: float
 ) -> np.ndarray:
-    """Torque computed from current is too high by an error that grows as the iron saturates; it looks like friction.
+    """Torque computed from current is too high, increasingly so as the iron saturates; the error resembles friction.
 
     >>> round(float(torque_constant(0.1, 4.0, 8.0, error=0.02, fall=0.1)), 3)
     0.38

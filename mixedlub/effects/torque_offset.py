@@ -1,4 +1,4 @@
-"""Offset of the torque meter."""
+"""Zero offset of the torque meter."""
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from mixedlub.chain.priors import Wide
             "offset",
             "-",
             Wide(5e-4),
-            "torque read at no torque, over the largest torque recorded",
+            "reading at zero torque, relative to the largest torque recorded",
             null=0.0,
             symbol="a",
             of="largest_torque",
@@ -32,7 +32,7 @@ from mixedlub.chain.priors import Wide
 def torque_offset(
     reading: np.ndarray, pinion_speed: np.ndarray, largest_torque: np.ndarray, *, offset: float
 ) -> np.ndarray:
-    """A torque meter that does not read zero at rest adds a torque that is not there.
+    """The zero offset of the torque meter adds a constant torque to every reading.
 
     >>> round(torque_offset(100.0, 157.0, 100.0, offset=5e-4), 2)   # 0.05 N m at 1500 rpm
     107.85

@@ -17,17 +17,21 @@ SOFTNESS = 0.2
             "time_constant",
             "-",
             LogNormal(0.3, 0.9),
-            "share of the programme to cover 63 % of what is bare",
+            "time to cover 63 % of the bare track, as a share of the programme",
             symbol="q_c",
         ),
         Parameter(
-            "induction", "-", LogNormal(0.02, 1.2), "share of the programme before the film starts", symbol="q_i"
+            "induction",
+            "-",
+            LogNormal(0.02, 1.2),
+            "induction time before the film starts, as a share of the programme",
+            symbol="q_i",
         ),
         Parameter(
             "exponent",
             "-",
             LogNormal(1.0, 0.4),
-            "1: bare track is covered at a steady rate, 0.5: growth through the film, above 1: nuclei that grow",
+            "growth exponent: 1 constant rate on bare track, 0.5 diffusion through the film, above 1 growing nuclei",
             symbol="n",
         ),
     ),
@@ -53,9 +57,9 @@ def tribofilm_growth(
     induction: float,
     exponent: float,
 ) -> np.ndarray:
-    """Additives form a solid film on the track; friction goes with the share of the track that it covers.
+    """Additives form a solid film on the track; friction changes in proportion to the covered share.
 
-    The start is rounded over a fifth of the induction time, as nuclei do not all form at once.
+    The start is smoothed over a fifth of the induction time, as nuclei do not all form at once.
 
     >>> film = dict(change=1.0, time_constant=0.05, induction=0.2, exponent=1.0)
     >>> tribofilm_growth(0.06, np.array([0.0, 1.0]), **film).round(4).tolist()

@@ -1,4 +1,4 @@
-"""A surface state that passes and one that stays."""
+"""A transient and a lasting change of the surfaces."""
 
 import numpy as np
 
@@ -14,26 +14,30 @@ from mixedlub.chain.priors import EitherSign, LogNormal, Wide
             "passing",
             "-",
             EitherSign(0.13, 0.7),
-            "relative change at the height of the passing state",
+            "relative change at the peak of the transient state",
             null=0.0,
             symbol="a",
         ),
-        Parameter("lasting", "-", Wide(0.45), "relative change that the slow state ends at", null=0.0, symbol="b"),
+        Parameter("lasting", "-", Wide(0.45), "final relative change of the slow state", null=0.0, symbol="b"),
         Parameter(
             "passing_time",
             "-",
             LogNormal(0.04, 0.8),
-            "share of the programme at which the fast state is highest",
+            "time of the transient's peak, as a share of the programme",
             symbol="q_1",
         ),
         Parameter(
-            "lasting_time", "-", LogNormal(0.7, 0.8), "share of the programme for 63 % of the slow change", symbol="q_2"
+            "lasting_time",
+            "-",
+            LogNormal(0.7, 0.8),
+            "time to 63 % of the slow change, as a share of the programme",
+            symbol="q_2",
         ),
         Parameter(
             "gathering",
             "-",
             LogNormal(1.4, 0.4),
-            "exponent of Avrami: 1 at full pace from the start, above: later",
+            "Avrami exponent of the slow change: 1 full rate from the start, above 1 delayed",
             symbol="m",
         ),
     ),
@@ -55,7 +59,7 @@ def two_time_scales(
     lasting_time: float,
     gathering: float,
 ) -> np.ndarray:
-    """A film forms and passes quickly while the track wears slowly; each moves friction by its own share.
+    """A film forms and fades quickly while the track wears slowly; each changes friction by its own share.
 
     >>> fast, slow = dict(passing=0.1, passing_time=0.02), dict(lasting=-0.3, lasting_time=0.5, gathering=1.0)
     >>> two_time_scales(0.1, np.array([0.02, 9.0]), **fast, **slow).round(3).tolist()

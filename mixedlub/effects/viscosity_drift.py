@@ -8,7 +8,7 @@ from mixedlub.chain.priors import Between, Normal, Wide
 WARM = 313.15
 KELVIN = 100.0
 SMALL, MOST = 1e-9, 30.0
-"""Saturation that is none; logarithm of a viscosity's change, or of a rate's, beyond which none is one."""
+"""Saturation treated as zero; largest logarithmic change of a viscosity, or of a rate, that is computed."""
 
 
 @effect(
@@ -19,7 +19,7 @@ SMALL, MOST = 1e-9, 30.0
             "drift",
             "-",
             Normal(0.0, 0.2),
-            "log change of viscosity over the programme at 40 degC",
+            "change of ln viscosity over the programme at 40 degC",
             null=0.0,
             symbol="d",
         ),
@@ -27,11 +27,19 @@ SMALL, MOST = 1e-9, 30.0
             "saturation",
             "-",
             Normal(0.0, 2.5),
-            "0: steady, above: rates that fall by so many powers of e over the programme, below: that rise",
+            "fall of the logarithm of the rate over the programme: 0 constant, negative for a rising rate",
             symbol="s",
         ),
-        Parameter("cold_gain", "-", Wide(0.7), "log growth of the drift over 100 K of cooling", symbol="k"),
-        Parameter("heat", "-", Between(0.0, 1.0), "0: it goes with time, 1: with time and heat", symbol="a"),
+        Parameter(
+            "cold_gain", "-", Wide(0.7), "increase of the logarithm of the drift per 100 K of cooling", symbol="k"
+        ),
+        Parameter(
+            "heat",
+            "-",
+            Between(0.0, 1.0),
+            "weight of temperature: 0 the drift follows time, 1 time and temperature",
+            symbol="a",
+        ),
     ),
     equation=r"\eta_0 \leftarrow \eta_0\,"
     r"e^{d\,c\,e^{k(40\,^\circ\text{C} - \theta_{oil})/100\,\text{K}}},\quad "
@@ -54,12 +62,12 @@ def viscosity_drift(
     cold_gain: float,
     heat: float,
 ) -> np.ndarray:
-    """The sample changes with its history; these readings cannot say whether by evaporation, chemistry or wear.
+    """The sample changes during the programme, by evaporation, oxidation or wear, which are not distinguished here.
 
-    No law of temperature and pressure can show it. What a lost light fraction or a new phase adds is felt most in
-    the cold, hence ``cold_gain``. Oxidation goes on twice as fast every 10 K, evaporation faster in heat too.
+    No law of temperature and pressure describes it. A lost light fraction or a new phase raises viscosity most in the
+    cold, hence ``cold_gain``. The rate of oxidation doubles every 10 K; evaporation accelerates with temperature too.
 
-    The course ends at one, so that ``drift`` is the change at the end whatever its pace.
+    Progress ends at one, so that ``drift`` is the final change at any rate.
 
     >>> place, rest = np.array([0.0, 0.5, 1.0]), dict(drift=0.2, cold_gain=1.0, heat=0.5)
     >>> viscosity_drift(0.04, place, place, 313.15, saturation=0.0, **rest).round(4).tolist()
@@ -74,7 +82,7 @@ def viscosity_drift(
 
 
 def _course(done: np.ndarray, saturation: float) -> np.ndarray:
-    """From 0 to 1 as what is done does, and on; a rate that falls or rises exponentially."""
+    """Progress from 0 to 1 with the elapsed share, continued beyond 1, at a rate that falls or rises exponentially."""
     if abs(saturation) < SMALL:
         return done
     rate = float(np.clip(saturation, -MOST, MOST))

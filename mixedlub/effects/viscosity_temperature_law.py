@@ -1,4 +1,4 @@
-"""Viscosity against temperature that does not keep to ASTM D341."""
+"""Viscosity-temperature relation that departs from ASTM D341."""
 
 import numpy as np
 
@@ -6,9 +6,9 @@ from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import Between, LogNormal
 
 FORTY = 313.15
-"""Kelvins at which the convexity is told: 40 degC, where oils are graded."""
+"""Reference temperature (K) of the convexity: 40 degC, where oils are graded."""
 NEAREST, MOST = 5.0, 30.0
-"""Kelvins above the divergence, and logarithm of a change, that no liquid passes."""
+"""Smallest distance (K) above the divergence, and largest logarithmic change, that are computed."""
 
 
 @effect(
@@ -27,14 +27,14 @@ NEAREST, MOST = 5.0, 30.0
             "convexity",
             "-",
             Between(0.0, 3.4),
-            "40 degC in kelvins over its distance from the temperature at which Vogel's viscosity diverges",
+            "313.15 K over the distance of 40 degC from the divergence temperature of Vogel's law",
             symbol="m",
         ),
         Parameter(
             "fall",
             "-",
             LogNormal(1.0, 0.1),
-            "fall of ln viscosity between the two given ones over that told",
+            "fall of ln viscosity between the two stated temperatures, relative to the stated fall",
             symbol="g",
         ),
     ),
@@ -66,13 +66,13 @@ def viscosity_temperature_law(
     convexity: float,
     fall: float,
 ) -> np.ndarray:
-    """Between and beyond the two temperatures at which an oil is known its viscosity follows another law.
+    """Between and beyond the two stated temperatures the oil's viscosity follows a law other than ASTM D341.
 
-    Vogel's ln eta = A + B/(theta - theta_c) through both points, theta_c = 313.15 K (1 - 1/m). With theta_c 73 to
-    123 K below 0 degC (m of 1.8 to 2.8), as fits of oils have it, it lies 5 % below to 3 % above D341 between 40 and
-    100 degC, and a fifth below to twice D341 at 0 degC. Thin liquids have less: Andrade's barrier alone is m = 1,
-    Reynolds' exponential of the temperature m = 0; Slotte's (theta - theta_s)**-n runs as m = 313.15 K/2(313.15 K -
-    theta_s) does about 40 degC. A viscosity given wrong at one of the two is another ``fall`` between them.
+    Vogel's ln eta = A + B/(theta - theta_c) through both points, theta_c = 313.15 K (1 - 1/m). With theta_c 73 to 123 K
+    below 0 degC (m of 1.8 to 2.8), as fitted to oils, viscosity is 5 % below to 3 % above D341 between 40 and 100 degC,
+    and 20 % below to twice D341 at 0 degC. Thin liquids have a smaller m: Andrade's law has m = 1, Reynolds'
+    exponential m = 0; Slotte's (theta - theta_s)**-n resembles m = 313.15 K/2(313.15 K - theta_s) near 40 degC. An
+    error in one of the two stated viscosities is another ``fall`` between them.
 
     >>> known = (313.15, 373.15, np.log(10.0))   # a tenth of the viscosity at 100 degC
     >>> oil, fall = np.array([313.15, 333.15, 373.15]), np.log(10.0) * np.array([0.0, 0.43, 1.0])

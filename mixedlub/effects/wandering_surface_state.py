@@ -1,4 +1,4 @@
-"""A surface state that comes and goes."""
+"""A surface state that varies irregularly."""
 
 import numpy as np
 
@@ -48,7 +48,7 @@ def wandering_surface_state(
     swing_11: float,
     swing_12: float,
 ) -> np.ndarray:
-    """Friction follows a surface state that comes and goes: a free form that describes and names no cause.
+    """Friction follows an irregularly varying surface state: a descriptive form without an identified cause.
 
     >>> null = {f"swing_{k}": 0.0 for k in range(2, 13)}
     >>> wandering_surface_state(0.1, np.array([0.0, 1.0]), swing_1=0.1, **null).round(4).tolist()

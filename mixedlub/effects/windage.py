@@ -13,8 +13,10 @@ _PIVOT = 15.0
     stage="loss",
     acts_on="power_loss",
     parameters=(
-        Parameter("strength", "-", LogNormal(1.5, 1.2), "factor: walls, and oil in the air", null=0.0, symbol="c"),
-        Parameter("exponent", "-", Between(2.5, 3.0), "power of speed", symbol="k", published=(2.75, 2.9)),
+        Parameter(
+            "strength", "-", LogNormal(1.5, 1.2), "factor for housing walls and oil in the air", null=0.0, symbol="c"
+        ),
+        Parameter("exponent", "-", Between(2.5, 3.0), "exponent of speed", symbol="k", published=(2.75, 2.9)),
     ),
     equation=r"P_L \leftarrow P_L + \chi c\left(\frac{r_1\omega_1}{15\,\text{m/s}}\right)^{k-2.75}\,"
     r"\sum_{i=1,2} \tfrac12 C_i\rho_a\omega_i^3 r_i^5,\quad "
@@ -40,10 +42,10 @@ def windage(
     strength: float,
     exponent: float,
 ) -> np.ndarray:
-    """The wheels drive the air round.
+    """The wheels drag the surrounding air along.
 
-    The properties of air and the pivot of 15 m/s make the form belong to SI. Published formulas agree within a
-    factor 1.6 in clean air; mist adds more.
+    The properties of air and the reference speed of 15 m/s make the form belong to SI. Published formulas agree within
+    a factor of 1.6 in clean air; oil mist adds more.
 
     >>> speed = 10_000 * 3.14159 / 30
     >>> alone = windage(0.0, 0.05, 1e-9, speed, 1e-9, 0.02, 25.0, 25.0, 1.0, strength=1.0, exponent=2.75)

@@ -1,4 +1,4 @@
-"""A zero that drifts during the test."""
+"""Zero drift of the recorded channel."""
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from mixedlub.chain.priors import Normal
             "drift",
             "-",
             Normal(0.0, 0.1),
-            "change of the zero over the programme, over the typical reading",
+            "change of the zero over the programme, relative to the typical reading",
             null=0.0,
             symbol="d",
             of="reading_scale",
@@ -27,10 +27,10 @@ from mixedlub.chain.priors import Normal
     kinds=("film", "friction_map"),
 )
 def zero_drift(reading: np.ndarray, reading_scale: np.ndarray, sequence: np.ndarray, *, drift: float) -> np.ndarray:
-    """The reading at rest is no longer zero at the end; every reading shifts by the same amount.
+    """The zero of the channel drifts during the programme; the shift is the same for small and large readings.
 
-    Offered where readings change size or sign within the recording, as films and torques of drives do: on a
-    friction that stays of one size it is `sensor_drift`.
+    Offered where readings change size or sign within the recording, as films and drive torques do; for friction of
+    nearly constant size it equals `sensor_drift`.
 
     >>> round(float(zero_drift(0.05, 0.05, 0.5, drift=0.1)), 4)
     0.0525

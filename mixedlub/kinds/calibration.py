@@ -1,4 +1,4 @@
-"""What calibration may move: a few inputs of the base model, each with the case's own uncertainty."""
+"""Calibration: a few inputs of the base model are free, each with the uncertainty stated in the case."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Inputs = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class Calibration:
-    """One movable input: its prior, and what a value does to the chain's inputs; ``factor`` where it multiplies one."""
+    """One free input: its prior, and how a value changes the chain's inputs; ``factor`` where it multiplies one."""
 
     parameter: Parameter
     apply: Callable[[Inputs, float], dict[str, Any]]
@@ -25,7 +25,7 @@ class Calibration:
 
     @property
     def name(self) -> str:
-        """The name under which the answer reports it."""
+        """Its name in the report."""
         return self.parameter.name
 
 
@@ -49,7 +49,7 @@ def _factor(name: str, spread: float, meaning: str, *inputs: str, power: int = 1
 
 
 def calibrations(system: system_file.System) -> tuple[Calibration, ...]:
-    """The movable inputs of a case: those whose uncertainty is above zero."""
+    """The free inputs of a case: those whose stated uncertainty is above zero."""
     sd = system.uncertainty
     boundary = Parameter(
         "boundary_friction",

@@ -1,4 +1,4 @@
-"""Columns that several kinds of recording share, each described once; a kind changes what differs there."""
+"""Columns shared by several kinds of recording; a kind overrides what differs."""
 
 from __future__ import annotations
 

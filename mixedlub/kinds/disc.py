@@ -79,12 +79,12 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
 
 
 def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Calibration, ...]:
-    """An unspecified oil takes broad priors."""
+    """Broad priors for an oil that is not specified."""
     return oil_priors.calibrations(system, recorded["oil_temperature_C"] + ZERO_CELSIUS)
 
 
 def chain(system: system_file.System, table: Table) -> Chain:
-    """Line contact, or point contact for a ball."""
+    """The chain of a line contact, or of a point contact for a ball."""
     if system.contact is not None and system.contact.geometry == "point":
         return (*POINT, ("reading", point_reading))
     tangential = ("tangential_friction", loss.tangential_friction)

@@ -25,13 +25,13 @@ from mixedlub.schema.table import Column, Table
 FRINGE_NM = (167.0, 225.0)
 """One interference order, wavelength/(2 n): visible light of 500 to 620 nm, refractive index 1.38 to 1.5."""
 MOST_SCATTER = 30.0
-"""How far (nm) the noise of a reading may take it from a whole order and leave it one."""
+"""Largest deviation (nm) of a reading from a whole order that noise may cause."""
 
 EXPONENT_SPREAD, LINE_EXPONENT_SPREAD, LINE_LOAD_SPREAD = 0.015, 0.03, 0.3
-"""Of the film law's exponents as shares of them: regressions for balls have 0.67 and 0.68 for speed, those for rollers
-0.67 to 0.71, and -0.10 to -0.17 for load."""
+"""Relative standard deviations of the film law's exponents: regressions have 0.67 and 0.68 (balls) or 0.67 to 0.71
+(rollers) for speed, and -0.10 to -0.17 for load."""
 KNOWN_OIL, UNNAMED_OIL = 0.5, 1.0
-"""How far the film of a ball may be on its way from the regression to the formula for all regimes."""
+"""Prior for the film of a ball between the regression and the formula for all regimes."""
 
 FRINGE_ORDER = Column(
     "fringe_order",
@@ -73,7 +73,7 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
 
 
 def _middle(oil: Lubricant, recorded: Table) -> Inputs:
-    """The film law as it is, and where in the recording other exponents would turn it about."""
+    """Inputs for other exponents of the film law, which pivot about the middle of the recording."""
     flow = oil.viscosity(column(recorded["oil_temperature_C"]) + ZERO_CELSIUS) * column(
         recorded["entrainment_speed_m_s"]
     )
@@ -85,7 +85,7 @@ def _middle(oil: Lubricant, recorded: Table) -> Inputs:
 
 
 def _orders(table: Table, recorded: Table) -> Inputs:
-    """Interference orders, where the recording changes them; rows without one read as the lowest does."""
+    """Interference orders, where they vary in the recording; rows without one have the lowest."""
     if "fringe_order" not in recorded or np.ptp(recorded["fringe_order"]) == 0:
         return {}
     first = float(np.min(recorded["fringe_order"]))
@@ -94,7 +94,7 @@ def _orders(table: Table, recorded: Table) -> Inputs:
 
 
 def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Calibration, ...]:
-    """An unspecified oil takes broad priors; the film law is known as well as film laws agree."""
+    """Broad priors for an oil that is not specified; the film law is as uncertain as published laws disagree."""
     oil = oil_priors.calibrations(system, recorded["oil_temperature_C"] + ZERO_CELSIUS)
     return (*oil, *(_of_line(recorded["load_N"]) if _is_line(system) else _of_ball(system)))
 
@@ -102,7 +102,7 @@ def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Cali
 def _of_ball(system: system_file.System) -> Iterator[Calibration]:
     spread = UNNAMED_OIL if oil_priors.missing(system) else KNOWN_OIL
     regime = Parameter(
-        "film_regime", "-", Normal(0.0, spread), "0: film of Hamrock and Dowson, 1: of Nijenbanning, Venner and Moes"
+        "film_regime", "-", Normal(0.0, spread), "film law: 0 Hamrock and Dowson, 1 Nijenbanning, Venner and Moes"
     )
     yield Calibration(regime, lambda inputs, value: {"film_regime": value}, 0.0, ("film_regime",))
     yield _exponent("film_exponent", "speed", POINT_EXPONENT, EXPONENT_SPREAD)
@@ -150,9 +150,9 @@ def chain(system: system_file.System, table: Table) -> Chain:
 
 
 def reading_fault(recorded: Table, row: int, excess: float, sd: float) -> str | None:
-    """A reading that is off by one or two interference orders was miscounted, whatever the oil does.
+    """Identify a reading that deviates by one or two interference orders as miscounted.
 
-    One below zero is no film, and nothing that an order explains.
+    A corrected film below zero is not explained by an order.
     """
     if recorded["film_thickness_nm"][row] < 0.0:
         return None

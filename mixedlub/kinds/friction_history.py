@@ -1,4 +1,4 @@
-"""Friction coefficient against time at conditions that are held, or nearly."""
+"""Friction coefficient against time at constant or nearly constant conditions."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ COLUMNS = (
 NEEDED = tuple(c.name for c in (*disc.COLUMNS, *disc.SURFACES))
 SPREAD = 1.0
 USUAL_PRESSURE = 1e9
-"""Hertz pressure (Pa) of a ball on a disc under the loads that traction machines have."""
+"""Typical Hertz pressure (Pa) of a ball on a disc in traction machines."""
 
 
 def constant_friction(boundary_friction: np.ndarray) -> np.ndarray:
-    """Friction of surfaces that do not change (-): one coefficient.
+    """Friction of unchanging surfaces (-): a constant coefficient.
 
     >>> float(constant_friction(0.1))
     0.1
@@ -68,9 +68,9 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
 
 
 def _conditions(table: Table, recorded: Table) -> Inputs:
-    """What the rows say of the operating conditions, for effects that need no more than that.
+    """Operating conditions of the rows, for effects that need nothing else.
 
-    The bodies are not known: at the largest load the contact has the pressure that such rigs usually have.
+    The bodies are not known: at the largest load the contact has a typical pressure of such rigs.
     """
     found: Inputs = {}
     if "entrainment_speed_m_s" in table:
@@ -101,7 +101,7 @@ def _level(system: system_file.System, recorded: Table) -> float:
 
 
 def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Calibration, ...]:
-    """The constant coefficient where none is stated; an unspecified oil where the film is computed."""
+    """Broad priors for a friction coefficient, or for an oil where the film is computed, that are not specified."""
     if resolved(system, recorded):
         return oil_priors.calibrations(system, recorded["oil_temperature_C"] + ZERO_CELSIUS)
     if _given(system):
@@ -114,7 +114,7 @@ def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Cali
 
 
 def chain(system: system_file.System, table: Table) -> Chain:
-    """The mixture of film and asperities where it can be computed, else one coefficient."""
+    """Film and asperity friction where they can be computed, else a constant coefficient."""
     if resolved(system, table):
         return disc.chain(system, table)
     return (("friction", constant_friction), ("reading", disc.point_reading))

@@ -28,7 +28,7 @@ LOADS = ("load_N", "torque_Nm")
 
 
 def _of_drive(column: Column, meaning: str) -> Column:
-    """A column of a drive, which may run either way and idle."""
+    """A column of a drive, which may run in both directions and idle."""
     return replace(column, above=-np.inf, required=False, meaning=meaning)
 
 
@@ -68,12 +68,12 @@ MOTOR_TORQUE = Column(
     meaning="torque that the controller computes from the motor current",
     words=("motor torque",),
 )
-"""No condition of the test: friction is what it has above the torque at the shaft."""
+"""Not a test condition: friction is its excess over the torque at the shaft."""
 LARGE, LEAST_SHARE = 0.95, 0.3
 BEYOND = 2.5
-"""Standard deviations between the slow and the fast half of readings that are no chance."""
+"""Difference between the slow and fast half of the readings, in standard deviations, that is significant."""
 BARE_SHARE = 0.3
-"""Friction of motor and sensor alone, over that of the whole drive, before the readings say it."""
+"""Prior of the friction of motor and sensor alone, relative to that of the complete drive."""
 
 
 def reading(friction_torque: np.ndarray) -> np.ndarray:
@@ -126,7 +126,7 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
 
 
 def _warmer(table: Table, recorded: Table) -> np.ndarray:
-    """Oil temperature of the rows over the mean of the recording (K); zero where either says none."""
+    """Oil temperature of the rows above the mean of the recording (K); zero where either has no temperature."""
     name = "oil_temperature_C"
     if name not in table or name not in recorded:
         return np.zeros((len(table), 1))
@@ -142,7 +142,7 @@ def _load_column(table: Table, recorded: Table) -> str | None:
 def _heavier(table: Table, recorded: Table) -> np.ndarray:
     """Logarithm of the load of the rows over the geometric mean of the recorded loads; zero where there is no load.
 
-    A drive that runs idle carries itself: it counts as loaded by the least load recorded.
+    An idle drive carries its own weight: it counts as loaded by the smallest recorded load.
     """
     name = _load_column(table, recorded)
     if name is None:
@@ -150,14 +150,16 @@ def _heavier(table: Table, recorded: Table) -> np.ndarray:
     loaded = np.abs(recorded[name][recorded[name] != 0.0])
     least = float(loaded.min())
     idle = (recorded[name] == 0.0, table[name] == 0.0)
-    known, asked = (np.where(out, least, np.abs(rows[name])) for out, rows in zip(idle, (recorded, table), strict=True))
-    return column(np.log(asked) - np.mean(np.log(known)))
+    known, wanted = (
+        np.where(out, least, np.abs(rows[name])) for out, rows in zip(idle, (recorded, table), strict=True)
+    )
+    return column(np.log(wanted) - np.mean(np.log(known)))
 
 
 def _motor_torque(table: Table, recorded: Table) -> Inputs:
-    """Torque of the motor where a load asks for one, and the largest recorded one for comparison.
+    """Motor torque, and the largest recorded one as reference.
 
-    A column of zeros alone says that nothing loads the drive, not what its motor gives.
+    A column of zeros means that the drive is unloaded; it does not give the motor's torque.
     """
     motor, own = _motor_column(recorded), _motor_column(table)
     if motor is None or own is None or not np.any(recorded[motor] != 0):
@@ -180,19 +182,19 @@ def completed(table: Table, recorded: Table) -> Table:
 
 
 def _motor_column(table: Table) -> str | None:
-    """The column that holds the motor's torque: its own channel, or the torque that loads the drive."""
+    """The column of the motor torque: its own channel, or the load torque of the drive."""
     return next((name for name in (MOTOR_TORQUE.name, "torque_Nm") if name in table), None)
 
 
 def _size(system: system_file.System, recorded: Table) -> float:
-    """Typical size of the readings of the complete drive; in one direction a payload may make up for friction."""
+    """Typical size of the readings of the complete drive; a payload may cancel friction in one direction."""
     values, speed = _complete(system, recorded)
     size = np.abs(values)
     return float(max(np.median(size), LEAST_SHARE * np.quantile(size, LARGE), made_up_for(values, speed))) or 1.0
 
 
 def _largest(system: system_file.System, recorded: Table) -> float:
-    """Size of the largest readings but for wild ones: most may be at speeds too low for viscous friction."""
+    """Size of the largest readings without outliers: most may be at speeds too low for viscous friction."""
     if system.recording.quantity not in recorded:
         return 1.0
     size = np.abs(recorded[system.recording.quantity])
@@ -200,7 +202,7 @@ def _largest(system: system_file.System, recorded: Table) -> float:
 
 
 def _complete(system: system_file.System, recorded: Table) -> tuple[np.ndarray, np.ndarray]:
-    """Readings of the complete drive, or of what there is, and their speeds."""
+    """Readings of the complete drive, or of its parts where there are no others, and their speeds."""
     if system.recording.quantity not in recorded:
         return np.ones(1), np.ones(1)
     whole = ~gears_out(recorded)
@@ -209,9 +211,9 @@ def _complete(system: system_file.System, recorded: Table) -> tuple[np.ndarray, 
 
 
 def made_up_for(values: np.ndarray, speed: np.ndarray) -> float:
-    """How far fast and slow readings of a direction lie apart where their signs differ: the parts are that large.
+    """Difference of fast and slow readings of one direction where their signs differ: a lower bound of the parts.
 
-    Zero where they do not, or no farther than readings at neighbouring speeds scatter.
+    Zero where the signs agree or the difference is within the scatter of neighbouring speeds.
 
     >>> round(made_up_for(np.array([-0.2, 0.5, 0.6, -0.3, -0.2, 0.5]), np.array([1.0, 2.0, 2.0, 1.0, 1.0, 2.0])), 1)
     0.7
@@ -231,7 +233,7 @@ def made_up_for(values: np.ndarray, speed: np.ndarray) -> float:
 
 
 def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Calibration, ...]:
-    """Dry, viscous and payload torque, all unknown: broad priors of the size of the readings."""
+    """Broad priors of dry, viscous and payload torque, scaled by the readings."""
     size, largest = _size(system, recorded), _largest(system, recorded)
 
     def unknown(name: str, prior: LogNormal | BetweenLog | Normal, nominal: float, meaning: str) -> Calibration:
@@ -252,7 +254,7 @@ def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Cali
     )
     if not gears_out(recorded).any():
         return found
-    share = Parameter("bare_share", "-", LogNormal(BARE_SHARE, 1.0), "share of the friction left without the gears")
+    share = Parameter("bare_share", "-", LogNormal(BARE_SHARE, 1.0), "share of friction left without the gears")
     return (*found, Calibration(share, _bare_share, BARE_SHARE, ("gears_fitted",)))
 
 
@@ -262,7 +264,7 @@ def _bare_share(inputs: Mapping[str, Any], value: float) -> dict[str, Any]:
 
 
 def chain(system: system_file.System, table: Table) -> Chain:
-    """Coulomb and viscous friction, and a payload."""
+    """The chain of Coulomb friction, viscous friction and payload."""
     return (
         ("running_friction", drive.coulomb_viscous),
         ("friction_torque", drive.motor_friction),

@@ -38,7 +38,7 @@ def reading(power_loss: np.ndarray) -> np.ndarray:
 
 
 def without_gears(found: Inputs, table: Table) -> Inputs:
-    """Chain inputs with nothing to mesh, to stir oil or to drive air in the rows of the rig without gears."""
+    """Chain inputs without meshing, churning and windage in the rows that were recorded with the gears out."""
     out = gears_out(table)[:, None]
     if not out.any():
         return found

@@ -1,4 +1,4 @@
-"""What a kind of recording is."""
+"""Description of a kind of recording."""
 
 from __future__ import annotations
 
@@ -24,35 +24,33 @@ CONSTANT_WITHIN = 0.02
 Controllers hold load and speed within 1 % and oil temperature within 3 K; at 2 % a temperature may span 6 K.
 """
 SUBJECTS = ("gears", "contact", "drive", "oil")
-"""What recordings are of, in the order in which kinds are listed."""
+"""Subjects of recordings, in the order in which kinds are listed."""
 
 
 @dataclass(frozen=True)
 class Kind:
-    """Columns of a row, sections of the system it needs, the chain that predicts its reading.
+    """A kind of recording: its columns, the sections of the system it needs, the chain that predicts readings.
 
-    ``subject`` is what is on the rig, one of SUBJECTS. ``readings`` are the columns of which a recording holds one,
-    and ``scale`` the factor from SI to their unit; ``uses`` are sections that the kind computes with where they are
-    given, beyond those that it needs. ``standard`` is the rig on which the catalogue compares effects.
+    ``subject`` is the test object, one of SUBJECTS. ``readings`` are the columns of which a recording has one, and
+    ``scale`` is the factor from SI to their unit; ``uses`` are optional sections. ``standard`` is the rig on which the
+    catalogue compares effects.
 
     ``inputs(system, rig, table, recorded)`` gives the chain's inputs as arrays of shape (rows, points),
     one of the two of length one where a quantity does not depend on it; the chain ends in ``reading``,
     shape (rows, 1), in SI. ``recorded`` is the recording of the case, from which typical sizes (the largest
-    speed, the duration) are taken, so that predictions elsewhere use the same ones; ``extra_calibration``
-    scales the priors of what is not known by it. ``reading_fault(recorded, row, excess, sd)`` says in words what
-    an instrument of this kind does wrong when reading ``row`` is off by ``excess``, its noise being ``sd`` (unit of
-    the column).
-    ``logarithmic`` kinds span decades and are compared by the logarithm of the reading. ``part_rigs`` are the
-    names in the column ``rig`` whose readings are compared with a part of the base model. ``channels`` are what
-    the instrument records of itself: read as columns, but no condition of the test.
-    ``completed(table, recorded)`` adds to rows that were not recorded what the channels would tell there.
-    ``nominal`` are quantities that the base model has before calibration, laid out for effects under other names.
-    ``limits(system)`` are the lowest and highest values that a column can have on this rig, by its name.
-    ``direction(table)`` is the signed speed of each row in kinds whose reading changes its sign with it.
+    speed, the duration) are taken, so that other predictions use the same ones; ``extra_calibration`` uses it to scale
+    the priors of unknown inputs. ``reading_fault(recorded, row, excess, sd)`` describes the instrument fault that
+    explains a residual ``excess`` of reading ``row`` with noise ``sd`` (unit of the column). ``logarithmic`` kinds span
+    decades and are compared by the logarithm of the reading. ``part_rigs`` are the names in the column ``rig`` whose
+    readings are compared with a part of the base model. ``channels`` are further outputs of the instrument: read as
+    columns, but not test conditions. ``completed(table, recorded)`` adds predicted channels to rows that were not
+    recorded. ``nominal`` are quantities of the base model before calibration, provided to effects under other names.
+    ``limits(system)`` are the lowest and highest values of a column on this rig, by its name. ``direction(table)`` is
+    the signed speed of each row, for kinds whose reading changes sign with it.
 
-    For imports and figures: ``either`` are columns of which a table holds one; of a history (``is_history``) the time
-    is what a map is drawn over; readings that a logger takes one after the other (``is_logged``) may be thinned out;
-    ``asks_for_oil`` says whether an import asks for the properties of the oil.
+    For imports and figures: ``either`` are columns of which a table has one; histories (``is_history``) are plotted
+    over time; logged series (``is_logged``) may be thinned; ``asks_for_oil`` means that the import requests the
+    properties of the oil.
     """
 
     name: str
@@ -90,23 +88,23 @@ class Kind:
 
     @property
     def about(self) -> str:
-        """What is recorded, in the line that begins the module of the kind."""
+        """The recorded quantity: first line of the docstring of the kind's module."""
         return (inspect.getdoc(inspect.getmodule(self.inputs)) or self.name).split("\n")[0]
 
     @property
     def quantities(self) -> tuple[str, ...]:
-        """Names of the columns, one of which a recording holds as its reading."""
+        """Names of the columns, one of which is the reading of a recording."""
         return tuple(column.name for column in self.readings)
 
     def is_unsigned(self, quantity: str) -> bool:
-        """Whether readings are positive but for their noise; those that follow a direction carry a sign."""
+        """Whether readings are positive apart from noise; those that depend on direction are signed."""
         return quantity in self.quantities and self.direction is None and not self.logarithmic
 
 
 TEN_KELVIN = 10.0
 
 NO_GEARS = "no_gears"
-"""Name in the column ``rig`` of readings taken with the gears out."""
+"""Name in the column ``rig`` of readings taken without gears."""
 
 
 LOADS_DIFFER, LEAST = 1.2, 1e-3
@@ -114,14 +112,14 @@ LOADS_DIFFER, LEAST = 1.2, 1e-3
 
 
 def inverse_load(system: system_file.System, table: Table, recorded: Table) -> Inputs:
-    """Smallest recorded load over that of each row, where readings are friction forces over loads that differ."""
+    """Smallest recorded load over that of each row, for friction coefficients recorded at different loads."""
     if system.recording.quantity != "friction_coefficient" or "load_N" not in table or "load_N" not in recorded:
         return {}
     return inverse_of(np.abs(table["load_N"]), np.abs(recorded["load_N"]))
 
 
 def inverse_of(load: np.ndarray, recorded: np.ndarray) -> Inputs:
-    """Smallest recorded load over the load of each row, where loads differ enough to tell a force from a share.
+    """Smallest recorded load over that of each row, where loads differ enough to separate a force from a share.
 
     >>> inverse_of(np.array([10.0, 20.0]), np.array([10.0, 40.0]))["inverse_load"][:, 0].tolist()
     [1.0, 0.5]
@@ -135,12 +133,12 @@ def inverse_of(load: np.ndarray, recorded: np.ndarray) -> Inputs:
 
 
 def gears_out(table: Table) -> np.ndarray:
-    """Rows taken with the gears out."""
+    """Mask of rows recorded without gears."""
     return table["rig"] == NO_GEARS if "rig" in table else np.zeros(len(table), dtype=bool)
 
 
 def varies(values: np.ndarray) -> bool:
-    """Whether a condition, in absolute units, was varied or held constant: the one definition of both.
+    """Whether a condition, in absolute units, was varied rather than constant; the only definition of this.
 
     >>> varies(np.array([20.0, 20.3])), varies(np.array([20.0, 21.0]))
     (False, True)
@@ -149,12 +147,12 @@ def varies(values: np.ndarray) -> bool:
 
 
 def column(values: np.ndarray | float) -> np.ndarray:
-    """Values a row, shaped (rows, 1)."""
+    """One value per row, shaped (rows, 1)."""
     return np.asarray(values, dtype=float)[:, None]
 
 
 def bookkeeping_inputs(system: system_file.System, table: Table) -> Inputs:
-    """What effects on the measurement read: place in the programme, ambient temperature."""
+    """Inputs of measurement effects: position in the programme, ambient temperature."""
     inputs: Inputs = {"ambient_temperature": system.recording.ambient_temperature_C + ZERO_CELSIUS}
     if "sequence" in table:
         inputs["sequence"] = column(table["sequence"])
@@ -162,10 +160,10 @@ def bookkeeping_inputs(system: system_file.System, table: Table) -> Inputs:
 
 
 def ageing(recorded: Table, sequence: np.ndarray) -> np.ndarray:
-    """Share of the programme's ageing that is done at each row, at a rate that doubles every 10 K.
+    """Share of the programme's ageing completed at each row, at a rate that doubles every 10 K.
 
-    That is the rule of thumb of van 't Hoff for reactions, oxidation among them. Where no temperature is recorded it
-    is that of the programme. ``sequence`` has a row a reading, (rows, 1).
+    This is van 't Hoff's rule of thumb for reactions such as oxidation. Where no temperature is recorded, ageing
+    follows the programme. ``sequence`` is shaped (rows, 1).
 
     >>> place = np.linspace(0.0, 1.0, 5)
     >>> run = Table({"sequence": place, "temperature_C": np.array([20.0, 20.0, 20.0, 80.0, 80.0])}, "run")
@@ -186,7 +184,7 @@ def ageing(recorded: Table, sequence: np.ndarray) -> np.ndarray:
 
 
 def programme(table: Table, recorded: Table) -> Inputs:
-    """Where the rows carry a time: the time, and the share of the recording's duration as place in the programme."""
+    """For rows with a time: the time, and the share of the recording's duration as position in the programme."""
     if "time_s" not in table:
         return {}
     found: Inputs = {"time": column(table["time_s"])}

@@ -20,7 +20,7 @@ from mixedlub.schema.table import Column, Table
 
 ROLL_ANGLE = Column("roll_angle_deg", meaning="roll angle of the contact on the pinion", words=("roll angle",))
 LEAST_SHARE = 0.05
-"""Of a tooth pair's load, where it comes into mesh: a force over less is no friction coefficient."""
+"""Smallest share of a tooth pair's load, at the start of mesh, for which a friction coefficient is meaningful."""
 
 
 def reading(friction: np.ndarray) -> np.ndarray:
@@ -52,7 +52,7 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
 
 
 def _contacts(rig: Rig, table: Table) -> tuple[Mesh, np.ndarray]:
-    """The contact point of every row and the share of the load that it carries."""
+    """The contact point of every row and its load share."""
     points = at_roll_angle(rig.gears, rig.sharing, np.radians(table["roll_angle_deg"]), slices=1)
     share = np.empty(len(table))
     for level in np.unique(table["torque_Nm"]):
@@ -62,12 +62,12 @@ def _contacts(rig: Rig, table: Table) -> tuple[Mesh, np.ndarray]:
 
 
 def _asked_of(share: np.ndarray, table: Table) -> np.ndarray:
-    """The torque that would load the contact of every row alone as it is loaded."""
+    """The torque that would give the contact of every row its load if a single pair carried all."""
     return np.asarray(table["torque_Nm"] * np.maximum(share, LEAST_SHARE))
 
 
 def limits(system: system_file.System) -> dict[str, tuple[float, float]]:
-    """The teeth touch on the path of contact only."""
+    """Limits of the roll angle: contact exists on the path of contact only."""
     if system.gears is None:
         return {}
     pair = build.gear_pair(system.gears)

@@ -1,4 +1,4 @@
-"""An oil that nobody named: what calibration may move, and by how much."""
+"""Priors of an oil that is not specified: the free properties and their ranges."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ SLOPE_SPREAD = 0.5
 DENSITY_SPREAD = 0.04
 PRESSURE_SLOPE_SPREAD = 0.4
 PRESSURE_BOW_SPREAD = 0.25
-"""Of ln alpha, over 100 K to either side: ISO/TR 15144 has 0.2 beyond a line, powers of viscosity up to 0.5."""
+"""Prior sd of the curvature of ln alpha over 100 K: 0.2 in ISO/TR 15144, up to 0.5 in powers of viscosity."""
 BOW_SPREAD = 0.04
-"""Of ln viscosity, over 50 K to either side: what fits of oils after Vogel have beyond a line of ASTM D341."""
+"""Prior sd of the departure of ln viscosity from ASTM D341 over 50 K, from Vogel fits of oils."""
 FIFTY_KELVIN, HUNDRED_KELVIN = 50.0, 100.0
 THINNEST, THICKEST = 0.4e-6, 1.0
-"""Kinematic viscosities (m^2/s) between which the ordinate of D341 is used."""
+"""Range of kinematic viscosity (m^2/s) in which the ordinate of D341 is used."""
 LEVEL = "viscosity_level"
-"""What the level was moved to, for the slope that is turned about it."""
+"""Calibrated viscosity level, the pivot of the slope."""
 FALLS = ("temperature_viscosity", "known_fall", "fall_from_first")
-"""Other properties of an oil that depend on how its viscosity falls with temperature."""
+"""Other oil properties that depend on the fall of viscosity with temperature."""
 
 
 def missing(system: system_file.System) -> tuple[str, ...]:
-    """Which of the properties that calibration can move nothing is known about: not given, no uncertainty stated."""
+    """Free properties that are unknown: neither given nor with a stated uncertainty."""
     section, sd = system.lubricant or system_file.Lubricant(), system.uncertainty
     gaps = (
         ("viscosity", section.kinematic_viscosity_mm2_s is None and sd.viscosity == 0),
@@ -49,7 +49,7 @@ def missing(system: system_file.System) -> tuple[str, ...]:
 def moved(oil: Lubricant, pivot: float, level: float = 1.0, slope: float = 1.0) -> Lubricant:
     """The oil with its kinematic viscosity at the pivot (K) and its slope in ASTM D341 multiplied.
 
-    Both act on the ordinate of D341, so that together they give every oil that keeps to it and is not thinner than
+    Both act on the ordinate of D341, so that together they cover every oil that follows it and is not thinner than
     THINNEST at the pivot, where the ordinate ends.
 
     >>> oil = Lubricant("oil", (313.15, 373.15), (34e-6, 7.2e-6), (15e-9, 13e-9), 850.0, 6.5e-4, 5e6, 0.14, 2000.0)
@@ -66,7 +66,7 @@ def moved(oil: Lubricant, pivot: float, level: float = 1.0, slope: float = 1.0) 
 
 
 def calibrations(system: system_file.System, temperature: np.ndarray, *, level: float = 1.0) -> tuple[Calibration, ...]:
-    """Broad priors for what ``missing`` names; ``temperature`` (K) is that of the recording.
+    """Broad priors for the properties in ``missing``; ``temperature`` (K) is that of the recording.
 
     ``level`` is the factor on the assumed viscosity that the readings suggest, already in the inputs.
     Where the recording spans temperatures, the slopes against temperature are unknown as well.
@@ -100,7 +100,7 @@ def calibrations(system: system_file.System, temperature: np.ndarray, *, level: 
                 "viscosity_bow",
                 "-",
                 Normal(0.0, BOW_SPREAD),
-                "what ln viscosity has 50 K from the middle beyond the line of ASTM D341",
+                "departure of ln viscosity from ASTM D341 at 50 K from the mean temperature",
             )
             found.append(Calibration(bow, _bowed(pivot), 0.0, ("viscosity", "oil_temperature")))
             density = Parameter(
@@ -128,7 +128,7 @@ def calibrations(system: system_file.System, temperature: np.ndarray, *, level: 
                 "pressure_viscosity_bow",
                 "-",
                 Normal(0.0, PRESSURE_BOW_SPREAD),
-                "what ln pressure-viscosity has 100 K from the middle beyond that line",
+                "departure of ln pressure-viscosity from that line at 100 K from the mean temperature",
             )
             found.append(Calibration(bend, _bent(pivot), 0.0, ("pressure_viscosity", "oil_temperature")))
     return tuple(found)
@@ -140,7 +140,7 @@ def pivot_of(temperature: np.ndarray) -> float:
 
 
 def level_of(recorded: Table, quantity: str, guess: np.ndarray) -> float:
-    """Factor that brings a guess of the readings to their middle, for priors scaled by the data."""
+    """Median ratio of readings to a first prediction, for priors scaled by the data."""
     if quantity not in recorded:
         return 1.0
     ratio = np.abs(recorded[quantity]) / guess

@@ -1,4 +1,4 @@
-"""The standard rig of a kind: what the catalogue compares effects on, and what a new case starts from."""
+"""The reference rig of a kind: effects are compared on it, and new cases start from it."""
 
 from __future__ import annotations
 
@@ -39,19 +39,19 @@ GEARS = {
 """At 91 mm centres."""
 DISCS = {"radius_mm": (40.0, 40.0), "width_mm": 6.0}
 ROUGHNESS_UM = {"superfinished": 0.15, "ground": 0.37, "coarse": 0.58, "coated": 0.37}
-"""Rq of one surface; slopes and curvatures are the same for all, as rougher flanks are of longer waves."""
+"""Rq of one surface; slopes and curvatures are the same for all, since rougher flanks have longer wavelengths."""
 RELATIVE_NOISE = 0.01
-"""Relative part of the noise of every standard rig."""
+"""Relative noise of every reference rig."""
 
 
 @dataclass(frozen=True)
 class StandardRig:
-    """One rig of a kind and the test on it.
+    """The reference rig of a kind and its test.
 
-    ``sections`` are the tables of `system.toml` other than the surfaces; ``noise`` is the absolute part of the standard
-    deviation of a reading, in its unit; ``conditions`` are what is varied, by the name that fingerprints use: the
-    column and its levels, all combined. ``channels(columns, reading)`` are what the instrument records of itself,
-    from the conditions and, where it is called, the reading of the base model.
+    ``sections`` are the tables of `system.toml` except the surfaces; ``noise`` is the absolute part of the standard
+    deviation of a reading, in its unit; ``conditions`` are the varied conditions by their names in fingerprints: column
+    and levels, in all combinations. ``channels(columns, reading)`` computes the instrument's further channels from the
+    conditions and the base model's reading, which is called where needed.
     """
 
     sections: Mapping[str, Any]

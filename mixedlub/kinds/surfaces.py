@@ -22,7 +22,7 @@ def pair_of_surfaces(rig: Rig, table: Table, first: str, second: str) -> Inputs:
                 )
             if name not in known:
                 known[name] = rig.surface(name)
-    # Rows may be a part of a recording, whose other rows are on coated surfaces.
+    # Rows may be a part of a recording whose other rows have coated surfaces.
     coated = any(section.coating is not None for section in rig.file.surfaces.values())
     both = paired([known[n] for n in table[first].tolist()], [known[n] for n in table[second].tolist()], coated)
     return {name: values[:, None] for name, values in both.items()}

@@ -19,7 +19,7 @@ from mixedlub.schema.table import Column, Table
 AMBIENT_MPA = 0.101325
 NEAR_AMBIENT_MPA = 50.0
 UNREAD = ("eyring_stress_MPa", "thermal_conductivity_W_mK", "specific_heat_J_kgK")
-"""Properties of an oil that its viscosity does not depend on."""
+"""Properties of an oil that do not affect its viscosity."""
 
 COLUMNS = (
     Column(
@@ -52,7 +52,7 @@ def reading(contact_viscosity: np.ndarray) -> np.ndarray:
 
 
 def under_pressure(viscosity: np.ndarray, pressure_viscosity: np.ndarray, hertz_pressure: np.ndarray) -> np.ndarray:
-    """Viscosity at the applied pressure (Pa s) by the law of Barus, which the base model starts from.
+    """Viscosity at the applied pressure (Pa s) by Barus' law, the base model.
 
     >>> round(float(under_pressure(0.01, 20e-9, 0.1e9)), 5)
     0.07389
@@ -61,7 +61,7 @@ def under_pressure(viscosity: np.ndarray, pressure_viscosity: np.ndarray, hertz_
 
 
 def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) -> Inputs:
-    """Chain inputs of the rows of a table; what carries no pressure was measured at ambient."""
+    """Chain inputs of the rows of a table; rows without pressure were measured at ambient pressure."""
     temperature = column(table["temperature_C"]) + oil.ZERO_CELSIUS
     return {
         **_oil(system, rig, recorded).inputs(temperature),
@@ -73,7 +73,7 @@ def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) 
 
 
 def _oil(system: system_file.System, rig: Rig, recorded: Table) -> Lubricant:
-    """The oil, at the level that the readings suggest where it is not given."""
+    """The oil, with the viscosity level estimated from the readings where it is not given."""
     kelvin = recorded["temperature_C"] + oil.ZERO_CELSIUS
     return oil_priors.moved(rig.oil(UNREAD), oil_priors.pivot_of(kelvin), _level(system, recorded))
 
@@ -83,7 +83,7 @@ def _pressure(table: Table) -> np.ndarray:
 
 
 def _level(system: system_file.System, recorded: Table) -> float:
-    """Factor on the assumed viscosity that the readings near ambient pressure suggest, where it is not given."""
+    """Factor on the assumed viscosity, estimated from readings near ambient pressure where it is not given."""
     if "viscosity" not in oil_priors.missing(system):
         return 1.0
     near = _pressure(recorded) <= max(NEAR_AMBIENT_MPA * 1e6, float(_pressure(recorded).min()))
@@ -93,7 +93,7 @@ def _level(system: system_file.System, recorded: Table) -> float:
 
 
 def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Calibration, ...]:
-    """An unspecified oil is fitted with level and slope against temperature, level and slope against pressure."""
+    """Broad priors for an oil that is not specified: level and slope against temperature and against pressure."""
     kelvin = recorded["temperature_C"] + oil.ZERO_CELSIUS
     pressurised = float(np.ptp(_pressure(recorded))) > 0
     return tuple(
@@ -104,7 +104,7 @@ def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Cali
 
 
 def chain(system: system_file.System, table: Table) -> Chain:
-    """ASTM D341 for temperature (in the inputs), Barus for pressure."""
+    """The chain: ASTM D341 for temperature (in the inputs), Barus for pressure."""
     return (("contact_viscosity", under_pressure), ("reading", reading))
 
 

@@ -1,1 +1,1 @@
-"""What files may say: keys and columns, their ranges, units and messages."""
+"""Formats of input files: keys and columns, their ranges, units and messages."""

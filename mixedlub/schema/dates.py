@@ -1,4 +1,4 @@
-"""Dates with a time of day as instruments write them; both readings where day and month could be exchanged."""
+"""Dates with a time of day as instruments write them; both interpretations where day and month are ambiguous."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ BEGUN = re.compile(rf"\d+[-/.:]\d+|(?:\d{{1,2}}[ .-]+)?(?:{MONTH})\.?[ ,-]+\d", 
 
 
 def is_dated(cell: str) -> bool:
-    """Whether a cell begins as a date or a time of day, which is no name.
+    """Whether a cell begins like a date or a time of day, so that it is not a name.
 
     >>> [is_dated(cell) for cell in ("23/11/2026", "14:03", "23 Nov 2026", "Nov 23, 2026", "steel 52", "Marlin 3")]
     [True, True, True, True, False, False]
@@ -38,7 +38,7 @@ def is_dated(cell: str) -> bool:
 
 
 def moments(cells: Sequence[str]) -> Mapping[str, list[datetime]]:
-    """The times in cells that are all dates of one form, by the order in which day and month were read.
+    """The times in cells that are all dates of one form, by order of day and month.
 
     A unique order has the name ''. Empty where a cell is no date.
 
@@ -60,7 +60,7 @@ def moments(cells: Sequence[str]) -> Mapping[str, list[datetime]]:
             ways = {"": [_moment(part, part["day"], part["month"]) for part in read]}
         else:
             ways = {"day first": [_moment(part, part["first"], part["other"]) for part in read]}
-            # With points between them the day comes first.
+            # With dots as separators the day comes first.
             if any(part["mark"] != "." for part in read):
                 ways["month first"] = [_moment(part, part["other"], part["first"]) for part in read]
         whole = {order: [m for m in found if m is not None] for order, found in ways.items()}
@@ -84,7 +84,7 @@ def _same_zone_use(found: Sequence[datetime]) -> bool:
 
 
 def _moment(part: Mapping[str, str | None], day: str | None, month: str | None) -> datetime | None:
-    """The time that the parts of a date give; None where there is no such day or hour."""
+    """The time from the parts of a date; None where no such day or hour exists."""
     name, half, hour = (month or "").lower(), (part["half"] or "").lower(), int(part["hour"] or 0)
     number = int(name) if name.isdecimal() else MONTHS.index(name[:3]) + 1
     if half and not 1 <= hour <= 12:

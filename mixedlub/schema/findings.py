@@ -15,24 +15,24 @@ from importlib.resources import files
 from profiles.errors import nearest
 
 SHOWN = 3
-"""Places that a group of findings lists; more make no reader look at more."""
+"""Largest number of places that a group of findings lists; longer lists are not read."""
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
 
 
 class Severity(StrEnum):
-    """How far a finding reaches, from the least on."""
+    """Severity of a finding, in ascending order."""
 
     NOTE = "note"
     """Something was assumed, replaced or left out."""
     CAUTION = "caution"
     """A part of the input is implausible, or a part of the result is not reliable."""
     DOUBT = "doubt"
-    """Every number that is computed is in question."""
+    """All computed numbers are in question."""
 
 
 @dataclass(frozen=True)
 class FindingKind:
-    """What a code stands for, and how far such a finding usually reaches."""
+    """Meaning of a code and its default severity."""
 
     severity: Severity
     meaning: str
@@ -51,7 +51,7 @@ def registered() -> Mapping[str, FindingKind]:
 
 @dataclass(frozen=True)
 class Finding:
-    """One thing that a user should know: its kind, how far it reaches, the place it is about, what is to be said.
+    """One message to the user: its kind, severity, place and text.
 
     The place is a file, key, column or run; empty where the text is about the input or the result as a whole.
 
@@ -76,7 +76,7 @@ class Finding:
 
 
 def finding(code: str, text: str, place: str = "", severity: Severity | None = None) -> Finding:
-    """A finding of a registered kind, of its usual severity where no other is given."""
+    """A finding of a registered kind, with the kind's default severity unless another is given."""
     return Finding(code, severity or _kind(code).severity, place, text)
 
 
@@ -88,7 +88,7 @@ def _kind(code: str) -> FindingKind:
 
 
 class FindingWarning(UserWarning):
-    """Carries a finding out of code that returns something else."""
+    """Python warning that carries a finding out of code that returns something else."""
 
     def __init__(self, found: Finding) -> None:
         super().__init__(str(found))
@@ -96,13 +96,13 @@ class FindingWarning(UserWarning):
 
 
 def report(found: Finding) -> None:
-    """Hand a finding to whoever collects them; where nobody does, it is an ordinary Python warning."""
+    """Report a finding to the active `collected` context; without one it is an ordinary Python warning."""
     warnings.warn(FindingWarning(found), stacklevel=3)
 
 
 @contextmanager
 def collected() -> Iterator[list[Finding]]:
-    """The findings reported inside, each once, in place of warnings; other warnings pass.
+    """Collect the findings reported in the context, each once; other warnings pass through.
 
     >>> with collected() as found:
     ...     report(finding("columns_unknown", "columns ignored: colour", "recordings.csv"))
@@ -121,17 +121,17 @@ def collected() -> Iterator[list[Finding]]:
 
 
 def codes(found: Iterable[Finding]) -> list[str]:
-    """The kinds of findings, one each."""
+    """The distinct kinds of findings."""
     return [one.code for one in found]
 
 
 def of_severity(found: Iterable[Finding], *wanted: Severity) -> tuple[Finding, ...]:
-    """The findings that reach as far as wanted."""
+    """The findings of at least a given severity."""
     return tuple(one for one in found if one.severity in wanted)
 
 
 def grouped(found: Iterable[Finding]) -> tuple[Finding, ...]:
-    """Findings of one kind that differ in place or number only as one, which lists the places.
+    """Merge findings of one kind that differ only in place or number; the merged one lists the places.
 
     >>> runs = [finding("reading_too_large", f"reads {y}, far above the others", f"run {y}") for y in (70, 80, 90)]
     >>> print(*grouped(runs))
@@ -158,7 +158,7 @@ def _as_one(group: Sequence[Finding]) -> Finding:
 
 
 def listed(items: Sequence[object], most: int = SHOWN) -> str:
-    """The first items and how many more there are.
+    """The first items and the number of remaining ones.
 
     >>> listed([3, 4]), listed([1, 2, 3, 4, 5])
     ('3, 4', '1, 2, 3 and 2 more')
@@ -168,7 +168,7 @@ def listed(items: Sequence[object], most: int = SHOWN) -> str:
 
 
 def as_records(found: Iterable[Finding]) -> list[dict[str, str]]:
-    """Findings as other programs read them.
+    """Findings as JSON-compatible dictionaries.
 
     >>> as_records([finding("columns_unknown", "columns ignored: colour", "recordings.csv")])[0]["severity"]
     'note'

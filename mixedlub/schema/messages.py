@@ -1,4 +1,4 @@
-"""What is wrong with a key of a TOML file, in the words of whoever wrote it."""
+"""Messages on invalid keys of a TOML file, in terms of the file."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ RULES = {
     "dict_type": "must be a table of keys",
     "model_attributes_type": "must be a table of keys",
 }
-"""The rule behind each kind of refusal that pydantic knows."""
+"""The rule behind each type of validation error of pydantic."""
 
 
 def place(loc: Sequence[Any]) -> str:
-    """Where in the file, table first.
+    """Place in the file, table first.
 
     >>> place(("gears", "teeth", 1)), place(("surfaces", "Ground", "m0_um2"))
     ('gears.teeth, entry 2', 'surfaces.Ground.m0_um2')
@@ -68,18 +68,18 @@ OF_OPTIONS = {
 
 
 def of_option(text: str) -> str:
-    """What the command line says of an option, in the words used of keys.
+    """Message on a command-line option, in the words used for keys.
 
     >>> of_option("Invalid value for '--cutoff-mm': Input should be greater than or equal to 0.000001")
     "'--cutoff-mm': must be at least 0.000001"
     """
-    for said, meant in OF_OPTIONS.items():
-        text = text.replace(said, meant)
+    for words, replacement in OF_OPTIONS.items():
+        text = text.replace(words, replacement)
     return text
 
 
 def counted(count: int) -> str:
-    """So many entries.
+    """A count of entries.
 
     >>> counted(1), counted(2)
     ('1 entry', '2 entries')

@@ -1,4 +1,4 @@
-"""What a number may be: the one table of possible and usual ranges, and the unit that a number beyond was meant in."""
+"""Possible and typical ranges of all numbers, and the unit in which a number outside may have been given."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.units import SLIPS, read_as, unit_of
 
 NO_SHARES = ("poisson_ratio", "sequence", "path_points", "face_slices")
-"""Numbers without a unit that nobody gives in percent."""
+"""Numbers without a unit that are never given in percent."""
 
 
 @dataclass(frozen=True)
 class Range:
-    """Lowest and highest possible value of a key, lowest and highest usual one; ends are within."""
+    """Possible and typical range of a key; the limits are included."""
 
     key: str
     possible: tuple[float, float]
@@ -50,12 +50,12 @@ def ranges() -> Mapping[str, Range]:
 
 
 def range_of(field: FieldInfo) -> Range | None:
-    """The range that a field of a file has."""
+    """The range of a field of a file."""
     return next((m for m in field.metadata if isinstance(m, Range)), None)
 
 
 def meant(name: str, value: object, low: float, high: float) -> str:
-    """The unit that a number beyond a range would suit, in words; empty where none does.
+    """Words for the unit in which a number outside a range would lie within it; empty where there is none.
 
     >>> meant("kinematic_viscosity_mm2_s", 30e-6, 0.4, 2e6)
     '3e-05 m2/s would be 30 mm²/s: is it in that unit?'
@@ -79,7 +79,7 @@ ASKED = ": is it in that unit?"
 
 
 def broken(key: str | Range, value: object) -> str:
-    """The rule that an impossible value breaks, and the unit that it would suit; empty where nothing is broken.
+    """The rule that an impossible value violates, with its probable unit; empty for a possible value.
 
     >>> broken("gears.normal_module_mm", 0.0042)
     'must be from 0.01 to 200 mm; 0.0042 m would be 4.2 mm: is it in that unit?'
@@ -97,7 +97,7 @@ def broken(key: str | Range, value: object) -> str:
 
 
 def _entries(value: Any) -> Iterator[tuple[str, float]]:
-    """The numbers of a key, each with the words that tell it from the others."""
+    """The numbers of a key, each with words that identify it."""
     if isinstance(value, tuple):
         yield from ((f"entry {number} ", entry) for number, entry in enumerate(value, start=1))
     else:
@@ -105,7 +105,7 @@ def _entries(value: Any) -> Iterator[tuple[str, float]]:
 
 
 def beyond_usual(key: str | Range, value: float, place: str) -> list[Finding]:
-    """That a possible value lies outside the usual range, with that range; nothing where it lies within.
+    """Finding on a possible value outside the typical range; empty where it lies within.
 
     >>> print(*beyond_usual("lubricant.eyring_stress_MPa", 90.0, "lubricant.eyring_stress_MPa"))
     lubricant.eyring_stress_MPa: 90, where rigs have 0.3 to 60 MPa: check the number and its unit
@@ -117,12 +117,12 @@ def beyond_usual(key: str | Range, value: float, place: str) -> list[Finding]:
     name = within.key.rpartition(".")[2]
     usual = f"at least {low:g}" if high == np.inf else f"{low:g} to {high:g}"
     unit = meant(name, value, low, high).removesuffix(ASKED) or "check the number and its unit"
-    said = f"{value:.6g}, where rigs have {usual} {unit_of(name)}".rstrip()
-    return [finding("value_unusual", f"{said}: {unit}", place)]
+    text = f"{value:.6g}, where rigs have {usual} {unit_of(name)}".rstrip()
+    return [finding("value_unusual", f"{text}: {unit}", place)]
 
 
 def unusual(table: BaseModel, place: tuple[str, ...] = ()) -> Iterator[Finding]:
-    """What is far from any rig in a validated file: possible numbers outside the usual ranges, one a key."""
+    """Findings on numbers of a validated file that are possible but not typical, one per key."""
     for name, field in type(table).model_fields.items():
         value, within = getattr(table, name), range_of(field)
         if within is not None and value is not None:

@@ -37,7 +37,7 @@ def _whole(value: Any) -> Any:
 
 
 def one_of(value: str, known: Iterable[str]) -> str:
-    """The value, or an error that names those which are known; for choices that are found when a file is read."""
+    """The value, or an error that names the known ones; for choices that are known only when a file is read."""
     *others, last = (repr(name) for name in known)
     if repr(value) not in (*others, last):
         expected = f"{', '.join(others)} or {last}" if others else last
@@ -49,7 +49,7 @@ Float = Annotated[float, BeforeValidator(_number)]
 Number = Annotated[Float, Field(allow_inf_nan=False)]
 Whole = Annotated[int, BeforeValidator(_whole)]
 NAME = "NAME"
-"""Stands for the name that a table is given in the file."""
+"""Placeholder for the name that the user gives a table."""
 
 
 def key(
@@ -64,8 +64,8 @@ def key(
 ) -> Any:
     """A field that describes a key; without a default the key must be given.
 
-    ``example`` is a value that fits the examples of the other keys, the default where none is given; ``values`` is
-    the meaning of each value of a choice; an ``alternative`` takes the place of other keys.
+    ``example`` is a value consistent with the examples of the other keys, by default the default; ``values`` is the
+    meaning of each value of a choice; an ``alternative`` replaces other keys.
     """
     extra: dict[str, Any] = {"values": dict(values or {}), "unit": unit, "alternative": alternative}
     examples = None if example is None else [example]
@@ -73,7 +73,7 @@ def key(
 
 
 class Section(BaseModel):
-    """A table of a file: unknown keys are errors, values never change and lie within the range of their field."""
+    """A table of a file: unknown keys are errors; values are immutable and within the range of their field."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -89,7 +89,7 @@ class Section(BaseModel):
 
 @dataclass(frozen=True)
 class Key:
-    """A key as its field describes it; ``table`` is the dotted name of the table that it belongs to."""
+    """A key described by its field; ``table`` is the dotted name of its table."""
 
     table: str
     name: str
@@ -97,22 +97,22 @@ class Key:
 
     @property
     def type(self) -> Any:
-        """What it holds: a class, or a tuple, dictionary or choice of such."""
+        """Its type: a class, or a tuple, dictionary or choice of such."""
         return plain(self.field.annotation)
 
     @property
     def required(self) -> bool:
-        """Whether a table without it is refused."""
+        """Whether it must be given."""
         return self.field.is_required()
 
     @property
     def meaning(self) -> str:
-        """What it is, in words without its unit."""
+        """Its meaning, without its unit."""
         return self.field.description or ""
 
     @property
     def example(self) -> Any:
-        """A value that fits those of the other keys of its table; None where it has none of its own."""
+        """A value consistent with the examples of the other keys of its table; None where it has no example."""
         if self.field.examples:
             return self.field.examples[0]
         return None if self.required or isinstance(self.field.default, (BaseModel, dict)) else self.field.default
@@ -131,12 +131,12 @@ class Key:
 
     @property
     def values(self) -> Mapping[str, str]:
-        """The meaning of each value, where there are few."""
+        """The meaning of each value of a choice."""
         return self._extra["values"]
 
     @property
     def is_alternative(self) -> bool:
-        """Whether it takes the place of other keys, so that their examples do not go with its own."""
+        """Whether it replaces other keys, so that their examples exclude its own."""
         return self._extra["alternative"]
 
     @property
@@ -146,7 +146,7 @@ class Key:
 
     @property
     def range(self) -> Range | None:
-        """Its possible and usual values, entry by entry where it is a list."""
+        """Its possible and typical values, entry by entry for a list."""
         return range_of(self.field)
 
     @property
@@ -156,7 +156,7 @@ class Key:
 
 @dataclass(frozen=True)
 class FileTable:
-    """A table of a file: the class of its keys, its meaning, and its dotted name with NAME for names of the user."""
+    """A table of a file: the class of its keys, its meaning, and its dotted name with NAME for user-given names."""
 
     model: type[Section]
     meaning: str
@@ -164,12 +164,12 @@ class FileTable:
 
     @property
     def name(self) -> str:
-        """The dotted name without names of the user."""
+        """The dotted name without user-given names."""
         return self.title.replace(f".{NAME}", "")
 
     @property
     def fields(self) -> tuple[Key, ...]:
-        """All its keys, tables within it among them."""
+        """All its keys, nested tables included."""
         return tuple(Key(self.name, f.alias or name, f) for name, f in self.model.model_fields.items())
 
     def __getitem__(self, name: str) -> Key:
@@ -178,12 +178,12 @@ class FileTable:
 
     @property
     def keys(self) -> tuple[Key, ...]:
-        """Its keys but for tables within it, those first that it must have."""
+        """Its keys without nested tables, required ones first."""
         return tuple(sorted((k for k in self.fields if section_in(k.type) is None), key=lambda k: not k.required))
 
 
 def plain(annotation: Any) -> Any:
-    """A type without what is annotated to it and without None.
+    """A type without annotations and without None.
 
     >>> plain(Number | None), plain(Annotated[tuple[int, ...], Field(min_length=1)])
     (<class 'float'>, tuple[int, ...])
@@ -198,7 +198,7 @@ def plain(annotation: Any) -> Any:
 
 
 def section_in(annotation: Any) -> type[Section] | None:
-    """The class of the table, or of the tables by name, that a type stands for."""
+    """The class of the table, or of the named tables, that a type describes."""
     found = plain(annotation)
     if get_origin(found) is dict:
         found = get_args(found)[1]
@@ -206,7 +206,7 @@ def section_in(annotation: Any) -> type[Section] | None:
 
 
 def tables(model: type[Section], meaning: str = "", title: str = "") -> Iterator[FileTable]:
-    """A table (the whole file has an empty title) and all those within it."""
+    """A table (the whole file has an empty title) and all its nested tables."""
     own = FileTable(model, meaning, title)
     yield own
     for key in own.fields:
@@ -217,12 +217,12 @@ def tables(model: type[Section], meaning: str = "", title: str = "") -> Iterator
 
 
 def table(file: type[Section], name: str) -> FileTable:
-    """The table of a file that has a dotted name, without names of the user; StopIteration where there is none."""
+    """The table with a dotted name, without user-given names; StopIteration where there is none."""
     return next(found for found in tables(file) if found.name == name)
 
 
 def with_ranges(file: type[Section]) -> None:
-    """Give every key of a file its range from the table of ranges."""
+    """Assign every key of a file its range from the table of ranges."""
     for key in (key for table in tables(file) for key in table.fields):
         found = ranges().get(f"{key.table}.{key.name}".lstrip("."))
         if found is not None and key.range is None:
@@ -230,13 +230,13 @@ def with_ranges(file: type[Section]) -> None:
 
 
 def examples(model: type[Section]) -> dict[str, Any]:
-    """Examples of all keys of a table that go together."""
+    """Mutually consistent examples of the keys of a table."""
     keys = FileTable(model, "", "").fields
     return {key.name: key.example for key in keys if key.example is not None and not key.is_alternative}
 
 
 def needed(model: type[Section]) -> tuple[str, ...]:
-    """Keys of a table without which the examples of the others are refused."""
+    """Keys of a table that the examples of the others require."""
     every = examples(model)
     return tuple(key for key in every if not _is_valid(model, {k: v for k, v in every.items() if k != key}))
 

@@ -1,4 +1,4 @@
-"""What `system.toml` may say: one class a table, each key described by its field, its range in `ranges.toml`."""
+"""Format of `system.toml`: one class per table, each key described by its field; ranges are in `ranges.toml`."""
 
 from __future__ import annotations
 
@@ -21,25 +21,25 @@ def _known_quantity(name: str) -> str:
 
 
 KINDS = ("mixedlub.kinds", "mixedlub.kinds", "KIND")
-"""Where the kinds of recording are declared; they are looked up when a file is read, as they use this module."""
+"""Module that declares the kinds of recording; imported only when a file is read, since it imports this one."""
 Pair = tuple[Number, Number]
 CUTOFF_MM, SHORT_CUTOFF_UM = 0.8, 2.5
-"""Cut-offs of a trace where none is given: ISO 4288 for Ra of 0.1 to 2 um, as ground flanks have, and ISO 3274."""
+"""Default cut-offs of a trace: ISO 4288 for Ra of 0.1 to 2 um, typical of ground flanks, and ISO 3274."""
 
 
 SHARING: tuple[Any, ...] = declared("mixedlub.gear.sharing", "mixedlub.load_sharing", "MODEL")
-"""Load-sharing models, each with its name, its meaning and the keys that it takes."""
+"""Load-sharing models, each with its name, meaning and keys."""
 _NAMED = {model.name: model.meaning for model in SHARING if not model.chosen_by}
 
 
 def _sharing_keys() -> Any:
-    """The keys of all load-sharing models: those that choose one by themselves, ``model``, and the rest."""
+    """The keys of all load-sharing models: those that select one by themselves, ``model``, and the others."""
     model: Any = key("how the load divides between tooth pairs; this or table", None, example="ldp", values=_NAMED)
     names: Any = Literal[tuple(_NAMED)]
     name = create_model("ModelName", __base__=Section, model=(names | None, model))
     first = [one.keys for one in SHARING if one.chosen_by]
     rest = [one.keys for one in SHARING if not one.chosen_by and one.keys is not Section]
-    # A class has the fields of its last base first.
+    # Fields of the last base class come first.
     return create_model("SharingKeys", __base__=(*reversed(rest), name, *reversed(first)))
 
 
@@ -49,7 +49,7 @@ _SharingKeys: Any = _sharing_keys()
 class LoadSharing(_SharingKeys):
     @property
     def chosen(self) -> Any:
-        """The model that the keys choose."""
+        """The model selected by the keys."""
         return self._choices()[0]
 
     def _choices(self) -> list[Any]:
@@ -192,12 +192,12 @@ class Noise(Section):
 
     @property
     def of_single(self) -> bool:
-        """Whether it says how much single readings scatter."""
+        """Whether it states the scatter of single readings."""
         return self.relative > 0 or self.absolute > 0
 
     @property
     def of_setups(self) -> bool:
-        """Whether it says how much set-ups are off as a whole."""
+        """Whether it states the error common to a set-up."""
         return self.setup_relative > 0 or self.setup_absolute > 0
 
 
@@ -218,7 +218,7 @@ class Recording(Section):
 
 
 class RigFile(Section):
-    """What a case and a study both say of a rig."""
+    """Tables on the rig that a case and a study share."""
 
     boundary_friction: Number = key("friction coefficient of touching asperities", 0.1)
     description: str = key("free text", "", example="rig, oil, campaign")
@@ -228,7 +228,7 @@ class RigFile(Section):
 
 
 class System(RigFile):
-    """Everything the engineer knows about the rig."""
+    """The description of the rig in a case."""
 
     schema_: Literal["mixedlub-case/1"] = key("format of the file", example="mixedlub-case/1", alias="schema")
     kind: Annotated[str, AfterValidator(_known_kind)] = key("what was recorded", example="gear_pair")
@@ -241,7 +241,7 @@ with_ranges(System)
 
 
 def in_file(error: InputError, file: str) -> InputError:
-    """An error about a key of a file, with the file and the table of the key; one that names its place stays.
+    """Add file and table to an error about a key; an error that names its place is unchanged.
 
     >>> print(in_file(InputError("teeth interfere", where="teeth", value=[5, 60]), "system.toml"))
     system.toml: gears.teeth: [5, 60]: teeth interfere

@@ -1,4 +1,4 @@
-"""Tables of readings and conditions: CSV in, columns out, every wrong cell named."""
+"""Tables of readings and conditions, read from CSV; errors name the cell."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Column:
-    """What a column holds: a number within bounds, a whole number, or a name (one of ``names`` if there are any).
+    """Description of a column: a number within bounds, an integer, or a name (one of ``names`` if given).
 
-    Where a number may be ``blank`` an empty cell is nan. ``words`` are those under which instruments write it, and
-    ``hints`` others that may mean it.
+    Where a number may be ``blank``, an empty cell is nan. ``words`` are the names used in instrument files, ``hints``
+    are ambiguous ones.
     """
 
     name: str
@@ -76,7 +76,7 @@ class Column:
         return value
 
     def parse_all(self, cells: Sequence[str]) -> np.ndarray | None:
-        """The values of many cells at once; None where a cell is empty or wrong, which ``parse`` explains."""
+        """The values of all cells at once; None where a cell is empty or invalid, which ``parse`` reports."""
         try:
             if self.form == "name":
                 names = {cell: self.parse(cell, self.name) for cell in set(cells)}
@@ -93,10 +93,10 @@ class Column:
 
 
 LARGEST = 2**53
-"""Whole numbers are told apart up to here."""
+"""Largest integer that a double represents exactly."""
 PRINTED_MINUS = re.compile(r"(?:(?<=\d[eE])|(?<![\w)]))\u2212(?=[\d.,])")
 BLANK = ("", "-", "--", "---", "\u2013", "\u2014", "nan", "na", "n/a", "n.a.", "#n/a", "#nv", "null", "none")
-"""What an empty cell of a table may read, in small letters."""
+"""Texts of an empty cell, in lower case."""
 RUN = Column("run", "whole", meaning="number of the reading, each once")
 BOOKKEEPING = (
     Column("rig", "name", required=False, meaning="which rig or part of it; all share the calibration"),
@@ -124,7 +124,7 @@ def check_column(name: str) -> Column:
 
 @dataclass(frozen=True)
 class Table:
-    """Columns of equal length by name; ``ignored`` are headers of the file that are not among them."""
+    """Columns of equal length by name; ``ignored`` are the other headers of the file."""
 
     columns: Mapping[str, np.ndarray]
     source: str = "table"
@@ -140,12 +140,12 @@ class Table:
         return self.columns[name]
 
     def take(self, rows: np.ndarray) -> Table:
-        """The rows of a mask or index."""
+        """The rows selected by a mask or index."""
         return Table({name: column[rows] for name, column in self.columns.items()}, self.source)
 
 
 def is_missing(cell: str) -> bool:
-    """Whether a cell says that there is no value.
+    """Whether a cell denotes a missing value.
 
     >>> [is_missing(cell) for cell in ("", "n/a", " - ", "NaN", "0", "-1", "abc")]
     [True, True, True, True, False, False, False]
@@ -163,7 +163,7 @@ def is_number(cell: str) -> bool:
 
 
 def are_numbers(cells: Collection[str]) -> bool:
-    """Whether all cells are numbers or empty, and not all of them empty.
+    """Whether all cells are numbers or empty, with at least one number.
 
     >>> are_numbers(["1", "n/a", "2"]), are_numbers(["1", "stuck"]), are_numbers(["", ""])
     (True, False, False)
@@ -174,7 +174,7 @@ def are_numbers(cells: Collection[str]) -> bool:
 
 
 def with_hyphens(text: str) -> str:
-    """Text whose numbers have the minus that they are read with, where a printed one (U+2212) stands before them.
+    """Text with the typographic minus (U+2212) before numbers replaced by a hyphen.
 
     >>> with_hyphens("\u22120.5;1.2e\u22123;m s\u22121")
     '-0.5;1.2e-3;m s\u22121'
@@ -183,7 +183,7 @@ def with_hyphens(text: str) -> str:
 
 
 def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] = ("run",)) -> Table:
-    """Read a CSV with the given columns, those of the ``key`` unique together; others are ignored and reported."""
+    """Read a CSV with the given columns, unique in the columns of ``key``; others are ignored and reported."""
     where = str(path)
     try:
         refuse_no_file(path)
@@ -208,7 +208,7 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] 
 
 
 def table_of(frame: pd.DataFrame, columns: tuple[Column, ...], source: str = "table") -> Table:
-    """A table from a data frame, checked as one that is read; its rows are numbered where it has no ``run``."""
+    """A table from a data frame, checked like a file; rows are numbered where there is no column ``run``."""
     if RUN.name not in frame:
         frame = frame.assign(**{RUN.name: np.arange(1, len(frame) + 1)})
     rows = frame.astype(object).where(frame.notna(), "").astype(str).to_numpy().tolist()
@@ -224,7 +224,7 @@ def _table(
     where: str,
     unit: str = "line",
 ) -> Table:
-    """The table of a header and rows of cells, each with its number in the file (or, as ``unit``, row of a frame)."""
+    """The table of a header and rows of cells, each with its line number (or row of a frame, as ``unit`` says)."""
     if len(lines) < 2:
         raise InputError("needs a header line and at least one row", where=where)
     header = [cell.strip() for cell in lines[0][1]]
@@ -257,7 +257,7 @@ _CONVERTED = "units are not converted here; `mixedlub import` does"
 
 
 def _instead(column: Column, unknown: list[str]) -> str:
-    """What the file has where a column is missing: the same in another unit, a name like it, or other names.
+    """Hint on a missing column: the same in another unit, a similar name, or the names in the file.
 
     >>> _instead(Column("speed_rpm"), ["sped_rpm", "colour"]), _instead(Column("speed_rpm"), ["speed_rad_s"])
     ("; the file has 'sped_rpm'", "; the file has 'speed_rad_s': units are not converted here; `mixedlub import` does")
@@ -274,7 +274,7 @@ def _instead(column: Column, unknown: list[str]) -> str:
 
 
 def _ignored(file: str, unknown: list[str], absent: list[Column]) -> Iterator[Finding]:
-    """What to say of columns that are not known: those that may be a column which is ``absent`` one by one."""
+    """Texts on unknown columns; those that may be an ``absent`` column are reported one by one."""
     converted = [other for column in absent if (other := _other_unit(column, unknown))]
     others = []
     for name in unknown:
@@ -290,7 +290,7 @@ def _ignored(file: str, unknown: list[str], absent: list[Column]) -> Iterator[Fi
 
 
 def _nearest_absent(name: str, absent: list[Column]) -> str | None:
-    """The column that an ignored one may be: of those that the table lacks, one in its unit or with a name like it.
+    """The absent column that an ignored one may be: one of the same unit or with a similar name.
 
     >>> _nearest_absent("load_Nm", [Column("load_N"), Column("torque_Nm"), Column("motor_torque_Nm")])
     'torque_Nm'
@@ -307,7 +307,7 @@ def _nearest_absent(name: str, absent: list[Column]) -> str | None:
 
 
 def _other_unit(column: Column, unknown: list[str]) -> str | None:
-    """The header that is the column in another unit, one that the import converts."""
+    """The header of the same column in another unit that the import converts."""
     for name in unknown:
         unit = split(name)[1]
         if unit and words_of(name) in (split(column.name)[0], *column.words) and fits(unit, read_as(column.name)):
@@ -323,7 +323,7 @@ def _parse(
         found = {name: known[name].parse_all(texts) for name, texts in columns.items() if name in known}
         if all(values is not None for values in found.values()):
             return {name: values for name, values in found.items() if values is not None}
-    # Something is empty or wrong: cell by cell, so that the first wrong one is named.
+    # A cell is empty or invalid: parse cell by cell, so that the error names the first one.
     cells: dict[str, list[float | int | str]] = {name: [] for name in header if name in known}
     for number, row in lines[1:]:
         if len(row) != len(header):

@@ -1,4 +1,4 @@
-"""TOML files: read, validated with every error at its place, and values as they are written."""
+"""TOML files: reading, validation with the place of each error, and formatting of values."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ T = TypeVar("T", bound=Section)
 
 
 def read_toml(path: Path) -> dict[str, Any]:
-    """The file's content, or an error saying why it is not TOML."""
+    """The content of the file; invalid TOML is an error."""
     try:
         refuse_no_file(path)
         return tomllib.loads(path.read_text(encoding="utf-8-sig"))
@@ -30,7 +30,7 @@ def read_toml(path: Path) -> dict[str, Any]:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise InputError(f"is not readable as TOML ({error})", where=str(path)) from None
     except ValueError:
-        # Python refuses to convert whole numbers of thousands of digits.
+        # Python refuses to convert integers of thousands of digits.
         raise InputError("holds a whole number with too many digits", where=str(path)) from None
 
 
@@ -53,7 +53,7 @@ def parse(model: type[T], data: Mapping[str, Any], where: str) -> T:
 
 
 def _refused(model: type[Section], errors: list[Any], where: str) -> InputError:
-    """What to say of the errors: another kind of file first, then unknown keys, which explain missing ones."""
+    """The error to report: another type of file first, then unknown keys, which explain missing ones."""
     other = (e for e in errors if e["loc"] == ("schema",) and e["type"] == "literal_error")
     unknown = (e for e in errors if e["type"] == "extra_forbidden")
     first = next(chain(other, unknown), errors[0])
@@ -63,8 +63,8 @@ def _refused(model: type[Section], errors: list[Any], where: str) -> InputError:
         return InputError(f"key is not known; {hint}", where=f"{where}: {messages.place(first['loc'])}")
     if first["type"] == "missing" and isinstance(last, int):
         needed = 1 + max(e["loc"][-1] for e in errors if e["loc"][:-1] == tuple(table))
-        said = f"needs {messages.counted(needed)}, not {last}"
-        return InputError(said, where=f"{where}: {messages.place(table)}", value=first["input"])
+        rule = f"needs {messages.counted(needed)}, not {last}"
+        return InputError(rule, where=f"{where}: {messages.place(table)}", value=first["input"])
     shown = None if first["type"] == "missing" or isinstance(first["input"], dict) else first["input"]
     place = f"{where}: {messages.place(first['loc'])}" if first["loc"] else where
     return InputError(messages.rule(first), where=place, value=shown)
@@ -79,7 +79,7 @@ def _known_keys(model: type[Section], place: Sequence[Any]) -> list[str]:
 
 
 def toml_key(name: str) -> str:
-    """A key as TOML writes it.
+    """A key in TOML notation.
 
     >>> toml_key("ground"), toml_key("Ra 0.4")
     ('ground', '"Ra 0.4"')
@@ -88,7 +88,7 @@ def toml_key(name: str) -> str:
 
 
 def toml_value(value: Any) -> str:
-    """A plain value, a list or a table in one line as TOML writes it.
+    """A plain value, list or inline table in TOML notation.
 
     >>> toml_value([17, 26.0, float("inf")]), toml_value({"model": "ldp", "lead_crown_um": 3})
     ('[17, 26.0, inf]', '{ model = "ldp", lead_crown_um = 3 }')
@@ -107,7 +107,7 @@ def toml_value(value: Any) -> str:
 
 
 def default_of(key: Key) -> str:
-    """The value taken where a key is left out, as TOML; empty where there is none that says anything."""
+    """The default of a key in TOML notation; empty where it has no informative default."""
     value = key.field.default
     silent = key.required or value in (None, "", {}) or isinstance(value, Section)
     return "" if silent else toml_value(value)

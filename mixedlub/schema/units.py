@@ -1,4 +1,4 @@
-"""The one table of units: what the ending of a name stands for, the units that are read for it, and conversions."""
+"""The table of units: the meaning of name suffixes, the units accepted for each, and conversions."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ NAMED: Mapping[str, tuple[str | int | Fraction, str]] = {
     "degC": (1, "K"),
     "degF": ("5/9", "K"),
 }
-"""Units by others, as exact numbers: conversions are rounded once."""
+"""Units in terms of others, as exact numbers, so that conversions are rounded once."""
 PREFIXES = {"T": 12, "G": 9, "M": 6, "k": 3, "c": -2, "m": -3, "u": -6, "n": -9}
 ZEROS = {"degC": Fraction("273.15"), "degF": Fraction("459.67") * Fraction(5, 9)}
 """Zero points of scales of temperature (K)."""
@@ -89,12 +89,12 @@ lbft     | lb ft
 ftlb     | ft lb
 """
 _AS_WRITTEN = ("lbf", "kgf", "kg", "g", "psi", "kPa", "bar", "atm", "kN", "kW", "min", "K", "km", "h")
-"""Endings of headers that are the unit itself."""
+"""Header suffixes that are the unit itself."""
 UNSURE: dict[str, dict[str, tuple[str, ...]]] = {"rpm": {"1/s": ("rev/s", "rad/s")}}
-"""By the unit of a column: what is written for more than one unit, and those."""
+"""Ambiguous spellings by the unit of a column, with the units that each may mean."""
 SIGNS = str.maketrans({**dict.fromkeys("µμ", "u"), **dict.fromkeys("·⋅*", "."), **dict.fromkeys("⁻−", "-")})
 SIGNS |= str.maketrans({"°": "deg", "¹": "1", "²": "2", "³": "3", "^": ""})
-"""Signs of units as the table writes them."""
+"""Spellings of units and their form in the table."""
 
 
 @cache
@@ -136,7 +136,7 @@ def dimension(unit: str) -> Powers:
 
 
 def change(unit: str, wanted: str) -> tuple[float, float]:
-    """Factor and what is added, from one unit to another of the same dimension.
+    """Factor and offset from one unit to another of the same dimension.
 
     >>> change("kPa", "MPa"), change("K", "degC"), change("um2", "mm2")
     ((0.001, 0.0), (1.0, -273.15), (1e-06, 0.0))
@@ -148,7 +148,7 @@ def change(unit: str, wanted: str) -> tuple[float, float]:
 
 
 def tidy(unit: str) -> str:
-    """A unit as the table writes it.
+    """A unit in the spelling of the table.
 
     >>> tidy("µm"), tidy("°C"), tidy("N·m"), tidy("N m"), tidy("Pa s"), tidy("ft-lb")
     ('um', 'degC', 'N.m', 'N.m', 'Pa.s', 'ft.lb')
@@ -161,7 +161,7 @@ def tidy(unit: str) -> str:
 
 
 Changes = dict[str, tuple[float, float]]
-"""By a unit as it is written: factor to another, and what is added."""
+"""Factor and offset to a unit, by the spelling of the source unit."""
 
 
 def _read() -> tuple[dict[str, str], dict[str, Changes], dict[str, Changes]]:
@@ -183,8 +183,8 @@ def _read() -> tuple[dict[str, str], dict[str, Changes], dict[str, Changes]]:
 
 
 ENDINGS, UNITS, SLIPS = _read()
-"""By the ending of a name, longer ones first: the unit as it is shown; units that a column is read in (of a number
-without a unit: ``ratio``); units in which a number out of its range may have been given."""
+"""By name suffix, longer ones first: the displayed unit; the units accepted for a column (``ratio`` for a number
+without unit); the units in which a number outside its range may have been given."""
 
 
 def unit_of(name: str) -> str:
@@ -197,7 +197,7 @@ def unit_of(name: str) -> str:
 
 
 def without_unit(name: str) -> str:
-    """A name less the unit at its end.
+    """A name without its unit suffix.
 
     >>> without_unit("oil_temperature_C"), without_unit("teeth")
     ('oil_temperature', 'teeth')
@@ -206,12 +206,12 @@ def without_unit(name: str) -> str:
 
 
 def ending_of(name: str) -> str:
-    """The ending of a name that stands for its unit; empty where it has none."""
+    """The unit suffix of a name; empty where it has none."""
     return next((ending for ending in ENDINGS if name.endswith(f"_{ending}")), "")
 
 
 def read_as(column: str) -> str:
-    """The row of UNITS that the numbers of a column are read by."""
+    """The row of UNITS for the numbers of a column."""
     return ending_of(column) or "ratio"
 
 
@@ -228,7 +228,7 @@ def split(header: str) -> tuple[str, str | None]:
 
 
 def words_of(header: str) -> str:
-    """The words of a header without its unit, the name of a channel before a dot and a dot at the end.
+    """The words of a header without its unit, a channel name before a dot, and a trailing dot.
 
     >>> words_of("DAQ.COF ()"), words_of("Test Time (s)"), words_of("friction coeff.")
     ('cof', 'test time', 'friction coeff')
@@ -237,10 +237,9 @@ def words_of(header: str) -> str:
 
 
 def change_to(unit: str, wanted: str) -> tuple[float, float] | None:
-    """Factor and what is added, from a unit as written to a unit of UNITS; None where it is not one that is read.
+    """Factor and offset from a written unit to a unit of UNITS; None where it is not known.
 
-    Capitals are overlooked where they tell nothing: not where milli and mega, or two of the units, differ by them
-    only, nor in a single letter.
+    Case is ignored unless it distinguishes milli from mega or two of the units, or the unit is a single letter.
 
     >>> change_to("N mm", "Nm"), change_to("RPM", "rpm"), change_to("mPa", "MPa"), change_to("nm", "Nm")
     ((0.001, 0.0), (1.0, 0.0), None, None)
@@ -259,11 +258,11 @@ FORMS = {
     wanted: {form: change for known, change in units.items() for form in (tidy(known), tidy(known).replace(".", ""))}
     for wanted, units in UNITS.items()
 }
-"""By the unit of a column: what stands for a unit that it may be given in, with and without the dot of a product."""
+"""Accepted spellings by the unit of a column, with and without the dot of a product."""
 
 
 def open_units(unit: str, wanted: str) -> tuple[str, ...]:
-    """The units between which one as written leaves open; none where it is sure.
+    """The units that an ambiguous spelling may mean; empty where it is unambiguous.
 
     >>> open_units("s⁻¹", "rpm"), open_units("1/min", "rpm")
     (('rev/s', 'rad/s'), ())
@@ -272,12 +271,12 @@ def open_units(unit: str, wanted: str) -> tuple[str, ...]:
 
 
 def fits(unit: str, wanted: str) -> bool:
-    """Whether what is written may be a unit of a column."""
+    """Whether a text may be a unit of a column."""
     return change_to(unit, wanted) is not None or bool(open_units(unit, wanted))
 
 
 def units_of(wanted: str) -> tuple[str, ...]:
-    """The units that a column may be given in, each in one way of writing it.
+    """The units accepted for a column, each in one spelling.
 
     >>> units_of("rpm"), units_of("ratio")
     (('rpm', 'rad/s', 'deg/s', 'rev/s'), ('-', '%'))
@@ -287,12 +286,12 @@ def units_of(wanted: str) -> tuple[str, ...]:
 
 
 def is_unit(text: str) -> bool:
-    """Whether a text is one of the units that are read."""
+    """Whether a text is a known unit."""
     return any(fits(text, wanted) for wanted in UNITS)
 
 
 DIGITS = 15
-"""Decimal digits that a double always holds."""
+"""Decimal digits that a double always represents."""
 
 
 def rounded(values: np.ndarray, beside: float = 0.0) -> np.ndarray:

@@ -11,7 +11,7 @@ from mixedlub.study.results import Results, run_study
 
 
 def run(study: Study | str | PathLike[str], **how: Any) -> Results:
-    """Run a study, given as its file or as one that was read; ``how`` are the keywords of `run_study`.
+    """Run a study, given as a file or as a `Study`; ``how`` are the keywords of `run_study`.
 
     >>> import mixedlub as ml
     >>> ml.study.run("nowhere.toml")

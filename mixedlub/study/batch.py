@@ -1,7 +1,7 @@
-"""The batch engine: a factorial in blocks, each walked in pieces that fit the cache, on threads or a cluster.
+"""The batch engine: a factorial in blocks, each computed in pieces that fit the cache, on threads or a cluster.
 
-Every quantity keeps length one on the axes it does not depend on, so that what no surface can change (film,
-pressure, shear) is computed once for all pairings.
+Every quantity has length one on axes it does not depend on, so quantities independent of the surfaces (film, pressure,
+shear) are computed once for all pairings.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ Found = dict[str, np.ndarray]
 
 
 def processors() -> int:
-    """Processors that this process may use; all of the machine's where the system does not tell."""
+    """Processors that this process may use; all of the machine's where the system does not report it."""
     own = getattr(os, "sched_getaffinity", None)
     return len(own(0)) if own is not None else os.cpu_count() or 1
 
@@ -53,7 +53,7 @@ def split(shape: tuple[int, ...], reach: tuple[int, ...]) -> list[Block]:
 
 
 def reach(shape: tuple[int, ...], points: int, most_points: int, most_pairings: int) -> tuple[int, ...]:
-    """How far a range may go along each axis: pairings first, then speed, torque, oil temperature.
+    """Length of a block along each axis: pairings are filled first, then speed, torque, oil temperature.
 
     >>> reach((21, 1, 3, 6), 48, 80_000, 64), reach((1000, 1, 10, 10), 100, 80_000, 64)
     ((21, 1, 3, 6), (64, 1, 1, 10))
@@ -70,12 +70,12 @@ def reach(shape: tuple[int, ...], points: int, most_points: int, most_pairings: 
 
 
 def blocks(plan: Plan) -> list[Block]:
-    """The units of work: what is saved at once, and all that a killed run has to compute again."""
+    """The units of work: each is saved on completion, so an interrupted run repeats only unfinished ones."""
     return split(plan.shape, reach(plan.shape, plan.points, BLOCK_POINTS, plan.shape[0]))
 
 
 def compute(plan: Plan, block: Block) -> Found:
-    """Outputs and checks of one block, each of the block's shape; SI."""
+    """Outputs and checks of one block in SI, each of the block's shape."""
     shape = tuple(s.stop - s.start for s in block)
     found = {name: np.empty(shape) for name in (*OUTPUTS, *CHECKS)}
     with np.errstate(all="ignore"):
@@ -100,7 +100,7 @@ def _fill(plan: Plan, block: Block, found: Found) -> None:
 
 
 def stages(model: Model, inputs: Inputs) -> tuple[Model, Model]:
-    """The model in two: steps that no surface enters, and the rest in its order."""
+    """The model split in two: steps independent of the surfaces, and the others in order."""
     varying = {name for name, value in inputs.items() if np.ndim(value) == 5 and np.shape(value)[0] > 1}
     common: list[Step] = []
     own: list[Step] = []
@@ -123,7 +123,7 @@ def _part(model: Model, steps: Sequence[Step], want: Sequence[str]) -> Model:
 
 
 def _taken(inputs: Inputs, ranges: Sequence[slice]) -> dict[str, Any]:
-    """The inputs over some ranges of the leading axes; axes of length one stay as they are."""
+    """The inputs sliced along the leading axes; axes of length one are kept."""
 
     def part(value: Any) -> Any:
         if np.ndim(value) != 5:
@@ -134,7 +134,7 @@ def _taken(inputs: Inputs, ranges: Sequence[slice]) -> dict[str, Any]:
 
 
 def _reduced(state: Inputs) -> Found:
-    """Results of a piece, the mesh axis shrunk to one; checks are made where the film is thinnest."""
+    """Results of a piece with the mesh axis reduced to one; checks are made where the film is thinnest."""
     film, area, weight = state["film_thickness"], state["area_ratio"], state["mean_weight"]
     power = state["load_share"] * state["transmitted_force"] * state["sliding_speed"]
     mean_film = over_path(film, weight)
@@ -160,7 +160,7 @@ def _reduced(state: Inputs) -> Found:
 def run(
     plan: Plan, todo: Sequence[Block] | None = None, *, scheduler: str | None = None, threads: int | None = None
 ) -> Iterator[tuple[Block, Found]]:
-    """Compute blocks, in whatever order they get done.
+    """Compute blocks; yields them in order of completion.
 
     On threads of this machine, or on the workers of the Dask scheduler at an address; the block function is
     the same, and so are its numbers on processors of one kind.
@@ -187,9 +187,9 @@ def run(
 
 @cache
 def pin_allocator() -> bool:
-    """Tell glibc to keep the pages of freed arrays; two to four times faster, and a process-wide setting.
+    """Make glibc keep the pages of freed arrays; two to four times faster, and a process-wide setting.
 
-    Without it every temporary is given back to the system and taken again page by page. Set
+    Without it every temporary array is returned to the system and allocated again page by page. Set
     MIXEDLUB_PIN_ALLOCATOR=0 to leave the allocator alone. Returns whether it was set.
     """
     if os.environ.get("MIXEDLUB_PIN_ALLOCATOR") == "0" or platform.libc_ver()[0] != "glibc":

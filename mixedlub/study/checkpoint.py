@@ -1,7 +1,7 @@
-"""What a run leaves on disk while it works: one Parquet file a block, so that a killed run can be resumed.
+"""Checkpoints of a run: one Parquet file per block, from which an interrupted run resumes.
 
-A block's file is written aside and renamed, so it is whole or absent. The folder's name carries the study's
-fingerprint: parts of another study, or of other code, are never taken for this one's.
+A block's file is written to a temporary name and renamed, so it is complete or absent. The folder's name carries the
+study's fingerprint: blocks of another study, or of other code, are never reused.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def _code() -> str:
 
 
 def parts_folder(out: Path, plan: Plan) -> Path:
-    """Where the blocks of this study are kept until it is done."""
+    """Folder of the blocks of this study until it is complete."""
     return out / f".parts-{fingerprint(plan)[:16]}"
 
 
@@ -94,7 +94,7 @@ def keep(folder: Path, block: Block, found: Found) -> None:
 
 
 def floats(values: np.ndarray) -> pa.Array:
-    """A column of numbers, made without the detour over pandas that ``pa.array`` imports it for."""
+    """A column of numbers, built without ``pa.array``, which imports pandas."""
     import pyarrow as pa
 
     flat = np.ascontiguousarray(values, dtype=float).ravel()
@@ -102,7 +102,7 @@ def floats(values: np.ndarray) -> pa.Array:
 
 
 def words(names: Sequence[str], times: int) -> pa.Array:
-    """A column of names, each repeated so many times; made as `floats`."""
+    """A column of names, each repeated ``times`` times; built as in `floats`."""
     import pyarrow as pa
 
     encoded = [name.encode() for name in names]

@@ -1,4 +1,4 @@
-"""Blocks of a study on the workers of a Dask scheduler; a failure there is reported in one sentence."""
+"""Blocks of a study on the workers of a Dask scheduler; errors become one-line messages."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
 OPTION = "--scheduler"
 ANSWER_S = 2.0
-"""How long a host may take to accept a connection, and then a scheduler to say what it is: many round trips."""
+"""Time (s) for a host to accept a connection, and then for a scheduler to identify itself: many round trips."""
 CLIENT_S = 10.0
-"""How long a scheduler that has answered may take to accept a client: longer, as a large cluster is busy."""
+"""Time (s) for an identified scheduler to accept a client: longer, as a large cluster is busy."""
 Task = TypeVar("Task")
 Found = TypeVar("Found")
 LOGGERS = ("distributed", "tornado", "asyncio")
@@ -30,7 +30,7 @@ LOGGERS = ("distributed", "tornado", "asyncio")
 def on_cluster(
     compute: Callable[[Any, Task], Found], shared: Any, todo: Sequence[Task], address: str
 ) -> Iterator[tuple[Task, Found]]:
-    """What ``compute`` finds for each task, on the workers of the scheduler at an address, as they get done."""
+    """Results of ``compute`` for each task on the workers of a scheduler, in order of completion."""
     _check_host(address)
     try:
         from distributed import Client, as_completed
@@ -57,7 +57,7 @@ def on_cluster(
 
 
 def _check_scheduler(address: str) -> None:
-    """Refuse an address where no Dask scheduler answers, at once rather than after the retries of a client."""
+    """Refuse an address where no Dask scheduler answers, without waiting for the retries of a client."""
     from distributed.core import rpc
 
     async def identity() -> dict[str, Any]:
@@ -103,7 +103,7 @@ def _what_was_lost(client: Client, address: str) -> str:
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Within it, Dask logs nothing."""
+    """Context in which Dask logs nothing."""
     known = [name for name in logging.root.manager.loggerDict if name.partition(".")[0] in LOGGERS]
     loggers = [logging.getLogger(name) for name in known]
     before = [logger.level for logger in loggers]

@@ -1,4 +1,4 @@
-"""A study made ready to run: surfaces paired, gears meshed, inputs laid out by axis."""
+"""A study prepared to run: surfaces paired, gears meshed, inputs arranged by axis."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ Parameters = Mapping[str, Mapping[str, float]]
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """All that computing needs, in a form that travels to other machines.
+    """Everything the computation needs, in a form that can be sent to other machines.
 
     ``inputs`` hold SI arrays of up to five axes (pairing, oil temperature, torque, speed, mesh), length one
     on each axis they do not depend on; ``shape`` is the number of levels of the first four, ``points`` of
@@ -58,14 +58,14 @@ class Plan:
     points: int
 
     def model(self) -> Model:
-        """The chain under the options with the effects switched on."""
+        """The chain of the chosen options with the active effects."""
         effects = find(sorted(self.parameters)) if self.parameters else ()
         return Model(study_chain(self.options), tuple(self.inputs), WANTED, effects)
 
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """A study file, read and resolved; ``notes`` say what had to be assumed."""
+    """A study file, read and resolved; ``notes`` lists the assumptions made."""
 
     name: str
     file: StudyFile
@@ -86,9 +86,9 @@ class Study:
 
 
 def read_study(path: Path, file: StudyFile | None = None) -> Study:
-    """Read a study file and lay it out; traces are read relative to its folder.
+    """Read a study file and prepare it; traces are read relative to its folder.
 
-    ``file`` takes the place of what the file says: a study altered in Python.
+    ``file`` replaces the content of the file: a study altered in Python.
     """
     if path.is_dir():
         raise InputError("is a folder; a study is one TOML file", where=str(path))
@@ -108,19 +108,19 @@ def read_study(path: Path, file: StudyFile | None = None) -> Study:
 
 
 def _check_finite(study: Study) -> None:
-    """Refuse a study with an input that is not finite, and say at which of its levels."""
+    """Refuse a study with an input that is not finite, and name the level."""
     levels = study.file.conditions
     columns = ("", "oil_temperature_C", "torque_Nm", "speed_rpm")
     for name, value in study.plan.inputs.items():
         if not np.all(np.isfinite(value)):
             axes = zip(columns, np.argwhere(~np.isfinite(value))[0], np.shape(value))
             place = ", ".join(f"{c} {getattr(levels, c)[i]:g}" for c, i, n in axes if c and n > 1) or "all of them"
-            said = f"the study's numbers give no finite {name.replace('_', ' ')}; look for one far out of range"
-            raise InputError(said, where=f"conditions: {place}")
+            rule = f"the study's numbers give no finite {name.replace('_', ' ')}; look for one far out of range"
+            raise InputError(rule, where=f"conditions: {place}")
 
 
 def counted(count: int, thing: str) -> str:
-    """A number of things in words.
+    """A count with its noun.
 
     >>> counted(1, "speed"), counted(6, "speed")
     ('1 speed', '6 speeds')
@@ -129,14 +129,14 @@ def counted(count: int, thing: str) -> str:
 
 
 def factors(study: Study) -> tuple[str, ...]:
-    """What is combined with what in a study, each with its number of levels."""
+    """The factors of a study, each with its number of levels."""
     things = ("pairing", "oil temperature", "torque", "speed")
     pairings, oil, torque, speed = map(counted, study.plan.shape, things)
     return (pairings, torque, speed, oil)
 
 
 def pairings_of(section: Pairings | None, known: Mapping[str, object]) -> tuple[tuple[str, str], ...]:
-    """Pinion and gear surface of each pairing; every unordered pair where none is given.
+    """Pinion and gear surface of each pairing; every unordered pair by default.
 
     >>> pairings_of(None, {"a": 0, "b": 0})
     (('a', 'a'), ('a', 'b'), ('b', 'b'))
@@ -174,7 +174,7 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
 
 
 def _condition_inputs(file: StudyFile, pair: GearPair, points: Mesh, oil: Lubricant) -> dict[str, Any]:
-    """Inputs that all pairings share."""
+    """Inputs shared by all pairings."""
     levels, options = file.conditions, file.options
     of_gear = options.conditions_of == "gear"
     torques = np.array(levels.torque_Nm) / (pair.gear_ratio if of_gear else 1.0)
@@ -200,7 +200,7 @@ def _pairing_inputs(pairs: list[tuple[Surface, Surface]]) -> dict[str, np.ndarra
 
 
 def _effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, ...], dict[str, dict[str, float]]]:
-    """The effects switched on, each parameter at its given value or the middle of its prior."""
+    """The active effects, each parameter at its given value or the median of its prior."""
     if not file.effects:
         return (), {}
     known = known_in("gear_pair")

@@ -1,4 +1,4 @@
-"""What is kept with a result: the study file as given, every input as used, and which files one run wrote."""
+"""The record of a result: the study file as given, every input as used, and the files that the run wrote."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ from roughness.mccool import nayak_parameter, summit_density, summit_radius
 SCHEMA = "mixedlub-study-result/1"
 GIVEN, RESOLVED = "study.toml", "resolved.json"
 WRITTEN = ("results.csv", "results.parquet", "index.html", GIVEN, RESOLVED)
-"""Files of a result, besides its folder of figures."""
+"""Files of a result outside the folder of figures."""
 ENDS = 1 << 20
-"""Bytes at either end of a file by which it is recognised: those of a large table need not all be read."""
+"""Bytes at either end of a file that identify it, so that a large table need not be read completely."""
 
 
 def resolved(study: Study) -> dict[str, Any]:
-    """Every input as used, in the keys of a study file, each default taken; and what follows from them."""
+    """Every input as used, by the keys of a study file and with all defaults, and the quantities derived from them."""
     file, pair = study.file, study.pair
     inputs = file.model_dump(by_alias=True, exclude_none=True)
     inputs["gears"] |= {
@@ -60,7 +60,7 @@ def resolved(study: Study) -> dict[str, Any]:
 
 
 def _base(study: Study) -> dict[str, str]:
-    """Base stock of the oil, where it is given or its typical values fill what is left out."""
+    """Base stock of the oil, where it is given or its typical values replace missing ones."""
     given = study.file.lubricant and study.file.lubricant.base
     if given:
         return {"base": given}
@@ -68,7 +68,7 @@ def _base(study: Study) -> dict[str, str]:
 
 
 def assumed(study: Study) -> Iterator[str]:
-    """Dotted keys that the file leaves out and the run needs, whose values are therefore defaults."""
+    """Dotted keys that the run needs and the file leaves out, so that defaults apply."""
     file = study.file
     yield from _left_out(file, "", ("boundary_friction",))
     yield from _left_out(file.gears, "gears", tuple(Gears.model_fields))
@@ -117,7 +117,7 @@ def _oil(oil: Lubricant) -> dict[str, Any]:
 
 
 def _plain(value: float) -> float:
-    """A number without what changing its unit did to its last digit.
+    """A number without the rounding error of a unit conversion.
 
     >>> _plain(18.05e-6 * 1e6)
     18.05
@@ -126,7 +126,7 @@ def _plain(value: float) -> float:
 
 
 def _moments(surface: Surface, section: SurfaceSection) -> dict[str, Any]:
-    """The keys of a surface by its moments, whether they were given or are those of a trace."""
+    """The keys of a surface given by its moments, whether stated or computed from a trace."""
     body = section.model_dump(
         include={"coating", "thermal_conductivity_W_mK", "density_kg_m3", "specific_heat_J_kgK"}, exclude_none=True
     )
@@ -135,7 +135,7 @@ def _moments(surface: Surface, section: SurfaceSection) -> dict[str, Any]:
 
 
 def asperities(surface: Surface) -> dict[str, float]:
-    """Roughness and asperities of one surface, of its moments."""
+    """Roughness and asperities of one surface, from its moments."""
     moments = (np.array(surface.m0), np.array(surface.m2), np.array(surface.m4))
     with np.errstate(divide="ignore"):
         found = {
@@ -150,7 +150,7 @@ def asperities(surface: Surface) -> dict[str, float]:
 
 
 def write_record(aside: Path, folder: Path, study: Study, file: Path, given: bytes) -> None:
-    """The study file as given and the record of the result; ``aside`` holds the other files already."""
+    """Write the study file as given and the record of the result; ``aside`` already holds the other files."""
     if not _is_same(folder / GIVEN, file):
         (aside / GIVEN).write_bytes(given)
     before = {name: mark for name, mark in _files_of(_record(folder)).items() if _mark(folder / name) == mark}
@@ -170,7 +170,7 @@ def write_record(aside: Path, folder: Path, study: Study, file: Path, given: byt
 
 
 def check_folder(folder: Path, study: Study, file: Path) -> str:
-    """Refuse a folder with files that are not of this study; what to note where they are of an earlier state of it."""
+    """Refuse a folder with files of other origin; returns a note where they are of an earlier state of this study."""
     names = [name for name in WRITTEN if (folder / name).exists() and not _is_same(folder / name, file)]
     if not names:
         return ""
@@ -190,7 +190,7 @@ def check_folder(folder: Path, study: Study, file: Path) -> str:
 
 
 def _record(folder: Path) -> dict[str, Any]:
-    """The record in a folder; empty where there is none that a study wrote."""
+    """The record in a folder; empty where no study wrote one."""
     try:
         found = json.loads((folder / RESOLVED).read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -204,7 +204,7 @@ def _files_of(record: Mapping[str, Any]) -> dict[str, str]:
 
 
 def _mark(path: Path) -> str:
-    """By which a file is recognised: its size and its two ends."""
+    """Identity of a file: its size and its two ends."""
     try:
         with path.open("rb") as file:
             size = file.seek(0, os.SEEK_END)
@@ -222,7 +222,7 @@ def _is_same(path: Path, other: Path) -> bool:
 
 
 def _relative(file: Path, folder: Path) -> str:
-    """Where the study file lies, seen from the result, so that both may move together."""
+    """Path of the study file relative to the result, so that both may be moved together."""
     try:
         return Path(os.path.relpath(file.resolve(), folder.resolve())).as_posix()
     except ValueError:  # on another drive
@@ -231,7 +231,7 @@ def _relative(file: Path, folder: Path) -> str:
 
 @contextmanager
 def running(folder: Path, study: Study) -> Iterator[None]:
-    """Within it the folder is marked as being written to; refused while a run of another study writes there."""
+    """Context that marks the folder as in use; refused while a run of another study writes there."""
     whose = input_fingerprint(study.plan)[:16]
     own = folder / f".running-{whose}-{os.getpid()}"
     own.touch()
@@ -241,8 +241,8 @@ def running(folder: Path, study: Study) -> Iterator[None]:
             if path != own and not is_alive(process):
                 path.unlink(missing_ok=True)
             elif other != whose:
-                said = f"a run of another study writes there (process {process}); wait for it, or name another --out"
-                raise InputError(said, where="--out", value=str(folder))
+                rule = f"a run of another study writes there (process {process}); wait for it, or name another --out"
+                raise InputError(rule, where="--out", value=str(folder))
         yield
     finally:
         own.unlink(missing_ok=True)

@@ -107,7 +107,7 @@ class Results:
             yield pa.table(columns)
 
     def _described_schema(self, schema: pa.Schema) -> pa.Schema:
-        """The columns with unit and meaning, and what the whole is of."""
+        """The columns with unit and meaning, and the metadata of the table."""
         import pyarrow as pa
 
         meant = meanings()
@@ -146,7 +146,7 @@ def meanings() -> dict[str, str]:
 
 
 def versions() -> dict[str, str]:
-    """Versions of the programs that a result depends on."""
+    """Versions of the packages that a result depends on."""
     return {"mixedlub": installed_version(), "NumPy": np.__version__, "Python": sys.version.split()[0]}
 
 
@@ -163,7 +163,7 @@ def run_study(
     threads: int | None = None,
     progress: Callable[[int, int], None] = lambda done, of: None,
 ) -> Results:
-    """Run a study; with a folder for parts, blocks are saved as they get done and those saved before are kept."""
+    """Run a study; with a folder for parts, finished blocks are saved and those of an earlier run are reused."""
     values = {name: np.empty(study.plan.shape) for name in (*OUTPUTS, *CHECKS)}
     todo = batch.blocks(study.plan)
     waiting = {checkpoint.block_name(b): b for b in todo}
@@ -188,7 +188,7 @@ def run_study(
 
 
 def _check_finite(results: Results) -> None:
-    """Refuse numbers so odd that a law left its domain."""
+    """Refuse inputs at which a law leaves its domain."""
     for name in OUTPUTS:
         wrong = ~np.isfinite(results[name])
         if wrong.any():

@@ -1,4 +1,4 @@
-"""Conditions outside the range of the laws, counted."""
+"""Number of conditions outside the validity range of the laws."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from roughness.mccool import nayak_parameter
 
 
 def out_of_range(results: Results) -> tuple[Finding, ...]:
-    """Findings about conditions outside the range of the laws; none where all are within."""
+    """Findings on conditions outside the validity range of the laws; empty where all are within."""
     return (*_load_balance(results), *_clipped(results), *_bandwidth(results))
 
 

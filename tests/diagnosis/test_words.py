@@ -195,7 +195,7 @@ def test_of_several_vague_parameters_only_their_combined_effect_is_known() -> No
 def test_sensor_offset_has_the_size_that_it_is_a_share_of(offset: Diagnosis) -> None:
     rows = section(judged(offset, {Explanation.of("sensor_offset"): 0.97}, 1), words.LEFT_OUT).table
     size = float(np.median(np.abs(offset.search.problem.forward.predict())))
-    assert rows[1][-1].startswith(f"added to every reading, over its typical size ({number(size)} W)")
+    assert rows[1][-1].startswith(f"offset of every reading, relative to the typical reading ({number(size)} W)")
 
 
 def test_the_place_is_told_in_the_same_words_everywhere(offset: Diagnosis) -> None:
