@@ -44,7 +44,7 @@ def page(effect_id: str) -> Effect:
 
     >>> import mixedlub as ml
     >>> print(repr(ml.effects.page("starvation")).splitlines()[0])
-    starvation: Above a certain viscosity times speed the inlet lacks oil; the film is thinner than fully flooded.
+    starvation: Above a certain viscosity times speed the inlet lacks oil; the film
     """
     return find((effect_id,))[0]
 
