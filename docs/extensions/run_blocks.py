@@ -47,14 +47,10 @@ class _InPage:
     def surroundings(self) -> dict[str, str]:
         """Environment of the commands: this Python's programs first, plain output of one width."""
         path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
-        return {
-            **os.environ,
-            "PATH": path,
-            "COLUMNS": "88",
-            "NO_COLOR": "1",
-            "MPLBACKEND": "agg",
-            "PYTHONSAFEPATH": "1",
-        }
+        # The page's copy of profiles/traces must not hide the package: a whole package further on the path wins.
+        packages = os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")]).rstrip(os.pathsep)
+        plain = {"COLUMNS": "88", "NO_COLOR": "1", "MPLBACKEND": "agg"}
+        return {**os.environ, "PATH": path, "PYTHONPATH": packages, **plain}
 
     def start(self, script: str) -> subprocess.Popen[bytes]:
         """A script of the page started in the background, with a process group of its own."""
