@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mixedlub.diagnosis.assessment.power_law import unnamed
+from mixedlub.diagnosis.assessment.power_law import describe_discrepancy
 from mixedlub.diagnosis.diagnose import diagnose_case
 from mixedlub.diagnosis.discrepancy.modulated import thermal_lag
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
@@ -30,7 +30,7 @@ def drive(extra, seed=1, relative=0.01):
 
 
 def told(found):
-    return " ".join(as_text("", sections(found, unnamed(found.search))).split())
+    return " ".join(as_text("", sections(found, describe_discrepancy(found.search))).split())
 
 
 def resonance(speed, order):
@@ -209,7 +209,7 @@ def test_a_temperature_that_lags_has_caught_up_after_a_pause(make):
     )
 
 
-@pytest.mark.parametrize("wander", [1.0, 4.0])
+@pytest.mark.parametrize("scatter", [1.0, 4.0])
 def test_levels_left_out_are_those_of_the_condition_that_was_varied(make, scatter):
     """Seven films over nine times the speed; the load is measured and jitters by a few per cent or more."""
     rng = np.random.default_rng(2)

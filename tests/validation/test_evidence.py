@@ -11,7 +11,12 @@ from scipy.stats import binom
 
 from mixedlub.case.folder import read_case
 from mixedlub.diagnosis.assessment import mismatch_test as mismatch_module
-from mixedlub.diagnosis.assessment.mismatch_test import BAYES_FACTOR_MARGIN, KNOWN, UNTOLD, mismatch_test
+from mixedlub.diagnosis.assessment.mismatch_test import (
+    BAYES_FACTOR_MARGIN,
+    STATED_NOISE_SCALES,
+    UNSTATED_NOISE_SCALES,
+    mismatch_test,
+)
 from mixedlub.diagnosis.explanation import NOTHING, Explanation
 from mixedlub.diagnosis.inference.map_fit import map_fit
 from mixedlub.diagnosis.inference.reference_evidence import nested_evidence
@@ -83,7 +88,7 @@ def calibrated_only(found: Search, drawn: Problem) -> Search:
     )
 
 
-@pytest.mark.parametrize("scales", [KNOWN, UNTOLD])
+@pytest.mark.parametrize("scales", [STATED_NOISE_SCALES, UNSTATED_NOISE_SCALES])
 def test_false_alarms_stay_at_the_stated_level(
     searches: list[Search], scales: tuple[float, ...], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -97,7 +102,7 @@ def test_false_alarms_stay_at_the_stated_level(
     for trial in range(TRIALS):
         found, rng = searches[trial % len(searches)], np.random.default_rng([SEED, trial])
         drawn = drawn_from(found.problem, rng.standard_normal(found.problem.calibration_size), rng)
-        if scales is UNTOLD:
+        if scales is UNSTATED_NOISE_SCALES:
             drawn = replace(drawn, sd=drawn.sd * np.exp(OFF * rng.standard_normal()))
         alarms += mismatch_test(calibrated_only(found, drawn), LEVEL, seed=trial, scales=scales).detected
     least, most = int(binom.ppf(0.001, TRIALS, LEVEL)), int(binom.isf(0.008, TRIALS, LEVEL))
