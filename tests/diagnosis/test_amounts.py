@@ -44,7 +44,7 @@ def test_a_share_is_told_as_an_amount(offset: Diagnosis) -> None:
 
 def test_a_share_of_a_torque_is_told_in_newton_metres(offset: Diagnosis, drive: Diagnosis) -> None:
     (zero,) = catalogue()["torque_offset"].parameters
-    assert tables._meaning(offset, zero, 5e-4).endswith("over the largest torque recorded (150 N m): 0.075 N m")
+    assert tables._meaning(offset, zero, 5e-4).endswith("(150 N m): 0.075 N m")
     growth, _ = catalogue()["load_dependent_friction"].parameters
     moved = calibration_record(drive)["coulomb_torque"]["value"]
     assert tables._meaning(drive, growth, 0.5).endswith(f"({number(moved)} N m): {number(0.5 * moved)} N m")
@@ -52,7 +52,7 @@ def test_a_share_of_a_torque_is_told_in_newton_metres(offset: Diagnosis, drive: 
 
 def test_a_share_of_the_largest_speed_is_told_in_turns(drive: Diagnosis) -> None:
     least, _ = catalogue()["presliding"].parameters
-    assert tables._meaning(drive, least, 0.01).endswith("over the largest speed of the recording (300 rpm): 3 rpm")
+    assert tables._meaning(drive, least, 0.01).endswith("(300 rpm): 3 rpm")
 
 
 def test_what_a_parameter_is_a_share_of_is_read_by_its_law() -> None:
