@@ -91,7 +91,7 @@ def test_figures_show_what_the_record_says(shared, tmp_path):
     drawn = {p.stem.rpartition("_")[2]: p.read_text() for p in (tmp_path / "figures").iterdir()}
     assert set(drawn) == {"trace", "probability", "abbott", "spectrum"}
     assert "Rk 11.4, Rpk 2.73, Rvk 3.95" in drawn["abbott"]
-    assert "Ra 3.31  Rq 3.96  Rz 18.5" in drawn["trace"]
+    assert "Ra 3.31, Rq 3.96, Rz 18.5" in drawn["trace"]
 
 
 def test_core_parameters_under_iso_lie_within_eight_percent_of_the_instrument(shared, evaluated):
