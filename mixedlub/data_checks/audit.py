@@ -27,39 +27,45 @@ from mixedlub.schema.units import UNITS, unit_of
 from profiles.errors import InputError
 
 FEWEST = 5
-"""Fewest readings that can be diagnosed."""
+"""Judgement. Fewest readings that can be diagnosed: fewer leave hardly a residual."""
 SCARCE = 30
-"""Readings below which ties and wide intervals are to be expected."""
+"""Judgement. Readings below which ties and wide intervals are to be expected: a few to each parameter."""
 MOST_SLIDING = 10.0
-"""Slide-roll ratio above which percent is more likely: 2 is pure sliding, more needs surfaces moving in opposition."""
+"""Judgement. Slide-roll ratio above which percent is more likely: 2 is pure sliding, more needs surfaces moving in
+opposition."""
 SAME_SIZE = 0.05
-"""Half the difference of two directions over their mean, up to which they count as equal: a payload exceeds it."""
+"""Judgement. Half the difference of two directions over their mean, up to which they count as equal: a payload exceeds
+it."""
 THINNEST_OIL = 0.4
-"""Viscosity (mPa s) of the thinnest liquid for which the model holds."""
+"""Judgement. Viscosity (mPa s) of the thinnest liquid for which the model holds."""
 THINNEST_D341 = 2e-6
-"""Kinematic viscosity (m2/s) down to which log log(nu + 0.7) is all of ASTM D341."""
+"""Source: ASTM D341. Kinematic viscosity (m2/s) down to which log log(nu + 0.7) is all of ASTM D341."""
 FAR_FROM_OIL = 30.0
-"""Kelvin outside the two viscosity points up to which the viscosity-temperature law is accurate enough."""
+"""Judgement. Kelvin outside the two viscosity points up to which the viscosity-temperature law is accurate enough."""
 STUCK_ROWS, STUCK_SHARE = 5, 0.2
-"""Rows with exactly the same reading, and their share of all rows, from which a stuck channel is suspected."""
+"""Judgement. Rows with exactly the same reading, and their share of all rows, from which a stuck channel is
+suspected."""
 STUCK_STEPS, STUCK_SPAN = 3.0, 0.05
-"""Change of the base model over these rows that shows a stuck channel: in steps of the reading, and relative."""
+"""Judgement. Change of the base model over these rows that shows a stuck channel: in steps of the reading, and
+relative."""
 
 
 TOO_LARGE, ALONE = 50.0, 10.0
-"""Ratio of a reading to its expected value, and to the largest other reading, from which it is implausible."""
+"""Judgement. Ratio of a reading to its expected value, and to the largest other reading, from which it is
+implausible."""
 NEGATIVE_SHARE, NEGATIVE_SIGMAS = 0.02, 5.0
-"""Largest share of negative readings that counts as sign errors, and the sds below zero that each must be."""
+"""Judgement. Largest share of negative readings that counts as sign errors, and the sds below zero that each must
+be."""
 UNSTATED = 0.05
-"""Standard deviation assumed where none is stated, as a share of the median reading."""
+"""Judgement. Standard deviation assumed where none is stated, as a share of the median reading."""
 ORDER = ("run", "sequence", "time_s")
 """Columns in which a row that is entered twice differs from its copy."""
 TWICE_ROWS, TWICE_SHARE = 3, 0.1
-"""Number and share of repeated rows, equal to the last digit, that chance does not explain."""
+"""Judgement. Number and share of repeated rows, equal to the last digit, that chance does not explain."""
 CHANCE = 2.0
-"""Ratio of repeated readings to those expected from rounding, above which it is not chance."""
+"""Judgement. Ratio of repeated readings to those expected from rounding, above which it is not chance."""
 CONTRADICTING = 4.0
-"""Ratio of the scatter of repeats to the stated noise, above which they contradict each other."""
+"""Judgement. Ratio of the scatter of repeats to the stated noise, above which they contradict each other."""
 
 
 def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[Finding]:

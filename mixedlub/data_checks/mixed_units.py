@@ -24,25 +24,32 @@ SLIPS: Mapping[float, str] = {
     1e-6: "a millionth of",
 }
 WITHIN = 2.0
-"""Factor by which a wrong unit may differ from its power of ten: the accuracy of the base model."""
+"""Judgement. Factor by which a wrong unit may differ from its power of ten: the accuracy of the base model."""
 PART = 0.1
-"""Least share of the readings that counts as a second unit rather than as outliers."""
+"""Judgement. Least share of the readings that counts as a second unit rather than as outliers."""
 TEN = 10.0
-"""A power of ten that physics may also cause: readings of both parts must then be mixed among the conditions."""
+"""Judgement. A power of ten that physics may also cause: readings of both parts must then be mixed among the
+conditions."""
 MIXED = 0.5
-"""Share of the smaller part with a nearest neighbour in the other, from which the parts count as mixed."""
+"""Judgement. Share of the smaller part with a nearest neighbour in the other, from which the parts count as mixed."""
 CLEAR, CLEAR_MIXED = 0.5, 0.25
-"""Gap between two parts over the distance of their medians, at least; less where conditions do not separate them."""
+"""Judgement. Gap between two parts over the distance of their medians, at least; less where conditions do not separate
+them."""
 POWERS = (1e1, 1e2, 1e3, 1e6)
+"""Grid. Powers of ten by which a wrong unit may be off."""
 LEVELS, NEAR, SAME_READING = 3, 0.02, 0.15
-"""Levels of a condition that must repeat a power of ten higher; tolerance of conditions, and of readings (log)."""
+"""Judgement. Levels of a condition that must repeat a power of ten higher; tolerance of conditions, and of readings
+(log)."""
 WARM, LOW_PRESSURE = 20.0, 100.0
-"""Temperature (degC) from which, and pressure (MPa) up to which, oils have their working viscosity."""
-HARD, YIELDS = 50e9, 0.025
-"""Reduced modulus (Pa) of metals, ceramics and glass at least, and Hertz pressure over it at which they yield: bearings
-are rated to 4.2 GPa, 0.018 of the modulus of steel (ISO 76); polymers bear a larger share."""
+"""Judgement. Temperature (degC) from which, and pressure (MPa) up to which, oils have their working viscosity."""
+HARD = 50e9
+"""Judgement. Reduced modulus (Pa) of metals, ceramics and glass at least."""
+YIELDS = 0.025
+"""Source: ISO 76. Hertz pressure over reduced modulus at which these yield: bearings are rated to 4.2 GPa, 0.018 of the
+modulus of steel; polymers bear a larger share."""
 APART = 1.5
-"""Factor by which the base model differs between two parts at least, and their gap exceeds gaps within them."""
+"""Judgement. Factor by which the base model differs between two parts at least, and their gap exceeds gaps within
+them."""
 
 
 def of_another_unit(case: Case, y: np.ndarray, base: np.ndarray, fewest: int) -> list[Finding]:

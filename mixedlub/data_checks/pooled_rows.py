@@ -25,9 +25,9 @@ COUNTING = re.compile(
 )
 """Words in the header of a column that counts readings of one specimen."""
 MOST = 20
-"""Most different values of a column that names specimens rather than readings: judgement."""
+"""Judgement. Most different values of a column that names specimens rather than readings."""
 SHOWN = 3
-"""Values that a message lists at most."""
+"""Judgement. Values that a message lists at most."""
 
 
 def pooled_in(path: Path, table: Table, quantity: str) -> Iterator[Finding]:

@@ -12,10 +12,12 @@ from mixedlub.schema.table import Table
 
 CLOCKS = ("sequence", "time_s")
 AS_LARGE = (0.67, 1.5)
-"""Range of the size ratio of two readings that differ in sign only."""
+"""Judgement. Range of the size ratio of two readings that differ in sign only."""
 SMALL, FEW_SMALL = 0.5, 0.1
-"""Readings scatter about zero if more than this share (second) is below this part (first) of their median size."""
+"""Judgement. Readings scatter about zero if more than this share (second) is below this part (first) of their median
+size."""
 SHOWN = 5
+"""Judgement. Runs that a message lists at most: more are not read."""
 
 
 def of_other_sign(case: Case, rows: Table, y: np.ndarray, sd: np.ndarray) -> np.ndarray:

@@ -32,6 +32,8 @@ from mixedlub.diagnosis.explanation import DISCREPANCY, Explanation
 from mixedlub.diagnosis.labels import effect_words
 from mixedlub.diagnosis.search.noise_selection import search_under_noise
 from mixedlub.diagnosis.search.search import Progress, Search
+from mixedlub.diagnosis.settings.assessment import FALSE_ALARM_RATE
+from mixedlub.diagnosis.settings.inference import LIKELY
 from mixedlub.effects import find
 from mixedlub.recording.readings import readings_of, rows_of
 from mixedlub.schema.findings import Finding, finding
@@ -72,7 +74,7 @@ class Diagnosis:
     @property
     def counted(self) -> np.ndarray:
         """Readings that are more probably good than outliers; all of them if there is none."""
-        right = self.outlier_chance <= 0.5
+        right = self.outlier_chance <= LIKELY
         return right if right.any() else ~right
 
     @property
@@ -97,14 +99,14 @@ class Diagnosis:
     @property
     def outlier_runs(self) -> list[int]:
         """Runs that are more probably outliers than not."""
-        return [int(r) for r in self.search.problem.rows["run"][self.outlier_chance > 0.5]]
+        return [int(r) for r in self.search.problem.rows["run"][self.outlier_chance > LIKELY]]
 
 
 def diagnose_case(
     folder: Path,
     predict: Path | None = None,
     exclude: Sequence[str] = (),
-    level: float = 0.01,
+    level: float = FALSE_ALARM_RATE,
     progress: Progress = lambda text: None,
 ) -> Diagnosis:
     """Read the case in a folder, and conditions to ``predict`` in place of its own; then as `diagnosis_of`."""
@@ -120,7 +122,7 @@ def diagnosis_of(
     case: Case,
     asked: Table | None = None,
     exclude: Sequence[str] = (),
-    level: float = 0.01,
+    level: float = FALSE_ALARM_RATE,
     progress: Progress = lambda text: None,
 ) -> Diagnosis:
     """Work out what the simulation of a case lacks, and predict the conditions ``asked`` for."""
@@ -155,10 +157,10 @@ def diagnosis_of(
     swept = {axis.name for axis in search.space.axes}
     varied = [c.name for c in columns if c.form == "name" or c.name in swept] or [c.name for c in columns]
     passing = [n for n in time_columns(search, judged.verdict) if n in rows and n not in varied]
-    place = region(rows, [*varied, *passing], np.where(chance > 0.5, 0.0, recorded.mismatch_z))
+    place = region(rows, [*varied, *passing], np.where(chance > LIKELY, 0.0, recorded.mismatch_z))
     laws = contained(search, judged.verdict)
     tests = next_tests(search, judged, refined, columns, varied)
-    warnings += _cautions(search, judged, kept, refined, recorded.predicted, chance > 0.5)
+    warnings += _cautions(search, judged, kept, refined, recorded.predicted, chance > LIKELY)
     said = tuple(warnings)
     return Diagnosis(
         case,

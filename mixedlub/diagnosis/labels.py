@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from mixedlub.diagnosis.settings.report import COLDEST
+from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.recording.set_points import one_point
 from mixedlub.schema.units import unit_of, without_unit
 
@@ -18,9 +20,6 @@ STAGE_WORDS = {
     "property": "properties of the oil",
     "measurement": "the instrument",
 }
-ICE = 273.15
-COLDEST = 200.0
-"""A parameter in kelvin that is usually above this is a temperature, not a difference of two."""
 
 
 def words_of(column: str) -> str:
@@ -135,5 +134,5 @@ def in_reach(values: Sequence[float], unit: str, usual: float) -> tuple[tuple[fl
     if unit == "m" and max(map(abs, values)) < 1e-3:
         return tuple(round(1e6 * x, 12) for x in values), "µm"
     if unit == "K" and usual > COLDEST:
-        return tuple(round(x - ICE, 12) for x in values), "°C"
+        return tuple(round(x - ZERO_CELSIUS, 12) for x in values), "°C"
     return tuple(values), unit

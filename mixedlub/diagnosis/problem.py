@@ -12,20 +12,12 @@ from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward, Run
 from mixedlub.chain.effect import Effect
 from mixedlub.diagnosis.explanation import Explanation
+from mixedlub.diagnosis.settings.inference import FINITE_STEP, MOST_COORDINATE, NOISE_BY_READING_BELOW, SMALLEST_READING
 from mixedlub.effects import catalogue, known_in
 from mixedlub.recording.correlated_error import UNCORRELATED, CorrelatedError
 from mixedlub.recording.noise import transformed_noise
 from mixedlub.recording.readings import readings_of, rows_of
 from mixedlub.schema.table import Table
-
-STEP = 1e-4
-"""Step of finite differences, in prior standard deviations: far above rounding, far below the curvature of laws."""
-MOST_COORDINATE = 4.5
-"""Largest coordinate, in prior standard deviations: 99.9993 % of the prior."""
-SMALLEST_READING = 1e-30
-"""Smallest prediction whose logarithm is taken."""
-NOISE_BY_READING_BELOW = 0.1
-"""Ratio of prediction to reading below which relative noise is taken from the reading; judgement."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,7 +144,7 @@ class Problem:
         here = self.run(explanation, z) if at is None else at
         slopes = np.empty((self.y.size, z.size))
         for i in range(z.size):
-            for step in (STEP, -STEP) if z[i] < MOST_COORDINATE else (-STEP, STEP):
+            for step in (FINITE_STEP, -FINITE_STEP) if z[i] < MOST_COORDINATE else (-FINITE_STEP, FINITE_STEP):
                 moved = z.copy()
                 moved[i] += step
                 change = self.run(explanation, moved, here).prediction - here.prediction

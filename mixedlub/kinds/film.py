@@ -23,15 +23,16 @@ from mixedlub.schema import system_file
 from mixedlub.schema.table import Column, Table
 
 FRINGE_NM = (167.0, 225.0)
-"""One interference order, wavelength/(2 n): visible light of 500 to 620 nm, refractive index 1.38 to 1.5."""
+"""Definition. One interference order, wavelength/(2 n): visible light of 500 to 620 nm, refractive index 1.38 to
+1.5."""
 MOST_SCATTER = 30.0
-"""Largest deviation (nm) of a reading from a whole order that noise may cause."""
+"""Judgement. Largest deviation (nm) of a reading from a whole order that noise may cause."""
 
 EXPONENT_SPREAD, LINE_EXPONENT_SPREAD, LINE_LOAD_SPREAD = 0.015, 0.03, 0.3
-"""Relative standard deviations of the film law's exponents: regressions have 0.67 and 0.68 (balls) or 0.67 to 0.71
-(rollers) for speed, and -0.10 to -0.17 for load."""
+"""Judgement. Relative standard deviations of the film law's exponents: regressions have 0.67 and 0.68 (balls) or 0.67
+to 0.71 (rollers) for speed, and -0.10 to -0.17 for load."""
 KNOWN_OIL, UNNAMED_OIL = 0.5, 1.0
-"""Prior for the film of a ball between the regression and the formula for all regimes."""
+"""Judgement. Prior for the film of a ball between the regression and the formula for all regimes."""
 
 FRINGE_ORDER = Column(
     "fringe_order",
@@ -173,7 +174,7 @@ def reading_fault(recorded: Table, row: int, excess: float, sd: float) -> str | 
 
 
 ORDER_NM = 196.0
-"""One interference order of the standard rig: green light in oil."""
+"""Definition. One interference order of the standard rig: green light in oil."""
 STANDARD = StandardRig(
     sections={
         "contact": {

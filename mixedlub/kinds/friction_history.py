@@ -25,8 +25,9 @@ COLUMNS = (
 )
 NEEDED = tuple(c.name for c in (*disc.COLUMNS, *disc.SURFACES))
 SPREAD = 1.0
+"""Judgement. Prior sd of the logarithm of the friction at the start: a factor of 2.7 either way."""
 USUAL_PRESSURE = 1e9
-"""Typical Hertz pressure (Pa) of a ball on a disc in traction machines."""
+"""Judgement. Typical Hertz pressure (Pa) of a ball on a disc in traction machines."""
 
 
 def constant_friction(boundary_friction: np.ndarray) -> np.ndarray:

@@ -70,10 +70,12 @@ MOTOR_TORQUE = Column(
 )
 """Not a test condition: friction is its excess over the torque at the shaft."""
 LARGE, LEAST_SHARE = 0.95, 0.3
+"""Judgement. Quantile of the size of readings that counts as large, and the least share of it that is the typical
+size."""
 BEYOND = 2.5
-"""Difference between the slow and fast half of the readings, in standard deviations, that is significant."""
+"""Judgement. Difference between the slow and fast half of the readings, in standard deviations, that is significant."""
 BARE_SHARE = 0.3
-"""Prior of the friction of motor and sensor alone, relative to that of the complete drive."""
+"""Judgement. Prior of the friction of motor and sensor alone, relative to that of the complete drive."""
 
 
 def reading(friction_torque: np.ndarray) -> np.ndarray:

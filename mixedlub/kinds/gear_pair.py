@@ -17,6 +17,7 @@ from mixedlub.schema.findings import finding, report
 from mixedlub.schema.table import Column, Table
 
 PATH_POINTS = 24
+"""Cost limit. Points along the path of contact."""
 
 CONDITIONS = (
     columns.TORQUE,

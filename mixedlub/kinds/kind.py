@@ -19,7 +19,7 @@ from mixedlub.schema.table import Column, Table
 
 Inputs = dict[str, Any]
 CONSTANT_WITHIN = 0.02
-"""Largest span of a constant condition, as a share of its size in absolute units; judgement.
+"""Judgement. Largest span of a constant condition, as a share of its size in absolute units.
 
 Controllers hold load and speed within 1 % and oil temperature within 3 K; at 2 % a temperature may span 6 K.
 """
@@ -102,13 +102,15 @@ class Kind:
 
 
 TEN_KELVIN = 10.0
+"""Judgement. Warming (K) that doubles the rate of a reaction: the usual rule of thumb."""
 
 NO_GEARS = "no_gears"
 """Name in the column ``rig`` of readings taken without gears."""
 
 
 LOADS_DIFFER, LEAST = 1.2, 1e-3
-"""Load ratio above which a force offset is distinguishable from a friction offset; smallest load that is not zero."""
+"""Judgement. Load ratio above which a force offset is distinguishable from a friction offset; smallest load that is not
+zero."""
 
 
 def inverse_load(system: system_file.System, table: Table, recorded: Table) -> Inputs:

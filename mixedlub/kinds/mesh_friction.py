@@ -20,7 +20,8 @@ from mixedlub.schema.table import Column, Table
 
 ROLL_ANGLE = Column("roll_angle_deg", meaning="roll angle of the contact on the pinion", words=("roll angle",))
 LEAST_SHARE = 0.05
-"""Smallest share of a tooth pair's load, at the start of mesh, for which a friction coefficient is meaningful."""
+"""Judgement. Smallest share of a tooth pair's load, at the start of mesh, for which a friction coefficient is
+meaningful."""
 
 
 def reading(friction: np.ndarray) -> np.ndarray:

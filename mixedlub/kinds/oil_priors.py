@@ -19,17 +19,24 @@ from mixedlub.schema.findings import collected, finding, report
 from mixedlub.schema.table import Table
 
 VISCOSITY_SPREAD = 1.0
+"""Judgement. Prior sd of the logarithm of an unnamed viscosity: a factor of 2.7 either way."""
 PRESSURE_SPREAD = 0.35
+"""Judgement. Prior sd of the logarithm of the pressure-viscosity coefficient: a factor of 1.4 either way."""
 SLOPE_SPREAD = 0.5
+"""Judgement. Prior sd of the logarithm of the slope of ASTM D341: a factor of 1.6 either way."""
 DENSITY_SPREAD = 0.04
+"""Judgement. Prior sd of the logarithm of the density: 4 %."""
 PRESSURE_SLOPE_SPREAD = 0.4
+"""Judgement. Prior sd of the change of ln alpha over 100 K: a factor of 1.5 either way."""
 PRESSURE_BOW_SPREAD = 0.25
-"""Prior sd of the curvature of ln alpha over 100 K: 0.2 in ISO/TR 15144, up to 0.5 in powers of viscosity."""
+"""Judgement. Prior sd of the curvature of ln alpha over 100 K: 0.2 in ISO/TR 15144, up to 0.5 in powers of
+viscosity."""
 BOW_SPREAD = 0.04
-"""Prior sd of the departure of ln viscosity from ASTM D341 over 50 K, from Vogel fits of oils."""
+"""Judgement. Prior sd of the departure of ln viscosity from ASTM D341 over 50 K, from Vogel fits of oils."""
 FIFTY_KELVIN, HUNDRED_KELVIN = 50.0, 100.0
+"""Definition. Temperature differences over which those priors are stated."""
 THINNEST, THICKEST = 0.4e-6, 1.0
-"""Range of kinematic viscosity (m^2/s) in which the ordinate of D341 is used."""
+"""Judgement. Range of kinematic viscosity (m^2/s) in which the ordinate of D341 is used."""
 LEVEL = "viscosity_level"
 """Calibrated viscosity level, the pivot of the slope."""
 FALLS = ("temperature_viscosity", "known_fall", "fall_from_first")

@@ -29,6 +29,7 @@ UNCERTAINTY = {
     "eyring_stress": 0.15,
     "roughness": 0.04,
 }
+"""Judgement. Relative standard deviations that the reference rigs state for their inputs."""
 GEARS = {
     "teeth": (17, 26),
     "normal_module_mm": 25.4 / 6.0,
@@ -36,12 +37,14 @@ GEARS = {
     "tip_diameter_mm": (80.5, 118.4),
     "face_width_mm": 14.0,
 }
-"""At 91 mm centres."""
+"""Judgement. Gears of the reference rig, at 91 mm centres."""
 DISCS = {"radius_mm": (40.0, 40.0), "width_mm": 6.0}
+"""Judgement. Discs of the reference rig."""
 ROUGHNESS_UM = {"superfinished": 0.15, "ground": 0.37, "coarse": 0.58, "coated": 0.37}
-"""Rq of one surface; slopes and curvatures are the same for all, since rougher flanks have longer wavelengths."""
+"""Judgement. Rq of one surface; slopes and curvatures are the same for all, since rougher flanks have longer
+wavelengths."""
 RELATIVE_NOISE = 0.01
-"""Relative noise of every reference rig."""
+"""Judgement. Relative noise of every reference rig."""
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,10 @@ from mixedlub.schema import system_file
 from mixedlub.schema.table import Column, Table
 
 AMBIENT_MPA = 0.101325
+"""Definition. Standard atmosphere."""
 NEAR_AMBIENT_MPA = 50.0
+"""Judgement. Pressure up to which a reading shows the viscosity at ambient pressure: the exponent is then still
+small."""
 UNREAD = ("eyring_stress_MPa", "thermal_conductivity_W_mK", "specific_heat_J_kgK")
 """Properties of an oil that do not affect its viscosity."""
 

@@ -15,32 +15,33 @@ from mixedlub.recording.set_points import roundest
 from mixedlub.schema.table import Table
 
 NODES = 12
-"""Most nodes of the functions along a condition: finer structure is a wave, a peak or a step. Judgement."""
+"""Judgement. Most nodes of the functions along a condition: finer structure is a wave, a peak or a step."""
 PASSING = ("sequence", "time_s", "position_deg")
 """Conditions that pass by themselves, whose origin is arbitrary."""
 FUNCTIONS_IN_PRODUCTS = 4
-"""Functions of a numeric condition that enter products with those of another: a limit on cost."""
+"""Cost limit. Functions of a numeric condition that enter products with those of another."""
 JITTER = 1e-6
-"""Diagonal added to the kernel of close nodes, so that it can be inverted: rounding."""
+"""Judgement. Diagonal added to the kernel of close nodes, so that it can be inverted: rounding."""
 SMALLEST = 1e-300
+"""Judgement. Smallest number whose logarithm is taken: near the smallest double."""
 PURE_ROLLING = 0.02
-"""Slide-roll ratio up to which a film measurement is pure rolling: it has less than 5 % of the heat of full sliding."""
+"""Judgement. Slide-roll ratio up to which a film measurement is pure rolling: under 5 % of the heat of full sliding."""
 NOISY_WITHIN = 0.1
-"""Largest span of a noisy constant, as a share of its size; judgement.
+"""Judgement. Largest span of a noisy constant, as a share of its size.
 
 `CONSTANT_WITHIN` answers another question: below it, differences between values are never used. Here values differ by
 more, and count as measurements of one set point only because hardly any value is repeated.
 """
 NEGLIGIBLE_CHANGE = 0.005
-"""Largest change of the base model, as a share of its median, by which a noisy constant may be left out; judgement."""
+"""Judgement. Largest change of the base model, as a share of its median, by which a noisy constant may be left out."""
 MOST_READINGS = 0.9
-"""Share of the readings near a set point if the others are a start-up; judgement."""
+"""Judgement. Share of the readings near a set point if the others are a start-up."""
 SERIES = 400
-"""Readings from which a table is a logged series: nobody sets so many conditions by hand. Judgement."""
+"""Judgement. Readings from which a table is a logged series: nobody sets so many conditions by hand."""
 START_UP_SHARE = 0.005
-"""Share of a series below which times count as one on a logarithmic axis, because a start-up is shorter. Judgement."""
+"""Judgement. Share of a series below which times count as one on a logarithmic axis, because a start-up is shorter."""
 LOST_AFTER = 2.0
-"""Periods beyond a record after which the phase of a wave is unknown; judgement."""
+"""Judgement. Periods beyond a record after which the phase of a wave is unknown."""
 
 
 @dataclass(frozen=True, eq=False)

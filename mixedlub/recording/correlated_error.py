@@ -10,11 +10,11 @@ from mixedlub.recording.conditions import clock_of
 from mixedlub.schema.table import Table
 
 READINGS_PER_COLUMN = 3
-"""Readings to each of its columns: faster components cannot be separated from white noise."""
+"""Judgement. Readings to each of its columns: faster components cannot be separated from white noise."""
 MOST_COLUMNS = 48
-"""Most columns: a limit on cost."""
+"""Cost limit. Most columns."""
 NEWTON_STEPS = 20
-"""Newton steps to the roots of the frequency equation: more than double precision needs."""
+"""Judgement. Newton steps to the roots of the frequency equation: more than double precision needs."""
 
 
 @dataclass(frozen=True)

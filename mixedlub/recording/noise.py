@@ -14,29 +14,29 @@ from mixedlub.schema import system_file
 from mixedlub.schema.table import Table
 
 KNOWN_FROM = 30
-"""Tests from which a standard deviation counts as known: its own standard error is then 13 %."""
+"""Judgement. Tests from which a standard deviation counts as known: its own standard error is then 13 %."""
 MARKS_UNUSABLE = 5.0
-"""Ratio to similar readings from which a standard deviation marks a reading as unusable; judgement."""
+"""Judgement. Ratio to similar readings from which a standard deviation marks a reading as unusable."""
 LOG_SD_BIAS = 0.52
-"""Bias of ln s over its variance, for the standard deviation s of two tests: derived from the chi distribution."""
+"""Definition. Bias of ln s over its variance, for the standard deviation s of two tests; from the chi distribution."""
 LOG_SD_VARIANCE = 1.23
-"""Variance of ln s for two tests: derived from the chi distribution."""
+"""Definition. Variance of ln s for two tests; from the chi distribution."""
 MOST_COMPARED = 2000
-"""Most readings whose standard deviations are compared pairwise: a limit on cost."""
+"""Cost limit. Most readings whose standard deviations are compared pairwise."""
 RELATIVE_FROM = 3.0
-"""Ratio of largest to smallest reading from which noise is taken as relative, if nothing else is known. Judgement."""
+"""Judgement. Ratio of largest to smallest reading from which noise is taken as relative, if nothing else is known."""
 OUTLIERS_FROM = 10
-"""Repeats from which outliers among them are left out; judgement."""
+"""Judgement. Repeats from which outliers among them are left out."""
 PARTS = ((1.0, 0.0), (1.0, 0.03), (1.0, 0.1), (1.0, 0.3), (1.0, 1.0), (0.3, 1.0), (0.0, 1.0))
-"""Mixtures of relative and absolute noise that are tried: shares of the reading and of the typical reading."""
+"""Grid. Mixtures of relative and absolute noise that are tried: shares of the reading and of the typical reading."""
 MIXTURE_GAIN = 2.0
-"""Gain in log probability from which noise has both parts: about that of one further parameter (AIC)."""
+"""Judgement. Gain in log probability from which noise has both parts: odds of seven."""
 PARTNERS = 12
-"""Readings of its group with which each reading is compared at most: a limit on cost."""
+"""Cost limit. Readings of its group with which each reading is compared at most."""
 CROSSINGS = 121
-"""Ratios of absolute to relative noise that are tried: a grid."""
+"""Grid. Ratios of absolute to relative noise that are tried."""
 SMALLEST_LEVEL = 1e-6
-"""Smallest level of that grid, over the largest reading."""
+"""Judgement. Smallest level of that grid over the largest reading: noise so small is relative."""
 
 
 def is_stated(case: Case) -> bool:

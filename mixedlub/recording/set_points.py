@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 NEAR_SIZE = 0.015
-"""Distance of neighbours, as a share of their size, up to which they may belong to one set point; judgement."""
+"""Judgement. Distance of neighbours, as a share of their size, up to which they may belong to one set point."""
 NEAR_SPAN = 0.005
-"""The same as a share of the whole span; judgement."""
+"""Judgement. The same as a share of the whole span."""
 WIDEST = 2.0
-"""Largest width of a set point in units of those distances; a wider range was swept. Judgement."""
+"""Judgement. Largest width of a set point in units of those distances; a wider range was swept."""
 
 
 def set_points(values: np.ndarray) -> np.ndarray:

@@ -17,6 +17,7 @@ ROOMS = {
         *("commands", "cli", "__main__"),
     ),
     "diagnosis": (
+        "settings",
         "explanation",
         "problem",
         "labels",

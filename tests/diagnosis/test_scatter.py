@@ -10,10 +10,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mixedlub.diagnosis.assessment.mismatch_test import UNSTATED_NOISE_SCALES, _cost
+from mixedlub.diagnosis.assessment.mismatch_test import _cost
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.explanation import NOTHING, Explanation
-from mixedlub.diagnosis.search.noise_inflation import CLEAR_GAIN, best_inflation
+from mixedlub.diagnosis.search.noise_inflation import best_inflation
+from mixedlub.diagnosis.settings.assessment import UNSTATED_NOISE_SCALES
+from mixedlub.diagnosis.settings.search import INFLATION_GAIN
 from mixedlub.importers import write_case
 from mixedlub.schema.findings import Finding, codes
 
@@ -120,8 +122,8 @@ def test_a_fit_whose_evidence_is_carried_over_raises_no_noise(offset: Diagnosis)
     found = offset.search
     fit = found.fits[Explanation.of("churning")]
     wild = replace(found, fits={**found.fits, Explanation.of("churning"): replace(fit, residual=20.0 * fit.residual)})
-    assert best_inflation(found)[0] < CLEAR_GAIN
-    assert best_inflation(wild)[0] < CLEAR_GAIN
+    assert best_inflation(found)[0] < INFLATION_GAIN
+    assert best_inflation(wild)[0] < INFLATION_GAIN
 
 
 def test_repeats_bound_the_noise_of_very_many_readings(

@@ -5,11 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from mixedlub.diagnosis.assessment.mismatch_test import DRAWS
-from mixedlub.diagnosis.assessment.posterior import TIE
-from mixedlub.diagnosis.inference.map_fit import OUTLIER_SHARE
-from mixedlub.diagnosis.inference.nested_laws import SPIKE
-from mixedlub.diagnosis.search.noise_inflation import MOST_INFLATION
+from mixedlub.diagnosis.settings.assessment import DRAWS, TIE
+from mixedlub.diagnosis.settings.inference import OUTLIER_SHARE, SPIKE
+from mixedlub.diagnosis.settings.search import MOST_INFLATION
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = sorted(p for p in DOCS.rglob("*.md") if not {"made"} & set(p.relative_to(DOCS).parts))

@@ -11,17 +11,13 @@ from scipy.stats import binom
 
 from mixedlub.case.folder import read_case
 from mixedlub.diagnosis.assessment import mismatch_test as mismatch_module
-from mixedlub.diagnosis.assessment.mismatch_test import (
-    BAYES_FACTOR_MARGIN,
-    STATED_NOISE_SCALES,
-    UNSTATED_NOISE_SCALES,
-    mismatch_test,
-)
+from mixedlub.diagnosis.assessment.mismatch_test import mismatch_test
 from mixedlub.diagnosis.explanation import NOTHING, Explanation
 from mixedlub.diagnosis.inference.map_fit import map_fit
 from mixedlub.diagnosis.inference.reference_evidence import nested_evidence
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.search import Search, search
+from mixedlub.diagnosis.settings.assessment import BAYES_FACTOR_MARGIN, STATED_NOISE_SCALES, UNSTATED_NOISE_SCALES
 from mixedlub.effects import catalogue
 from mixedlub.recording.conditions import coordinates
 from mixedlub.validation.battery import generate

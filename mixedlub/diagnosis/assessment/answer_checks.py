@@ -10,32 +10,24 @@ from mixedlub.diagnosis.assessment.cross_validation import HeldOut
 from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.labels import amount, words_of
-from mixedlub.diagnosis.search.noise_inflation import (
-    CLEAR_GAIN,
-    MOST_INFLATION,
-    NoiseInflation,
-    best_inflation,
-    noise_overstated,
-)
+from mixedlub.diagnosis.search.noise_inflation import NoiseInflation, best_inflation, noise_overstated
 from mixedlub.diagnosis.search.search import Search
+from mixedlub.diagnosis.settings.assessment import (
+    LARGE_NOISE,
+    LEAST_STREAK,
+    MANY_OUTLIERS,
+    MOST_OF_LEVEL,
+    OPPOSITE_WITHIN,
+    OVERDISPERSION_REPORTED,
+    POOR_PREDICTION,
+    RARE,
+)
+from mixedlub.diagnosis.settings.search import INFLATION_GAIN, MOST_INFLATION
 from mixedlub.recording.conditions import PASSING, clock_of
 from mixedlub.recording.set_points import set_points
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.table import Table
 from mixedlub.schema.units import unit_of
-
-MANY_WRONG = 0.1
-"""Share of outliers from which the answer is doubted: ten times the prior share. Judgement."""
-LEAST_STREAK, RARE = 3, 0.05
-"""Consecutive outliers that are reported, where fewer such streaks than that are expected by chance."""
-MOST_OF_LEVEL = 0.75
-"""Share of the readings of a level from which a streak counts as that level."""
-WORTH_TELLING = 1.5
-"""Inflation of the variance from which it is reported."""
-FAR_OFF = 3.0
-"""Error on left-out levels, in sigmas of a reading, from which an answer does not predict them."""
-LARGE = 0.1
-"""Share of a reading from which estimated noise is doubted."""
 
 
 def noise_notes(search: Search, stated: bool, inflation: NoiseInflation) -> list[Finding]:
@@ -86,11 +78,11 @@ def _size_notes(search: Search, stated: bool, inflation: NoiseInflation) -> list
         parts += [f"{noise.absolute:.2g} {unit}".rstrip()] if noise.absolute else []
         estimate = f"the noise of a reading was estimated as {' and '.join(parts)}"
         sd = search.problem.single_sd * search.problem.d_inverse(search.problem.y)
-        if np.median(sd) <= LARGE * np.median(np.abs(search.problem.inverse(search.problem.y))):
+        if np.median(sd) <= LARGE_NOISE * np.median(np.abs(search.problem.inverse(search.problem.y))):
             return [finding("noise_value_estimated", estimate)]
         text = f"{estimate}, more than rigs have: rows may differ in kind, or the noise contains what is missing"
         return [finding("noise_estimate_large", text)]
-    if stated and best_inflation(search)[0] > CLEAR_GAIN:
+    if stated and best_inflation(search)[0] > INFLATION_GAIN:
         text = (
             "for every explanation tried, the residuals exceed the repeatability of the readings: an effect of another "
             "form is present"
@@ -116,13 +108,13 @@ def answer_warnings(
     A mismatch ``at_one_place`` is not one that other levels could predict.
     """
     found = []
-    if wrong.mean() > MANY_WRONG:
+    if wrong.mean() > MANY_OUTLIERS:
         text = (
             f"{wrong.sum()} of {wrong.size} readings are outliers: the noise may be taken too small, or the answer "
             "covers only a part of the recording"
         )
         found.append(finding("outliers_many", text))
-        turned = np.abs(y[wrong] + predicted[wrong]) < 0.3 * np.abs(y[wrong])
+        turned = np.abs(y[wrong] + predicted[wrong]) < OPPOSITE_WITHIN * np.abs(y[wrong])
         if turned.mean() > 0.5:
             text = f"{turned.sum()} of {wrong.sum()} outliers have the expected size with the opposite sign"
             found.append(finding("outliers_opposite_sign", text))
@@ -148,7 +140,7 @@ def answer_warnings(
             "on neither"
         )
         found.append(finding("answer_not_predictive", text))
-    elif verdict != NOTHING and not at_one_place and kept.after > FAR_OFF:
+    elif verdict != NOTHING and not at_one_place and kept.after > POOR_PREDICTION:
         text = (
             f"the answer predicts left-out levels poorly (rms {kept.after:.3g} sigma, 1 expected): do not extrapolate"
         )
@@ -158,7 +150,7 @@ def answer_warnings(
 
 def overdispersion_warning(judged: Posterior) -> list[Finding]:
     """That probabilities were made less extreme, where left-out levels are overdispersed."""
-    if judged.overdispersion < WORTH_TELLING:
+    if judged.overdispersion < OVERDISPERSION_REPORTED:
         return []
     times = np.sqrt(judged.overdispersion)
     text = (

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-LEAST_READINGS = 5
-"""Least readings for a correlation; judgement."""
+from mixedlub.diagnosis.settings.assessment import CHANNEL_READINGS
 
 
 @dataclass(frozen=True)
@@ -31,6 +30,6 @@ def check_channel(column: str, channel: np.ndarray, predicted: np.ndarray) -> Ch
     """
     used = np.isfinite(channel) & np.isfinite(predicted)
     a, b = np.asarray(channel, dtype=float)[used], np.asarray(predicted, dtype=float)[used]
-    if a.size < LEAST_READINGS or np.ptp(a) == 0.0 or np.ptp(b) == 0.0:
+    if a.size < CHANNEL_READINGS or np.ptp(a) == 0.0 or np.ptp(b) == 0.0:
         return Check(column, None, int(a.size))
     return Check(column, round(float(np.corrcoef(a, b)[0, 1]), 12), int(a.size))

@@ -16,31 +16,22 @@ from mixedlub.diagnosis.inference.change_points import average_over_change_point
 from mixedlub.diagnosis.inference.map_fit import covariance, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.search import Search
+from mixedlub.diagnosis.settings.assessment import (
+    CHANCE_GAIN,
+    CLEARLY_LESS,
+    LEAST_FOLDS,
+    LEAST_MISMATCH,
+    MOST_FOLDS,
+    MOST_OVERDISPERSION,
+    MOST_PENALTY,
+    PREDICTED_SHARE,
+    TOLERATED_SHARE,
+    UNORDERED_FOLDS,
+    WIDE_SPAN,
+)
+from mixedlub.diagnosis.settings.inference import SIGNIFICANT
 from mixedlub.recording.conditions import is_constant
 from mixedlub.recording.set_points import set_points
-
-MOST_FOLDS = 8
-"""Most folds; further levels are joined. A limit on cost."""
-WIDE_SPAN = 0.2
-"""Span of a condition, as a share of its size, from which leaving out its levels is a test of prediction; judgement.
-
-It only ranks conditions that were varied: levels that lie close together predict one another whatever the law.
-"""
-TOLERATED_SHARE = 0.3
-"""Share of the mismatch on left-out levels that the right law may leave in another published form; judgement."""
-MOST_PENALTY = 20.0
-"""Largest penalty in log odds: 2e-9 leaves no doubt."""
-LEAST_MISMATCH = 0.3
-"""Least mismatch, in squared standard deviations, of which a share is judged; judgement."""
-CHANCE_GAIN = 5.0
-"""Gain in log probability on left-out levels, of effects over the discrepancy, that may be chance; judgement."""
-PREDICTED_SHARE = 0.8
-"""Share of the mismatch on inner levels that effects must predict not to be ruled out by a discrepancy; judgement."""
-MOST_OVERDISPERSION = 2.0
-"""Largest overdispersion of such a prediction; judgement.
-"""
-CLEARLY_LESS = 0.5
-"""Share of the discrepancy's excess error below which effects clearly predict better; judgement."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +67,7 @@ class HeldOut:
         >>> [round(HeldOut(9.0, s, "", 5, 200, s, 0.0, 0.0).overdispersion, 1) for s in (1.0, 2.0)]
         [1.0, 3.3]
         """
-        return float(max(self.standardised_rms**2 / (1.0 + 2.0 * np.sqrt(2.0 / self.readings)), 1.0))
+        return float(max(self.standardised_rms**2 / (1.0 + SIGNIFICANT * np.sqrt(2.0 / self.readings)), 1.0))
 
     def log_odds_penalty(self, rms: float) -> float:
         """Penalty in log odds of effects that leave much of the mismatch on left-out levels.
@@ -91,7 +82,7 @@ class HeldOut:
         """
         noise = max(rms, 1.0) ** 2
         missing = max(self.before**2 - noise, LEAST_MISMATCH)
-        left = max(self.standardised_rms**2 - noise * (1.0 + 2.0 * np.sqrt(2.0 / self.readings)), 0.0)
+        left = max(self.standardised_rms**2 - noise * (1.0 + SIGNIFICANT * np.sqrt(2.0 / self.readings)), 0.0)
         return float(min(MOST_PENALTY * max(left / missing - TOLERATED_SHARE, 0.0), MOST_PENALTY))
 
     def penalty_against(self, name: HeldOut) -> float:
@@ -264,8 +255,8 @@ def _folds(search: Search) -> tuple[str, np.ndarray, bool]:
         warm = axis.name.endswith("temperature_C")
         wide = not is_constant(axis.name, values) if warm else span > WIDE_SPAN
         rank = bool(wide), count, span
-        if count >= 3 and (best is None or rank > best[:3]):
+        if count >= LEAST_FOLDS and (best is None or rank > best[:3]):
             best = (*rank, axis.name, np.unique(label, return_inverse=True)[1], not axis.named)
     if best is None:
-        return "", np.arange(search.problem.y.size) % min(5, search.problem.y.size), False
+        return "", np.arange(search.problem.y.size) % min(UNORDERED_FOLDS, search.problem.y.size), False
     return best[3:]

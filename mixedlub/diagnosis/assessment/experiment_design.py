@@ -13,25 +13,24 @@ from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.assessment.prediction import NewRows, Prediction, Refined, refine
 from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.search.search import Search
+from mixedlub.diagnosis.settings.assessment import (
+    BEYOND_LOWEST,
+    BEYOND_SPAN,
+    HERMITE_NODES,
+    INNER_QUANTILES,
+    MOST_CONDITIONS,
+    MOST_RIVALS,
+    RIVAL_WEIGHT,
+    SMALLEST_WEIGHT,
+    TEST_LEVELS,
+    TESTS,
+    TESTS_APART,
+    WORTH_TESTING,
+)
+from mixedlub.diagnosis.settings.inference import SEED
 from mixedlub.recording.conditions import noisy_set_point
 from mixedlub.recording.set_points import roundest, set_points
 from mixedlub.schema.table import Column, Table
-
-MOST_CONDITIONS = 600
-"""Most conditions that are evaluated: a limit on cost."""
-SEED = 1
-SMALLEST_WEIGHT = 1e-12
-"""Smallest probability of an explanation: its logarithm is taken."""
-WORTH_TESTING = 0.01
-"""Probability from which an explanation is included in the choice of a test; judgement."""
-MOST_RIVALS = 5
-"""Most explanations that a test has to separate: a limit on cost."""
-LEAST_WEIGHT = 0.05
-"""Least weight of a rival in the choice of a test, so that improbable ones can still be excluded; judgement."""
-TESTS = 3
-"""Tests that are proposed."""
-NODES = 21
-"""Gauss-Hermite nodes of the integral over a reading."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +61,7 @@ def next_tests(
     weights = np.array([judged.weights[k] for k in keys])
     finite = np.isfinite(np.array([p.mean + p.variance for p in predictions])).all(axis=0)
     # Improbable rivals count in the choice of a test, not in its stated information.
-    worth = np.where(finite, expected_bits(np.maximum(weights, LEAST_WEIGHT), predictions, rows.sd), 0.0)
+    worth = np.where(finite, expected_bits(np.maximum(weights, RIVAL_WEIGHT), predictions, rows.sd), 0.0)
     bits = np.where(finite, expected_bits(weights, predictions, rows.sd), 0.0)
     chosen: list[NextTest] = []
     for i in np.argsort(worth)[::-1]:
@@ -80,7 +79,7 @@ def next_tests(
 
 def _apart(a: dict[str, Any], b: dict[str, Any]) -> bool:
     """Whether two tests differ in at least two conditions."""
-    return sum(a[name] != b[name] for name in a) >= 2
+    return sum(a[name] != b[name] for name in a) >= TESTS_APART
 
 
 def candidates(
@@ -108,14 +107,16 @@ def candidates(
             levels = np.array([roundest(float(levels[0]), float(levels[-1]))])
         if levels.dtype.kind not in "US" and levels.size > 1:
             low, high = float(levels[0]), float(levels[-1])
-            wide = 0.25 * (high - low)
+            wide = BEYOND_SPAN * (high - low)
             lowest, highest = (limits or {}).get(condition.name, (-np.inf, np.inf))
-            beyond = [low - wide if low < 0 else max(low - wide, 0.6 * low), high + wide]
-            inner = levels if levels.size <= 4 else np.quantile(levels, [0.0, 0.33, 0.67, 1.0])
+            beyond = [low - wide if low < 0 else max(low - wide, BEYOND_LOWEST * low), high + wide]
+            inner = levels if levels.size <= len(INNER_QUANTILES) else np.quantile(levels, INNER_QUANTILES)
             levels = np.unique(
                 np.concatenate([inner, [x for x in beyond if condition.allows(x) and lowest <= x <= highest]])
             )
-        axes.append(levels if levels.size <= 8 else levels[np.linspace(0, levels.size - 1, 8).astype(int)])
+        if levels.size > TEST_LEVELS:
+            levels = levels[np.linspace(0, levels.size - 1, TEST_LEVELS).astype(int)]
+        axes.append(levels)
     grid = list(product(*axes))
     if len(grid) > MOST_CONDITIONS:
         # At random: every so many would go round with the levels of a condition, and miss some of them.
@@ -140,7 +141,7 @@ def expected_bits(weights: np.ndarray, predictions: list[Prediction], sd: np.nda
     share = share / share.sum()
     mean = np.array([p.mean for p in predictions])
     spread = np.sqrt(np.array([p.variance for p in predictions]) + sd**2)
-    node, mass = np.polynomial.hermite_e.hermegauss(NODES)
+    node, mass = np.polynomial.hermite_e.hermegauss(HERMITE_NODES)
     mass = mass / mass.sum()
     gain = np.zeros(mean.shape[1])
     for m in range(len(share)):

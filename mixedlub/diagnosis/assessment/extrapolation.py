@@ -8,14 +8,9 @@ import numpy as np
 
 from mixedlub.case.folder import SHOWN, Case
 from mixedlub.diagnosis.labels import amount
+from mixedlub.diagnosis.settings.assessment import OUTSIDE_OF_END, OUTSIDE_OF_LOWEST, OUTSIDE_OF_SPAN
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.table import Column, Table
-
-OF_SPAN, OF_END, OF_LOWEST = 0.1, 0.02, 0.25
-"""A condition is beyond when it is past an end by a tenth of the span and 2 % of the end, or below 3/4 of the lowest.
-
-What only scatters about its set point is not.
-"""
 
 
 def beyond_recorded(case: Case, wanted: Table | None) -> list[Finding]:
@@ -47,9 +42,9 @@ def _beyond(column: Column, wanted: Table, rows: Table) -> Iterator[tuple[int, s
             yield int(wanted["run"][i]), f"{name} {values[i]}, never recorded"
         return
     low, high = float(np.min(rows[name])), float(np.max(rows[name]))
-    least, most = (max(OF_SPAN * (high - low), OF_END * abs(end)) for end in (low, high))
+    least, most = (max(OUTSIDE_OF_SPAN * (high - low), OUTSIDE_OF_END * abs(end)) for end in (low, high))
     if low > 0.0:
-        least = min(least, OF_LOWEST * low)
+        least = min(least, OUTSIDE_OF_LOWEST * low)
     for i in np.flatnonzero((values < low - least) | (values > high + most)):
         ends = amount(low, name) if low == high else f"{low:.4g} to {amount(high, name)}"
         yield int(wanted["run"][i]), f"{name} {amount(float(values[i]), name)}, recorded {ends}"

@@ -10,11 +10,8 @@ from mixedlub.diagnosis.assessment.mismatch_test import judged_weight
 from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.inference.map_fit import whitening
 from mixedlub.diagnosis.search.search import PriorDraws, Search
-
-FITTED_GAIN = 3.0
-"""Gain in log evidence from which an effect's fitted form replaces its prior median: odds of 20."""
-VISIBLE = 3.0
-"""Change in standard deviations from which an effect is visible; judgement."""
+from mixedlub.diagnosis.settings.assessment import VISIBLE
+from mixedlub.diagnosis.settings.inference import STRONG_EVIDENCE
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +64,7 @@ def confusion(search: Search) -> Confusion:
 
 def _signature(search: Search, draws: PriorDraws) -> np.ndarray:
     fit = search.fits.get(Explanation.of(draws.id))
-    if fit is not None and fit.evidence > search.null_fit.evidence + FITTED_GAIN:
+    if fit is not None and fit.evidence > search.null_fit.evidence + STRONG_EVIDENCE:
         return np.asarray((fit.prediction - search.problem.base(fit.z)) / search.problem.sd)
     middle = int(np.argmin(np.einsum("ij,ij->i", draws.z, draws.z)))
     return draws.change[middle]

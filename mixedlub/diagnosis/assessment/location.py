@@ -11,20 +11,10 @@ from mixedlub.diagnosis.discrepancy.local import TURNED
 from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.search.search import CLOCKS, Search
+from mixedlub.diagnosis.settings.assessment import CUT_GAIN, LARGE_SHARE, MOST_CUTS, MOST_ENDS, NO_MISMATCH
 from mixedlub.recording.conditions import PASSING
 from mixedlub.recording.set_points import set_points
 from mixedlub.schema.table import Table
-
-NO_MISMATCH = 1e-9
-"""Mismatch in standard deviations below which there is none: rounding."""
-LARGE_SHARE = 0.5
-"""Share of the largest mismatch from which a reading belongs to the region; judgement."""
-MOST_CUTS = 3
-"""Conditions that are cut at most; presentation."""
-MOST_ENDS = 12
-"""Ends of a cut that are tried along one condition: a limit on cost."""
-LEAST_GAIN = 0.02
-"""Gain in F-score by which a further cut is accepted; judgement."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +48,7 @@ def region(table: Table, columns: list[str], size: np.ndarray) -> Region:
                 value = _f_score(inside & mask, large)
                 if best is None or value > best[0]:
                     best = (value, name, cut, mask)
-        if best is None or best[0] < score + LEAST_GAIN:
+        if best is None or best[0] < score + CUT_GAIN:
             break
         score, name, cut, mask = best
         chosen[name] = cut

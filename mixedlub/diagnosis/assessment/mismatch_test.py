@@ -10,28 +10,21 @@ import numpy as np
 from mixedlub.diagnosis.discrepancy.modulated import READING
 from mixedlub.diagnosis.discrepancy.smooth import DiscrepancyForm
 from mixedlub.diagnosis.inference.map_fit import linear_fit, outlier_chance, whitening
-from mixedlub.diagnosis.search.noise_inflation import MOST_INFLATION
 from mixedlub.diagnosis.search.noise_selection import NoiseSearch
 from mixedlub.diagnosis.search.search import Search
-
-DRAWS = 2000
-"""Simulated recordings without a mismatch: a p-value of 0.01 is then known to 22 %."""
-SMOOTH_ALTERNATIVES = ((0.7, False), (0.25, True))
-"""Correlation length of the smooth alternatives, and whether they have products of pairs. They set the power only."""
-ALTERNATIVE_SIZES = (1.0, 4.0)
-"""Sizes of the alternatives in standard deviations: just visible, and plain. They set the power only."""
-WEIGHT_OF_EFFECTS = 0.6
-"""Prior weight of the effects among the alternatives; smooth functions share the rest. It sets the power only."""
-SMALLEST_P = 1e-304
-"""Smallest p-value that a number of the answer can hold."""
-NULL_ITERATIONS = 30
-"""Iterations with which the null hypothesis decides on its own outliers."""
-BAYES_FACTOR_MARGIN = 10.0
-"""Margin for the approximations of the search's Bayes factor; judgement."""
-STATED_NOISE_SCALES = (1.0,)
-"""Factors on stated noise: it is known."""
-UNSTATED_NOISE_SCALES = tuple(np.geomspace(0.12, 2.0, 13))
-"""Factors on unstated noise, relative to what the calibrated base model needs: a grid."""
+from mixedlub.diagnosis.settings.assessment import (
+    ALTERNATIVE_SIZES,
+    BAYES_FACTOR_MARGIN,
+    DRAWS,
+    SMALLEST_P,
+    SMOOTH_ALTERNATIVES,
+    STATED_NOISE_SCALES,
+    TEST_SEED,
+    UNSTATED_NOISE_SCALES,
+    WEIGHT_OF_EFFECTS,
+)
+from mixedlub.diagnosis.settings.inference import LARGEST_EXPONENT, LIKELY, REWEIGHTINGS
+from mixedlub.diagnosis.settings.search import MOST_INFLATION
 
 
 @dataclass(frozen=True)
@@ -133,16 +126,14 @@ def _cost(search: Search, fixed: np.ndarray, weight: np.ndarray, scales: Sequenc
         return float(np.logaddexp.reduce(each))
 
     return (
-        max(0.0, log_nothing(search.null_fit.weight, NULL_ITERATIONS) - log_nothing(weight, 1))
-        if len(scales) > 1
-        else 0.0
+        max(0.0, log_nothing(search.null_fit.weight, REWEIGHTINGS) - log_nothing(weight, 1)) if len(scales) > 1 else 0.0
     )
 
 
 def mismatch_test(
     search: Search,
     level: float,
-    seed: int = 20240229,
+    seed: int = TEST_SEED,
     *,
     weight: np.ndarray | None = None,
     scales: Sequence[float] = STATED_NOISE_SCALES,
@@ -168,8 +159,8 @@ def mismatch_test(
     observed = float(_statistic(alternatives, null_fit.anchor[None, :])[0]) - _cost(search, fixed, weight, scales)
     p = (1.0 + float((drawn >= observed).sum())) / (DRAWS + 1.0)
     if observed > drawn.max():
-        p = min(p, float(np.exp(-min(observed, 700.0))))
-    p = min(p, BAYES_FACTOR_MARGIN * float(np.exp(-min(full.log_bayes_factor, 700.0))))
+        p = min(p, float(np.exp(-min(observed, LARGEST_EXPONENT))))
+    p = min(p, BAYES_FACTOR_MARGIN * float(np.exp(-min(full.log_bayes_factor, LARGEST_EXPONENT))))
     chi2 = float(
         (full.problem.single_reading_units(full.null_fit.residual) ** 2).sum() + full.null_fit.z @ full.null_fit.z
     )
@@ -206,7 +197,7 @@ def beyond_noise(search: Search, times: float, test: Mismatch) -> Mismatch:
 
     if times <= MOST_INFLATION:
         return test
-    good = outlier_chance(search.null_fit.residual) <= 0.5
+    good = outlier_chance(search.null_fit.residual) <= LIKELY
     if not good.any():
         return replace(test, p_value=SMALLEST_P, detected=True, unexplained_scatter=True)
     left = float(np.sum(search.null_fit.residual[good] ** 2)) * (times / MOST_INFLATION) ** 2

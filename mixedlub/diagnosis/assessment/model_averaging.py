@@ -9,14 +9,11 @@ import numpy as np
 from mixedlub.diagnosis.assessment.posterior import Posterior
 from mixedlub.diagnosis.assessment.prediction import NewRows, Prediction, Refined, refine
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
-from mixedlub.diagnosis.inference.map_fit import NINETY, outlier_chance
+from mixedlub.diagnosis.inference.map_fit import outlier_chance
 from mixedlub.diagnosis.search.search import Search
+from mixedlub.diagnosis.settings.assessment import MOST_AVERAGED, NEGLIGIBLE
+from mixedlub.diagnosis.settings.inference import NINETY
 from mixedlub.schema.table import Table
-
-MOST_AVERAGED = 6
-"""Most explanations that are averaged: a limit on cost."""
-NEGLIGIBLE = 2e-3
-"""Probability below which an explanation is left out of the average; judgement."""
 
 
 @dataclass(frozen=True, eq=False)

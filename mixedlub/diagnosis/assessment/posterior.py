@@ -11,14 +11,9 @@ from mixedlub.chain.effect import STAGES
 from mixedlub.diagnosis.assessment.mismatch_test import Mismatch
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.problem import effects_of
-from mixedlub.diagnosis.search.search import PRIOR, Search, priors
-
-TIE = 0.1
-"""Ratio to the verdict's probability from which an explanation ties with it; presentation."""
-FLOOR = 1e-6
-"""Probabilities are clipped to [1e-6, 1 - 1e-6]."""
-MARGIN = 1.25
-"""Odds by which the test puts "nothing missing" behind or ahead of the best explanation: the least that is visible."""
+from mixedlub.diagnosis.search.search import Search, priors
+from mixedlub.diagnosis.settings.assessment import FLOOR, TEST_MARGIN, TIE
+from mixedlub.diagnosis.settings.search import PRIOR
 
 
 @dataclass(frozen=True)
@@ -86,9 +81,9 @@ def posterior(
     others = [value for key, value in log.items() if key != NOTHING]
     best = max(others, default=-np.inf)
     if test.detected and log[NOTHING] >= best:
-        log[NOTHING] = best - np.log(MARGIN)
+        log[NOTHING] = best - np.log(TEST_MARGIN)
     elif not test.detected and log[NOTHING] <= best:
-        log[NOTHING] = best + np.log(MARGIN)
+        log[NOTHING] = best + np.log(TEST_MARGIN)
     top = max(log.values())
     total = sum(np.exp(v - top) for v in log.values())
     weights = {key: float(np.exp(v - top) / total) for key, v in sorted(log.items(), key=lambda item: -item[1])}

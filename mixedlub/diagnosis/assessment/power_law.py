@@ -12,14 +12,28 @@ import numpy as np
 from mixedlub.chain.model import Model
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.diagnosis.discrepancy.modulated import log_slope
-from mixedlub.diagnosis.discrepancy.smooth import LOG_FACTOR_SIZES, READING_SIZES
 from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.inference.map_fit import covariance, linear_fit, whitening
 from mixedlub.diagnosis.labels import number, words_of
 from mixedlub.diagnosis.search.search import Search
+from mixedlub.diagnosis.settings.assessment import (
+    ABSORBING_LENGTH,
+    BEAM_WIDTH,
+    BLOCK_CELLS,
+    COLLINEAR,
+    CONDITIONS_WON,
+    EXPONENTS,
+    LARGEST_LOG_FORM,
+    LAW_BLOCKS,
+    LAW_READINGS,
+    LEAST_FOLDS,
+    MOST_ERROR_SHARE,
+    VARIED_FROM,
+)
+from mixedlub.diagnosis.settings.discrepancy import LOG_FACTOR_SIZES, READING_SIZES
+from mixedlub.diagnosis.settings.inference import SEED, STRONG_EVIDENCE
 from mixedlub.schema.units import unit_of
 
-EXPONENTS = tuple(s * Fraction(n, m) for n, m in ((1, 3), (1, 2), (2, 3), (1, 1), (2, 1)) for s in (1, -1))
 CHAIN = ("film_ratio", "slide_roll_ratio", "hertz_pressure", "viscosity", "entrainment_speed", "sliding_speed")
 SLOTS = (
     ("film", ("film_thickness",)),
@@ -29,21 +43,6 @@ SLOTS = (
     ("load", ("load_share", "line_load")),
     ("loss", ("power_loss", "tangential_friction", "friction")),
 )
-COLLINEAR = 0.999
-"""Correlation of two quantities from which they are equivalent at these conditions; judgement."""
-BEAM_WIDTH = 12
-"""Forms that are kept and extended at each step: a limit on cost."""
-BLOCK_CELLS = 4_000_000
-MOST_BLOCKS = 6
-RELATIVE, TURNING = 0, 2
-"""Indices of the scalings: the base model's reading, one, and the direction of motion where there are two."""
-MOST_READINGS = 1500
-"""Most readings on which forms are tried: a limit on cost."""
-SEED = 1
-LEAST_GAIN = 3.0
-"""Gain in log evidence from which a form is reported: odds of 20."""
-MOST_ERROR_SHARE = 0.7
-"""Ratio of the error on left-out levels with and without the form, above which it is rejected; judgement."""
 
 
 @dataclass(frozen=True)
@@ -114,7 +113,7 @@ def absorbing_stages(search: Search) -> tuple[Absorbed, ...]:
     problem, null_fit = search.problem, search.null_fit
     base = np.hstack([null_fit.slopes, problem.shared])
     plain = linear_fit(null_fit.anchor, base, search.discrepancy.fit.weight).evidence
-    smooth = search.space.columns(search.values, 0.7)
+    smooth = search.space.columns(search.values, ABSORBING_LENGTH)
     calibrated = problem.run(NOTHING, null_fit.z)
     weighed = []
     for stage, names in SLOTS:
@@ -151,7 +150,7 @@ def features(search: Search) -> dict[str, np.ndarray]:
             every[name] = np.broadcast_to(value, (len(rows),))
     kept: dict[str, np.ndarray] = {}
     for name, value in every.items():
-        if not (np.isfinite(value).all() and (value > 0).all()) or np.ptp(np.log(value)) < 0.05:
+        if not (np.isfinite(value).all() and (value > 0).all()) or np.ptp(np.log(value)) < VARIED_FROM:
             continue
         shape = _standard(np.log(value))
         if all(abs(np.mean(shape * _standard(np.log(other)))) < COLLINEAR for other in kept.values()):
@@ -181,7 +180,7 @@ class _Search:
 
     def columns(self, powers: np.ndarray, carrier: np.ndarray) -> np.ndarray:
         """One column in sigmas a form: product of powers, times one of the carriers; shape (forms, rows)."""
-        return self.share.T[carrier] * np.exp(np.clip(powers @ self.logs.T, -30.0, 30.0))
+        return self.share.T[carrier] * np.exp(np.clip(powers @ self.logs.T, -LARGEST_LOG_FORM, LARGEST_LOG_FORM))
 
     def evidence(self, powers: np.ndarray, carrier: np.ndarray) -> np.ndarray:
         """Log evidence of each form over nothing, its amplitude averaged over READING_SIZES."""
@@ -269,14 +268,15 @@ def power_law(search: Search) -> Law | None:
     logs = np.log(np.array(list(values.values())).T / middles)
     one = problem.sd * problem.d_inverse(search.null_fit.prediction)
     level = problem.inverse(null_fit.prediction)
+    # Carriers of a law: 0 the base model's reading, 1 none, 2 the direction of motion where there are two.
     share = np.column_stack([level, np.ones_like(level), *_turning(search)]) / one[:, None]
     fixed = np.hstack([null_fit.slopes, problem.shared])
     whole = _Search(names, logs, share, fixed, null_fit.anchor, search.discrepancy.fit.weight)
-    count = min(problem.y.size, MOST_READINGS)
+    count = min(problem.y.size, LAW_READINGS)
     thin = np.sort(np.random.default_rng(SEED).choice(problem.y.size, count, replace=False))
     every = whole.take(thin)
     score, powers, carrier = every.best()
-    if score < LEAST_GAIN:
+    if score < STRONG_EVIDENCE:
         return None
     before, after, wins = _held_out(search, every, thin)
     if after > MOST_ERROR_SHARE * before or not wins:
@@ -289,7 +289,7 @@ def power_law(search: Search) -> Law | None:
     return Law(
         factors=tuple((names[i], exponent[powers[i]]) for i in chosen),
         middles=tuple(float(middles[i]) for i in chosen),
-        relative=carrier == RELATIVE,
+        relative=carrier == 0,
         coefficient=coefficient,
         sd=sd,
         unit=unit_of(problem.case.quantity),
@@ -298,7 +298,7 @@ def power_law(search: Search) -> Law | None:
         heldout_after=in_single * after,
         shape=own * one,
         observed=(whole.target - fixed @ c[:-1]) * one,
-        odd=carrier == TURNING,
+        odd=carrier == 2,
     )
 
 
@@ -326,9 +326,9 @@ def _held_out(search: Search, every: _Search, thin: np.ndarray) -> tuple[float, 
     squares: list[tuple[float, float]] = []
     for axis, values in zip(search.space.axes, search.values, strict=True):
         levels, label = np.unique(values[thin], return_inverse=True)
-        if levels.size < 3 or axis.name == "sequence":
+        if levels.size < LEAST_FOLDS or axis.name == "sequence":
             continue
-        label = label * min(levels.size, MOST_BLOCKS) // levels.size
+        label = label * min(levels.size, LAW_BLOCKS) // levels.size
         left = np.zeros((2, every.target.size))
         for k in range(int(label.max()) + 1):
             out = label == k
@@ -345,7 +345,7 @@ def _held_out(search: Search, every: _Search, thin: np.ndarray) -> tuple[float, 
         return 0.0, 0.0, False
     total = np.mean(np.array(squares), axis=0)
     wins = sum(after < before for before, after in squares)
-    return float(np.sqrt(total[0])), float(np.sqrt(total[1])), wins >= 0.75 * len(squares)
+    return float(np.sqrt(total[0])), float(np.sqrt(total[1])), wins >= CONDITIONS_WON * len(squares)
 
 
 def _words(name: str) -> str:

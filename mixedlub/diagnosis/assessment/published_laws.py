@@ -7,11 +7,7 @@ from dataclasses import dataclass
 from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.inference.nested_laws import published_odds
 from mixedlub.diagnosis.search.search import Search
-
-REJECTED_BELOW = -4.6
-"""Log odds below which a law is rejected: one to a hundred."""
-OPEN_FROM = -2.3
-"""Log odds from which a law cannot be excluded: one to ten."""
+from mixedlub.diagnosis.settings.assessment import LAW_OPEN, LAW_REJECTED
 
 
 @dataclass(frozen=True)
@@ -28,9 +24,9 @@ class Contained:
         odds = f"(log odds {self.log_odds:+.1f})"
         if self.log_odds > 0.0:
             return f"The law of {self.law}, which it contains, does as well {odds}."
-        if self.log_odds > OPEN_FROM:
+        if self.log_odds > LAW_OPEN:
             return f"The law of {self.law}, which it contains, cannot be excluded {odds}."
-        if self.log_odds > REJECTED_BELOW:
+        if self.log_odds > LAW_REJECTED:
             return f"The law of {self.law}, which it contains, does less well {odds}."
         return f"The law of {self.law}, which it contains, is rejected {odds}."
 

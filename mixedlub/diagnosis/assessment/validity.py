@@ -10,15 +10,11 @@ import numpy as np
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.diagnosis.explanation import Explanation
-from mixedlub.diagnosis.inference.map_fit import NINETY
 from mixedlub.diagnosis.labels import effect_words, number, words_of
 from mixedlub.diagnosis.problem import Problem, effects_of
+from mixedlub.diagnosis.settings.assessment import EXACT_EXPONENT, RANGE_SLACK
+from mixedlub.diagnosis.settings.inference import NINETY
 from mixedlub.schema.findings import Finding, finding
-
-SLACK = 1e-6
-"""Share of a bound that rounding may go beyond it."""
-EXACTLY = 0.01
-"""Of an exponent, how near one of a law at the end of its prior counts as that."""
 
 
 def beyond_range(problem: Problem, explanation: Explanation, z: np.ndarray) -> list[Finding]:
@@ -43,7 +39,7 @@ def unpublished(effects: Sequence[Effect], z: np.ndarray, spread: np.ndarray) ->
         least, most = p.published
         low, value, high = (p.prior.value(float(at + k * NINETY * sd)) for k in (-1.0, 0.0, 1.0))
         named = (x for x in (law.get(p.name, least) for law in e.contains.values()) if not least <= x <= most)
-        if least <= value <= most or any(low - EXACTLY <= exact <= high + EXACTLY for exact in named):
+        if least <= value <= most or any(low - EXACT_EXPONENT <= exact <= high + EXACT_EXPONENT for exact in named):
             continue
         cited = f"{number(least)} to {number(most)}"
         fitted = f"{p.meaning} is {number(value)} (90 % {number(low)} to {number(high)})"
@@ -65,7 +61,7 @@ def outside(effects: Sequence[Effect], state: Mapping[str, Any], rows: int) -> l
         for name in e.valid.keys() & state.keys():
             low, high = e.valid[name]
             values = np.atleast_2d(np.asarray(state[name], dtype=float))
-            off = (values > high + SLACK * abs(high)) | (values < low - SLACK * abs(low))
+            off = (values > high + RANGE_SLACK * abs(high)) | (values < low - RANGE_SLACK * abs(low))
             if not off.any():
                 continue
             count = int(np.broadcast_to(off.any(axis=1), rows).sum())

@@ -4,22 +4,21 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.diagnosis.assessment.cross_validation import MOST_PENALTY, HeldOut, LevelsOut
+from mixedlub.diagnosis.assessment.cross_validation import HeldOut, LevelsOut
 from mixedlub.diagnosis.assessment.mismatch_test import Mismatch
-from mixedlub.diagnosis.assessment.posterior import MARGIN, Posterior, posterior
+from mixedlub.diagnosis.assessment.posterior import Posterior, posterior
 from mixedlub.diagnosis.explanation import DISCREPANCY, Explanation
 from mixedlub.diagnosis.inference.change_points import change_point_coordinates
 from mixedlub.diagnosis.inference.map_fit import outlier_chance
 from mixedlub.diagnosis.search.search import Search
-
-CANDIDATES = 6
-"""Most explanations that are cross-validated; each costs as many fits as there are levels. A limit on cost."""
+from mixedlub.diagnosis.settings.assessment import MOST_PENALTY, TEST_MARGIN, VALIDATED
+from mixedlub.diagnosis.settings.inference import LIKELY
 
 
 def judge(search: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
     """Posterior probabilities, with cross-validation of the verdict and of all that ties with it.
 
-    When CANDIDATES were tried, the others get the least penalty among those. The discrepancy is compared with the first
+    When VALIDATED were tried, the others get the least penalty among those. The discrepancy is compared with the first
     effects, and is hardly more probable where these clearly predict better. Where even the best of those tried is
     overdispersed on left-out levels, the odds between effects are reduced.
     """
@@ -29,7 +28,7 @@ def judge(search: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
     discrepancy_penalty: dict[Explanation, float] = {}
     while True:
         penalties = {key: log_odds_penalty for key, (_, log_odds_penalty) in tried.items()}
-        if len(tried) >= CANDIDATES and all(penalties.values()):
+        if len(tried) >= VALIDATED and all(penalties.values()):
             rest = min(penalties.values())
             penalties = {key: penalties.get(key, rest) for key in names}
         judged = posterior(search, test, penalties | discrepancy_penalty)
@@ -44,7 +43,7 @@ def judge(search: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
             discrepancy_penalty = {DISCREPANCY: _discrepancy_penalty(levels, search, names[0], tried[names[0]][0])}
             continue
         fresh = [key for key in judged.tied if key not in tried and key.effects]
-        if not fresh or len(tried) >= CANDIDATES:
+        if not fresh or len(tried) >= VALIDATED:
             key = judged.verdict
             return judged, (tried.get(key) or _cross_validated(levels, search, key))[0]
         tried[fresh[0]] = _cross_validated(levels, search, fresh[0])
@@ -55,19 +54,19 @@ def _discrepancy_penalty(levels: LevelsOut, search: Search, name: Explanation, n
 
     Effects that clearly predict inner levels better are put just ahead of it.
     """
-    outliers = outlier_chance(search.discrepancy.fit.residual) > 0.5
+    outliers = outlier_chance(search.discrepancy.fit.residual) > LIKELY
     penalty_against = levels.held(DISCREPANCY, outliers).penalty_against(named)
     # Outliers of the effects alone count, so that they cannot drop what they do not explain.
     if not levels.held(DISCREPANCY, outliers, inner=True).dominated_by(levels.held(name, outliers, inner=True)):
         return penalty_against
-    lead = search.log_weights[DISCREPANCY] - search.log_weights[name] - np.log(MARGIN)
+    lead = search.log_weights[DISCREPANCY] - search.log_weights[name] - np.log(TEST_MARGIN)
     return max(penalty_against, float(np.clip(lead, 0.0, MOST_PENALTY)))
 
 
 def _cross_validated(levels: LevelsOut, search: Search, key: Explanation) -> tuple[HeldOut, float]:
     """Cross-validation of an explanation, and its penalty in log odds."""
     residual = search.fit_of(key).residual
-    outliers = outlier_chance(residual) > 0.5
+    outliers = outlier_chance(residual) > LIKELY
     kept = levels.held(key, outliers)
     if not key.effects:
         return kept, 0.0

@@ -8,13 +8,9 @@ from functools import cached_property
 import numpy as np
 
 from mixedlub.diagnosis.discrepancy.local import DERIVED, edges, is_identifiable, thinned
+from mixedlub.diagnosis.settings.discrepancy import BOX_SEEDS, BOX_SWEEPS
 from mixedlub.recording.conditions import PASSING, Coordinates
 from mixedlub.recording.set_points import set_points
-
-SEEDS = 12
-"""Readings with the largest residuals from which a box is grown: a limit on cost."""
-MOST_SWEEPS = 6
-"""Sweeps over the ranges of a box at most: a limit on cost."""
 
 Box = tuple[tuple[str, float, float], ...]
 
@@ -31,7 +27,7 @@ def clearest_box(
     if len(grid.names) < 2:
         return None
     grown = (
-        grid.grown(seed, left * scale, scale**2) for seed in np.argsort(np.abs(left * scale))[::-1][:SEEDS].tolist()
+        grid.grown(seed, left * scale, scale**2) for seed in np.argsort(np.abs(left * scale))[::-1][:BOX_SEEDS].tolist()
     )
     usable = [
         (worth, box)
@@ -116,7 +112,7 @@ class _Grid:
         """
         box = np.column_stack([self.cells[:, seed]] * 2)
         worth = -np.inf
-        for _ in range(MOST_SWEEPS):
+        for _ in range(BOX_SWEEPS):
             before = worth
             for k, count in enumerate(self.counts):
                 box[k] = 0, count - 1

@@ -7,22 +7,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.diagnosis.discrepancy.waves import is_explained_by, stepped_levels
-from mixedlub.diagnosis.inference.map_fit import OUTLIER_SHARE
+from mixedlub.diagnosis.settings.discrepancy import (
+    LOCAL_CONFOUNDED,
+    LOCAL_LEVELS,
+    LOCAL_READINGS,
+    MOST_PLACES,
+    PEAK_SHARE,
+    PEAK_WIDTHS,
+    SAME_FORM_WITHIN,
+)
+from mixedlub.diagnosis.settings.inference import OUTLIER_SHARE
 from mixedlub.recording.conditions import PASSING, Coordinates
 from mixedlub.recording.set_points import set_points
 
-WIDTHS = (0.01, 0.03, 0.1)
-"""Standard deviations of a peak, as shares of the range of the condition: a grid; the least is a single level."""
-LEAST_LEVELS = 5
-"""Levels of a condition from which local forms are tried; the smooth form follows a peak among fewer."""
-MOST_PLACES = 40
-"""Places of a condition that are tried first; the best ones are refined later. A limit on cost."""
-LEAST_READINGS = 3.0
-"""Least effective readings within a local form: fewer are outliers."""
-MOST_SHARE = 0.4
-"""Share of the readings that a peak may cover; more is a trend. Judgement."""
-CONFOUNDED = 0.75
-"""Share of the variance of a form in time that a condition explains, from which the form is left to it. Judgement."""
 DERIVED, TURNED = "composite_roughness_um", "position_deg"
 
 
@@ -48,20 +45,20 @@ def candidate_places(space: Coordinates, values: list[np.ndarray], timeless: boo
         if axis.named or axis.name in (DERIVED, TURNED):
             continue
         levels = levels_of(space, values, i)
-        if levels.size < LEAST_LEVELS:
+        if levels.size < LOCAL_LEVELS:
             continue
         points = set_points(values[i])
         passing = axis.name in PASSING
         stepped = stepped_levels(values, i) if passing else []
         for at, edge in zip(thinned(levels), thinned(edges(levels)), strict=True):
             tried: list[np.ndarray] = []
-            for width in WIDTHS if passing and timeless else (*WIDTHS, 0.0):
+            for width in PEAK_WIDTHS if passing and timeless else (*PEAK_WIDTHS, 0.0):
                 value = float(at if width else edge)
                 near = axis.about(points, value, width).sum(axis=1)
-                if any(is_explained_by(near[:, None], label, CONFOUNDED) for label in stepped):
+                if any(is_explained_by(near[:, None], label, LOCAL_CONFOUNDED) for label in stepped):
                     continue
                 if is_identifiable(near, width > 0.0) and not any(
-                    np.allclose(near, other, atol=0.05) for other in tried
+                    np.allclose(near, other, atol=SAME_FORM_WITHIN) for other in tried
                 ):
                     found.append(Place(axis.name, value, width))
                     tried.append(near)
@@ -103,5 +100,5 @@ def finer(space: Coordinates, values: list[np.ndarray], axis: int, at: float, wi
 def is_identifiable(near: np.ndarray, peak: bool) -> bool:
     """Whether a form has enough readings not to be outliers and, if a peak, few enough not to be a trend."""
     readings = float(near.sum() ** 2 / max((near**2).sum(), 1e-300))
-    least = max(LEAST_READINGS, OUTLIER_SHARE * near.size)
-    return least <= readings <= (MOST_SHARE * near.size if peak else near.size - least)
+    least = max(LOCAL_READINGS, OUTLIER_SHARE * near.size)
+    return least <= readings <= (PEAK_SHARE * near.size if peak else near.size - least)

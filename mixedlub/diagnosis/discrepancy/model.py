@@ -17,10 +17,8 @@ from mixedlub.diagnosis.discrepancy.smooth import DiscrepancyForm, candidate_for
 from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.inference.map_fit import Fit, Linear, covariance, damped_update, linear_fit, whitening
 from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.settings.discrepancy import FITTED_IN_FULL
 from mixedlub.recording.conditions import Coordinates
-
-FITTED_IN_FULL = 6
-"""Forms of a family that are fitted with their own outliers; the others keep their quick evidence. A limit on cost."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,9 @@ from mixedlub.case.forward import Forward, Run
 from mixedlub.chain.effect import Effect, Parameter
 from mixedlub.chain.model import Model
 from mixedlub.chain.priors import Normal
-from mixedlub.diagnosis.problem import STEP, Problem
+from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.settings.discrepancy import NO_INFLUENCE
+from mixedlub.diagnosis.settings.inference import FINITE_STEP
 from mixedlub.recording.conditions import clock_of
 from mixedlub.schema.table import Table
 
@@ -21,8 +23,6 @@ THERMAL_LAG = "late_temperature"
 TEMPERATURES = ("oil_temperature_C", "temperature_C")
 """Columns of the temperature that may lag."""
 QUANTITIES = ("film_thickness", "shear_stress", "area_ratio", "boundary_friction", "line_load", "running_friction")
-NEGLIGIBLE = 1e-9
-"""Change in standard deviations below which no reading depends on a quantity."""
 
 Scalings = Mapping[str, np.ndarray]
 
@@ -47,7 +47,7 @@ def scalings_of(problem: Problem, base: Run, typical: TypicalSizes) -> dict[str,
     ``base`` is a run of the base model. Quantities without influence on the readings are left out.
     """
     every = {name: scaling_of(problem, base, typical, name) for name in (READING, ADDITIVE, THERMAL_LAG, *QUANTITIES)}
-    return {name: each for name, each in every.items() if np.max(np.abs(each)) > NEGLIGIBLE}
+    return {name: each for name, each in every.items() if np.max(np.abs(each)) > NO_INFLUENCE}
 
 
 def scaling_of(problem: Problem, base: Run, typical: TypicalSizes, name: str) -> np.ndarray:
@@ -102,8 +102,8 @@ def log_slope(problem: Problem, base: Run, name: str) -> np.ndarray | None:
     if name not in forward.inputs and name not in {step for step, _ in forward.chain}:
         return None
     model = Model(forward.chain, tuple(inputs), ("reading",), (_free_factor(name),))
-    moved = np.asarray(model(inputs, {"free_factor": {"log_factor": STEP}})["reading"])
-    slope = (moved - np.asarray(base.record.wanted["reading"])) / STEP * forward.scale
+    moved = np.asarray(model(inputs, {"free_factor": {"log_factor": FINITE_STEP}})["reading"])
+    slope = (moved - np.asarray(base.record.wanted["reading"])) / FINITE_STEP * forward.scale
     return np.asarray(np.broadcast_to(slope, (problem.y.size, 1))[:, 0] / problem.d_inverse(base.prediction))
 
 

@@ -9,15 +9,8 @@ import numpy as np
 
 from mixedlub.diagnosis.discrepancy.smooth import DiscrepancyForm
 from mixedlub.diagnosis.inference.map_fit import Linear, linear_fit
-
-TRIED_SIZE = 2
-"""Index of the size with which a form is screened: the middle one."""
-CANDIDATES = 3
-"""Best forms of the first screening that are fitted: a limit on cost."""
-DEPENDENT = 1e-6
-"""Relative norm below which a column is linearly dependent on the others: rounding."""
-CLIPPED_AT = 3.0
-"""Robust standard deviations at which residuals are clipped in the first screening."""
+from mixedlub.diagnosis.settings.discrepancy import DEPENDENT, SCREENED_FORMS, SCREENED_SIZE
+from mixedlub.diagnosis.settings.inference import CLIPPED_AT, MAD_TO_SD
 
 
 def clearest(
@@ -38,9 +31,9 @@ def clearest(
     for i, shape in enumerate(shapes):
         own = columns_of(shape)
         power[i] = np.sum((_directions(own - base @ (base.T @ own), own).T @ clipped) ** 2)
-    leaders = [shapes[k] for k in np.argsort(power)[::-1][:CANDIDATES]]
+    leaders = [shapes[k] for k in np.argsort(power)[::-1][:SCREENED_FORMS]]
     tried = (
-        (shape, linear_fit(target, np.hstack([fixed, columns_of(replace(shape, size=shape.sizes[TRIED_SIZE]))])))
+        (shape, linear_fit(target, np.hstack([fixed, columns_of(replace(shape, size=shape.sizes[SCREENED_SIZE]))])))
         for leader in leaders
         for shape in near(leader)
     )
@@ -50,7 +43,7 @@ def clearest(
 def first_look(target: np.ndarray, fixed: np.ndarray) -> np.ndarray:
     """Clipped standardised residuals of a fit of the fixed columns."""
     left = linear_fit(target, fixed).residual
-    bound = CLIPPED_AT * max(1.4826 * float(np.median(np.abs(left))), 1.0)
+    bound = CLIPPED_AT * max(MAD_TO_SD * float(np.median(np.abs(left))), 1.0)
     return np.clip(left, -bound, bound)
 
 

@@ -11,17 +11,17 @@ import numpy as np
 from mixedlub.diagnosis.discrepancy.boxes import Box, inside
 from mixedlub.diagnosis.discrepancy.local import Place, candidate_places, finer
 from mixedlub.diagnosis.discrepancy.modulated import ADDITIVE, READING, THERMAL_LAG, Scalings
-from mixedlub.diagnosis.discrepancy.waves import CLOCK, FINER, frequencies
+from mixedlub.diagnosis.discrepancy.waves import CLOCK, frequencies
+from mixedlub.diagnosis.settings.discrepancy import (
+    LOG_FACTOR_SIZES,
+    READING_SIZES,
+    ROUGH_LENGTH,
+    SCREENED_SIZE,
+    SMOOTH_LENGTHS,
+    WAVE_REFINEMENT,
+)
 from mixedlub.recording.conditions import PASSING, Coordinates
 
-LENGTHS = (0.25, 0.7)
-"""Correlation lengths of a smooth form, as shares of the range of a condition: a grid."""
-ROUGH_LENGTH = 0.08
-"""Correlation length of a rough form of one condition: 12 levels are then nearly independent."""
-READING_SIZES = (0.7, 2.0, 6.0, 20.0, 60.0)
-"""Standard deviations of a discrepancy of the reading, in those of the noise: a grid by factors of three."""
-LOG_FACTOR_SIZES = (0.03, 0.1, 0.3, 1.0)
-"""Standard deviations of a factor on a quantity of the chain, in its logarithm: a grid by factors of three."""
 LOCAL = (READING, ADDITIVE, "running_friction")
 """Quantities that peaks and steps scale with; in a drive also its friction without the payload."""
 EVENT, MISCOUNT = "friction_event", "fringe_order"
@@ -82,7 +82,7 @@ class DiscrepancyForm:
         if self.at is not None:
             between = finer(space, values, space.place(self.axes[0]), self.at, self.length)
             return [replace(self, at=float(at)) for at in between]
-        return [replace(self, waves=float(w)) for w in self.waves + FINER] if self.waves else [self]
+        return [replace(self, waves=float(w)) for w in self.waves + WAVE_REFINEMENT] if self.waves else [self]
 
     def at_other_places(self, space: Coordinates, values: list[np.ndarray]) -> list[DiscrepancyForm]:
         """The same peak or step at all candidate places of its condition; any other form alone."""
@@ -96,7 +96,7 @@ class DiscrepancyForm:
 
 def most_flexible(space: Coordinates) -> DiscrepancyForm:
     """The most flexible smooth form."""
-    return DiscrepancyForm((), LENGTHS[0], 6.0, READING, len(space.axes) > 1)
+    return DiscrepancyForm((), SMOOTH_LENGTHS[0], READING_SIZES[SCREENED_SIZE], READING, len(space.axes) > 1)
 
 
 def candidate_forms(
@@ -122,15 +122,15 @@ def _is_miscount(place: Place, carrier: str) -> bool:
 def _smooth(space: Coordinates, scalings_of: Scalings) -> list[DiscrepancyForm]:
     names = [axis.name for axis in space.axes]
     found = []
-    for length in LENGTHS:
+    for length in SMOOTH_LENGTHS:
         for carrier in (name for name in scalings_of if name != THERMAL_LAG):
             found.append(DiscrepancyForm((), length, 1.0, carrier, False))
-            if len(names) == 1 and length == LENGTHS[0]:
+            if len(names) == 1 and length == SMOOTH_LENGTHS[0]:
                 found.append(DiscrepancyForm((), ROUGH_LENGTH, 1.0, carrier, False))
             if len(names) > 1:
                 found.append(DiscrepancyForm((), length, 1.0, carrier, True))
                 found.extend(DiscrepancyForm((name,), length, 1.0, carrier, False) for name in names)
-                if length == LENGTHS[0]:
+                if length == SMOOTH_LENGTHS[0]:
                     found.extend(DiscrepancyForm((name,), ROUGH_LENGTH, 1.0, carrier, False) for name in names)
             if len(names) > 2:
                 pairs = (two for two in combinations(names, 2) if set(two) != REDUNDANT)

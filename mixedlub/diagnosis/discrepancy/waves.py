@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.diagnosis.settings.discrepancy import (
+    LEAST_PERIODS,
+    MOST_PERIODS,
+    PERIOD_STEP,
+    PERIODS_PER_LEVEL,
+    STEPPED_SHARE,
+    WAVE_CONFOUNDED,
+)
 from mixedlub.recording.conditions import NODES, Coordinates
 
 CLOCK, TURNED = "time_s", "position_deg"
-LEAST_PERIODS = 3.0
-"""Periods over a recording from which a wave is tried; the smooth form follows fewer."""
-MOST_PERIODS = 200.0
-"""Periods over a recording up to which a wave is tried: a limit on cost."""
-PERIOD_STEP = 0.25
-"""Step in the number of periods: a quarter period keeps a wave in phase over the record."""
-FINER = PERIOD_STEP * np.linspace(-1.0, 1.0, 11)
-"""Refinement of the number of periods about the best wave."""
-CONFOUNDED = 0.5
-"""Share of the variance of a wave that the levels of a condition explain, from which it is left to them. Judgement."""
 
 
 def frequencies(space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
@@ -31,7 +29,7 @@ def frequencies(space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
     levels = np.unique(values[place])
     if levels.size < 2.0 * LEAST_PERIODS:
         return np.zeros(0)
-    most = min(0.5 * np.ptp(levels) / np.median(np.diff(levels)), 0.75 * levels.size, MOST_PERIODS)
+    most = min(0.5 * np.ptp(levels) / np.median(np.diff(levels)), PERIODS_PER_LEVEL * levels.size, MOST_PERIODS)
     found = np.arange(most, LEAST_PERIODS, -PERIOD_STEP)
     stepped = stepped_levels(values, place)
     return np.array(
@@ -46,10 +44,10 @@ def frequencies(space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
 def stepped_levels(values: list[np.ndarray], place: int) -> list[np.ndarray]:
     """Level index of each reading in the other conditions with few levels."""
     found = [np.unique(v, return_inverse=True)[1] for i, v in enumerate(values) if i != place]
-    return [label for label in found if label.max() < min(NODES, 0.5 * label.size)]
+    return [label for label in found if label.max() < min(NODES, STEPPED_SHARE * label.size)]
 
 
-def is_explained_by(columns: np.ndarray, label: np.ndarray, share: float = CONFOUNDED) -> bool:
+def is_explained_by(columns: np.ndarray, label: np.ndarray, share: float = WAVE_CONFOUNDED) -> bool:
     """Whether the levels of a condition explain that share of any column's variance."""
     centred = columns - columns.mean(axis=0)
     count = np.bincount(label)

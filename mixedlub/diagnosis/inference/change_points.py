@@ -8,23 +8,21 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mixedlub.diagnosis.explanation import Explanation
-from mixedlub.diagnosis.inference.map_fit import NINETY, Fit, covariance, log_likelihood, map_fit
-from mixedlub.diagnosis.problem import MOST_COORDINATE, Problem
-
-SCANNED_TO = 3.0
-"""Largest coordinate that a change point is scanned to, in prior standard deviations: 99.7 % of the prior."""
-SCANNED = 121
-"""Places in that scan: a twentieth of a prior standard deviation apart."""
-MOST_HALVINGS = 12
-"""Times that the gap between two places is halved at most: a limit on cost."""
-STEEP = 0.7
-"""Change of the log density between two places from which their gap is halved: a factor of two."""
-NEGLIGIBLE_BELOW = 15.0
-"""Log density below the largest one that does not count in an integral: 3e-7 of it."""
-REFIT_GAIN = 0.5
-"""Gain in log density from which the fit is repeated from another place; judgement."""
-QUANTILES = (np.arange(20) + 0.5) / 20.0
-"""Quantiles of the posterior of a change point over which predictions are averaged."""
+from mixedlub.diagnosis.inference.map_fit import Fit, covariance, log_likelihood, map_fit
+from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.settings.inference import (
+    CHANGE_POINT_QUANTILES,
+    INTERVAL_ENDS,
+    MOST_COORDINATE,
+    MOST_HALVINGS,
+    MOST_LOG_RATIO,
+    NEGLIGIBLE_DENSITY,
+    NINETY,
+    REFIT_GAIN,
+    SCAN_PLACES,
+    SCANNED_TO,
+    STEEP,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +49,7 @@ class ChangePointPosterior:
     @property
     def even(self) -> np.ndarray:
         """Steps (20, size) to places of equal probability."""
-        return np.stack([np.interp(QUANTILES, self._below, step) for step in self.steps.T], axis=1)
+        return np.stack([np.interp(CHANGE_POINT_QUANTILES, self._below, step) for step in self.steps.T], axis=1)
 
     @property
     def variance(self) -> np.ndarray:
@@ -103,11 +101,11 @@ def profile_change_point(
         return log if np.isfinite(log) else -np.inf
 
     where = np.unique(
-        np.clip(np.append(np.linspace(-SCANNED_TO, SCANNED_TO, SCANNED), more), -MOST_COORDINATE, MOST_COORDINATE)
+        np.clip(np.append(np.linspace(-SCANNED_TO, SCANNED_TO, SCAN_PLACES), more), -MOST_COORDINATE, MOST_COORDINATE)
     )
     tried, log = evaluated(where)
     for _ in range(MOST_HALVINGS):
-        steep = np.abs(np.diff(np.maximum(log, log.max() - NEGLIGIBLE_BELOW))) > STEEP
+        steep = np.abs(np.diff(np.maximum(log, log.max() - NEGLIGIBLE_DENSITY))) > STEEP
         if not steep.any():
             break
         between, its_log = evaluated(0.5 * (tried[1:, place] + tried[:-1, place])[steep])
@@ -130,7 +128,7 @@ def integrate_change_points(problem: Problem, fit: Fit) -> Fit:
             if _height(again) > _height(fit) + REFIT_GAIN:
                 return integrate_change_points(problem, again)
         curvature = 1.0 + float(fit.weight @ fit.slopes[:, place] ** 2)
-        whole = np.trapezoid(np.exp(np.minimum(log - _height(fit, place), 50.0)), tried[:, place])
+        whole = np.trapezoid(np.exp(np.minimum(log - _height(fit, place), MOST_LOG_RATIO)), tried[:, place])
         gained += float(np.log(max(whole, 1e-300)) - 0.5 * np.log(2.0 * np.pi / curvature))
     return replace(fit, evidence=fit.evidence + gained)
 
@@ -151,7 +149,7 @@ def change_point_posterior(
         open_by = covariance(every, fit.weight)[index, : fit.z.size]
         tried, log = profile_change_point(problem, fit, index, fit.z[index], open_by / open_by[index], beside)
         where = tried[:, index]
-        chance = np.where(log > log.max() - NEGLIGIBLE_BELOW, np.exp(log - log.max()), 0.0) * np.gradient(where)
+        chance = np.where(log > log.max() - NEGLIGIBLE_DENSITY, np.exp(log - log.max()), 0.0) * np.gradient(where)
         kept = chance > 0.0
         found.append(ChangePointPosterior(index, where[kept], tried[kept] - fit.z, chance[kept] / chance.sum()))
     return tuple(found)
@@ -175,7 +173,7 @@ def average_over_change_points(
         seen = np.array([predict(np.clip(z + step, -MOST_COORDINATE, MOST_COORDINATE)) for step in p.even])
         seen = np.where(np.isfinite(seen), seen, here)
         mean = np.mean(seen, axis=0)
-        ends = np.quantile(seen, (0.05, 0.95), axis=0, method="hazen")
+        ends = np.quantile(seen, INTERVAL_ENDS, axis=0, method="hazen")
         gain += mean - here
         variances += np.vstack([np.var(seen, axis=0), ((ends - mean) / NINETY) ** 2])
     return gain, variances

@@ -8,24 +8,20 @@ import numpy as np
 
 from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.inference.map_fit import Fit, linear_fit, map_fit, map_fits
-from mixedlub.diagnosis.problem import STEP, Problem
-
-SAMPLES = (12, 24, 40, 56)
-"""Draws of the prior for one, two, three and more parameters: a limit on cost."""
-START_WITHIN = 25.0
-"""Log evidence behind the best draw within which another one is a start; judgement."""
-APART = 1.2
-"""Least distance of two starts in prior standard deviations; judgement."""
-STARTS = 3
-"""Starts of a fit at most: a limit on cost."""
-VISIBLE_FROM = 1.0
-"""Sum of squared changes of the readings, in standard deviations, from which a draw is visible: one in all."""
-OUTLIER_WEIGHT = 0.5
-"""Precision weight below which a reading is treated as an outlier."""
-SCANNED_TO = 3.0
-"""Largest coordinate to which a scan takes the parameters that it fits linearly, in prior standard deviations."""
-STRAINED = 25.0
-"""Squared length of calibration coordinates that five of them exceed with a probability of 1e-4."""
+from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.settings.inference import (
+    FINITE_STEP,
+    OUTLIER_WEIGHT,
+    PRIOR_DRAWS,
+    PRIOR_TAIL,
+    QUICK_REWEIGHTINGS,
+    SCANNED_TO,
+    START_WITHIN,
+    STARTS,
+    STARTS_APART,
+    STRAINED_CALIBRATION,
+    VISIBLE_FROM,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +52,7 @@ def sample(problem: Problem, name: str, null_fit: Fit) -> PriorDraws:
     alone = Explanation.of(name)
     effect = problem.effects(alone)[0]
     size = len(effect.parameters)
-    z = spread(size, SAMPLES[min(size, len(SAMPLES)) - 1])
+    z = spread(size, PRIOR_DRAWS[min(size, len(PRIOR_DRAWS)) - 1])
     n_prior = len(z)
     for place, parameter in enumerate(effect.parameters):
         if parameter.scan:
@@ -86,13 +82,13 @@ def scan(problem: Problem, name: str, null_fit: Fit, place: int, count: int) -> 
         slopes = np.empty((problem.y.size, len(others)))
         for i, k in enumerate(others):
             moved = own.copy()
-            moved[k] += STEP
+            moved[k] += FINITE_STEP
             there = problem.run(alone, np.concatenate([null_fit.z, moved]), here)
-            slopes[:, i] = (there.prediction - here.prediction) / (STEP * problem.sd)
+            slopes[:, i] = (there.prediction - here.prediction) / (FINITE_STEP * problem.sd)
         if not np.isfinite(slopes).all():
             continue
         change = (here.prediction - null_fit.prediction) / problem.sd
-        linear = linear_fit(null_fit.anchor - change, np.hstack([fixed, slopes]), rounds=4)
+        linear = linear_fit(null_fit.anchor - change, np.hstack([fixed, slopes]), rounds=QUICK_REWEIGHTINGS)
         own[others] = np.clip(linear.coefficients[fixed.shape[1] :], -SCANNED_TO, SCANNED_TO)
         tried.append((linear.evidence - 0.5 * z * z, own))
     best = sorted(tried, key=lambda t: -t[0])[:STARTS]
@@ -112,7 +108,7 @@ def spread(size: int, count: int) -> np.ndarray:
         golden = (1.0 + golden) ** (1.0 / (size + 1))
     steps = np.array([golden ** -(i + 1) for i in range(size)])
     uniform = (0.5 + np.arange(1, count + 1)[:, None] * steps) % 1.0
-    return ndtri(0.02 + 0.96 * uniform)
+    return ndtri(PRIOR_TAIL + (1.0 - 2.0 * PRIOR_TAIL) * uniform)
 
 
 def fit_single(problem: Problem, null_fit: Fit, draws: PriorDraws) -> Fit:
@@ -123,7 +119,7 @@ def fit_single(problem: Problem, null_fit: Fit, draws: PriorDraws) -> Fit:
     columns = np.hstack([null_fit.slopes, problem.shared])
     scores, starts = [], []
     for z, change in zip(draws.z, draws.change, strict=True):
-        linear = linear_fit(null_fit.anchor - change, columns, rounds=4)
+        linear = linear_fit(null_fit.anchor - change, columns, rounds=QUICK_REWEIGHTINGS)
         scores.append(linear.evidence - 0.5 * z @ z)
         starts.append(np.concatenate([linear.coefficients[: null_fit.z.size], z]))
     order = np.argsort(scores)[::-1]
@@ -133,10 +129,10 @@ def fit_single(problem: Problem, null_fit: Fit, draws: PriorDraws) -> Fit:
     for i in order[1:]:
         if scores[i] < scores[order[0]] - START_WITHIN or len(chosen) == STARTS:
             break
-        if all(np.max(np.abs(draws.z[i] - draws.z[k])) > APART for k in chosen):
+        if all(np.max(np.abs(draws.z[i] - draws.z[k])) > STARTS_APART for k in chosen):
             chosen.append(i)
     tries = [starts[i] for i in chosen]
-    if null_fit.z @ null_fit.z > STRAINED:
+    if null_fit.z @ null_fit.z > STRAINED_CALIBRATION:
         tries.append(np.concatenate([np.zeros(null_fit.z.size), draws.z[order[0]]]))
     alone = Explanation.of(draws.id)
     found = map_fits(problem, alone, tries)

@@ -9,24 +9,31 @@ import numpy as np
 
 from mixedlub.case.forward import Run
 from mixedlub.diagnosis.explanation import Explanation
-from mixedlub.diagnosis.problem import MOST_COORDINATE, Problem
+from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.settings.inference import (
+    DAMPING_FALL,
+    DAMPING_RETRY,
+    DAMPING_RISE,
+    DAMPING_START,
+    DAMPING_TRIALS,
+    EVIDENCE_BOUND_FACTOR,
+    FIT_TOLERANCE,
+    GAUSS_NEWTON_STEPS,
+    HUBER_BOUND,
+    LEAST_DAMPING,
+    LONGEST_STEP,
+    MAD_TO_SD,
+    MOST_COORDINATE,
+    OUTLIER_SHARE,
+    OUTLIER_WIDTH,
+    PREFIT_TOLERANCE,
+    REWEIGHTINGS,
+    SAME_FIT_WITHIN,
+    STEP_LENGTHS,
+    STEPS_BEFORE_GIVING_UP,
+    WEIGHTS_CONVERGED,
+)
 
-OUTLIER_SHARE = 0.01
-"""Prior fraction of outliers, 1 %; judgement."""
-OUTLIER_WIDTH = 10.0
-"""Half-width of the outlier distribution in standard deviations; judgement: clearly wider than noise."""
-HUBER_BOUND = 5.0
-"""Bound of the Huber loss in a robust prefit, over the median residual; judgement."""
-SAME_WITHIN = 0.1
-"""Prior standard deviations within which two fits have the same result."""
-BOUND_FACTOR = 2.0
-"""Gain that a fit may still make, over that of its linearisation; judgement."""
-PATIENCE = 3
-"""Steps before a fit may be given up; judgement."""
-STEP_LENGTHS = (1.0, 0.5, 0.25, 0.1, 0.0)
-"""Step lengths of a damped update that are tried."""
-NINETY = 1.6449
-"""Half-width of a 90 % interval in standard deviations."""
 _LOG_IN = np.log1p(-OUTLIER_SHARE)
 _LOG_OUT = np.log(OUTLIER_SHARE / OUTLIER_WIDTH * np.sqrt(2.0 / np.pi))
 
@@ -109,7 +116,9 @@ class Linear:
     weight: np.ndarray
 
 
-def linear_fit(target: np.ndarray, columns: np.ndarray, weight: np.ndarray | None = None, rounds: int = 30) -> Linear:
+def linear_fit(
+    target: np.ndarray, columns: np.ndarray, weight: np.ndarray | None = None, rounds: int = REWEIGHTINGS
+) -> Linear:
     """Coefficients with standard-normal priors of ``target ~ columns``, outliers weighted down as they show."""
     coefficients = np.zeros(columns.shape[1])
     w = np.ones(target.size) if weight is None else weight
@@ -120,7 +129,7 @@ def linear_fit(target: np.ndarray, columns: np.ndarray, weight: np.ndarray | Non
         found = np.linalg.solve(curvature, scaled.T @ target)
         residual = target - columns @ found
         value, new = log_likelihood(residual)
-        done = np.max(np.abs(new - w)) < 1e-3
+        done = np.max(np.abs(new - w)) < WEIGHTS_CONVERGED
         coefficients, w = found, new
         if done:
             break
@@ -172,7 +181,7 @@ def map_fits(problem: Problem, explanation: Explanation, starts: Sequence[np.nda
     places: list[np.ndarray] = []
     for start in starts:
         state = _robust_prefit(problem, explanation, _initial_state(problem, explanation, start))
-        if all(np.max(np.abs(state.z - z)) > SAME_WITHIN for z in places):
+        if all(np.max(np.abs(state.z - z)) > SAME_FIT_WITHIN for z in places):
             places.append(state.z)
             found.append(_laplace_fit(problem, explanation, state))
     return found
@@ -188,12 +197,12 @@ def _initial_state(problem: Problem, explanation: Explanation, start: np.ndarray
 def _robust_prefit(problem: Problem, explanation: Explanation, state: _State) -> _State:
     """Huber prefit from a distant start."""
     first = bounded((problem.y - state.run.prediction) / problem.sd)
-    return _gauss_newton(problem, explanation, state, first, tolerance=0.5)
+    return _gauss_newton(problem, explanation, state, first, tolerance=PREFIT_TOLERANCE)
 
 
 def _laplace_fit(problem: Problem, explanation: Explanation, state: _State, least: float = -np.inf) -> Fit:
     """Most probable coordinates, and Laplace's evidence there."""
-    state = _gauss_newton(problem, explanation, state, log_likelihood, tolerance=2e-3, least=least)
+    state = _gauss_newton(problem, explanation, state, log_likelihood, tolerance=FIT_TOLERANCE, least=least)
     columns = np.hstack([state.slopes, problem.shared])
     curvature = np.eye(columns.shape[1]) + columns.T @ (columns * state.weight[:, None])
     evidence = -state.cost - 0.5 * float(np.linalg.slogdet(curvature)[1])
@@ -244,7 +253,7 @@ def bounded(start: np.ndarray) -> Likelihood:
     >>> density.tolist(), weight.tolist()
     ([-2.0, -187.5], [1.0, 0.125])
     """
-    typical = 1.4826 * float(np.median(np.abs(start))) if np.isfinite(start).all() else np.inf
+    typical = MAD_TO_SD * float(np.median(np.abs(start))) if np.isfinite(start).all() else np.inf
     bound = HUBER_BOUND * max(typical, 1.0)
 
     def likelihood(residual: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -285,31 +294,31 @@ def _gauss_newton(
     """Damped Gauss-Newton steps until the gain is below the tolerance, or the least evidence is out of reach."""
     z, shared, run, slopes = state.z, state.shared, state.run, state.slopes
     cost, weight = _cost(problem, run.prediction, z, shared, likelihood)
-    damping = 1e-2
-    for step_number in range(20):
+    damping = DAMPING_START
+    for step_number in range(GAUSS_NEWTON_STEPS):
         columns = np.hstack([slopes, problem.shared])
         scaled = columns * weight[:, None]
         curvature = np.eye(columns.shape[1]) + columns.T @ scaled
         residual = (problem.y - run.prediction) / problem.sd - problem.shared @ shared
         slope = scaled.T @ residual - np.concatenate([z, shared])
         _project_active_bounds(curvature, slope, z)
-        if step_number >= PATIENCE and _evidence_bound(cost, slope, curvature) < least:
+        if step_number >= STEPS_BEFORE_GIVING_UP and _evidence_bound(cost, slope, curvature) < least:
             break
-        for _ in range(8):
+        for _ in range(DAMPING_TRIALS):
             step = np.linalg.solve(curvature + damping * np.diag(np.diag(curvature)), slope)
-            step *= min(1.0, 2.0 / max(np.max(np.abs(step[: z.size]), initial=0.0), 1e-12))
+            step *= min(1.0, LONGEST_STEP / max(np.max(np.abs(step[: z.size]), initial=0.0), 1e-12))
             moved = np.clip(z + step[: z.size], -MOST_COORDINATE, MOST_COORDINATE)
             moved_shared = shared + step[z.size :]
             tried = problem.run(explanation, moved, run)
             new_cost, new_weight = _cost(problem, tried.prediction, moved, moved_shared, likelihood)
             if np.isfinite(new_cost) and new_cost <= cost:
                 break
-            damping = max(damping * 6.0, 1e-3)
+            damping = max(damping * DAMPING_RISE, DAMPING_RETRY)
         else:
             break
         gain = cost - new_cost
         z, shared, run, cost, weight = moved, moved_shared, tried, new_cost, new_weight
-        damping = max(damping / 5.0, 1e-9)
+        damping = max(damping / DAMPING_FALL, LEAST_DAMPING)
         slopes = problem.jacobian(explanation, z, run)
         if gain < tolerance:
             break
@@ -317,9 +326,9 @@ def _gauss_newton(
 
 
 def _evidence_bound(cost: float, slope: np.ndarray, curvature: np.ndarray) -> float:
-    """Bound on the log evidence of a fit: BOUND_FACTOR times the gain predicted by the linearised laws."""
+    """Bound on the log evidence of a fit: EVIDENCE_BOUND_FACTOR times the gain predicted by the linearised laws."""
     gain = 0.5 * float(slope @ np.linalg.solve(curvature, slope))
-    return BOUND_FACTOR * gain - cost - 0.5 * float(np.linalg.slogdet(curvature)[1])
+    return EVIDENCE_BOUND_FACTOR * gain - cost - 0.5 * float(np.linalg.slogdet(curvature)[1])
 
 
 def _project_active_bounds(curvature: np.ndarray, slope: np.ndarray, z: np.ndarray) -> None:

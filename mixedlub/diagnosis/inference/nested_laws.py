@@ -10,13 +10,7 @@ import numpy as np
 from mixedlub.diagnosis.inference.change_points import integrate_change_points
 from mixedlub.diagnosis.inference.map_fit import Fit, map_fit
 from mixedlub.diagnosis.problem import Problem
-
-SPIKE = 0.5
-"""Prior probability of exactly the published laws of an effect: principle of indifference."""
-OUTLIER_WEIGHT = 0.5
-"""Precision weight below which a reading is treated as an outlier."""
-HOPELESS = 15.0
-"""Log odds against a law from which it adds nothing: 3e-7."""
+from mixedlub.diagnosis.settings.inference import HOPELESS_LAW, OUTLIER_WEIGHT, SPIKE
 
 
 def published_odds(problem: Problem, free: Fit, worst: float = np.inf) -> Iterator[tuple[str, str, float]]:
@@ -52,7 +46,7 @@ def published_gain(problem: Problem, free: Fit) -> float:
     A published law must not be lost to free parameters that the readings do not need.
     """
     odds: dict[str, list[float]] = {}
-    for name, _, log_odds in published_odds(problem, free, HOPELESS):
+    for name, _, log_odds in published_odds(problem, free, HOPELESS_LAW):
         odds.setdefault(name, []).append(log_odds)
     return sum(
         float(np.logaddexp(np.log1p(-SPIKE), np.log(SPIKE / len(logs)) + np.logaddexp.reduce(logs)))

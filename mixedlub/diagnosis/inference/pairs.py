@@ -11,19 +11,7 @@ from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.inference.initial_guesses import PriorDraws
 from mixedlub.diagnosis.inference.map_fit import Fit, bounded, covariance, whitening
 from mixedlub.diagnosis.problem import Problem
-
-LEADERS = 8
-"""Best single effects with which pairs are formed; other pairs are found from their draws. A limit on cost."""
-PAIRS = 30
-"""Pairs that are fitted, by the weights of the single fits: a limit on cost."""
-BOUNDED_PAIRS = 8
-"""Further pairs, by bounded weights that take no reading for an outlier: a limit on cost."""
-JOINT_PAIRS = 10
-"""Further pairs, by joint draws of both effects: a limit on cost."""
-EXCHANGED = 6
-"""Pairs that are tried in one exchange of an effect of the best pair: a limit on cost."""
-ROUNDS = 3
-"""Exchanges at most: a limit on cost."""
+from mixedlub.diagnosis.settings.inference import BOUNDED_PAIRS, EXCHANGED_PAIRS, JOINT_PAIRS, PAIR_LEADERS, PAIRS
 
 
 def promising_pairs(
@@ -35,7 +23,7 @@ def promising_pairs(
     with bounded weights instead. Its fit may also be far from that of the pair, so others are ranked by joint draws.
     """
     found: dict[Explanation, np.ndarray] = {}
-    leaders = sorted(singles.values(), key=lambda f: -f.evidence)[:LEADERS]
+    leaders = sorted(singles.values(), key=lambda f: -f.evidence)[:PAIR_LEADERS]
     for write_off, most in ((True, PAIRS), (False, BOUNDED_PAIRS)):
         weight = [f.weight if write_off else bounded(f.residual)(f.residual)[1] for f in leaders]
         ranked = _ranked(_added_to(problem, leaders, weight, draws, write_off))
@@ -55,7 +43,7 @@ def exchanged(problem: Problem, best: Fit, draws: tuple[PriorDraws, ...]) -> lis
     kept = [best.at(problem, alone, z) for alone, z in zip((first, second), parts, strict=True)]
     others = tuple(s for s in draws if s.id not in best.explanation.effects)
     ranked = _ranked(_added_to(problem, kept, [best.weight] * len(kept), others, False))
-    return ranked[:EXCHANGED]
+    return ranked[:EXCHANGED_PAIRS]
 
 
 def _ranked(scores: dict[Explanation, tuple[float, np.ndarray]]) -> list[tuple[Explanation, np.ndarray]]:

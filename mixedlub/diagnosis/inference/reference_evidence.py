@@ -12,9 +12,14 @@ import numpy as np
 from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.inference.map_fit import Fit, covariance, log_likelihood
 from mixedlub.diagnosis.problem import Problem
+from mixedlub.diagnosis.settings.inference import (
+    PROPOSAL_FREEDOM,
+    REFERENCE_DRAWS,
+    REFERENCE_POINTS,
+    REFERENCE_TOLERANCE,
+    SEED,
+)
 from profiles.errors import InputError
-
-FREEDOM = 6.0
 
 
 @dataclass(frozen=True)
@@ -26,21 +31,21 @@ class Evidence:
     effective_share: float
 
 
-def importance_evidence(problem: Problem, fit: Fit, draws: int = 2000, seed: int = 1) -> Evidence:
+def importance_evidence(problem: Problem, fit: Fit, draws: int = REFERENCE_DRAWS, seed: int = SEED) -> Evidence:
     """Evidence by importance sampling from a Student law (6 degrees) laid over the fit."""
     rng = np.random.default_rng(seed)
     root = np.linalg.cholesky(covariance(fit.slopes, fit.weight))
     size = fit.z.size
     normal = rng.standard_normal((draws, size))
-    stretch = np.sqrt(FREEDOM / rng.chisquare(FREEDOM, draws))
+    stretch = np.sqrt(PROPOSAL_FREEDOM / rng.chisquare(PROPOSAL_FREEDOM, draws))
     z = fit.z + (normal * stretch[:, None]) @ root.T
     distance = np.einsum("ij,ij->i", normal, normal) * stretch**2
     log_proposal = (
-        _log_gamma(0.5 * (FREEDOM + size))
-        - _log_gamma(0.5 * FREEDOM)
-        - 0.5 * size * np.log(FREEDOM * np.pi)
+        _log_gamma(0.5 * (PROPOSAL_FREEDOM + size))
+        - _log_gamma(0.5 * PROPOSAL_FREEDOM)
+        - 0.5 * size * np.log(PROPOSAL_FREEDOM * np.pi)
         - np.log(np.diag(root)).sum()
-        - 0.5 * (FREEDOM + size) * np.log1p(distance / FREEDOM)
+        - 0.5 * (PROPOSAL_FREEDOM + size) * np.log1p(distance / PROPOSAL_FREEDOM)
     )
     log_prior = -0.5 * np.einsum("ij,ij->i", z, z) - 0.5 * size * np.log(2.0 * np.pi)
     likelihood = np.array([_log_likelihood(problem, fit.explanation, row) for row in z])
@@ -53,7 +58,9 @@ def importance_evidence(problem: Problem, fit: Fit, draws: int = 2000, seed: int
     return Evidence(float(top + np.log(mean)), error, effective / draws)
 
 
-def nested_evidence(problem: Problem, explanation: Explanation, points: int = 300, seed: int = 1) -> Evidence:
+def nested_evidence(
+    problem: Problem, explanation: Explanation, points: int = REFERENCE_POINTS, seed: int = 1
+) -> Evidence:
     """Evidence by nested sampling over the prior (needs the extra ``bayes``)."""
     try:
         import dynesty
@@ -70,7 +77,7 @@ def nested_evidence(problem: Problem, explanation: Explanation, points: int = 30
         bootstrap=0,
         rstate=np.random.default_rng(seed),
     )
-    sampler.run_nested(print_progress=False, dlogz=0.1)
+    sampler.run_nested(print_progress=False, dlogz=REFERENCE_TOLERANCE)
     result = sampler.results
     return Evidence(float(result.logz[-1]), float(result.logzerr[-1]), float("nan"))
 

@@ -14,6 +14,7 @@ from mixedlub.diagnosis.explanation import DISCREPANCY
 from mixedlub.diagnosis.report.text import words
 from mixedlub.diagnosis.report.text.answer import as_json, predictions
 from mixedlub.diagnosis.search.search import Progress
+from mixedlub.diagnosis.settings.assessment import FALSE_ALARM_RATE
 
 XML = '<?xml version="1.0" encoding="utf-8" standalone="no"?>\n'
 
@@ -23,7 +24,7 @@ def diagnose(
     out: Path,
     predict: Path | None = None,
     exclude: Sequence[str] = (),
-    level: float = 0.01,
+    level: float = FALSE_ALARM_RATE,
     progress: Progress = lambda text: None,
 ) -> Diagnosis:
     """Work out what the simulation of a case lacks and write the answer into ``out``.

@@ -5,14 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.diagnosis.search.search import Search
+from mixedlub.diagnosis.settings.inference import CLIPPED_AT, SIGNIFICANT
+from mixedlub.diagnosis.settings.search import DRIFT_HALF_WAVES, LEAST_BATCHES
 from mixedlub.recording.conditions import SERIES, clock_of
-
-LEAST_BATCHES = 16
-"""Batches from which the variance of their sums is estimated: its own standard error is then 35 %."""
-DRIFT_HALF_WAVES = 2
-"""Half waves over a recording that count as drift and are removed; judgement."""
-CLIPPED_AT = 3.0
-"""Standard deviations at which a residual is clipped, so that single outliers are not taken for autocorrelation."""
 
 
 def variance_inflation(search: Search) -> float:
@@ -77,7 +72,7 @@ def batch_means_inflation(left: np.ndarray, clock: np.ndarray) -> float:
     while (count := ordered.size // length) >= LEAST_BATCHES:
         sums = ordered[: count * length].reshape(count, length).sum(axis=1)
         times = float(np.mean(sums**2)) / length
-        if times > 1.0 + 2.0 * np.sqrt(2.0 / count):
+        if times > 1.0 + SIGNIFICANT * np.sqrt(2.0 / count):
             most = max(most, times)
         length *= 2
     return most

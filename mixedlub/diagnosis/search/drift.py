@@ -11,27 +11,21 @@ from mixedlub.diagnosis.discrepancy.waves import TURNED
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING
 from mixedlub.diagnosis.inference.map_fit import linear_fit
 from mixedlub.diagnosis.problem import Problem
-from mixedlub.diagnosis.search.noise_inflation import ROUNDS, NoiseInflation, scaled
+from mixedlub.diagnosis.search.noise_inflation import NoiseInflation, scaled
 from mixedlub.diagnosis.search.search import Search
+from mixedlub.diagnosis.settings.inference import CLIPPED_AT, MAD_TO_SD, SIGNIFICANT
+from mixedlub.diagnosis.settings.search import (
+    CORRELATION_SHARES,
+    DRIFT_CANDIDATES,
+    DRIFT_GAIN,
+    DRIFT_READINGS,
+    ERROR_SIZES,
+    INFLATION_ROUNDS,
+    MOST_UNDER_NULL,
+    WHITE_SHARES,
+)
 from mixedlub.recording.conditions import clock_of
 from mixedlub.recording.correlated_error import CorrelatedError
-
-LEAST_READINGS = 40
-"""Readings from which a correlated error is looked for; judgement."""
-CORRELATION_SHARES = (0.02, 0.04, 0.08)
-"""Correlation times tried, as shares of the record; a longer one is a change of the surfaces, not noise. Judgement."""
-ERROR_SIZES = (0.5, 1.0, 2.0, 4.0)
-"""Standard deviations of the correlated error tried, over that of a single reading: a grid by factors of two."""
-WHITE_SHARES = (0.7, 0.5, 0.35)
-"""Shares of the noise tried for single readings, where the rest is correlated: a grid."""
-CANDIDATES = 6
-"""Most probable effects for which it is fitted, besides nothing missing and the discrepancy: a limit on cost."""
-MOST_UNDER_NULL = 2.0
-"""Largest correlated error if nothing is missing, over the scatter between neighbours; more is physics. Judgement."""
-CLEAR_GAIN = 12.0
-"""Gain in log probability from which a correlated error or a missing effect is accepted, as the best of many."""
-SIGNIFICANT = 2.0
-"""Standard errors of the lag-1 autocorrelation from which a correlated error is looked for."""
 
 
 def search_correlated_error(
@@ -42,7 +36,7 @@ def search_correlated_error(
     ``inflation`` is that of the stated noise so far, ``most`` the largest that repeats allow. ``trial`` searches for a
     case and a correlated error. If nothing may be missing, the error is no larger than the scatter between neighbours.
     """
-    for _ in range(ROUNDS):
+    for _ in range(INFLATION_ROUNDS):
         correlated_error, times = estimate_correlated_error(search, 1.0 / inflation.factor)
         if (
             correlated_error == search.problem.correlated_error
@@ -50,7 +44,7 @@ def search_correlated_error(
         ):
             break
         again = trial(scaled(search.problem.case, times), correlated_error=correlated_error)
-        missing = max(again.log_weights.values()) > again.log_weights[NOTHING] + CLEAR_GAIN
+        missing = max(again.log_weights.values()) > again.log_weights[NOTHING] + DRIFT_GAIN
         if not missing and correlated_error.size * times > _farthest(search):
             break
         search, inflation = again, replace(inflation, factor=inflation.factor * times)
@@ -66,12 +60,12 @@ def estimate_correlated_error(whole: Search, least: float) -> tuple[CorrelatedEr
     """
     now, found = whole.problem.correlated_error, whole.full_screen
     record, clock = clock_of(whole.problem.rows, ties=True), clock_of(found.problem.rows, ties=True)
-    if record is None or clock is None or clock.size < LEAST_READINGS or TURNED in whole.problem.rows:
+    if record is None or clock is None or clock.size < DRIFT_READINGS or TURNED in whole.problem.rows:
         return now, 1.0
     forms = [CorrelatedError.over(record, size, length) for length in CORRELATION_SHARES for size in ERROR_SIZES]
     weights, null_fit, discrepancy = found.log_weights, found.null_fit, found.discrepancy
-    most, best = max(weights.values()) + CLEAR_GAIN, (now, 1.0)
-    named = sorted((m for m in found.fits if m.effects), key=weights.__getitem__)[-CANDIDATES:]
+    most, best = max(weights.values()) + DRIFT_GAIN, (now, 1.0)
+    named = sorted((m for m in found.fits if m.effects), key=weights.__getitem__)[-DRIFT_CANDIDATES:]
     own = discrepancy.best.columns(found.space, found.values, discrepancy.scalings)
     order = np.argsort(clock, kind="stable")
     farthest = _farthest(found)
@@ -119,7 +113,7 @@ def successive_difference_sd(left: np.ndarray) -> float:
     >>> bool(0.9 < successive_difference_sd(noise + np.linspace(0.0, 50.0, 1000)) < 1.1)
     True
     """
-    return float(np.median(np.abs(np.diff(left)))) * 1.4826 / np.sqrt(2.0)
+    return float(np.median(np.abs(np.diff(left)))) * MAD_TO_SD / np.sqrt(2.0)
 
 
 def is_autocorrelated(left: np.ndarray) -> bool:
@@ -129,7 +123,7 @@ def is_autocorrelated(left: np.ndarray) -> bool:
     >>> is_autocorrelated(noise), is_autocorrelated(np.repeat(noise, 3))
     (False, True)
     """
-    centred = np.clip(left - np.median(left), -3.0, 3.0)
+    centred = np.clip(left - np.median(left), -CLIPPED_AT, CLIPPED_AT)
     square = float(centred @ centred)
     return bool(float(centred[1:] @ centred[:-1]) * np.sqrt(left.size) > SIGNIFICANT * square)
 

@@ -11,39 +11,24 @@ import numpy as np
 from mixedlub.case.folder import Case
 from mixedlub.diagnosis.inference.map_fit import log_likelihood
 from mixedlub.diagnosis.search.search import Search
+from mixedlub.diagnosis.settings.search import (
+    BOUND_LEVEL,
+    ESTIMATE_FACTORS,
+    EXTRA_SHARES,
+    FIRST_SHARE,
+    INFLATION_FACTORS,
+    INFLATION_GAIN,
+    INFLATION_ROUNDS,
+    LEAST_FREEDOM,
+    MIXTURE_FACTORS,
+    NOISE_CONVERGED,
+    NOISE_ITERATIONS,
+    OVERSTATED_VARIANCE,
+    SHARE_GAIN,
+)
 from mixedlub.recording.noise import MIXTURE_GAIN, PARTS, medians, pooled_sd, with_noise
 from mixedlub.recording.readings import readings_of, rows_of
 from mixedlub.schema.table import Table
-
-FACTORS = np.array([1.1, 1.25, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 4.0, 6.0, 10.0])
-"""Inflation factors of the stated noise that are tried: a grid."""
-EXTRA_SHARES = np.array([0.003, 0.006, 0.01, 0.015, 0.02, 0.03, 0.05])
-"""Extra relative noise tried where a column of standard deviations may be repeatability only: a grid."""
-FIRST_SHARE = 2
-"""Index of the share that is tried first: 1 %, as of a rig in good order."""
-SHARE_GAIN = 4.0
-"""Gain in log probability from which extra noise is accepted; judgement.
-
-It is less than CLEAR_GAIN, because a column of standard deviations is weaker evidence than a stated noise.
-"""
-MIXTURE_FACTORS = np.geomspace(0.3, 3.0, 13)
-"""Factors on an estimated noise that are tried with another mixture of its parts: a grid."""
-CLEAR_GAIN = 8.0
-"""Gain in log probability from which stated noise is inflated; measured: under pure noise the gain stays below 3."""
-ROUNDS = 4
-"""Most steps of inflation, as fits under too little noise follow it and one step seldom suffices: a limit on cost."""
-MOST_INFLATION = 4.0
-"""Largest inflation of stated noise that is still noise; more scatter is an unexplained discrepancy. Judgement."""
-BOUND_LEVEL = 1e-3
-"""Significance level at which the scatter of repeats bounds the noise; convention."""
-FACTORS_OF_ESTIMATE = np.geomspace(0.25, 2.0, 31)
-"""Factors on an estimated noise that are tried: a grid."""
-CONVERGED = 0.1
-"""Change of the logarithm of an estimated noise below which its iteration has converged: 10 % of the noise."""
-MOST_ITERATIONS = 5
-"""Iterations of an estimated noise at most: a limit on cost."""
-LEAST_FREEDOM = 10
-"""Degrees of freedom from which the scatter of residuals is known well enough to judge the noise: within 22 %."""
 
 
 class Trial(Protocol):
@@ -78,7 +63,7 @@ def search_stated_noise(case: Case, trial: Trial, most: float) -> tuple[Search, 
     found, inflation = trial(case), NoiseInflation()
     if f"{case.quantity}_sd" in rows_of(case) and np.isinf(most):
         found, inflation = _with_share(case, trial, found)
-    for needed in (CLEAR_GAIN, *[0.0] * (ROUNDS - 1)):
+    for needed in (INFLATION_GAIN, *[0.0] * (INFLATION_ROUNDS - 1)):
         gain, factor = best_inflation(found)
         if gain <= needed or inflation.factor * factor > most:
             break
@@ -139,8 +124,8 @@ def repeats_allow(y: np.ndarray, sd: np.ndarray, group: np.ndarray) -> float:
 
 def best_inflation(search: Search) -> tuple[float, float]:
     """Gain in log probability of the best explanation by noise inflation, and the factor."""
-    gain, best = _under_other_noise(search, FACTORS[:, None])
-    return gain, float(FACTORS[best])
+    gain, best = _under_other_noise(search, INFLATION_FACTORS[:, None])
+    return gain, float(INFLATION_FACTORS[best])
 
 
 def _under_other_noise(search: Search, times: np.ndarray) -> tuple[float, int]:
@@ -191,11 +176,11 @@ def _fitting(case: Case, trial: Trial) -> Search:
     the noise; the estimate from a smooth fit is not too low.
     """
     found = trial(case)
-    for _ in range(MOST_ITERATIONS):
-        _, best = _under_other_noise(found, FACTORS_OF_ESTIMATE[:, None])
-        asked = float(FACTORS_OF_ESTIMATE[best])
+    for _ in range(NOISE_ITERATIONS):
+        _, best = _under_other_noise(found, ESTIMATE_FACTORS[:, None])
+        asked = float(ESTIMATE_FACTORS[best])
         for step in (asked, np.sqrt(asked)):
-            if abs(np.log(step)) < CONVERGED:
+            if abs(np.log(step)) < NOISE_CONVERGED:
                 return found
             again = trial(scaled(found.problem.case, float(step)))
             if again.log_probability > found.log_probability:
@@ -221,8 +206,8 @@ def noise_inflation(residual: np.ndarray) -> tuple[float, float]:
     >>> bool(noise_inflation(np.random.default_rng(1).standard_normal(100))[0] < 1.0)
     True
     """
-    gains = _gains(residual, FACTORS[:, None])
-    return float(gains.max()), float(FACTORS[int(np.argmax(gains))])
+    gains = _gains(residual, INFLATION_FACTORS[:, None])
+    return float(gains.max()), float(INFLATION_FACTORS[int(np.argmax(gains))])
 
 
 def _gains(residual: np.ndarray, times: np.ndarray) -> np.ndarray:
@@ -238,7 +223,7 @@ def noise_overstated(search: Search) -> bool:
     """
     spare = search.null_fit.residual.size - search.null_fit.z.size
     left = search.problem.single_reading_units(search.null_fit.residual)
-    return spare >= LEAST_FREEDOM and float(left @ left) < 0.25 * spare
+    return spare >= LEAST_FREEDOM and float(left @ left) < OVERSTATED_VARIANCE * spare
 
 
 def scaled(case: Case, factor: float) -> Case:

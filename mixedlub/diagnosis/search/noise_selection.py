@@ -20,7 +20,8 @@ from mixedlub.diagnosis.search.noise_inflation import (
     search_null_noise,
     search_stated_noise,
 )
-from mixedlub.diagnosis.search.search import MANY, Progress, Search, reweighed, search, spread_rows
+from mixedlub.diagnosis.search.search import Progress, Search, reweighed, search, spread_rows
+from mixedlub.diagnosis.settings.search import MANY
 from mixedlub.recording.conditions import SERIES, coordinates
 from mixedlub.recording.correlated_error import UNCORRELATED, CorrelatedError
 from mixedlub.recording.noise import estimated, is_stated, repeated

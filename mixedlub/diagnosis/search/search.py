@@ -12,44 +12,36 @@ from mixedlub.diagnosis.discrepancy.model import Discrepancy, fit_discrepancy
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.change_points import integrate_change_points
 from mixedlub.diagnosis.inference.initial_guesses import PriorDraws, fit_single, sample
-from mixedlub.diagnosis.inference.map_fit import OUTLIER_SHARE, Fit, Linear, linear_fit, log_likelihood, map_fit
+from mixedlub.diagnosis.inference.map_fit import Fit, Linear, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.inference.nested_laws import published_gain
-from mixedlub.diagnosis.inference.pairs import ROUNDS, exchanged, promising_pairs
+from mixedlub.diagnosis.inference.pairs import exchanged, promising_pairs
 from mixedlub.diagnosis.problem import Problem, effects_of
+from mixedlub.diagnosis.settings.inference import EXCHANGE_ROUNDS, OUTLIER_SHARE, SEED, STRONG_EVIDENCE
+from mixedlub.diagnosis.settings.search import (
+    AFFECTED,
+    FORM_ERROR_FUNCTIONS,
+    FORM_ERROR_GAIN_CAP,
+    FORM_ERROR_GAIN_FLOOR,
+    FORM_ERROR_GAIN_SHARE,
+    FORM_ERROR_LEAST,
+    FORM_ERROR_LENGTH,
+    FORM_ERROR_PRODUCTS,
+    FORM_ERRORS,
+    FULL_PAIR_PRIOR,
+    HOPELESS_BEHIND,
+    LEAST_NOTHING_ODDS,
+    MANY,
+    PRIOR,
+    PUBLISHED_WITHIN,
+    REFITTED_ON_ALL,
+    SIGNED_FORM_ERROR_FUNCTIONS,
+    SIGNED_FORM_ERROR_LENGTH,
+    SUBSET,
+)
 from mixedlub.recording.conditions import Coordinates
 
-PRIOR = {"nothing": 0.42, "single": 0.38, "pair": 0.08, "discrepancy": 0.12}
-"""Prior probabilities before any reading; judgement: nothing missing is as probable as one effect, two are rare."""
-LEAST_NOTHING_ODDS = 14.0
-"""Least prior odds of nothing over each single effect; judgement.
-
-An effect that readings neither need nor exclude then does not tie with nothing missing.
-"""
-FULL_PAIR_PRIOR = 25
-"""Number of effects from which pairs have their whole prior; among fewer it is in proportion. Judgement."""
-REFITTED_ON_ALL = 8
-"""Most probable explanations of a subset that are fitted again to all readings: a limit on cost."""
 CLOCKS = {"time", "sequence", "ageing"}
 """Quantities that change by themselves while a test runs."""
-AFFECTED = 0.1
-"""Share of the largest change by an explanation from which a reading counts as affected; judgement."""
-PUBLISHED_WITHIN = 12.0
-"""Log evidence behind the best within which published laws of an explanation are weighed: a limit on cost."""
-HOPELESS_BEHIND = 60.0
-"""Log evidence behind the best from which a fit is not repeated under a new noise: a limit on cost."""
-MANY = 1200
-"""Readings beyond which explanations are searched on a subset: a limit on cost."""
-SUBSET = 600
-"""Readings of that subset."""
-SEED = 1
-FORM_ERRORS = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
-"""Relative rms error of an effect's published form, and its prior probability; judgement from the spread of forms."""
-FORM_ERROR_GAIN_SHARE = 0.01
-"""Most that an error of form may add to the log evidence, over the squares of an effect: the cost of 14 % error."""
-FORM_ERROR_GAIN_FLOOR = 4.0
-"""Least bound on that gain; judgement: a small effect may be wrong in form as well."""
-FORM_ERROR_GAIN_CAP = 30.0
-"""Largest bound on that gain; judgement: beyond it another effect is missing, not another form of this one."""
 
 Progress = Callable[[str], None]
 
@@ -216,7 +208,7 @@ def _search(
     singles: dict[Explanation, Fit] = {Explanation.of(s.id): fit_single(problem, null_fit, s) for s in draws}
     if singles:
         best = max(singles.values(), key=lambda f: f.evidence)
-        if best.evidence > null_fit.evidence + 3.0:
+        if best.evidence > null_fit.evidence + STRONG_EVIDENCE:
             old = problem.sd
             problem = problem.with_sd(best.prediction, null_fit.prediction)
             null_fit = map_fit(problem, NOTHING, null_fit.z)
@@ -254,7 +246,7 @@ def _scores(
 
 def _exchange(problem: Problem, null_fit: Fit, fits: dict[Explanation, Fit], draws: tuple[PriorDraws, ...]) -> None:
     """Exchange either effect of the best pair for others, until no pair is better; adds to the fits."""
-    for _ in range(ROUNDS):
+    for _ in range(EXCHANGE_ROUNDS):
         best = max((f for m, f in fits.items() if len(m.effects) == 2), key=lambda f: f.evidence, default=None)
         if best is None:
             return
@@ -347,12 +339,17 @@ def form_error_columns(net: np.ndarray, typical: float, space: Coordinates, valu
     Where the change is small, a third of its ``typical`` size replaces it: another form need not vanish there.
     """
     smooth = [
-        axis.functions(v, 0.35)[:, :8] if axis.symmetric_log else axis.functions(v, 0.7)[:, :4]
+        axis.functions(v, SIGNED_FORM_ERROR_LENGTH)[:, :SIGNED_FORM_ERROR_FUNCTIONS]
+        if axis.symmetric_log
+        else axis.functions(v, FORM_ERROR_LENGTH)[:, :FORM_ERROR_FUNCTIONS]
         for axis, v in zip(space.axes, values, strict=True)
         if not axis.named and axis.name != "sequence"
     ]
     if not smooth:
         return np.zeros((net.size, 0))
-    pairs = [(a[:, :3, None] * b[:, None, :3]).reshape(a.shape[0], -1) for a, b in combinations(smooth, 2)]
+    pairs = [
+        (a[:, :FORM_ERROR_PRODUCTS, None] * b[:, None, :FORM_ERROR_PRODUCTS]).reshape(a.shape[0], -1)
+        for a, b in combinations(smooth, 2)
+    ]
     functions = np.hstack(smooth + pairs) / np.sqrt(len(smooth) + len(pairs))
-    return np.hypot(net, 0.3 * typical)[:, None] * functions
+    return np.hypot(net, FORM_ERROR_LEAST * typical)[:, None] * functions

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mixedlub.diagnosis.assessment.posterior import TIE
 from mixedlub.diagnosis.assessment.power_law import DescribedDiscrepancy
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
@@ -16,6 +15,8 @@ from mixedlub.diagnosis.report.figures import maps
 from mixedlub.diagnosis.report.figures.style import AFTER, BEFORE, FAULT, GRID, INK, MUTED, SERIES, UNNAMED, blank
 from mixedlub.diagnosis.report.text.headline import chance
 from mixedlub.diagnosis.report.text.words import distinguishable
+from mixedlub.diagnosis.settings.assessment import TIE
+from mixedlub.diagnosis.settings.report import USELESS_TEST
 from mixedlub.schema.units import unit_of
 
 if TYPE_CHECKING:
@@ -163,7 +164,7 @@ def empirical_form(d: Diagnosis, extra: DescribedDiscrepancy) -> Figure | None:
 
 def next_test(d: Diagnosis) -> Figure | None:
     """The recommended tests among the recorded conditions, and the information expected from each."""
-    tests = [t for t in d.next_tests if t.expected_bits >= 0.01]
+    tests = [t for t in d.next_tests if t.expected_bits >= USELESS_TEST]
     frame = maps.frame_of(d)
     if not tests or not frame.across or not frame.up:
         return None

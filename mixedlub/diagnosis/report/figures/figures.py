@@ -28,6 +28,7 @@ from mixedlub.diagnosis.report.figures.style import (
     look,
     wide,
 )
+from mixedlub.diagnosis.settings.inference import LIKELY
 from mixedlub.schema.units import unit_of
 
 if TYPE_CHECKING:
@@ -65,14 +66,14 @@ def _shown(d: Diagnosis) -> np.ndarray:
     """Rows that are drawn: all, or an even selection of very many; outliers always."""
     count = d.readings.size
     rows = np.unique(np.linspace(0, count - 1, min(count, MOST_POINTS)).astype(int))
-    return np.union1d(rows, np.flatnonzero(d.outlier_chance > 0.5))
+    return np.union1d(rows, np.flatnonzero(d.outlier_chance > LIKELY))
 
 
 def recorded_against_simulated(d: Diagnosis) -> Figure:
     """Recorded against simulated, and the residuals (sigma), for the calibrated base model and the answer."""
     y, p = d.readings, d.recorded
     rows = _shown(d)
-    bad = d.outlier_chance > 0.5
+    bad = d.outlier_chance > LIKELY
     before, after = d.residuals
     figure = blank(7.4, 5.2)
     grid = figure.add_gridspec(2, 2, height_ratios=(2.3, 1.0))
@@ -300,7 +301,7 @@ def intervals(d: Diagnosis) -> Figure:
     away = ((y - p.predicted) * scale)[order]
     low, high = ((p.low90 - p.predicted) * scale)[order], ((p.high90 - p.predicted) * scale)[order]
     base = ((p.calibrated - p.predicted) * scale)[order]
-    bad = d.outlier_chance[order] > 0.5
+    bad = d.outlier_chance[order] > LIKELY
     covered = (y >= p.low90) & (y <= p.high90)
     inside = covered[order]
     index = np.arange(order.size)

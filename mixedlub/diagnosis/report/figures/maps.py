@@ -7,11 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mixedlub.diagnosis.assessment.identifiability import VISIBLE, Confusion
+from mixedlub.diagnosis.assessment.identifiability import Confusion
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import amount, axis_label, effect_words, number, words_of
 from mixedlub.diagnosis.report.figures.binning import together
 from mixedlub.diagnosis.report.figures.style import DIVERGING, INK, MUTED, OUTLIER, PAPER, blank
+from mixedlub.diagnosis.settings.assessment import VISIBLE
+from mixedlub.diagnosis.settings.inference import LIKELY
+from mixedlub.diagnosis.settings.report import SIMILAR
 from mixedlub.recording.conditions import noisy_set_point
 
 if TYPE_CHECKING:
@@ -74,7 +77,7 @@ def residual_map(d: Diagnosis) -> Figure | None:
     table = d.recorded.table
     label, panels = _levels(table[frame.panel] if frame.panel else np.zeros(len(table)), MOST_PANELS, frame.panel)
     before, after = d.residuals
-    outlier = d.outlier_chance > 0.5
+    outlier = d.outlier_chance > LIKELY
     limit = _limit(before[d.counted])
     norm = Normalize(-limit, limit)
     figure = blank(1.4 + 2.35 * max(len(panels), 2), 4.9)
@@ -196,7 +199,7 @@ def roll_angle_map(d: Diagnosis) -> Figure | None:
     row_of = {text: i for i, text in enumerate(rows)}
     row = np.array([row_of[text] for text in texts.tolist()])
     before, after = d.residuals
-    outlier = d.outlier_chance > 0.5
+    outlier = d.outlier_chance > LIKELY
     limit = _limit(before[d.counted])
     norm = Normalize(-limit, limit)
     figure = blank(8.6, 1.4 + 0.24 * min(len(rows), MOST_ROWS))
@@ -265,7 +268,7 @@ def confusability(alike: Confusion, emphasised: tuple[str, ...]) -> Figure | Non
     axes.set_facecolor(PAPER)
     for i in range(count):
         for j in range(count):
-            if i != j and abs(cosine[i, j]) >= 0.8:
+            if i != j and abs(cosine[i, j]) >= SIMILAR:
                 text = f"{cosine[i, j]:.2f}".replace("0.", ".")
                 axes.text(
                     j + 0.5, i + 0.5, text, ha="center", va="center", fontsize=5.5 if count > 12 else 7, color="white"

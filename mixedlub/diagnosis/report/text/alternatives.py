@@ -4,19 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
-from mixedlub.diagnosis.assessment.identifiability import VISIBLE, Confusion
+from mixedlub.diagnosis.assessment.identifiability import Confusion
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING
 from mixedlub.diagnosis.labels import effect_words
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.report.text.headline import chance
 from mixedlub.diagnosis.report.text.nearest_effect import nearest
-
-NEAR, SAME_FORM = 0.8, 0.95
-"""Cosine of two signatures from which they are similar, and from which they have nearly the same form."""
-REJECTED = 0.01
-"""Probability below which an effect counts as rejected."""
-
+from mixedlub.diagnosis.settings.assessment import VISIBLE
+from mixedlub.diagnosis.settings.report import MOST_SIMILAR, REJECTED, SAME_SIGNATURE, SIMILAR
 
 AS_IF_NOTHING = "as if nothing were missing"
 """How the noise is estimated where none is stated and the verdict is that nothing is missing."""
@@ -44,11 +40,13 @@ def _resemblance(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
         others = {
             other: float(alike.cosine[i, j])
             for j, other in sorted(enumerate(alike.ids), key=lambda item: -alike.cosine[i, item[0]])
-            if other not in verdict and alike.cosine[i, j] > NEAR
+            if other not in verdict and alike.cosine[i, j] > SIMILAR
         }
-        twins |= {other for other, cosine in others.items() if cosine > SAME_FORM}
+        twins |= {other for other, cosine in others.items() if cosine > SAME_SIGNATURE}
         if others:
-            listed = ", ".join(f"{effect_words(other)} ({cosine:.2f})" for other, cosine in list(others.items())[:3])
+            listed = ", ".join(
+                f"{effect_words(other)} ({cosine:.2f})" for other, cosine in list(others.items())[:MOST_SIMILAR]
+            )
             sentences.append(
                 f"At these conditions {effect_words(name)} looks most like {listed} (similarity of the signatures, 1 = "
                 "identical)."

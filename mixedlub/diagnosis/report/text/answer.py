@@ -12,10 +12,10 @@ from mixedlub.chain.priors import Prior
 from mixedlub.diagnosis.assessment.prediction import Refined
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING
-from mixedlub.diagnosis.inference.map_fit import NINETY
 from mixedlub.diagnosis.problem import effects_of
 from mixedlub.diagnosis.report.text.location_text import located
 from mixedlub.diagnosis.report.text.next_test_text import beyond
+from mixedlub.diagnosis.settings.inference import INTERVAL_ENDS, NINETY
 from mixedlub.schema.findings import as_records
 
 if TYPE_CHECKING:
@@ -127,8 +127,8 @@ def _value_and_interval(refined: Refined, prior: Prior, index: int, spread: floa
     """Value and 90 % interval of a fitted coordinate; for a change point, quantiles of its posterior."""
     for change_point in refined.change_points:
         if change_point.index == index:
-            low, value, high = (prior.value(change_point.at(share)) for share in (0.05, 0.5, 0.95))
-            return value, low, high
+            low, high = (prior.value(change_point.at(share)) for share in INTERVAL_ENDS)
+            return prior.value(change_point.at(0.5)), low, high
     return interval(prior, refined.z[index], spread)
 
 

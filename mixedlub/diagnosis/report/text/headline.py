@@ -7,16 +7,14 @@ from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.labels import STAGE_WORDS, effect_words, explanation_words, with_names
 from mixedlub.diagnosis.problem import effects_of
+from mixedlub.diagnosis.settings.inference import LIKELY
+from mixedlub.diagnosis.settings.report import LEAST_P, MOST_TIED, STAGE_SHOWN
 from mixedlub.schema.findings import Severity, codes, grouped, of_severity
 
 NO_ANSWER = (
     "No answer: every reading counts as wrong under every explanation. Check first the units and scales of all "
     "columns; the rest of this report says nothing about the rig."
 )
-MOST_TIED = 5
-"""Most tied explanations that are named."""
-LEAST_P = 1e-300
-"""Smallest p-value that is printed: near the smallest float."""
 
 
 def chance(p: float) -> str:
@@ -76,7 +74,7 @@ def headline(d: Diagnosis) -> str:
         sentence = f"Readings at equal conditions contradict each other: check instrument and set-up first. {sentence}"
     if count < SCARCE:
         sentence = f"Only {count} readings: take this as a hint, not as a finding. {sentence}"
-    return f"{NO_ANSWER} {sentence}" if (d.outlier_chance > 0.5).all() else sentence
+    return f"{NO_ANSWER} {sentence}" if (d.outlier_chance > LIKELY).all() else sentence
 
 
 def _verdict(d: Diagnosis) -> str:
@@ -152,7 +150,7 @@ def probabilities(d: Diagnosis) -> list[str]:
     """Probabilities of the effects of the answer, and of the steps of the model at fault."""
     judged = d.posterior
     sentences = _each(d, set(_common(d)))
-    stages = {name: p for name, p in judged.stages().items() if p >= 0.05}
+    stages = {name: p for name, p in judged.stages().items() if p >= STAGE_SHOWN}
     if judged.verdict != NOTHING and stages:
         ranked = sorted(stages.items(), key=lambda item: -item[1])
         sentences.append(

@@ -8,6 +8,7 @@ from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.labels import number, range_text
 from mixedlub.diagnosis.report.text.outlier_text import reading_conditions
+from mixedlub.diagnosis.settings.report import ONE_SIGN, SIGNS_DIFFER
 
 NOWHERE = "Nowhere: the calibrated base model agrees with the readings within their noise."
 SPREAD = (
@@ -15,10 +16,6 @@ SPREAD = (
     "model fitted alone, which spreads the mismatch over all conditions, so signs there can differ."
 )
 LEVEL = "Without a named cause, calibration may have absorbed a constant part; location and sign are then not unique."
-TURNED = 0.2
-"""Share of readings with another sign in the figures, from which the report explains the difference."""
-EVEN = 0.3
-"""Net over total mismatch below which no sign is named."""
 
 
 def where(d: Diagnosis) -> tuple[str, ...]:
@@ -32,7 +29,7 @@ def where(d: Diagnosis) -> tuple[str, ...]:
     if d.posterior.verdict.is_discrepancy and d.search.problem.calibration_size and not d.region.inside.all():
         sentences = (*sentences, LEVEL)
     turned = np.sign(d.residuals[0]) != np.sign(z)
-    return (*sentences, SPREAD) if turned.mean() > TURNED else sentences
+    return (*sentences, SPREAD) if turned.mean() > SIGNS_DIFFER else sentences
 
 
 def located(d: Diagnosis) -> str:
@@ -68,7 +65,7 @@ def _direction(z: np.ndarray, predicted: np.ndarray) -> str:
     size = float(z @ np.sign(predicted))
     ways = ((float(z.sum()), ""), (size, " in size, either sign,")) if predicted.max() > 0.0 else ((size, " in size"),)
     for way, how in ways:
-        if abs(way) >= EVEN * whole:
+        if abs(way) >= ONE_SIGN * whole:
             return f"{'more' if way > 0.0 else 'less'}{how}"
     return "now more and now less"
 

@@ -10,15 +10,13 @@ from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.labels import explanation_words, number
 from mixedlub.diagnosis.report.text.headline import chance, percent
+from mixedlub.diagnosis.settings.inference import SIGNIFICANT
+from mixedlub.diagnosis.settings.report import NEAREST_SHARE, SECOND_SHARE
 
-WORTH = 0.5
-"""Share of the discrepancy from which the effects that explain it are named."""
 SUITS = (
     "its fit alone would do, but the strength or the calibration that it needs is improbable, or it fails on levels "
     "left out."
 )
-SECOND = 0.1
-"""Share of the discrepancy that a second effect must explain to be named."""
 
 
 @dataclass(frozen=True)
@@ -52,9 +50,9 @@ def nearest(d: Diagnosis) -> Nearest | None:
     if most <= 0.0 or not names:
         return None
     # A second effect is named only where it explains a good part of the remainder.
-    best = min(names, key=lambda key: chi2[key] + SECOND * most * (len(key.effects) - 1))
+    best = min(names, key=lambda key: chi2[key] + SECOND_SHARE * most * (len(key.effects) - 1))
     taken = min((chi2[NOTHING] - chi2[best]) / most, 1.0)
-    return Nearest(best if taken >= WORTH else NOTHING, taken, chi2[NOTHING], chi2[best], int(good.sum()))
+    return Nearest(best if taken >= NEAREST_SHARE else NOTHING, taken, chi2[NOTHING], chi2[best], int(good.sum()))
 
 
 def nearest_name(d: Diagnosis) -> list[str]:
@@ -64,7 +62,7 @@ def nearest_name(d: Diagnosis) -> list[str]:
         return []
     if best.explanation == NOTHING:
         return ["No effect of the catalogue takes up a half of it."]
-    noisy = best.after < best.count + 2.0 * np.sqrt(2.0 * best.count)
+    noisy = best.after < best.count + SIGNIFICANT * np.sqrt(2.0 * best.count)
     p = d.posterior.weights.get(best.explanation, 0.0)
     why = SUITS if noisy else "the remaining residuals have another form."
     named = explanation_words(best.explanation.effects)

@@ -8,16 +8,13 @@ import numpy as np
 
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import amount, conditions_text, explanation_words, range_text, words_of
+from mixedlub.diagnosis.settings.report import USELESS_TEST, WEAK_TEST, WIDE_RANGE
 from mixedlub.recording.conditions import PASSING, noisy_set_point
 from mixedlub.recording.noise import setups_differ
 from mixedlub.schema.table import Table
 
-USELESS, WEAK = 0.01, 0.1
-"""Expected information (bit) below which a test is not named, and below which it is called weak."""
 WAITED_FOR = ("time_s",)
 """Conditions that are reached by waiting."""
-HALF = 0.5
-"""Share of the recorded range above which an interval is too wide to refine around."""
 SETUPS = (
     "It differs between named parts, as it does where parts were mounted anew and set-ups differ: name these in a "
     "column setup and give the error of one set-up as noise.setup_relative or noise.setup_absolute."
@@ -44,10 +41,10 @@ def next_test(d: Diagnosis) -> tuple[str, ...]:
     if not d.next_tests:
         return ("No useful test: there is no second explanation to distinguish from the first.",)
     first = d.next_tests[0]
-    if first.expected_bits < USELESS:
+    if first.expected_bits < USELESS_TEST:
         return ("No useful test: no single reading at these conditions or a little beyond would decide more.",)
     names = "; ".join(explanation_words(name.split("+")) for name in first.separates)
-    weak = ("No single reading would decide much; the best one is:",) if first.expected_bits < WEAK else ()
+    weak = ("No single reading would decide much; the best one is:",) if first.expected_bits < WEAK_TEST else ()
     run = (
         f"{to_run(first.conditions, d.recorded.table)}, to distinguish between {names}: {first.expected_bits:.2f} bit "
         "(1 bit decides between two equally probable ones)."
@@ -86,7 +83,7 @@ def _refined(d: Diagnosis) -> tuple[str, ...]:
     ranges = [cut for cut in cuts if "values" not in cut]
     periods = [range_text(cut) for cut in ranges if cut["column"] in PASSING]
     ranges = [cut for cut in ranges if cut["column"] not in PASSING]
-    wide = [range_text(cut) for cut in ranges if cut["high"] - cut["low"] > HALF * np.ptp(table[cut["column"]])]
+    wide = [range_text(cut) for cut in ranges if cut["high"] - cut["low"] > WIDE_RANGE * np.ptp(table[cut["column"]])]
     around = [text for text in map(range_text, ranges) if text not in wide] or (
         [local_position(d)] if shape.at is not None else []
     )

@@ -6,10 +6,9 @@ import numpy as np
 
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import conditions_text, number, words_of
+from mixedlub.diagnosis.settings.inference import LIKELY
+from mixedlub.diagnosis.settings.report import MOST_LISTED, NOISE_CHANGED
 from mixedlub.schema.units import unit_of
-
-MUCH = 1.5
-"""Change of a stated standard deviation from which it is reported."""
 
 
 def reading_conditions(d: Diagnosis, row: int) -> str:
@@ -44,7 +43,7 @@ def shrunk_noise(d: Diagnosis) -> tuple[str, ...]:
         return ()
     size = np.abs(d.readings) if d.case.kind.logarithmic else 1.0
     most = float(np.exp(np.max(np.abs(np.log(d.search.problem.single_sd * size / stated)))))
-    if most < MUCH:
+    if most < NOISE_CHANGED:
         return ()
     return (
         "The stated standard deviations vary irregularly, as estimates from few repeats do; they were shrunk towards "
@@ -54,13 +53,13 @@ def shrunk_noise(d: Diagnosis) -> tuple[str, ...]:
 
 def outliers(d: Diagnosis) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
     """The probable outliers: sentences and a table."""
-    rows = np.flatnonzero(d.outlier_chance > 0.5)
+    rows = np.flatnonzero(d.outlier_chance > LIKELY)
     if not rows.size:
         return (), ()
     unit = unit_of(d.case.quantity) or "-"
     table = [("run", f"recorded ({unit})", f"predicted ({unit})", "off by", "conditions")]
     y = d.readings
-    for i in rows[:12]:
+    for i in rows[:MOST_LISTED]:
         off = (y[i] - d.recorded.predicted[i]) / d.recorded.sd[i]
         table.append(
             (
@@ -71,7 +70,7 @@ def outliers(d: Diagnosis) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]
                 reading_conditions(d, int(i)),
             )
         )
-    more = f" The first {len(table) - 1}:" if rows.size > 12 else ""
+    more = f" The first {len(table) - 1}:" if rows.size > MOST_LISTED else ""
     many = f"{rows.size} readings are probably outliers and have"
     count = "One reading is probably an outlier and has" if rows.size == 1 else many
     sentences = [f"{count} little weight.{more}"]

@@ -15,23 +15,12 @@ from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import effect_words, in_reach, number, with_names
 from mixedlub.diagnosis.report.text.answer import effect_records, interval, verdict_fit
+from mixedlub.diagnosis.settings.report import FAR, RPM, SAME_READING, STRAINED, SURE, UNMOVED, VAGUE
 from mixedlub.schema.findings import collected
 from mixedlub.schema.table import Table
 from mixedlub.schema.units import unit_of
 
-STRAINED = 2.0
-"""Standard deviations from which an input counts as strained."""
-VAGUE = 0.8
-"""Posterior over prior standard deviation from which a parameter counts as not determined."""
 UNDETERMINED = "not determined by these readings"
-FAR = 3.0
-"""Standard deviations of its prior from which a parameter is far outside its expected range."""
-UNMOVED = 1e-6
-"""Change of the readings (sigma), for one standard deviation of the prior, below which a parameter has no influence."""
-RPM = 30.0 / np.pi
-"""Revolutions per minute in one radian per second."""
-SURE = 0.9
-"""Probability from which an effect counts as certain."""
 COLUMNS = ("effect", "parameter", "value", "90 % interval", "unit", "meaning")
 
 Cells = tuple[tuple[str, ...], ...]
@@ -164,7 +153,7 @@ def _switches_off(d: Diagnosis, e: Effect, p: Parameter) -> bool:
     others = {name: fitted for name, fitted in values.items() if name != e.id}
     at_null = {**others, e.id: {**values[e.id], p.name: p.null}}
     one, other = (problem.forward.run(problem.calibration(z), effects).prediction for effects in (at_null, others))
-    return bool(np.allclose(one, other, rtol=1e-9))
+    return bool(np.allclose(one, other, rtol=SAME_READING))
 
 
 def _interval_with_null(e: Effect, fitted: list[tuple[Parameter, dict[str, float]]], probability: float) -> list[str]:

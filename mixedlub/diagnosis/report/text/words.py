@@ -28,6 +28,8 @@ from mixedlub.diagnosis.report.text.nearest_effect import nearest_name
 from mixedlub.diagnosis.report.text.next_test_text import box_place, local_position, next_test, wave_period
 from mixedlub.diagnosis.report.text.outlier_text import checked_channel, outliers, shrunk_noise
 from mixedlub.diagnosis.report.text.tables import calibration, parameters
+from mixedlub.diagnosis.settings.inference import STRONG_EVIDENCE
+from mixedlub.diagnosis.settings.report import MOST_SIMILAR, NOT_BETTER
 
 WIDTH = 88
 REFITTED = "Parameters were refitted without each level; the answer itself was selected with all levels."
@@ -39,11 +41,9 @@ BEST_TIED = "What was left out? Best of the tied candidates"
 UNNAMED = "If it is something unknown"
 ALIKE = "What else could it be?"
 GAIN = "How much better is it on conditions it did not fit?"
-APART = 3.0
-"""Difference in log evidence (nats) from which two quantities are distinguished."""
 NATS = (
-    f"A nat is a factor 2.7 in the odds: below about {APART:g} nats these readings do not distinguish the quantities, "
-    "and the two answers may name different ones."
+    f"A nat is a factor 2.7 in the odds: below about {STRONG_EVIDENCE:g} nats these readings do not distinguish the "
+    "quantities, and the two answers may name different ones."
 )
 CHECK = "Does a channel that was not fitted agree?"
 OUTLIERS = "Outlier readings"
@@ -174,7 +174,7 @@ def _discrepancy(d: Diagnosis, discrepancy: DescribedDiscrepancy) -> Section:
         )
     elif discrepancy.stages:
         best, *others = discrepancy.stages
-        worse = [f"{words_of(o.quantity)} {best.evidence - o.evidence:.1f} nats worse" for o in others[:3]]
+        worse = [f"{words_of(o.quantity)} {best.evidence - o.evidence:.1f} nats worse" for o in others[:MOST_SIMILAR]]
         sentences.append(
             "Another question is which quantity could take it up if a factor there were free to vary with every "
             f"condition: best {words_of(best.quantity)}{_stage(best)}{'; ' if worse else ''}{'; '.join(worse)}."
@@ -201,7 +201,7 @@ def distinguishable(stages: Sequence[Absorbed]) -> bool:
     False
     """
     ranked = [absorbed.evidence for absorbed in stages]
-    return len(ranked) == 1 or max(ranked, default=0.0) - min(ranked, default=0.0) >= APART
+    return len(ranked) == 1 or max(ranked, default=0.0) - min(ranked, default=0.0) >= STRONG_EVIDENCE
 
 
 def _form(d: Diagnosis, along: str) -> str:
@@ -239,6 +239,6 @@ def _gain(d: Diagnosis) -> tuple[str, ...]:
     if d.posterior.verdict == NOTHING:
         return (f"Calibration alone predicts left-out levels to {kept.before:.2f} sigma {how}.",)
     change = f"from {kept.before:.2f} sigma with calibration alone to {kept.after:.2f} sigma with the answer {how}."
-    if kept.after > 0.95 * kept.before:
+    if kept.after > NOT_BETTER * kept.before:
         return (f"Not better: {change} Do not extrapolate it.", REFITTED)
     return (f"{change[:1].upper()}{change[1:]}", REFITTED)

@@ -1,0 +1,95 @@
+"""Settings: priors of the explanations, errors of form, and the noise."""
+
+import numpy as np
+
+# Priors of the explanations
+PRIOR = {"nothing": 0.42, "single": 0.38, "pair": 0.08, "discrepancy": 0.12}
+"""Judgement. Prior probabilities before any reading: nothing missing is as probable as one effect, two are rare."""
+LEAST_NOTHING_ODDS = 14.0
+"""Judgement. Least prior odds of nothing over each single effect: one that the readings neither need nor exclude then
+does not tie with nothing missing."""
+FULL_PAIR_PRIOR = 25
+"""Judgement. Number of effects from which pairs have their whole prior; among fewer, pairs are fewer too."""
+AFFECTED = 0.1
+"""Judgement. Share of the largest change by an explanation from which a reading is affected: less is hardly seen."""
+
+# Cost
+MANY = 1200
+"""Cost limit. Readings beyond which explanations are searched on a subset."""
+SUBSET = 600
+"""Cost limit. Readings of that subset."""
+REFITTED_ON_ALL = 8
+"""Cost limit. Most probable explanations of a subset that are fitted again to all readings."""
+PUBLISHED_WITHIN = 12.0
+"""Cost limit. Log evidence behind the best within which published laws of an explanation are weighed."""
+HOPELESS_BEHIND = 60.0
+"""Cost limit. Log evidence behind the best from which a fit is not repeated under a new noise."""
+
+# Errors of form
+FORM_ERRORS = ((0.0, 0.30), (0.08, 0.30), (0.25, 0.25), (0.6, 0.15))
+"""Judgement. Relative rms error of an effect's form, and its prior probability: about the spread of published forms."""
+FORM_ERROR_LENGTH, SIGNED_FORM_ERROR_LENGTH = 0.7, 0.35
+"""Judgement. Correlation lengths of an error of form along a condition, and along one of both signs: half as long."""
+FORM_ERROR_FUNCTIONS, SIGNED_FORM_ERROR_FUNCTIONS = 4, 8
+"""Cost limit. Functions of an error of form along a condition, and along one of both signs."""
+FORM_ERROR_PRODUCTS = 3
+"""Cost limit. Functions of a condition in products with those of another."""
+FORM_ERROR_LEAST = 0.3
+"""Judgement. Share of the typical change that replaces a small one: another form need not vanish there."""
+FORM_ERROR_GAIN_SHARE = 0.01
+"""Judgement. Most that an error of form may add to the log evidence, over the squares of an effect: 14 % error."""
+FORM_ERROR_GAIN_FLOOR = 4.0
+"""Judgement. Least bound on that gain: a small effect may be wrong in form as well."""
+FORM_ERROR_GAIN_CAP = 30.0
+"""Judgement. Largest bound on that gain: beyond it another effect is missing, not another form of this one."""
+
+# Size of the noise
+INFLATION_FACTORS = np.array([1.1, 1.25, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 4.0, 6.0, 10.0])
+"""Grid. Inflation factors of the stated noise."""
+INFLATION_GAIN = 8.0
+"""Measured (tests/diagnosis/test_noise_gain.py): pure noise gains less from inflation in each of 4,000 recordings."""
+INFLATION_ROUNDS = 4
+"""Cost limit. Steps of inflation: fits under too little noise follow it, and one step seldom suffices."""
+MOST_INFLATION = 4.0
+"""Judgement. Largest inflation of stated noise that is still noise; more scatter is an unexplained discrepancy."""
+BOUND_LEVEL = 1e-3
+"""Judgement. Significance level at which the scatter of repeats bounds the noise: a usual convention."""
+EXTRA_SHARES = np.array([0.003, 0.006, 0.01, 0.015, 0.02, 0.03, 0.05])
+"""Grid. Extra relative noise where a column of standard deviations may be repeatability only."""
+FIRST_SHARE = 2
+"""Judgement. Index of the share that is tried first: 1 %, as of a rig in good order."""
+SHARE_GAIN = 4.0
+"""Judgement. Gain in log probability from which extra noise is accepted: less than for stated noise, because a column
+of standard deviations is weaker evidence."""
+MIXTURE_FACTORS = np.geomspace(0.3, 3.0, 13)
+"""Grid. Factors on an estimated noise with another mixture of its parts."""
+ESTIMATE_FACTORS = np.geomspace(0.25, 2.0, 31)
+"""Grid. Factors on an estimated noise."""
+NOISE_CONVERGED = 0.1
+"""Judgement. Change of the logarithm of an estimated noise below which its iteration has converged: 10 % of it."""
+NOISE_ITERATIONS = 5
+"""Cost limit. Iterations of an estimated noise."""
+LEAST_FREEDOM = 10
+"""Judgement. Degrees of freedom from which the scatter of residuals is known well enough: within 22 %."""
+OVERSTATED_VARIANCE = 0.25
+"""Judgement. Variance of residuals over the stated one below which noise is overstated: half the stated noise."""
+
+# Correlated noise
+LEAST_BATCHES = 16
+"""Judgement. Batches from which the variance of their sums is estimated: its own standard error is then 35 %."""
+DRIFT_HALF_WAVES = 2
+"""Judgement. Half waves over a recording that count as drift and are removed: a trend and one turn."""
+DRIFT_READINGS = 40
+"""Judgement. Readings from which a correlated error is looked for: fewer hardly show a correlation time."""
+CORRELATION_SHARES = (0.02, 0.04, 0.08)
+"""Grid. Correlation times, as shares of the record; a longer one is a change of the surfaces, not noise."""
+ERROR_SIZES = (0.5, 1.0, 2.0, 4.0)
+"""Grid. Standard deviations of the correlated error over that of a single reading: factors of two."""
+WHITE_SHARES = (0.7, 0.5, 0.35)
+"""Grid. Shares of the noise for single readings, where the rest is correlated."""
+DRIFT_CANDIDATES = 6
+"""Cost limit. Most probable effects for which it is fitted, in addition to nothing missing and the discrepancy."""
+MOST_UNDER_NULL = 2.0
+"""Judgement. Largest correlated error if nothing is missing, over the scatter between neighbours; more is physics."""
+DRIFT_GAIN = 12.0
+"""Judgement. Gain in log probability from which a correlated error or a missing effect is accepted: best of many."""
