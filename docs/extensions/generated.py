@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import scores
+import thresholds
 from sphinx.application import Sphinx
 
 ROOT = Path(__file__).parents[2]
@@ -54,6 +55,7 @@ def pieces() -> dict[str, str]:
         "api": _api(),
         "rooms": _rooms(),
         "ranges": _ranges(),
+        "thresholds": thresholds.tables(),
     }
 
 

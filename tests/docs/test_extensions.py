@@ -95,6 +95,20 @@ def test_generated_pages_have_every_effect_command_and_kind():
     assert {name for name in pages if name.startswith("kinds/")} == {f"kinds/{k}" for k in KINDS}
 
 
+def test_every_setting_has_a_row_with_its_value():
+    import generated
+    import thresholds
+
+    text = generated.pieces()["thresholds"]
+    for module in thresholds.SETTINGS:
+        source = importlib.import_module(f"mixedlub.diagnosis.settings.{module}")
+        rows = {
+            name: row for row in thresholds.rows(Path(source.__file__).read_text()) for name in row.name.split(", ")
+        }
+        assert rows.keys() == {name for name in vars(source) if name.isupper()}
+        assert all(f"| `{row.name}` | `{row.value}` | {row.kind.lower()} |" in text for row in rows.values())
+
+
 @pytest.mark.parametrize("file", ["score.txt", "score_rigs.txt"])
 def test_every_row_of_a_score_is_read(file):
     import scores
