@@ -43,8 +43,8 @@ MOST_PENALTY = 20.0
 LEAST_MISMATCH = 0.3
 """Judgement. Least mismatch, in squared standard deviations, of which a share is judged: less is noise."""
 CHANCE_GAIN = 5.0
-"""Judgement. Gain in log probability of effects over the discrepancy on left-out levels that may be chance: odds
-150."""
+"""Judgement. Gain in log probability of effects over the discrepancy, on left-out levels, that may be chance: odds
+of 150."""
 PREDICTED_SHARE = 0.8
 """Judgement. Share of the mismatch on inner levels that effects must predict, or a discrepancy rules them out."""
 MOST_OVERDISPERSION = 2.0
@@ -64,13 +64,13 @@ TEST_MARGIN = 1.25
 MOST_AVERAGED = 6
 """Cost limit. Explanations that are averaged."""
 NEGLIGIBLE = 2e-3
-"""Judgement. Probability below which an explanation is left out of the average: it hardly moves an average."""
+"""Judgement. Probability below which an explanation is left out of the average: it hardly moves it."""
 
 # Published laws and their ranges
 LAW_REJECTED = -4.6
-"""Source: H. Jeffreys (1961), appendix B. Odds of a hundred to one are decisive."""
+"""Source: H. Jeffreys (1961), appendix B. Log odds below which a law is rejected: a hundred to one is decisive."""
 LAW_OPEN = -2.3
-"""Source: H. Jeffreys (1961), appendix B. Odds of ten to one are strong."""
+"""Source: H. Jeffreys (1961), appendix B. Log odds from which a law cannot be excluded: ten to one is strong."""
 RANGE_SLACK = 1e-6
 """Judgement. Share of a bound that rounding may exceed it by."""
 EXACT_EXPONENT = 0.01

@@ -16,7 +16,7 @@ MAD_TO_SD = 1.4826
 SIGNIFICANT = 2.0
 """Judgement. Standard errors within which a deviation is chance: about 95 % of a normal distribution."""
 STRONG_EVIDENCE = 3.0
-"""Source: R. E. Kass, A. E. Raftery (1995), section 3.2. Log evidence from 3 on, odds of 20, is strong."""
+"""Source: R. E. Kass, A. E. Raftery (1995), section 3.2. Gain in log evidence that counts: odds of 20 are strong."""
 LARGEST_EXPONENT = 700.0
 """Definition. Largest exponent whose exponential a double can hold, rounded down."""
 
@@ -57,7 +57,7 @@ DAMPING_TRIALS = 8
 DAMPING_START, DAMPING_RETRY = 1e-2, 1e-3
 """Judgement. Damping of the first step, and the least after a failed one: small against the prior's curvature."""
 DAMPING_RISE, DAMPING_FALL, LEAST_DAMPING = 6.0, 5.0, 1e-9
-"""Judgement. Factors on the damping after a failed and a good step, and its least value: both nearly cancel."""
+"""Judgement. Factors on the damping after a failed and a good step, and its least value: one of each nearly cancel."""
 LONGEST_STEP = 2.0
 """Judgement. Longest step of a coordinate in prior standard deviations: linearised laws are poor beyond."""
 PREFIT_TOLERANCE = 0.5

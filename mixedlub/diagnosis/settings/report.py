@@ -16,7 +16,7 @@ MOST_TIED, MOST_SIMILAR, MOST_LISTED = 5, 3, 12
 LEAST_P = 1e-300
 """Definition. Smallest p-value that is printed: near the smallest float."""
 SIGNS_DIFFER = 0.2
-"""Judgement. Share of readings with another sign in the figures, from which the report explains why: one in five."""
+"""Judgement. Share of readings with another sign in the figures, from which the report explains them: one in five."""
 ONE_SIGN = 0.3
 """Judgement. Net over total mismatch below which no sign is named: about two to one."""
 NEAREST_SHARE = 0.5
