@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from operator import is_
 from typing import Any
 
 import numpy as np
@@ -30,16 +31,17 @@ class Move:
 
     def is_of(self, value: float, on: tuple[Any, ...]) -> bool:
         """Whether this value was applied to the same input objects."""
-        return self.value == value and all(a is b for a, b in zip(self.on, on, strict=True))
+        return self.value == value and all(map(is_, self.on, on))
 
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """A prediction with its intermediate steps and the calibration applied to the inputs."""
+    """A prediction with the quantities that lead to it, and the calibration applied to the inputs."""
 
     prediction: np.ndarray
     record: Record
     applied: Mapping[str, Move]
+    inputs: Mapping[str, Any]
 
 
 class Forward:
@@ -64,6 +66,7 @@ class Forward:
             c for c in (*calibrations(case.system), *extra) if all(n in self.inputs for n in c.needs)
         )
         self._model = lru_cache(maxsize=1024)(self._build)
+        self._shape = (len(table), 1)
         self.inputs["reading_scale"] = 1.0
         if reading_scale is None:
             reading_scale = float(np.median(np.abs(self.predict()))) / self.scale
@@ -107,19 +110,29 @@ class Forward:
         near: Run | None = None,
     ) -> Run:
         """Predict and keep the steps; given a run ``near`` with the same effects, only changed steps are recomputed."""
+        inputs, applied = self._calibrated(calibration or {}, near)
+        model = self._model(tuple(sorted(parameters or {})))
+        record = model.record(inputs, parameters, None if near is None else near.record)
+        reading = np.asarray(record["reading"])
+        column = reading[:, 0] if reading.shape == self._shape else np.broadcast_to(reading, self._shape)[:, 0]
+        return Run(column * self.scale, record, applied, inputs)
+
+    def _calibrated(
+        self, calibration: Mapping[str, float], near: Run | None
+    ) -> tuple[Mapping[str, Any], Mapping[str, Move]]:
+        """The inputs at a calibration, and how it was applied; both of the run ``near`` by if that has the same."""
+        if near is not None and {name: move.value for name, move in near.applied.items()} == calibration:
+            return near.inputs, near.applied
         inputs, applied = dict(self.inputs), {}
         for c in self.calibrations:
-            if calibration and c.name in calibration:
+            if c.name in calibration:
                 value, on = calibration[c.name], tuple(inputs[name] for name in c.needs)
                 move = None if near is None else near.applied.get(c.name)
                 if move is None or not move.is_of(value, on):
                     move = Move(value, on, c.apply(inputs, value))
                 applied[c.name] = move
                 inputs.update(move.changes)
-        model = self._model(tuple(sorted(parameters or {})))
-        record = model.record(inputs, parameters, None if near is None else near.record)
-        reading = np.asarray(record.wanted["reading"])
-        return Run(np.broadcast_to(reading, (len(self.table), 1))[:, 0] * self.scale, record, applied)
+        return inputs, applied
 
     def effects(self, exclude: Sequence[str] = ()) -> tuple[Effect, ...]:
         """Effects of the catalogue that apply to these rows, with the parameters that are free in this kind."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from mixedlub.chain.effect import Effect
@@ -39,66 +40,118 @@ class Model:
     """
 
     def __init__(self, chain: Chain, given: Sequence[str], want: Sequence[str], effects: Sequence[Effect] = ()) -> None:
+        self.given = tuple(given)
         self.want = tuple(want)
         self.effects = _in_order(effects)
         self.steps = _needed(_lay_out(chain, set(given), self.effects), self.want, set(given))
+        self._nulls = {e.id: e.nulls for e in self.effects}
+        self._affected: dict[frozenset[int | str], tuple[_Call, ...]] = {}
 
     def __call__(self, inputs: Mapping[str, Any], parameters: Parameters | None = None) -> State:
         """Run; ``parameters`` maps effect id to its values (its null where an effect is not named)."""
         state: State = dict(inputs)
         values = self._values(parameters)
         for step in self.steps:
-            state.update(_call(step, state, values))
+            arguments = [state[name] for name in step.reads]
+            result = step.law(*arguments, **values[step.effect]) if step.effect else step.law(*arguments)
+            state.update(zip(step.outputs, (result,) if len(step.outputs) == 1 else result, strict=True))
         return {name: state[name] for name in self.want}
 
     def record(
         self, inputs: Mapping[str, Any], parameters: Parameters | None = None, near: Record | None = None
     ) -> Record:
-        """Run and keep every step; steps that nothing new reaches are taken from a run ``near`` by.
+        """Run and keep every quantity; steps that nothing new reaches are taken from a run ``near`` by.
 
         The numbers are those of a full run to the last bit.
         """
         values = self._values(parameters)
+        given = [inputs[name] for name in self.given]
         if near is None:
-            changed_effects, dirty = set(values), set(inputs)
+            made, calls = [*given, *[None] * (self._slots - len(given))], self._calls
         else:
-            changed_effects = {name for name, own in values.items() if own != near.values[name]}
-            dirty = {name for name, value in inputs.items() if value is not near.inputs[name]}
-        state: State = dict(inputs)
-        made: list[State] = []
-        for i, step in enumerate(self.steps):
-            if step.effect in changed_effects or not dirty.isdisjoint(step.reads) or near is None:
-                output = _call(step, state, values)
-                dirty.update(step.outputs)
+            made = near.made.copy()
+            made[: len(given)] = given
+            changed = [i for i, value in enumerate(given) if value is not near.made[i]]
+            changed_effects = [name for name, own in values.items() if own != near.values[name]]
+            calls = self._reached_by(frozenset([*changed, *changed_effects]))
+        for call in calls:
+            arguments = [made[i] for i in call.reads]
+            result = call.law(*arguments, **values[call.effect]) if call.effect else call.law(*arguments)
+            if len(call.writes) == 1:
+                made[call.writes[0]] = result
             else:
-                output = near.made[i]
-                dirty.difference_update(step.outputs)
-            state.update(output)
-            made.append(output)
-        return Record(inputs, values, tuple(made), {name: state[name] for name in self.want})
+                for i, own in zip(call.writes, result, strict=True):
+                    made[i] = own
+        return Record(self, values, made)
 
-    def _values(self, parameters: Parameters | None) -> dict[str, dict[str, float]]:
-        values = {e.id: e.nulls for e in self.effects}
-        values.update({k: {**values.get(k, {}), **v} for k, v in (parameters or {}).items()})
-        return values
+    @cached_property
+    def _calls(self) -> tuple[_Call, ...]:
+        """The steps with a slot for every value that is ever made, so that none is overwritten."""
+        latest = {name: i for i, name in enumerate(self.given)}
+        calls = []
+        count = len(latest)
+        for step in self.steps:
+            reads = tuple(latest[name] for name in step.reads)
+            writes = tuple(range(count, count + len(step.outputs)))
+            latest.update(zip(step.outputs, writes, strict=True))
+            calls.append(_Call(step.law, reads, writes, step.effect))
+            count += len(writes)
+        return tuple(calls)
+
+    @cached_property
+    def latest(self) -> dict[str, int]:
+        """The slot of the last value of each quantity."""
+        found = {name: i for i, name in enumerate(self.given)}
+        for step, call in zip(self.steps, self._calls, strict=True):
+            found.update(zip(step.outputs, call.writes, strict=True))
+        return found
+
+    @cached_property
+    def _slots(self) -> int:
+        return len(self.given) + sum(len(call.writes) for call in self._calls)
+
+    def _reached_by(self, changed: frozenset[int | str]) -> tuple[_Call, ...]:
+        """The steps that changed slots and effects reach."""
+        if changed not in self._affected:
+            dirty, found = set(changed), []
+            for call in self._calls:
+                if call.effect in changed or not dirty.isdisjoint(call.reads):
+                    dirty.update(call.writes)
+                    found.append(call)
+            self._affected[changed] = tuple(found)
+        return self._affected[changed]
+
+    def _values(self, parameters: Parameters | None) -> dict[str, Mapping[str, float]]:
+        given = parameters or {}
+        return {name: {**nulls, **given[name]} if name in given else nulls for name, nulls in self._nulls.items()}
+
+
+@dataclass(frozen=True)
+class _Call:
+    """A step with the slots that it reads and writes."""
+
+    law: Law
+    reads: tuple[int, ...]
+    writes: tuple[int, ...]
+    effect: str | None
 
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """A run with all its steps: what went in, what each step made, what was wanted."""
+    """A run of a model: the parameter values, and every value it was given or made, by slot."""
 
-    inputs: Mapping[str, Any]
+    model: Model
     values: Mapping[str, Mapping[str, float]]
-    made: tuple[State, ...]
-    wanted: State
+    made: list[Any]
 
+    def __getitem__(self, name: str) -> Any:
+        """The last value of a quantity."""
+        return self.made[self.model.latest[name]]
 
-def _call(step: Step, state: State, values: Mapping[str, Mapping[str, float]]) -> State:
-    arguments = [state[name] for name in step.reads]
-    if step.effect is None:
-        return {step.outputs[0]: step.law(*arguments)}
-    result = step.law(*arguments, **values[step.effect])
-    return {step.outputs[0]: result} if len(step.outputs) == 1 else dict(zip(step.outputs, result, strict=True))
+    @property
+    def state(self) -> State:
+        """The last value of every quantity."""
+        return {name: self.made[i] for name, i in self.model.latest.items()}
 
 
 def available(effect: Effect, chain: Chain, given: Sequence[str], want: str, kind: str) -> bool:

@@ -11,6 +11,7 @@ import numpy as np
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward, Run
 from mixedlub.chain.effect import Effect
+from mixedlub.chain.model import Parameters
 from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.settings.inference import FINITE_STEP, MOST_COORDINATE, NOISE_BY_READING_BELOW, SMALLEST_READING
 from mixedlub.effects import catalogue, known_in
@@ -104,9 +105,15 @@ class Problem:
 
     def effects(self, explanation: Explanation) -> list[Effect]:
         """The effects an explanation names, with the parameters that are unknown here."""
-        known = known_in(self.case.kind.name)
-        every = (known[name] for name in explanation.effects)
-        return [e.holding(self.held[e.id]) if e.id in self.held else e for e in every]
+        if explanation not in self._effects:
+            known = known_in(self.case.kind.name)
+            every = (known[name] for name in explanation.effects)
+            self._effects[explanation] = [e.holding(self.held[e.id]) if e.id in self.held else e for e in every]
+        return self._effects[explanation]
+
+    @cached_property
+    def _effects(self) -> dict[Explanation, list[Effect]]:
+        return {}
 
     def size(self, explanation: Explanation) -> int:
         """Length of the coordinate vector of an explanation."""
@@ -128,7 +135,10 @@ class Problem:
 
     def run(self, explanation: Explanation, z: np.ndarray, near: Run | None = None) -> Run:
         """Predicted readings at coordinates z, with the steps that lead there."""
-        run = self.forward.run(self.calibration(z), self.parameters(explanation, z), near)
+        return self._run(self.calibration(z), self.parameters(explanation, z), near)
+
+    def _run(self, calibration: Mapping[str, float], parameters: Parameters, near: Run | None) -> Run:
+        run = self.forward.run(calibration, parameters, near)
         return replace(run, prediction=self.transform(run.prediction)) if self.case.kind.logarithmic else run
 
     def predict(self, explanation: Explanation, z: np.ndarray) -> np.ndarray:
@@ -142,15 +152,19 @@ class Problem:
     def jacobian(self, explanation: Explanation, z: np.ndarray, at: Run | None = None) -> np.ndarray:
         """Derivative of predictions over sd with respect to z, by differences to the side where laws do not end."""
         here = self.run(explanation, z) if at is None else at
+        calibration, parameters = self.calibration(z), self.parameters(explanation, z)
+        priors = [(calibration, c.parameter) for c in self.forward.calibrations]
+        priors += [(parameters[e.id], p) for e in self.effects(explanation) for p in e.parameters]
         slopes = np.empty((self.y.size, z.size))
-        for i in range(z.size):
+        for i, (values, parameter) in enumerate(priors):
+            kept = values[parameter.name]
             for step in (FINITE_STEP, -FINITE_STEP) if z[i] < MOST_COORDINATE else (-FINITE_STEP, FINITE_STEP):
-                moved = z.copy()
-                moved[i] += step
-                change = self.run(explanation, moved, here).prediction - here.prediction
+                values[parameter.name] = parameter.prior.value(float(z[i] + step))
+                change = self._run(calibration, parameters, here).prediction - here.prediction
                 slopes[:, i] = change / (self.sd * step)
                 if np.isfinite(change).all():
                     break
+            values[parameter.name] = kept
         slopes[~np.isfinite(slopes)] = 0.0
         return slopes
 

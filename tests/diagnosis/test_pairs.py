@@ -10,7 +10,7 @@ import pytest
 from mixedlub.diagnosis.diagnose import diagnose_case
 from mixedlub.diagnosis.explanation import NOTHING, Explanation
 from mixedlub.diagnosis.inference.change_points import integrate_change_points
-from mixedlub.diagnosis.inference.initial_guesses import PriorDraws, fit_single, sample
+from mixedlub.diagnosis.inference.initial_guesses import PriorDraws, fit_singles, sample
 from mixedlub.diagnosis.inference.map_fit import Fit, map_fit
 from mixedlub.diagnosis.inference.nested_laws import published_gain, published_odds
 from mixedlub.diagnosis.inference.pairs import exchanged, promising_pairs
@@ -38,7 +38,7 @@ def test_two_effects_start_where_they_are_best_together() -> None:
     made, null_fit, draws, (i, j) = made_of_two()
     p, first, second = made, draws[0], draws[1]
     fitted = map_fit(made, NOTHING, null_fit.z)
-    singles = {(s.id,): fit_single(made, fitted, s) for s in draws}
+    singles = fit_singles(made, fitted, draws)
     starts = [
         start
         for pair, start in promising_pairs(made, fitted, singles, draws)

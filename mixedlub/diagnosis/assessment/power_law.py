@@ -138,7 +138,7 @@ def features(search: Search) -> dict[str, np.ndarray]:
     for column in case.kind.columns:
         if column.form != "name" and column.name in rows and not column.name.endswith("_C"):
             every[column.name] = np.abs(np.asarray(rows[column.name], dtype=float))
-    inputs = search.problem.run(NOTHING, search.null_fit.z).record.inputs
+    inputs = search.problem.run(NOTHING, search.null_fit.z).inputs
     made = set(inputs) | {name for name, _ in forward.chain}
     parts = [name for name in (*CHAIN[1:], "film_thickness", "composite_roughness") if name in made]
     state = Model(forward.chain, tuple(inputs), tuple(parts))(inputs) if parts else {}

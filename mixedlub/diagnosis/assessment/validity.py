@@ -19,11 +19,8 @@ from mixedlub.schema.findings import Finding, finding
 
 def beyond_range(problem: Problem, explanation: Explanation, z: np.ndarray) -> list[Finding]:
     """A finding for each quantity of a fit that lies outside what one of its effects was made for."""
-    record = problem.run(explanation, z).record
-    state: dict[str, Any] = dict(record.inputs)
-    for made in record.made:
-        state.update(made)
-    return outside(effects_of(explanation.effects), state, problem.y.size)
+    run = problem.run(explanation, z)
+    return outside(effects_of(explanation.effects), {**run.inputs, **run.record.state}, problem.y.size)
 
 
 def unpublished(effects: Sequence[Effect], z: np.ndarray, spread: np.ndarray) -> list[Finding]:

@@ -98,12 +98,12 @@ def log_slope(problem: Problem, base: Run, name: str) -> np.ndarray | None:
 
     ``base`` is a run of the base model. None where the chain lacks the quantity.
     """
-    forward, inputs = problem.forward, base.record.inputs
+    forward, inputs = problem.forward, base.inputs
     if name not in forward.inputs and name not in {step for step, _ in forward.chain}:
         return None
     model = Model(forward.chain, tuple(inputs), ("reading",), (_free_factor(name),))
     moved = np.asarray(model(inputs, {"free_factor": {"log_factor": FINITE_STEP}})["reading"])
-    slope = (moved - np.asarray(base.record.wanted["reading"])) / FINITE_STEP * forward.scale
+    slope = (moved - np.asarray(base.record["reading"])) / FINITE_STEP * forward.scale
     return np.asarray(np.broadcast_to(slope, (problem.y.size, 1))[:, 0] / problem.d_inverse(base.prediction))
 
 

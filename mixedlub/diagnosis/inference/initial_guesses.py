@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -111,8 +112,19 @@ def spread(size: int, count: int) -> np.ndarray:
     return ndtri(PRIOR_TAIL + (1.0 - 2.0 * PRIOR_TAIL) * uniform)
 
 
-def fit_single(problem: Problem, null_fit: Fit, draws: PriorDraws) -> Fit:
-    """Fit from the most promising draws that lie apart, keep the best.
+def fit_singles(problem: Problem, null_fit: Fit, draws: Sequence[PriorDraws]) -> dict[Explanation, Fit]:
+    """The fit of each effect alone; the most promising are fitted first, and are the rivals of the others."""
+    guesses = {s.id: initial_guesses(problem, null_fit, s) for s in draws}
+    fits: dict[str, Fit] = {}
+    rival = null_fit.evidence
+    for name in sorted(guesses, key=lambda name: -guesses[name][0]):
+        fits[name] = fit_single(problem, null_fit, name, guesses[name][1], rival)
+        rival = max(rival, fits[name].evidence)
+    return {Explanation.of(s.id): fits[s.id] for s in draws}
+
+
+def initial_guesses(problem: Problem, null_fit: Fit, draws: PriorDraws) -> tuple[float, list[np.ndarray]]:
+    """The linearised log evidence of the best draw, and the most promising draws that lie apart, calibration fitted.
 
     Where the base model's calibration is far from its prior, the prior mean is tried too.
     """
@@ -134,9 +146,14 @@ def fit_single(problem: Problem, null_fit: Fit, draws: PriorDraws) -> Fit:
     tries = [starts[i] for i in chosen]
     if null_fit.z @ null_fit.z > STRAINED_CALIBRATION:
         tries.append(np.concatenate([np.zeros(null_fit.z.size), draws.z[order[0]]]))
-    alone = Explanation.of(draws.id)
-    found = map_fits(problem, alone, tries)
+    return float(scores[order[0]]), tries
+
+
+def fit_single(problem: Problem, null_fit: Fit, name: str, tries: Sequence[np.ndarray], rival: float = -np.inf) -> Fit:
+    """The best of the fits of one effect from its initial guesses."""
+    alone = Explanation.of(name)
+    found = map_fits(problem, alone, tries, rival)
     if null_fit.weight.min() < OUTLIER_WEIGHT:
         # Outliers may pull a fit away from a good start.
-        found.append(map_fit(problem, alone, tries[0], warm=True))
+        found.append(map_fit(problem, alone, tries[0], warm=True, rival=rival))
     return max(found, key=lambda fit: fit.evidence if np.isfinite(fit.evidence) else -np.inf)

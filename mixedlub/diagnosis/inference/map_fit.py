@@ -19,6 +19,7 @@ from mixedlub.diagnosis.settings.inference import (
     EVIDENCE_BOUND_FACTOR,
     FIT_TOLERANCE,
     GAUSS_NEWTON_STEPS,
+    HOPELESS_BEHIND,
     HUBER_BOUND,
     LEAST_DAMPING,
     LONGEST_STEP,
@@ -26,6 +27,7 @@ from mixedlub.diagnosis.settings.inference import (
     MOST_COORDINATE,
     OUTLIER_SHARE,
     OUTLIER_WIDTH,
+    PRECISION_BEHIND,
     PREFIT_TOLERANCE,
     REWEIGHTINGS,
     SAME_FIT_WITHIN,
@@ -164,18 +166,27 @@ def whitening(columns: np.ndarray, weight: np.ndarray) -> Callable[[np.ndarray],
 
 
 def map_fit(
-    problem: Problem, explanation: Explanation, start: np.ndarray, *, warm: bool = False, least: float = -np.inf
+    problem: Problem,
+    explanation: Explanation,
+    start: np.ndarray,
+    *,
+    warm: bool = False,
+    rival: float = -np.inf,
+    hopeless: float = HOPELESS_BEHIND,
 ) -> Fit:
     """Gauss-Newton with damping to the most probable coordinates, then Laplace's evidence.
 
     Unless the start is ``warm``, a robust (Huber) prefit comes first, because far from the solution every reading looks
-    like an outlier. A fit that cannot reach the ``least`` evidence is given up.
+    like an outlier. A fit that must stay ``hopeless`` behind the evidence of a ``rival`` is given up.
     """
     state = _initial_state(problem, explanation, start)
-    return _laplace_fit(problem, explanation, state if warm else _robust_prefit(problem, explanation, state), least)
+    state = state if warm else _robust_prefit(problem, explanation, state)
+    return _laplace_fit(problem, explanation, state, rival, hopeless)
 
 
-def map_fits(problem: Problem, explanation: Explanation, starts: Sequence[np.ndarray]) -> list[Fit]:
+def map_fits(
+    problem: Problem, explanation: Explanation, starts: Sequence[np.ndarray], rival: float = -np.inf
+) -> list[Fit]:
     """`map_fit` from several starts; starts whose prefits agree are continued once."""
     found: list[Fit] = []
     places: list[np.ndarray] = []
@@ -183,7 +194,7 @@ def map_fits(problem: Problem, explanation: Explanation, starts: Sequence[np.nda
         state = _robust_prefit(problem, explanation, _initial_state(problem, explanation, start))
         if all(np.max(np.abs(state.z - z)) > SAME_FIT_WITHIN for z in places):
             places.append(state.z)
-            found.append(_laplace_fit(problem, explanation, state))
+            found.append(_laplace_fit(problem, explanation, state, rival))
     return found
 
 
@@ -200,9 +211,17 @@ def _robust_prefit(problem: Problem, explanation: Explanation, state: _State) ->
     return _gauss_newton(problem, explanation, state, first, tolerance=PREFIT_TOLERANCE)
 
 
-def _laplace_fit(problem: Problem, explanation: Explanation, state: _State, least: float = -np.inf) -> Fit:
+def _laplace_fit(
+    problem: Problem,
+    explanation: Explanation,
+    state: _State,
+    rival: float = -np.inf,
+    hopeless: float = HOPELESS_BEHIND,
+) -> Fit:
     """Most probable coordinates, and Laplace's evidence there."""
-    state = _gauss_newton(problem, explanation, state, log_likelihood, tolerance=FIT_TOLERANCE, least=least)
+    state = _gauss_newton(
+        problem, explanation, state, log_likelihood, tolerance=FIT_TOLERANCE, rival=rival, hopeless=hopeless
+    )
     columns = np.hstack([state.slopes, problem.shared])
     curvature = np.eye(columns.shape[1]) + columns.T @ (columns * state.weight[:, None])
     evidence = -state.cost - 0.5 * float(np.linalg.slogdet(curvature)[1])
@@ -289,9 +308,10 @@ def _gauss_newton(
     likelihood: Likelihood,
     *,
     tolerance: float,
-    least: float = -np.inf,
+    rival: float = -np.inf,
+    hopeless: float = HOPELESS_BEHIND,
 ) -> _State:
-    """Damped Gauss-Newton steps until the gain is below the tolerance, or the least evidence is out of reach."""
+    """Damped Gauss-Newton steps until the gain is below the tolerance, or the fit is hopelessly behind its rival."""
     z, shared, run, slopes = state.z, state.shared, state.run, state.slopes
     cost, weight = _cost(problem, run.prediction, z, shared, likelihood)
     damping = DAMPING_START
@@ -302,10 +322,10 @@ def _gauss_newton(
         residual = (problem.y - run.prediction) / problem.sd - problem.shared @ shared
         slope = scaled.T @ residual - np.concatenate([z, shared])
         _project_active_bounds(curvature, slope, z)
-        if step_number >= STEPS_BEFORE_GIVING_UP and _evidence_bound(cost, slope, curvature) < least:
+        if step_number >= STEPS_BEFORE_GIVING_UP and _evidence_bound(cost, slope, curvature) < rival - hopeless:
             break
         for _ in range(DAMPING_TRIALS):
-            step = np.linalg.solve(curvature + damping * np.diag(np.diag(curvature)), slope)
+            step = np.linalg.solve(curvature + damping * np.eye(slope.size), slope)
             step *= min(1.0, LONGEST_STEP / max(np.max(np.abs(step[: z.size]), initial=0.0), 1e-12))
             moved = np.clip(z + step[: z.size], -MOST_COORDINATE, MOST_COORDINATE)
             moved_shared = shared + step[z.size :]
@@ -320,7 +340,7 @@ def _gauss_newton(
         z, shared, run, cost, weight = moved, moved_shared, tried, new_cost, new_weight
         damping = max(damping / DAMPING_FALL, LEAST_DAMPING)
         slopes = problem.jacobian(explanation, z, run)
-        if gain < tolerance:
+        if gain < max(tolerance, PRECISION_BEHIND * (rival + cost)):
             break
     return _State(z, shared, run, slopes, cost, weight)
 

@@ -11,12 +11,18 @@ import numpy as np
 from mixedlub.diagnosis.discrepancy.model import Discrepancy, fit_discrepancy
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.change_points import integrate_change_points
-from mixedlub.diagnosis.inference.initial_guesses import PriorDraws, fit_single, sample
+from mixedlub.diagnosis.inference.initial_guesses import PriorDraws, fit_singles, sample
 from mixedlub.diagnosis.inference.map_fit import Fit, Linear, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.inference.nested_laws import published_gain
 from mixedlub.diagnosis.inference.pairs import exchanged, promising_pairs
 from mixedlub.diagnosis.problem import Problem, effects_of
-from mixedlub.diagnosis.settings.inference import EXCHANGE_ROUNDS, OUTLIER_SHARE, SEED, STRONG_EVIDENCE
+from mixedlub.diagnosis.settings.inference import (
+    EXCHANGE_ROUNDS,
+    HOPELESS_BEHIND,
+    OUTLIER_SHARE,
+    SEED,
+    STRONG_EVIDENCE,
+)
 from mixedlub.diagnosis.settings.search import (
     AFFECTED,
     FORM_ERROR_FUNCTIONS,
@@ -28,7 +34,6 @@ from mixedlub.diagnosis.settings.search import (
     FORM_ERROR_PRODUCTS,
     FORM_ERRORS,
     FULL_PAIR_PRIOR,
-    HOPELESS_BEHIND,
     LEAST_NOTHING_ODDS,
     MANY,
     PRIOR,
@@ -205,7 +210,7 @@ def _search(
     drawn = [s for s in (sample(problem, e.id, null_fit) for e in effects) if len(s.z)]
     draws = tuple(s for s in drawn if s.testable)
     untestable = tuple(s for s in drawn if not s.testable)
-    singles: dict[Explanation, Fit] = {Explanation.of(s.id): fit_single(problem, null_fit, s) for s in draws}
+    singles = fit_singles(problem, null_fit, draws)
     if singles:
         best = max(singles.values(), key=lambda f: f.evidence)
         if best.evidence > null_fit.evidence + STRONG_EVIDENCE:
@@ -219,7 +224,7 @@ def _search(
     for pair, start in promising_pairs(problem, null_fit, singles, draws):
         if one_in_time(pair, problem, null_fit):
             continue
-        fit = map_fit(problem, pair, start)
+        fit = map_fit(problem, pair, start, rival=max(f.evidence for f in fits.values()))
         if pair not in fits or fit.evidence > fits[pair].evidence:
             fits[pair] = fit
     _exchange(problem, null_fit, fits, draws)
@@ -252,7 +257,7 @@ def _exchange(problem: Problem, null_fit: Fit, fits: dict[Explanation, Fit], dra
             return
         for pair, start in exchanged(problem, best, draws):
             if pair not in fits and not one_in_time(pair, problem, null_fit):
-                fits[pair] = map_fit(problem, pair, start)
+                fits[pair] = map_fit(problem, pair, start, rival=best.evidence)
         if best.evidence >= max(f.evidence for m, f in fits.items() if len(m.effects) == 2):
             return
 

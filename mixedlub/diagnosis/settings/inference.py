@@ -55,7 +55,7 @@ GAUSS_NEWTON_STEPS = 20
 DAMPING_TRIALS = 8
 """Cost limit. Dampings that are tried for one step."""
 DAMPING_START, DAMPING_RETRY = 1e-2, 1e-3
-"""Judgement. Damping of the first step, and the least after a failed one: small against the prior's curvature."""
+"""Judgement. Damping of the first step, and the least after a failed one, over the prior's curvature: small."""
 DAMPING_RISE, DAMPING_FALL, LEAST_DAMPING = 6.0, 5.0, 1e-9
 """Judgement. Factors on the damping after a failed and a good step, and its least value: one of each nearly cancel."""
 LONGEST_STEP = 2.0
@@ -66,6 +66,10 @@ FIT_TOLERANCE = 2e-3
 """Judgement. Gain in log probability below which a fit ends: invisible in any odds."""
 SAME_FIT_WITHIN = 0.1
 """Judgement. Prior standard deviations within which two prefits lead to the same result."""
+HOPELESS_BEHIND = 60.0
+"""Cost limit. Log evidence behind the best from which a fit is given up, or not repeated under a new noise."""
+PRECISION_BEHIND = 0.01
+"""Cost limit. Precision of the evidence of a fit behind the best, over its distance to that."""
 EVIDENCE_BOUND_FACTOR = 2.0
 """Judgement. Gain that a fit may still make over that of its linearisation, before it is given up: twice."""
 STEPS_BEFORE_GIVING_UP = 3
