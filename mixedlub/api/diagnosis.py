@@ -15,7 +15,9 @@ from mixedlub.case.folder import Case, conditions_for, read_case
 from mixedlub.case.simulation import simulate as simulated
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnosis_of
 from mixedlub.diagnosis.report.files import files, write
+from mixedlub.diagnosis.report.improved import improved_case
 from mixedlub.diagnosis.report.text.answer import as_json, predictions
+from profiles.errors import InputError
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -68,6 +70,16 @@ class Answer:
     def findings(self) -> list[str]:
         """Warnings about the input and the answer."""
         return [str(one) for one in self.diagnosis.warnings]
+
+    @property
+    def improved(self) -> Case:
+        """The case with the verdict's effects and calibration at their most probable values, for `ml.simulate`."""
+        case = improved_case(self.diagnosis)
+        if case is None:
+            raise InputError(
+                "the missing part has no law, so no improved model can be run", where=self.diagnosis.case.name
+            )
+        return case
 
     def summary(self) -> str:
         """The report in plain words."""

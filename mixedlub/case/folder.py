@@ -162,6 +162,15 @@ def _used_runs(case: Case, wanted: Table | None) -> list[int]:
     return [int(run) for run in wanted["run"][here][other]]
 
 
+def at_programme_end(case: Case, wanted: Table) -> Table:
+    """Conditions to predict, at the end of the test programme where they have no place in it."""
+    if case.recordings is None or "sequence" in wanted or "sequence" not in case.recordings:
+        return wanted
+    text = "no column sequence: predicted for the end of the test programme"
+    report(finding("sequence_assumed", text, wanted.source))
+    return replace(wanted, columns={**wanted.columns, "sequence": np.ones(len(wanted))})
+
+
 def _refuse_stuck(recordings: Table, quantity: str, folder: Path) -> None:
     """Refuse a recorded channel whose readings are all equal."""
     if np.ptp(recordings[quantity]) == 0 and len(recordings) > 2:

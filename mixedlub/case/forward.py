@@ -13,12 +13,12 @@ import numpy as np
 from mixedlub.case.folder import Case
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Model, Parameters, Record, available
-from mixedlub.effects import known_in
-from mixedlub.kinds.calibration import Calibration, calibrations
+from mixedlub.effects import known_effects, known_in
+from mixedlub.kinds.calibration import Calibration, calibrations, of_parameter
 from mixedlub.kinds.kind import ageing, varies
 from mixedlub.schema.findings import collected
 from mixedlub.schema.table import Table
-from profiles.errors import InputError
+from profiles.errors import InputError, nearest
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,12 +47,15 @@ class Run:
 class Forward:
     """Predicts the rows of a table under any set of effects.
 
-    Inputs are built once; ``notes`` lists the assumptions made.
+    Inputs are built once; ``notes`` lists the assumptions made. Effects that the case names are part of the base model,
+    and the calibration that it names applies wherever no other value is given.
     """
 
     def __init__(self, case: Case, table: Table, reading_scale: float | None = None) -> None:
         self.case = case
         recorded = table if case.recordings is None else case.recordings
+        if reading_scale is None and case.system.effects and table is not recorded:
+            reading_scale = float(Forward(case, recorded).inputs["reading_scale"])
         with collected() as notes:
             self.table = table = case.kind.completed(table, recorded)
             self.inputs: dict[str, Any] = case.kind.inputs(case.system, case.rig, table, recorded)
@@ -62,22 +65,46 @@ class Forward:
         self.notes = tuple(notes)
         self.scale = case.kind.scale
         self.chain = case.kind.chain(case.system, table)
-        self.calibrations: tuple[Calibration, ...] = tuple(
-            c for c in (*calibrations(case.system), *extra) if all(n in self.inputs for n in c.needs)
-        )
         self._model = lru_cache(maxsize=1024)(self._build)
         self._shape = (len(table), 1)
-        self.inputs["reading_scale"] = 1.0
+        plain = Model(self.chain, tuple(self.inputs), ("reading", *case.kind.nominal))(self.inputs)
         if reading_scale is None:
-            reading_scale = float(np.median(np.abs(self.predict()))) / self.scale
+            reading_scale = float(np.median(np.abs(self._rows(plain["reading"])))) / self.scale
         self.inputs["reading_scale"] = reading_scale
-        if case.kind.nominal:
-            base = Model(self.chain, tuple(self.inputs), tuple(case.kind.nominal))(self.inputs)
-            self.inputs |= {name: base[quantity] for quantity, name in case.kind.nominal.items()}
+        self.inputs |= {name: plain[quantity] for quantity, name in case.kind.nominal.items()}
+        self.known = known_effects(case.system.effects, case.kind.name, self.chain, tuple(self.inputs), "reading")
+        self.calibrations: tuple[Calibration, ...] = (
+            *(c for c in (*calibrations(case.system), *extra) if all(n in self.inputs for n in c.needs)),
+            *map(self._of_effect, self.known.sds),
+        )
+        self._check_calibration()
+
+    def _of_effect(self, place: tuple[str, str]) -> Calibration:
+        """The calibration of a parameter whose standard deviation the case states."""
+        effect, name = place
+        e = next(e for e in self.known.effects if e.id == effect)
+        return of_parameter(e, name, self.known.values[effect][name], self.known.sds[place])
+
+    def _check_calibration(self) -> None:
+        """Refuse a calibration that the case names and that is none of its own."""
+        names = [c.name for c in self.calibrations]
+        for name in self.case.system.calibration:
+            if name not in names:
+                hint = nearest(name, names) if names else "all its inputs count as known"
+                raise InputError(f"is not calibrated in this case; {hint}", where="calibration", value=name)
 
     def _build(self, effects: tuple[str, ...]) -> Model:
-        known = known_in(self.case.kind.name)
-        return Model(self.chain, tuple(self.inputs), ("reading",), [known[e] for e in effects])
+        return self.model(("reading",), [known_in(self.case.kind.name)[e] for e in effects])
+
+    def model(self, want: Sequence[str], effects: Sequence[Effect] = ()) -> Model:
+        """The base model of the case with more effects."""
+        return Model(self.chain, tuple(self.inputs), want, (*self.known.effects, *effects))
+
+    def _rows(self, reading: np.ndarray) -> np.ndarray:
+        """Readings in the unit of the recorded column, one per row."""
+        reading = np.asarray(reading)
+        column = reading[:, 0] if reading.shape == self._shape else np.broadcast_to(reading, self._shape)[:, 0]
+        return np.asarray(column * self.scale)
 
     def predict(
         self, calibration: Mapping[str, float] | None = None, parameters: Parameters | None = None
@@ -110,12 +137,12 @@ class Forward:
         near: Run | None = None,
     ) -> Run:
         """Predict and keep the steps; given a run ``near`` with the same effects, only changed steps are recomputed."""
-        inputs, applied = self._calibrated(calibration or {}, near)
+        calibration = {**self.case.system.calibration, **(calibration or {})}
+        inputs, applied = self._calibrated(calibration, near)
         model = self._model(tuple(sorted(parameters or {})))
-        record = model.record(inputs, parameters, None if near is None else near.record)
-        reading = np.asarray(record["reading"])
-        column = reading[:, 0] if reading.shape == self._shape else np.broadcast_to(reading, self._shape)[:, 0]
-        return Run(column * self.scale, record, applied, inputs)
+        every = {**self.known_values(calibration), **(parameters or {})}
+        record = model.record(inputs, every, None if near is None else near.record)
+        return Run(self._rows(record["reading"]), record, applied, inputs)
 
     def _calibrated(
         self, calibration: Mapping[str, float], near: Run | None
@@ -134,12 +161,19 @@ class Forward:
                 inputs.update(move.changes)
         return inputs, applied
 
+    def known_values(self, calibration: Mapping[str, float]) -> dict[str, dict[str, float]]:
+        """Parameters of the effects that the case names, at a calibration."""
+        values = {effect: dict(own) for effect, own in self.known.values.items()}
+        for e, name in self.known.sds:
+            values[e][name] = calibration.get(f"{e}.{name}", values[e][name])
+        return values
+
     def effects(self, exclude: Sequence[str] = ()) -> tuple[Effect, ...]:
         """Effects of the catalogue that apply to these rows, with the parameters that are free in this kind."""
         return tuple(
             e
             for e in known_in(self.case.kind.name).values()
-            if e.id not in exclude
+            if e.id not in (*exclude, *self.known.values)
             and available(e, self.chain, tuple(self.inputs), "reading", self.case.kind.name)
             and (not e.over or varies(self.inputs[e.over]))
         )

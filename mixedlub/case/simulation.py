@@ -1,10 +1,10 @@
-"""The base model at the conditions of a case, without fitting."""
+"""The base model at the conditions of a case, with the effects that the case names; nothing is fitted."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from mixedlub.case.folder import Case
+from mixedlub.case.folder import Case, at_programme_end
 from mixedlub.case.forward import Forward
 from mixedlub.schema.findings import report
 from mixedlub.schema.table import BOOKKEEPING, Table
@@ -27,7 +27,8 @@ def simulate(case: Case, at: Table | None = None) -> pd.DataFrame:
             "has neither recordings.csv nor conditions.csv; name a table with --at", where=str(case.folder)
         )
     parts = []
-    for table in tables:
+    for given in tables:
+        table = at_programme_end(case, given) if case.system.effects else given
         forward = Forward(case, table)
         for one in forward.notes:
             report(one)

@@ -8,7 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
-from mixedlub.case.folder import Case, read_case, read_conditions, refuse_used_runs, unpredicted_runs
+from mixedlub.case.folder import (
+    Case,
+    at_programme_end,
+    read_case,
+    read_conditions,
+    refuse_used_runs,
+    unpredicted_runs,
+)
 from mixedlub.case.forward import Forward
 from mixedlub.data_checks.audit import audit
 from mixedlub.diagnosis.assessment.answer_checks import (
@@ -36,14 +43,15 @@ from mixedlub.diagnosis.settings.assessment import FALSE_ALARM_RATE
 from mixedlub.diagnosis.settings.inference import LIKELY
 from mixedlub.effects import find
 from mixedlub.recording.readings import readings_of, rows_of
-from mixedlub.schema.findings import Finding, finding
+from mixedlub.schema.findings import Finding, collected, finding
 from mixedlub.schema.table import Table
 
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """Everything the answer says, and what it was computed from."""
+    """Everything the answer says, and what it was computed from: ``case`` is the one ``given`` with the noise found."""
 
+    given: Case
     case: Case
     search: Search
     test: Mismatch
@@ -128,7 +136,8 @@ def diagnosis_of(
     """Work out what the simulation of a case lacks, and predict the conditions ``asked`` for."""
     find(list(exclude))
     rows = rows_of(case)
-    wanted, assumed = _completed(asked, rows)
+    with collected() as assumed:
+        wanted = None if asked is None else at_programme_end(case, asked)
     forward = Forward(case, rows)
     checks = audit(case, rows, readings_of(case), forward)
     warnings = [*case.notes, *assumed, *unpredicted_runs(case, wanted), *forward.notes, *checks]
@@ -143,7 +152,7 @@ def diagnosis_of(
     tried = search_under_noise(case, forward, exclude, progress)
     progress("testing against nothing missing")
     search, test = mismatch_against_null(tried, level)
-    case, rows = search.problem.case, search.problem.rows
+    given, case, rows = case, search.problem.case, search.problem.rows
     warnings += noise_notes(search, tried.stated, tried.inflation)
     progress("leaving levels out")
     judged, kept = judge(search, test)
@@ -163,6 +172,7 @@ def diagnosis_of(
     warnings += _cautions(search, judged, kept, refined, recorded.predicted, chance > LIKELY)
     said = tuple(warnings)
     return Diagnosis(
+        given,
         case,
         search,
         test,
@@ -202,12 +212,3 @@ def _cautions(
     named, own = refined[judged.verdict], slice(problem.calibration_size, None)
     said += beyond_range(problem, judged.verdict, named.z)
     return said + unpublished(problem.effects(judged.verdict), named.z[own], named.spread[own])
-
-
-def _completed(wanted: Table | None, rows: Table) -> tuple[Table | None, list[Finding]]:
-    """Conditions to predict, at the end of the test programme where they have no place in it."""
-    if wanted is None or "sequence" in wanted or "sequence" not in rows:
-        return wanted, []
-    columns = {**wanted.columns, "sequence": np.ones(len(wanted))}
-    text = "no column sequence: predicted for the end of the test programme"
-    return Table(columns, wanted.source), [finding("sequence_assumed", text, wanted.source)]

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache
 from types import MappingProxyType
 
 from mixedlub.chain.effect import REGISTRY, STAGES, Effect
+from mixedlub.chain.model import Chain, available
 from mixedlub.discovery import loaded
 from profiles.errors import InputError, nearest
 
@@ -47,6 +50,74 @@ def page(effect_id: str) -> Effect:
     starvation: Above a certain viscosity times speed the inlet lacks oil; the film
     """
     return find((effect_id,))[0]
+
+
+LAW, SD = "law", "_sd"
+"""Key of a published law, and end of the key of a standard deviation, in the section ``[effects]`` of a file."""
+
+
+@dataclass(frozen=True)
+class Known:
+    """Effects that a file takes as known: parameter values by effect, and standard deviations by effect and name."""
+
+    effects: tuple[Effect, ...]
+    values: Mapping[str, Mapping[str, float]]
+    sds: Mapping[tuple[str, str], float]
+
+
+def known_effects(
+    section: Mapping[str, Mapping[str, float | str]], kind: str, chain: Chain, given: Sequence[str], want: str
+) -> Known:
+    """The effects of a section ``[effects]`` in a chain; what is left out is the median of its prior.
+
+    ``law`` names a published law that the effect contains and fixes the parameters which this law has; NAME_sd is the
+    standard deviation of the parameter NAME.
+    """
+    own = known_in(kind)
+    effects = tuple(own[e.id] for e in find(sorted(section)))
+    values: dict[str, dict[str, float]] = {}
+    sds: dict[tuple[str, str], float] = {}
+    for e in effects:
+        if not available(e, chain, given, want, kind):
+            raise InputError(
+                f"this effect cannot act on the {want.replace('_', ' ')} of a {kind.replace('_', ' ')}",
+                where=f"effects.{e.id}",
+            )
+        fixed = _of_law(e, section[e.id].get(LAW))
+        values[e.id] = {**e.middle, **fixed}
+        for key, value in section[e.id].items():
+            name = key.removesuffix(SD)
+            where = f"effects.{e.id}.{key}"
+            if key == LAW:
+                continue
+            if name not in values[e.id]:
+                rule = f"no such parameter of {e.id}; {nearest(name, (*values[e.id], *([LAW] if e.contains else [])))}"
+                raise InputError(rule, where=f"effects.{e.id}", value=key)
+            if isinstance(value, str):
+                raise InputError("must be a number", where=where, value=value)
+            if name in fixed:
+                raise InputError(f"the law {section[e.id][LAW]!r} fixes it; leave one of them out", where=where)
+            if value < 0 and (key != name or _is_positive(e, name)):
+                raise InputError("must not be negative", where=where, value=value)
+            if key == name:
+                values[e.id][name] = float(value)
+            elif value > 0:
+                sds[e.id, name] = float(value)
+    return Known(effects, values, sds)
+
+
+def _of_law(e: Effect, law: float | str | None) -> dict[str, float]:
+    """Parameters that a published law fixes, of those that are free."""
+    if law is None:
+        return {}
+    if law not in e.contains:
+        raise InputError(f"no such law of {e.id}; {nearest(str(law), e.contains)}", where=f"effects.{e.id}", value=law)
+    return {name: value for name, value in e.contains[str(law)].items() if name in e.middle}
+
+
+def _is_positive(e: Effect, name: str) -> bool:
+    """Whether the prior of a parameter excludes negative values."""
+    return next(p.prior.value(-math.inf) for p in e.parameters if p.name == name) >= 0.0
 
 
 __all__ = ["Effect", "catalogue", "find", "known_in", "page"]

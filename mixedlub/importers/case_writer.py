@@ -13,11 +13,8 @@ import numpy as np
 
 from mixedlub.atomic import writing
 from mixedlub.schema.findings import Finding, as_records
-from mixedlub.schema.toml_file import toml_key, toml_value
+from mixedlub.schema.toml_file import Comments, to_toml
 from profiles.errors import InputError
-
-Comments = Mapping[str, Sequence[str]]
-"""Comment lines by the dotted name of their table; the empty name is the head of the file."""
 
 
 def write_case(
@@ -134,38 +131,3 @@ def findings_toml(found: Iterable[Finding]) -> str:
     head = "# What `mixedlub import` warned of. `check` and `diagnose` repeat it; delete what is resolved.\n"
     tables = ("\n[[finding]]\n" + to_toml(record) for record in as_records(found))
     return head + "".join(tables)
-
-
-def to_toml(data: Mapping[str, Any], place: str = "", *, comments: Comments | None = None) -> str:
-    """TOML of nested tables, plain values first; the comments of a table follow its values.
-
-    Comments of absent tables come at the end.
-
-    >>> print(to_toml({"kind": "film", "contact": {"radius_mm": [9.5, float("inf")]}}))
-    kind = "film"
-    <BLANKLINE>
-    [contact]
-    radius_mm = [9.5, inf]
-    <BLANKLINE>
-    """
-    below = comments or {}
-    written: set[str] = set()
-    text = _table(data, place, below, written)
-    absent = ["\n" + "\n".join(lines) + "\n" for name, lines in below.items() if name not in written]
-    return text + "".join(absent)
-
-
-def _table(data: Mapping[str, Any], place: str, comments: Comments, written: set[str]) -> str:
-    lines = [
-        f"{toml_key(k)} = {toml_value(v)}" for k, v in data.items() if v is not None and not isinstance(v, Mapping)
-    ]
-    lines += comments.get(place, ())
-    written.add(place)
-    text = "\n".join(lines) + "\n" if lines else ""
-    for key, v in data.items():
-        if isinstance(v, Mapping):
-            name = f"{place}.{toml_key(key)}" if place else toml_key(key)
-            inner = _table(v, name, comments, written)
-            plain = not v or any(not isinstance(x, Mapping) for x in v.values()) or comments.get(name)
-            text += (f"\n[{name}]\n" if plain else "") + inner
-    return text

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
-from mixedlub.chain.effect import Parameter
+from mixedlub.chain.effect import Effect, Parameter
 from mixedlub.chain.priors import LogNormal, Normal
 from mixedlub.schema import system_file
+from profiles.errors import InputError
 
 Inputs = Mapping[str, Any]
 
@@ -46,6 +48,20 @@ def _replaced(name: str) -> Callable[[Inputs, float], dict[str, Any]]:
 def _factor(name: str, spread: float, meaning: str, *inputs: str, power: int = 1) -> Calibration:
     parameter = Parameter(name, "-", LogNormal(1.0, spread), f"factor on {meaning}")
     return Calibration(parameter, _scaled(*inputs, power=power), 1.0, inputs, factor=True)
+
+
+def of_parameter(effect: Effect, name: str, value: float, sd: float) -> Calibration:
+    """A parameter of a known effect whose standard deviation is stated; lognormal where it must be positive."""
+    (p,) = (p for p in effect.parameters if p.name == name)
+    if p.prior.value(-math.inf) < 0.0:
+        prior: Normal | LogNormal = Normal(value, sd)
+    elif value > 0.0:
+        prior = LogNormal(value, sd / value)
+    else:
+        rule = "a parameter that cannot be negative is uncertain only above zero"
+        raise InputError(rule, where=f"effects.{effect.id}.{name}", value=value)
+    own = replace(p, name=f"{effect.id}.{name}", prior=prior)
+    return Calibration(own, lambda inputs, value: {}, value, ())
 
 
 def calibrations(system: system_file.System) -> tuple[Calibration, ...]:

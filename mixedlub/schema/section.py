@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from math import isfinite
 from types import NoneType, UnionType
 from typing import Annotated, Any, Union, cast, get_args, get_origin
 
@@ -36,6 +37,14 @@ def _whole(value: Any) -> Any:
     return value
 
 
+def _number_or_name(value: Any) -> Any:
+    if not isinstance(value, str) and (isinstance(value, bool) or not isinstance(value, (int, float))):
+        raise ValueError("must be a number")
+    if not isinstance(value, str) and not isfinite(value):
+        raise ValueError("must be a finite number")
+    return value
+
+
 def one_of(value: str, known: Iterable[str]) -> str:
     """The value, or an error that names the known ones; for choices that are known only when a file is read."""
     *others, last = (repr(name) for name in known)
@@ -48,6 +57,7 @@ def one_of(value: str, known: Iterable[str]) -> str:
 Float = Annotated[float, BeforeValidator(_number)]
 Number = Annotated[Float, Field(allow_inf_nan=False)]
 Whole = Annotated[int, BeforeValidator(_whole)]
+NumberOrName = Annotated[Any, BeforeValidator(_number_or_name)]
 NAME = "NAME"
 """Placeholder for the name that the user gives a table."""
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, Field, create_model, model_validator
 
 from mixedlub.discovery import declared
-from mixedlub.schema.section import Float, Number, Section, Whole, key, one_of, tables, with_ranges
+from mixedlub.schema.section import Float, Number, NumberOrName, Section, Whole, key, one_of, tables, with_ranges
 from profiles.errors import InputError
 
 
@@ -235,6 +235,19 @@ class System(RigFile):
     contact: Contact | None = key("two entries: first and second body", None)
     uncertainty: Uncertainty = key("one standard deviation of what calibration may move; 0: known", Uncertainty())
     recording: Recording = key("what was read, and how well")
+    effects: dict[str, dict[str, NumberOrName]] = key(
+        "EFFECT = { PARAMETER = VALUE }: physics that the rig is known to have, part of the base model here; "
+        "parameters left out: median of their prior; PARAMETER_sd: its standard deviation, for calibration; law = "
+        "NAME: those of a published law that the effect contains",
+        {},
+        example={"sensor_gain": {"gain": 0.01, "gain_sd": 0.005}},
+    )
+    calibration: dict[str, Number] = key(
+        "NAME = VALUE: calibrated inputs at which the model is simulated, by the names of diagnosis.json; left out: "
+        "nominal",
+        {},
+        example={"boundary_friction": 0.1},
+    )
 
 
 with_ranges(System)

@@ -16,6 +16,8 @@ from mixedlub.schema.section import Key, Section, section_in
 from profiles.errors import InputError, nearest, refuse_no_file
 
 T = TypeVar("T", bound=Section)
+Comments = Mapping[str, Sequence[str]]
+"""Comment lines by the dotted name of their table; the empty name is the head of the file."""
 
 
 def read_toml(path: Path) -> dict[str, Any]:
@@ -104,6 +106,41 @@ def toml_value(value: Any) -> str:
         return "{ " + ", ".join(f"{toml_key(k)} = {toml_value(v)}" for k, v in value.items()) + " }" if value else "{}"
     number = float(value)
     return str(int(value)) if isinstance(value, int) else repr(number)
+
+
+def to_toml(data: Mapping[str, Any], place: str = "", *, comments: Comments | None = None) -> str:
+    """TOML of nested tables, plain values first; the comments of a table follow its values.
+
+    Comments of absent tables come at the end.
+
+    >>> print(to_toml({"kind": "film", "contact": {"radius_mm": [9.5, float("inf")]}}))
+    kind = "film"
+    <BLANKLINE>
+    [contact]
+    radius_mm = [9.5, inf]
+    <BLANKLINE>
+    """
+    below = comments or {}
+    written: set[str] = set()
+    text = _table(data, place, below, written)
+    absent = ["\n" + "\n".join(lines) + "\n" for name, lines in below.items() if name not in written]
+    return text + "".join(absent)
+
+
+def _table(data: Mapping[str, Any], place: str, comments: Comments, written: set[str]) -> str:
+    lines = [
+        f"{toml_key(k)} = {toml_value(v)}" for k, v in data.items() if v is not None and not isinstance(v, Mapping)
+    ]
+    lines += comments.get(place, ())
+    written.add(place)
+    text = "\n".join(lines) + "\n" if lines else ""
+    for key, v in data.items():
+        if isinstance(v, Mapping):
+            name = f"{place}.{toml_key(key)}" if place else toml_key(key)
+            inner = _table(v, name, comments, written)
+            plain = not v or any(not isinstance(x, Mapping) for x in v.values()) or comments.get(name)
+            text += (f"\n[{name}]\n" if plain else "") + inner
+    return text
 
 
 def default_of(key: Key) -> str:

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from mixedlub.chain.effect import Effect
-from mixedlub.chain.model import Model, available
-from mixedlub.effects import find, known_in
+from mixedlub.chain.model import Model
+from mixedlub.effects import find, known_effects
 from mixedlub.gear import GearPair, Mesh
 from mixedlub.gear.inputs import motion_inputs
 from mixedlub.laws.load import LEAST_SHARE
@@ -199,25 +199,9 @@ def _pairing_inputs(pairs: list[tuple[Surface, Surface]]) -> dict[str, np.ndarra
     return {name: values.reshape(-1, 1, 1, 1, 1) for name, values in both.items()}
 
 
-def _effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, ...], dict[str, dict[str, float]]]:
+def _effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, ...], Parameters]:
     """The active effects, each parameter at its given value or the median of its prior."""
-    if not file.effects:
-        return (), {}
-    known = known_in("gear_pair")
-    effects = tuple(known[e.id] for e in find(sorted(file.effects)))
-    parameters: dict[str, dict[str, float]] = {}
-    for e in effects:
-        if not available(e, study_chain(file.options), tuple(inputs), "power_loss", "gear_pair"):
-            raise InputError("this effect cannot act on the power loss of a study", where=f"effects.{e.id}")
-        values = e.middle
-        for name, value in file.effects[e.id].items():
-            if name not in values:
-                raise InputError(
-                    f"no such parameter of {e.id}; {nearest(name, values)}", where=f"effects.{e.id}", value=name
-                )
-            prior = next(p.prior for p in e.parameters if p.name == name)
-            if value < 0 <= prior.value(-np.inf):
-                raise InputError("must not be negative", where=f"effects.{e.id}.{name}", value=value)
-            values[name] = value
-        parameters[e.id] = values
-    return effects, parameters
+    known = known_effects(file.effects, "gear_pair", study_chain(file.options), tuple(inputs), "power_loss")
+    for effect, name in known.sds:
+        raise InputError("a study has no uncertainty; leave it out", where=f"effects.{effect}.{name}_sd")
+    return known.effects, known.values

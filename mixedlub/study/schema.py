@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BeforeValidator, Field, create_model, model_validator
 
-from mixedlub.schema.section import Number, Section, Whole, key, table, with_ranges
+from mixedlub.schema.section import Number, NumberOrName, Section, Whole, key, table, with_ranges
 from mixedlub.schema.system_file import Gears, RigFile, SurfaceSection
 from mixedlub.slots import SLOTS
 
@@ -129,9 +129,9 @@ class StudyFile(RigFile):
         "every torque at every speed and oil temperature; each a list, or { from = LOW, to = HIGH, count = N }"
     )
     options: Options = key("readings of the model on which its authors leave room", Options())
-    effects: dict[str, dict[str, Number]] = key(
+    effects: dict[str, dict[str, NumberOrName]] = key(
         "EFFECT = { PARAMETER = VALUE }: physics beyond the base model, as `mixedlub effects` lists it; "
-        "parameters left out: middle of their prior",
+        "parameters left out: median of their prior; law = NAME: those of a published law that the effect contains",
         {},
         example={"churning": {}},
     )

@@ -28,7 +28,7 @@ ROOMS = {
         "diagnose",
         "report",
     ),
-    "diagnosis/report": ("text", "figures", "html", "files"),
+    "diagnosis/report": ("text", "figures", "html", "improved", "files"),
 }
 """By folder, its rooms and loose modules, each behind those that it may import."""
 ALONE = "validation"

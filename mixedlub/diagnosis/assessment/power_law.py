@@ -9,7 +9,6 @@ from math import comb
 
 import numpy as np
 
-from mixedlub.chain.model import Model
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.diagnosis.discrepancy.modulated import log_slope
 from mixedlub.diagnosis.explanation import NOTHING
@@ -138,10 +137,11 @@ def features(search: Search) -> dict[str, np.ndarray]:
     for column in case.kind.columns:
         if column.form != "name" and column.name in rows and not column.name.endswith("_C"):
             every[column.name] = np.abs(np.asarray(rows[column.name], dtype=float))
-    inputs = search.problem.run(NOTHING, search.null_fit.z).inputs
+    base = search.problem.run(NOTHING, search.null_fit.z)
+    inputs = base.inputs
     made = set(inputs) | {name for name, _ in forward.chain}
     parts = [name for name in (*CHAIN[1:], "film_thickness", "composite_roughness") if name in made]
-    state = Model(forward.chain, tuple(inputs), tuple(parts))(inputs) if parts else {}
+    state = forward.model(parts)(inputs, base.record.values) if parts else {}
     if "film_thickness" in state and "composite_roughness" in state:
         state["film_ratio"] = state["film_thickness"] / state["composite_roughness"]
     for name in CHAIN:

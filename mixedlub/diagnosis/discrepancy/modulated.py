@@ -9,7 +9,6 @@ import numpy as np
 
 from mixedlub.case.forward import Forward, Run
 from mixedlub.chain.effect import Effect, Parameter
-from mixedlub.chain.model import Model
 from mixedlub.chain.priors import Normal
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.settings.discrepancy import NO_INFLUENCE
@@ -101,8 +100,8 @@ def log_slope(problem: Problem, base: Run, name: str) -> np.ndarray | None:
     forward, inputs = problem.forward, base.inputs
     if name not in forward.inputs and name not in {step for step, _ in forward.chain}:
         return None
-    model = Model(forward.chain, tuple(inputs), ("reading",), (_free_factor(name),))
-    moved = np.asarray(model(inputs, {"free_factor": {"log_factor": FINITE_STEP}})["reading"])
+    model = forward.model(("reading",), (_free_factor(name),))
+    moved = np.asarray(model(inputs, {**base.record.values, "free_factor": {"log_factor": FINITE_STEP}})["reading"])
     slope = (moved - np.asarray(base.record["reading"])) / FINITE_STEP * forward.scale
     return np.asarray(np.broadcast_to(slope, (problem.y.size, 1))[:, 0] / problem.d_inverse(base.prediction))
 

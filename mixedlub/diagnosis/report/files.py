@@ -11,6 +11,7 @@ from mixedlub.atomic import writing
 from mixedlub.diagnosis.assessment.power_law import DescribedDiscrepancy, describe_discrepancy
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.explanation import DISCREPANCY
+from mixedlub.diagnosis.report.improved import FILES, FOLDER, improved_files
 from mixedlub.diagnosis.report.text import words
 from mixedlub.diagnosis.report.text.answer import as_json, predictions
 from mixedlub.diagnosis.search.search import Progress
@@ -29,8 +30,8 @@ def diagnose(
 ) -> Diagnosis:
     """Work out what the simulation of a case lacks and write the answer into ``out``.
 
-    The files are diagnosis.json, predictions.csv, report.txt, report.html and figures/. They replace
-    those of an earlier answer once all are written. The same case gives the same bytes.
+    The files are diagnosis.json, predictions.csv, report.txt, report.html, figures/ and the case of the improved model,
+    improved/. They replace those of an earlier answer once all are written. The same case gives the same bytes.
     """
     diagnosis = diagnose_case(case_folder, predict, exclude, level, progress)
     progress("drawing")
@@ -38,7 +39,7 @@ def diagnose(
     return diagnosis
 
 
-def files(d: Diagnosis) -> dict[str, str]:
+def files(d: Diagnosis) -> dict[str, str | bytes]:
     """The contents of all files of the answer, by file name."""
     from mixedlub.diagnosis.report import html
     from mixedlub.diagnosis.report.figures import figures
@@ -53,6 +54,7 @@ def files(d: Diagnosis) -> dict[str, str]:
         "report.txt": _text(d, parts),
         "report.html": html.render(d, parts, drawings),
         **{f"figures/{name}.svg": XML + drawing for name, drawing in drawings.items()},
+        **improved_files(d),
     }
 
 
@@ -95,11 +97,21 @@ def _discrepancy_record(extra: DescribedDiscrepancy | None) -> dict[str, Any]:
     }
 
 
-def write(contents: Mapping[str, str], out: Path) -> None:
+def write(contents: Mapping[str, str | bytes], out: Path) -> None:
     """Write all files of an answer in place of those of an earlier one."""
     out.mkdir(parents=True, exist_ok=True)
     with writing(out) as aside:
         for name, text in contents.items():
             path = aside / name
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text, encoding="utf-8", newline="\n")
+            path.write_bytes(text.encode() if isinstance(text, str) else text)
+    _drop_earlier(contents, out / FOLDER)
+
+
+def _drop_earlier(contents: Mapping[str, str | bytes], folder: Path) -> None:
+    """Remove what an earlier answer wrote of an improved model and this one does not."""
+    for name in FILES:
+        if f"{folder.name}/{name}" not in contents:
+            (folder / name).unlink(missing_ok=True)
+    if folder.is_dir() and not any(folder.iterdir()):
+        folder.rmdir()

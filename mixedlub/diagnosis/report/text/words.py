@@ -48,6 +48,7 @@ NATS = (
 CHECK = "Does a channel that was not fitted agree?"
 OUTLIERS = "Outlier readings"
 CALIBRATION = "What calibration was moved to"
+IMPROVED = "Improved model"
 NEXT = "Next test"
 
 
@@ -81,6 +82,7 @@ def sections(d: Diagnosis, unnamed: DescribedDiscrepancy | None = None) -> list[
         Section(CHECK, checked_channel(d)),
         Section(OUTLIERS, *outliers(d)),
         Section(CALIBRATION, *calibration(d)),
+        Section(IMPROVED, _improved(d)),
         Section(NEXT, next_test(d)),
         Section("Warnings", lesser(d)),
     ]
@@ -228,6 +230,16 @@ def _carried(modulated: str) -> str:
 def _stage(absorbed: Absorbed) -> str:
     stage = STAGE_WORDS[absorbed.stage]
     return "" if stage == words_of(absorbed.quantity) else f" ({stage})"
+
+
+def _improved(d: Diagnosis) -> tuple[str, ...]:
+    """How to run the model of the verdict at other conditions."""
+    if d.posterior.verdict.is_discrepancy:
+        return ("None can be run at other conditions: the missing part has no law.",)
+    return (
+        "The folder improved is a case with the most probable parameters and calibration of this answer alone, not the "
+        "average over explanations; mixedlub simulate runs it, at other conditions with --at.",
+    )
 
 
 def _gain(d: Diagnosis) -> tuple[str, ...]:

@@ -1,0 +1,56 @@
+"""The files of a case folder: `system.toml`, its tables, and the traces and tables that it names."""
+
+from __future__ import annotations
+
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from mixedlub.case.folder import Case
+from mixedlub.rig.build import SHIPPED_MARK
+from mixedlub.schema.table import Table
+from mixedlub.schema.toml_file import named_file, to_toml
+
+TABLES = ("recordings", "conditions")
+
+
+def case_files(case: Case) -> dict[str, str | bytes]:
+    """Contents by path in the folder; traces and tables from elsewhere are stored in the folder `profiles`.
+
+    >>> import mixedlub as ml, pandas as pd
+    >>> drive = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm"}}
+    >>> rows = pd.DataFrame({"speed_rpm": [100.0, 200.0, 300.0], "friction_torque_Nm": [0.51, 0.62, 0.69]})
+    >>> print(case_files(ml.case.case_of(drive, rows))["recordings.csv"].splitlines()[1])
+    1,100.0,0.51
+    """
+    system = case.system.model_dump(by_alias=True, exclude_unset=True)
+    carried: dict[str, bytes] = {}
+    sharing = system.get("gears", {}).get("load_sharing", {})
+    if sharing.get("table"):
+        sharing["table"] = _carry(carried, case.folder, sharing["table"], "gears.load_sharing.table")
+    for name, surface in system.get("surfaces", {}).items():
+        trace = surface.get("profile")
+        if trace and not trace.startswith(SHIPPED_MARK):
+            surface["profile"] = _carry(carried, case.folder, trace, f"surfaces.{name}.profile")
+    tables = {f"{name}.csv": _csv(getattr(case, name)) for name in TABLES if getattr(case, name) is not None}
+    return {"system.toml": to_toml(system), **tables, **carried}
+
+
+def _carry(carried: dict[str, bytes], folder: Path, name: str, key: str) -> str:
+    """Add a file to those that are carried; its new name, relative to the folder of the case."""
+    content = named_file(folder, name, key).read_bytes()
+    own = PurePosixPath(Path(name).as_posix())
+    if own.is_absolute() or ".." in own.parts:
+        own = PurePosixPath("profiles", own.name)
+    place, number = str(own), 1
+    while carried.get(place, content) != content:
+        number += 1
+        place = str(own.with_name(f"{number}_{own.name}"))
+    carried[place] = content
+    return place
+
+
+def _csv(table: Table) -> str:
+    import pandas as pd
+
+    columns: dict[str, Any] = dict(table.columns)
+    return str(pd.DataFrame(columns).to_csv(index=False, lineterminator="\n"))

@@ -1,0 +1,48 @@
+"""The improved model: the case with the verdict's effects and calibration at their most probable values."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from mixedlub.case.files import TABLES, case_files
+from mixedlub.case.folder import Case
+from mixedlub.diagnosis.diagnose import Diagnosis
+from mixedlub.diagnosis.labels import effect_words
+from mixedlub.diagnosis.report.text.answer import verdict_fit
+from mixedlub.effects import known_in
+
+FOLDER = "improved"
+FILES = ("system.toml", *(f"{name}.csv" for name in TABLES))
+
+
+def improved_case(d: Diagnosis) -> Case | None:
+    """The case whose simulation is the verdict's fit; none where the verdict is a discrepancy, which has no law.
+
+    Parameters and calibration are the most probable ones of the verdict alone: no average over explanations or change
+    points, and no error of form. The recording is kept, because inputs are scaled by it.
+    """
+    verdict = d.posterior.verdict
+    if verdict.is_discrepancy:
+        return None
+    problem, z, own = d.search.problem, verdict_fit(d).z, known_in(d.case.kind.name)
+    fitted = {
+        effect: {p.name: values[p.name] for p in own[effect].parameters}
+        for effect, values in problem.parameters(verdict, z).items()
+    }
+    given = d.given.system
+    named = ", ".join(map(effect_words, fitted)) or "calibration alone"
+    of = f"Improved model of the case {d.given.name}: {named}, at the most probable parameters."
+    system = given.model_copy(
+        update={
+            "description": f"{of} {given.description}".rstrip(),
+            "effects": {**given.effects, **fitted},
+            "calibration": problem.calibration(z),
+        }
+    )
+    return replace(d.given, system=system, conditions=None if d.wanted is None else d.wanted.table)
+
+
+def improved_files(d: Diagnosis) -> dict[str, str | bytes]:
+    """The folder of the improved model, by path in the answer; empty where there is none."""
+    case = improved_case(d)
+    return {} if case is None else {f"{FOLDER}/{name}": content for name, content in case_files(case).items()}
