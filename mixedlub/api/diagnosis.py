@@ -148,6 +148,6 @@ def diagnose(
 
 
 def simulate(case: Case | str | PathLike[str], at: pd.DataFrame | None = None) -> pd.DataFrame:
-    """The base model at the conditions of a case, or of the table ``at``: nothing is fitted."""
+    """The model of a case, with the effects and the calibration that it names, at its conditions or those ``at``."""
     found = case if isinstance(case, Case) else read_case(Path(case))
     return simulated(found, None if at is None else conditions_for(found, at))

@@ -21,20 +21,24 @@ def simulate(case: Case, at: Table | None = None) -> pd.DataFrame:
     """
     import pandas as pd
 
-    tables = [table for table in ((case.recordings, case.conditions) if at is None else (at,)) if table is not None]
-    if not tables:
-        raise InputError(
-            "has neither recordings.csv nor conditions.csv; name a table with --at", where=str(case.folder)
-        )
     parts = []
-    for given in tables:
-        table = at_programme_end(case, given) if case.system.effects else given
+    for table in simulated_tables(case, at):
         forward = Forward(case, table)
         for one in forward.notes:
             report(one)
         simulated = pd.DataFrame({"run": table["run"], case.quantity: forward.nominal()})
         parts.append(pd.concat([simulated, conditions_of(case, table)], axis=1))
     return pd.concat(parts, ignore_index=True).drop_duplicates("run")
+
+
+def simulated_tables(case: Case, at: Table | None = None) -> list[Table]:
+    """Recordings and conditions, or the table ``at``, with a place in the test programme where effects may need it."""
+    tables = [table for table in ((case.recordings, case.conditions) if at is None else (at,)) if table is not None]
+    if not tables:
+        raise InputError(
+            "has neither recordings.csv nor conditions.csv; name a table with --at", where=str(case.folder)
+        )
+    return [at_programme_end(case, table) for table in tables] if case.system.effects else tables
 
 
 def conditions_of(case: Case, table: Table) -> pd.DataFrame:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -62,6 +62,7 @@ def understood(case: Case) -> Iterator[str]:
     elif "boundary_friction" in forward.inputs:
         yield f"Boundary friction coefficient: {np.median(forward.inputs['boundary_friction']):.3g}."
     yield from _tables(case)
+    yield from _known(case, forward)
     yield from _uncertain(case, () if forward is None else forward.calibrations)
     checked, refused = _checked(case, forward)
     yield from refused
@@ -104,6 +105,18 @@ def _bodies(case: Case) -> Iterator[str]:
             f"Surface {name}: Rq {np.sqrt(surface.m0) * 1e6:.3g} um, Nayak bandwidth "
             f"{surface.m0 * surface.m4 / surface.m2**2:.3g}, from {origin}{coated}."
         )
+
+
+def _known(case: Case, forward: Forward | None) -> Iterator[str]:
+    """Effects and calibration that the case names."""
+    for effect, values in ({} if forward is None else forward.known.values).items():
+        yield f"Part of the base model here: {effect.replace('_', ' ')} ({_named(values)})."
+    if case.system.calibration:
+        yield f"Simulated at the calibration {_named(case.system.calibration)}."
+
+
+def _named(values: Mapping[str, float]) -> str:
+    return ", ".join(f"{name} {value:.4g}" for name, value in values.items())
 
 
 def _tables(case: Case) -> Iterator[str]:

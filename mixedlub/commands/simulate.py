@@ -1,4 +1,4 @@
-"""`mixedlub simulate`: the base model at a case's conditions, nothing fitted."""
+"""`mixedlub simulate`: the model of a case at its conditions, nothing fitted."""
 
 from __future__ import annotations
 
@@ -23,19 +23,23 @@ def command(
 ) -> None:
     """Readings of the base model at the conditions of a case.
 
-    Those of recordings.csv and conditions.csv, or of another table; nothing is fitted.
+    Those of recordings.csv and conditions.csv, or of another table; nothing is fitted. Effects and calibration that
+    system.toml names are part of the model, as in the folder improved of a diagnosis.
     """
     from mixedlub.case.folder import read_case, read_conditions, unpredicted_runs
-    from mixedlub.case.simulation import simulate
+    from mixedlub.case.simulation import simulate, simulated_tables
+    from mixedlub.diagnosis.assessment.validity import known_beyond_range
     from mixedlub.rig.plausibility import far_off
     from mixedlub.schema.findings import collected
 
     with collected() as notes, within_range(str(case)):
         found = read_case(case_folder(case), need_recordings=False)
         notes += [*found.notes, *far_off(found.rig), *(unpredicted_runs(found, found.conditions) if at is None else [])]
-        rows = simulate(found, None if at is None else read_conditions(found, at))
+        asked = None if at is None else read_conditions(found, at)
+        rows = simulate(found, asked)
+        notes += [one for table in simulated_tables(found, asked) for one in known_beyond_range(found, table)]
     folder = output_folder(out, NAME, found.name)
-    tell(notes)
+    tell(dict.fromkeys(notes))
     with writing(folder) as aside:
         rows.to_csv(aside / "simulation.csv", index=False, lineterminator="\n")
     say(f"{len(rows)} rows of {found.quantity} in {folder / 'simulation.csv'}")

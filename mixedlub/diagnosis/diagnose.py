@@ -141,6 +141,9 @@ def diagnosis_of(
     forward = Forward(case, rows)
     checks = audit(case, rows, readings_of(case), forward)
     warnings = [*case.notes, *assumed, *unpredicted_runs(case, wanted), *forward.notes, *checks]
+    if forward.known.effects:
+        named = ", ".join(effect_words(e.id) for e in forward.known.effects)
+        warnings.append(finding("effects_known", f"part of the base model, so not looked for: {named}", "system.toml"))
     left_out = tuple(e.id for e in forward.effects() if e.id in exclude)
     if left_out:
         named = ", ".join(effect_words(name) for name in left_out)

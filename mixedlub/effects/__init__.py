@@ -33,12 +33,12 @@ def known_in(kind: str) -> Mapping[str, Effect]:
     )
 
 
-def find(ids: list[str] | tuple[str, ...]) -> tuple[Effect, ...]:
-    """Effects by id; an unknown id raises an error that names the nearest known one."""
+def find(ids: list[str] | tuple[str, ...], where: str = "effect") -> tuple[Effect, ...]:
+    """Effects by id; an unknown id raises an error that names the nearest known one and the place ``where``."""
     known = catalogue()
     for name in ids:
         if name not in known:
-            raise InputError(f"no such effect; {nearest(name, known)}", where="effect", value=name)
+            raise InputError(f"no such effect; {nearest(name, known)}", where=where, value=name)
     return tuple(known[name] for name in ids)
 
 
@@ -74,7 +74,7 @@ def known_effects(
     standard deviation of the parameter NAME.
     """
     own = known_in(kind)
-    effects = tuple(own[e.id] for e in find(sorted(section)))
+    effects = tuple(own[e.id] for e in find(sorted(section), "effects"))
     values: dict[str, dict[str, float]] = {}
     sds: dict[tuple[str, str], float] = {}
     for e in effects:

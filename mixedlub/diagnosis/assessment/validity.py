@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub.case.folder import Case
+from mixedlub.case.forward import Forward
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.diagnosis.explanation import Explanation
@@ -15,12 +17,23 @@ from mixedlub.diagnosis.problem import Problem, effects_of
 from mixedlub.diagnosis.settings.assessment import EXACT_EXPONENT, RANGE_SLACK
 from mixedlub.diagnosis.settings.inference import NINETY
 from mixedlub.schema.findings import Finding, finding
+from mixedlub.schema.table import Table
 
 
 def beyond_range(problem: Problem, explanation: Explanation, z: np.ndarray) -> list[Finding]:
     """A finding for each quantity of a fit that lies outside what one of its effects was made for."""
     run = problem.run(explanation, z)
-    return outside(effects_of(explanation.effects), {**run.inputs, **run.record.state}, problem.y.size)
+    effects = (*problem.forward.known.effects, *effects_of(explanation.effects))
+    return outside(effects, {**run.inputs, **run.record.state}, problem.y.size)
+
+
+def known_beyond_range(case: Case, table: Table) -> list[Finding]:
+    """The same for the effects that a case names, at the rows of a table."""
+    if not case.system.effects:
+        return []
+    forward = Forward(case, table)
+    run = forward.run()
+    return outside(forward.known.effects, {**run.inputs, **run.record.state}, len(table))
 
 
 def unpublished(effects: Sequence[Effect], z: np.ndarray, spread: np.ndarray) -> list[Finding]:

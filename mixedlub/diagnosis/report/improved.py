@@ -31,7 +31,7 @@ def improved_case(d: Diagnosis) -> Case | None:
     }
     given = d.given.system
     named = ", ".join(map(effect_words, fitted)) or "calibration alone"
-    of = f"Improved model of the case {d.given.name}: {named}, at the most probable parameters."
+    of = f"Improved model of {d.given.name}: {named}, at the most probable parameters."
     system = given.model_copy(
         update={
             "description": f"{of} {given.description}".rstrip(),
