@@ -143,6 +143,7 @@ def _levels(table: Table, column: str) -> str:
 
 def _uncertain(case: Case, movable: Sequence[Calibration]) -> Iterator[str]:
     stated = {k: v for k, v in case.system.uncertainty.model_dump().items() if v > 0}
+    stated |= _stated_of_effects(case)
     words = ", ".join(f"{k.replace('_', ' ')} ({v:g})" for k, v in stated.items())
     others = [c for c in movable if c.name not in stated]
     nothing = "nothing" if others else "nothing; all inputs count as known"
@@ -163,6 +164,14 @@ def _uncertain(case: Case, movable: Sequence[Calibration]) -> Iterator[str]:
         yield f"Noise of a reading: {_scatter(noise.relative, noise.absolute, case)}."
     if noise is not None and noise.of_setups:
         yield f"Shared within a set-up: {_scatter(noise.setup_relative, noise.setup_absolute, case)}."
+
+
+def _stated_of_effects(case: Case) -> dict[str, float]:
+    """Standard deviations of the parameters of known effects, by the names of their calibration."""
+    from mixedlub.effects import SD
+
+    each = ((f"{e}.{key}", value) for e, own in case.system.effects.items() for key, value in own.items())
+    return {name.removesuffix(SD): value for name, value in each if name.endswith(SD) and value > 0}
 
 
 def _scatter(relative: float, absolute: float, case: Case) -> str:

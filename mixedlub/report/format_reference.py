@@ -169,7 +169,7 @@ def _allowed(annotation: Any, key: Key) -> tuple[str, bool]:
     if get_origin(of) is Literal:
         return ("one of these" if key.values else "see above" if len(entries) > 1 else toml_value(entries[0])), False
     if get_origin(of) is dict:
-        return "tables", False
+        return "tables" if get_origin(entries[1]) is dict else "table", False
     if of in (bool, str):
         return "see above" if key.is_looked_up else {bool: "true, false", str: "text"}[of], False
     ends = (-np.inf, np.inf) if key.range is None else key.range.possible

@@ -236,15 +236,13 @@ class System(RigFile):
     uncertainty: Uncertainty = key("one standard deviation of what calibration may move; 0: known", Uncertainty())
     recording: Recording = key("what was read, and how well")
     effects: dict[str, dict[str, NumberOrName]] = key(
-        "EFFECT = { PARAMETER = VALUE }: physics that the rig is known to have, part of the base model here; "
-        "parameters left out: median of their prior; PARAMETER_sd: its standard deviation, for calibration; law = "
-        "NAME: those of a published law that the effect contains",
+        "EFFECT = { PARAMETER = VALUE }: physics that the rig is known to have, part of the base model; parameters left "
+        "out: median of their prior; PARAMETER_sd: its standard deviation; law = NAME: those of a published law",
         {},
         example={"sensor_gain": {"gain": 0.01, "gain_sd": 0.005}},
     )
     calibration: dict[str, Number] = key(
-        "NAME = VALUE: calibrated inputs at which the model is simulated, by the names of diagnosis.json; left out: "
-        "nominal",
+        "NAME = VALUE: calibrated inputs at which the model is simulated, named as in diagnosis.json",
         {},
         example={"boundary_friction": 0.1},
     )
