@@ -79,10 +79,10 @@ def known_effects(
     sds: dict[tuple[str, str], float] = {}
     for e in effects:
         if not available(e, chain, given, want, kind):
-            raise InputError(
-                f"this effect cannot act on the {want.replace('_', ' ')} of a {kind.replace('_', ' ')}",
-                where=f"effects.{e.id}",
-            )
+            lacking = [name.replace("_", " ") for name in e.reads if name not in (*given, *dict(chain))]
+            rule = f"cannot act on the {want.replace('_', ' ')} of a {kind.replace('_', ' ')}"
+            rule += f"; it needs {', '.join(lacking)}, which these columns and keys do not give" if lacking else ""
+            raise InputError(rule, where=f"effects.{e.id}")
         fixed = _of_law(e, section[e.id].get(LAW))
         values[e.id] = {**e.middle, **fixed}
         for key, value in section[e.id].items():

@@ -207,3 +207,16 @@ def test_a_parameter_with_a_standard_deviation_is_calibrated(
     d = diagnose_case(folder, exclude=excluded)
     assert d.posterior.verdict.ids == ("none",)
     assert 0.0 < Answer(d).record["calibration"]["sensor_gain.gain"]["value"] < 0.08
+    assert readings(Answer(d).improved) == pytest.approx(fit(d, case.recordings), rel=1e-9)
+
+
+def test_conditions_that_an_effect_needs_are_named(make_case: Callable[..., Path], tmp_path: Path) -> None:
+    folder = make_case(tmp_path / "case", "viscosity")
+    with (folder / "system.toml").open("a", encoding="utf-8") as file:
+        file.write("[effects.zero_drift]\n")
+    case = read_case(folder)
+    assert case.recordings is not None
+    unplaced = {name: values for name, values in case.recordings.columns.items() if name != "sequence"}
+    bare = replace(case, recordings=Table(unplaced, "recordings.csv"))
+    with pytest.raises(InputError, match="sequence"):
+        simulate(bare)
