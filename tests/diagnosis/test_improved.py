@@ -23,8 +23,8 @@ from mixedlub.commands.new import case_files as template
 from mixedlub.diagnosis.assessment.prediction import NewRows
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case, diagnosis_of
 from mixedlub.diagnosis.report.files import write
-from mixedlub.diagnosis.report.improved import improved_case, improved_files
-from mixedlub.diagnosis.report.text.answer import verdict_fit
+from mixedlub.diagnosis.report.improved import improved_case, improved_files, most_probable
+from mixedlub.diagnosis.report.text.answer import as_json, verdict_fit
 from mixedlub.kinds import KINDS
 from mixedlub.schema.findings import codes, collected
 from mixedlub.schema.table import Table
@@ -56,7 +56,7 @@ def fit(d: Diagnosis, table: Table) -> np.ndarray:
     """Readings of the verdict at its most probable parameters, at the end of the test programme where it has one."""
     at_end = {"sequence": np.ones(len(table))} if "sequence" in d.search.problem.rows else {}
     problem = NewRows(d.search, Table({**at_end, **table.columns})).problem
-    return problem.inverse(problem.predict(d.posterior.verdict, verdict_fit(d).z))
+    return problem.inverse(problem.predict(d.posterior.verdict, most_probable(d)))
 
 
 @pytest.fixture(scope="module")
@@ -79,6 +79,7 @@ def named(request: pytest.FixtureRequest) -> Diagnosis:
 
 def test_the_improved_case_simulates_the_fit(named: Diagnosis, tmp_path: Path) -> None:
     case = read_case(written(case_files(Answer(named).improved), tmp_path / "improved"))
+    assert case.conditions is None
     assert readings(case) == pytest.approx(fit(named, named.search.problem.rows), rel=1e-9)
 
 
@@ -92,6 +93,22 @@ def test_where_nothing_is_missing_the_fit_is_the_prediction(complete: Diagnosis)
     case = Answer(complete).improved
     assert not case.system.effects
     assert readings(case) == pytest.approx(complete.recorded.predicted, rel=1e-9)
+
+
+def test_parameters_are_those_of_the_answer_but_for_an_error_of_form(named: Diagnosis) -> None:
+    system, said = Answer(named).improved.system, as_json(named)
+    there = {f"{e}.{name}": value for e, own in system.effects.items() for name, value in own.items()}
+    answer = {f"{e['id']}.{p['name']}": p["value"] for e in said["effects"] for p in e["parameters"]}
+    assert there.keys() == answer.keys()
+    if not verdict_fit(named).bend:
+        assert there == pytest.approx(answer)
+        assert dict(system.calibration) == pytest.approx({n: c["value"] for n, c in said["calibration"].items()})
+
+
+def test_the_improved_case_follows_the_readings(named: Diagnosis) -> None:
+    problem, kept = named.search.problem, named.counted
+    residual = (problem.y - problem.transform(readings(Answer(named).improved))) / problem.sd
+    assert np.sqrt(np.mean(residual[kept] ** 2)) < 1.5
 
 
 def test_a_mismatch_without_law_has_no_improved_model(unnamed: Diagnosis) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from mixedlub.case.files import TABLES, case_files
 from mixedlub.case.folder import Case
 from mixedlub.diagnosis.diagnose import Diagnosis
@@ -15,6 +17,12 @@ FOLDER = "improved"
 FILES = ("system.toml", *(f"{name}.csv" for name in TABLES))
 
 
+def most_probable(d: Diagnosis) -> np.ndarray:
+    """Coordinates of the verdict's fit; without the error of form, where one was fitted, since a law has none."""
+    refined = verdict_fit(d)
+    return refined.fit.z if refined.bend else refined.z
+
+
 def improved_case(d: Diagnosis) -> Case | None:
     """The case whose simulation is the verdict's fit; none where the verdict is a discrepancy, which has no law.
 
@@ -24,7 +32,7 @@ def improved_case(d: Diagnosis) -> Case | None:
     verdict = d.posterior.verdict
     if verdict.is_discrepancy:
         return None
-    problem, z, own = d.search.problem, verdict_fit(d).z, known_in(d.case.kind.name)
+    problem, z, own = d.search.problem, most_probable(d), known_in(d.case.kind.name)
     fitted = {
         effect: {p.name: values[p.name] for p in own[effect].parameters}
         for effect, values in problem.parameters(verdict, z).items()

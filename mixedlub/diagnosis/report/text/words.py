@@ -237,8 +237,8 @@ def _improved(d: Diagnosis) -> tuple[str, ...]:
     if d.posterior.verdict.is_discrepancy:
         return ("None can be run at other conditions: the missing part has no law.",)
     return (
-        "The folder improved is a case with the most probable parameters and calibration of this answer alone, not the "
-        "average over explanations; mixedlub simulate runs it, at other conditions with --at.",
+        "The folder improved is a case with the most probable parameters and calibration of this answer alone: no "
+        "average over explanations, no error of form. mixedlub simulate runs it, at other conditions with --at.",
     )
 
 
