@@ -52,5 +52,5 @@ def _carry(carried: dict[str, bytes], folder: Path, name: str, key: str) -> str:
 def _csv(table: Table) -> str:
     import pandas as pd
 
-    columns: dict[str, Any] = dict(table.columns)
+    columns: dict[str, Any] = {"run": table["run"], **table.columns}
     return str(pd.DataFrame(columns).to_csv(index=False, lineterminator="\n"))
