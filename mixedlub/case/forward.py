@@ -141,5 +141,5 @@ class Forward:
             for e in known_in(self.case.kind.name).values()
             if e.id not in exclude
             and available(e, self.chain, tuple(self.inputs), "reading", self.case.kind.name)
-            and (not e.over or varies(self.inputs[e.over]))
+            and (not e.needs_variation_in or varies(self.inputs[e.needs_variation_in]))
         )

@@ -24,7 +24,7 @@ def known_in(kind: str) -> Mapping[str, Effect]:
     """The catalogue with only those parameters that are free in a kind of recording."""
     return MappingProxyType(
         {
-            e.id: e.holding({p.name: p.off for p in e.parameters if p.kinds and kind not in p.kinds})
+            e.id: e.fixing({p.name: p.null_value for p in e.parameters if p.kinds and kind not in p.kinds})
             for e in catalogue().values()
         }
     )

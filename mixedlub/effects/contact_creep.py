@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 
 FRICTION, PRESSURE = 0.05, 1e9
 """Reference friction coefficient and Hertz pressure (Pa) of the saturation slip."""
@@ -31,14 +31,14 @@ FRICTION, PRESSURE = 0.05, 1e9
         Parameter(
             "elastic",
             "-",
-            Between(0.0, 1.0),
+            Uniform(0.0, 1.0),
             "exponent of friction times pressure in that slip: 1 for elastic shear of the bodies alone",
             symbol="k",
         ),
         Parameter(
             "of_asperities",
             "-",
-            Between(0.0, 1.0),
+            Uniform(0.0, 1.0),
             "share of the asperity friction that follows the creep law too",
             symbol="a",
         ),
@@ -49,7 +49,7 @@ FRICTION, PRESSURE = 0.05, 1e9
     "F. W. Carter, Proc. R. Soc. A 112 (1926) 151, m = 2; K. L. Johnson, J. L. Tevaarwerk, Proc. R. Soc. A 356 (1977) "
     "215, film and bodies yielding under the film's traction alone (a = 0)",
     fingerprint={"slide_roll_ratio": "+"},
-    contains={"bodies alone": {"elastic": 1.0}, "one slip": {"elastic": 0.0}},
+    special_cases={"bodies alone": {"elastic": 1.0}, "one slip": {"elastic": 0.0}},
     separated_by="a sweep of slip below one per cent at constant speed: the rise is proportional to slip and does "
     "not depend on viscosity or speed as a fluid film does",
     valid={"slide_roll_ratio": (0.0, 0.5)},

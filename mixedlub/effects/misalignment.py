@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 
 _STIFFNESS = 2e10
 _REFERENCE = 1e5
@@ -21,11 +21,11 @@ SMALL, LEAST_POWER = 1e-2, 1e-5
         Parameter(
             "relief",
             "-",
-            Between(0.0, 1.0),
+            Uniform(0.0, 1.0),
             "exponent of load in the tooth deflection: 1 elastic teeth, 0 none",
             symbol="q",
         ),
-        Parameter("loss_power", "-", Between(0.05, 0.6), "exponent of load in the friction coefficient", symbol="m"),
+        Parameter("loss_power", "-", Uniform(0.05, 0.6), "exponent of load in the friction coefficient", symbol="m"),
     ),
     equation=r"w \leftarrow w\left[\frac{(1+x')^{2+m} - (1-x')^{2+m}}{2x'(2+m)}\right]^{1/m}\sqrt{\max(x, 1)},\quad "
     r"x' = \min(x, 1),\quad "
@@ -35,7 +35,7 @@ SMALL, LEAST_POWER = 1e-2, 1e-5
     "[2 F/(b f c_gamma)]^(1/2) in partial, c_gamma = 20 N/(mm um), w_r = 100 N/mm; w^(1+m) averaged over the face",
     fingerprint={"load": "-", "roughness": "-"},
     separated_by="the contact pattern, strain along the face, and a shim that reverses it; it fades with load",
-    odds=0.5,
+    prior_odds=0.5,
 )
 def misalignment(
     line_load: np.ndarray,

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import BetweenLog, LogNormal, Normal
+from mixedlub.chain.priors import LogNormal, LogUniform, Normal
 from mixedlub.laws.oil import roelands_coefficient, roelands_viscosity
 
 WARM = 313.15
@@ -45,7 +45,7 @@ CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
         Parameter(
             "onset",
             "Pa",
-            BetweenLog(0.1e9, 0.6e9),
+            LogUniform(0.1e9, 0.6e9),
             "pressure about which the slope changes",
             null=0.15e9,
             symbol="p_s",
@@ -114,8 +114,8 @@ CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
     fingerprint={"speed": "+"},
     separated_by="a high-pressure viscometer at two temperatures: an exponential is straight in a log plot, Roelands "
     "only bends down, a liquid near its glass bends up again",
-    odds=0.5,
-    contains={
+    prior_odds=0.5,
+    special_cases={
         "Roelands": {
             "roelands": 1.0,
             "slope": 1.0,

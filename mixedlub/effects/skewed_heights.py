@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, Normal
+from mixedlub.chain.priors import Normal, Uniform
 from mixedlub.laws.contact import area_per_overlap
 from roughness.integrals import area_integral
 
@@ -25,7 +25,7 @@ _SMALL = 1e-4
         Parameter(
             "narrowing",
             "-",
-            Between(0.0, 0.6),
+            Uniform(0.0, 0.6),
             "degree to which the spread of the summits narrows to that of the plateau",
             symbol="n",
         ),

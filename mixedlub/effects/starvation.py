@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import BetweenLog, LogNormal, Wide
+from mixedlub.chain.priors import LogNormal, LogUniform, SinhNormal
 
 USUAL = 1e9
 LEAST, MOST = 1e-300, 60.0
@@ -23,10 +23,10 @@ LEAST, MOST = 1e-300, 60.0
             symbol="s",
         ),
         Parameter(
-            "onset", "N/m", BetweenLog(0.01, 1.0), "viscosity times speed at the onset of starvation", symbol="c"
+            "onset", "N/m", LogUniform(0.01, 1.0), "viscosity times speed at the onset of starvation", symbol="c"
         ),
         Parameter("steepness", "-", LogNormal(2.5, 0.4), "sharpness of the onset", symbol=r"\gamma"),
-        Parameter("width_power", "-", Wide(0.5), "exponent of the contact's width in the onset", symbol="w"),
+        Parameter("width_power", "-", SinhNormal(0.5), "exponent of the contact's width in the onset", symbol="w"),
     ),
     equation=r"h \leftarrow h\,\left[1 + \left(\frac{\eta_0 u}{c\,(p_0/p_u)^w}\right)^{\gamma}\right]^{-s/\gamma},"
     r"\quad p_u = 1\,\text{GPa}",

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, Normal, Wide
+from mixedlub.chain.priors import Normal, SinhNormal, Uniform
 
 WARM = 313.15
 KELVIN = 100.0
@@ -31,12 +31,12 @@ SMALL, MOST = 1e-9, 30.0
             symbol="s",
         ),
         Parameter(
-            "cold_gain", "-", Wide(0.7), "increase of the logarithm of the drift per 100 K of cooling", symbol="k"
+            "cold_gain", "-", SinhNormal(0.7), "increase of the logarithm of the drift per 100 K of cooling", symbol="k"
         ),
         Parameter(
             "heat",
             "-",
-            Between(0.0, 1.0),
+            Uniform(0.0, 1.0),
             "weight of temperature: 0 the drift follows time, 1 time and temperature",
             symbol="a",
         ),
@@ -49,7 +49,7 @@ SMALL, MOST = 1e-9, 30.0
     fingerprint={"sequence": "-"},
     separated_by="the first point repeated at the end, and a fresh sample under a solvent trap: what the trap stops is "
     "evaporation, what a fresh sample repeats is chemistry or the edge of the gap",
-    contains={"a steady relative rate": {"saturation": 0.0, "cold_gain": 0.0, "heat": 0.0}},
+    special_cases={"a steady relative rate": {"saturation": 0.0, "cold_gain": 0.0, "heat": 0.0}},
 )
 def viscosity_drift(
     viscosity: np.ndarray,

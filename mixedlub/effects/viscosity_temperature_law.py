@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 
 FORTY = 313.15
 """Reference temperature (K) of the convexity: 40 degC, where oils are graded."""
@@ -26,7 +26,7 @@ NEAREST, MOST = 5.0, 30.0
         Parameter(
             "convexity",
             "-",
-            Between(0.0, 3.4),
+            Uniform(0.0, 3.4),
             "313.15 K over the distance of 40 degC from the divergence temperature of Vogel's law",
             symbol="m",
         ),
@@ -46,9 +46,9 @@ NEAREST, MOST = 5.0, 30.0
     "m = 1; O. Reynolds, Phil. Trans. R. Soc. 177 (1886) 157, with m = 0",
     fingerprint={"oil_temperature": "+"},
     separated_by="a third point of viscosity, between the two given ones or beyond them",
-    odds=0.5,
-    over="oil_temperature",
-    contains={
+    prior_odds=0.5,
+    needs_variation_in="oil_temperature",
+    special_cases={
         "Vogel": {"share": 1.0, "fall": 1.0},
         "Andrade": {"share": 1.0, "convexity": 1.0, "fall": 1.0},
         "Reynolds": {"share": 1.0, "convexity": 0.0, "fall": 1.0},

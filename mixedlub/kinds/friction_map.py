@@ -10,7 +10,7 @@ import numpy as np
 
 from mixedlub.chain.effect import Parameter
 from mixedlub.chain.model import Chain
-from mixedlub.chain.priors import BetweenLog, LogNormal, Normal
+from mixedlub.chain.priors import LogNormal, LogUniform, Normal
 from mixedlub.kinds import columns
 from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out, inverse_load, programme
@@ -238,7 +238,7 @@ def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Cali
     """Broad priors of dry, viscous and payload torque, scaled by the readings."""
     size, largest = _size(system, recorded), _largest(system, recorded)
 
-    def unknown(name: str, prior: LogNormal | BetweenLog | Normal, nominal: float, meaning: str) -> Calibration:
+    def unknown(name: str, prior: LogNormal | LogUniform | Normal, nominal: float, meaning: str) -> Calibration:
         torque = system.recording.quantity == "friction_torque_Nm"
         label = name if torque else name.replace("torque", "friction")
         parameter = Parameter(label, "N m" if torque else "-", prior, meaning)
@@ -248,7 +248,7 @@ def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Cali
         unknown("coulomb_torque", LogNormal(size, 1.0), size, "dry friction, the same in both directions"),
         unknown(
             "viscous_torque",
-            BetweenLog(3e-3 * size, 3.0 * largest),
+            LogUniform(3e-3 * size, 3.0 * largest),
             0.5 * size,
             "viscous friction at the largest speed",
         ),

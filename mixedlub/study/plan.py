@@ -209,7 +209,7 @@ def _effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, 
     for e in effects:
         if not available(e, study_chain(file.options), tuple(inputs), "power_loss", "gear_pair"):
             raise InputError("this effect cannot act on the power loss of a study", where=f"effects.{e.id}")
-        values = e.middle
+        values = e.prior_medians
         for name, value in file.effects[e.id].items():
             if name not in values:
                 raise InputError(

@@ -200,4 +200,4 @@ def test_a_torque_of_zeros_is_no_torque_of_the_motor(make, name, size):
     offered = {effect.id: effect for effect in forward.effects()}
     assert ("torque_constant" in offered) == (size > 0.0)
     for effect in offered.values():
-        assert np.isfinite(forward.predict(None, {effect.id: effect.middle})).all(), effect.id
+        assert np.isfinite(forward.predict(None, {effect.id: effect.prior_medians})).all(), effect.id

@@ -140,7 +140,7 @@ def log_residual(case, *ids, held=None):
 def test_viscosity_under_pressure_needs_a_law_that_bends_twice(typed_in):
     case = read_case(typed_in / "lubricant_viscosity_vs_pressure")
     assert log_residual(case) > 0.18
-    roelands = catalogue()["pressure_viscosity_law"].contains["Roelands"]
+    roelands = catalogue()["pressure_viscosity_law"].special_cases["Roelands"]
     assert log_residual(case, "pressure_viscosity_law", held=roelands) > 0.15
     assert log_residual(case, "pressure_viscosity_law") < 0.06
 

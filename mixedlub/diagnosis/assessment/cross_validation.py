@@ -190,11 +190,11 @@ class LevelsOut:
                     found, fit.z, partial(f.test.predict, fit.explanation), run.prediction
                 )
                 after[f.out] = (f.test.y - run.prediction - gain) / f.wide
-                sudden = [p.index for p in found]
+                jumps = [p.index for p in found]
                 slopes = (
-                    drop_columns(f.test.jacobian(fit.explanation, fit.z, run), sudden) * (f.test.sd / f.wide)[:, None]
+                    drop_columns(f.test.jacobian(fit.explanation, fit.z, run), jumps) * (f.test.sd / f.wide)[:, None]
                 )
-                columns = np.hstack([drop_columns(fit.slopes, sudden), f.train.shared])
+                columns = np.hstack([drop_columns(fit.slopes, jumps), f.train.shared])
                 open_variance[f.out] = _open_variance(columns, fit.weight, slopes) + variance / f.wide**2
         return after, open_variance
 

@@ -50,7 +50,7 @@ class Posterior:
 def prior_of_untestable(search: Search) -> dict[str, float]:
     """Probability of the effects that change no reading: their prior."""
     looked = (*search.draws, *search.untestable)
-    odds = {e.id: e.odds for s in looked for e in effects_of((s.id,))}
+    odds = {e.id: e.prior_odds for s in looked for e in effects_of((s.id,))}
     nothing, single, pair = priors(len(odds))
     single /= nothing + single + pair + PRIOR["discrepancy"]
     return {s.id: single * odds[s.id] / sum(odds.values()) for s in search.untestable}

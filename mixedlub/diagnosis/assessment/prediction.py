@@ -70,8 +70,8 @@ class Refined:
 def refine(search: Search, fit: Fit) -> Refined:
     """Fit the error of form, and the coordinates with it."""
     problem = search.problem
-    sudden, sloping = change_point_coordinates(problem, fit.explanation), fit
-    fit = replace(fit, slopes=drop_columns(fit.slopes, sudden))
+    at_change_points, sloping = change_point_coordinates(problem, fit.explanation), fit
+    fit = replace(fit, slopes=drop_columns(fit.slopes, at_change_points))
     fixed = np.hstack([fit.slopes, problem.shared])
     net = (fit.prediction - search.null_fit.prediction) / problem.sd
     typical = rms(net)
@@ -87,9 +87,9 @@ def refine(search: Search, fit: Fit) -> Refined:
             break
     assert best is not None
     spread = covariance(used, best.weight)
-    spread[sudden, sudden] = 0.0
+    spread[at_change_points, at_change_points] = 0.0
     wanted = best.coefficients[: fit.z.size].copy()
-    wanted[sudden] = fit.z[sudden]
+    wanted[at_change_points] = fit.z[at_change_points]
     stand = change_point_posterior(problem, sloping, used[:, fixed.shape[1] :])
 
     def bends(prediction: np.ndarray) -> np.ndarray:

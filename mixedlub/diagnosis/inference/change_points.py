@@ -64,7 +64,7 @@ class ChangePointPosterior:
 def change_point_coordinates(problem: Problem, explanation: Explanation) -> list[int]:
     """Indices of the coordinates of an explanation that are change points."""
     parameters = [p for e in problem.effects(explanation) for p in e.parameters]
-    return [i for i, p in enumerate(parameters, problem.calibration_size) if p.sudden]
+    return [i for i, p in enumerate(parameters, problem.calibration_size) if p.change_point]
 
 
 def profile_change_point(
@@ -155,9 +155,9 @@ def change_point_posterior(
     return tuple(found)
 
 
-def drop_columns(slopes: np.ndarray, sudden: Sequence[int]) -> np.ndarray:
+def drop_columns(slopes: np.ndarray, at_change_points: Sequence[int]) -> np.ndarray:
     """Jacobian with the change-point columns set to zero; change points are averaged over separately."""
-    return np.where(np.isin(np.arange(slopes.shape[1]), sudden), 0.0, slopes)
+    return np.where(np.isin(np.arange(slopes.shape[1]), at_change_points), 0.0, slopes)
 
 
 def average_over_change_points(

@@ -56,8 +56,8 @@ def sample(problem: Problem, name: str, null_fit: Fit) -> PriorDraws:
     z = spread(size, PRIOR_DRAWS[min(size, len(PRIOR_DRAWS)) - 1])
     n_prior = len(z)
     for place, parameter in enumerate(effect.parameters):
-        if parameter.scan:
-            z = np.vstack([z, scan(problem, name, null_fit, place, parameter.scan)])
+        if parameter.n_scan:
+            z = np.vstack([z, scan(problem, name, null_fit, place, parameter.n_scan)])
     change = np.empty((len(z), problem.y.size))
     run = None
     for i, own in enumerate(z):

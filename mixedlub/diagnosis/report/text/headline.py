@@ -100,8 +100,8 @@ def _verdict(d: Diagnosis) -> str:
         which = f"of those weighed explains ({count} left out on request)" if count else "of the catalogue explains"
         return f"Something is missing that no one effect {which}, nor any two tried together (probability {p})."
     effects = effects_of(judged.verdict.effects)
-    free = [effect_words(e.id) for e in effects if e.free_form]
-    physics = [effect_words(e.id) for e in effects if e.stage != "measurement" and not e.free_form]
+    free = [effect_words(e.id) for e in effects if e.descriptive]
+    physics = [effect_words(e.id) for e in effects if e.stage != "measurement" and not e.descriptive]
     faults = [effect_words(e.id) for e in effects if e.stage == "measurement"]
     if not physics and not free:
         return f"No physics is missing; the instrument is at fault: {' and '.join(faults)} (probability {p})."
