@@ -76,7 +76,7 @@ def faults(d: Diagnosis) -> list[str]:
     for run in d.outlier_runs:
         row = int(np.flatnonzero(table["run"] == run)[0])
         excess, sd = float(y[row] - d.recorded.predicted[row]), float(d.recorded.sd[row])
-        fault = d.case.kind.reading_fault(table, row, excess, sd)
+        fault = d.case.kind.instrument_fault(table, row, excess, sd)
         found.append(f"run {run} set aside" + ("" if fault is None else f": {fault}"))
     return found[:5]
 

@@ -202,10 +202,10 @@ def _with_filled_sds(table: Table, name: str) -> Table:
 def _columns(found: Kind, system: system_file.System, measured: bool) -> tuple[Column, ...]:
     """Columns that a table of the case may have; surface names are those of the system where the kind uses them."""
     names = tuple(system.surfaces) if "surfaces" in found.sections else ()
-    own = (replace(c, names=names) if c.form == "name" and "surface" in c.name else c for c in found.columns)
-    reach = found.limits(system)
+    own = (replace(c, names=names) if c.dtype == "name" and "surface" in c.name else c for c in found.columns)
+    reach = found.column_limits(system)
     own = (_rounded(c, *reach[c.name]) if c.name in reach else c for c in own)
-    return (RUN, *BOOKKEEPING, *own, *found.channels, *_measured(found, system, measured))
+    return (RUN, *BOOKKEEPING, *own, *found.instrument_channels, *_measured(found, system, measured))
 
 
 def _rounded(column: Column, low: float, high: float) -> Column:

@@ -54,7 +54,7 @@ class Forward:
         self.case = case
         recorded = table if case.recordings is None else case.recordings
         with collected() as notes:
-            self.table = table = case.kind.completed(table, recorded)
+            self.table = table = case.kind.fill_channels(table, recorded)
             self.inputs: dict[str, Any] = case.kind.inputs(case.system, case.rig, table, recorded)
             if "sequence" in self.inputs:
                 self.inputs["ageing"] = ageing(recorded, self.inputs["sequence"])
@@ -71,9 +71,9 @@ class Forward:
         if reading_scale is None:
             reading_scale = float(np.median(np.abs(self.predict()))) / self.scale
         self.inputs["reading_scale"] = reading_scale
-        if case.kind.nominal:
-            base = Model(self.chain, tuple(self.inputs), tuple(case.kind.nominal))(self.inputs)
-            self.inputs |= {name: base[quantity] for quantity, name in case.kind.nominal.items()}
+        if case.kind.base_inputs:
+            base = Model(self.chain, tuple(self.inputs), tuple(case.kind.base_inputs))(self.inputs)
+            self.inputs |= {name: base[quantity] for quantity, name in case.kind.base_inputs.items()}
 
     def _build(self, effects: tuple[str, ...]) -> Model:
         known = known_in(self.case.kind.name)
@@ -85,13 +85,13 @@ class Forward:
         """Readings in the unit of the recorded column, one per row."""
         return self.run(calibration, parameters).prediction
 
-    def base(self, name: str) -> np.ndarray:
+    def base_quantity(self, name: str) -> np.ndarray:
         """A quantity of the base model before calibration, by its glossary name."""
         if name in self.inputs:
             return np.asarray(self.inputs[name])
         return np.asarray(Model(self.chain, tuple(self.inputs), (name,))(self.inputs)[name])
 
-    def nominal(self) -> np.ndarray:
+    def base_prediction(self) -> np.ndarray:
         """Readings of the base model at nominal calibration, one per row; a result that is not finite is an error."""
         base = self.predict()
         if not np.isfinite(base).all():

@@ -12,7 +12,7 @@ from mixedlub.case.forward import Forward
 from mixedlub.kinds.disc import contact_inputs
 from mixedlub.laws.contact import line_hertz_pressure, point_hertz_pressure
 from mixedlub.schema.findings import Finding, finding
-from mixedlub.schema.ranges import beyond_usual
+from mixedlub.schema.ranges import atypical
 from mixedlub.schema.table import Table
 
 SLIPS: Mapping[float, str] = {
@@ -116,7 +116,7 @@ def conditions_of_two_units(case: Case, rows: Table, y: np.ndarray, base: np.nda
 def of_odd_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewest: int, scarce: int) -> list[Finding]:
     """All findings on units; ``fewest`` and ``scarce`` are the fewest readings to compare and to split."""
     return [
-        *beyond_usual_sizes(rows, y, case.quantity),
+        *atypical_sizes(rows, y, case.quantity),
         *too_thick(rows, y, case.quantity),
         *too_hard_pressed(case, rows),
         *of_another_unit(case, y, base, fewest),
@@ -124,14 +124,14 @@ def of_odd_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewes
     ]
 
 
-def beyond_usual_sizes(rows: Table, y: np.ndarray, quantity: str) -> list[Finding]:
+def atypical_sizes(rows: Table, y: np.ndarray, quantity: str) -> list[Finding]:
     """Columns whose largest value exceeds that of any rig, with the unit in which it would be typical."""
     columns = {**rows.columns, quantity: y}
     return [
         one
         for name in SIZED
         if name in columns
-        for one in beyond_usual(f"recordings.{name}", float(np.max(np.abs(columns[name]))), f"the largest {name}")
+        for one in atypical(f"recordings.{name}", float(np.max(np.abs(columns[name]))), f"the largest {name}")
     ]
 
 
@@ -141,7 +141,7 @@ def too_thick(rows: Table, y: np.ndarray, quantity: str) -> list[Finding]:
         return []
     if "pressure_MPa" in rows and rows["pressure_MPa"].min() > LOW_PRESSURE:
         return []
-    return beyond_usual(f"recordings.{quantity}", float(np.min(y)), f"the smallest {quantity}")
+    return atypical(f"recordings.{quantity}", float(np.min(y)), f"the smallest {quantity}")
 
 
 def too_hard_pressed(case: Case, rows: Table) -> list[Finding]:
@@ -166,7 +166,7 @@ def teeth_too_hard_pressed(case: Case, rows: Table, forward: Forward) -> list[Fi
     """Torques at which the Hertz pressure exceeds the yield limit of the tooth flanks."""
     if case.system.gears is None or "torque_Nm" not in rows:
         return []
-    pressure, modulus = (np.max(forward.base(name)) for name in ("hertz_pressure", "reduced_modulus"))
+    pressure, modulus = (np.max(forward.base_quantity(name)) for name in ("hertz_pressure", "reduced_modulus"))
     where = f"the largest torque_Nm, {np.max(np.abs(rows['torque_Nm'])):g}"
     return _yielding(where, pressure, modulus, "torque_Nm, and module and face width in [gears]")
 
@@ -240,7 +240,7 @@ def _same_split(sizes: np.ndarray, upper: np.ndarray) -> bool:
 
 def _sizes(case: Case, rows: Table) -> list[str]:
     """Conditions on a ratio scale: no names, times, angles or temperatures."""
-    names = [column.name for column in case.kind.columns if column.form != "name" and column.name in rows]
+    names = [column.name for column in case.kind.columns if column.dtype != "name" and column.name in rows]
     return [name for name in names if not name.endswith(("_s", "_deg", "_C")) or name.endswith("_m_s")]
 
 

@@ -138,7 +138,7 @@ def diagnosis_of(
         warnings.append(finding("effects_left_out", f"left out on request, so neither named nor excluded: {named}"))
     if wanted is not None:
         there = Forward(case, wanted)
-        there.nominal()
+        there.base_prediction()
         warnings += [note for note in there.notes if note not in forward.notes] + beyond_recorded(case, wanted)
     tried = search_under_noise(case, forward, exclude, progress)
     progress("testing against nothing missing")
@@ -155,7 +155,7 @@ def diagnosis_of(
     chance = outlier_chances(search, judged, refined)
     columns = [c for c in case.kind.columns if c.name in rows]
     swept = {axis.name for axis in search.space.axes}
-    varied = [c.name for c in columns if c.form == "name" or c.name in swept] or [c.name for c in columns]
+    varied = [c.name for c in columns if c.dtype == "name" or c.name in swept] or [c.name for c in columns]
     passing = [n for n in time_columns(search, judged.verdict) if n in rows and n not in varied]
     place = region(rows, [*varied, *passing], np.where(chance > LIKELY, 0.0, recorded.mismatch_z))
     laws = contained(search, judged.verdict)

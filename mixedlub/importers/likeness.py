@@ -251,7 +251,7 @@ def spare_headers(columns: Iterable[Column], cells: Cells) -> dict[str, str]:
     >>> spare_headers([Column("slide_roll_ratio")], {"Pump speed (%)": ["90", "100"]})
     {}
     """
-    names = [column.name for column in columns if column.form == "number" and not column.blank]
+    names = [column.name for column in columns if column.dtype == "number" and not column.optional_cells]
     cells = {h: values for h, values in cells.items() if not any(word in h.lower() for word in NO_CONDITION)}
     found = likely_headers(names, cells)
     shares = [h for h in cells if split(h)[1] == "%" and SLIDES.search(words_of(h)) and h not in found.values()]

@@ -116,7 +116,7 @@ def wanted(kind: Kind, quantity: str, answers: Answers) -> tuple[Column, ...]:
     check = answers.get("recording.check")
     return (
         *kind.columns,
-        *kind.channels,
+        *kind.instrument_channels,
         Column(quantity),
         sd_column(quantity),
         *BOOKKEEPING,
@@ -199,7 +199,7 @@ def _find(column: Column, cells: Cells, found: _Finding) -> None:
         found.headers[column.name] = own[0]
         return
     spoken = [h for h in cells if _speaks_of(h, column.name)]
-    if column.form != "name":
+    if column.dtype != "name":
         order = {words: place for place, words in enumerate(BY_NAME[column.name].spoken)} if spoken else {}
         # A time of day, or a column of remarks, may have the words of a number.
         numeric = [h for h in spoken if is_numeric(cells[h])]
@@ -323,7 +323,7 @@ def _two_speeds(column: str, cells: Cells) -> str:
 def _spare(kind: Kind, quantity: str, cells: Cells, found: _Finding) -> dict[str, str]:
     """Headers similar to optional columns that were not found."""
     open_keys = {q.key.removeprefix(COLUMNS) for q in found.questions}
-    own = (*kind.columns, *kind.channels)
+    own = (*kind.columns, *kind.instrument_channels)
     absent = [c for c in own if not c.required and c.name not in {*found.headers, *open_keys, *either(kind.name)}]
     offered = {question.example for question in found.questions}
     free = {h: v for h, v in _offered(cells, found.headers).items() if toml_value(h) not in offered}

@@ -97,7 +97,7 @@ def undescribed(system: system_file.System, columns: Mapping[str, np.ndarray]) -
     """Surfaces that the rows name and the system does not describe, where the kind computes with them."""
     if "surfaces" not in kind_of(system.kind).sections:
         return []
-    named = [c.name for c in kind_of(system.kind).columns if c.form == "name" and "surface" in c.name]
+    named = [c.name for c in kind_of(system.kind).columns if c.dtype == "name" and "surface" in c.name]
     names = {str(value) for name in named if name in columns for value in np.unique(columns[name])}
     return sorted(names - set(system.surfaces))
 

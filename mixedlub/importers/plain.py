@@ -70,7 +70,7 @@ def draft(file: InputFile, answers: Answers) -> Draft:
     if questions:
         return Draft(kind, None, {}, {}, (*questions, *rest))
     rules = {column.name: column for column in wanted(likely, str(quantity), answers)}
-    needed = [h for c, h in found.headers.items() if rules[c].form != "name" and not rules[c].blank]
+    needed = [h for c, h in found.headers.items() if rules[c].dtype != "name" and not rules[c].optional_cells]
     sheet, lost = complete_rows(sheet, needed)
     refuse_one_surface(found.headers, sheet.cells, name)
     open_columns = {TIME if q.key in PACE_KEYS else q.key.rpartition(".")[2] for q in found.questions}
@@ -154,11 +154,11 @@ def _values(rule: Column, header: str, sheet: Sheet, unit: str | None) -> np.nda
         return f"{sheet.name}: line {sheet.lines[row]}, {header}"
 
     # Bounds hold in the unit of the case, after the conversion.
-    written = rule if rule.form == "name" else Column(header, blank=rule.blank)
+    written = rule if rule.dtype == "name" else Column(header, optional_cells=rule.optional_cells)
     values = written.parse_all(cells)
     if values is None:
         values = np.array([written.parse(cell, place(row)) for row, cell in enumerate(cells)])
-    if rule.form == "name":
+    if rule.dtype == "name":
         return values
     target = target_for(rule.name)
     if unit is not None and target is not None:

@@ -77,7 +77,7 @@ def _read(step: dict[int, str], name: str) -> tuple[dict[str, np.ndarray], list[
         if target is None or target.name not in WANTED:
             continue
         where = f"{name}: {lines[0]}, {header}"
-        number = Column(header, blank=True)
+        number = Column(header, optional_cells=True)
         values = np.array(
             [
                 number.parse(row[i] if i < len(row) else "", f"{name}: line {line}, {header}")

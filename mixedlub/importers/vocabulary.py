@@ -27,10 +27,12 @@ class Target:
     offered: tuple[str, ...] = ()
 
 
-_COLUMNS = {c.name: c for k in map(kind, KINDS) for c in (*BOOKKEEPING, *k.columns, *k.channels, *k.readings)}
+_COLUMNS = {
+    c.name: c for k in map(kind, KINDS) for c in (*BOOKKEEPING, *k.columns, *k.instrument_channels, *k.readings)
+}
 TARGETS = tuple(Target(c.name, read_as(c.name), c.words, c.hints) for c in _COLUMNS.values() if c.words)
 BY_NAME = {t.name: t for t in TARGETS}
-TEXT_COLUMNS = tuple(c.name for c in _COLUMNS.values() if c.form == "name")
+TEXT_COLUMNS = tuple(c.name for c in _COLUMNS.values() if c.dtype == "name")
 
 
 def target_of(header: str) -> Target | None:

@@ -169,7 +169,7 @@ def _motor_torque(table: Table, recorded: Table) -> Inputs:
     return {"reference_torque": float(np.max(np.abs(recorded[motor]))), "motor_torque": column(table[own])}
 
 
-def completed(table: Table, recorded: Table) -> Table:
+def fill_channels(table: Table, recorded: Table) -> Table:
     """Rows without the motor's torque: that of the shaft plus the median friction, else the median motor torque."""
     if MOTOR_TORQUE.name in table or MOTOR_TORQUE.name not in recorded:
         return table
@@ -297,8 +297,8 @@ KIND = Kind(
     inputs=inputs,
     extra_calibration=extra_calibration,
     part_rigs=(NO_GEARS,),
-    channels=(MOTOR_TORQUE,),
-    completed=completed,
+    instrument_channels=(MOTOR_TORQUE,),
+    fill_channels=fill_channels,
     direction=drive_speed,
     either=SPEEDS,
     standard=STANDARD,

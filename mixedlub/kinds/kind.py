@@ -39,14 +39,14 @@ class Kind:
     one of the two of length one where a quantity does not depend on it; the chain ends in ``reading``,
     shape (rows, 1), in SI. ``recorded`` is the recording of the case, from which typical sizes (the largest
     speed, the duration) are taken, so that other predictions use the same ones; ``extra_calibration`` uses it to scale
-    the priors of unknown inputs. ``reading_fault(recorded, row, excess, sd)`` describes the instrument fault that
+    the priors of unknown inputs. ``instrument_fault(recorded, row, excess, sd)`` describes the fault that
     explains a residual ``excess`` of reading ``row`` with noise ``sd`` (unit of the column). ``logarithmic`` kinds span
     decades and are compared by the logarithm of the reading. ``part_rigs`` are the names in the column ``rig`` whose
-    readings are compared with a part of the base model. ``channels`` are further outputs of the instrument: read as
-    columns, but not test conditions. ``completed(table, recorded)`` adds predicted channels to rows that were not
-    recorded. ``nominal`` are quantities of the base model before calibration, provided to effects under other names.
-    ``limits(system)`` are the lowest and highest values of a column on this rig, by its name. ``direction(table)`` is
-    the signed speed of each row, for kinds whose reading changes sign with it.
+    readings are compared with a part of the base model. ``instrument_channels`` are further outputs of the
+    instrument: read as columns, but not test conditions. ``fill_channels(table, recorded)`` adds them, predicted, to
+    rows that were not recorded. ``base_inputs`` are quantities of the base model before calibration, and the names
+    under which effects read them. ``column_limits(system)`` are the lowest and highest values of a column on this rig,
+    by its name. ``direction(table)`` is the signed speed of each row, for kinds whose reading changes sign with it.
 
     For imports and figures: ``either`` are columns of which a table has one; histories (``is_history``) are plotted
     over time; logged series (``is_logged``) may be thinned; ``asks_for_oil`` means that the import requests the
@@ -62,13 +62,13 @@ class Kind:
     inputs: Callable[[system_file.System, Rig, Table, Table], Inputs]
     standard: StandardRig
     extra_calibration: Callable[[system_file.System, Table], tuple[Calibration, ...]] = lambda system, recorded: ()
-    reading_fault: Callable[[Table, int, float, float], str | None] = lambda recorded, row, excess, sd: None
+    instrument_fault: Callable[[Table, int, float, float], str | None] = lambda recorded, row, excess, sd: None
     logarithmic: bool = False
     part_rigs: tuple[str, ...] = ()
-    channels: tuple[Column, ...] = ()
-    completed: Callable[[Table, Table], Table] = lambda table, recorded: table
-    limits: Callable[[system_file.System], Mapping[str, tuple[float, float]]] = lambda system: {}
-    nominal: Mapping[str, str] = field(default_factory=dict)
+    instrument_channels: tuple[Column, ...] = ()
+    fill_channels: Callable[[Table, Table], Table] = lambda table, recorded: table
+    column_limits: Callable[[system_file.System], Mapping[str, tuple[float, float]]] = lambda system: {}
+    base_inputs: Mapping[str, str] = field(default_factory=dict)
     uses: tuple[str, ...] = ()
     scale: float = 1.0
     direction: Callable[[Table], np.ndarray] | None = None

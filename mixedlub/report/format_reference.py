@@ -84,7 +84,7 @@ def _kind(k: Kind) -> Iterator[str]:
 def kind_rows(k: Kind) -> list[Row]:
     """The columns of a kind, readings last."""
     one = "reading" if len(k.readings) == 1 else "one of these"
-    rows = [_column(c) for c in (*k.columns, *k.channels)]
+    rows = [_column(c) for c in (*k.columns, *k.instrument_channels)]
     return [*rows, *(_column(c, needed=one) for c in k.readings)]
 
 
@@ -105,13 +105,13 @@ def common_rows() -> list[Row]:
 
 
 def _column(c: Column, needed: str = "", unit: str = "") -> Row:
-    unit = "" if c.form == "name" else unit or unit_of(c.name) or "-"
+    unit = "" if c.dtype == "name" else unit or unit_of(c.name) or "-"
     return c.name, unit, needed or ("required" if c.required else "optional"), _bounds(c), c.meaning
 
 
 def _bounds(c: Column) -> str:
-    if c.form != "number":
-        return {"whole": "whole number"}.get(c.form, c.form)
+    if c.dtype != "number":
+        return {"whole": "whole number"}.get(c.dtype, c.dtype)
     if np.isfinite(c.above):
         return f"above {c.above:g}"
     return _span(c.at_least, c.at_most)

@@ -49,7 +49,7 @@ def test_last_film_is_one_fringe_off(typed_in):
     case = read_case(typed_in / "ehd_film_31C_50N")
     after, _, _ = fit(case, "inlet_shear_heating", sd=without_last(case))
     excess = float(case.recordings["film_thickness_nm"][-1] - after[-1])
-    assert "one interference order" in case.kind.reading_fault(case.recordings, 20, excess, 0.02 * float(after[-1]))
+    assert "one interference order" in case.kind.instrument_fault(case.recordings, 20, excess, 0.02 * float(after[-1]))
 
 
 PER_CENT = 9.84e-5

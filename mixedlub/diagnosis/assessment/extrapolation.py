@@ -37,7 +37,7 @@ def beyond_recorded(case: Case, wanted: Table | None) -> list[Finding]:
 def _beyond(column: Column, wanted: Table, rows: Table) -> Iterator[tuple[int, str]]:
     """Runs whose value of a column is beyond the recorded ones, with the words for it."""
     name, values = column.name, wanted[column.name]
-    if column.form == "name":
+    if column.dtype == "name":
         for i in np.flatnonzero(~np.isin(values, rows[name])):
             yield int(wanted["run"][i]), f"{name} {values[i]}, never recorded"
         return

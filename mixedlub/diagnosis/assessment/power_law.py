@@ -136,7 +136,7 @@ def features(search: Search) -> dict[str, np.ndarray]:
     case, rows, forward = search.problem.case, search.problem.rows, search.problem.forward
     every: dict[str, np.ndarray] = {}
     for column in case.kind.columns:
-        if column.form != "name" and column.name in rows and not column.name.endswith("_C"):
+        if column.dtype != "name" and column.name in rows and not column.name.endswith("_C"):
             every[column.name] = np.abs(np.asarray(rows[column.name], dtype=float))
     inputs = search.problem.run(NOTHING, search.null_fit.z).inputs
     made = set(inputs) | {name for name, _ in forward.chain}

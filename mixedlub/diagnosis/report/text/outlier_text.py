@@ -18,7 +18,7 @@ def reading_conditions(d: Diagnosis, row: int) -> str:
     for column in d.case.kind.columns:
         if column.name in table:
             value = table[column.name][row]
-            named[column.name] = str(value) if column.form == "name" else float(value)
+            named[column.name] = str(value) if column.dtype == "name" else float(value)
     return conditions_text(named)
 
 
@@ -76,7 +76,7 @@ def outliers(d: Diagnosis) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]
     sentences = [f"{count} little weight.{more}"]
     for i in rows.tolist():
         excess, sd = float(y[i] - d.recorded.predicted[i]), float(d.recorded.sd[i])
-        fault = d.case.kind.reading_fault(d.recorded.table, i, excess, sd)
+        fault = d.case.kind.instrument_fault(d.recorded.table, i, excess, sd)
         if fault is not None:
             sentences.append(f"Run {int(d.recorded.table['run'][i])}: {fault}.")
     return tuple(sentences), tuple(table)
