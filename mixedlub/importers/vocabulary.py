@@ -56,9 +56,9 @@ def is_of_another(unit: str, target: Target) -> bool:
 
 def unknown_unit(unit: str, target: Target) -> str:
     """Why a unit is not taken as that of a column, and what could be."""
-    meant = open_units(unit, target.unit)
-    if meant:
-        return f"as unit of {target.name} leaves open which is meant; say {' or '.join(meant)}"
+    candidates = open_units(unit, target.unit)
+    if candidates:
+        return f"as unit of {target.name} leaves open which is meant; say {' or '.join(candidates)}"
     if target.unit == "mPa_s" and tidy(unit).lower() in KINEMATIC:
         hint = "this is a kinematic viscosity: in mm²/s, times the density in g/cm³, it is in mPa s"
     else:
