@@ -61,7 +61,7 @@ class SignedLogNormal:
     def value(self, z: float) -> float:
         """The value at standard-normal coordinate ``z``; zero at the median, between the two signs.
 
-        >>> prior = EitherSign(200.0, 0.25)
+        >>> prior = SignedLogNormal(200.0, 0.25)
         >>> [round(prior.value(z)) for z in (-0.6745, -0.1, 0.0, 0.1, 0.6745)]   # quartiles at the medians
         [-200, -141, 0, 141, 200]
         """

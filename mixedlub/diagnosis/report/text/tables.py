@@ -69,7 +69,7 @@ def _far(prior: Prior, unit: str) -> str:
     """Words for a parameter far outside its prior, with the prior's 90 % range.
 
     >>> from mixedlub.chain.priors import Normal
-    >>> _far(Normal(0.0, 0.1), "-"), _far(Between(0.0, 0.05), "1/K")
+    >>> _far(Normal(0.0, 0.1), "-"), _far(Uniform(0.0, 0.05), "1/K")
     ('far outside its expected range (-0.164 to 0.164)', 'at the limit of its range (0 to 0.05)')
     """
     if isinstance(prior, Uniform | LogUniform):
