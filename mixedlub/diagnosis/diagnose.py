@@ -113,14 +113,14 @@ def diagnose_case(
     case = read_case(folder)
     if predict is None:
         return diagnosis_of(case, case.conditions, exclude, level, progress)
-    asked = read_conditions(case, predict)
-    refuse_used_runs(case, asked, predict)
-    return diagnosis_of(case, asked, exclude, level, progress)
+    requested = read_conditions(case, predict)
+    refuse_used_runs(case, requested, predict)
+    return diagnosis_of(case, requested, exclude, level, progress)
 
 
 def diagnosis_of(
     case: Case,
-    asked: Table | None = None,
+    requested: Table | None = None,
     exclude: Sequence[str] = (),
     level: float = FALSE_ALARM_RATE,
     progress: Progress = lambda text: None,
@@ -128,56 +128,56 @@ def diagnosis_of(
     """Work out what the simulation of a case lacks, and predict the conditions ``asked`` for."""
     find(list(exclude))
     rows = rows_of(case)
-    wanted, assumed = _completed(asked, rows)
+    new_rows, assumed = _completed(requested, rows)
     forward = Forward(case, rows)
     checks = audit(case, rows, readings_of(case), forward)
-    warnings = [*case.notes, *assumed, *unpredicted_runs(case, wanted), *forward.notes, *checks]
+    warnings = [*case.notes, *assumed, *unpredicted_runs(case, new_rows), *forward.notes, *checks]
     left_out = tuple(e.id for e in forward.effects() if e.id in exclude)
     if left_out:
         named = ", ".join(effect_words(name) for name in left_out)
         warnings.append(finding("effects_left_out", f"left out on request, so neither named nor excluded: {named}"))
-    if wanted is not None:
-        there = Forward(case, wanted)
-        there.base_prediction()
-        warnings += [note for note in there.notes if note not in forward.notes] + beyond_recorded(case, wanted)
-    tried = search_under_noise(case, forward, exclude, progress)
+    if new_rows is not None:
+        new_model = Forward(case, new_rows)
+        new_model.base_prediction()
+        warnings += [note for note in new_model.notes if note not in forward.notes] + beyond_recorded(case, new_rows)
+    noise_search = search_under_noise(case, forward, exclude, progress)
     progress("testing against nothing missing")
-    search, test = mismatch_against_null(tried, level)
+    search, test = mismatch_against_null(noise_search, level)
     case, rows = search.problem.case, search.problem.rows
-    warnings += noise_notes(search, tried.stated, tried.inflation)
+    warnings += noise_notes(search, noise_search.stated, noise_search.inflation)
     progress("leaving levels out")
-    judged, kept = judge(search, test)
-    kept = kept.single_reading_units(search.full_screen.problem.n_per_effective)
-    refined = leaders(search, judged)
+    decided, heldout = judge(search, test)
+    heldout = heldout.single_reading_units(search.full_screen.problem.n_per_effective)
+    refined = leaders(search, decided)
     progress("predicting")
-    recorded = averaged(search, judged, refined, rows)
-    other = None if wanted is None else averaged(search, judged, refined, wanted)
-    chance = outlier_chances(search, judged, refined)
+    recorded = averaged(search, decided, refined, rows)
+    predicted = None if new_rows is None else averaged(search, decided, refined, new_rows)
+    outlier_chance = outlier_chances(search, decided, refined)
     columns = [c for c in case.kind.columns if c.name in rows]
     swept = {axis.name for axis in search.space.axes}
     varied = [c.name for c in columns if c.dtype == "name" or c.name in swept] or [c.name for c in columns]
-    passing = [n for n in time_columns(search, judged.verdict) if n in rows and n not in varied]
-    place = region(rows, [*varied, *passing], np.where(chance > LIKELY, 0.0, recorded.mismatch_z))
-    laws = contained(search, judged.verdict)
-    tests = next_tests(search, judged, refined, columns, varied)
-    warnings += _cautions(search, judged, kept, refined, recorded.predicted, chance > LIKELY)
-    said = tuple(warnings)
+    passing = [n for n in time_columns(search, decided.verdict) if n in rows and n not in varied]
+    mismatch_region = region(rows, [*varied, *passing], np.where(outlier_chance > LIKELY, 0.0, recorded.mismatch_z))
+    laws = contained(search, decided.verdict)
+    tests = next_tests(search, decided, refined, columns, varied)
+    warnings += _cautions(search, decided, heldout, refined, recorded.predicted, outlier_chance > LIKELY)
+    all_warnings = tuple(warnings)
     return Diagnosis(
         case,
         search,
         test,
-        judged,
+        decided,
         refined,
         recorded,
-        other,
-        chance,
-        place,
-        kept,
+        predicted,
+        outlier_chance,
+        mismatch_region,
+        heldout,
         laws,
         tests,
-        said,
+        all_warnings,
         left_out,
-        tried.stated,
+        noise_search.stated,
     )
 
 

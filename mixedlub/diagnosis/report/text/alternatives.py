@@ -21,9 +21,9 @@ AS_IF_NOTHING = "as if nothing were missing"
 HIDDEN = f"the noise was estimated {AS_IF_NOTHING}, and what is taken for noise may hide some of them"
 
 
-def resembling(d: Diagnosis, alike: Confusion) -> tuple[tuple[str, ...], tuple[str, ...]]:
+def resembling(d: Diagnosis, similarity: Confusion) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Sentences, and the tests that separate the tied effects."""
-    sentences = _resemblance(d, alike)
+    sentences = _resemblance(d, similarity)
     names = dict.fromkeys(name for key in d.posterior.tied for name in key.effects)
     items = tuple(f"{effect_words(e.id)}: {e.separated_by}" for e in effects_of(names))
     if len(d.posterior.tied) < 2 or not items:
