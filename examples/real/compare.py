@@ -15,7 +15,7 @@ import numpy as np
 from mixedlub.case.folder import read_case
 from mixedlub.diagnosis.assessment.identifiability import confusion
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.report.text.alternatives import unshown
+from mixedlub.diagnosis.report.text.alternatives import undetectable_effects
 from mixedlub.diagnosis.report.text.answer import as_json
 from profiles.errors import InputError
 
@@ -58,7 +58,7 @@ def said(d: Diagnosis) -> list[tuple[str, str]]:
             for p in effect["parameters"][:4]
         )
         rows.append((effect["id"], values))
-    hidden = unshown(d, confusion(d.search))
+    hidden = undetectable_effects(d, confusion(d.search))
     if answer["verdict"] != ["none"] and hidden:
         rows.append(("Too weak to show", ", ".join(hidden)))
     rows += [("Reading", text) for text in faults(d)]

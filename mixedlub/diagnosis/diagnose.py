@@ -78,7 +78,7 @@ class Diagnosis:
         return right if right.any() else ~right
 
     @property
-    def seen_sd(self) -> np.ndarray:
+    def transformed_sd(self) -> np.ndarray:
         """Standard deviation of the readings as they are compared."""
         p = self.recorded
         return p.sd / np.abs(p.predicted) if self.case.kind.logarithmic else p.sd
@@ -86,14 +86,14 @@ class Diagnosis:
     @property
     def residuals(self) -> tuple[np.ndarray, np.ndarray]:
         """(recorded - simulated)/sd, as they are compared, with the calibrated base model and with the answer."""
-        problem, p, sd = self.search.problem, self.recorded, self.seen_sd
+        problem, p, sd = self.search.problem, self.recorded, self.transformed_sd
         return (problem.y - problem.transform(p.calibrated)) / sd, (problem.y - problem.transform(p.predicted)) / sd
 
     @property
     def missing(self) -> tuple[np.ndarray, np.ndarray]:
         """What the base model at the answer's calibration lacks, in the reading's unit: as recorded, as explained."""
         problem, p = self.search.problem, self.recorded
-        base = problem.inverse(problem.transform(p.predicted) - p.mismatch_z * self.seen_sd)
+        base = problem.inverse(problem.transform(p.predicted) - p.mismatch_z * self.transformed_sd)
         return self.readings - base, p.predicted - base
 
     @property

@@ -189,9 +189,9 @@ def programme(table: Table, recorded: Table) -> Inputs:
     """For rows with a time: the time, and the share of the recording's duration as position in the programme."""
     if "time_s" not in table:
         return {}
-    found: Inputs = {"time": column(table["time_s"])}
+    inputs: Inputs = {"time": column(table["time_s"])}
     if "sequence" not in table and "time_s" in recorded:
         first, last = float(recorded["time_s"].min()), float(recorded["time_s"].max())
         start = 0.0 if 0.0 <= first <= 0.5 * last else first
-        found["sequence"] = column((table["time_s"] - start) / ((last - start) or 1.0))
-    return found
+        inputs["sequence"] = column((table["time_s"] - start) / ((last - start) or 1.0))
+    return inputs

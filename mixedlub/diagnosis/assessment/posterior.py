@@ -74,8 +74,8 @@ def posterior(
         relative = {k: search.scores[k] - (penalties or {}).get(k, 0.0) for k in names}
         foremost = max(log[key] for key in names)
         log |= {key: log[key] + value * (1.0 / overdispersion - 1.0) for key, value in relative.items()}
-        back = foremost - max(log[key] for key in names)
-        log |= {key: log[key] + back for key in names}
+        shift = foremost - max(log[key] for key in names)
+        log |= {key: log[key] + shift for key in names}
     if test.unexplained_scatter and log[NOTHING] > log[DISCREPANCY]:
         log[NOTHING], log[DISCREPANCY] = log[DISCREPANCY], log[NOTHING]
     others = [value for key, value in log.items() if key != NOTHING]

@@ -41,9 +41,9 @@ def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
         start += len(e.parameters)
         if e.descriptive:
             continue
-        every = list(zip(e.parameters, record["parameters"], places, strict=True))
-        shown = [(p, fitted, i) for p, fitted, i in every if p.change_point or moved[i]]
-        sentences += _unmoved(e, [p for p, _, i in every if not (p.change_point or moved[i])])
+        rows = list(zip(e.parameters, record["parameters"], places, strict=True))
+        shown = [(p, fitted, i) for p, fitted, i in rows if p.change_point or moved[i]]
+        sentences += _unmoved(e, [p for p, _, i in rows if not (p.change_point or moved[i])])
         vague = [p.name.replace("_", " ") for p, _, i in shown if refined.spread[i] >= VAGUE]
         alone = _undetermined(replace(e, parameters=tuple(p for p, _, _ in shown)), vague)
         fitted_ones = [(p, fitted) for p, fitted, _ in shown]
@@ -56,7 +56,7 @@ def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
             value, low, high = (number(x) for x in scaled)
             name = with_symbol(p.name, plain_equation(p.symbol))
             far = _far(p.prior, p.unit) if abs(refined.z[i]) > FAR and not p.change_point else ""
-            sentences += _stretched(e, p, far)
+            sentences += _doubtful(e, p, far)
             marks = [mark for mark, holds in ((UNDETERMINED, refined.spread[i] >= VAGUE), (far, far)) if holds]
             mark = f"[{'; '.join(marks)}] " if marks else ""
             table.append(
@@ -80,7 +80,7 @@ def _far(prior: Prior, unit: str) -> str:
     return f"{how} ({low} to {high})"
 
 
-def _stretched(e: Effect, p: Parameter, far: str) -> list[str]:
+def _doubtful(e: Effect, p: Parameter, far: str) -> list[str]:
     """Warning that an effect with such a parameter may stand for another one."""
     if not far:
         return []
@@ -113,8 +113,8 @@ def _meaning(d: Diagnosis, p: Parameter, value: float) -> str:
     if not p.relative_to:
         return p.meaning
     size, unit = _whole(d, p.relative_to)
-    made = f"{number(value * size)} {unit}{p.unit.removeprefix('-').removeprefix('1')}"
-    return f"{p.meaning} ({f'{number(size)} {unit}'.rstrip()}): {made.rstrip()}"
+    absolute = f"{number(value * size)} {unit}{p.unit.removeprefix('-').removeprefix('1')}"
+    return f"{p.meaning} ({f'{number(size)} {unit}'.rstrip()}): {absolute.rstrip()}"
 
 
 def _whole(d: Diagnosis, name: str) -> tuple[float, str]:
@@ -173,7 +173,7 @@ def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
     if not d.search.problem.forward.calibrations:
         return ("The case lets calibration move nothing.",), ()
     z, spread = _calibrated(d)
-    given = _given(d.case)
+    sources = _sources(d.case)
     table = [("input", "stated", "moved to", "90 % interval", "moved by", "meaning")]
     strained = []
     for i, c in enumerate(d.search.problem.forward.calibrations):
@@ -185,7 +185,7 @@ def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
         table.append(
             (
                 name,
-                f"{number(c.nominal)}{given.get(c.name, '')}",
+                f"{number(c.nominal)}{sources.get(c.name, '')}",
                 number(value),
                 f"{number(low)} to {number(high)}",
                 f"{z[i]:+.1f} sd",
@@ -205,16 +205,16 @@ def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
     return tuple(sentences), tuple(table)
 
 
-def _given(case: Case) -> dict[str, str]:
+def _sources(case: Case) -> dict[str, str]:
     """Source of inputs that the case does not state: those that change with the readings are taken from them."""
     quantity, rows = case.quantity, case.recordings
     assert rows is not None
     doubled = Table({**rows.columns, quantity: 2.0 * rows[quantity]}, rows.source)
     with collected():
-        here, there = (case.kind.extra_calibration(case.system, table) for table in (rows, doubled))
+        as_recorded, with_doubled = (case.kind.extra_calibration(case.system, table) for table in (rows, doubled))
     return {
         c.name: " (assumed)" if c.nominal == moved.nominal else " (from the readings)"
-        for c, moved in zip(here, there, strict=True)
+        for c, moved in zip(as_recorded, with_doubled, strict=True)
     }
 
 
