@@ -7,8 +7,8 @@ from mixedlub.chain.priors import LogNormal, Uniform
 from mixedlub.laws.drag import bearing_asperity_share, palmgren_idle_torque, palmgren_load_torque
 
 _SIZE = 1.25
-_TYPICAL = 3000.0
-_LEAST = 0.1
+_TYPICAL_LOAD = 3000.0
+_LEAST_LOAD = 0.1
 
 
 @effect(
@@ -90,7 +90,7 @@ def bearing_drag(
     24
     """
     diameter = _SIZE * pinion_radius
-    size = np.where(gears_fitted > 0, np.maximum(transmitted_force / _TYPICAL, _LEAST), _LEAST)
+    size = np.where(gears_fitted > 0, np.maximum(transmitted_force / _TYPICAL_LOAD, _LEAST_LOAD), _LEAST_LOAD)
     growth = size ** (load_power - 1.0)
     by_load = loaded * gears_fitted * growth * palmgren_load_torque(0.5 * transmitted_force, diameter)
     drag = 0.0

@@ -8,7 +8,7 @@ from mixedlub.laws import heating, oil
 
 EVEN = 0.01
 """Share of the transmitted power that becomes heat in the mesh, where this share is taken as constant."""
-LEAST = 0.2
+LEAST_REMAINING = 0.2
 """Share of the pressure-viscosity coefficient that remains at any temperature rise; keeps its linear fall positive."""
 
 
@@ -74,4 +74,4 @@ def bulk_temperature(
     heat = nominal_loss**friction * (EVEN * torque * pinion_speed) ** (1.0 - friction)
     rise = strength * typical * (heat / reading_scale) ** exponent
     thinner = oil.warmed_viscosity(viscosity, oil_density, temperature_viscosity, oil_temperature, rise)
-    return thinner, pressure_viscosity * np.maximum(1.0 - coefficient_fall * rise, LEAST)
+    return thinner, pressure_viscosity * np.maximum(1.0 - coefficient_fall * rise, LEAST_REMAINING)

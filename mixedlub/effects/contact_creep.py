@@ -5,8 +5,10 @@ import numpy as np
 from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import LogNormal, Uniform
 
-FRICTION, PRESSURE = 0.05, 1e9
-"""Reference friction coefficient and Hertz pressure (Pa) of the saturation slip."""
+REFERENCE_FRICTION = 0.05
+"""Friction coefficient at which the saturation slip is stated."""
+REFERENCE_PRESSURE = 1e9
+"""Hertz pressure (Pa) at which the saturation slip is stated."""
 
 
 @effect(
@@ -80,6 +82,6 @@ def contact_creep(
     >>> contact_creep(0.05, 0.1, 0.2, S, 1e9, **creep, of_asperities=0.0).round(5).tolist()   # 0.1 x 0.2 stays
     [0.02, 0.04625, 0.05]
     """
-    slides = saturation_slip * ((friction / FRICTION) * (hertz_pressure / PRESSURE)) ** elastic
+    slides = saturation_slip * ((friction / REFERENCE_FRICTION) * (hertz_pressure / REFERENCE_PRESSURE)) ** elastic
     sticking = np.maximum(slides - slide_roll_ratio, 0.0) / np.maximum(slides, 1e-12)
     return friction - (friction - (1.0 - of_asperities) * boundary_friction * area_ratio) * sticking**power

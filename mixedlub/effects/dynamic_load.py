@@ -6,7 +6,7 @@ from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import LogNormal, Normal, Uniform
 
 QUARTER = 0.5 * np.pi
-LEAST = 0.1
+LEAST_LOAD_FACTOR = 0.1
 """Smallest share of the static force that is computed where vibration unloads the teeth."""
 
 
@@ -80,7 +80,7 @@ def dynamic_load(
     """
     ratio = pinion_teeth * pinion_speed / (2.0 * np.pi * resonance)
     response = _response(ratio, damping, phase) + second * _response(2.0 * ratio, damping, phase)
-    return transmitted_force * np.maximum(1.0 + amplitude * response, LEAST)
+    return transmitted_force * np.maximum(1.0 + amplitude * response, LEAST_LOAD_FACTOR)
 
 
 def _response(ratio: np.ndarray, damping: float, phase: float) -> np.ndarray:

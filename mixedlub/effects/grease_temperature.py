@@ -5,7 +5,7 @@ import numpy as np
 from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import LogNormal, Uniform
 
-FORTY = 313.15
+FORTY_CELSIUS = 313.15
 """Reference temperature (K) of fall and convexity: 40 degC, where oils are graded."""
 NEAREST = 5.0
 """Smallest distance (K) above the divergence temperature that is computed."""
@@ -52,6 +52,6 @@ def grease_temperature(
     >>> round(float(grease_temperature(1.0, 333.15, **vogel)), 3)   # exp(700/155 - 700/135)
     0.512
     """
-    warmer = oil_temperature - FORTY
-    distance = np.maximum(FORTY + convexity * warmer, convexity * NEAREST) / FORTY
+    warmer = oil_temperature - FORTY_CELSIUS
+    distance = np.maximum(FORTY_CELSIUS + convexity * warmer, convexity * NEAREST) / FORTY_CELSIUS
     return viscous_torque * np.exp(-fall_per_kelvin * warmer / distance)

@@ -5,7 +5,7 @@ import numpy as np
 from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import LogNormal, Uniform
 
-USUAL = 0.005
+REFERENCE_PRESSURE_RATIO = 0.005
 """Hertz pressure over reduced modulus at which the published factors nearly agree."""
 
 
@@ -66,5 +66,5 @@ def inlet_shear_heating(
     pressure = hertz_pressure / reduced_modulus
     rolling = 13.2 * strength * pressure * loading**0.42
     slid = 1.0 + 2.23 * sliding * slide_roll_ratio**0.83
-    shear = 0.213 * strength * slid * loading**loading_power * (pressure / USUAL) ** pressure_power
+    shear = 0.213 * strength * slid * loading**loading_power * (pressure / REFERENCE_PRESSURE_RATIO) ** pressure_power
     return film_thickness * (np.exp(-rolling) / (1.0 + shear))

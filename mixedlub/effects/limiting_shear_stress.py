@@ -5,7 +5,7 @@ import numpy as np
 from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import LogNormal, LogUniform, Uniform
 
-WARM = 313.15
+FORTY_CELSIUS = 313.15
 """Reference oil temperature of the coefficient, 40 degC."""
 
 
@@ -55,5 +55,5 @@ def limiting_shear_stress(
     >>> (limiting_shear_stress(np.array([200e6, 20e6]), 1e9, 313.15, **law) / 1e6).round(1).tolist()
     [50.0, 19.9]
     """
-    limit = coefficient * hertz_pressure * np.exp(-fall * (oil_temperature - WARM))
+    limit = coefficient * hertz_pressure * np.exp(-fall * (oil_temperature - FORTY_CELSIUS))
     return shear_stress * (1.0 + (shear_stress / limit) ** sharpness) ** (-1.0 / sharpness)

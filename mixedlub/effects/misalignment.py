@@ -7,8 +7,10 @@ from mixedlub.chain.priors import LogNormal, Uniform
 
 _STIFFNESS = 2e10
 _REFERENCE = 1e5
-SMALL, LEAST_POWER = 1e-2, 1e-5
-"""Slope of the load below which only its quadratic term counts; exponent of load that is treated as zero."""
+QUADRATIC_BELOW = 1e-2
+"""Slope of the load below which only its quadratic term counts."""
+LEAST_POWER = 1e-5
+"""Exponent of load that is treated as zero."""
 
 
 @effect(
@@ -60,10 +62,10 @@ def misalignment(
     """
     half_gap_load = 0.5 * misalignment * _STIFFNESS / _REFERENCE
     partial = half_gap_load * (_REFERENCE * face_width / transmitted_force) ** relief
-    whole = np.clip(partial, SMALL, 1.0)
+    whole = np.clip(partial, QUADRATIC_BELOW, 1.0)
     given = max(loss_power, LEAST_POWER)
     power = 2.0 + given
     uneven = ((1.0 + whole) ** power - (1.0 - whole) ** power) / (2.0 * power * whole)
     near = (1.0 + given) * partial**2 / 6.0
-    rise = np.where(partial < SMALL, near, np.log(uneven) / given)
+    rise = np.where(partial < QUADRATIC_BELOW, near, np.log(uneven) / given)
     return line_load * np.exp(rise) * np.sqrt(np.maximum(partial, 1.0))

@@ -5,7 +5,7 @@ import numpy as np
 from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import LogNormal, Uniform
 
-NEAR = 1e-6
+LIMIT_WITHIN = 1e-6
 """Distance of the exponent from one below which the limit is used."""
 
 
@@ -60,7 +60,7 @@ def presliding(
     """
     travel = np.abs(drive_speed) / (np.maximum(speed_share, 1e-12) * reference_speed)
     tail = exponent - 1.0
-    if abs(tail) < NEAR:
+    if abs(tail) < LIMIT_WITHIN:
         return running_friction * -np.expm1(-travel)
     left = np.maximum(1.0 + tail * travel, 0.0)
     with np.errstate(divide="ignore"):

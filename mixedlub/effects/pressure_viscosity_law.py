@@ -6,8 +6,8 @@ from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import LogNormal, LogUniform, Normal
 from mixedlub.laws.oil import roelands_coefficient, roelands_viscosity
 
-WARM = 313.15
-KELVIN = 100.0
+FORTY_CELSIUS = 313.15
+HUNDRED_KELVIN = 100.0
 GLASS = 1e8
 SAMPLE = ("viscosity",)
 CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
@@ -161,7 +161,7 @@ def pressure_viscosity_law(
     >>> round(float(x), 1)
     80.1
     """
-    warmer = (oil_temperature - WARM) / KELVIN * (WARM / oil_temperature)
+    warmer = (oil_temperature - FORTY_CELSIUS) / HUNDRED_KELVIN * (FORTY_CELSIUS / oil_temperature)
     down = bend_down * np.exp(down_with_temperature * warmer) * hertz_pressure
     up = bend_up * np.exp(up_with_temperature * warmer) * hertz_pressure
     changed = slope * np.exp((slope_with_temperature + slope_bow * warmer) * warmer)

@@ -7,7 +7,7 @@ from mixedlub.chain.priors import Normal, Uniform
 from mixedlub.laws.contact import area_per_overlap
 from roughness.integrals import area_integral
 
-_SMALL = 1e-4
+_LIMIT_BELOW = 1e-4
 
 
 @effect(
@@ -71,7 +71,7 @@ def _skewed_area_integral(t: np.ndarray, skewness: float) -> np.ndarray:
     """Mean of (s - t) above t for standardised lognormal heights of a given skewness."""
     from scipy.special import ndtr
 
-    if abs(skewness) < _SMALL:
+    if abs(skewness) < _LIMIT_BELOW:
         odd = t * np.exp(-0.5 * np.square(t)) / np.sqrt(2.0 * np.pi)
         return area_integral(t) + skewness / 6.0 * odd
     spread = _spread(abs(skewness))

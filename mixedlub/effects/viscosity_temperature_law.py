@@ -5,10 +5,12 @@ import numpy as np
 from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import LogNormal, Uniform
 
-FORTY = 313.15
+FORTY_CELSIUS = 313.15
 """Reference temperature (K) of the convexity: 40 degC, where oils are graded."""
-NEAREST, MOST = 5.0, 30.0
-"""Smallest distance (K) above the divergence, and largest logarithmic change, that are computed."""
+NEAREST = 5.0
+"""Smallest distance (K) above the divergence that is computed."""
+LARGEST_LOG = 30.0
+"""Largest logarithmic change that is computed."""
 
 
 @effect(
@@ -82,6 +84,6 @@ def viscosity_temperature_law(
     [0.1, 0.03808, 0.01]
     """
     place = (oil_temperature - first_known_temperature) / (second_known_temperature - first_known_temperature)
-    far = np.maximum(FORTY + convexity * (oil_temperature - FORTY), convexity * NEAREST)
-    vogel = known_fall * place * (FORTY + convexity * (second_known_temperature - FORTY)) / far
-    return viscosity * np.exp(np.clip(share * (fall_from_first - fall * vogel), -MOST, MOST))
+    far = np.maximum(FORTY_CELSIUS + convexity * (oil_temperature - FORTY_CELSIUS), convexity * NEAREST)
+    vogel = known_fall * place * (FORTY_CELSIUS + convexity * (second_known_temperature - FORTY_CELSIUS)) / far
+    return viscosity * np.exp(np.clip(share * (fall_from_first - fall * vogel), -LARGEST_LOG, LARGEST_LOG))

@@ -24,7 +24,7 @@ COLUMNS = (
     *(replace(c, required=False) for c in (*disc.COLUMNS, *disc.SURFACES)),
 )
 NEEDED = tuple(c.name for c in (*disc.COLUMNS, *disc.SURFACES))
-SPREAD = 1.0
+FRICTION_SPREAD = 1.0
 """Judgement. Prior sd of the logarithm of the friction at the start: a factor of 2.7 either way."""
 USUAL_PRESSURE = 1e9
 """Judgement. Typical Hertz pressure (Pa) of a ball on a disc in traction machines."""
@@ -109,7 +109,10 @@ def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Cali
         return ()
     level = _level(system, recorded)
     parameter = Parameter(
-        "boundary_friction", "-", LogNormal(level, SPREAD), "friction coefficient at the start of the recording"
+        "boundary_friction",
+        "-",
+        LogNormal(level, FRICTION_SPREAD),
+        "friction coefficient at the start of the recording",
     )
     return (Calibration(parameter, lambda inputs, value: {"boundary_friction": value}, level, ("boundary_friction",)),)
 

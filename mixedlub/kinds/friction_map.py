@@ -69,10 +69,11 @@ MOTOR_TORQUE = Column(
     words=("motor torque",),
 )
 """Not a test condition: friction is its excess over the torque at the shaft."""
-LARGE, LEAST_SHARE = 0.95, 0.3
-"""Judgement. Quantile of the size of readings that counts as large, and the least share of it that is the typical
-size."""
-BEYOND = 2.5
+LARGE_QUANTILE = 0.95
+"""Judgement. Quantile of the size of readings that counts as their largest."""
+LEAST_SCALE = 0.3
+"""Judgement. Least typical size of the readings, as a share of their largest."""
+SIGNIFICANT = 2.5
 """Judgement. Difference between the slow and fast half of the readings, in standard deviations, that is significant."""
 BARE_SHARE = 0.3
 """Judgement. Prior of the friction of motor and sensor alone, relative to that of the complete drive."""
@@ -192,7 +193,9 @@ def _size(system: system_file.System, recorded: Table) -> float:
     """Typical size of the readings of the complete drive; a payload may cancel friction in one direction."""
     values, speed = _complete(system, recorded)
     size = np.abs(values)
-    return float(max(np.median(size), LEAST_SHARE * np.quantile(size, LARGE), made_up_for(values, speed))) or 1.0
+    return (
+        float(max(np.median(size), LEAST_SCALE * np.quantile(size, LARGE_QUANTILE), made_up_for(values, speed))) or 1.0
+    )
 
 
 def _largest(system: system_file.System, recorded: Table) -> float:
@@ -200,7 +203,7 @@ def _largest(system: system_file.System, recorded: Table) -> float:
     if system.recording.quantity not in recorded:
         return 1.0
     size = np.abs(recorded[system.recording.quantity])
-    return float(max(np.quantile(size, LARGE), made_up_for(*_complete(system, recorded)))) or 1.0
+    return float(max(np.quantile(size, LARGE_QUANTILE), made_up_for(*_complete(system, recorded)))) or 1.0
 
 
 def _complete(system: system_file.System, recorded: Table) -> tuple[np.ndarray, np.ndarray]:
@@ -230,7 +233,7 @@ def made_up_for(values: np.ndarray, speed: np.ndarray) -> float:
         slow, fast = np.median(ranked[: ranked.size // 2]), np.median(ranked[-(ranked.size // 2) :])
         scatter = float(np.median(np.abs(np.diff(ranked)))) / 0.954
         apart = float(abs(fast - slow))
-        spans.append(apart if slow * fast < 0.0 and apart > BEYOND * scatter else 0.0)
+        spans.append(apart if slow * fast < 0.0 and apart > SIGNIFICANT * scatter else 0.0)
     return max(spans)
 
 

@@ -108,9 +108,10 @@ NO_GEARS = "no_gears"
 """Name in the column ``rig`` of readings taken without gears."""
 
 
-LOADS_DIFFER, LEAST = 1.2, 1e-3
-"""Judgement. Load ratio above which a force offset is distinguishable from a friction offset; smallest load that is not
-zero."""
+LOADS_DIFFER = 1.2
+"""Judgement. Load ratio above which a force offset is distinguishable from a friction offset."""
+ZERO_LOAD = 1e-3
+"""Judgement. Share of the smallest recorded load below which a load is treated as zero."""
 
 
 def inverse_load(system: system_file.System, table: Table, recorded: Table) -> Inputs:
@@ -131,7 +132,7 @@ def inverse_of(load: np.ndarray, recorded: np.ndarray) -> Inputs:
     least, largest = float(np.min(recorded)), float(np.max(recorded))
     if least == 0.0 or largest < LOADS_DIFFER * least:
         return {}
-    return {"inverse_load": column(least / np.maximum(load, LEAST * least))}
+    return {"inverse_load": column(least / np.maximum(load, ZERO_LOAD * least))}
 
 
 def gears_out(table: Table) -> np.ndarray:

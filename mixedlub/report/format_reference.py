@@ -23,7 +23,7 @@ from profiles.errors import InputError, nearest
 
 WIDTH = 80
 """Columns of a terminal."""
-LEAST = 22
+LEAST_MEANING_WIDTH = 22
 """Columns that a meaning needs to the right of its key: about three words."""
 STUDY = "study"
 EVERY_CASE = ("", "uncertainty", "recording")
@@ -199,7 +199,7 @@ def _blocks(rows: Sequence[Row], indent: int) -> Iterator[list[str]]:
     """The lines of each row, in columns; the meaning is in the last one, or below where that one is too narrow."""
     widths = [max(map(len, cells)) for cells in zip(*rows, strict=True)][:-1]
     width_before = indent + sum(widths) + len(_GAP) * len(widths)
-    below = WIDTH - width_before < LEAST
+    below = WIDTH - width_before < LEAST_MEANING_WIDTH
     for *facts, meaning in rows:
         start = " " * indent + _GAP.join(f"{cell:{width}}" for cell, width in zip(facts, widths, strict=True))
         lines = _wrapped(meaning, *(2 * [indent + 4 if below else width_before]))

@@ -19,7 +19,7 @@ from mixedlub.validation.rivals import Fit, Target, best
 
 PRIOR_NATS = {0: np.log(0.45), 1: np.log(0.30 / len(NAMED)), 2: np.log(0.12 / len(NAMED) ** 2)}
 UNKNOWN_NATS = np.log(0.08)
-LEADERS = 3
+LEADING_FORMS = 3
 Names = tuple[str, ...]
 
 
@@ -56,7 +56,7 @@ def _searched(fitted: Fitted) -> dict[Names, Suspect]:
     enough = count + 2.3 * np.sqrt(2 * count)
     if min(one.fit.chi_square for one in found.values()) > enough:
         singles = sorted((key for key in found if key), key=lambda key: -found[key].nats)
-        for lead in singles[:LEADERS]:
+        for lead in singles[:LEADING_FORMS]:
             for other in singles:
                 pair = tuple(sorted({*lead, *other}))
                 if len(pair) == 2 and pair not in found:
