@@ -175,20 +175,20 @@ def _sample(rng: np.random.Generator, order: Order, goal: float) -> Sample:
     for i, form in enumerate(forms):
         widest = max(1.0, min(4.0, form.knobs[0].high / abs(knobs[i]["strength"])))
         wanted = goal if len(forms) == 1 else float(np.clip(each(level, factors)[i], goal, 1.6 * goal))
-        seen = partial(_seen, each, level, factors, i)
+        seen = partial(_visibility_of, each, level, factors, i)
         factors = _exchanged(factors, i, solve(seen, wanted, 0.05, widest, falling=False))
     return replace(sample(level, factors), visibility=max(min(each(level, factors)), 1e-3))
 
 
-def _exchanged(factors: Sequence[float], place: int, factor: float) -> list[float]:
-    return [factor if i == place else f for i, f in enumerate(factors)]
+def _exchanged(factors: Sequence[float], index: int, factor: float) -> list[float]:
+    return [factor if i == index else f for i, f in enumerate(factors)]
 
 
-def _seen(
-    each: Callable[[float, Sequence[float]], list[float]], level: float, factors: list[float], place: int, factor: float
+def _visibility_of(
+    each: Callable[[float, Sequence[float]], list[float]], level: float, factors: list[float], index: int, factor: float
 ) -> float:
     """Visibility of one effect at another factor on its strength."""
-    return each(level, _exchanged(factors, place, factor))[place]
+    return each(level, _exchanged(factors, index, factor))[index]
 
 
 def solve(measure: Callable[[float], float], goal: float, low: float, high: float, falling: bool) -> float:
