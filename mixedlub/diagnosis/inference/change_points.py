@@ -102,7 +102,9 @@ def profile_change_point(
         return log if np.isfinite(log) else -np.inf
 
     where = np.unique(
-        np.clip(np.append(np.linspace(-SCANNED_TO, SCANNED_TO, SCAN_PLACES), further), -MOST_COORDINATE, MOST_COORDINATE)
+        np.clip(
+            np.append(np.linspace(-SCANNED_TO, SCANNED_TO, SCAN_PLACES), further), -MOST_COORDINATE, MOST_COORDINATE
+        )
     )
     tried, log = evaluated(where)
     for _ in range(MOST_HALVINGS):
