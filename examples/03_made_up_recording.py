@@ -24,7 +24,7 @@ with (CASE / "conditions.csv").open("w", newline="") as file:
 case = read_case(CASE, need_recordings=False)
 (effect,) = find(["inlet_shear_heating"])
 forward = Forward(case, read_conditions(case, CASE / "conditions.csv"))
-true = forward.predict(parameters={effect.id: effect.middle})
+true = forward.predict(parameters={effect.id: effect.prior_medians})
 noise = np.random.default_rng(20221).normal(size=true.size) * np.hypot(0.01 * true, 0.2)
 
 with (CASE / "recordings.csv").open("w", newline="") as file:

@@ -16,16 +16,16 @@ import typer
 from mixedlub.commands import check, diagnose, effects, import_files, kinds, new, profile, prove, simulate, study
 from mixedlub.commands.console import (
     drop_empty_folders,
+    echo,
     fail,
-    forget_folder,
     forget_traceback,
     is_full,
     note,
     opened,
+    print_findings,
+    reset_output,
+    resume_hint,
     save_traceback,
-    say,
-    tell,
-    what_is_kept,
 )
 from mixedlub.schema.findings import FindingWarning
 from mixedlub.schema.messages import of_option
@@ -50,7 +50,7 @@ def _say_version(wanted: bool) -> None:
     if wanted:
         from mixedlub.version import installed_version
 
-        say(f"mixedlub {installed_version()}")
+        echo(f"mixedlub {installed_version()}")
         raise typer.Exit
 
 
@@ -72,7 +72,7 @@ for _module in COMMANDS:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; 0 done, 2 bad input, 130 stopped by Ctrl-C, 1 anything else: one message, no traceback."""
-    forget_folder()
+    reset_output()
     with warnings.catch_warnings():
         # What numbers overflow while far-off parameters are tried is not for the user.
         warnings.simplefilter("ignore", RuntimeWarning)
@@ -82,7 +82,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _show(message: Warning | str, *rest: object, **named: object) -> None:
     """What nobody collected, as a line for the user."""
-    tell([message.finding]) if isinstance(message, FindingWarning) else note(str(message))
+    print_findings([message.finding]) if isinstance(message, FindingWarning) else note(str(message))
 
 
 def _run(words: list[str]) -> int:
@@ -99,7 +99,7 @@ def _run(words: list[str]) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
     except (Exception, KeyboardInterrupt) as error:
-        message, status = _what_went_wrong(error, what_is_kept(PARTIAL.get(words[0], "")))
+        message, status = _what_went_wrong(error, resume_hint(PARTIAL.get(words[0], "")))
         drop_empty_folders()
         fail(message)
         return status

@@ -52,7 +52,7 @@ def test_rows_of_recordings_are_columns_of_a_kind() -> None:
 @pytest.mark.parametrize("key", ranges.ranges())
 def test_what_is_usual_is_possible(key: str) -> None:
     found = ranges.ranges()[key]
-    assert found.possible[0] <= found.usual[0] < found.usual[1] <= found.possible[1]
+    assert found.possible[0] <= found.typical[0] < found.typical[1] <= found.possible[1]
 
 
 def system(section: str, key: str, value: object) -> dict:

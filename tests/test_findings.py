@@ -15,7 +15,7 @@ from mixedlub.case.import_file import NAME, read_import_file
 from mixedlub.cli import main
 from mixedlub.importers import import_files
 from mixedlub.schema.findings import (
-    SHOWN,
+    PLACES_LISTED,
     FindingWarning,
     Severity,
     codes,
@@ -84,7 +84,7 @@ def test_twelve_findings_about_single_levels_are_one() -> None:
     (one,) = grouped(levels)
     assert one.code == "outliers_at_level"
     assert one.place.startswith("speed 100 rpm, speed 200 rpm, ")
-    assert one.place.endswith(f" and {12 - SHOWN} more")
+    assert one.place.endswith(f" and {12 - PLACES_LISTED} more")
 
 
 def test_findings_that_differ_in_number_name_the_first_and_list_the_others() -> None:

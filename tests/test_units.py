@@ -58,7 +58,7 @@ def test_every_ending_that_is_read_is_shown_and_read_as_itself():
 @pytest.mark.parametrize("name", KINDS)
 def test_every_column_of_a_kind_is_read_in_some_unit(name):
     found = kind(name)
-    assert all(read_as(c.name) in UNITS for c in (*found.columns, *found.channels, *found.readings))
+    assert all(read_as(c.name) in UNITS for c in (*found.columns, *found.instrument_channels, *found.readings))
 
 
 @pytest.mark.parametrize("file", [System, StudyFile])

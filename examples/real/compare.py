@@ -15,7 +15,7 @@ import numpy as np
 from mixedlub.case.folder import read_case
 from mixedlub.diagnosis.assessment.identifiability import confusion
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.report.text.alternatives import unshown
+from mixedlub.diagnosis.report.text.alternatives import undetectable_effects
 from mixedlub.diagnosis.report.text.answer import as_json
 from profiles.errors import InputError
 
@@ -58,7 +58,7 @@ def said(d: Diagnosis) -> list[tuple[str, str]]:
             for p in effect["parameters"][:4]
         )
         rows.append((effect["id"], values))
-    hidden = unshown(d, confusion(d.search))
+    hidden = undetectable_effects(d, confusion(d.search))
     if answer["verdict"] != ["none"] and hidden:
         rows.append(("Too weak to show", ", ".join(hidden)))
     rows += [("Reading", text) for text in faults(d)]
@@ -76,7 +76,7 @@ def faults(d: Diagnosis) -> list[str]:
     for run in d.outlier_runs:
         row = int(np.flatnonzero(table["run"] == run)[0])
         excess, sd = float(y[row] - d.recorded.predicted[row]), float(d.recorded.sd[row])
-        fault = d.case.kind.reading_fault(table, row, excess, sd)
+        fault = d.case.kind.instrument_fault(table, row, excess, sd)
         found.append(f"run {run} set aside" + ("" if fault is None else f": {fault}"))
     return found[:5]
 

@@ -21,7 +21,7 @@ from profiles.errors import InputError, nearest
 if TYPE_CHECKING:
     import pandas as pd
 
-SHOWN = 5
+RUNS_LISTED = 5
 """Largest number of runs that a note lists."""
 
 
@@ -148,7 +148,7 @@ def refuse_used_runs(case: Case, wanted: Table | None, path: Path) -> None:
     if used and case.recordings is not None:
         free = int(case.recordings["run"].max()) + 1
         rule = f"the run number is that of a reading at other conditions; number them from {free} on"
-        raise InputError(rule, where=f"{path}: run", value=used[0] if len(used) == 1 else used[:SHOWN])
+        raise InputError(rule, where=f"{path}: run", value=used[0] if len(used) == 1 else used[:RUNS_LISTED])
 
 
 def _used_runs(case: Case, wanted: Table | None) -> list[int]:
@@ -201,7 +201,7 @@ def _with_filled_sds(table: Table, name: str) -> Table:
         text = "0 or left out everywhere, so it says nothing of the scatter of a reading and is ignored"
         report(finding("sd_missing", text, f"{table.source}, {name}"))
         return replace(table, columns={k: v for k, v in table.columns.items() if k != name})
-    runs = listed(table["run"][~known].tolist(), SHOWN)
+    runs = listed(table["run"][~known].tolist(), RUNS_LISTED)
     middle = float(np.median(table[name][known]))
     text = f"0 or left out at run {runs}: taken as the median of the others, {middle:.3g}"
     report(finding("sd_filled", text, f"{table.source}, {name}"))
@@ -211,10 +211,10 @@ def _with_filled_sds(table: Table, name: str) -> Table:
 def _columns(found: Kind, system: system_file.System, measured: bool) -> tuple[Column, ...]:
     """Columns that a table of the case may have; surface names are those of the system where the kind uses them."""
     names = tuple(system.surfaces) if "surfaces" in found.sections else ()
-    own = (replace(c, names=names) if c.form == "name" and "surface" in c.name else c for c in found.columns)
-    reach = found.limits(system)
+    own = (replace(c, names=names) if c.dtype == "name" and "surface" in c.name else c for c in found.columns)
+    reach = found.column_limits(system)
     own = (_rounded(c, *reach[c.name]) if c.name in reach else c for c in own)
-    return (RUN, *BOOKKEEPING, *own, *found.channels, *_measured(found, system, measured))
+    return (RUN, *BOOKKEEPING, *own, *found.instrument_channels, *_measured(found, system, measured))
 
 
 def _rounded(column: Column, low: float, high: float) -> Column:

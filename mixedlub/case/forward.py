@@ -57,7 +57,7 @@ class Forward:
         if reading_scale is None and case.system.effects and table is not recorded:
             reading_scale = float(Forward(case, recorded).inputs["reading_scale"])
         with collected() as notes:
-            self.table = table = case.kind.completed(table, recorded)
+            self.table = table = case.kind.fill_channels(table, recorded)
             self.inputs: dict[str, Any] = case.kind.inputs(case.system, case.rig, table, recorded)
             if "sequence" in self.inputs:
                 self.inputs["ageing"] = ageing(recorded, self.inputs["sequence"])
@@ -67,11 +67,11 @@ class Forward:
         self.chain = case.kind.chain(case.system, table)
         self._model = lru_cache(maxsize=1024)(self._build)
         self._shape = (len(table), 1)
-        plain = Model(self.chain, tuple(self.inputs), ("reading", *case.kind.nominal))(self.inputs)
+        plain = Model(self.chain, tuple(self.inputs), ("reading", *case.kind.base_inputs))(self.inputs)
         if reading_scale is None:
             reading_scale = float(np.median(np.abs(self._rows(plain["reading"])))) / self.scale
         self.inputs["reading_scale"] = reading_scale
-        self.inputs |= {name: plain[quantity] for quantity, name in case.kind.nominal.items()}
+        self.inputs |= {name: plain[quantity] for quantity, name in case.kind.base_inputs.items()}
         self.known = known_effects(case.system.effects, case.kind.name, self.chain, tuple(self.inputs), "reading")
         self.calibrations: tuple[Calibration, ...] = (
             *(c for c in (*calibrations(case.system), *extra) if all(n in self.inputs for n in c.needs)),
@@ -112,13 +112,13 @@ class Forward:
         """Readings in the unit of the recorded column, one per row."""
         return self.run(calibration, parameters).prediction
 
-    def base(self, name: str) -> np.ndarray:
+    def base_quantity(self, name: str) -> np.ndarray:
         """A quantity of the base model before calibration, by its glossary name."""
         if name in self.inputs:
             return np.asarray(self.inputs[name])
         return np.asarray(Model(self.chain, tuple(self.inputs), (name,))(self.inputs)[name])
 
-    def nominal(self) -> np.ndarray:
+    def base_prediction(self) -> np.ndarray:
         """Readings of the base model at nominal calibration, one per row; a result that is not finite is an error."""
         base = self.predict()
         if not np.isfinite(base).all():
@@ -175,5 +175,5 @@ class Forward:
             for e in known_in(self.case.kind.name).values()
             if e.id not in (*exclude, *self.known.values)
             and available(e, self.chain, tuple(self.inputs), "reading", self.case.kind.name)
-            and (not e.over or varies(self.inputs[e.over]))
+            and (not e.needs_variation_in or varies(self.inputs[e.needs_variation_in]))
         )

@@ -31,7 +31,7 @@ def table(name: str, **fixed: Any) -> Table:
     if "surfaces" in conditions(name):
         # Both surfaces of a contact are the same.
         surfaces = columns[conditions(name)["surfaces"][0]]
-        columns |= {c.name: surfaces for c in kind(name).columns if c.form == "name"}
+        columns |= {c.name: surfaces for c in kind(name).columns if c.dtype == "name"}
     columns["run"] = np.arange(1, len(rows) + 1)
     if "time_s" not in columns:
         columns["sequence"] = np.random.default_rng(0).permutation(len(rows)) / max(len(rows) - 1, 1)

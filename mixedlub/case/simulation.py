@@ -26,7 +26,7 @@ def simulate(case: Case, at: Table | None = None) -> pd.DataFrame:
         forward = Forward(case, table)
         for one in forward.notes:
             report(one)
-        simulated = pd.DataFrame({"run": table["run"], case.quantity: forward.nominal()})
+        simulated = pd.DataFrame({"run": table["run"], case.quantity: forward.base_prediction()})
         parts.append(pd.concat([simulated, conditions_of(case, table)], axis=1))
     return pd.concat(parts, ignore_index=True).drop_duplicates("run")
 

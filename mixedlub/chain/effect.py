@@ -25,11 +25,11 @@ class Parameter:
     """A number an effect depends on; ``null`` is the value that switches it off, if there is one.
 
     ``symbol`` is the letter it has in the effect's equation, as LaTeX.
-    ``scan`` is how many values a search must try, where readings are matched in many separate ranges of it.
-    ``sudden`` says that readings move where it passes them and hardly in between.
+    ``n_scan`` is how many values a search must try, where the likelihood has many separate maxima in it.
+    ``change_point`` marks a parameter at which readings jump: the likelihood is nearly flat between two readings.
     ``kinds`` restricts the kinds of recording in which it is free (empty: all); in others it stays at its null.
     ``published`` is the range that the laws cited in the source have, where other values are tried as well.
-    ``of`` is the input that it is a share of, if one is.
+    ``relative_to`` is the input that the parameter is a fraction of, if there is one.
     """
 
     name: str
@@ -38,15 +38,15 @@ class Parameter:
     meaning: str
     null: float | None = None
     symbol: str = ""
-    scan: int = 0
-    sudden: bool = False
+    n_scan: int = 0
+    change_point: bool = False
     kinds: tuple[str, ...] = ()
     published: tuple[float, float] | None = None
-    of: str = ""
+    relative_to: str = ""
 
     @property
-    def off(self) -> float:
-        """The null; the middle of the prior where there is none."""
+    def null_value(self) -> float:
+        """The null; the prior median where there is none."""
         return self.prior.value(0.0) if self.null is None else self.null
 
     def described(self) -> str:
@@ -77,29 +77,29 @@ class Effect:
     fingerprint: Mapping[str, str]
     separated_by: str
     valid: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    after: tuple[str, ...] = ()
+    applied_after: tuple[str, ...] = ()
     kinds: tuple[str, ...] = ()
-    odds: float = 1.0
-    contains: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
-    free_form: bool = False
-    exact: bool = False
-    over: str = ""
-    held: Mapping[str, float] = field(default_factory=dict)
+    prior_odds: float = 1.0
+    special_cases: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    descriptive: bool = False
+    exact_form: bool = False
+    needs_variation_in: str = ""
+    fixed: Mapping[str, float] = field(default_factory=dict)
 
-    def holding(self, values: Mapping[str, float]) -> Effect:
-        """The same effect with some of its parameters held at these values, no longer among its parameters."""
+    def fixing(self, values: Mapping[str, float]) -> Effect:
+        """The same effect with some of its parameters fixed at these values, no longer among its parameters."""
         free = tuple(p for p in self.parameters if p.name not in values)
-        return replace(self, parameters=free, held={**self.held, **values})
+        return replace(self, parameters=free, fixed={**self.fixed, **values})
 
     @property
     def laws_within_reach(self) -> dict[str, dict[str, float]]:
-        """Laws it contains that are within reach of the free parameters, with the values these take there."""
+        """Special cases that the free parameters can reach, with the values that these take there."""
         free = {p.name for p in self.parameters}
-        left = {
-            law: {name: value for name, value in values.items() if self.held.get(name) != value}
-            for law, values in self.contains.items()
+        still_to_fix = {
+            law: {name: value for name, value in values.items() if self.fixed.get(name) != value}
+            for law, values in self.special_cases.items()
         }
-        return {law: values for law, values in left.items() if values and values.keys() <= free}
+        return {law: values for law, values in still_to_fix.items() if values and values.keys() <= free}
 
     @property
     def summary(self) -> str:
@@ -108,20 +108,20 @@ class Effect:
 
     @property
     def nulls(self) -> dict[str, float]:
-        """Parameter values that switch the effect off; the middle of the prior where none does."""
-        return {**self.held, **{p.name: p.off for p in self.parameters}}
+        """Parameter values that switch the effect off; prior medians where none does."""
+        return {**self.fixed, **{p.name: p.null_value for p in self.parameters}}
 
     @property
-    def middle(self) -> dict[str, float]:
-        """Every parameter at the middle of its prior."""
+    def prior_medians(self) -> dict[str, float]:
+        """Every parameter at its prior median."""
         return {p.name: p.prior.value(0.0) for p in self.parameters}
 
     def page(self) -> str:
         """What the declaration says, as text: equation, source, range, parameters with priors, separating test."""
         acted = (", ".join(filter(None, (_letter(n), _unit(GLOSSARY[n].unit).strip()))) for n in self.acts_on)
         ranges = (f"{n} {low:g} to {high:g}{_unit(GLOSSARY[n].unit)}" for n, (low, high) in self.valid.items())
-        odds = f"{self.odds:g} of those of an effect that is missing as often as most" if self.odds < 1.0 else ""
-        exact = "exact: it is the effect's definition and does not bend in a fit" if self.exact else ""
+        odds = f"{self.prior_odds:g} times those of most effects" if self.prior_odds < 1.0 else ""
+        form = "exact by definition: no error of form is considered" if self.exact_form else ""
         parts = {
             "stage": self.stage,
             "changes": ", ".join(map(with_symbol, self.acts_on, acted)),
@@ -131,25 +131,25 @@ class Effect:
             "valid": "; ".join(ranges),
             "recordings": ", ".join(self.kinds),
             "prior odds": odds,
-            "form": exact,
+            "form": form,
         }
-        said = [entry(name, text) for name, text in parts.items() if text]
+        facts = [entry(name, text) for name, text in parts.items() if text]
         labels = [f"  {with_symbol(p.name, plain_equation(p.symbol))}" for p in self.parameters]
         indent = max(INDENT, 2 + max(map(len, labels), default=0))
         numbers = [entry(label, p.described(), indent) for p, label in zip(self.parameters, labels, strict=True)]
         laws = [
-            entry("contains", f"the law of {law}, at " + ", ".join(f"{n} {v:g}" for n, v in values.items()))
-            for law, values in self.contains.items()
+            entry("special case", f"{law}, at " + ", ".join(f"{n} {v:g}" for n, v in values.items()))
+            for law, values in self.special_cases.items()
         ]
         head = entry(f"{self.id}: ", self.summary, indent=2)
         tail = entry("separated by", self.separated_by)
-        return "\n".join([head, "", *said, "", "parameters", *numbers, *laws, "", tail])
+        return "\n".join([head, "", *facts, "", "parameters", *numbers, *laws, "", tail])
 
     __repr__ = page
 
     def values(self, z: np.ndarray) -> dict[str, float]:
         """Parameter values at standard-normal coordinates of the prior."""
-        return {**self.held, **{p.name: p.prior.value(float(x)) for p, x in zip(self.parameters, z, strict=True)}}
+        return {**self.fixed, **{p.name: p.prior.value(float(x)) for p, x in zip(self.parameters, z, strict=True)}}
 
 
 def entry(name: str, text: str, indent: int = INDENT) -> str:
@@ -183,13 +183,13 @@ def effect(
     fingerprint: Mapping[str, str],
     separated_by: str,
     valid: Mapping[str, tuple[float, float]] | None = None,
-    after: tuple[str, ...] = (),
+    applied_after: tuple[str, ...] = (),
     kinds: tuple[str, ...] = (),
-    odds: float = 1.0,
-    contains: Mapping[str, Mapping[str, float]] | None = None,
-    free_form: bool = False,
-    exact: bool = False,
-    over: str = "",
+    prior_odds: float = 1.0,
+    special_cases: Mapping[str, Mapping[str, float]] | None = None,
+    descriptive: bool = False,
+    exact_form: bool = False,
+    needs_variation_in: str = "",
 ) -> Callable[[Callable[..., object]], Callable[..., object]]:
     """Register a law as an effect; its signature must say what the declaration says.
 
@@ -198,12 +198,12 @@ def effect(
     says whether the effect's share of the reading, (with - without)/without, grows (``"+"``), falls (``"-"``) or
     stays (``"0"``) as the condition grows; falling includes growing more negative. It speaks of the loss of gears and
     the friction of discs, of what shows on neither of the first standard rig that shows it; a film, say, may have
-    the opposite sign. ``after`` names effects on the same quantity that come first; ``kinds`` restricts the kinds of
-    recording (empty: all). ``odds`` below one say that it is missing less often than others are, before any reading
-    is seen.
-    ``contains`` names laws, published or limits, that it becomes at certain values of some parameters. A
-    ``free_form`` describes, and names no cause. The form of an ``exact`` one is its definition and cannot be a little
-    wrong. One law ``over`` a quantity is no more than calibration where readings were all taken at one value of it.
+    the opposite sign. ``applied_after`` names effects on the same quantity that come first; ``kinds`` restricts the
+    kinds of recording (empty: all). ``prior_odds`` are relative to those of most effects, at most one.
+    ``special_cases`` are laws, published or limits, that the effect becomes at certain values of some parameters. A
+    ``descriptive`` effect follows readings without naming a cause. An ``exact_form`` is the effect's definition, so no
+    error of form is considered. ``needs_variation_in`` is a quantity at whose single value the effect would only
+    rescale the base model; it is not offered there.
     """
     targets = (acts_on,) if isinstance(acts_on, str) else acts_on
 
@@ -221,13 +221,13 @@ def effect(
         for name in names:
             if name not in GLOSSARY:
                 raise TypeError(f"{where}: {name!r} is not in the glossary; {nearest(name, GLOSSARY)}")
-        if over and over not in names:
-            raise TypeError(f"{where}: {over!r} is nothing that it reads")
-        if not 0.0 < odds <= 1.0:
-            raise TypeError(f"{where}: odds {odds!r} must lie above 0 and not above 1")
-        for held, values in (contains or {}).items():
+        if needs_variation_in and needs_variation_in not in names:
+            raise TypeError(f"{where}: needs_variation_in {needs_variation_in!r} is not among what it reads")
+        if not 0.0 < prior_odds <= 1.0:
+            raise TypeError(f"{where}: prior_odds {prior_odds!r} must lie above 0 and not above 1")
+        for case, values in (special_cases or {}).items():
             if not values.keys() <= set(keywords):
-                raise TypeError(f"{where}: {held!r} fixes {sorted(values)}, not all of them parameters")
+                raise TypeError(f"{where}: special case {case!r} fixes {sorted(values)}, not all of them parameters")
         if law.__name__ in REGISTRY and REGISTRY[law.__name__].law.__module__ != law.__module__:
             raise TypeError(f"{where}: already defined in {REGISTRY[law.__name__].law.__module__}")
         REGISTRY[law.__name__] = Effect(
@@ -242,13 +242,13 @@ def effect(
             fingerprint=MappingProxyType(dict(fingerprint)),
             separated_by=separated_by,
             valid=MappingProxyType(dict(valid or {})),
-            after=after,
+            applied_after=applied_after,
             kinds=kinds,
-            odds=odds,
-            contains=MappingProxyType(dict(contains or {})),
-            free_form=free_form,
-            exact=exact,
-            over=over,
+            prior_odds=prior_odds,
+            special_cases=MappingProxyType(dict(special_cases or {})),
+            descriptive=descriptive,
+            exact_form=exact_form,
+            needs_variation_in=needs_variation_in,
         )
         return law
 

@@ -166,7 +166,7 @@ def available(effect: Effect, chain: Chain, given: Sequence[str], want: str, kin
 
 
 def _in_order(effects: Sequence[Effect]) -> tuple[Effect, ...]:
-    """Effects sorted so that each comes behind those it names in ``after``."""
+    """Effects sorted so that each comes behind those it names in ``applied_after``."""
     waiting = sorted(effects, key=lambda e: e.id)
     ordered: list[Effect] = []
     while waiting:
@@ -180,7 +180,7 @@ def _in_order(effects: Sequence[Effect]) -> tuple[Effect, ...]:
 
 def _behind(one: Effect, other: Effect) -> bool:
     """Whether one effect declares to come after another on a quantity both change."""
-    return other.id in one.after and bool(set(one.acts_on) & set(other.acts_on))
+    return other.id in one.applied_after and bool(set(one.acts_on) & set(other.acts_on))
 
 
 def _lay_out(chain: Chain, given: set[str], effects: Sequence[Effect]) -> list[Step]:

@@ -1,4 +1,4 @@
-"""Priors of parameters: what is believed of a number before any reading is seen."""
+"""Prior distributions of parameters, each as a function of a standard-normal coordinate."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from statistics import NormalDist
 
 @dataclass(frozen=True)
 class Normal:
-    """A normal prior: what either sign may have."""
+    """A normal prior."""
 
     mean: float
     sd: float
 
     def value(self, z: float) -> float:
-        """The value that lies ``z`` standard deviations up the prior."""
+        """The value at standard-normal coordinate ``z``."""
         return self.mean + self.sd * z
 
     def __str__(self) -> str:
@@ -23,28 +23,28 @@ class Normal:
 
 
 @dataclass(frozen=True)
-class Wide:
-    """A prior of either sign with wide wings: usually about ``scale``, now and then ten times that."""
+class SinhNormal:
+    """``scale`` times the sinh of a standard-normal variable: about normal, with heavy tails."""
 
     scale: float
 
     def value(self, z: float) -> float:
-        """The value that lies ``z`` standard deviations up the prior."""
+        """The value at standard-normal coordinate ``z``."""
         return self.scale * sinh(z)
 
     def __str__(self) -> str:
-        return f"about 0 ± {self.scale:g}, wide wings"
+        return f"0 ± {self.scale:g}, heavy tails"
 
 
 @dataclass(frozen=True)
 class LogNormal:
-    """A lognormal prior: positive, known to within a factor; ``spread`` is the sd of its logarithm."""
+    """A lognormal prior; ``spread`` is the standard deviation of its logarithm."""
 
     median: float
     spread: float
 
     def value(self, z: float) -> float:
-        """The value that lies ``z`` standard deviations up the prior."""
+        """The value at standard-normal coordinate ``z``."""
         return self.median * exp(min(self.spread * z, 60.0))
 
     def __str__(self) -> str:
@@ -52,16 +52,16 @@ class LogNormal:
 
 
 @dataclass(frozen=True)
-class EitherSign:
-    """A lognormal prior of either sign: the size is known to within a factor, and nothing small is meant."""
+class SignedLogNormal:
+    """A lognormal prior of the absolute value, with either sign equally probable; values near zero are improbable."""
 
     median: float
     spread: float
 
     def value(self, z: float) -> float:
-        """The value that lies ``z`` standard deviations up the prior; zero in the middle, between the two signs.
+        """The value at standard-normal coordinate ``z``; zero at the median, between the two signs.
 
-        >>> prior = EitherSign(200.0, 0.25)
+        >>> prior = SignedLogNormal(200.0, 0.25)
         >>> [round(prior.value(z)) for z in (-0.6745, -0.1, 0.0, 0.1, 0.6745)]   # quartiles at the medians
         [-200, -141, 0, 141, 200]
         """
@@ -76,33 +76,33 @@ class EitherSign:
 
 
 @dataclass(frozen=True)
-class Between:
-    """A prior that is even between two bounds."""
+class Uniform:
+    """A uniform prior between two bounds."""
 
     low: float
     high: float
 
     def value(self, z: float) -> float:
-        """The value that lies ``z`` standard deviations up the prior."""
+        """The value at standard-normal coordinate ``z``."""
         return self.low + (self.high - self.low) * NormalDist().cdf(z)
 
     def __str__(self) -> str:
-        return f"even in {self.low:g} to {self.high:g}"
+        return f"uniform from {self.low:g} to {self.high:g}"
 
 
 @dataclass(frozen=True)
-class BetweenLog:
-    """A prior whose logarithm is even between two bounds: the order of magnitude is all that is known."""
+class LogUniform:
+    """A prior whose logarithm is uniform between two bounds: every order of magnitude is equally probable."""
 
     low: float
     high: float
 
     def value(self, z: float) -> float:
-        """The value that lies ``z`` standard deviations up the prior."""
+        """The value at standard-normal coordinate ``z``."""
         return self.low * exp(log(self.high / self.low) * NormalDist().cdf(z))
 
     def __str__(self) -> str:
-        return f"even in order of magnitude, {self.low:g} to {self.high:g}"
+        return f"log-uniform from {self.low:g} to {self.high:g}"
 
 
-Prior = Normal | Wide | LogNormal | EitherSign | Between | BetweenLog
+Prior = Normal | SinhNormal | LogNormal | SignedLogNormal | Uniform | LogUniform

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 import typer
 
-from mixedlub.commands.console import case_folder, say, tell, within_range
+from mixedlub.commands.console import case_folder, echo, input_errors_from, print_findings
 from mixedlub.schema.findings import Finding, Severity, collected, grouped, of_severity
 from mixedlub.schema.units import unit_of
 from profiles.errors import InputError
@@ -31,12 +31,12 @@ def command(case: Annotated[Path, typer.Argument(metavar="CASE", help="Case fold
     """
     from mixedlub.case.folder import read_case
 
-    with within_range(str(case)):
+    with input_errors_from(str(case)):
         found = read_case(case_folder(case), need_recordings=False)
         lines = list(understood(found))
-    tell(found.notes)
+    print_findings(found.notes)
     for line in lines:
-        say(line)
+        echo(line)
 
 
 def understood(case: Case) -> Iterator[str]:
@@ -185,9 +185,9 @@ def _checked(case: Case, forward: Forward | None) -> tuple[list[Finding], list[s
     from mixedlub.data_checks.audit import check_readings
     from mixedlub.data_checks.pooled_rows import pooled_in
     from mixedlub.diagnosis.assessment.extrapolation import beyond_recorded
-    from mixedlub.rig.plausibility import far_off
+    from mixedlub.rig.plausibility import implausible
 
-    found, refused = list(far_off(case.rig)), []
+    found, refused = list(implausible(case.rig)), []
     if case.recordings is not None and forward is not None:
         readings = np.asarray(case.recordings[case.quantity], dtype=float)
         try:
@@ -198,7 +198,7 @@ def _checked(case: Case, forward: Forward | None) -> tuple[list[Finding], list[s
         found += pooled_in(case.folder / "recordings.csv", case.recordings, case.quantity)
     if case.conditions is not None:
         try:
-            Forward(case, case.conditions).nominal()
+            Forward(case, case.conditions).base_prediction()
         except InputError as error:
             refused.append(f"Cannot be predicted: {error}.")
     return [*found, *beyond_recorded(case, case.conditions)], refused

@@ -45,7 +45,7 @@ def output_folder(out: Path | None, command: str, name: str, *, knows_own: bool 
     return folder
 
 
-def forget_folder() -> None:
+def reset_output() -> None:
     """Forget the output folder of an earlier command."""
     _opened.clear()
     _made.clear()
@@ -60,7 +60,7 @@ def drop_empty_folders() -> None:
             return
 
 
-def what_is_kept(partial: str) -> str:
+def resume_hint(partial: str) -> str:
     """What an interrupted command has saved and how to resume it; empty where it writes nothing.
 
     ``partial`` is the pattern of the files from which the same command resumes; empty where it starts again.
@@ -96,7 +96,7 @@ def busy(first: str) -> Iterator[Callable[[str], None]]:
 
 
 @contextmanager
-def within_range(where: str) -> Iterator[None]:
+def input_errors_from(where: str) -> Iterator[None]:
     """Add the place to input errors: the input for arithmetic out of range, the file for keys of a case."""
     from mixedlub.schema.system_file import in_file
 
@@ -109,12 +109,12 @@ def within_range(where: str) -> Iterator[None]:
         raise InputError(f"has numbers too large or too small to compute with ({error})", where=where) from None
 
 
-def say(text: str = "") -> None:
+def echo(text: str = "") -> None:
     """Print a line to stdout."""
     _print(text, sys.stdout)
 
 
-def tell(found: Iterable[Finding]) -> None:
+def print_findings(found: Iterable[Finding]) -> None:
     """Print findings to stderr, those of one kind grouped."""
     for one in grouped(found):
         _print(f"{one.severity}: {one}", sys.stderr)

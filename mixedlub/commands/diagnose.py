@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.console import busy, case_folder, output_folder, say, tell, within_range
+from mixedlub.commands.console import busy, case_folder, echo, input_errors_from, output_folder, print_findings
 
 NAME = "diagnose"
 EXAMPLE = "mixedlub new case --out my_case && mixedlub diagnose my_case"
@@ -35,8 +35,8 @@ def command(
     from mixedlub.diagnosis.report.files import diagnose
 
     folder = output_folder(out, NAME, case_folder(case).resolve().name)
-    with busy("reading") as progress, within_range(str(case)):
+    with busy("reading") as progress, input_errors_from(str(case)):
         found = diagnose(case, folder, predict=predict, exclude=tuple(exclude or ()), level=level, progress=progress)
-    tell(found.case.notes)
-    say((folder / "report.txt").read_text(encoding="utf-8"))
-    say(f"written to {folder}")
+    print_findings(found.case.notes)
+    echo((folder / "report.txt").read_text(encoding="utf-8"))
+    echo(f"written to {folder}")

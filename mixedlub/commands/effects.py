@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.console import say
+from mixedlub.commands.console import echo
 
 NAME = "effects"
 EXAMPLE = "mixedlub effects inlet_shear_heating"
@@ -21,4 +21,4 @@ def command(
     """
     from mixedlub.report.effect_pages import effects_text
 
-    say(effects_text(effect))
+    echo(effects_text(effect))

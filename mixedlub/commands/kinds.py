@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.console import say
+from mixedlub.commands.console import echo
 
 NAME = "kinds"
 EXAMPLE = "mixedlub kinds disc"
@@ -23,4 +23,4 @@ def command(
     """
     from mixedlub.report.format_reference import kinds_text
 
-    say(kinds_text(kind))
+    echo(kinds_text(kind))

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mixedlub.atomic import writing
-from mixedlub.commands.console import output_folder, say
+from mixedlub.commands.console import echo, output_folder
 from profiles.errors import InputError, nearest
 
 if TYPE_CHECKING:
@@ -59,9 +59,9 @@ def command(
         for name, text in files.items():
             (aside / name).write_text(text, encoding="utf-8")
     place, commands = (folder / "study.toml", ("study",)) if what == STUDY else (folder, ("check", "diagnose"))
-    say(f"{' and '.join(files)} in {folder}, with the numbers of an example: put your own in their place, then")
+    echo(f"{' and '.join(files)} in {folder}, with the numbers of an example: put your own in their place, then")
     for name in commands:
-        say(f"  mixedlub {name} {place}")
+        echo(f"  mixedlub {name} {place}")
 
 
 def study_text() -> str:
@@ -121,7 +121,7 @@ def _recordings(kind: str) -> str:
     table = reference_rigs.table(kind, **levels)
     table = table.take(np.sort(random.permutation(len(table))[:ROWS]))
     reading = Forward(case, table).predict() * (1.0 + NOISE * random.standard_normal(len(table)))
-    names = [c.name for c in (*case.kind.columns, *case.kind.channels) if c.name in table]
+    names = [c.name for c in (*case.kind.columns, *case.kind.instrument_channels) if c.name in table]
     columns = {"run": np.arange(1, len(table) + 1), **{name: table[name] for name in names}, case.quantity: reading}
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")

@@ -12,7 +12,7 @@ import typer
 
 from mixedlub.atomic import writing
 from mixedlub.chain.effect import entry
-from mixedlub.commands.console import note, output_folder, say
+from mixedlub.commands.console import echo, note, output_folder
 from profiles.errors import InputError
 
 if TYPE_CHECKING:
@@ -112,7 +112,7 @@ def command(
     folder = output_folder(out, NAME, _stem(files[0]))
     for record in records:
         for line in summary(record):
-            say(line)
+            echo(line)
         for text in record["warnings"]:
             if f"{record['file']}: {text}" not in told_already:
                 note(f"{record['file']}: {text}")
@@ -124,7 +124,7 @@ def command(
             )
     if not figures and (folder / "figures").exists():
         note(f"{folder / 'figures'} is of an earlier run; without --no-figures it is drawn anew")
-    say(f"details in {folder / 'profile.json'}" + (f", figures in {folder / 'figures'}" if figures else ""))
+    echo(f"details in {folder / 'profile.json'}" + (f", figures in {folder / 'figures'}" if figures else ""))
 
 
 def each_read(files: list[Path], read: Callable[[Path], Profile]) -> list[Profile]:

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.console import output_folder, say
+from mixedlub.commands.console import echo, output_folder
 from profiles.errors import InputError
 
 NAME = "prove"
@@ -77,8 +77,8 @@ def command(
             baselines=contacts and not quick,
             progress=show,
         )
-    say((folder / "score.txt").read_text(encoding="utf-8"))
-    say(f"written to {folder}")
+    echo((folder / "score.txt").read_text(encoding="utf-8"))
+    echo(f"written to {folder}")
 
 
 def _chosen(kinds: str) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from mixedlub.atomic import writing
-from mixedlub.commands.console import case_folder, output_folder, say, tell, within_range
+from mixedlub.commands.console import case_folder, echo, input_errors_from, output_folder, print_findings
 
 NAME = "simulate"
 EXAMPLE = "mixedlub new case --out my_case && mixedlub simulate my_case"
@@ -29,17 +29,18 @@ def command(
     from mixedlub.case.folder import read_case, read_conditions, unpredicted_runs
     from mixedlub.case.simulation import simulate, simulated_tables
     from mixedlub.diagnosis.assessment.validity import known_beyond_range
-    from mixedlub.rig.plausibility import far_off
+    from mixedlub.rig.plausibility import implausible
     from mixedlub.schema.findings import collected
 
-    with collected() as notes, within_range(str(case)):
+    with collected() as notes, input_errors_from(str(case)):
         found = read_case(case_folder(case), need_recordings=False)
-        notes += [*found.notes, *far_off(found.rig), *(unpredicted_runs(found, found.conditions) if at is None else [])]
+        notes += [*found.notes, *implausible(found.rig)]
+        notes += unpredicted_runs(found, found.conditions) if at is None else []
         asked = None if at is None else read_conditions(found, at)
         rows = simulate(found, asked)
         notes += [one for table in simulated_tables(found, asked) for one in known_beyond_range(found, table)]
     folder = output_folder(out, NAME, found.name)
-    tell(dict.fromkeys(notes))
+    print_findings(dict.fromkeys(notes))
     with writing(folder) as aside:
         rows.to_csv(aside / "simulation.csv", index=False, lineterminator="\n")
-    say(f"{len(rows)} rows of {found.quantity} in {folder / 'simulation.csv'}")
+    echo(f"{len(rows)} rows of {found.quantity} in {folder / 'simulation.csv'}")

@@ -11,7 +11,7 @@ from typing import Annotated
 import typer
 
 from mixedlub.atomic import writing
-from mixedlub.commands.console import busy, note, output_folder, say, tell, within_range
+from mixedlub.commands.console import busy, echo, input_errors_from, note, output_folder, print_findings
 from profiles.errors import InputError, nearest
 
 NAME = "study"
@@ -46,7 +46,7 @@ def command(
     from mixedlub.study.validity import out_of_range
 
     formats = chosen_formats(format_)
-    with within_range(str(file)):
+    with input_errors_from(str(file)):
         study = read_study(file)
         given = file.read_bytes()
     folder = output_folder(out, NAME, study.name, knows_own=True)
@@ -54,8 +54,8 @@ def command(
         earlier = "" if replace else check_folder(folder, study, file)
         if earlier:
             note(earlier)
-        tell(study.notes)
-        say(f"{study.file.title}: {' x '.join(factors(study))} = {counted(study.conditions, 'condition')}")
+        print_findings(study.notes)
+        echo(f"{study.file.title}: {' x '.join(factors(study))} = {counted(study.conditions, 'condition')}")
         start = time.perf_counter()
         with progress_bar("computing") as bar:
             results = run_study(
@@ -64,9 +64,9 @@ def command(
                 scheduler=scheduler,
                 progress=_resumed(bar),
             )
-        say(f"computed in {time.perf_counter() - start:.2f} s")
+        echo(f"computed in {time.perf_counter() - start:.2f} s")
         warnings = out_of_range(results)
-        tell(warnings)
+        print_findings(warnings)
         with writing(folder) as aside:
             results.write(aside / "results.csv", aside / "results.parquet")
             if figures:
@@ -76,13 +76,13 @@ def command(
                 with busy("drawing figures") as doing:
                     seen = (*study.notes, *warnings)
                     of_heights = write_page(results, aside, seen, given=text, formats=formats, doing=doing)
-                tell(of_heights)
+                print_findings(of_heights)
             write_record(aside, folder, study, file, given)
         checkpoint.clear(folder)
     page = folder / "index.html"
     if not figures and page.exists() and checkpoint.fingerprint(study.plan) not in page.read_text("utf-8", "replace"):
         note(f"{page} and the figures beside it are of another study; without --no-figures they are drawn anew")
-    say(f"results in {folder / 'results.csv'} and .parquet" + (f", page {page}" if figures else ""))
+    echo(f"results in {folder / 'results.csv'} and .parquet" + (f", page {page}" if figures else ""))
 
 
 FORMATS = ("svg", "pdf", "png")
@@ -106,7 +106,7 @@ def _resumed(progress: Callable[[int, int], None]) -> Callable[[int, int], None]
         nonlocal calls
         calls += 1
         if calls == 1 and done:
-            say(f"{done} of {of} blocks are there from an earlier run")
+            echo(f"{done} of {of} blocks are there from an earlier run")
         progress(done, of)
 
     return counted

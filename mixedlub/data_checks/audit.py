@@ -19,7 +19,7 @@ from mixedlub.recording.noise import (
     setups_differ,
     transformed_noise,
 )
-from mixedlub.rig.plausibility import far_off
+from mixedlub.rig.plausibility import implausible
 from mixedlub.schema.findings import Finding, Severity, finding, listed
 from mixedlub.schema.ranges import ranges
 from mixedlub.schema.table import Table
@@ -70,7 +70,7 @@ CONTRADICTING = 4.0
 
 def audit(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[Finding]:
     """Findings on the files and the readings; an error where the recording cannot be diagnosed."""
-    return [*far_off(case.rig), *check_readings(case, rows, y, forward), *_noise_source(case, y)]
+    return [*implausible(case.rig), *check_readings(case, rows, y, forward), *_noise_source(case, y)]
 
 
 def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> list[Finding]:
@@ -79,7 +79,7 @@ def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> 
     if all(np.unique(values).size == 1 for values in raw_coordinates(forward).values()):
         where = str(case.folder / "recordings.csv")
         raise InputError("all readings were taken at the same conditions; vary at least one", where=where)
-    base = forward.nominal()
+    base = forward.base_prediction()
     other_sign = of_other_sign(case, rows, y, NEGATIVE_SIGMAS * _sds(case, rows, y))
     return [
         *_entered_twice(case, rows, y),
@@ -308,7 +308,7 @@ def _sds(case: Case, rows: Table, y: np.ndarray) -> np.ndarray:
 def _warm(rows: Table) -> list[Finding]:
     """Temperatures that are all above those of oils: often a column in kelvin."""
     name = next((n for n in ("oil_temperature_C", "temperature_C") if n in rows), None)
-    if name is None or not np.all(rows[name] > ranges()["conditions.oil_temperature_C"].usual[1]):
+    if name is None or not np.all(rows[name] > ranges()["conditions.oil_temperature_C"].typical[1]):
         return []
     lowest = float(rows[name].min())
     return [finding("temperature_in_kelvin", f"{lowest:g} or more in all rows: check that it is not in kelvin", name)]

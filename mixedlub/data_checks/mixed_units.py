@@ -12,7 +12,7 @@ from mixedlub.case.forward import Forward
 from mixedlub.kinds.disc import contact_inputs
 from mixedlub.laws.contact import line_hertz_pressure, point_hertz_pressure
 from mixedlub.schema.findings import Finding, finding
-from mixedlub.schema.ranges import beyond_usual
+from mixedlub.schema.ranges import atypical
 from mixedlub.schema.table import Table
 
 SLIPS: Mapping[float, str] = {
@@ -23,31 +23,37 @@ SLIPS: Mapping[float, str] = {
     1e6: "a million times",
     1e-6: "a millionth of",
 }
-WITHIN = 2.0
+UNIT_TOLERANCE = 2.0
 """Judgement. Factor by which a wrong unit may differ from its power of ten: the accuracy of the base model."""
-PART = 0.1
+LEAST_PART = 0.1
 """Judgement. Least share of the readings that counts as a second unit rather than as outliers."""
 TEN = 10.0
 """Judgement. A power of ten that physics may also cause: readings of both parts must then be mixed among the
 conditions."""
-MIXED = 0.5
+MIXED_SHARE = 0.5
 """Judgement. Share of the smaller part with a nearest neighbour in the other, from which the parts count as mixed."""
-CLEAR, CLEAR_MIXED = 0.5, 0.25
-"""Judgement. Gap between two parts over the distance of their medians, at least; less where conditions do not separate
-them."""
+CLEAR_GAP = 0.5
+"""Judgement. Least gap between two parts, over the distance of their medians."""
+CLEAR_GAP_MIXED = 0.25
+"""Judgement. The same where conditions do not separate the parts."""
 POWERS = (1e1, 1e2, 1e3, 1e6)
 """Grid. Powers of ten by which a wrong unit may be off."""
-LEVELS, NEAR, SAME_READING = 3, 0.02, 0.15
-"""Judgement. Levels of a condition that must repeat a power of ten higher; tolerance of conditions, and of readings
-(log)."""
-WARM, LOW_PRESSURE = 20.0, 100.0
-"""Judgement. Temperature (degC) from which, and pressure (MPa) up to which, oils have their working viscosity."""
-HARD = 50e9
-"""Judgement. Reduced modulus (Pa) of metals, ceramics and glass at least."""
-YIELDS = 0.025
+REPEATED_LEVELS = 3
+"""Judgement. Levels of a condition that must repeat a power of ten higher."""
+SAME_CONDITION = 0.02
+"""Judgement. Relative tolerance of conditions that count as equal."""
+SAME_READING = 0.15
+"""Judgement. Tolerance of the logarithm of readings that count as equal."""
+WARM = 20.0
+"""Judgement. Temperature (degC) from which oils have their working viscosity."""
+LOW_PRESSURE = 100.0
+"""Judgement. Pressure (MPa) up to which oils have their working viscosity."""
+LEAST_HARD_MODULUS = 50e9
+"""Judgement. Least reduced modulus (Pa) of metals, ceramics and glass."""
+YIELD_RATIO = 0.025
 """Source: ISO 76. Hertz pressure over reduced modulus at which these yield: bearings are rated to 4.2 GPa, 0.018 of the
 modulus of steel; polymers bear a larger share."""
-APART = 1.5
+PARTS_DIFFER = 1.5
 """Judgement. Factor by which the base model differs between two parts at least, and their gap exceeds gaps within
 them."""
 
@@ -64,7 +70,7 @@ def of_another_unit(case: Case, y: np.ndarray, base: np.ndarray, fewest: int) ->
             f"readings are about {words} what the base model gives: check the unit of {case.quantity}",
         )
         for slip, words in SLIPS.items()
-        if slip / WITHIN < ratio < slip * WITHIN
+        if slip / UNIT_TOLERANCE < ratio < slip * UNIT_TOLERANCE
     ]
     if np.mean(base[both] * y[both] < 0) > 0.5:
         text = "most readings have the opposite sign to the base model: check the sign"
@@ -79,16 +85,16 @@ def of_two_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewes
         return []
     ratio = np.log10(np.abs(y[used] / base[used]))
     upper, gap = _upper_part(ratio)
-    if min(upper.sum(), (~upper).sum()) < PART * used.sum():
+    if min(upper.sum(), (~upper).sum()) < LEAST_PART * used.sum():
         return []
     apart = float(np.median(ratio[upper]) - np.median(ratio[~upper]))
     slips = [np.log10(slip) for slip in (TEN, *SLIPS) if slip > 1.0]
     slip = min(slips, key=lambda slip: abs(apart - slip))
-    if abs(apart - slip) >= np.log10(WITHIN):
+    if abs(apart - slip) >= np.log10(UNIT_TOLERANCE):
         return []
     kept = rows.take(used)
     mixed = _are_mixed(_places(case, kept), upper)
-    if gap < (CLEAR_MIXED if mixed else CLEAR) * apart or (slip == 1.0 and not mixed):
+    if gap < (CLEAR_GAP_MIXED if mixed else CLEAR_GAP) * apart or (slip == 1.0 and not mixed):
         return []
     lower = f"{int((~upper).sum())} readings are about {10**apart:.2g} times smaller"
     names = [case.quantity, *(name for name in _sizes(case, kept) if _same_split(np.abs(kept[name]), upper))]
@@ -116,7 +122,7 @@ def conditions_of_two_units(case: Case, rows: Table, y: np.ndarray, base: np.nda
 def of_odd_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewest: int, scarce: int) -> list[Finding]:
     """All findings on units; ``fewest`` and ``scarce`` are the fewest readings to compare and to split."""
     return [
-        *beyond_usual_sizes(rows, y, case.quantity),
+        *atypical_sizes(rows, y, case.quantity),
         *too_thick(rows, y, case.quantity),
         *too_hard_pressed(case, rows),
         *of_another_unit(case, y, base, fewest),
@@ -124,14 +130,14 @@ def of_odd_units(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, fewes
     ]
 
 
-def beyond_usual_sizes(rows: Table, y: np.ndarray, quantity: str) -> list[Finding]:
+def atypical_sizes(rows: Table, y: np.ndarray, quantity: str) -> list[Finding]:
     """Columns whose largest value exceeds that of any rig, with the unit in which it would be typical."""
     columns = {**rows.columns, quantity: y}
     return [
         one
         for name in SIZED
         if name in columns
-        for one in beyond_usual(f"recordings.{name}", float(np.max(np.abs(columns[name]))), f"the largest {name}")
+        for one in atypical(f"recordings.{name}", float(np.max(np.abs(columns[name]))), f"the largest {name}")
     ]
 
 
@@ -141,7 +147,7 @@ def too_thick(rows: Table, y: np.ndarray, quantity: str) -> list[Finding]:
         return []
     if "pressure_MPa" in rows and rows["pressure_MPa"].min() > LOW_PRESSURE:
         return []
-    return beyond_usual(f"recordings.{quantity}", float(np.min(y)), f"the smallest {quantity}")
+    return atypical(f"recordings.{quantity}", float(np.min(y)), f"the smallest {quantity}")
 
 
 def too_hard_pressed(case: Case, rows: Table) -> list[Finding]:
@@ -166,18 +172,18 @@ def teeth_too_hard_pressed(case: Case, rows: Table, forward: Forward) -> list[Fi
     """Torques at which the Hertz pressure exceeds the yield limit of the tooth flanks."""
     if case.system.gears is None or "torque_Nm" not in rows:
         return []
-    pressure, modulus = (np.max(forward.base(name)) for name in ("hertz_pressure", "reduced_modulus"))
+    pressure, modulus = (np.max(forward.base_quantity(name)) for name in ("hertz_pressure", "reduced_modulus"))
     where = f"the largest torque_Nm, {np.max(np.abs(rows['torque_Nm'])):g}"
     return _yielding(where, pressure, modulus, "torque_Nm, and module and face width in [gears]")
 
 
 def _yielding(where: str, pressure: float, modulus: float, cause: str) -> list[Finding]:
     """A finding where hard bodies of this reduced modulus (Pa) would yield at this pressure (Pa)."""
-    if modulus < HARD or pressure <= YIELDS * modulus:
+    if modulus < LEAST_HARD_MODULUS or pressure <= YIELD_RATIO * modulus:
         return []
     text = (
         f"the Hertz pressure would be {1e-9 * pressure:.3g} GPa, where hard bodies yield below "
-        f"{1e-9 * YIELDS * modulus:.2g} GPa: check the unit of {cause}"
+        f"{1e-9 * YIELD_RATIO * modulus:.2g} GPa: check the unit of {cause}"
     )
     return [finding("pressure_above_yield", text, where)]
 
@@ -191,7 +197,7 @@ def _power_between(case: Case, rows: Table, name: str, y: np.ndarray, base: np.n
     log = np.log10(np.abs(rows[name]))
     upper, gap = _upper_part(log)
     inner = max((_largest_gap(log[part]) for part in (upper, ~upper) if part.any()), default=0.0)
-    if min(upper.sum(), (~upper).sum()) < LEVELS or gap < np.log10(APART) + inner:
+    if min(upper.sum(), (~upper).sum()) < REPEATED_LEVELS or gap < np.log10(PARTS_DIFFER) + inner:
         return None
     for power in POWERS:
         values = np.where(upper, rows[name] / power, rows[name])
@@ -199,11 +205,11 @@ def _power_between(case: Case, rows: Table, name: str, y: np.ndarray, base: np.n
         one, other = np.flatnonzero(upper), np.flatnonzero(~upper)
         few, many = (one, other) if one.size <= other.size else (other, one)
         off, nearest = cKDTree(places[many]).query(places[few])
-        near = off <= NEAR
-        if near.mean() < MIXED or np.unique(values[few[near]]).size < LEVELS:
+        near = off <= SAME_CONDITION
+        if near.mean() < MIXED_SHARE or np.unique(values[few[near]]).size < REPEATED_LEVELS:
             continue
         pairs = few[near], many[nearest[near]]
-        if _apart(y, *pairs) < SAME_READING and _apart(base, *pairs) > np.log(APART):
+        if _apart(y, *pairs) < SAME_READING and _apart(base, *pairs) > np.log(PARTS_DIFFER):
             return power
     return None
 
@@ -240,7 +246,7 @@ def _same_split(sizes: np.ndarray, upper: np.ndarray) -> bool:
 
 def _sizes(case: Case, rows: Table) -> list[str]:
     """Conditions on a ratio scale: no names, times, angles or temperatures."""
-    names = [column.name for column in case.kind.columns if column.form != "name" and column.name in rows]
+    names = [column.name for column in case.kind.columns if column.dtype != "name" and column.name in rows]
     return [name for name in names if not name.endswith(("_s", "_deg", "_C")) or name.endswith("_m_s")]
 
 
@@ -271,8 +277,8 @@ def _are_mixed(places: np.ndarray, upper: np.ndarray) -> bool:
     """
     small = upper if 2 * upper.sum() <= upper.size else ~upper
     points = np.unique(places[small].round(9), axis=0)
-    if len(points) < LEVELS:
+    if len(points) < REPEATED_LEVELS:
         return False
     within = cKDTree(points).query(points, k=[2])[0][:, 0]
     across = cKDTree(places[~small].round(9)).query(points)[0]
-    return bool(np.mean(across <= within) >= MIXED)
+    return bool(np.mean(across <= within) >= MIXED_SHARE)

@@ -24,9 +24,9 @@ COUNTING = re.compile(
     r"samples|(?:repeat|repetition|replicate|rep|run|point|index|cycle|step|segment|order|count|no|nr|n|#)s?\.?"
 )
 """Words in the header of a column that counts readings of one specimen."""
-MOST = 20
+MOST_SPECIMENS = 20
 """Judgement. Most different values of a column that names specimens rather than readings."""
-SHOWN = 3
+VALUES_LISTED = 3
 """Judgement. Values that a message lists at most."""
 
 
@@ -61,14 +61,14 @@ def pooled_words(cells: Sequence[str]) -> str:
     'rows of 2 different things are pooled (oil A, oil B)'
     """
     values = list(dict.fromkeys(cells))
-    shown = ", ".join(values[:SHOWN]) + (", ..." if len(values) > SHOWN else "")
+    shown = ", ".join(values[:VALUES_LISTED]) + (", ..." if len(values) > VALUES_LISTED else "")
     return f"rows of {len(values)} different things are pooled ({shown})"
 
 
 def _few(header: str, cells: Sequence[str]) -> bool:
     """Whether a column holds few names or whole numbers, each repeated, and no unit, date or gap."""
     values = set(cells)
-    if split(header)[1] is not None or not 1 < len(values) <= min(MOST, len(cells) // 2):
+    if split(header)[1] is not None or not 1 < len(values) <= min(MOST_SPECIMENS, len(cells) // 2):
         return False
     if any(is_missing(value) or is_dated(value) for value in values):
         return False

@@ -13,10 +13,11 @@ from mixedlub.schema.table import Table
 CLOCKS = ("sequence", "time_s")
 AS_LARGE = (0.67, 1.5)
 """Judgement. Range of the size ratio of two readings that differ in sign only."""
-SMALL, FEW_SMALL = 0.5, 0.1
-"""Judgement. Readings scatter about zero if more than this share (second) is below this part (first) of their median
-size."""
-SHOWN = 5
+SMALL_READING = 0.5
+"""Judgement. Part of the median size below which a reading is small."""
+FEW_SMALL = 0.1
+"""Judgement. Share of small readings above which readings scatter about zero."""
+RUNS_LISTED = 5
 """Judgement. Runs that a message lists at most: more are not read."""
 
 
@@ -25,7 +26,7 @@ def of_other_sign(case: Case, rows: Table, y: np.ndarray, sd: np.ndarray) -> np.
     group, moves = _points(case, rows), _moves(case, rows)
     wrong = _against_others(y, group, moves & (np.abs(y) > sd))
     size = np.abs(y[moves & np.isin(group, np.unique(group[wrong]))])
-    about_zero = size.size > 0 and np.mean(size < SMALL * np.median(size)) > FEW_SMALL
+    about_zero = size.size > 0 and np.mean(size < SMALL_READING * np.median(size)) > FEW_SMALL
     return np.zeros(y.size, bool) if about_zero else wrong
 
 
@@ -39,7 +40,7 @@ def both_signs(case: Case, rows: Table, y: np.ndarray, wrong: np.ndarray) -> lis
         f"{count} reading{' is' if count == 1 else 's are'} {sign} where others at the same conditions are as large"
     )
     channels = f"the signs of {case.quantity} and of the speed" if case.kind.direction is not None else "the sign"
-    runs = f"run{'' if count == 1 else 's'} {listed(rows['run'][wrong].tolist(), SHOWN)}"
+    runs = f"run{'' if count == 1 else 's'} {listed(rows['run'][wrong].tolist(), RUNS_LISTED)}"
     text = f"{case.quantity} has both signs: {statement} with the opposite one: check {channels} ({runs})"
     return [finding("sign_contradictory", text)]
 

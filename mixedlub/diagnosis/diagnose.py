@@ -86,7 +86,7 @@ class Diagnosis:
         return right if right.any() else ~right
 
     @property
-    def seen_sd(self) -> np.ndarray:
+    def transformed_sd(self) -> np.ndarray:
         """Standard deviation of the readings as they are compared."""
         p = self.recorded
         return p.sd / np.abs(p.predicted) if self.case.kind.logarithmic else p.sd
@@ -94,14 +94,14 @@ class Diagnosis:
     @property
     def residuals(self) -> tuple[np.ndarray, np.ndarray]:
         """(recorded - simulated)/sd, as they are compared, with the calibrated base model and with the answer."""
-        problem, p, sd = self.search.problem, self.recorded, self.seen_sd
+        problem, p, sd = self.search.problem, self.recorded, self.transformed_sd
         return (problem.y - problem.transform(p.calibrated)) / sd, (problem.y - problem.transform(p.predicted)) / sd
 
     @property
     def missing(self) -> tuple[np.ndarray, np.ndarray]:
         """What the base model at the answer's calibration lacks, in the reading's unit: as recorded, as explained."""
         problem, p = self.search.problem, self.recorded
-        base = problem.inverse(problem.transform(p.predicted) - p.mismatch_z * self.seen_sd)
+        base = problem.inverse(problem.transform(p.predicted) - p.mismatch_z * self.transformed_sd)
         return self.readings - base, p.predicted - base
 
     @property
@@ -121,14 +121,14 @@ def diagnose_case(
     case = read_case(folder)
     if predict is None:
         return diagnosis_of(case, case.conditions, exclude, level, progress)
-    asked = read_conditions(case, predict)
-    refuse_used_runs(case, asked, predict)
-    return diagnosis_of(case, asked, exclude, level, progress)
+    requested = read_conditions(case, predict)
+    refuse_used_runs(case, requested, predict)
+    return diagnosis_of(case, requested, exclude, level, progress)
 
 
 def diagnosis_of(
     case: Case,
-    asked: Table | None = None,
+    requested: Table | None = None,
     exclude: Sequence[str] = (),
     level: float = FALSE_ALARM_RATE,
     progress: Progress = lambda text: None,
@@ -137,10 +137,10 @@ def diagnosis_of(
     find(list(exclude))
     rows = rows_of(case)
     with collected() as assumed:
-        wanted = None if asked is None else at_programme_end(case, asked)
+        new_rows = None if requested is None else at_programme_end(case, requested)
     forward = Forward(case, rows)
     checks = audit(case, rows, readings_of(case), forward)
-    warnings = [*case.notes, *assumed, *unpredicted_runs(case, wanted), *forward.notes, *checks]
+    warnings = [*case.notes, *assumed, *unpredicted_runs(case, new_rows), *forward.notes, *checks]
     if forward.known.effects:
         named = ", ".join(effect_words(e.id) for e in forward.known.effects)
         warnings.append(finding("effects_known", f"part of the base model, so not looked for: {named}", "system.toml"))
@@ -148,49 +148,49 @@ def diagnosis_of(
     if left_out:
         named = ", ".join(effect_words(name) for name in left_out)
         warnings.append(finding("effects_left_out", f"left out on request, so neither named nor excluded: {named}"))
-    if wanted is not None:
-        there = Forward(case, wanted)
-        there.nominal()
-        warnings += [note for note in there.notes if note not in forward.notes] + beyond_recorded(case, wanted)
-    tried = search_under_noise(case, forward, exclude, progress)
+    if new_rows is not None:
+        new_model = Forward(case, new_rows)
+        new_model.base_prediction()
+        warnings += [note for note in new_model.notes if note not in forward.notes] + beyond_recorded(case, new_rows)
+    noise_search = search_under_noise(case, forward, exclude, progress)
     progress("testing against nothing missing")
-    search, test = mismatch_against_null(tried, level)
+    search, test = mismatch_against_null(noise_search, level)
     given, case, rows = case, search.problem.case, search.problem.rows
-    warnings += noise_notes(search, tried.stated, tried.inflation)
+    warnings += noise_notes(search, noise_search.stated, noise_search.inflation)
     progress("leaving levels out")
-    judged, kept = judge(search, test)
-    kept = kept.single_reading_units(search.full_screen.problem.n_per_effective)
-    refined = leaders(search, judged)
+    decided, heldout = judge(search, test)
+    heldout = heldout.single_reading_units(search.full_screen.problem.n_per_effective)
+    refined = leaders(search, decided)
     progress("predicting")
-    recorded = averaged(search, judged, refined, rows)
-    other = None if wanted is None else averaged(search, judged, refined, wanted)
-    chance = outlier_chances(search, judged, refined)
+    recorded = averaged(search, decided, refined, rows)
+    predicted = None if new_rows is None else averaged(search, decided, refined, new_rows)
+    outlier_chance = outlier_chances(search, decided, refined)
     columns = [c for c in case.kind.columns if c.name in rows]
     swept = {axis.name for axis in search.space.axes}
-    varied = [c.name for c in columns if c.form == "name" or c.name in swept] or [c.name for c in columns]
-    passing = [n for n in time_columns(search, judged.verdict) if n in rows and n not in varied]
-    place = region(rows, [*varied, *passing], np.where(chance > LIKELY, 0.0, recorded.mismatch_z))
-    laws = contained(search, judged.verdict)
-    tests = next_tests(search, judged, refined, columns, varied)
-    warnings += _cautions(search, judged, kept, refined, recorded.predicted, chance > LIKELY)
-    said = tuple(warnings)
+    varied = [c.name for c in columns if c.dtype == "name" or c.name in swept] or [c.name for c in columns]
+    passing = [n for n in time_columns(search, decided.verdict) if n in rows and n not in varied]
+    mismatch_region = region(rows, [*varied, *passing], np.where(outlier_chance > LIKELY, 0.0, recorded.mismatch_z))
+    laws = contained(search, decided.verdict)
+    tests = next_tests(search, decided, refined, columns, varied)
+    warnings += _cautions(search, decided, heldout, refined, recorded.predicted, outlier_chance > LIKELY)
+    all_warnings = tuple(warnings)
     return Diagnosis(
         given,
         case,
         search,
         test,
-        judged,
+        decided,
         refined,
         recorded,
-        other,
-        chance,
-        place,
-        kept,
+        predicted,
+        outlier_chance,
+        mismatch_region,
+        heldout,
         laws,
         tests,
-        said,
+        all_warnings,
         left_out,
-        tried.stated,
+        noise_search.stated,
     )
 
 

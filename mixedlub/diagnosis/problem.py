@@ -29,9 +29,9 @@ class Problem:
     ``inverse`` gives readings back.
 
     Every unknown has a standard-normal prior: calibration and effect parameters through their priors' ``value``, errors
-    shared within a set-up as columns of ``setups`` (in units of sd), and the ``correlated_error``. ``held`` are
-    parameters of effects that are fixed. Where readings are autocorrelated, ``n_per_effective`` of them count as one,
-    and ``sd`` is that of a reading times the root of this number.
+    shared within a set-up as columns of ``setups`` (in units of sd), and the ``correlated_error``. ``fixed`` are
+    values of effect parameters that are not free. Where readings are autocorrelated, ``n_per_effective`` of them count
+    as one, and ``sd`` is that of a reading times the root of this number.
     """
 
     case: Case
@@ -40,7 +40,7 @@ class Problem:
     y: np.ndarray
     sd: np.ndarray
     setups: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
-    held: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    fixed: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     n_per_effective: float = 1.0
     correlated_error: CorrelatedError = UNCORRELATED
 
@@ -108,7 +108,7 @@ class Problem:
         if explanation not in self._effects:
             known = known_in(self.case.kind.name)
             every = (known[name] for name in explanation.effects)
-            self._effects[explanation] = [e.holding(self.held[e.id]) if e.id in self.held else e for e in every]
+            self._effects[explanation] = [e.fixing(self.fixed[e.id]) if e.id in self.fixed else e for e in every]
         return self._effects[explanation]
 
     @cached_property

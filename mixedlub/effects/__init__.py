@@ -27,7 +27,7 @@ def known_in(kind: str) -> Mapping[str, Effect]:
     """The catalogue with only those parameters that are free in a kind of recording."""
     return MappingProxyType(
         {
-            e.id: e.holding({p.name: p.off for p in e.parameters if p.kinds and kind not in p.kinds})
+            e.id: e.fixing({p.name: p.null_value for p in e.parameters if p.kinds and kind not in p.kinds})
             for e in catalogue().values()
         }
     )
@@ -84,14 +84,14 @@ def known_effects(
             rule += f"; it needs {', '.join(lacking)}, which these columns and keys do not give" if lacking else ""
             raise InputError(rule, where=f"effects.{e.id}")
         fixed = _of_law(e, section[e.id].get(LAW))
-        values[e.id] = {**e.middle, **fixed}
+        values[e.id] = {**e.prior_medians, **fixed}
         for key, value in section[e.id].items():
             name = key.removesuffix(SD)
             where = f"effects.{e.id}.{key}"
             if key == LAW:
                 continue
             if name not in values[e.id]:
-                rule = f"no such parameter of {e.id}; {nearest(name, (*values[e.id], *([LAW] if e.contains else [])))}"
+                rule = f"no such parameter of {e.id}; {nearest(name, (*values[e.id], *([LAW] if e.special_cases else [])))}"
                 raise InputError(rule, where=f"effects.{e.id}", value=key)
             if isinstance(value, str):
                 raise InputError("must be a number", where=where, value=value)
@@ -110,9 +110,11 @@ def _of_law(e: Effect, law: float | str | None) -> dict[str, float]:
     """Parameters that a published law fixes, of those that are free."""
     if law is None:
         return {}
-    if law not in e.contains:
-        raise InputError(f"no such law of {e.id}; {nearest(str(law), e.contains)}", where=f"effects.{e.id}", value=law)
-    return {name: value for name, value in e.contains[str(law)].items() if name in e.middle}
+    if law not in e.special_cases:
+        raise InputError(
+            f"no such law of {e.id}; {nearest(str(law), e.special_cases)}", where=f"effects.{e.id}", value=law
+        )
+    return {name: value for name, value in e.special_cases[str(law)].items() if name in e.prior_medians}
 
 
 def _is_positive(e: Effect, name: str) -> bool:

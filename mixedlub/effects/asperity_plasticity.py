@@ -27,7 +27,7 @@ _FARTHEST = 10.0
     separated_by="profile and hardness before and after: yielding is not undone when the load goes; loss alone cannot "
     "tell it from an error of slope or curvature of the roughness or of the boundary friction",
     valid={"area_ratio": (0.0, 0.3)},
-    after=("skewed_heights",),
+    applied_after=("skewed_heights",),
 )
 def asperity_plasticity(
     area_ratio: np.ndarray,

@@ -3,12 +3,12 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 from mixedlub.laws.drag import bearing_asperity_share, palmgren_idle_torque, palmgren_load_torque
 
 _SIZE = 1.25
-_TYPICAL = 3000.0
-_LEAST = 0.1
+_TYPICAL_LOAD = 3000.0
+_LEAST_LOAD = 0.1
 
 
 @effect(
@@ -33,15 +33,15 @@ _LEAST = 0.1
         Parameter(
             "load_power",
             "-",
-            Between(1.0, 1.6),
+            Uniform(1.0, 1.6),
             "exponent of load in that part: 1 for rollers, about 1.5 for balls",
             symbol="a",
         ),
-        Parameter("rolling_power", "-", Between(0.0, 0.54), "exponent of load in the rolling torque", symbol="b"),
+        Parameter("rolling_power", "-", Uniform(0.0, 0.54), "exponent of load in the rolling torque", symbol="b"),
         Parameter(
             "rubbing",
             "-",
-            Between(0.0, 2.0),
+            Uniform(0.0, 2.0),
             "relative rise of the load-dependent part where the bearing's film has collapsed",
             symbol="m",
             published=(0.0, 1.4),
@@ -59,7 +59,7 @@ _LEAST = 0.1
     "Analysis, for f_1 that grows with load in ball bearings; SKF General Catalogue, 2005, for rolling torque with "
     "load^0.54; SKF, Rolling Bearings, 2018, for phi_bl and 0.12 over 0.05 in mineral oil (m = 1.4)",
     fingerprint={"load": "-", "speed": "+", "roughness": "-"},
-    contains={"Palmgren": {"load_power": 1.0, "rolling_power": 0.0, "rubbing": 0.0}},
+    special_cases={"Palmgren": {"load_power": 1.0, "rolling_power": 0.0, "rubbing": 0.0}},
     separated_by="the bearings alone on their rig, or their own oil supply; a change of flank finish leaves it "
     "where it was",
 )
@@ -90,7 +90,7 @@ def bearing_drag(
     24
     """
     diameter = _SIZE * pinion_radius
-    size = np.where(gears_fitted > 0, np.maximum(transmitted_force / _TYPICAL, _LEAST), _LEAST)
+    size = np.where(gears_fitted > 0, np.maximum(transmitted_force / _TYPICAL_LOAD, _LEAST_LOAD), _LEAST_LOAD)
     growth = size ** (load_power - 1.0)
     by_load = loaded * gears_fitted * growth * palmgren_load_torque(0.5 * transmitted_force, diameter)
     drag = 0.0

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import BetweenLog, LogNormal
+from mixedlub.chain.priors import LogNormal, LogUniform
 
 
 @effect(
@@ -21,7 +21,7 @@ from mixedlub.chain.priors import BetweenLog, LogNormal
         Parameter(
             "gain",
             "-",
-            BetweenLog(0.5, 100.0),
+            LogUniform(0.5, 100.0),
             "largest added thickness relative to a thin film; large: the layer remains at rest",
             symbol="g",
         ),
@@ -33,7 +33,7 @@ from mixedlub.chain.priors import BetweenLog, LogNormal
     fingerprint={"speed": "-"},
     separated_by="a zero check at rest before and after: a drifted zero shifts all films, a layer only the thinnest; "
     "base oil without polymer, where thicker fluid at the walls would need one",
-    after=("inlet_shear_heating", "inlet_shear_thinning", "starvation", "roughness_lay"),
+    applied_after=("inlet_shear_heating", "inlet_shear_thinning", "starvation", "roughness_lay"),
     kinds=("film",),
 )
 def boundary_film(film_thickness: np.ndarray, *, thickness: float, joining: float, gain: float) -> np.ndarray:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal, Normal
+from mixedlub.chain.priors import LogNormal, Normal, Uniform
 from mixedlub.laws.mixture import tallian_friction
 
 
@@ -22,7 +22,7 @@ from mixedlub.laws.mixture import tallian_friction
         Parameter(
             "activation",
             "K",
-            Between(318.0, 413.0),
+            Uniform(318.0, 413.0),
             "temperature at which half the film has formed",
             symbol=r"\theta_f",
         ),
@@ -32,7 +32,7 @@ from mixedlub.laws.mixture import tallian_friction
         Parameter(
             "flash",
             "-",
-            Between(0.0, 1.0),
+            Uniform(0.0, 1.0),
             "share of the contact's flash temperature that activates the film",
             null=0.0,
             symbol="s",
@@ -46,8 +46,8 @@ from mixedlub.laws.mixture import tallian_friction
     fingerprint={"oil_temperature": "-", "roughness": "-", "slide_roll_ratio": "+"},
     separated_by="oil without the additive, or film ratios above 3, where it vanishes; it sits between two "
     "temperatures, whereas everything viscous changes steadily",
-    contains={"a film as warm as the oil": {"flash": 0.0}},
-    after=(
+    special_cases={"a film as warm as the oil": {"flash": 0.0}},
+    applied_after=(
         "boundary_speed_dependence",
         "friction_event",
         "friction_run_in",

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, BetweenLog, Normal
+from mixedlub.chain.priors import LogUniform, Normal, Uniform
 
 SLOWEST = 1e-3
 
@@ -23,14 +23,14 @@ SLOWEST = 1e-3
         Parameter(
             "reference",
             "m/s",
-            BetweenLog(0.01, 10.0),
+            LogUniform(0.01, 10.0),
             "speed at which the stated boundary friction holds",
             symbol="v_r",
         ),
         Parameter(
             "rolling",
             "-",
-            Between(0.0, 1.0),
+            Uniform(0.0, 1.0),
             "weight of the rolling speed: 0 sliding speed, 1 rolling speed",
             symbol="a",
         ),

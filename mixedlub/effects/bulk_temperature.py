@@ -3,12 +3,12 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 from mixedlub.laws import heating, oil
 
 EVEN = 0.01
 """Share of the transmitted power that becomes heat in the mesh, where this share is taken as constant."""
-LEAST = 0.2
+LEAST_REMAINING = 0.2
 """Share of the pressure-viscosity coefficient that remains at any temperature rise; keeps its linear fall positive."""
 
 
@@ -19,11 +19,11 @@ LEAST = 0.2
         Parameter(
             "strength", "-", LogNormal(1.0, 0.8), "factor on the temperature rise of the standard", null=0.0, symbol="c"
         ),
-        Parameter("exponent", "-", Between(0.6, 1.0), "exponent of the heat in the temperature rise", symbol="n"),
+        Parameter("exponent", "-", Uniform(0.6, 1.0), "exponent of the heat in the temperature rise", symbol="n"),
         Parameter(
             "friction",
             "-",
-            Between(0.0, 1.0),
+            Uniform(0.0, 1.0),
             "source of heat: 1 loss of the base model, 0 a constant share of the power",
             symbol="k",
         ),
@@ -34,8 +34,8 @@ LEAST = 0.2
     source="ISO/TR 15144-1, bulk temperature, with n = 0.72",
     fingerprint={"speed": "+", "oil_temperature": "-", "roughness": "+"},
     separated_by="a thermocouple in a tooth, or the same point again with twice the flow of oil",
-    contains={"ISO/TR 15144-1": {"exponent": 0.72}},
-    after=("viscosity_temperature_law", "viscosity_drift"),
+    special_cases={"ISO/TR 15144-1": {"exponent": 0.72}},
+    applied_after=("viscosity_temperature_law", "viscosity_drift"),
     kinds=("gear_pair",),
 )
 def bulk_temperature(
@@ -74,4 +74,4 @@ def bulk_temperature(
     heat = nominal_loss**friction * (EVEN * torque * pinion_speed) ** (1.0 - friction)
     rise = strength * typical * (heat / reading_scale) ** exponent
     thinner = oil.warmed_viscosity(viscosity, oil_density, temperature_viscosity, oil_temperature, rise)
-    return thinner, pressure_viscosity * np.maximum(1.0 - coefficient_fall * rise, LEAST)
+    return thinner, pressure_viscosity * np.maximum(1.0 - coefficient_fall * rise, LEAST_REMAINING)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 from mixedlub.laws.drag import churning_changenet_velex
 
 TURBULENT = -1.0 / 3.0, 8.0 / 3.0
@@ -23,12 +23,12 @@ TURBULENT = -1.0 / 3.0, 8.0 / 3.0
             symbol="c",
         ),
         Parameter(
-            "viscous", "-", Between(TURBULENT[0], 1.0), "exponent of viscosity", symbol="q", published=(0.21, 1.0)
+            "viscous", "-", Uniform(TURBULENT[0], 1.0), "exponent of viscosity", symbol="q", published=(0.21, 1.0)
         ),
         Parameter(
             "surplus",
             "-",
-            Between(0.0, 1.1),
+            Uniform(0.0, 1.1),
             "exponent of speed less that of viscosity less 1, where the viscosity exponent is not negative",
             symbol="p",
             published=(0.0, 1.0),
@@ -45,7 +45,7 @@ TURBULENT = -1.0 / 3.0, 8.0 / 3.0
     "there to the viscous drag of R. J. Boness, Proc. Int. Symp. Gearing 1989 (n^2 nu), ISO/TR 14179-1 (n^3 nu), "
     "and to Boness' turbulent branch (n^(10/3) nu^(-1/3))",
     fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "roughness": "-"},
-    contains={
+    special_cases={
         "Changenet and Velex": {"viscous": 0.21, "surplus": 0.38},
         "Boness, laminar": {"viscous": 1.0, "surplus": 0.0},
         "Boness, turbulent": {"viscous": TURBULENT[0]},

@@ -3,10 +3,12 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 
-FRICTION, PRESSURE = 0.05, 1e9
-"""Reference friction coefficient and Hertz pressure (Pa) of the saturation slip."""
+REFERENCE_FRICTION = 0.05
+"""Friction coefficient at which the saturation slip is stated."""
+REFERENCE_PRESSURE = 1e9
+"""Hertz pressure (Pa) at which the saturation slip is stated."""
 
 
 @effect(
@@ -31,14 +33,14 @@ FRICTION, PRESSURE = 0.05, 1e9
         Parameter(
             "elastic",
             "-",
-            Between(0.0, 1.0),
+            Uniform(0.0, 1.0),
             "exponent of friction times pressure in that slip: 1 for elastic shear of the bodies alone",
             symbol="k",
         ),
         Parameter(
             "of_asperities",
             "-",
-            Between(0.0, 1.0),
+            Uniform(0.0, 1.0),
             "share of the asperity friction that follows the creep law too",
             symbol="a",
         ),
@@ -49,7 +51,7 @@ FRICTION, PRESSURE = 0.05, 1e9
     "F. W. Carter, Proc. R. Soc. A 112 (1926) 151, m = 2; K. L. Johnson, J. L. Tevaarwerk, Proc. R. Soc. A 356 (1977) "
     "215, film and bodies yielding under the film's traction alone (a = 0)",
     fingerprint={"slide_roll_ratio": "+"},
-    contains={"bodies alone": {"elastic": 1.0}, "one slip": {"elastic": 0.0}},
+    special_cases={"bodies alone": {"elastic": 1.0}, "one slip": {"elastic": 0.0}},
     separated_by="a sweep of slip below one per cent at constant speed: the rise is proportional to slip and does "
     "not depend on viscosity or speed as a fluid film does",
     valid={"slide_roll_ratio": (0.0, 0.5)},
@@ -80,6 +82,6 @@ def contact_creep(
     >>> contact_creep(0.05, 0.1, 0.2, S, 1e9, **creep, of_asperities=0.0).round(5).tolist()   # 0.1 x 0.2 stays
     [0.02, 0.04625, 0.05]
     """
-    slides = saturation_slip * ((friction / FRICTION) * (hertz_pressure / PRESSURE)) ** elastic
+    slides = saturation_slip * ((friction / REFERENCE_FRICTION) * (hertz_pressure / REFERENCE_PRESSURE)) ** elastic
     sticking = np.maximum(slides - slide_roll_ratio, 0.0) / np.maximum(slides, 1e-12)
     return friction - (friction - (1.0 - of_asperities) * boundary_friction * area_ratio) * sticking**power

@@ -33,7 +33,7 @@ from mixedlub.chain.priors import Normal
     fingerprint={"speed": "0"},
     separated_by="the slope against speed in both directions: a payload shifts both branches alike, a different "
     "flank or preload also turns the slopes",
-    after=("stribeck", "load_dependent_friction", "fluid_drag"),
+    applied_after=("stribeck", "load_dependent_friction", "fluid_drag"),
     kinds=("friction_map",),
 )
 def direction_dependence(

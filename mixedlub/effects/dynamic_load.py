@@ -3,10 +3,10 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal, Normal
+from mixedlub.chain.priors import LogNormal, Normal, Uniform
 
 QUARTER = 0.5 * np.pi
-LEAST = 0.1
+LEAST_LOAD_FACTOR = 0.1
 """Smallest share of the static force that is computed where vibration unloads the teeth."""
 
 
@@ -27,7 +27,7 @@ LEAST = 0.1
         Parameter(
             "phase",
             "rad",
-            Between(-QUARTER, QUARTER),
+            Uniform(-QUARTER, QUARTER),
             "phase of sliding and vibration: at 0 the added force peaks at resonance, otherwise it changes sign there",
             symbol=r"\phi",
         ),
@@ -42,13 +42,13 @@ LEAST = 0.1
     equation=r"F_t \leftarrow F_t\max\{1 + a\,[R(r) + s\,R(2r)],\ 0.1\},\quad "
     r"R(x) = x\,\frac{(1-x^2)\sin\phi + 2\zeta x\cos\phi}{(1-x^2)^2 + (2\zeta x)^2},\quad "
     r"r = \frac{z_1\omega_1}{2\pi f_n}",
-    contains={"one harmonic": {"second": 0.0}},
+    special_cases={"one harmonic": {"second": 0.0}},
     source="one degree of freedom driven by the transmission error, steady state; as the dynamic factor of "
     "ISO 6336-1, method B",
     fingerprint={"load": "-", "speed": "+"},
     separated_by="a fine speed sweep: it is narrow, follows tooth frequency and inertia and not the oil; an "
     "accelerometer or the transmission error shows it",
-    odds=0.3,
+    prior_odds=0.3,
 )
 def dynamic_load(
     transmitted_force: np.ndarray,
@@ -80,7 +80,7 @@ def dynamic_load(
     """
     ratio = pinion_teeth * pinion_speed / (2.0 * np.pi * resonance)
     response = _response(ratio, damping, phase) + second * _response(2.0 * ratio, damping, phase)
-    return transmitted_force * np.maximum(1.0 + amplitude * response, LEAST)
+    return transmitted_force * np.maximum(1.0 + amplitude * response, LEAST_LOAD_FACTOR)
 
 
 def _response(ratio: np.ndarray, damping: float, phase: float) -> np.ndarray:

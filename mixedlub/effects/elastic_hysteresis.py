@@ -25,7 +25,7 @@ from mixedlub.chain.priors import LogNormal
     fingerprint={"speed": "+", "roughness": "-", "slide_roll_ratio": "-"},
     separated_by="load alone: it grows with its power 1.5 and sees neither oil nor finish; as a rule too small to "
     "matter",
-    odds=0.3,
+    prior_odds=0.3,
 )
 def elastic_hysteresis(
     rolling_force: np.ndarray,

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 from mixedlub.laws import heating
 
 
@@ -15,14 +15,14 @@ from mixedlub.laws import heating
         Parameter(
             "flash",
             "-",
-            Between(0.0, 1.0),
+            Uniform(0.0, 1.0),
             "weight of the surfaces' flash temperature against the film's own rise; 1/2: both in full",
             symbol="d",
         ),
         Parameter(
             "pressure",
             "-",
-            Between(0.0, 1.0),
+            Uniform(0.0, 1.0),
             "temperature coefficient: 0 that at ambient pressure, 1 Roelands' at contact pressure",
             symbol="k",
         ),

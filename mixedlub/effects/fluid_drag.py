@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 
 
 @effect(
@@ -17,19 +17,23 @@ from mixedlub.chain.priors import Between, LogNormal
             "drag at the largest speed of the recording, relative to the typical reading",
             null=0.0,
             symbol="c",
-            of="reading_scale",
+            relative_to="reading_scale",
         ),
-        Parameter("exponent", "-", Between(1.5, 2.0), "exponent of speed", symbol="k", published=(1.5, 2.0)),
+        Parameter("exponent", "-", Uniform(1.5, 2.0), "exponent of speed", symbol="k", published=(1.5, 2.0)),
     ),
     equation=r"T_r \leftarrow T_r + c\,y_0\,|\omega/\omega_0|^k\operatorname{sgn}\omega",
     source="H. Schlichting, Boundary-Layer Theory, 7th ed., 1979, chapters 5 and 21: a rotating disc has k = 1.5 in "
     "laminar and 1.8 in turbulent flow; 2 for what is thrown about, as by a fan",
-    contains={"a laminar disc": {"exponent": 1.5}, "a turbulent disc": {"exponent": 1.8}, "a fan": {"exponent": 2.0}},
+    special_cases={
+        "a laminar disc": {"exponent": 1.5},
+        "a turbulent disc": {"exponent": 1.8},
+        "a fan": {"exponent": 2.0},
+    },
     fingerprint={"speed": "+"},
     separated_by="a coast-down with covers off or in another gas, or another oil level: drag of grease grows no "
     "faster than speed, and friction of surfaces falls with it",
     kinds=("friction_map",),
-    odds=0.5,
+    prior_odds=0.5,
 )
 def fluid_drag(
     running_friction: np.ndarray,

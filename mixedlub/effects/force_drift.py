@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Wide
+from mixedlub.chain.priors import SinhNormal
 
 
 @effect(
@@ -13,11 +13,11 @@ from mixedlub.chain.priors import Wide
         Parameter(
             "drift",
             "-",
-            Wide(0.05),
+            SinhNormal(0.05),
             "zero drift of the force over the programme, as a share of the typical reading at the smallest load",
             null=0.0,
             symbol="d",
-            of="reading_scale",
+            relative_to="reading_scale",
         ),
     ),
     equation=r"y \leftarrow y + d\,y_0\,q_w\,q",
@@ -25,7 +25,7 @@ from mixedlub.chain.priors import Wide
     fingerprint={"sequence": "+"},
     separated_by="the friction force with the contact open, before and after the test: surfaces that change do so at "
     "every load alike",
-    after=("heat_leak", "sensor_drift", "sensor_gain"),
+    applied_after=("heat_leak", "sensor_drift", "sensor_gain"),
 )
 def force_drift(
     reading: np.ndarray, reading_scale: np.ndarray, inverse_load: np.ndarray, sequence: np.ndarray, *, drift: float

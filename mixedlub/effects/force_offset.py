@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Wide
+from mixedlub.chain.priors import SinhNormal
 
 
 @effect(
@@ -13,19 +13,19 @@ from mixedlub.chain.priors import Wide
         Parameter(
             "offset",
             "-",
-            Wide(0.05),
+            SinhNormal(0.05),
             "zero offset of the force, as a share of the typical reading at the smallest load",
             null=0.0,
             symbol="a",
-            of="reading_scale",
+            relative_to="reading_scale",
         ),
     ),
     equation=r"y \leftarrow y + a\,y_0\,q_w",
     source="measurement: zero error of a force transducer, over the load; zero balance in ASTM E74 and ISO 376",
     fingerprint={"load": "-", "roughness": "-"},
     separated_by="a reading of the friction force with the contact open; both directions of sliding, whose mean is it",
-    after=("heat_leak", "sensor_drift", "sensor_gain"),
-    exact=True,
+    applied_after=("heat_leak", "sensor_drift", "sensor_gain"),
+    exact_form=True,
 )
 def force_offset(
     reading: np.ndarray, reading_scale: np.ndarray, inverse_load: np.ndarray, *, offset: float

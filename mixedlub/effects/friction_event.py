@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, BetweenLog, LogNormal, Normal
+from mixedlub.chain.priors import LogNormal, LogUniform, Normal, Uniform
 
 TENTHS = 2.0 * np.log(9.0)
 """Width of a logistic step from 10 to 90 %, over its scale."""
@@ -14,19 +14,21 @@ TENTHS = 2.0 * np.log(9.0)
     acts_on="boundary_friction",
     parameters=(
         Parameter("change", "-", Normal(0.0, 0.3), "natural logarithm of the factor on friction", null=0.0, symbol="c"),
-        Parameter("place", "-", Between(0.0, 1.0), "position in the programme", scan=120, sudden=True, symbol="q_e"),
+        Parameter(
+            "place", "-", Uniform(0.0, 1.0), "position in the programme", n_scan=120, change_point=True, symbol="q_e"
+        ),
         Parameter(
             "width",
             "-",
-            BetweenLog(0.01, 0.12),
+            LogUniform(0.01, 0.12),
             "duration of the change from 10 to 90 %, as a share of the programme",
             symbol="w",
         ),
-        Parameter("later", "-", Between(-1.5, 1.5), "later change relative to the first: -1 cancels it", symbol="l"),
+        Parameter("later", "-", Uniform(-1.5, 1.5), "later change relative to the first: -1 cancels it", symbol="l"),
         Parameter(
             "delay",
             "-",
-            BetweenLog(0.02, 1.0),
+            LogUniform(0.02, 1.0),
             "time to 63 % of the later change, as a share of the programme",
             symbol="d",
         ),
@@ -45,9 +47,9 @@ TENTHS = 2.0 * np.log(9.0)
     fingerprint={"sequence": "+"},
     separated_by="a log of the test: what was touched, refilled or restarted then; a film that breaks or a particle in "
     "the contact shows in contact resistance, noise or the track",
-    after=("tribofilm_growth", "friction_run_in", "two_time_scales"),
+    applied_after=("tribofilm_growth", "friction_run_in", "two_time_scales"),
     kinds=("friction_history",),
-    contains={"one step": {"later": 0.0}},
+    special_cases={"one step": {"later": 0.0}},
 )
 def friction_event(
     boundary_friction: np.ndarray,

@@ -17,7 +17,7 @@ from mixedlub.chain.priors import LogNormal
             "relative fall of dry friction under a full layer",
             null=0.0,
             symbol="d",
-            of="coulomb_torque",
+            relative_to="coulomb_torque",
         ),
         Parameter(
             "half_share",

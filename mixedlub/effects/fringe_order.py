@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import BetweenLog, EitherSign
+from mixedlub.chain.priors import LogUniform, SignedLogNormal
 
 SHARPNESS = 60.0
 
@@ -15,7 +15,7 @@ SHARPNESS = 60.0
         Parameter(
             "jump",
             "m",
-            EitherSign(1.9e-7, 0.25),
+            SignedLogNormal(1.9e-7, 0.25),
             "error of the reading: 160 to 230 nm per order of visible light, rarely two orders",
             null=0.0,
             symbol="j",
@@ -23,10 +23,10 @@ SHARPNESS = 60.0
         Parameter(
             "onset",
             "m",
-            BetweenLog(1e-8, 2e-6),
+            LogUniform(1e-8, 2e-6),
             "film thickness above which the order is miscounted",
-            scan=60,
-            sudden=True,
+            n_scan=60,
+            change_point=True,
             symbol="h_s",
         ),
     ),

@@ -3,14 +3,14 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Wide
+from mixedlub.chain.priors import SinhNormal
 
 
 @effect(
     stage="measurement",
     acts_on="reading",
     parameters=(
-        Parameter("step", "m", Wide(1e-8), "step of the reading per interference order", null=0.0, symbol="a"),
+        Parameter("step", "m", SinhNormal(1e-8), "step of the reading per interference order", null=0.0, symbol="a"),
     ),
     equation=r"y \leftarrow y + a\,(N - N_0)",
     source="spacer-layer interferometry: G. J. Johnston, R. Wayte, H. A. Spikes, Tribol. Trans. 34 (1991) 187; a film "

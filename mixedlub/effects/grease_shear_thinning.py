@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import BetweenLog, LogNormal
+from mixedlub.chain.priors import LogNormal, LogUniform
 
 
 @effect(
@@ -16,17 +16,17 @@ from mixedlub.chain.priors import BetweenLog, LogNormal
         Parameter(
             "knee",
             "-",
-            BetweenLog(1e-3, 1.0),
+            LogUniform(1e-3, 1.0),
             "speed at which thinning begins, as a share of the reference speed",
             symbol="k",
-            of="reference_speed",
+            relative_to="reference_speed",
         ),
     ),
     equation=r"T_v \leftarrow T_v\left[\frac{x^2 + k^2}{1 + k^2}\right]^{-d/2},\quad "
     r"x = \max(|\omega/\omega_0|,\ 10^{-6})",
     source="P. J. Carreau, Trans. Soc. Rheol. 16 (1972) 99, with one time constant; k = 0 is the power law of "
     "W. H. Herschel, R. Bulkley, Kolloid-Z. 39 (1926) 291",
-    contains={"Herschel and Bulkley": {"knee": 0.0}},
+    special_cases={"Herschel and Bulkley": {"knee": 0.0}},
     fingerprint={"speed": "-"},
     separated_by="speeds over two decades: the drag grows with a power below one and has no minimum as "
     "Stribeck friction",

@@ -3,9 +3,9 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 
-FORTY = 313.15
+FORTY_CELSIUS = 313.15
 """Reference temperature (K) of fall and convexity: 40 degC, where oils are graded."""
 NEAREST = 5.0
 """Smallest distance (K) above the divergence temperature that is computed."""
@@ -26,7 +26,7 @@ NEAREST = 5.0
         Parameter(
             "convexity",
             "-",
-            Between(0.0, 3.4),
+            Uniform(0.0, 3.4),
             "313.15 K over the distance of 40 degC from the divergence temperature of Vogel's law",
             symbol="m",
         ),
@@ -39,7 +39,7 @@ NEAREST = 5.0
     fingerprint={"oil_temperature": "-"},
     separated_by="the same speeds warm and cold: the slope against speed changes, the dry level does not",
     kinds=("friction_map",),
-    contains={"Andrade": {"convexity": 1.0}, "Reynolds": {"convexity": 0.0}},
+    special_cases={"Andrade": {"convexity": 1.0}, "Reynolds": {"convexity": 0.0}},
 )
 def grease_temperature(
     viscous_torque: np.ndarray, oil_temperature: np.ndarray, *, fall_per_kelvin: float, convexity: float
@@ -52,6 +52,6 @@ def grease_temperature(
     >>> round(float(grease_temperature(1.0, 333.15, **vogel)), 3)   # exp(700/155 - 700/135)
     0.512
     """
-    warmer = oil_temperature - FORTY
-    distance = np.maximum(FORTY + convexity * warmer, convexity * NEAREST) / FORTY
+    warmer = oil_temperature - FORTY_CELSIUS
+    distance = np.maximum(FORTY_CELSIUS + convexity * warmer, convexity * NEAREST) / FORTY_CELSIUS
     return viscous_torque * np.exp(-fall_per_kelvin * warmer / distance)

@@ -20,7 +20,7 @@ from mixedlub.chain.priors import LogNormal
             "share of the typical power lost through walls per kelvin",
             null=0.0,
             symbol="g",
-            of="reading_scale",
+            relative_to="reading_scale",
         ),
     ),
     equation=r"y \leftarrow (1 - c)\,y - G\,(\theta_{oil} - \theta_a),\quad G = g\,y_0",

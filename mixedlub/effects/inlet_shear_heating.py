@@ -3,9 +3,9 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 
-USUAL = 0.005
+REFERENCE_PRESSURE_RATIO = 0.005
 """Hertz pressure over reduced modulus at which the published factors nearly agree."""
 
 
@@ -19,8 +19,8 @@ USUAL = 0.005
         Parameter(
             "sliding", "-", LogNormal(1.0, 0.8), "weight of sliding, which blends the published factors", symbol="d"
         ),
-        Parameter("loading_power", "-", Between(0.5, 0.65), "exponent of the thermal loading", symbol="m"),
-        Parameter("pressure_power", "-", Between(0.0, 0.9), "exponent of the Hertz pressure", symbol="q"),
+        Parameter("loading_power", "-", Uniform(0.5, 0.65), "exponent of the thermal loading", symbol="m"),
+        Parameter("pressure_power", "-", Uniform(0.0, 0.9), "exponent of the Hertz pressure", symbol="q"),
     ),
     equation=r"h \leftarrow h\,\frac{e^{-13.2\,c\,(p_0/E')\,L^{0.42}}}{1 + 0.213\,c\,(1 + "
     r"2.23\,d\,S^{0.83})\,L^m\,(p_0/0.005E')^q},\quad L = \beta\eta_0 u^2/k_f",
@@ -31,7 +31,7 @@ USUAL = 0.005
     separated_by="a speed sweep in cold oil: the loss of film grows with viscosity times speed squared, and does "
     "not change with oil flow as starvation does",
     valid={"slide_roll_ratio": (0.0, 2.0)},
-    contains={"Gupta": {"loading_power": 0.64, "pressure_power": 0.0}},
+    special_cases={"Gupta": {"loading_power": 0.64, "pressure_power": 0.0}},
 )
 def inlet_shear_heating(
     film_thickness: np.ndarray,
@@ -66,5 +66,5 @@ def inlet_shear_heating(
     pressure = hertz_pressure / reduced_modulus
     rolling = 13.2 * strength * pressure * loading**0.42
     slid = 1.0 + 2.23 * sliding * slide_roll_ratio**0.83
-    shear = 0.213 * strength * slid * loading**loading_power * (pressure / USUAL) ** pressure_power
+    shear = 0.213 * strength * slid * loading**loading_power * (pressure / REFERENCE_PRESSURE_RATIO) ** pressure_power
     return film_thickness * (np.exp(-rolling) / (1.0 + shear))

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, BetweenLog
+from mixedlub.chain.priors import LogUniform, Uniform
 
 REFERENCE = 0.01
 
@@ -12,26 +12,26 @@ REFERENCE = 0.01
     stage="film",
     acts_on="film_thickness",
     parameters=(
-        Parameter("index", "-", Between(0.6, 0.97), "power-law index n of the oil", null=1.0, symbol="n"),
-        Parameter("critical_stress", "Pa", BetweenLog(3e3, 1e6), "stress at which thinning begins", symbol="G_{cr}"),
-        Parameter("plateau", "-", Between(0.0, 0.9), "share of the film that remains at full thinning", symbol="c"),
+        Parameter("index", "-", Uniform(0.6, 0.97), "power-law index n of the oil", null=1.0, symbol="n"),
+        Parameter("critical_stress", "Pa", LogUniform(3e3, 1e6), "stress at which thinning begins", symbol="G_{cr}"),
+        Parameter("plateau", "-", Uniform(0.0, 0.9), "share of the film that remains at full thinning", symbol="c"),
         Parameter(
             "stress_rule",
             "-",
-            Between(0.0, 1.0),
+            Uniform(0.0, 1.0),
             "onset criterion: 1 critical stress, 0 critical shear rate",
             symbol="m",
         ),
         Parameter(
             "onset",
             "-",
-            Between(1.0, 2.0),
+            Uniform(1.0, 2.0),
             "sharpness of onset: 1 as in Bair's solutions, 2 as in Carreau and Eyring fluids",
             null=1.0,
             symbol="a",
             kinds=("film", "mesh_friction"),
         ),
-        Parameter("sliding", "-", Between(0.0, 1.0), "weight of sliding in the shear rate of the inlet", symbol="b"),
+        Parameter("sliding", "-", Uniform(0.0, 1.0), "weight of sliding in the shear rate of the inlet", symbol="b"),
     ),
     equation=r"h \leftarrow h\,\left\{c + (1 - c)\left[1 + (0.79\,((1+bS)N)^{1/(1+0.2bS)})^a\right]"
     r"^{-3.6(1-n)^{1.7}/a}\right\},\quad N = \eta_0^m\,\eta_r^{1-m} u/(h G_{cr}),\ \eta_r = 0.01\,\text{Pa s}",
@@ -41,7 +41,7 @@ REFERENCE = 0.01
     separated_by="film thickness of the same base oil without polymer, or a viscometer at high shear rate: thinning "
     "follows shear stress in the inlet, heating follows viscosity times speed squared",
     valid={"slide_roll_ratio": (0.0, 2.0)},
-    after=("inlet_shear_heating", "starvation"),
+    applied_after=("inlet_shear_heating", "starvation"),
 )
 def inlet_shear_thinning(
     film_thickness: np.ndarray,

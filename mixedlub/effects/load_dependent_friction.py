@@ -17,7 +17,7 @@ from mixedlub.chain.priors import LogNormal
             "dry friction added at the largest load, relative to T_c",
             null=0.0,
             symbol="c",
-            of="coulomb_torque",
+            relative_to="coulomb_torque",
         ),
         Parameter("power", "-", LogNormal(1.0, 0.35), "exponent of load", symbol="n"),
     ),
@@ -28,7 +28,7 @@ from mixedlub.chain.priors import LogNormal
     separated_by="runs with the gears out: the friction of gears goes with them, an error of the motor's torque "
     "constant stays",
     kinds=("friction_map",),
-    contains={"Coulomb": {"power": 1.0}},
+    special_cases={"Coulomb": {"power": 1.0}},
 )
 def load_dependent_friction(
     coulomb_torque: np.ndarray, load_fraction: np.ndarray, *, growth: float, power: float

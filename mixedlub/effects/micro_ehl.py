@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 
 REFERENCE = 0.01
 
@@ -23,14 +23,14 @@ REFERENCE = 0.01
         Parameter(
             "viscous",
             "-",
-            Between(0.0, 1.0),
+            Uniform(0.0, 1.0),
             "exponent of viscosity relative to that of speed, 1 in the source",
             symbol="a",
         ),
         Parameter(
             "texture",
             "-",
-            Between(0.0, 1.0),
+            Uniform(0.0, 1.0),
             "attenuation of slopes and curvatures relative to that of heights",
             symbol="r",
         ),

@@ -3,12 +3,14 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 
 _STIFFNESS = 2e10
 _REFERENCE = 1e5
-SMALL, LEAST_POWER = 1e-2, 1e-5
-"""Slope of the load below which only its quadratic term counts; exponent of load that is treated as zero."""
+QUADRATIC_BELOW = 1e-2
+"""Slope of the load below which only its quadratic term counts."""
+LEAST_POWER = 1e-5
+"""Exponent of load that is treated as zero."""
 
 
 @effect(
@@ -21,11 +23,11 @@ SMALL, LEAST_POWER = 1e-2, 1e-5
         Parameter(
             "relief",
             "-",
-            Between(0.0, 1.0),
+            Uniform(0.0, 1.0),
             "exponent of load in the tooth deflection: 1 elastic teeth, 0 none",
             symbol="q",
         ),
-        Parameter("loss_power", "-", Between(0.05, 0.6), "exponent of load in the friction coefficient", symbol="m"),
+        Parameter("loss_power", "-", Uniform(0.05, 0.6), "exponent of load in the friction coefficient", symbol="m"),
     ),
     equation=r"w \leftarrow w\left[\frac{(1+x')^{2+m} - (1-x')^{2+m}}{2x'(2+m)}\right]^{1/m}\sqrt{\max(x, 1)},\quad "
     r"x' = \min(x, 1),\quad "
@@ -35,7 +37,7 @@ SMALL, LEAST_POWER = 1e-2, 1e-5
     "[2 F/(b f c_gamma)]^(1/2) in partial, c_gamma = 20 N/(mm um), w_r = 100 N/mm; w^(1+m) averaged over the face",
     fingerprint={"load": "-", "roughness": "-"},
     separated_by="the contact pattern, strain along the face, and a shim that reverses it; it fades with load",
-    odds=0.5,
+    prior_odds=0.5,
 )
 def misalignment(
     line_load: np.ndarray,
@@ -60,10 +62,10 @@ def misalignment(
     """
     half_gap_load = 0.5 * misalignment * _STIFFNESS / _REFERENCE
     partial = half_gap_load * (_REFERENCE * face_width / transmitted_force) ** relief
-    whole = np.clip(partial, SMALL, 1.0)
+    whole = np.clip(partial, QUADRATIC_BELOW, 1.0)
     given = max(loss_power, LEAST_POWER)
     power = 2.0 + given
     uneven = ((1.0 + whole) ** power - (1.0 - whole) ** power) / (2.0 * power * whole)
     near = (1.0 + given) * partial**2 / 6.0
-    rise = np.where(partial < SMALL, near, np.log(uneven) / given)
+    rise = np.where(partial < QUADRATIC_BELOW, near, np.log(uneven) / given)
     return line_load * np.exp(rise) * np.sqrt(np.maximum(partial, 1.0))

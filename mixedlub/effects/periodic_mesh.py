@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, BetweenLog, Normal
+from mixedlub.chain.priors import LogUniform, Normal, Uniform
 
 
 @effect(
@@ -17,7 +17,7 @@ from mixedlub.chain.priors import Between, BetweenLog, Normal
             "amplitude of the cosine of position, relative to T_c",
             null=0.0,
             symbol="a",
-            of="coulomb_torque",
+            relative_to="coulomb_torque",
         ),
         Parameter(
             "sine",
@@ -26,23 +26,23 @@ from mixedlub.chain.priors import Between, BetweenLog, Normal
             "amplitude of the sine of position, relative to T_c",
             null=0.0,
             symbol="b",
-            of="coulomb_torque",
+            relative_to="coulomb_torque",
         ),
         Parameter(
             "turning",
             "-",
-            Between(0.0, 1.0),
+            Uniform(0.0, 1.0),
             "share that changes sign with direction: 0 position-dependent torque, 1 friction",
             symbol="r",
         ),
-        Parameter("order", "-", BetweenLog(0.8, 60.0), "pulsations per revolution", scan=400, symbol="N"),
+        Parameter("order", "-", LogUniform(0.8, 60.0), "pulsations per revolution", n_scan=400, symbol="N"),
     ),
     equation=r"T_f \leftarrow T_f + T_c\,(a\cos N\phi + b\sin N\phi)\,(1 - r + r\operatorname{sgn}\omega)",
     source="mesh-stiffness and eccentricity ripple, e.g. H. N. Ozguven, D. R. Houser, J. Sound Vib. 121 (1988) 383",
     fingerprint={"drive_angle": "0"},
     separated_by="readings against position at one speed: the ripple keeps its place on the wheel at any speed",
     kinds=("friction_map",),
-    contains={"ripple of position": {"turning": 0.0}, "ripple of friction": {"turning": 1.0}},
+    special_cases={"ripple of position": {"turning": 0.0}, "ripple of friction": {"turning": 1.0}},
 )
 def periodic_mesh(
     friction_torque: np.ndarray,

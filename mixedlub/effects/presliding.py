@@ -3,9 +3,9 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 
-NEAR = 1e-6
+LIMIT_WITHIN = 1e-6
 """Distance of the exponent from one below which the limit is used."""
 
 
@@ -20,12 +20,12 @@ NEAR = 1e-6
             "speed at which the initial slope reaches sliding friction, over the largest speed recorded",
             null=0.0,
             symbol="p",
-            of="reference_speed",
+            relative_to="reference_speed",
         ),
         Parameter(
             "exponent",
             "-",
-            Between(0.0, 2.0),
+            Uniform(0.0, 2.0),
             "Dahl's exponent: 0 linear until sliding, 1 exponential, 2 long tail",
             symbol="i",
         ),
@@ -34,11 +34,11 @@ NEAR = 1e-6
     r"x = |\omega|/(p\,\omega_0);\ i = 1:\ T_r\,(1 - e^{-x})",
     source="P. R. Dahl, A solid friction model, Aerospace Corp. TOR-0158 (1968), with a travel in proportion to "
     "speed, as readings of equal duration have",
-    contains={"Dahl, exponent one": {"exponent": 1.0}},
+    special_cases={"Dahl, exponent one": {"exponent": 1.0}},
     fingerprint={"speed": "+"},
     separated_by="longer travel at the lowest speeds: friction reaches its sliding value once the contacts have given "
     "way; a film, or a loss that grows with speed, does not change with the travel",
-    after=("stribeck", "load_dependent_friction", "fluid_drag", "direction_dependence"),
+    applied_after=("stribeck", "load_dependent_friction", "fluid_drag", "direction_dependence"),
     kinds=("friction_map",),
 )
 def presliding(
@@ -60,7 +60,7 @@ def presliding(
     """
     travel = np.abs(drive_speed) / (np.maximum(speed_share, 1e-12) * reference_speed)
     tail = exponent - 1.0
-    if abs(tail) < NEAR:
+    if abs(tail) < LIMIT_WITHIN:
         return running_friction * -np.expm1(-travel)
     left = np.maximum(1.0 + tail * travel, 0.0)
     with np.errstate(divide="ignore"):

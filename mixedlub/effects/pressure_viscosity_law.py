@@ -3,11 +3,11 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import BetweenLog, LogNormal, Normal
+from mixedlub.chain.priors import LogNormal, LogUniform, Normal
 from mixedlub.laws.oil import roelands_coefficient, roelands_viscosity
 
-WARM = 313.15
-KELVIN = 100.0
+FORTY_CELSIUS = 313.15
+HUNDRED_KELVIN = 100.0
 GLASS = 1e8
 SAMPLE = ("viscosity",)
 CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
@@ -45,7 +45,7 @@ CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
         Parameter(
             "onset",
             "Pa",
-            BetweenLog(0.1e9, 0.6e9),
+            LogUniform(0.1e9, 0.6e9),
             "pressure about which the slope changes",
             null=0.15e9,
             symbol="p_s",
@@ -114,8 +114,8 @@ CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
     fingerprint={"speed": "+"},
     separated_by="a high-pressure viscometer at two temperatures: an exponential is straight in a log plot, Roelands "
     "only bends down, a liquid near its glass bends up again",
-    odds=0.5,
-    contains={
+    prior_odds=0.5,
+    special_cases={
         "Roelands": {
             "roelands": 1.0,
             "slope": 1.0,
@@ -161,7 +161,7 @@ def pressure_viscosity_law(
     >>> round(float(x), 1)
     80.1
     """
-    warmer = (oil_temperature - WARM) / KELVIN * (WARM / oil_temperature)
+    warmer = (oil_temperature - FORTY_CELSIUS) / HUNDRED_KELVIN * (FORTY_CELSIUS / oil_temperature)
     down = bend_down * np.exp(down_with_temperature * warmer) * hertz_pressure
     up = bend_up * np.exp(up_with_temperature * warmer) * hertz_pressure
     changed = slope * np.exp((slope_with_temperature + slope_bow * warmer) * warmer)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 
 _PIVOT, _MATERIAL = 3e-11, 3000.0
 """Speed and material parameters at which both laws of the source agree."""
@@ -17,7 +17,7 @@ _PIVOT, _MATERIAL = 3e-11, 3000.0
         Parameter(
             "exponent",
             "-",
-            Between(0.63, 0.77),
+            Uniform(0.63, 0.77),
             "exponent of viscosity times speed",
             symbol="k",
             published=(0.66, 0.75),
@@ -29,7 +29,7 @@ _PIVOT, _MATERIAL = 3e-11, 3000.0
     source="N. Biboulet, L. Houpert, Proc. IMechE J 224 (2010) 765, load-independent branch (k = 0.75); P. G. "
     "Goksem, R. A. Hargreaves, J. Lubr. Technol. 100 (1978) 346 have k = 0.658 with G^-0.342",
     fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "roughness": "-", "slide_roll_ratio": "-"},
-    contains={"Biboulet and Houpert": {"exponent": 0.75}, "Goksem and Hargreaves": {"exponent": 0.658}},
+    special_cases={"Biboulet and Houpert": {"exponent": 0.75}, "Goksem and Hargreaves": {"exponent": 0.658}},
     separated_by="zero load with teeth in mesh against out of mesh; churning hardly sees viscosity, rolling grows "
     "with its power 0.7",
 )

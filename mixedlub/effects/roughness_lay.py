@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal, Normal
+from mixedlub.chain.priors import LogNormal, Normal, Uniform
 
 
 @effect(
@@ -21,11 +21,11 @@ from mixedlub.chain.priors import Between, LogNormal, Normal
         Parameter(
             "onset", "-", LogNormal(0.4, 0.8), "film parameter at which the lay begins to matter", symbol=r"\lambda_r"
         ),
-        Parameter("decay", "-", Between(1.0, 2.2), "exponent of the decay in thicker films", symbol="k"),
+        Parameter("decay", "-", Uniform(1.0, 2.2), "exponent of the decay in thicker films", symbol="k"),
         Parameter(
             "saturation",
             "-",
-            Between(0.0, 1.0),
+            Uniform(0.0, 1.0),
             "film parameter below which the effect is constant",
             symbol=r"\lambda_s",
         ),
@@ -39,7 +39,7 @@ from mixedlub.chain.priors import Between, LogNormal, Normal
     separated_by="the same Rq with turned lay or an isotropic finish: it changes sign or vanishes, an error of Rq "
     "does not",
     valid={"composite_roughness": (0.0, 5e-6)},
-    after=("inlet_shear_heating", "inlet_shear_thinning", "starvation"),
+    applied_after=("inlet_shear_heating", "inlet_shear_thinning", "starvation"),
 )
 def roughness_lay(
     film_thickness: np.ndarray,

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 
 
 @effect(
@@ -14,7 +14,7 @@ from mixedlub.chain.priors import Between, LogNormal
         Parameter(
             "rate", "-", LogNormal(3.0, 1.0), "duration of the programme over the time constant of the wear", symbol="k"
         ),
-        Parameter("texture", "-", Between(0.3, 2.5), "fall of ln m2 and ln m4 relative to that of ln m0", symbol="r"),
+        Parameter("texture", "-", Uniform(0.3, 2.5), "fall of ln m2 and ln m4 relative to that of ln m0", symbol="r"),
     ),
     equation=r"m_0 \leftarrow m_0 e^{-s g},\quad m_{2,4} \leftarrow m_{2,4} e^{-s r g},\quad g = 1 - e^{-k q}",
     source="I. V. Kragelsky, M. N. Dobychin, V. S. Kombalov, Friction and Wear: Calculation Methods, 1982: exponential "

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 from mixedlub.laws.drag import seal_torque
 
 _PIVOT = 20e-6
@@ -21,7 +21,7 @@ _PIVOT = 20e-6
             null=0.0,
             symbol="c",
         ),
-        Parameter("viscous", "-", Between(0.0, 0.6), "exponent of viscosity", symbol="k"),
+        Parameter("viscous", "-", Uniform(0.0, 0.6), "exponent of viscosity", symbol="k"),
     ),
     equation=r"P_L \leftarrow P_L + "
     r"c\,T_s\,(\omega_1+\omega_2)\left(\frac{\nu}{20\,\text{mm}^2/\text{s}}\right)^{k},\quad "
@@ -31,7 +31,7 @@ _PIVOT = 20e-6
     fingerprint={"load": "-", "speed": "+", "oil_temperature": "-", "roughness": "-"},
     separated_by="the seals off, or a run of the shafts alone: torque that hardly changes with speed; a zero error "
     "of the torque meter changes sign with the sense of rotation, a seal does not",
-    contains={"ISO/TR 14179-2": {"viscous": 0.0}},
+    special_cases={"ISO/TR 14179-2": {"viscous": 0.0}},
 )
 def seal_drag(
     power_loss: np.ndarray,

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, Wide
+from mixedlub.chain.priors import SinhNormal, Uniform
 
 STEADY = 1e-9
 """Settling below which the linear limit is used."""
@@ -13,11 +13,11 @@ STEADY = 1e-9
     stage="measurement",
     acts_on="reading",
     parameters=(
-        Parameter("drift", "-", Wide(0.05), "relative error at the end of the programme", null=0.0, symbol="d"),
+        Parameter("drift", "-", SinhNormal(0.05), "relative error at the end of the programme", null=0.0, symbol="d"),
         Parameter(
             "settling",
             "-",
-            Between(0.0, 8.0),
+            Uniform(0.0, 8.0),
             "duration of the programme over the drift's time constant; 0: linear drift",
             null=0.0,
             symbol="s",
@@ -29,8 +29,8 @@ STEADY = 1e-9
     fingerprint={"sequence": "+"},
     separated_by="the first point repeated at the end, and a reference (check weight, reference oil, gauge block) read "
     "before and after: drift shows in both, a sample or surface that changes in the first only",
-    after=("fringe_order", "fringe_step", "heat_leak", "torque_constant", "torque_offset", "zero_drift"),
-    contains={"a steady drift": {"settling": 0.0}},
+    applied_after=("fringe_order", "fringe_step", "heat_leak", "torque_constant", "torque_offset", "zero_drift"),
+    special_cases={"a steady drift": {"settling": 0.0}},
 )
 def sensor_drift(reading: np.ndarray, sequence: np.ndarray, *, drift: float, settling: float) -> np.ndarray:
     """The gain of the channel drifts during the programme.

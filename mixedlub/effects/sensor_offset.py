@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Wide
+from mixedlub.chain.priors import SinhNormal
 
 
 @effect(
@@ -13,19 +13,19 @@ from mixedlub.chain.priors import Wide
         Parameter(
             "offset",
             "-",
-            Wide(0.05),
+            SinhNormal(0.05),
             "offset of every reading, relative to the typical reading",
             null=0.0,
             symbol="a",
-            of="reading_scale",
+            relative_to="reading_scale",
         ),
     ),
     equation=r"y \leftarrow y + a\,y_0",
     source="measurement: zero error of a channel",
     fingerprint={"load": "-", "roughness": "-", "slide_roll_ratio": "-"},
     separated_by="a reading with the rig at rest: the same number everywhere",
-    after=("fringe_order", "heat_leak", "sensor_drift", "sensor_gain", "torque_constant", "torque_offset"),
-    exact=True,
+    applied_after=("fringe_order", "heat_leak", "sensor_drift", "sensor_gain", "torque_constant", "torque_offset"),
+    exact_form=True,
 )
 def sensor_offset(reading: np.ndarray, reading_scale: np.ndarray, *, offset: float) -> np.ndarray:
     """The channel has a zero offset.

@@ -3,11 +3,11 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, Normal
+from mixedlub.chain.priors import Normal, Uniform
 from mixedlub.laws.contact import area_per_overlap
 from roughness.integrals import area_integral
 
-_SMALL = 1e-4
+_LIMIT_BELOW = 1e-4
 
 
 @effect(
@@ -25,7 +25,7 @@ _SMALL = 1e-4
         Parameter(
             "narrowing",
             "-",
-            Between(0.0, 0.6),
+            Uniform(0.0, 0.6),
             "degree to which the spread of the summits narrows to that of the plateau",
             symbol="n",
         ),
@@ -71,7 +71,7 @@ def _skewed_area_integral(t: np.ndarray, skewness: float) -> np.ndarray:
     """Mean of (s - t) above t for standardised lognormal heights of a given skewness."""
     from scipy.special import ndtr
 
-    if abs(skewness) < _SMALL:
+    if abs(skewness) < _LIMIT_BELOW:
         odd = t * np.exp(-0.5 * np.square(t)) / np.sqrt(2.0 * np.pi)
         return area_integral(t) + skewness / 6.0 * odd
     spread = _spread(abs(skewness))

@@ -3,11 +3,13 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import BetweenLog, LogNormal, Wide
+from mixedlub.chain.priors import LogNormal, LogUniform, SinhNormal
 
-USUAL = 1e9
-LEAST, MOST = 1e-300, 60.0
-"""Ratio to the onset that is treated as zero; logarithm of the film's loss beyond which no film remains."""
+REFERENCE_PRESSURE = 1e9
+SMALLEST_RATIO = 1e-300
+"""Ratio to the onset that is treated as zero."""
+LARGEST_LOSS = 60.0
+"""Logarithm of the film's loss beyond which no film remains."""
 
 
 @effect(
@@ -23,10 +25,10 @@ LEAST, MOST = 1e-300, 60.0
             symbol="s",
         ),
         Parameter(
-            "onset", "N/m", BetweenLog(0.01, 1.0), "viscosity times speed at the onset of starvation", symbol="c"
+            "onset", "N/m", LogUniform(0.01, 1.0), "viscosity times speed at the onset of starvation", symbol="c"
         ),
         Parameter("steepness", "-", LogNormal(2.5, 0.4), "sharpness of the onset", symbol=r"\gamma"),
-        Parameter("width_power", "-", Wide(0.5), "exponent of the contact's width in the onset", symbol="w"),
+        Parameter("width_power", "-", SinhNormal(0.5), "exponent of the contact's width in the onset", symbol="w"),
     ),
     equation=r"h \leftarrow h\,\left[1 + \left(\frac{\eta_0 u}{c\,(p_0/p_u)^w}\right)^{\gamma}\right]^{-s/\gamma},"
     r"\quad p_u = 1\,\text{GPa}",
@@ -62,6 +64,6 @@ def starvation(
     >>> round(float(starvation(1.0, 0.1, 1.0, 1e9, **law)), 12)
     0.5
     """
-    beyond = np.log(np.maximum(viscosity * entrainment_speed / onset, LEAST))
-    beyond = steepness * (beyond - width_power * np.log(hertz_pressure / USUAL))
-    return film_thickness * np.exp(-np.minimum(strength / steepness * np.logaddexp(0.0, beyond), MOST))
+    beyond = np.log(np.maximum(viscosity * entrainment_speed / onset, SMALLEST_RATIO))
+    beyond = steepness * (beyond - width_power * np.log(hertz_pressure / REFERENCE_PRESSURE))
+    return film_thickness * np.exp(-np.minimum(strength / steepness * np.logaddexp(0.0, beyond), LARGEST_LOSS))

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 
 
 @effect(
@@ -17,7 +17,7 @@ from mixedlub.chain.priors import Between, LogNormal
             "static over Coulomb friction, minus one",
             null=0.0,
             symbol="s",
-            of="coulomb_torque",
+            relative_to="coulomb_torque",
         ),
         Parameter(
             "speed_share",
@@ -25,7 +25,7 @@ from mixedlub.chain.priors import Between, LogNormal
             LogNormal(0.1, 1.0),
             "Stribeck speed over the largest speed of the recording, at mean temperature and middle load",
             symbol="q",
-            of="reference_speed",
+            relative_to="reference_speed",
         ),
         Parameter(
             "exponent",
@@ -37,14 +37,14 @@ from mixedlub.chain.priors import Between, LogNormal
         Parameter(
             "thinning",
             "1/K",
-            Between(0.0, 0.05),
+            Uniform(0.0, 0.05),
             "relative fall of viscosity per kelvin, which shifts the curve; 0: not the contact's temperature",
             symbol="b",
         ),
         Parameter(
             "load_power",
             "-",
-            Between(0.0, 1.0),
+            Uniform(0.0, 1.0),
             "exponent of load in the Stribeck speed; 1: one curve against speed over load",
             symbol="k",
         ),
@@ -57,7 +57,7 @@ from mixedlub.chain.priors import Between, LogNormal
     separated_by="points below a tenth of the largest speed, in both directions: friction falls with speed before "
     "it rises; a payload or an offset does not change sign with the direction",
     kinds=("friction_map",),
-    contains={
+    special_cases={
         "Tustin": {"exponent": 1.0, "thinning": 0.0, "load_power": 0.0},
         "Gauss": {"exponent": 2.0, "thinning": 0.0, "load_power": 0.0},
     },

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, BetweenLog, LogNormal
+from mixedlub.chain.priors import LogNormal, LogUniform, Uniform
 
 
 @effect(
@@ -21,14 +21,14 @@ from mixedlub.chain.priors import Between, BetweenLog, LogNormal
         Parameter(
             "inverse_height",
             "1/m",
-            Between(0.0, 1e6),
+            Uniform(0.0, 1e6),
             "reciprocal of the height that 37 % of the defects exceed",
             symbol=r"\kappa",
         ),
         Parameter(
             "evenness",
             "-",
-            BetweenLog(1.0, 5.0),
+            LogUniform(1.0, 5.0),
             "shape of the height distribution: 1 exponential, 3.6 nearly normal with 30 % scatter",
             symbol="m",
         ),
@@ -40,9 +40,9 @@ from mixedlub.chain.priors import Between, BetweenLog, LogNormal
     fingerprint={"load": "-", "roughness": "-", "slide_roll_ratio": "-"},
     separated_by="thick films: contact that fades far slower than the finish's above a film ratio of 3; outliers on "
     "the normal probability plot of the profile; a signal once a revolution",
-    after=("asperity_plasticity", "skewed_heights"),
-    odds=0.3,
-    contains={
+    applied_after=("asperity_plasticity", "skewed_heights"),
+    prior_odds=0.3,
+    special_cases={
         "defects above any film": {"inverse_height": 0.0, "evenness": 1.0},
         "Greenwood and Williamson with exponential heights": {"evenness": 1.0},
     },

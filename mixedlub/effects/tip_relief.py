@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 
 _STIFFNESS = 1.4e10
 _TYPICAL = 2e5
@@ -22,12 +22,12 @@ _TYPICAL = 2e5
             symbol="C_a",
         ),
         Parameter(
-            "length", "-", Between(0.05, 0.35), "length of the relief relative to the path of contact", symbol=r"\ell"
+            "length", "-", Uniform(0.05, 0.35), "length of the relief relative to the path of contact", symbol=r"\ell"
         ),
         Parameter(
             "fade",
             "-",
-            Between(0.0, 1.0),
+            Uniform(0.0, 1.0),
             "exponent of load with which tooth deflection reduces it, 1 for equal springs",
             symbol="f",
         ),
@@ -42,7 +42,7 @@ _TYPICAL = 2e5
     fingerprint={"load": "+", "speed": "-", "roughness": "+"},
     separated_by="the load share itself, from strain gauges or transmission error, or elastic teeth in the model where "
     "they were taken as rigid; the effect fades with torque, that of a heat leak does not",
-    odds=0.5,
+    prior_odds=0.5,
 )
 def tip_relief(
     load_share: np.ndarray,

@@ -18,7 +18,7 @@ from mixedlub.chain.priors import LogNormal, Normal
             "further relative excess at the largest torque, by saturation",
             null=0.0,
             symbol="f",
-            of="reference_torque",
+            relative_to="reference_torque",
         ),
     ),
     equation=r"y \leftarrow y + T_m\,(a + f\,|T_m|/T_{m0})",

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Wide
+from mixedlub.chain.priors import SinhNormal
 
 
 @effect(
@@ -13,11 +13,11 @@ from mixedlub.chain.priors import Wide
         Parameter(
             "offset",
             "-",
-            Wide(5e-4),
+            SinhNormal(5e-4),
             "reading at zero torque, relative to the largest torque recorded",
             null=0.0,
             symbol="a",
-            of="largest_torque",
+            relative_to="largest_torque",
         ),
     ),
     equation=r"y \leftarrow y + a\,T_m\,\omega_1",
@@ -26,8 +26,8 @@ from mixedlub.chain.priors import Wide
     fingerprint={"load": "-", "speed": "+", "roughness": "-"},
     separated_by="zero load in both senses of rotation, or drive and brake swapped: its sign changes",
     kinds=("gear_pair",),
-    after=("heat_leak",),
-    exact=True,
+    applied_after=("heat_leak",),
+    exact_form=True,
 )
 def torque_offset(
     reading: np.ndarray, pinion_speed: np.ndarray, largest_torque: np.ndarray, *, offset: float

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import LogNormal, Wide
+from mixedlub.chain.priors import LogNormal, SinhNormal
 
 SOFTNESS = 0.2
 
@@ -12,7 +12,9 @@ SOFTNESS = 0.2
     stage="boundary",
     acts_on="boundary_friction",
     parameters=(
-        Parameter("change", "-", Wide(0.45), "relative change of friction under a complete film", null=0.0, symbol="c"),
+        Parameter(
+            "change", "-", SinhNormal(0.45), "relative change of friction under a complete film", null=0.0, symbol="c"
+        ),
         Parameter(
             "time_constant",
             "-",
@@ -41,7 +43,7 @@ SOFTNESS = 0.2
     "567, films of zinc dithiophosphate; exponent of M. Avrami, J. Chem. Phys. 7 (1939) 1103; "
     "steady while most is bare: N. N. Gosvami et al., Science 348 (2015) 102",
     fingerprint={"sequence": "+"},
-    contains={
+    special_cases={
         "first order": {"exponent": 1.0},
         "steady growth": {"time_constant": 5.0, "induction": 1e-6, "exponent": 1.0},
     },

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import EitherSign, LogNormal, Wide
+from mixedlub.chain.priors import LogNormal, SignedLogNormal, SinhNormal
 
 
 @effect(
@@ -13,12 +13,12 @@ from mixedlub.chain.priors import EitherSign, LogNormal, Wide
         Parameter(
             "passing",
             "-",
-            EitherSign(0.13, 0.7),
+            SignedLogNormal(0.13, 0.7),
             "relative change at the peak of the transient state",
             null=0.0,
             symbol="a",
         ),
-        Parameter("lasting", "-", Wide(0.45), "final relative change of the slow state", null=0.0, symbol="b"),
+        Parameter("lasting", "-", SinhNormal(0.45), "final relative change of the slow state", null=0.0, symbol="b"),
         Parameter(
             "passing_time",
             "-",
@@ -47,7 +47,7 @@ from mixedlub.chain.priors import EitherSign, LogNormal, Wide
     fingerprint={"sequence": "+"},
     separated_by="contact resistance and a wear scar measured at times: a film takes minutes, wear goes on",
     kinds=("friction_history",),
-    odds=0.5,
+    prior_odds=0.5,
 )
 def two_time_scales(
     boundary_friction: np.ndarray,

@@ -3,12 +3,14 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, Normal, Wide
+from mixedlub.chain.priors import Normal, SinhNormal, Uniform
 
-WARM = 313.15
-KELVIN = 100.0
-SMALL, MOST = 1e-9, 30.0
-"""Saturation treated as zero; largest logarithmic change of a viscosity, or of a rate, that is computed."""
+FORTY_CELSIUS = 313.15
+HUNDRED_KELVIN = 100.0
+LINEAR_BELOW = 1e-9
+"""Saturation that is treated as zero."""
+LARGEST_LOG = 30.0
+"""Largest logarithmic change of a viscosity, or of a rate, that is computed."""
 
 
 @effect(
@@ -31,12 +33,12 @@ SMALL, MOST = 1e-9, 30.0
             symbol="s",
         ),
         Parameter(
-            "cold_gain", "-", Wide(0.7), "increase of the logarithm of the drift per 100 K of cooling", symbol="k"
+            "cold_gain", "-", SinhNormal(0.7), "increase of the logarithm of the drift per 100 K of cooling", symbol="k"
         ),
         Parameter(
             "heat",
             "-",
-            Between(0.0, 1.0),
+            Uniform(0.0, 1.0),
             "weight of temperature: 0 the drift follows time, 1 time and temperature",
             symbol="a",
         ),
@@ -49,7 +51,7 @@ SMALL, MOST = 1e-9, 30.0
     fingerprint={"sequence": "-"},
     separated_by="the first point repeated at the end, and a fresh sample under a solvent trap: what the trap stops is "
     "evaporation, what a fresh sample repeats is chemistry or the edge of the gap",
-    contains={"a steady relative rate": {"saturation": 0.0, "cold_gain": 0.0, "heat": 0.0}},
+    special_cases={"a steady relative rate": {"saturation": 0.0, "cold_gain": 0.0, "heat": 0.0}},
 )
 def viscosity_drift(
     viscosity: np.ndarray,
@@ -78,12 +80,16 @@ def viscosity_drift(
     """
     done = np.maximum((1.0 - heat) * sequence + heat * ageing, 0.0)
     grown = drift * _course(done, saturation)
-    return viscosity * np.exp(np.clip(grown * np.exp(cold_gain * (WARM - oil_temperature) / KELVIN), -MOST, MOST))
+    return viscosity * np.exp(
+        np.clip(
+            grown * np.exp(cold_gain * (FORTY_CELSIUS - oil_temperature) / HUNDRED_KELVIN), -LARGEST_LOG, LARGEST_LOG
+        )
+    )
 
 
 def _course(done: np.ndarray, saturation: float) -> np.ndarray:
     """Progress from 0 to 1 with the elapsed share, continued beyond 1, at a rate that falls or rises exponentially."""
-    if abs(saturation) < SMALL:
+    if abs(saturation) < LINEAR_BELOW:
         return done
-    rate = float(np.clip(saturation, -MOST, MOST))
+    rate = float(np.clip(saturation, -LARGEST_LOG, LARGEST_LOG))
     return np.expm1(-rate * done) / np.expm1(-rate)

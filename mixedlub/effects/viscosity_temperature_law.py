@@ -3,12 +3,14 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 
-FORTY = 313.15
+FORTY_CELSIUS = 313.15
 """Reference temperature (K) of the convexity: 40 degC, where oils are graded."""
-NEAREST, MOST = 5.0, 30.0
-"""Smallest distance (K) above the divergence, and largest logarithmic change, that are computed."""
+NEAREST = 5.0
+"""Smallest distance (K) above the divergence that is computed."""
+LARGEST_LOG = 30.0
+"""Largest logarithmic change that is computed."""
 
 
 @effect(
@@ -26,7 +28,7 @@ NEAREST, MOST = 5.0, 30.0
         Parameter(
             "convexity",
             "-",
-            Between(0.0, 3.4),
+            Uniform(0.0, 3.4),
             "313.15 K over the distance of 40 degC from the divergence temperature of Vogel's law",
             symbol="m",
         ),
@@ -46,9 +48,9 @@ NEAREST, MOST = 5.0, 30.0
     "m = 1; O. Reynolds, Phil. Trans. R. Soc. 177 (1886) 157, with m = 0",
     fingerprint={"oil_temperature": "+"},
     separated_by="a third point of viscosity, between the two given ones or beyond them",
-    odds=0.5,
-    over="oil_temperature",
-    contains={
+    prior_odds=0.5,
+    needs_variation_in="oil_temperature",
+    special_cases={
         "Vogel": {"share": 1.0, "fall": 1.0},
         "Andrade": {"share": 1.0, "convexity": 1.0, "fall": 1.0},
         "Reynolds": {"share": 1.0, "convexity": 0.0, "fall": 1.0},
@@ -82,6 +84,6 @@ def viscosity_temperature_law(
     [0.1, 0.03808, 0.01]
     """
     place = (oil_temperature - first_known_temperature) / (second_known_temperature - first_known_temperature)
-    far = np.maximum(FORTY + convexity * (oil_temperature - FORTY), convexity * NEAREST)
-    vogel = known_fall * place * (FORTY + convexity * (second_known_temperature - FORTY)) / far
-    return viscosity * np.exp(np.clip(share * (fall_from_first - fall * vogel), -MOST, MOST))
+    far = np.maximum(FORTY_CELSIUS + convexity * (oil_temperature - FORTY_CELSIUS), convexity * NEAREST)
+    vogel = known_fall * place * (FORTY_CELSIUS + convexity * (second_known_temperature - FORTY_CELSIUS)) / far
+    return viscosity * np.exp(np.clip(share * (fall_from_first - fall * vogel), -LARGEST_LOG, LARGEST_LOG))

@@ -28,8 +28,8 @@ TERMS = 12
     fingerprint={"sequence": "-"},
     separated_by="images of the track at the highs and lows; a second run shows whether the swings repeat",
     kinds=("friction_history",),
-    odds=0.3,
-    free_form=True,
+    prior_odds=0.3,
+    descriptive=True,
 )
 def wandering_surface_state(
     boundary_friction: np.ndarray,

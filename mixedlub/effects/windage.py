@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Between, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 from mixedlub.laws.drag import windage_diab
 
 _PIVOT = 15.0
@@ -16,7 +16,7 @@ _PIVOT = 15.0
         Parameter(
             "strength", "-", LogNormal(1.5, 1.2), "factor for housing walls and oil in the air", null=0.0, symbol="c"
         ),
-        Parameter("exponent", "-", Between(2.5, 3.0), "exponent of speed", symbol="k", published=(2.75, 2.9)),
+        Parameter("exponent", "-", Uniform(2.5, 3.0), "exponent of speed", symbol="k", published=(2.75, 2.9)),
     ),
     equation=r"P_L \leftarrow P_L + \chi c\left(\frac{r_1\omega_1}{15\,\text{m/s}}\right)^{k-2.75}\,"
     r"\sum_{i=1,2} \tfrac12 C_i\rho_a\omega_i^3 r_i^5,\quad "

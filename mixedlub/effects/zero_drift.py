@@ -17,7 +17,7 @@ from mixedlub.chain.priors import Normal
             "change of the zero over the programme, relative to the typical reading",
             null=0.0,
             symbol="d",
-            of="reading_scale",
+            relative_to="reading_scale",
         ),
     ),
     equation=r"y \leftarrow y + d\,y_0\,q",

@@ -12,13 +12,13 @@ from mixedlub.importers.base import nested
 from mixedlub.rig.build import SHIPPED_MARK
 from profiles.errors import InputError, nearest
 
-OWN = ("system.toml", "recordings.csv", "conditions.csv", NAME)
+RESERVED_NAMES = ("system.toml", "recordings.csv", "conditions.csv", NAME)
 SHARE_COLUMNS = {"torque_Nm", "roll_angle_deg", "load_share"}
 SHARE = "gears.load_sharing"
 
 
 @dataclass(frozen=True)
-class Named:
+class NamedFile:
     """A file that an answer names: path of keys, name as given, folder in the case for a file from elsewhere."""
 
     keys: tuple[str, ...]
@@ -53,50 +53,50 @@ def with_share(answers: Mapping[str, Any], tables: Sequence[Path]) -> dict[str, 
     return {**answers, f"{SHARE}.table": str(tables[0].resolve())}
 
 
-def carried(answers: Mapping[str, Any], folders: Sequence[Path]) -> tuple[dict[str, Any], dict[str, bytes]]:
+def with_attachments(answers: Mapping[str, Any], folders: Sequence[Path]) -> tuple[dict[str, Any], dict[str, bytes]]:
     """The answers as tables, with file names relative to the case, and the files by those names.
 
     A file is searched in each folder in turn; a file outside the case is copied into it.
     """
     system = nested(answers)
     files: dict[str, bytes] = {}
-    for named in _named(system):
-        source = _found(named, folders)
+    for named in _named_files(system):
+        source = _located(named, folders)
         path = PurePath(named.name)
         inside = not path.is_absolute() and ".." not in path.parts
-        place = path.as_posix() if inside else (PurePath(named.home) / path.name).as_posix()
+        name_in_case = path.as_posix() if inside else (PurePath(named.home) / path.name).as_posix()
         try:
             content = source.read_bytes()
         except OSError as error:
             raise InputError(f"cannot be read ({error.strerror})", where=str(source)) from None
-        if place in OWN or files.get(place, content) != content:
+        if name_in_case in RESERVED_NAMES or files.get(name_in_case, content) != content:
             rule = "is a name that the case needs for another file; rename it"
             raise InputError(rule, where=".".join(named.keys), value=named.name)
-        files[place] = content
+        files[name_in_case] = content
         table = system
         for key in named.keys[:-1]:
             table = table[key]
-        table[named.keys[-1]] = place
+        table[named.keys[-1]] = name_in_case
     return system, files
 
 
-def _named(system: Mapping[str, Any]) -> Iterator[Named]:
+def _named_files(system: Mapping[str, Any]) -> Iterator[NamedFile]:
     gears = system.get("gears", {})
     share = gears.get("load_sharing", {}) if isinstance(gears, Mapping) else {}
     if isinstance(share, Mapping) and isinstance(share.get("table"), str):
-        yield Named(("gears", "load_sharing", "table"), share["table"], "")
+        yield NamedFile(("gears", "load_sharing", "table"), share["table"], "")
     surfaces = system.get("surfaces", {})
     for name, surface in surfaces.items() if isinstance(surfaces, Mapping) else ():
         trace = surface.get("profile") if isinstance(surface, Mapping) else None
         if isinstance(trace, str) and not trace.startswith(SHIPPED_MARK):
-            yield Named(("surfaces", name, "profile"), trace, "profiles")
+            yield NamedFile(("surfaces", name, "profile"), trace, "profiles")
 
 
-def _found(named: Named, folders: Sequence[Path]) -> Path:
+def _located(named: NamedFile, folders: Sequence[Path]) -> Path:
     for folder in folders:
         if (folder / named.name).is_file():
             return folder / named.name
-    near = sorted({p.name for f in folders for p in (f / named.name).parent.glob("*") if p.is_file()})
-    hint = f"; {nearest(PurePath(named.name).name, near)}" if near else ""
+    beside = sorted({p.name for f in folders for p in (f / named.name).parent.glob("*") if p.is_file()})
+    hint = f"; {nearest(PurePath(named.name).name, beside)}" if beside else ""
     looked = " or ".join(dict.fromkeys(str(folder) for folder in folders))
     raise InputError(f"no such file in {looked}{hint}", where=".".join(named.keys), value=named.name)

@@ -34,7 +34,7 @@ PART = re.compile(r'"[^"]*"|[^.]+')
 class Question:
     """A fact that the files lack: its key, the wording of the question, an example in TOML.
 
-    ``among`` are the possible answers, ``of`` the words that introduce them. ``blank`` replaces an example that is
+    ``options`` are the possible answers, ``options_intro`` introduces them. ``placeholder`` replaces an example that is
     unlikely to be right in lines to copy. An ``offered`` example is likely enough for an empty reply to take it.
     """
 
@@ -42,15 +42,15 @@ class Question:
     text: str
     example: str
     needed: bool = True
-    among: tuple[str, ...] = ()
-    of: str = "one of"
-    blank: str = ""
+    options: tuple[str, ...] = ()
+    options_intro: str = "one of"
+    placeholder: str = ""
     offered: bool = False
 
     @property
     def choices(self) -> str:
         """The possible answers, in words."""
-        return f"{self.of} {', '.join(self.among)}" if self.among else ""
+        return f"{self.options_intro} {', '.join(self.options)}" if self.options else ""
 
 
 class Unanswered(InputError):
@@ -66,15 +66,15 @@ class Unanswered(InputError):
 def listed(questions: Sequence[Question]) -> Iterator[str]:
     """A line for each question, with the setting that answers it; equal choices are listed once.
 
-    >>> print(*listed([Question("kind", "Kind of recording", '"film"', among=("film", "disc"))]), sep="\\n")
+    >>> print(*listed([Question("kind", "Kind of recording", '"film"', options=("film", "disc"))]), sep="\\n")
       --set 'kind="film"'  (Kind of recording: one of film, disc)
     """
     listed_choices: set[str] = set()
     for q in questions:
         words = q.text if not q.choices or q.choices in listed_choices else f"{q.text}: {q.choices}"
         listed_choices.add(q.choices)
-        words += f", for example {q.example}" if q.blank and not q.choices else ""
-        yield f"  --set {shlex.quote(f'{q.key}={q.blank or q.example}')}  ({words})"
+        words += f", for example {q.example}" if q.placeholder and not q.choices else ""
+        yield f"  --set {shlex.quote(f'{q.key}={q.placeholder or q.example}')}  ({words})"
 
 
 @dataclass(frozen=True)
@@ -99,13 +99,13 @@ def _question(section: str, key: str, needed: bool) -> Question:
 
 
 CONTACT = (
-    replace(_question("contact", "radius_mm", True), blank="[RADIUS, RADIUS]"),
-    replace(_question("contact", "youngs_modulus_GPa", True), blank="[MODULUS, MODULUS]"),
-    replace(_question("contact", "poisson_ratio", True), blank="[RATIO, RATIO]"),
+    replace(_question("contact", "radius_mm", True), placeholder="[RADIUS, RADIUS]"),
+    replace(_question("contact", "youngs_modulus_GPa", True), placeholder="[MODULUS, MODULUS]"),
+    replace(_question("contact", "poisson_ratio", True), placeholder="[RATIO, RATIO]"),
 )
 FORMS = tuple(table(System, "contact")["geometry"].values)
-FORM = replace(_question("contact", "geometry", True), among=FORMS, blank=f'"{" OR ".join(FORMS).upper()}"')
-WIDTH = replace(_question("contact", "width_mm", True), blank="WIDTH")
+FORM = replace(_question("contact", "geometry", True), options=FORMS, placeholder=f'"{" OR ".join(FORMS).upper()}"')
+WIDTH = replace(_question("contact", "width_mm", True), placeholder="WIDTH")
 OIL = tuple(
     _question("lubricant", key, False)
     for key in ("name", "temperature_C", "kinematic_viscosity_mm2_s", "pressure_viscosity_per_GPa")
@@ -154,7 +154,7 @@ def refuse_unknown(answers: Answers, known: Sequence[str]) -> None:
             raise InputError(f"key is not known for this file; {nearest(key, keys)}", where=key)
 
 
-def answered_kind(answers: Answers, made: Collection[str]) -> str | None:
+def answered_kind(answers: Answers, possible: Collection[str]) -> str | None:
     """The kind that the answers name; an error where the file's reader makes no such case.
 
     >>> answered_kind({"kind": "disc"}, ["viscosity"])
@@ -163,11 +163,11 @@ def answered_kind(answers: Answers, made: Collection[str]) -> str | None:
     profiles.errors.InputError: kind: 'disc': is no kind that files of this rig make; they make viscosity
     """
     kind = answers.get("kind")
-    if kind is None or kind in made:
+    if kind is None or kind in possible:
         return kind
-    known = kind in KINDS
-    rule = f"is no kind that files of this rig make; they make {', '.join(made)}"
-    raise InputError(rule if known else f"no such kind; {nearest(str(kind), KINDS)}", where="kind", value=kind)
+    exists = kind in KINDS
+    rule = f"is no kind that files of this rig make; they make {', '.join(possible)}"
+    raise InputError(rule if exists else f"no such kind; {nearest(str(kind), KINDS)}", where="kind", value=kind)
 
 
 def nested(answers: Answers) -> dict[str, Any]:
@@ -183,10 +183,10 @@ def nested(answers: Answers) -> dict[str, Any]:
         *above, last = (part.strip('"') for part in PART.findall(key))
         if above[:1] == ["import"]:
             continue
-        place = tree
+        branch = tree
         for part in above:
-            place = place.setdefault(part, {})
-        place[last] = value
+            branch = branch.setdefault(part, {})
+        branch[last] = value
     return tree
 
 
@@ -196,12 +196,12 @@ def flat(tree: Mapping[str, Any], above: str = "") -> dict[str, Any]:
     >>> flat({"contact": {"radius_mm": [9.5, 20.0]}, "kind": "film"})
     {'contact.radius_mm': [9.5, 20.0], 'kind': 'film'}
     """
-    found: dict[str, Any] = {}
+    dotted: dict[str, Any] = {}
     for key, value in tree.items():
         part = f'"{key}"' if above and "." in key else key
         name = f"{above}.{part}" if above else part
-        found.update(flat(value, name) if isinstance(value, Mapping) and value else {name: value})
-    return found
+        dotted.update(flat(value, name) if isinstance(value, Mapping) and value else {name: value})
+    return dotted
 
 
 BARE = re.compile(r"[-+.\deinf]+(\s*,\s*[-+.\deinf]+)+")
@@ -228,10 +228,10 @@ def refuse_wrong(key: str, value: Any) -> None:
     if key == EVERY.key and (not isinstance(value, int) or isinstance(value, bool) or value < 1):
         raise InputError("must be a whole number of at least 1", where=key, value=value)
     section, _, last = key.rpartition(".")
-    found = next((t for t in tables(system_file.System) if section and t.name == section), None)
-    if found is None or last not in found.model.model_fields:
+    described = next((t for t in tables(system_file.System) if section and t.name == section), None)
+    if described is None or last not in described.model.model_fields:
         return
     try:
-        toml_file.parse(found.model, {**examples(found.model), last: value}, section)
+        toml_file.parse(described.model, {**examples(described.model), last: value}, section)
     except InputError as error:
         raise InputError(error.rule, where=key, value=value) from None

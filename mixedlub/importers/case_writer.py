@@ -24,13 +24,13 @@ def write_case(
     *,
     overwrite: bool = True,
     comments: Comments | None = None,
-    carried: Mapping[str, bytes] | None = None,
+    attachments: Mapping[str, bytes] | None = None,
     check: Callable[[Path], None] | None = None,
 ) -> Path:
     """Write the files of a case folder, all or none; other files in it are kept, a folder that is no case is refused.
 
     ``columns`` are those of the recording; a missing ``run`` is numbered from 1. ``comments`` are lines below the
-    tables of system.toml, ``carried`` further files by their path in the case. ``check`` is called with the folder
+    tables of system.toml, ``attachments`` further files by their path in the case. ``check`` is called with the folder
     before its files appear. Without ``overwrite`` an existing file with other content is an error.
     """
     if not out.is_dir() and out.exists():
@@ -40,9 +40,11 @@ def write_case(
     files = {
         "system.toml": to_toml({"schema": "mixedlub-case/1", **system}, comments=comments).encode(),
         "recordings.csv": _recordings(out, columns).encode(),
-        **(carried or {}),
+        **(attachments or {}),
     }
-    differing = [name for name, content in files.items() if (out / name).exists() and _held(out / name) != content]
+    differing = [
+        name for name, content in files.items() if (out / name).exists() and _content_of(out / name) != content
+    ]
     if differing and not overwrite:
         raise InputError(
             "exists and differs from what would be written, so it is kept; name another --out, or "
@@ -51,7 +53,7 @@ def write_case(
         )
     if not differing and all((out / name).exists() for name in files):
         return out
-    made = [path for path in (out, *out.parents) if not path.exists()]
+    created = [path for path in (out, *out.parents) if not path.exists()]
     try:
         out.mkdir(parents=True, exist_ok=True)
         with writing(out) as aside:
@@ -61,7 +63,7 @@ def write_case(
     except OSError as error:
         raise InputError(f"cannot be written to ({error.strerror})", where=str(out)) from None
     finally:
-        _drop_empty(made)
+        _drop_empty(created)
     return out
 
 
@@ -75,9 +77,9 @@ def _fill(aside: Path, out: Path, files: Mapping[str, bytes]) -> None:
         (aside / name).write_bytes(content)
 
 
-def _drop_empty(made: Sequence[Path]) -> None:
-    """Remove folders that were made for a case that was not written."""
-    for folder in made:
+def _drop_empty(created: Sequence[Path]) -> None:
+    """Remove folders that were created for a case that was not written."""
+    for folder in created:
         if folder.is_dir() and not any(folder.iterdir()):
             folder.rmdir()
 
@@ -86,7 +88,7 @@ def _unfinished(path: Path) -> bool:
     return path.name.startswith(".writing-")
 
 
-def _held(path: Path) -> bytes | None:
+def _content_of(path: Path) -> bytes | None:
     return path.read_bytes() if path.is_file() else None
 
 

@@ -51,7 +51,7 @@ def with_points(rows: Sequence[Line], name: str, given: str | None = None) -> tu
     """
     width = common_length([row for _, row in rows])
     table = [line for line in rows if len(line[1]) == width]
-    others = [line for line in rows if len(line[1]) != width]
+    outside_rows = [line for line in rows if len(line[1]) != width]
     columns = [list(cells) for cells in zip(*(row for _, row in table), strict=True)]
     forms = [forms_of(cells) for cells in columns]
     numeric = [i for i, column in enumerate(forms) if _holds_numbers(column)]
@@ -59,10 +59,10 @@ def with_points(rows: Sequence[Line], name: str, given: str | None = None) -> tu
     def inner() -> Iterator[Place]:
         return ((number, row[i]) for number, row in table for i in numeric)
 
-    seen = set().union(*(forms[i] for i in numeric))
-    decimal = given or _decided(seen, inner, others, name)
+    written = set().union(*(forms[i] for i in numeric))
+    decimal = given or _decided(written, inner, outside_rows, name)
     thousands = OTHER[decimal]
-    if any(_is_other(form, thousands) for form in seen):
+    if any(_is_other(form, thousands) for form in written):
         number, cell = next(place for place in inner() if _is_other(place[1], thousands))
         rule = f"is no number with {decimal!r} as decimal mark; {DECIMAL} names another"
         raise InputError(rule, where=f"{name}: line {number}", value=cell)
@@ -73,8 +73,8 @@ def with_points(rows: Sequence[Line], name: str, given: str | None = None) -> tu
         elif marked:
             columns[i] = [_read(cell, decimal) for cell in columns[i]]
     inside = zip((number for number, _ in table), map(list, zip(*columns, strict=True)), strict=True)
-    outside = ((number, [_read(cell, decimal) for cell in row]) for number, row in others)
-    notes = [] if given else _thousands_taken(seen, inner, decimal)
+    outside = ((number, [_read(cell, decimal) for cell in row]) for number, row in outside_rows)
+    notes = [] if given else _thousands_taken(written, inner, decimal)
     return sorted([*inside, *outside], key=lambda line: line[0]), notes
 
 
@@ -85,7 +85,7 @@ def forms_of(cells: Sequence[str]) -> list[str]:
 
 def common_length(rows: Sequence[Sequence[str]]) -> int:
     """The most common number of cells; of several equally common ones the first."""
-    return max(Counter(map(len, rows)).items(), key=lambda found: found[1], default=(0, 0))[0]
+    return max(Counter(map(len, rows)).items(), key=lambda item: item[1], default=(0, 0))[0]
 
 
 def _holds_numbers(forms: Sequence[str]) -> bool:
@@ -105,18 +105,18 @@ def _is_other(cell: str, mark: str) -> bool:
     return WITH_ONE[mark].fullmatch(cell) is not None and not GROUPED[mark].fullmatch(cell)
 
 
-def _decided(seen: Set[str], inner: Callable[[], Iterator[Place]], outer: Sequence[Line], name: str) -> str:
+def _decided(written: Set[str], inner: Callable[[], Iterator[Place]], outside: Sequence[Line], name: str) -> str:
     """The decimal mark that the numbers of the table prove, else those around it; an error where it is ambiguous."""
-    around = [(number, cell) for number, row in outer for cell in row]
-    for forms, places in ((seen, inner), ({cell for _, cell in around}, lambda: iter(around))):
-        found = {proves(form) for form in forms} - {None}
-        if len(found) == 2:
+    around = [(number, cell) for number, row in outside for cell in row]
+    for forms, places in ((written, inner), ({cell for _, cell in around}, lambda: iter(around))):
+        proven = {proves(form) for form in forms} - {None}
+        if len(proven) == 2:
             (one, first), (other, second) = (next(p for p in places() if proves(p[1]) == mark) for mark in MARKS)
             rule = f"has a decimal comma, line {other} has a decimal point ({second!r}); write all numbers in one way"
             raise InputError(rule, where=f"{name}: line {one}", value=first)
-        if found:
-            return str(found.pop())
-    if any(GROUPED[","].fullmatch(form) for form in seen):
+        if proven:
+            return str(proven.pop())
+    if any(GROUPED[","].fullmatch(form) for form in written):
         number, cell = next(place for place in inner() if GROUPED[","].fullmatch(place[1]))
         whole, parted = cell.replace(",", ""), cell.replace(",", ".")
         rule = (
@@ -127,12 +127,12 @@ def _decided(seen: Set[str], inner: Callable[[], Iterator[Place]], outer: Sequen
     return "."
 
 
-def _thousands_taken(seen: Set[str], inner: Callable[[], Iterator[Place]], decimal: str) -> list[str]:
+def _thousands_taken(written: Set[str], inner: Callable[[], Iterator[Place]], decimal: str) -> list[str]:
     """A note on numbers whose mark is read as a thousands separator only because of other numbers."""
-    open_form = GROUPED[OTHER[decimal]]
-    if not any(open_form.fullmatch(form) and proves(form) is None for form in seen):
+    ambiguous = GROUPED[OTHER[decimal]]
+    if not any(ambiguous.fullmatch(form) and proves(form) is None for form in written):
         return []
-    number, cell = next(p for p in inner() if open_form.fullmatch(p[1]) and proves(p[1]) is None)
+    number, cell = next(p for p in inner() if ambiguous.fullmatch(p[1]) and proves(p[1]) is None)
     other, proof = next(((n, c) for n, c in inner() if proves(c) == decimal), (0, ""))
     why = f"in line {other}: {proof!r}" if proof else "in the lines around the table"
     return [

@@ -18,8 +18,8 @@ from profiles.readers.numbers import decoded
 from profiles.readers.workbook import Worksheet, is_workbook, longest, worksheets
 
 GZIP = b"\x1f\x8b"
-MARKS = (b"\xff\xfe", b"\xfe\xff")
-SAMPLE = 4096
+BYTE_ORDER_MARKS = (b"\xff\xfe", b"\xfe\xff")
+SAMPLE_LENGTH = 4096
 """Characters from the start of a text that show whether it is one."""
 
 
@@ -54,7 +54,7 @@ def open_file(path: Path, answers: Answers) -> InputFile:
     if is_workbook(data):
         return _from_workbook(worksheets(data, path.name), path.name, answers)
     text = with_hyphens(decoded(_with_mark(data), path.name))
-    if "\0" in text[:SAMPLE]:
+    if "\0" in text[:SAMPLE_LENGTH]:
         raise InputError("is not a text file or workbook; export it as text first", where=path.name)
     return InputFile(path.name, text)
 
@@ -62,12 +62,12 @@ def open_file(path: Path, answers: Answers) -> InputFile:
 def _unpacked(data: bytes, name: str) -> bytes:
     try:
         with gzip.GzipFile(fileobj=io.BytesIO(data)) as file:
-            found = file.read(MAX_BYTES + 1)
+            content = file.read(MAX_BYTES + 1)
     except (OSError, EOFError, zlib.error) as error:
         raise InputError(f"damaged gzip file ({error})", where=name) from None
-    if len(found) > MAX_BYTES:
+    if len(content) > MAX_BYTES:
         raise InputError(f"unpacks to more than {MAX_BYTES} bytes, the largest file that is read", where=name)
-    return found
+    return content
 
 
 def _with_mark(data: bytes) -> bytes:
@@ -76,13 +76,13 @@ def _with_mark(data: bytes) -> bytes:
     >>> _with_mark("load_N".encode("utf-16-le"))[:2], _with_mark("load_N".encode("utf-16-be"))[:2], _with_mark(b"load")
     (b'\\xff\\xfe', b'\\xfe\\xff', b'load')
     """
-    if data[:2] in MARKS:
+    if data[:2] in BYTE_ORDER_MARKS:
         return data
-    even, odd = data[:SAMPLE:2], data[1:SAMPLE:2]
+    even, odd = data[:SAMPLE_LENGTH:2], data[1:SAMPLE_LENGTH:2]
     if 10 * odd.count(0) > 9 * len(odd) > 0 and not even.count(0):
-        return MARKS[0] + data
+        return BYTE_ORDER_MARKS[0] + data
     if 10 * even.count(0) > 9 * len(even) > 0 and not odd.count(0):
-        return MARKS[1] + data
+        return BYTE_ORDER_MARKS[1] + data
     return data
 
 

@@ -18,7 +18,7 @@ from mixedlub.schema.table import Column
 from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import fits, is_unit, split, words_of
 
-ENOUGH = 0.4
+LEAST_LIKENESS = 0.4
 """Likeness from which a header is offered: half of its words, or a fitting unit, or names in the cells. Judgement,
 as are the weights below: tests of likely headers hold them in place."""
 UNIT_FITS = 0.45
@@ -66,11 +66,11 @@ def likely_headers(columns: Iterable[str], cells: Cells) -> dict[str, str]:
     """The most similar header for each column, each header once; columns without one are left out."""
     pairs = sorted(
         ((likeness(column, header, cells[header]), column, header) for column in columns for header in cells),
-        key=lambda found: -found[0],
+        key=lambda pair: -pair[0],
     )
     taken: dict[str, str] = {}
     for score, column, header in pairs:
-        if score >= ENOUGH and column not in taken and header not in taken.values():
+        if score >= LEAST_LIKENESS and column not in taken and header not in taken.values():
             taken[column] = header
     return taken
 
@@ -82,17 +82,17 @@ def likely_kind(cells: Cells) -> str:
 
 def _share(name: str, cells: Cells) -> tuple[bool, float, int]:
     """Score of a kind: whether the reading is there; reading plus share of needed columns; number of those found."""
-    found = kind_of(name)
-    needed = [c.name for c in found.columns if c.required]
+    rules = kind_of(name)
+    needed = [c.name for c in rules.columns if c.required]
     group = either(name)
-    near = likely_headers([*needed, *group, *found.quantities], cells)
-    near_by = {column: likeness(column, header, cells[header]) for column, header in near.items()}
-    reading = max(likeness_of_reading(quantity, cells, near.get(quantity)) for quantity in found.quantities)
-    conditions = {c: near_by.get(c, 0.0) for c in needed}
+    similar = likely_headers([*needed, *group, *rules.quantities], cells)
+    likeness_of = {column: likeness(column, header, cells[header]) for column, header in similar.items()}
+    reading = max(likeness_of_reading(quantity, cells, similar.get(quantity)) for quantity in rules.quantities)
+    conditions = {c: likeness_of.get(c, 0.0) for c in needed}
     if group:
-        conditions[group[0]] = max(near_by.get(c, 0.0) for c in group)
-    share = sum(near or -ABSENT for near in conditions.values()) / (len(conditions) + 1)
-    return reading > 0.0, reading + share, sum(near > 0.0 for near in conditions.values())
+        conditions[group[0]] = max(likeness_of.get(c, 0.0) for c in group)
+    share = sum(score or -ABSENT for score in conditions.values()) / (len(conditions) + 1)
+    return reading > 0.0, reading + share, sum(score > 0.0 for score in conditions.values())
 
 
 def likeness_of_reading(quantity: str, cells: Cells, header: str | None) -> float:
@@ -101,7 +101,7 @@ def likeness_of_reading(quantity: str, cells: Cells, header: str | None) -> floa
     A unit that no other column has decides: only a gear loss is in watts.
     """
     if header is None:
-        return ENOUGH if transmitted(quantity, cells) else 0.0
+        return LEAST_LIKENESS if transmitted(quantity, cells) else 0.0
     near, unit = likeness(quantity, header, cells[header]), split(header)[1]
     sole = unit is not None and [t.name for t in BY_NAME.values() if fits(unit, t.unit)] == [quantity]
     return max(near, SOLE_UNIT) if sole else near
@@ -134,21 +134,25 @@ def spread_of(header: str) -> str | None:
     ('film', 'torque', '', None)
     """
     words = words_of(header)
-    found = BEFORE.match(words) or AFTER.search(words)
-    return None if found is None else (words[: found.start()] + words[found.end() :]).strip()
+    match = BEFORE.match(words) or AFTER.search(words)
+    return None if match is None else (words[: match.start()] + words[match.end() :]).strip()
 
 
 def likely_spread(quantity: str, header: str, cells: Cells) -> str | None:
     """The header of the standard deviation of the reading: its words are among those of the reading's header."""
-    have = {*words_of(header).split(), *split(quantity)[0].split()}
-    found = {}
+    reading_words = {*words_of(header).split(), *split(quantity)[0].split()}
+    n_words = {}
     for other, values in cells.items():
-        of, unit = spread_of(other), split(other)[1]
-        if of is None or not is_numeric(values) or (unit is not None and not fits(unit, BY_NAME[quantity].unit)):
+        spread_words, unit = spread_of(other), split(other)[1]
+        if (
+            spread_words is None
+            or not is_numeric(values)
+            or (unit is not None and not fits(unit, BY_NAME[quantity].unit))
+        ):
             continue
-        if set(of.split()) <= have:
-            found[other] = len(of.split())
-    return max(found, key=lambda other: found[other], default=None)
+        if set(spread_words.split()) <= reading_words:
+            n_words[other] = len(spread_words.split())
+    return max(n_words, key=lambda other: n_words[other], default=None)
 
 
 def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
@@ -158,8 +162,8 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
     True
     """
     exact, unit = target_of(header), split(header)[1]
-    own = exact is not None and exact.name == column and (unit is None or fits(unit, exact.unit))
-    if header == column or own:
+    is_exact = exact is not None and exact.name == column and (unit is None or fits(unit, exact.unit))
+    if header == column or is_exact:
         return 2.0
     if column == TIME and counted(header) is not None and is_numeric(cells):
         return COUNTED_LIKENESS
@@ -182,16 +186,16 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
     target = BY_NAME.get(column)
     if target is None:
         return _overlap(words, column.replace("_", " "))
-    known = unit is not None and fits(unit, target.unit)
-    if unit is not None and not known:
+    unit_fits = unit is not None and fits(unit, target.unit)
+    if unit is not None and not unit_fits:
         return 0.0
-    share = max(_overlap(words, spoken) for spoken in (split(column)[0], *target.spoken, *target.offered))
+    overlap = max(_overlap(words, spoken) for spoken in (split(column)[0], *target.spoken, *target.offered))
     # A share in percent may be of anything, and most masses are no load.
-    telling_unit = known and (
-        share > 0.0 or not (target.unit in ("ratio", "percent") or (unit or "").lower() in WEIGHED)
+    unit_counts = unit_fits and (
+        overlap > 0.0 or not (target.unit in ("ratio", "percent") or (unit or "").lower() in WEIGHED)
     )
-    bare = unit is None and target.unit == "ratio" and share > 0.0
-    return share + (UNIT_FITS if telling_unit else 0.0) + (NO_UNIT_FITS if bare else 0.0)
+    is_bare_ratio = unit is None and target.unit == "ratio" and overlap > 0.0
+    return overlap + (UNIT_FITS if unit_counts else 0.0) + (NO_UNIT_FITS if is_bare_ratio else 0.0)
 
 
 def transmitted(column: str, cells: Cells) -> list[str]:
@@ -218,20 +222,20 @@ def _is_derived(column: str, words: str) -> bool:
     target = BY_NAME.get(column)
     if target is None:
         return False
-    own = {word for spoken in (*target.spoken, *target.offered) for word in spoken.split()}
+    own_words = {word for spoken in (*target.spoken, *target.offered) for word in spoken.split()}
     parts = words.split()
     if AS_IT_IS & set(parts):
         return False
     # A constant load is a load; a time constant is no time.
-    return any(DERIVED.fullmatch(word) for word in parts if word not in own) or parts[-1:] == ["constant"]
+    return any(DERIVED.fullmatch(word) for word in parts if word not in own_words) or parts[-1:] == ["constant"]
 
 
 def _overlap(words: str, spoken: str) -> float:
     """Share of the spoken words found in a header, less a little for every additional word."""
-    have, want = words.split(), spoken.split()
-    near = [max((difflib.SequenceMatcher(None, w, h).ratio() for h in have), default=0.0) for w in want]
-    share = sum(n for n in near if n >= SAME_WORD) / len(want)
-    return share - 0.02 * max(len(have) - len(want), 0) * (share > 0)
+    in_header, in_name = words.split(), spoken.split()
+    likeness_of = [max((difflib.SequenceMatcher(None, w, h).ratio() for h in in_header), default=0.0) for w in in_name]
+    share = sum(n for n in likeness_of if n >= SAME_WORD) / len(in_name)
+    return share - 0.02 * max(len(in_header) - len(in_name), 0) * (share > 0)
 
 
 SLIP = "slide_roll_ratio"
@@ -251,14 +255,14 @@ def spare_headers(columns: Iterable[Column], cells: Cells) -> dict[str, str]:
     >>> spare_headers([Column("slide_roll_ratio")], {"Pump speed (%)": ["90", "100"]})
     {}
     """
-    names = [column.name for column in columns if column.form == "number" and not column.blank]
+    names = [column.name for column in columns if column.dtype == "number" and not column.optional_cells]
     cells = {h: values for h, values in cells.items() if not any(word in h.lower() for word in NO_CONDITION)}
-    found = likely_headers(names, cells)
-    shares = [h for h in cells if split(h)[1] == "%" and SLIDES.search(words_of(h)) and h not in found.values()]
-    slip = next((h for h in shares if is_numeric(cells[h])), None)
-    if SLIP in names and SLIP not in found and slip is not None:
-        found[SLIP] = slip
-    return found
+    headers = likely_headers(names, cells)
+    percentages = [h for h in cells if split(h)[1] == "%" and SLIDES.search(words_of(h)) and h not in headers.values()]
+    slip = next((h for h in percentages if is_numeric(cells[h])), None)
+    if SLIP in names and SLIP not in headers and slip is not None:
+        headers[SLIP] = slip
+    return headers
 
 
 def spare_questions(spare: Mapping[str, str], key: str) -> list[Question]:

@@ -21,7 +21,7 @@ from mixedlub.importers.likeness import (
     spare_questions,
     transmitted,
 )
-from mixedlub.importers.surface_speeds import MADE, other_surface
+from mixedlub.importers.surface_speeds import FROM_BOTH_SPEEDS, other_surface
 from mixedlub.importers.text_table import Cells, is_numeric
 from mixedlub.importers.time_base import (
     PACE_KEYS,
@@ -57,14 +57,14 @@ def without_value(columns: Sequence[Column], answers: Answers) -> tuple[Column, 
 
 def constants(kind: Kind, answers: Answers, rows: int) -> dict[str, np.ndarray]:
     """The columns of a kind that have one value by an answer, each checked by the rules of its column."""
-    found = {}
+    columns = {}
     for column in kind.columns:
         key = VALUES + column.name
         if key in answers:
             if f"import.columns.{column.name}" in answers:
                 raise InputError("has a header too; give one of the two", where=key, value=answers[key])
-            found[column.name] = np.full(rows, column.parse(str(answers[key]), key))
-    return found
+            columns[column.name] = np.full(rows, column.parse(str(answers[key]), key))
+    return columns
 
 
 def _or_one_value(column: str) -> str:
@@ -103,8 +103,8 @@ class Match:
 
 
 @dataclass
-class _Finding:
-    """Headers, questions and notes found so far."""
+class _Matched:
+    """Headers, questions and notes so far."""
 
     headers: dict[str, str] = field(default_factory=dict)
     questions: list[Question] = field(default_factory=list)
@@ -116,7 +116,7 @@ def wanted(kind: Kind, quantity: str, answers: Answers) -> tuple[Column, ...]:
     check = answers.get("recording.check")
     return (
         *kind.columns,
-        *kind.channels,
+        *kind.instrument_channels,
         Column(quantity),
         sd_column(quantity),
         *BOOKKEEPING,
@@ -127,8 +127,8 @@ def wanted(kind: Kind, quantity: str, answers: Answers) -> tuple[Column, ...]:
 def target_for(column: str) -> Target | None:
     """Unit and words of a column; the standard deviation of a reading has the unit of the reading."""
     reading = column.removesuffix("_sd")
-    found = BY_NAME.get(reading)
-    return found if found is None or reading == column else replace(found, name=column, spoken=())
+    target = BY_NAME.get(reading)
+    return target if target is None or reading == column else replace(target, name=column, spoken=())
 
 
 def import_keys(columns: Sequence[Column]) -> tuple[str, ...]:
@@ -145,38 +145,38 @@ def match(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> Match:
     """Headers and units of the columns of a case; a needed column with no header or several becomes a question."""
     columns = without_value(wanted(kind, quantity, answers), answers)
     named = {c.name: _named_header(c.name, cells, answers) for c in columns if COLUMNS + c.name in answers}
-    found = _Finding(headers=dict(named))
+    matched = _Matched(headers=dict(named))
     reserved = set(named.values())
     free = {h: values for h, values in cells.items() if h not in reserved}
-    held = {h: values for h, values in free.items() if not all(map(is_missing, values))}
+    filled = {h: values for h, values in free.items() if not all(map(is_missing, values))}
     for column in columns:
         if column.name not in named:
-            _find(column, free if column.required else held, found)
-        if column.name == TIME and column.required and column.name not in found.headers:
-            _find_count(held, found)
-    _one_of(either(kind.name), set(named), found)
-    _absent_check(answers.get("recording.check"), cells, found.headers)
-    open_keys = {q.key for q in found.questions}
+            _find_header(column, free if column.required else filled, matched)
+        if column.name == TIME and column.required and column.name not in matched.headers:
+            _find_count(filled, matched)
+    _one_of(either(kind.name), set(named), matched)
+    _absent_check(answers.get("recording.check"), cells, matched.headers)
+    open_keys = {q.key for q in matched.questions}
     missing = [
-        c.name for c in columns if c.required and c.name not in found.headers and COLUMNS + c.name not in open_keys
+        c.name for c in columns if c.required and c.name not in matched.headers and COLUMNS + c.name not in open_keys
     ]
     group = either(kind.name)
-    if group and not any(c in found.headers or COLUMNS + c in open_keys or VALUES + c in answers for c in group):
-        missing.append(next(iter(likely_headers(group, _offered(cells, found.headers))), group[0]))
+    if group and not any(c in matched.headers or COLUMNS + c in open_keys or VALUES + c in answers for c in group):
+        missing.append(next(iter(likely_headers(group, _offered(cells, matched.headers))), group[0]))
     needed = {*named, *(c.name for c in columns if c.required)}
-    kept = {c: h for c, h in found.headers.items() if c in needed}
-    near = _near(missing, cells, found.headers, kept)
-    found.headers = {c: h for c, h in found.headers.items() if c in kept or h not in near.values()}
-    found.questions.extend(_missing(missing, near, cells, found.headers, answers))
-    spare = {c: h for c, h in _spare(kind, quantity, held, found).items() if VALUES + c not in answers}
-    found.questions.extend(spare_questions(spare, COLUMNS))
-    open_ones = {q.key.removeprefix(COLUMNS) for q in found.questions}
-    _refuse_idle_units({*found.headers, *open_ones}, answers)
-    units, questions, notes = _units(found.headers, answers)
-    ordered = {c.name: found.headers[c.name] for c in columns if c.name in found.headers}
-    questions += pace_questions(found.headers, units, answers)
+    certain = {c: h for c, h in matched.headers.items() if c in needed}
+    similar = _near(missing, cells, matched.headers, certain)
+    matched.headers = {c: h for c, h in matched.headers.items() if c in certain or h not in similar.values()}
+    matched.questions.extend(_missing(missing, similar, cells, matched.headers, answers))
+    spare = {c: h for c, h in _spare(kind, quantity, filled, matched).items() if VALUES + c not in answers}
+    matched.questions.extend(spare_questions(spare, COLUMNS))
+    asked = {q.key.removeprefix(COLUMNS) for q in matched.questions}
+    _refuse_idle_units({*matched.headers, *asked}, answers)
+    units, questions, notes = _units(matched.headers, answers)
+    ordered = {c.name: matched.headers[c.name] for c in columns if c.name in matched.headers}
+    questions += pace_questions(matched.headers, units, answers)
     warned = tuple(spare_notes(spare, COLUMNS))
-    return Match(ordered, units, (*found.questions, *questions), (*found.notes, *notes), warned)
+    return Match(ordered, units, (*matched.questions, *questions), (*matched.notes, *notes), warned)
 
 
 def _named_header(column: str, cells: Cells, answers: Answers) -> str:
@@ -192,14 +192,14 @@ def _named_header(column: str, cells: Cells, answers: Answers) -> str:
     return header
 
 
-def _find(column: Column, cells: Cells, found: _Finding) -> None:
+def _find_header(column: Column, cells: Cells, matched: _Matched) -> None:
     """The header of a column, by name or by the words of instruments; an optional column takes the first of several."""
-    own = [h for h in cells if _is_named(h, column.name)]
-    if own:
-        found.headers[column.name] = own[0]
+    exact = [h for h in cells if _is_named(h, column.name)]
+    if exact:
+        matched.headers[column.name] = exact[0]
         return
     spoken = [h for h in cells if _speaks_of(h, column.name)]
-    if column.form != "name":
+    if column.dtype != "name":
         order = {words: place for place, words in enumerate(BY_NAME[column.name].spoken)} if spoken else {}
         # A time of day, or a column of remarks, may have the words of a number.
         numeric = [h for h in spoken if is_numeric(cells[h])]
@@ -210,25 +210,27 @@ def _find(column: Column, cells: Cells, found: _Finding) -> None:
     if differing and column.required:
         text = f"Header of the column that holds {column.name}, as more than one could"
         among = (spoken[0], *differing)
-        found.questions.append(Question(COLUMNS + column.name, text, toml_value(spoken[0]), among=among))
+        matched.questions.append(Question(COLUMNS + column.name, text, toml_value(spoken[0]), options=among))
         return
-    found.headers[column.name] = spoken[0]
+    matched.headers[column.name] = spoken[0]
     if differing:
         others = ", ".join(map(repr, differing))
-        found.notes.append(f"{spoken[0]!r} taken as {column.name}, not {others}; {COLUMNS}{column.name} names another")
+        matched.notes.append(
+            f"{spoken[0]!r} taken as {column.name}, not {others}; {COLUMNS}{column.name} names another"
+        )
 
 
-def _find_count(cells: Cells, found: _Finding) -> None:
+def _find_count(cells: Cells, matched: _Matched) -> None:
     """The header that counts cycles or a distance; a question where another may hold the time itself."""
     header = header_of_count(cells)
-    if header is None or COLUMNS + TIME in {question.key for question in found.questions}:
+    if header is None or COLUMNS + TIME in {question.key for question in matched.questions}:
         return
-    times = headers_in_time({h: v for h, v in cells.items() if h not in found.headers.values()})
+    times = headers_in_time({h: v for h, v in cells.items() if h not in matched.headers.values()})
     if times:
         text = f"Header of the column that holds {TIME}, or counts cycles or a distance instead"
-        found.questions.append(Question(COLUMNS + TIME, text, toml_value(times[0]), among=(*times, header)))
+        matched.questions.append(Question(COLUMNS + TIME, text, toml_value(times[0]), options=(*times, header)))
     else:
-        found.headers[TIME] = header
+        matched.headers[TIME] = header
 
 
 def _speaks_of(header: str, column: str) -> bool:
@@ -250,18 +252,18 @@ def _is_named(header: str, column: str) -> bool:
     return header == column or (target_for(column) is None and has_header(header, column))
 
 
-def _one_of(group: tuple[str, ...], named: set[str], found: _Finding) -> None:
+def _one_of(group: tuple[str, ...], named: set[str], matched: _Matched) -> None:
     """Of columns that exclude each other the one that an answer names, else a question."""
-    present = [c for c in group if c in found.headers]
+    present = [c for c in group if c in matched.headers]
     chosen = [c for c in present if c in named]
     if len(present) < 2 or len(chosen) > 1:
         return
     for column in present:
         if column not in chosen:
-            header = found.headers.pop(column)
+            header = matched.headers.pop(column)
             if not chosen and column == present[0]:
                 text = f"Which to take: a case has one of {' and '.join(present)}; name its header by {COLUMNS}COLUMN"
-                found.questions.append(Question(COLUMNS + column, text, toml_value(header)))
+                matched.questions.append(Question(COLUMNS + column, text, toml_value(header)))
 
 
 def _absent_check(check: Any, cells: Cells, headers: Mapping[str, str]) -> None:
@@ -269,15 +271,17 @@ def _absent_check(check: Any, cells: Cells, headers: Mapping[str, str]) -> None:
         raise InputError(f"no such header; {nearest(str(check), cells)}", where="recording.check", value=check)
 
 
-def _near(missing: Sequence[str], cells: Cells, headers: Mapping[str, str], kept: Mapping[str, str]) -> dict[str, str]:
+def _near(
+    missing: Sequence[str], cells: Cells, headers: Mapping[str, str], certain: Mapping[str, str]
+) -> dict[str, str]:
     """Headers similar to needed columns: unused ones, else one that was taken for an optional column."""
-    near = likely_headers(missing, _offered(cells, headers))
-    lent = {h: values for h, values in _offered(cells, kept).items() if h not in near.values()}
-    return {**likely_headers([c for c in missing if c not in near], lent), **near}
+    similar = likely_headers(missing, _offered(cells, headers))
+    lent = {h: values for h, values in _offered(cells, certain).items() if h not in similar.values()}
+    return {**likely_headers([c for c in missing if c not in similar], lent), **similar}
 
 
 def _missing(
-    missing: Sequence[str], near: Mapping[str, str], cells: Cells, headers: Mapping[str, str], answers: Answers
+    missing: Sequence[str], similar: Mapping[str, str], cells: Cells, headers: Mapping[str, str], answers: Answers
 ) -> list[Question]:
     free = _offered(cells, headers)
     logarithms = [h for h in free if is_logarithm(h)]
@@ -286,7 +290,7 @@ def _missing(
     )
     questions = []
     for column in missing:
-        header = near.get(column)
+        header = similar.get(column)
         rivals = _equally_likely(column, header, free)
         text = f"Header of the column that holds {column}{rivals}{_two_speeds(column, cells)}{refused}"
         text += "; one that counts cycles or a distance will do" if column == TIME else ""
@@ -296,12 +300,12 @@ def _missing(
             text += "difference, add a column of that to the file"
         text += _or_one_value(column) if column in TEXT_COLUMNS else ""
         example = toml_value(header or "HEADER")
-        question = Question(COLUMNS + column, text, example, among=tuple(cells), of="the file has")
+        question = Question(COLUMNS + column, text, example, options=tuple(cells), options_intro="the file has")
         questions.append(replace(question, offered=header is not None and not rivals))
         target = target_for(column)
         if header is None or target is None or header == column or UNIT_KEYS + column in answers:
             continue
-        unit = _own_unit(column, header)
+        unit = _header_unit(column, header)
         if unit is None or open_units(unit, target.unit):
             questions.append(_unit_question(column, header, target))
     return questions
@@ -315,21 +319,23 @@ def _offered(cells: Cells, headers: Mapping[str, str]) -> Cells:
 
 def _two_speeds(column: str, cells: Cells) -> str:
     """The reason why the speeds of two surfaces are not offered."""
-    single = [h for h in cells if other_surface(h, cells) is not None] if column in MADE else []
-    made = MADE.get(column, "").removesuffix(" with that of").removesuffix(" to that of")
+    single = [h for h in cells if other_surface(h, cells) is not None] if column in FROM_BOTH_SPEEDS else []
+    made = FROM_BOTH_SPEEDS.get(column, "").removesuffix(" with that of").removesuffix(" to that of")
     return f"; {', '.join(single)}: speeds of single surfaces, {made}, add a column of it" if single else ""
 
 
-def _spare(kind: Kind, quantity: str, cells: Cells, found: _Finding) -> dict[str, str]:
+def _spare(kind: Kind, quantity: str, cells: Cells, matched: _Matched) -> dict[str, str]:
     """Headers similar to optional columns that were not found."""
-    open_keys = {q.key.removeprefix(COLUMNS) for q in found.questions}
-    own = (*kind.columns, *kind.channels)
-    absent = [c for c in own if not c.required and c.name not in {*found.headers, *open_keys, *either(kind.name)}]
-    offered = {question.example for question in found.questions}
-    free = {h: v for h, v in _offered(cells, found.headers).items() if toml_value(h) not in offered}
+    open_keys = {q.key.removeprefix(COLUMNS) for q in matched.questions}
+    possible = (*kind.columns, *kind.instrument_channels)
+    absent = [
+        c for c in possible if not c.required and c.name not in {*matched.headers, *open_keys, *either(kind.name)}
+    ]
+    offered = {question.example for question in matched.questions}
+    free = {h: v for h, v in _offered(cells, matched.headers).items() if toml_value(h) not in offered}
     near = spare_headers(absent, free)
-    reading, sd = found.headers.get(quantity), f"{quantity}_sd"
-    spread = None if reading is None or sd in found.headers else likely_spread(quantity, reading, free)
+    reading, sd = matched.headers.get(quantity), f"{quantity}_sd"
+    spread = None if reading is None or sd in matched.headers else likely_spread(quantity, reading, free)
     return near if spread is None else {**near, sd: spread}
 
 
@@ -366,15 +372,15 @@ def _units(headers: Mapping[str, str], answers: Answers) -> tuple[dict[str, str]
         if target is None or column in TEXT_COLUMNS:
             continue
         named = _is_named(header, column)
-        own = None if named else _own_unit(column, header)
+        header_unit = None if named else _header_unit(column, header)
         native = named or column in COUNTS
         unit = answers.get(UNIT_KEYS + column)
         if unit is not None:
             units[column] = str(unit)
-            if (native and change_to(str(unit), target.unit) != (1.0, 0.0)) or own not in (None, str(unit)):
+            if (native and change_to(str(unit), target.unit) != (1.0, 0.0)) or header_unit not in (None, str(unit)):
                 notes.append(f"{header!r} is taken to be in {unit}, as answered, whatever its header names")
-        elif own is not None and not open_units(own, target.unit):
-            units[column] = own
+        elif header_unit is not None and not open_units(header_unit, target.unit):
+            units[column] = header_unit
         elif not native:
             questions.append(_unit_question(column, header, target))
         weight = WEIGHED.get(tidy(units.get(column, "")).lower())
@@ -383,20 +389,22 @@ def _units(headers: Mapping[str, str], answers: Answers) -> tuple[dict[str, str]
     return units, questions, notes
 
 
-def _own_unit(column: str, header: str) -> str | None:
+def _header_unit(column: str, header: str) -> str | None:
     return unit_of_count(header) if column == TIME else split(header)[1]
 
 
 def _unit_question(column: str, header: str, target: Target) -> Question:
     """An example unit is given where the last word of the header is no unit; it may be an unknown one."""
     text = f"Unit of the column {header!r}, taken as {column}"
-    meant = open_units(split(header)[1] or "", target.unit)
-    if meant:
-        return Question(UNIT_KEYS + column, f"{text}, whose header is ambiguous", toml_value("UNIT"), among=meant)
-    known = units_of(target.unit)
+    candidates = open_units(split(header)[1] or "", target.unit)
+    if candidates:
+        return Question(
+            UNIT_KEYS + column, f"{text}, whose header is ambiguous", toml_value("UNIT"), options=candidates
+        )
+    units = units_of(target.unit)
     if column == TIME:
         first = counted(header)
-        known = tuple(u for f in sorted((target.unit, *PACES), key=lambda f: f != first) for u in units_of(f))
+        units = tuple(u for f in sorted((target.unit, *PACES), key=lambda f: f != first) for u in units_of(f))
     words = words_of(header).split()
     spoken = {
         w for form in (*BY_NAME[column.removesuffix("_sd")].spoken, column.replace("_", " ")) for w in form.split()
@@ -407,4 +415,4 @@ def _unit_question(column: str, header: str, target: Target) -> Question:
         or words[-1] in (*spoken, *OF_READINGS)
         or bool(re.fullmatch(r"[#\d]+", words[-1]))
     )
-    return Question(UNIT_KEYS + column, text, toml_value(known[0] if sure else "UNIT"), among=known)
+    return Question(UNIT_KEYS + column, text, toml_value(units[0] if sure else "UNIT"), options=units)

@@ -60,25 +60,25 @@ def gaps(system: system_file.System, columns: Mapping[str, np.ndarray]) -> tuple
     rules = kind_of(system.kind)
     reads = _reads(system, columns)
     head = _keys("")
-    open_ones = [k for k, key in head.items() if not key.required and k not in system.model_fields_set]
+    not_given = [k for k, key in head.items() if not key.required and k not in system.model_fields_set]
     broad = broadly_fitted(system, columns)
-    defaults = {k: BROAD if k in broad else default_of(head[k]) for k in open_ones if k in ("description", *reads)}
-    found = [Gap("", False, False, (), defaults, head)]
-    wanted = [s for s in ("gears", "contact", "lubricant") if s in rules.sections]
-    if "viscosity" in reads and "lubricant" not in wanted:
-        wanted.append("lubricant")
-    for section in wanted:
-        found.append(_gap(section, section, getattr(system, section), section in rules.sections))
+    defaults = {k: BROAD if k in broad else default_of(head[k]) for k in not_given if k in ("description", *reads)}
+    every = [Gap("", False, False, (), defaults, head)]
+    sections = [s for s in ("gears", "contact", "lubricant") if s in rules.sections]
+    if "viscosity" in reads and "lubricant" not in sections:
+        sections.append("lubricant")
+    for section in sections:
+        every.append(_gap(section, section, getattr(system, section), section in rules.sections))
     for name in undescribed(system, columns):
-        found.append(_gap("surfaces", f"surfaces.{toml_key(name)}", None, True))
+        every.append(_gap("surfaces", f"surfaces.{toml_key(name)}", None, True))
     stated = system.uncertainty.model_fields_set
     movable = {c.name for c in _movable(system) if set(c.needs) <= reads} - stated
-    movables = _keys("uncertainty")
-    uncertain = {k: BROAD if k in broad else "known exactly" for k in movables if k in movable}
-    found.append(Gap("uncertainty", not stated, False, (), uncertain, movables))
-    own_noise = {"noise"} if f"{system.recording.quantity}_sd" in columns else set()
-    found.append(_gap("recording", "recording", system.recording, False, own_noise))
-    return tuple(gap for gap in found if gap.needed or gap.assumed)
+    uncertainty_keys = _keys("uncertainty")
+    uncertain = {k: BROAD if k in broad else "known exactly" for k in uncertainty_keys if k in movable}
+    every.append(Gap("uncertainty", not stated, False, (), uncertain, uncertainty_keys))
+    noise_given = {"noise"} if f"{system.recording.quantity}_sd" in columns else set()
+    every.append(_gap("recording", "recording", system.recording, False, noise_given))
+    return tuple(gap for gap in every if gap.needed or gap.assumed)
 
 
 def _reads(system: system_file.System, columns: Mapping[str, np.ndarray]) -> set[str]:
@@ -97,15 +97,15 @@ def undescribed(system: system_file.System, columns: Mapping[str, np.ndarray]) -
     """Surfaces that the rows name and the system does not describe, where the kind computes with them."""
     if "surfaces" not in kind_of(system.kind).sections:
         return []
-    named = [c.name for c in kind_of(system.kind).columns if c.form == "name" and "surface" in c.name]
+    named = [c.name for c in kind_of(system.kind).columns if c.dtype == "name" and "surface" in c.name]
     names = {str(value) for name in named if name in columns for value in np.unique(columns[name])}
     return sorted(names - set(system.surfaces))
 
 
 def _keys(section: str) -> dict[str, Key]:
     """The keys of a table of system.toml; at the top those that are no tables."""
-    found = table(system_file.System, section)
-    return {key.name: key for key in (found.fields if section else found.keys)}
+    described = table(system_file.System, section)
+    return {key.name: key for key in (described.fields if section else described.keys)}
 
 
 def _gap(section: str, name: str, given: Section | None, required: bool, known: Set[str] = frozenset()) -> Gap:
@@ -117,17 +117,17 @@ def _gap(section: str, name: str, given: Section | None, required: bool, known: 
     return Gap(name, given is None, required and given is None, lacking, assumed, keys)
 
 
-def gap_lines(found: tuple[Gap, ...], file: str, system: system_file.System) -> Iterator[str]:
+def gap_lines(open_gaps: tuple[Gap, ...], file: str, system: system_file.System) -> Iterator[str]:
     """The gaps in words, one a line, those that prevent a computation first."""
     taken = {"lubricant": oil_taken(system.lubricant)}
     if system.gears is not None:
         taken["gears"] = gears_taken(system.gears)
-    blocking = [gap for gap in found if gap.required]
+    blocking = [gap for gap in open_gaps if gap.required]
     if blocking:
         yield f"needed before the case can be used ({file} has each as a comment with an example):"
         yield from (f"  {gap.blocking}" for gap in blocking)
     assumed = [
-        gap.open(taken.get(gap.table, {})) for gap in found if gap.assumed and not gap.table.startswith("surfaces.")
+        gap.open(taken.get(gap.table, {})) for gap in open_gaps if gap.assumed and not gap.table.startswith("surfaces.")
     ]
     if assumed:
         yield "not given, with the default or typical value that is taken:"

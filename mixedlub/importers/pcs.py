@@ -23,11 +23,11 @@ from profiles.errors import InputError, nearest
 
 STEP = re.compile(r'^Step (\d+)(?: "[^"]*")? started at (\d\d/\d\d/\d{4} \d\d:\d\d(?::\d\d)?)')
 TYPE = re.compile(r"^Step type\t([^\t]*)(?:\tStep description\t([^\t]*))?")
-MOSTLY = 0.5
+RECORDED_SHARE = 0.5
 """Share of filled cells from which a column counts as recorded: judgement."""
 TIMED = "TIMED"
 """Suffix of the step types in which conditions are held constant."""
-VARIES = 0.2
+SWEPT_RANGE = 0.2
 """Range of the middle 80 % over the largest value, above which a condition is swept."""
 
 
@@ -36,7 +36,7 @@ class Step:
     """One step with readings: type, start, columns by header (nan where a value is missing), lines."""
 
     number: int
-    form: str
+    step_type: str
     start: datetime
     columns: dict[str, np.ndarray]
     lines: tuple[int, ...]
@@ -67,11 +67,11 @@ class Step:
     def varies(self, target: str) -> bool:
         """Whether a condition is swept."""
         header = self.header(target)
-        if header is None or self.form.endswith(TIMED):
+        if header is None or self.step_type.endswith(TIMED):
             return False
         values = self.columns[header]
         low, high = np.nanquantile(values, (0.1, 0.9))
-        return bool(high - low > VARIES * np.nanmax(np.abs(values)))
+        return bool(high - low > SWEPT_RANGE * np.nanmax(np.abs(values)))
 
     def since(self, first: datetime, name: str) -> np.ndarray:
         """Seconds of the readings since the start of the first step."""
@@ -81,47 +81,47 @@ class Step:
 
 def steps_of(text: str, name: str) -> tuple[Step, ...]:
     """The steps that hold readings."""
-    found: list[Step] = []
-    number, start, form = 0, None, ""
+    steps: list[Step] = []
+    number, start, step_type = 0, None, ""
     lines = iter(enumerate(text.splitlines(), start=1))
-    for place, line in lines:
+    for header_line, line in lines:
         if begun := STEP.match(line):
             number, start = int(begun.group(1)), _moment(begun.group(2))
         elif typed := TYPE.match(line):
-            form = typed.group(1).strip().upper()
+            step_type = typed.group(1).strip().upper()
         elif start is not None and _is_header(line):
             rows = {}
-            for at, row in lines:
+            for row_line, row in lines:
                 if not row.strip():
                     break
-                rows[at] = row.split("\t")
+                rows[row_line] = row.split("\t")
             if rows:
-                columns = _columns(line, list(rows.values()), f"{name}: line {place}")
-                found.append(Step(number, form, start, columns, tuple(rows)))
-    return tuple(found)
+                columns = _columns(line, list(rows.values()), f"{name}: line {header_line}")
+                steps.append(Step(number, step_type, start, columns, tuple(rows)))
+    return tuple(steps)
 
 
 def without_gaps(steps: tuple[Step, ...], targets: Sequence[str], name: str) -> tuple[tuple[Step, ...], list[str]]:
     """The steps without readings that lack one of the columns, and a note for every column with gaps."""
     gaps: dict[str, list[int]] = {}
-    found = []
+    complete = []
     for step in steps:
-        kept = np.ones(len(step.lines), dtype=bool)
+        has_all = np.ones(len(step.lines), dtype=bool)
         for header in filter(None, map(step.header, targets)):
-            there = np.isfinite(step.columns[header])
-            kept &= there
-            gaps.setdefault(header, []).extend(np.array(step.lines)[~there].tolist())
-        columns = {h: values[kept] for h, values in step.columns.items()}
-        found.append(replace(step, columns=columns, lines=tuple(np.array(step.lines)[kept].tolist())))
+            has_value = np.isfinite(step.columns[header])
+            has_all &= has_value
+            gaps.setdefault(header, []).extend(np.array(step.lines)[~has_value].tolist())
+        columns = {h: values[has_all] for h, values in step.columns.items()}
+        complete.append(replace(step, columns=columns, lines=tuple(np.array(step.lines)[has_all].tolist())))
     notes = [
         f"{count(len(lines), 'row')} left out, as {header!r} is missing: {places(lines)}"
         for header, lines in gaps.items()
         if lines
     ]
-    whole = tuple(step for step in found if step.lines)
-    if not whole:
+    with_rows = tuple(step for step in complete if step.lines)
+    if not with_rows:
         raise InputError(f"no reading is complete: {'; '.join(notes)}", where=name)
-    return whole, notes
+    return with_rows, notes
 
 
 def _moment(text: str) -> datetime:
@@ -135,23 +135,23 @@ def _is_header(line: str) -> bool:
 
 def _columns(header: str, rows: list[list[str]], where: str) -> dict[str, np.ndarray]:
     """The columns of numbers; of a repeated header the later, more precise one."""
-    found: dict[str, np.ndarray] = {}
+    columns: dict[str, np.ndarray] = {}
     for i, name in enumerate(header.split("\t")):
         cells = [row[i] if i < len(row) else "" for row in rows]
         if not name.strip() or not all(is_missing(cell) or is_number(cell) for cell in cells):
             continue
         values = np.array([np.nan if is_missing(cell) else float(cell) for cell in cells])
         values[~np.isfinite(values)] = np.nan
-        before = found.get(name.strip(), np.array([]))
-        held = int(np.isfinite(values).sum())
-        if held > MOSTLY * len(rows) and held >= int(np.isfinite(before).sum()):
-            found[name.strip()] = values
-    if not found:
+        earlier = columns.get(name.strip(), np.array([]))
+        n_values = int(np.isfinite(values).sum())
+        if n_values > RECORDED_SHARE * len(rows) and n_values >= int(np.isfinite(earlier).sum()):
+            columns[name.strip()] = values
+    if not columns:
         raise InputError("a table without a complete column of numbers", where=where)
-    return found
+    return columns
 
 
-STATED = re.compile(r"^Number of steps (completed|in profile):\t(\d+)", re.MULTILINE)
+STEP_COUNT = re.compile(r"^Number of steps (completed|in profile):\t(\d+)", re.MULTILINE)
 FILM_TYPES = ("FILM",)
 PROBES = {"lube": ("lube temp", "lube rtd temp"), "pot": ("pot temp", "pot rtd temp")}
 DISAGREE_K = 10.0
@@ -173,7 +173,7 @@ SWEPT_KIND = Question(
     "Speeds are swept within the steps: kind of recording, friction_history where left open",
     '"disc"',
     needed=False,
-    among=("disc", "friction_map", "friction_history"),
+    options=("disc", "friction_map", "friction_history"),
 )
 SURFACES = (
     Question("import.surface_1", "Name of the surface of the ball, as in [surfaces.NAME]", '"ball"', offered=True),
@@ -201,14 +201,14 @@ def without_cut_line(text: str) -> tuple[str, int | None]:
     return before + end, text.count("\n") + 1
 
 
-def _lost(text: str, name: str, cut: int | None) -> tuple[Finding, ...]:
+def _incomplete(text: str, name: str, cut: int | None) -> tuple[Finding, ...]:
     """Notes on steps that the header of the file counts and the file lacks, and on a truncated row."""
-    stated = {which: int(count) for which, count in STATED.findall(text)}
+    stated = {which: int(count) for which, count in STEP_COUNT.findall(text)}
     expected = stated.get("completed", stated.get("in profile", 0))
-    held = sum(bool(STEP.match(line)) for line in text.splitlines())
+    n_steps = sum(bool(STEP.match(line)) for line in text.splitlines())
     notes = []
-    if held < expected:
-        text = f"holds {held} of the {expected} steps that its header counts; the rest is missing"
+    if n_steps < expected:
+        text = f"holds {n_steps} of the {expected} steps that its header counts; the rest is missing"
         notes.append(finding("file_incomplete", text, name))
     if cut is not None:
         text = f"line {cut} breaks off at the end of the file and is left out"
@@ -220,26 +220,26 @@ def draft(file: InputFile, answers: Answers) -> Draft:
     """The case of a file: film against speed, or friction against time, conditions or sliding speed."""
     name = file.name
     text, cut = without_cut_line(file.text)
-    lost = _lost(text, name, cut)
-    held = steps_of(text, name)
-    kind, offered = _kind(held, answers)
+    incomplete = _incomplete(text, name, cut)
+    steps = steps_of(text, name)
+    kind, offered = _kind(steps, answers)
     quantity = TAKEN[kind][-1]
     sd_key = f"{COLUMNS}{quantity}_sd"
     refuse_unknown(answers, ("import.temperature", sd_key, *(q.key for q in SURFACES if kind == "disc")))
     if answers.get("recording.quantity", quantity) != quantity:
         rule = f"a case of kind {kind!r} from this rig records {quantity}"
         raise InputError(rule, where="recording.quantity", value=answers["recording.quantity"])
-    chosen = _chosen(held, kind)
+    chosen = _chosen(steps, kind)
     if not chosen:
         rule = f"no step with {'films' if kind == 'film' else 'films or friction coefficients'}"
-        raise InputError("; ".join([rule, *map(str, lost)]), where=name)
-    types = " and ".join(dict.fromkeys(s.form for s in chosen))
-    notes = [read_note(f"{len(chosen)} of {len(held)} steps with readings taken, of type {types}", name)]
+        raise InputError("; ".join([rule, *map(str, incomplete)]), where=name)
+    types = " and ".join(dict.fromkeys(s.step_type for s in chosen))
+    notes = [read_note(f"{len(chosen)} of {len(steps)} steps with readings taken, of type {types}", name)]
     first = min(s.start for s in chosen)
     chosen, gaps = without_gaps(chosen, [*TAKEN[kind], *_further(chosen, kind)], name)
-    columns = {w: _together(chosen, w, name) for w in TAKEN[kind] if all(s.has(w) for s in chosen)}
+    columns = {w: _joined(chosen, w, name) for w in TAKEN[kind] if all(s.has(w) for s in chosen)}
     if kind == "film" and all(s.whole("fringe_order") for s in chosen):
-        columns["fringe_order"] = _together(chosen, "fringe_order", name)
+        columns["fringe_order"] = _joined(chosen, "fringe_order", name)
     if kind == "friction_history":
         columns = {"time_s": np.concatenate([s.since(first, name) for s in chosen]), **columns}
     if kind == "friction_map":
@@ -258,17 +258,24 @@ def draft(file: InputFile, answers: Answers) -> Draft:
         )
         questions = (*SURFACES, *questions)
     notes += [read_note(SWEPT_NOTE, name)] if offered else []
-    described = kind in ("film", "disc") or any(key.startswith("contact.") for key in answers)
-    system = {"contact": {"geometry": "point"}} if described else {}
+    is_point_contact = kind in ("film", "disc") or any(key.startswith("contact.") for key in answers)
+    system = {"contact": {"geometry": "point"}} if is_point_contact else {}
     warned = [finding("rows_left_out", gap, name) for gap in gaps]
     lines = [line for s in chosen for line in s.lines]
     signed = not kind_of(kind).is_unsigned(quantity)
-    low = [] if signed else not_above_zero(quantity, columns[quantity].tolist(), lines)
-    every = (*lost, *warned, *spread_notes, *notes, *probe_notes, *(read_note(text, name) for text in low))
+    not_positive = [] if signed else not_above_zero(quantity, columns[quantity].tolist(), lines)
+    every = (
+        *incomplete,
+        *warned,
+        *spread_notes,
+        *notes,
+        *probe_notes,
+        *(read_note(text, name) for text in not_positive),
+    )
     return Draft(kind, quantity, columns, system, (*questions, *offers, *questions_of(kind), *offered), every)
 
 
-def _kind(held: Sequence[Step], answers: Answers) -> tuple[str, tuple[Question, ...]]:
+def _kind(steps: Sequence[Step], answers: Answers) -> tuple[str, tuple[Question, ...]]:
     """The kind that is answered, or that fits the steps; where their speeds are swept, other kinds are offered.
 
     Where the contact is described, friction at swept speeds is taken as that of a ball on a disc.
@@ -276,18 +283,18 @@ def _kind(held: Sequence[Step], answers: Answers) -> tuple[str, tuple[Question, 
     kind = answered_kind(answers, TAKEN)
     if kind is not None:
         return kind, ()
-    if _chosen(held, "film"):
+    if _chosen(steps, "film"):
         return "film", ()
-    if not any(s.varies(w) for s in _chosen(held, "friction_history") for w in SWEPT):
+    if not any(s.varies(w) for s in _chosen(steps, "friction_history") for w in SWEPT):
         return "friction_history", ()
     return ("disc", ()) if "contact.radius_mm" in answers else ("friction_history", (SWEPT_KIND,))
 
 
-def _chosen(held: Sequence[Step], kind: str) -> tuple[Step, ...]:
+def _chosen(steps: Sequence[Step], kind: str) -> tuple[Step, ...]:
     """The steps that a kind uses; for a kind against conditions those that sweep them."""
     if kind == "film":
-        return tuple(s for s in held if s.form in FILM_TYPES and s.has("film_thickness_nm"))
-    frictions = tuple(s for s in held if s.has("friction_coefficient"))
+        return tuple(s for s in steps if s.step_type in FILM_TYPES and s.has("film_thickness_nm"))
+    frictions = tuple(s for s in steps if s.has("friction_coefficient"))
     if kind == "friction_history":
         return _most_common(tuple(s for s in frictions if s.has("time_s")))
     return tuple(s for s in frictions if any(s.varies(w) for w in SWEPT)) or _most_common(frictions)
@@ -300,26 +307,26 @@ def _further(chosen: Sequence[Step], kind: str) -> tuple[str, ...]:
     return ("time_s",) if kind == "friction_history" else ()
 
 
-def _most_common(found: tuple[Step, ...]) -> tuple[Step, ...]:
+def _most_common(steps: tuple[Step, ...]) -> tuple[Step, ...]:
     """The steps of the type with most readings, which is the purpose of the test."""
-    if not found:
+    if not steps:
         return ()
-    forms = [s.form for s in found for _ in s.lines]
-    main = max(sorted(set(forms)), key=forms.count)
-    return tuple(s for s in found if s.form == main)
+    types = [s.step_type for s in steps for _ in s.lines]
+    most_common = max(sorted(set(types)), key=types.count)
+    return tuple(s for s in steps if s.step_type == most_common)
 
 
-def _together(chosen: Sequence[Step], target: str, name: str) -> np.ndarray:
+def _joined(chosen: Sequence[Step], target: str, name: str) -> np.ndarray:
     return np.concatenate([s.read(target, name) for s in chosen])
 
 
 def _sliding_speed(chosen: Sequence[Step], name: str) -> np.ndarray:
     """As recorded, else the slide-roll ratio times the mean speed."""
     if all(s.has(SLIDING) for s in chosen):
-        return _together(chosen, SLIDING, name)
+        return _joined(chosen, SLIDING, name)
     if not all(s.has(w) for s in chosen for w in SWEPT):
         raise InputError("the steps hold no sliding speed, which a case of kind 'friction_map' needs", where=name)
-    mean, ratio = (_together(chosen, w, name) for w in SWEPT)
+    mean, ratio = (_joined(chosen, w, name) for w in SWEPT)
     return rounded(mean * ratio)
 
 
@@ -332,16 +339,18 @@ def _spread(
     reading = chosen[0].header(quantity)
     assert target is not None
     assert reading is not None
-    held = [h for h in chosen[0].columns if all(h in s.columns for s in chosen)]
+    in_all_steps = [h for h in chosen[0].columns if all(h in s.columns for s in chosen)]
     if named is None:
         # Standard deviations of single readings are all zero.
-        scattered: dict[str, list[str]] = {h: [] for h in held if any(np.any(s.columns[h] > 0.0) for s in chosen)}
+        scattered: dict[str, list[str]] = {
+            h: [] for h in in_all_steps if any(np.any(s.columns[h] > 0.0) for s in chosen)
+        }
         header = likely_spread(quantity, reading, scattered)
         spare = {} if header is None else {column: header}
         notes = [finding("column_not_taken", text, name) for text in spare_notes(spare, COLUMNS)]
         return {}, spare_questions(spare, COLUMNS), notes
-    if named not in held:
-        raise InputError(f"no such header; {nearest(str(named), held)}", where=COLUMNS + column, value=named)
+    if named not in in_all_steps:
+        raise InputError(f"no such header; {nearest(str(named), in_all_steps)}", where=COLUMNS + column, value=named)
     unit = split(str(named))[1] or ("-" if target.unit == "ratio" else "?")
     values = convert(np.concatenate([s.columns[named] for s in chosen]), unit, target, f"{name}: {named}")
     return {column: values}, (), [read_note(f"{named!r} taken as {column}", name)]
@@ -379,9 +388,9 @@ def _temperature(
             (read_note(f"temperature of the {probe_named} probe taken", name),),
         )
     if len(probes) == 2 and abs(np.median(probes["lube"]) - np.median(probes["pot"])) > DISAGREE_K:
-        middle = {p: float(np.median(v)) for p, v in probes.items()}
+        median = {p: float(np.median(v)) for p, v in probes.items()}
         text = (
-            f"Probe in the oil reads {middle['lube']:.0f} degC, the pot {middle['pot']:.0f} degC: which one is right "
+            f"Probe in the oil reads {median['lube']:.0f} degC, the pot {median['pot']:.0f} degC: which one is right "
             "(lube or pot)"
         )
         return {}, (Question("import.temperature", text, '"pot"'),), ()

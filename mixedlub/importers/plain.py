@@ -21,10 +21,10 @@ from mixedlub.importers.text_table import (
     Sheet,
     complete_rows,
     header_of_runs,
-    kept,
     not_above_zero,
     only_keys,
     runs_of,
+    selected_rows,
 )
 from mixedlub.importers.time_base import DATES, PACE_KEYS, TIME, continued, date_order, in_seconds, target_in
 from mixedlub.importers.vocabulary import convert
@@ -51,70 +51,70 @@ def draft(file: InputFile, answers: Answers) -> Draft:
         raise InputError(f"no such kind; {nearest(str(kind), KINDS)}", where="kind", value=kind)
     _refuse_unknown(kind, answers)
     name = file.name
-    sheet, chosen = kept(file.table(_decimal(answers)), answers)
+    sheet, selection_notes = selected_rows(file.table(_decimal(answers)), answers)
     likely = kind_of(kind or likely_kind(sheet.cells))
     if kind is not None and quantity is not None and quantity not in likely.quantities:
         rule = f"a case of kind {kind!r} records {' or '.join(likely.quantities)}"
         raise InputError(rule, where="recording.quantity", value=quantity)
     questions: list[Question] = []
     if kind is None:
-        questions.append(Question("kind", "Kind of recording", toml_value(likely.name), among=KINDS, offered=True))
+        questions.append(Question("kind", "Kind of recording", toml_value(likely.name), options=KINDS, offered=True))
     if quantity is None:
         quantity = _likely_quantity(likely, sheet.cells)
         if len(likely.quantities) > 1:
             example = toml_value(quantity)
             among = likely.quantities
-            questions.append(Question("recording.quantity", "Recorded quantity", example, among=among, offered=True))
-    found = match(likely, str(quantity), sheet.cells, answers)
-    rest = (*found.questions, *contact_form(likely.name, answers), *questions_of(likely.name))
+            questions.append(Question("recording.quantity", "Recorded quantity", example, options=among, offered=True))
+    matched = match(likely, str(quantity), sheet.cells, answers)
+    further = (*matched.questions, *contact_form(likely.name, answers), *questions_of(likely.name))
     if questions:
-        return Draft(kind, None, {}, {}, (*questions, *rest))
+        return Draft(kind, None, {}, {}, (*questions, *further))
     rules = {column.name: column for column in wanted(likely, str(quantity), answers)}
-    needed = [h for c, h in found.headers.items() if rules[c].form != "name" and not rules[c].blank]
-    sheet, lost = complete_rows(sheet, needed)
-    refuse_one_surface(found.headers, sheet.cells, name)
-    open_columns = {TIME if q.key in PACE_KEYS else q.key.rpartition(".")[2] for q in found.questions}
+    needed = [h for c, h in matched.headers.items() if rules[c].dtype != "name" and not rules[c].optional_cells]
+    sheet, incomplete = complete_rows(sheet, needed)
+    refuse_one_surface(matched.headers, sheet.cells, name)
+    open_columns = {TIME if q.key in PACE_KEYS else q.key.rpartition(".")[2] for q in matched.questions}
     columns = {
-        column: _values(rules[column], header, sheet, found.units.get(column))
-        for column, header in found.headers.items()
+        column: _values(rules[column], header, sheet, matched.units.get(column))
+        for column, header in matched.headers.items()
         if column not in open_columns
     }
     count_note = ""
     clock_notes: list[Finding] = []
-    if TIME in columns and TIME in found.units:
-        columns[TIME], count_note = in_seconds(columns[TIME], found.headers[TIME], found.units[TIME], answers)
+    if TIME in columns and TIME in matched.units:
+        columns[TIME], count_note = in_seconds(columns[TIME], matched.headers[TIME], matched.units[TIME], answers)
     if TIME in columns:
-        columns[TIME], clock_notes = continued(columns[TIME], found.headers[TIME], sheet, date_order(answers))
+        columns[TIME], clock_notes = continued(columns[TIME], matched.headers[TIME], sheet, date_order(answers))
     columns |= constants(likely, answers, len(sheet.lines))
     readings = columns.get(str(quantity)) if likely.is_unsigned(str(quantity)) else None
-    low = [] if readings is None else not_above_zero(str(quantity), readings.tolist(), sheet.lines)
+    not_positive = [] if readings is None else not_above_zero(str(quantity), readings.tolist(), sheet.lines)
     header = header_of_runs(sheet, answers)
     runs, renumbered = (None, None) if header is None else runs_of(sheet, header)
-    fixed = [c for c in columns if c not in found.headers]
-    taken = [*(["run"] if runs is not None else []), *(c for c in columns if c in found.headers)]
-    left = [h for h in sheet.cells if h not in found.headers.values() and h != header]
+    fixed = [c for c in columns if c not in matched.headers]
+    taken = [*(["run"] if runs is not None else []), *(c for c in columns if c in matched.headers)]
+    unused = [h for h in sheet.cells if h not in matched.headers.values() and h != header]
     conditions = [v for c, v in columns.items() if c not in (quantity, f"{quantity}_sd")]
-    mixed = _pooled({h: sheet.cells[h] for h in left}, conditions, name)
-    read = [
-        *chosen,
+    pooled = _pooled({h: sheet.cells[h] for h in unused}, conditions, name)
+    how_read = [
+        *selection_notes,
         f"{len(taken)} of {len(sheet.cells)} columns taken: {', '.join(taken)}",
-        *([f"not taken: {', '.join(left)}"] if left else []),
+        *([f"not taken: {', '.join(unused)}"] if unused else []),
         *([f"the same in all rows, as answered: {', '.join(fixed)}"] if fixed else []),
         *([f"{sheet.left_out} left out: no part of the table"] if sheet.left_out else []),
-        *found.notes,
+        *matched.notes,
         *([count_note] if count_note else []),
     ]
     notes = [
         *(finding("decimal_mark_assumed", text, name) for text in sheet.notes),
-        *(finding("rows_left_out", text, name) for text in lost),
-        *(finding("column_not_taken", text, name) for text in found.warned),
-        *mixed,
-        *(read_note(text, name) for text in read),
+        *(finding("rows_left_out", text, name) for text in incomplete),
+        *(finding("column_not_taken", text, name) for text in matched.warned),
+        *pooled,
+        *(read_note(text, name) for text in how_read),
         *clock_notes,
-        *(read_note(text, name) for text in low),
+        *(read_note(text, name) for text in not_positive),
         *([read_note(renumbered)] if renumbered else []),
     ]
-    return Draft(kind, quantity, columns, {}, rest, tuple(notes), runs)
+    return Draft(kind, quantity, columns, {}, further, tuple(notes), runs)
 
 
 def _pooled(free: Cells, conditions: Collection[np.ndarray], file: str) -> Iterator[Finding]:
@@ -142,8 +142,8 @@ def _decimal(answers: Answers) -> str | None:
 
 def _likely_quantity(kind: Kind, cells: Cells) -> str:
     """The quantity with the most similar header."""
-    near = likely_headers(kind.quantities, cells)
-    return max(kind.quantities, key=lambda q: likeness_of_reading(q, cells, near.get(q)))
+    similar = likely_headers(kind.quantities, cells)
+    return max(kind.quantities, key=lambda q: likeness_of_reading(q, cells, similar.get(q)))
 
 
 def _values(rule: Column, header: str, sheet: Sheet, unit: str | None) -> np.ndarray:
@@ -154,11 +154,11 @@ def _values(rule: Column, header: str, sheet: Sheet, unit: str | None) -> np.nda
         return f"{sheet.name}: line {sheet.lines[row]}, {header}"
 
     # Bounds hold in the unit of the case, after the conversion.
-    written = rule if rule.form == "name" else Column(header, blank=rule.blank)
+    written = rule if rule.dtype == "name" else Column(header, optional_cells=rule.optional_cells)
     values = written.parse_all(cells)
     if values is None:
         values = np.array([written.parse(cell, place(row)) for row, cell in enumerate(cells)])
-    if rule.form == "name":
+    if rule.dtype == "name":
         return values
     target = target_for(rule.name)
     if unit is not None and target is not None:

@@ -14,9 +14,9 @@ from profiles.errors import InputError
 SIDES = (("1", "2"), ("a", "b"), ("disc", "ball"), ("disk", "ball"), ("lower", "upper"), ("scheibe", "kugel"))
 """Words by which the speeds of two surfaces differ."""
 SPEED = re.compile(r"speed|velocity|geschwindigkeit|^[uv]\W?(?:\d|\b)")
-WITHIN = 0.02
+EQUAL_WITHIN = 0.02
 """Relative difference from the mean speed up to which two surfaces move equally: beyond slip by creep alone."""
-MADE = {
+FROM_BOTH_SPEEDS = {
     "entrainment_speed_m_s": "entrainment is the mean with that of",
     "sliding_speed_m_s": "sliding is the difference to that of",
 }
@@ -38,7 +38,7 @@ def other_surface(header: str, cells: Cells) -> str | None:
         first, second = both[:, np.isfinite(both).all(axis=0)]
         if not first.size:
             continue
-        if np.max(np.abs(first - second)) > 2.0 * WITHIN * np.max(np.abs(first)):
+        if np.max(np.abs(first - second)) > 2.0 * EQUAL_WITHIN * np.max(np.abs(first)):
             return other
     return None
 
@@ -66,7 +66,7 @@ def refuse_one_surface(headers: Mapping[str, str], cells: Cells, name: str) -> N
     profiles.errors.InputError: a.txt: entrainment_speed_m_s: 'Disc Speed (m/s)': is the speed of one surface; \
 entrainment is the mean with that of 'Ball Speed (m/s)': add a column of it to the file
     """
-    for column, made in MADE.items():
+    for column, made in FROM_BOTH_SPEEDS.items():
         taken = headers.get(column)
         other = None if taken is None else other_surface(taken, cells)
         if other is None or (column == "sliding_speed_m_s" and _at_rest(cells[other])):

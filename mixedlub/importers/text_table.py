@@ -59,8 +59,8 @@ def _readable(rows: Sequence[Line]) -> tuple[int, int]:
     """How many rows of the most common length hold nothing but numbers, and how many hold mostly numbers."""
     tallies = [(len(row), *_tally(row)) for _, row in rows]
     mostly = Counter(length for length, most, _ in tallies if most)
-    width, number = max(mostly.items(), key=lambda found: found[1], default=(0, 0))
-    return sum(every for length, _, every in tallies if length == width), number
+    width, n_rows = max(mostly.items(), key=lambda item: item[1], default=(0, 0))
+    return sum(every for length, _, every in tallies if length == width), n_rows
 
 
 def _tally(row: Sequence[str]) -> tuple[bool, bool]:
@@ -73,10 +73,10 @@ def _tally(row: Sequence[str]) -> tuple[bool, bool]:
 
 ONLY = "import.only."
 """Prefix of a header in the answer that names the value of the rows to keep, or a list of values."""
-LISTED = 20
+VALUES_LISTED = 20
 """Values of a column that an error lists at most."""
 Cells = Mapping[str, Sequence[str]]
-SHOWN = 5
+LINES_SHOWN = 5
 """Lines that a note lists at most."""
 COUNTED = ("nr", "nr.", "no", "no.", "#", "n", "lfd. nr.", "lfd.nr.")
 """Unit, in small letters, of a column that counts the rows."""
@@ -122,7 +122,7 @@ def read_sheet(text: str, name: str, decimal: str | None = None) -> Sheet:
     if len(rows) < 2:
         raise InputError("needs a header line and at least one row", where=name)
     rows, notes = with_points(rows, name, decimal)
-    first, last = _extent(rows, name)
+    first, last = _table_rows(rows, name)
     above = first - 1
     header = rows[above][1]
     if above and _are_units(header, rows[above - 1][1]):
@@ -137,21 +137,21 @@ def read_sheet(text: str, name: str, decimal: str | None = None) -> Sheet:
 
 def complete_rows(sheet: Sheet, needed: Sequence[str]) -> tuple[Sheet, list[str]]:
     """The rows without a missing cell in the needed columns, and a note for every column that loses rows."""
-    lost = {h: [i for i, cell in enumerate(sheet.cells[h]) if is_missing(cell)] for h in needed}
-    if not any(lost.values()):
+    missing = {h: [i for i, cell in enumerate(sheet.cells[h]) if is_missing(cell)] for h in needed}
+    if not any(missing.values()):
         return sheet, []
-    gone = {i for rows in lost.values() for i in rows}
-    if len(gone) == len(sheet.lines):
-        most = max(lost, key=lambda h: len(lost[h]))
-        raise InputError(f"no row is complete: {most!r} is missing in {len(lost[most])} of them", where=sheet.name)
-    kept = [i for i in range(len(sheet.lines)) if i not in gone]
-    cells = {h: TextColumn(values[i] for i in kept) for h, values in sheet.cells.items()}
+    incomplete = {i for rows in missing.values() for i in rows}
+    if len(incomplete) == len(sheet.lines):
+        most = max(missing, key=lambda h: len(missing[h]))
+        raise InputError(f"no row is complete: {most!r} is missing in {len(missing[most])} of them", where=sheet.name)
+    complete = [i for i in range(len(sheet.lines)) if i not in incomplete]
+    cells = {h: TextColumn(values[i] for i in complete) for h, values in sheet.cells.items()}
     notes = [
         f"{count(len(rows), 'row')} left out, as {h!r} is missing: {places([sheet.lines[i] for i in rows])}"
-        for h, rows in lost.items()
+        for h, rows in missing.items()
         if rows
     ]
-    return replace(sheet, cells=cells, lines=tuple(sheet.lines[i] for i in kept)), notes
+    return replace(sheet, cells=cells, lines=tuple(sheet.lines[i] for i in complete)), notes
 
 
 def is_numeric(cells: Sequence[str]) -> bool:
@@ -169,7 +169,7 @@ def only_keys(answers: Answers) -> tuple[str, ...]:
     return (f"{ONLY}COLUMN", *(key for key in answers if key.startswith(ONLY)))
 
 
-def kept(sheet: Sheet, answers: Answers) -> tuple[Sheet, list[str]]:
+def selected_rows(sheet: Sheet, answers: Answers) -> tuple[Sheet, list[str]]:
     """The rows that the answers select, and a note for each selection."""
     notes = []
     for key, value in answers.items():
@@ -179,10 +179,10 @@ def kept(sheet: Sheet, answers: Answers) -> tuple[Sheet, list[str]]:
         if header not in sheet.cells:
             raise InputError(f"no such header; {nearest(header, sheet.cells)}", where=key)
         wanted = value if isinstance(value, list) else [value]
-        rows = [i for i, cell in enumerate(sheet.cells[header]) if any(_is(cell, one) for one in wanted)]
+        rows = [i for i, cell in enumerate(sheet.cells[header]) if any(_cell_equals(cell, one) for one in wanted)]
         if not rows:
             values = list(dict.fromkeys(sheet.cells[header]))
-            listed = ", ".join(values[:LISTED]) + (", ..." if len(values) > LISTED else "")
+            listed = ", ".join(values[:VALUES_LISTED]) + (", ..." if len(values) > VALUES_LISTED else "")
             raise InputError(f"is in no row; the column has {listed}", where=key, value=value)
         names = ", ".join(map(str, wanted))
         notes.append(f"{len(rows)} of {len(sheet.lines)} rows kept, those with {header} {names}")
@@ -191,7 +191,7 @@ def kept(sheet: Sheet, answers: Answers) -> tuple[Sheet, list[str]]:
     return sheet, notes
 
 
-def _is(cell: str, value: Any) -> bool:
+def _cell_equals(cell: str, value: Any) -> bool:
     return cell == str(value) or (is_number(cell) and is_number(str(value)) and float(cell) == float(value))
 
 
@@ -210,8 +210,8 @@ def places(lines: Sequence[int]) -> str:
     >>> places([14]), places([3, 9]), places(list(range(2, 20)))
     ('line 14', 'lines 3, 9', 'lines 2, 3, 4, 5, 6 and 13 more')
     """
-    more = f" and {len(lines) - SHOWN} more" if len(lines) > SHOWN else ""
-    return ("line " if len(lines) == 1 else "lines ") + ", ".join(map(str, lines[:SHOWN])) + more
+    more = f" and {len(lines) - LINES_SHOWN} more" if len(lines) > LINES_SHOWN else ""
+    return ("line " if len(lines) == 1 else "lines ") + ", ".join(map(str, lines[:LINES_SHOWN])) + more
 
 
 def not_above_zero(quantity: str, values: Iterable[float], lines: Iterable[int]) -> list[str]:
@@ -220,12 +220,12 @@ def not_above_zero(quantity: str, values: Iterable[float], lines: Iterable[int])
     >>> not_above_zero("friction_coefficient", [0.0, 0.1], [2, 3])
     ['1 reading of friction_coefficient at zero or below, taken as read: line 2']
     """
-    low = [line for line, value in zip(lines, values, strict=True) if value <= 0.0]
-    note = f"{count(len(low), 'reading')} of {quantity} at zero or below, taken as read: {places(low)}"
-    return [note] if low else []
+    at_lines = [line for line, value in zip(lines, values, strict=True) if value <= 0.0]
+    note = f"{count(len(at_lines), 'reading')} of {quantity} at zero or below, taken as read: {places(at_lines)}"
+    return [note] if at_lines else []
 
 
-def _extent(rows: Sequence[Line], name: str) -> tuple[int, int]:
+def _table_rows(rows: Sequence[Line], name: str) -> tuple[int, int]:
     """First row of data and their end: the longest run of rows of the same length as the header above."""
     best = (0, 0)
     numbers = [_numbers(row) for _, row in rows]
@@ -260,10 +260,10 @@ def _refuse_other_rows(before: Sequence[Line], after: Sequence[Line], width: int
         number, row = after[0]
         rule = _uneven(width) if len(row) != width else "begins another table; put one table in a file"
         raise InputError(rule, where=f"{name}: line {number}")
-    lost = [number for number, row in before if _numbers(row) > 1]
-    if len(lost) > 1:
+    outside = [number for number, row in before if _numbers(row) > 1]
+    if len(outside) > 1:
         rule = "holds other rows of numbers before its longest table; put one table in a file"
-        raise InputError(rule, where=f"{name}: lines {lost[0]} to {lost[-1]}")
+        raise InputError(rule, where=f"{name}: lines {outside[0]} to {outside[-1]}")
 
 
 def _uneven(width: int) -> str:
@@ -295,15 +295,15 @@ def _in_brackets(cell: str) -> bool:
 def _unique(header: Sequence[str]) -> list[str]:
     """Headers with a number added to each repetition."""
     seen: dict[str, int] = {}
-    found = []
+    unique = []
     for h in header:
         seen[h] = seen.get(h, 0) + 1
         words, unit = split(h)
-        again = h if seen[h] == 1 else f"{words} #{seen[h]}" + (f" ({unit})" if unit else "")
-        while h and again in found:
-            again = f"{again} #{seen[h]}"
-        found.append(again)
-    return found
+        distinct = h if seen[h] == 1 else f"{words} #{seen[h]}" + (f" ({unit})" if unit else "")
+        while h and distinct in unique:
+            distinct = f"{distinct} #{seen[h]}"
+        unique.append(distinct)
+    return unique
 
 
 def _range(rows: Sequence[Line]) -> str:
@@ -328,31 +328,31 @@ def header_of_runs(sheet: Sheet, answers: Answers) -> str | None:
 
 def runs_of(sheet: Sheet, header: str) -> tuple[np.ndarray | None, str | None]:
     """The run numbers where they are whole and unique; else None, and the reason."""
-    found: dict[int, int] = {}
+    line_of: dict[int, int] = {}
     for line, cell in zip(sheet.lines, sheet.cells[header], strict=True):
         number = _whole(cell)
         if number is None:
             return None, f"{sheet.name}: line {line}, {header}: {cell!r} is no whole number, {ANEW}"
-        if number in found:
-            return None, f"{sheet.name}: {header} {number} is in lines {found[number]} and {line}, {ANEW}"
-        found[number] = line
-    return np.array(list(found)), None
+        if number in line_of:
+            return None, f"{sheet.name}: {header} {number} is in lines {line_of[number]} and {line}, {ANEW}"
+        line_of[number] = line
+    return np.array(list(line_of)), None
 
 
 def joined_runs(parts: Sequence[tuple[str, np.ndarray | None]]) -> tuple[np.ndarray | None, str | None]:
     """The run numbers of several files; None where a file has none, or where a number is in two files."""
-    known = [(name, runs) for name, runs in parts if runs is not None]
-    if len(known) < len(parts):
+    numbered = [(name, runs) for name, runs in parts if runs is not None]
+    if len(numbered) < len(parts):
         absent = next(name for name, runs in parts if runs is None)
-        return None, f"{absent} has no run numbers to keep, {ANEW}" if known else None
-    names = [name for name, runs in known for _ in runs]
-    every = np.concatenate([runs for _, runs in known])
+        return None, f"{absent} has no run numbers to keep, {ANEW}" if numbered else None
+    names = [name for name, runs in numbered for _ in runs]
+    every = np.concatenate([runs for _, runs in numbered])
     first = np.unique(every, return_index=True)[1]
     if first.size == every.size:
         return every, None
-    again = int(np.setdiff1d(np.arange(every.size), first)[0])
-    before = names[int(np.argmax(every == every[again]))]
-    return None, f"run {every[again]} is in {before} and {names[again]}, {ANEW}"
+    repeated = int(np.setdiff1d(np.arange(every.size), first)[0])
+    first_file = names[int(np.argmax(every == every[repeated]))]
+    return None, f"run {every[repeated]} is in {first_file} and {names[repeated]}, {ANEW}"
 
 
 def _whole(cell: str) -> int | None:

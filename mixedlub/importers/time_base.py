@@ -125,7 +125,7 @@ def in_seconds(values: np.ndarray, header: str, unit: str, answers: Answers) -> 
 STEPS = re.compile(r"\b(?:step|cycle|segment|stage|phase|interval|block|schritt|stufe|abschnitt|zyklus)s?\b")
 """Words of a column that numbers the steps of a test."""
 DATES = "import.dates"
-BEGINS = 0.1
+RESTART_BELOW = 0.1
 """Share of the elapsed time within which a falling clock has restarted; one that falls less runs backwards."""
 
 
@@ -151,17 +151,17 @@ def continued(
     others = {h: cells for h, cells in sheet.cells.items() if h != header}
     step = next((h for h, cells in others.items() if STEPS.search(words_of(h)) and _numbers_steps(cells, falls)), None)
     for dated, cells in others.items():
-        ways = sorted(_by_dates(times, cells, falls, named_order), key=lambda way: float(way[1][-1]))
-        if not ways:
+        continuations = sorted(_by_dates(times, cells, falls, named_order), key=lambda one: float(one[1][-1]))
+        if not continuations:
             continue
-        order, whole, how = ways[0]
+        order, joined, how = continuations[0]
         note = f"{TIME} restarts in {where}; continued {how} {dated!r}"
-        if np.array_equal(whole, ways[-1][1]):
-            return whole, [read_note(note, sheet.name)]
+        if np.array_equal(joined, continuations[-1][1]):
+            return joined, [read_note(note, sheet.name)]
         other = ORDERS[1 - ORDERS.index(order)]
         first = order.removesuffix(" first")
         note += f", read with the {first} first, which makes the shorter test; {DATES} = {other!r} reads it the "
-        return whole, [finding("date_order_assumed", f"{note}other way", sheet.name)]
+        return joined, [finding("date_order_assumed", f"{note}other way", sheet.name)]
     if step is None and not _restarts(times, falls):
         note = f"{TIME} runs backwards in {where}, taken as read: sort the rows first"
         return times, [finding("clock_backwards", note, sheet.name)]
@@ -171,26 +171,26 @@ def continued(
     note = f"{TIME} restarts in {where}" + (f" with {step!r}" if step else "")
     note += "; continued from there without the pauses between"
     if step is None:
-        found = finding("clock_restarted", f"{note}; where rows are out of order, sort them first", sheet.name)
+        restart = finding("clock_restarted", f"{note}; where rows are out of order, sort them first", sheet.name)
     else:
-        found = read_note(note, sheet.name)
-    return rounded(times + elapsed, float(elapsed[-1])), [found]
+        restart = read_note(note, sheet.name)
+    return rounded(times + elapsed, float(elapsed[-1])), [restart]
 
 
 def joined_times(parts: Sequence[tuple[str, np.ndarray]]) -> tuple[np.ndarray, list[Finding]]:
     """The times of several files in sequence; a clock that restarts is continued from the file before."""
-    (before, first), *rest = parts
-    found = [first]
+    (file_before, first), *rest = parts
+    joined = [first]
     notes: list[Finding] = []
     for name, times in rest:
-        end = float(found[-1][-1])
+        end = float(joined[-1][-1])
         if times[0] < end:
-            note = f"{TIME} restarts; continued from the end of {before} without the pause between"
+            note = f"{TIME} restarts; continued from the end of {file_before} without the pause between"
             notes.append(finding("clock_restarted", note, name))
             times = rounded(times + end, end)
-        found.append(times)
-        before = name
-    return np.concatenate(found), notes
+        joined.append(times)
+        file_before = name
+    return np.concatenate(joined), notes
 
 
 def _numbers_steps(cells: Sequence[str], falls: np.ndarray) -> bool:
@@ -203,32 +203,32 @@ def _restarts(times: np.ndarray, falls: np.ndarray) -> bool:
     """Whether the clock falls back to its start each time, after it ran."""
     first = times[0]
     ran = times[falls - 1] - first
-    return bool(np.all(ran > 0.0) and np.all(times[falls] - first <= BEGINS * ran))
+    return bool(np.all(ran > 0.0) and np.all(times[falls] - first <= RESTART_BELOW * ran))
 
 
 def _by_dates(
     times: np.ndarray, cells: Sequence[str], falls: np.ndarray, named_order: str | None
 ) -> Iterator[tuple[str, np.ndarray, str]]:
     """For each order of day and month the time continued by the dates of a column, and the words for how."""
-    for order, found in moments(cells).items():
+    for order, stamps in moments(cells).items():
         if named_order in ORDERS and order not in ("", named_order):
             continue
-        dates = np.array([(moment - found[0]).total_seconds() for moment in found])
-        for place, how in ((_by_clock, "by the clock in"), (_by_starts, "from the starts in")):
-            whole = place(times, dates, falls, resolution(cells))
-            if whole is not None:
-                yield order, rounded(whole, float(dates[-1])), how
+        dates = np.array([(moment - stamps[0]).total_seconds() for moment in stamps])
+        for method, how in ((_by_clock, "by the clock in"), (_by_starts, "from the starts in")):
+            joined = method(times, dates, falls, resolution(cells))
+            if joined is not None:
+                yield order, rounded(joined, float(dates[-1])), how
                 break
 
 
 def _by_clock(times: np.ndarray, dates: np.ndarray, falls: np.ndarray, within: float) -> np.ndarray | None:
     """Each step placed by a clock that runs with the rows; None where the column is no such clock."""
     steps = np.split(np.arange(times.size), falls)
-    off = dates - times
-    if any(np.ptp(off[rows]) > within for rows in steps) or all(np.ptp(dates[rows]) == 0.0 for rows in steps):
+    offset = dates - times
+    if any(np.ptp(offset[rows]) > within for rows in steps) or all(np.ptp(dates[rows]) == 0.0 for rows in steps):
         return None
-    whole = np.concatenate([times[rows] + off[rows].max() for rows in steps]) - off[steps[0]].max()
-    return whole if np.all(np.diff(whole) >= 0.0) else None
+    joined = np.concatenate([times[rows] + offset[rows].max() for rows in steps]) - offset[steps[0]].max()
+    return joined if np.all(np.diff(joined) >= 0.0) else None
 
 
 def _by_starts(times: np.ndarray, dates: np.ndarray, falls: np.ndarray, within: float) -> np.ndarray | None:
@@ -238,13 +238,13 @@ def _by_starts(times: np.ndarray, dates: np.ndarray, falls: np.ndarray, within: 
     """
     changes = np.flatnonzero(np.diff(dates) != 0.0) + 1
     begun = np.union1d(changes, falls)
-    again = np.setdiff1d(falls, changes)
-    if 2 * again.size > falls.size or np.setdiff1d(changes, falls).size > falls.size:
+    unmarked = np.setdiff1d(falls, changes)
+    if 2 * unmarked.size > falls.size or np.setdiff1d(changes, falls).size > falls.size:
         return None
-    whole = times + dates
+    joined = times + dates
     for first, rows in zip(begun, np.split(np.arange(times.size), begun)[1:], strict=True):
-        late = whole[first - 1] - whole[first]
-        if late > within and first not in again:
+        overlap = joined[first - 1] - joined[first]
+        if overlap > within and first not in unmarked:
             return None
-        whole[rows] += max(float(late), 0.0)
-    return whole if np.all(np.diff(whole) >= 0.0) else None
+        joined[rows] += max(float(overlap), 0.0)
+    return joined if np.all(np.diff(joined) >= 0.0) else None

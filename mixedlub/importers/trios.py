@@ -27,43 +27,43 @@ def draft(file: InputFile, answers: Answers) -> Draft:
     refuse_unknown(answers, ())
     answered_kind(answers, ("viscosity",))
     parts: dict[str, list[np.ndarray]] = {w: [] for w in WANTED}
-    elapsed, taken, left = 0.0, 0, 0
-    lost: list[int] = []
+    elapsed, taken, skipped = 0.0, 0, 0
+    lost_lines: list[int] = []
     for step in _steps(text):
-        found, gone = _read(step, name)
-        if "viscosity_mPa_s" not in found or "temperature_C" not in found:
-            left += 1
+        values, incomplete = _read(step, name)
+        if "viscosity_mPa_s" not in values or "temperature_C" not in values:
+            skipped += 1
             continue
-        if "time_s" not in found:
+        if "time_s" not in values:
             title = next(iter(step.values()))
             raise InputError("a step without a time cannot be put after the one before", where=f"{name}: {title}")
-        lost += gone
-        if not found["time_s"].size:
+        lost_lines += incomplete
+        if not values["time_s"].size:
             continue
-        duration = float(found["time_s"][-1])
-        found["time_s"] = rounded(found["time_s"] + elapsed, elapsed)
+        duration = float(values["time_s"][-1])
+        values["time_s"] = rounded(values["time_s"] + elapsed, elapsed)
         elapsed += duration
         taken += 1
         for w in WANTED:
-            parts[w].append(found[w])
+            parts[w].append(values[w])
     if not taken:
         raise InputError("no step with viscosity and temperature", where=name)
     columns = {w: np.concatenate(v) for w, v in parts.items()}
-    lost_rows = f"{count(len(lost), 'row')} left out, as a value is missing: {places(lost)}"
-    steps = f"{taken} steps taken, {left} left out; time continues from step to step without the pauses between"
-    notes = [*([finding("rows_left_out", lost_rows, name)] if lost else []), read_note(steps, name)]
+    lost_rows = f"{count(len(lost_lines), 'row')} left out, as a value is missing: {places(lost_lines)}"
+    steps = f"{taken} steps taken, {skipped} left out; time continues from step to step without the pauses between"
+    notes = [*([finding("rows_left_out", lost_rows, name)] if lost_lines else []), read_note(steps, name)]
     return Draft("viscosity", "viscosity_mPa_s", columns, {}, questions_of("viscosity"), tuple(notes))
 
 
 def _steps(text: str) -> list[dict[int, str]]:
     """The lines of each step by their number in the file."""
-    found: list[dict[int, str]] = []
+    steps: list[dict[int, str]] = []
     for number, line in enumerate(text.splitlines(), start=1):
         if line.strip().lower() == "[step]":
-            found.append({})
-        elif found and line.strip():
-            found[-1][number] = line
-    return [lines for lines in found if len(lines) > 3]
+            steps.append({})
+        elif steps and line.strip():
+            steps[-1][number] = line
+    return [lines for lines in steps if len(lines) > 3]
 
 
 def _read(step: dict[int, str], name: str) -> tuple[dict[str, np.ndarray], list[int]]:
@@ -71,13 +71,13 @@ def _read(step: dict[int, str], name: str) -> tuple[dict[str, np.ndarray], list[
     lines = list(step.values())
     headers, units = (line.split("\t") for line in lines[1:3])
     rows = {number: line.split("\t") for number, line in list(step.items())[3:]}
-    found: dict[str, np.ndarray] = {}
+    columns: dict[str, np.ndarray] = {}
     for i, header in enumerate(headers):
         target = target_of(header)
         if target is None or target.name not in WANTED:
             continue
         where = f"{name}: {lines[0]}, {header}"
-        number = Column(header, blank=True)
+        number = Column(header, optional_cells=True)
         values = np.array(
             [
                 number.parse(row[i] if i < len(row) else "", f"{name}: line {line}, {header}")
@@ -86,7 +86,9 @@ def _read(step: dict[int, str], name: str) -> tuple[dict[str, np.ndarray], list[
         )
         if i >= len(units) or not units[i].strip():
             raise InputError("no unit is given", where=where)
-        found[target.name] = convert(values, units[i], BY_NAME[target.name], where)
-    whole = np.all([np.isfinite(values) for values in found.values()], axis=0) if found else np.ones(len(rows), bool)
-    lost = [line for line, kept in zip(rows, whole, strict=True) if not kept]
-    return {column: values[whole] for column, values in found.items()}, lost
+        columns[target.name] = convert(values, units[i], BY_NAME[target.name], where)
+    complete = (
+        np.all([np.isfinite(values) for values in columns.values()], axis=0) if columns else np.ones(len(rows), bool)
+    )
+    incomplete = [line for line, is_complete in zip(rows, complete, strict=True) if not is_complete]
+    return {column: values[complete] for column, values in columns.items()}, incomplete

@@ -27,10 +27,12 @@ class Target:
     offered: tuple[str, ...] = ()
 
 
-_COLUMNS = {c.name: c for k in map(kind, KINDS) for c in (*BOOKKEEPING, *k.columns, *k.channels, *k.readings)}
+_COLUMNS = {
+    c.name: c for k in map(kind, KINDS) for c in (*BOOKKEEPING, *k.columns, *k.instrument_channels, *k.readings)
+}
 TARGETS = tuple(Target(c.name, read_as(c.name), c.words, c.hints) for c in _COLUMNS.values() if c.words)
 BY_NAME = {t.name: t for t in TARGETS}
-TEXT_COLUMNS = tuple(c.name for c in _COLUMNS.values() if c.form == "name")
+TEXT_COLUMNS = tuple(c.name for c in _COLUMNS.values() if c.dtype == "name")
 
 
 def target_of(header: str) -> Target | None:
@@ -54,9 +56,9 @@ def is_of_another(unit: str, target: Target) -> bool:
 
 def unknown_unit(unit: str, target: Target) -> str:
     """Why a unit is not taken as that of a column, and what could be."""
-    meant = open_units(unit, target.unit)
-    if meant:
-        return f"as unit of {target.name} leaves open which is meant; say {' or '.join(meant)}"
+    candidates = open_units(unit, target.unit)
+    if candidates:
+        return f"as unit of {target.name} leaves open which is meant; say {' or '.join(candidates)}"
     if target.unit == "mPa_s" and tidy(unit).lower() in KINEMATIC:
         hint = "this is a kinematic viscosity: in mm²/s, times the density in g/cm³, it is in mPa s"
     else:

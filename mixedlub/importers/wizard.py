@@ -14,7 +14,7 @@ from mixedlub.case.import_file import NAME
 from mixedlub.data_checks.case_check import refuse_unreadable
 from mixedlub.discovery import offered
 from mixedlub.importers import pcs, plain, trios
-from mixedlub.importers.attachments import carried, is_share, with_share
+from mixedlub.importers.attachments import is_share, with_attachments, with_share
 from mixedlub.importers.base import (
     EVERY,
     SHEET,
@@ -40,9 +40,9 @@ from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, Severity, finding, of_severity, report
 from profiles.errors import InputError, nearest
 
-MANY = 2000
+RAW_FROM = 2000
 """Readings in time from which a recording is raw rather than averaged."""
-SHOWN = 4
+NAMES_SHOWN = 4
 """Different names of a column that the summary lists at most."""
 
 Ask = Callable[[str], str]
@@ -73,9 +73,9 @@ def read(files: Sequence[InputFile], answers: Answers) -> Draft:
         columns[TIME], restarted = joined_times(times)
     questions = {q.key: q for d in drafts for q in d.questions}
     runs, renumbered = joined_runs([(file.name, d.runs) for file, d in zip(files, drafts, strict=True)])
-    own = [note for file in files for note in file.notes]
+    file_notes = [note for file in files for note in file.notes]
     notes = [
-        *own,
+        *file_notes,
         *(note for d in drafts for note in d.notes),
         *restarted,
         *([read_note(renumbered)] if renumbered else []),
@@ -93,8 +93,8 @@ def read(files: Sequence[InputFile], answers: Answers) -> Draft:
 
 def _read_one(file: InputFile, answers: Answers) -> Draft:
     reader = next(r for r in (*offered("mixedlub.importers"), *READERS) if r.matches(file.text))
-    found: Draft = reader.draft(file, answers)
-    return found
+    draft: Draft = reader.draft(file, answers)
+    return draft
 
 
 def import_files(files: Sequence[Path], out: Path, *, overwrite: bool = False, **answers: Any) -> Path:
@@ -175,11 +175,11 @@ def _warnings(draft: Draft) -> tuple[Finding, ...]:
 
 def _opened(files: Sequence[Path], answers: Answers) -> tuple[list[InputFile], dict[str, Any]]:
     """The files of readings, and the answers with the table of load shares that may be among the files."""
-    found = [(path, open_file(path, answers)) for path in files]
-    shares = [path for path, file in found if is_share(file.text)]
-    if SHEET in answers and not any(file.is_workbook for _, file in found):
+    opened = [(path, open_file(path, answers)) for path in files]
+    shares = [path for path, file in opened if is_share(file.text)]
+    if SHEET in answers and not any(file.is_workbook for _, file in opened):
         raise InputError("none of the files is a workbook (.xlsx)", where=SHEET, value=answers[SHEET])
-    return [file for path, file in found if path not in shares], with_share(answers, shares)
+    return [file for path, file in opened if path not in shares], with_share(answers, shares)
 
 
 def parse_setting(text: str) -> tuple[str, Any]:
@@ -205,10 +205,10 @@ def _with_replies(
     files: Sequence[InputFile], answers: dict[str, Any], draft: Draft, ask: Ask, say: Say
 ) -> tuple[dict[str, Any], Draft]:
     """The answers and the draft after every question was put once, needed ones first."""
-    put: set[str] = set()
-    while waiting := [q for q in draft.questions if q.key not in answers and q.key not in put]:
+    asked: set[str] = set()
+    while waiting := [q for q in draft.questions if q.key not in answers and q.key not in asked]:
         question = next((q for q in waiting if q.needed), waiting[0])
-        put.add(question.key)
+        asked.add(question.key)
         answers, draft = _answered(files, answers, draft, question, ask, say)
     return answers, draft
 
@@ -219,21 +219,21 @@ def _answered(
     """The answers with one more, unless it is left open, and their draft; after a wrong answer the question repeats."""
     refused: dict[str, Mapping[str, Any]] = {}
     while True:
-        found = _ask(question, ask, say)
-        if found is None:
+        reply = _ask(question, ask, say)
+        if reply is None:
             return answers, draft
-        more = {**answers, **found}
+        extended = {**answers, **reply}
         try:
-            for key, value in found.items():
+            for key, value in reply.items():
                 refuse_wrong(key, value)
-            return more, read(files, more)
+            return extended, read(files, extended)
         except InputError as error:
             # An error that another answer does not change is one of the file.
-            if refused.get(str(error), found) != found:
+            if refused.get(str(error), reply) != reply:
                 raise
             if not question.key.startswith("import.") and error.where != question.key:
                 raise
-            refused[str(error)] = found
+            refused[str(error)] = reply
             say(str(error))
 
 
@@ -280,7 +280,7 @@ def _hint(question: Question) -> str:
 
 def _choices(question: Question) -> tuple[str, ...]:
     """Choices that may be given by number; none where a choice is itself a number."""
-    return () if any(choice.isdecimal() for choice in question.among) else question.among
+    return () if any(choice.isdecimal() for choice in question.options) else question.options
 
 
 def _help(question: Question, listing: Sequence[str]) -> Iterator[str]:
@@ -314,20 +314,20 @@ def _range(values: np.ndarray) -> str:
     """
     if values.dtype.kind not in "fiu":
         names = list(dict.fromkeys(values.tolist()))
-        return ", ".join(map(str, names[:SHOWN])) + (", ..." if len(names) > SHOWN else "")
+        return ", ".join(map(str, names[:NAMES_SHOWN])) + (", ..." if len(names) > NAMES_SHOWN else "")
     known = values[np.isfinite(values)]
     return f"{known.min():g} to {known.max():g}" if known.size else "empty"
 
 
 def _folders(answers_file: Path | None, files: Sequence[Path], out: Path) -> list[Path]:
     """Folders in which a file that the answers name is looked for."""
-    near = [path.parent for path in (*([answers_file] if answers_file else []), *files)]
-    return list(dict.fromkeys([*near, Path(), out]))
+    beside = [path.parent for path in (*([answers_file] if answers_file else []), *files)]
+    return list(dict.fromkeys([*beside, Path(), out]))
 
 
 def _hints(draft: Draft, answers: Answers) -> list[str]:
     rows = len(next(iter(draft.columns.values())))
-    if rows < MANY or "time_s" not in draft.columns or EVERY.key in answers:
+    if rows < RAW_FROM or "time_s" not in draft.columns or EVERY.key in answers:
         return []
     return [
         f"{rows} readings in time: --set {EVERY.key}=10 would keep one of ten; a start-up is cut off and readings are "
@@ -345,7 +345,7 @@ def _write(
 ) -> tuple[Path, str]:
     """The case folder, and why diagnose would refuse it although check reads it."""
     step(STEPS[2])
-    given, files = carried(answers, folders)
+    given, files = with_attachments(answers, folders)
     system: dict[str, Any] = {"kind": draft.kind, **given}
     for section, facts in draft.system.items():
         system[section] = {**facts, **system.get(section, {})}
@@ -357,22 +357,22 @@ def _write(
     check = checked.recording.check
     if check is not None and check not in columns:
         raise InputError("is no column that is taken from these files", where="recording.check", value=check)
-    lacking = gaps(checked, columns)
-    others = undescribed(checked, columns)
-    if checked.surfaces and others:
-        rule = f"is named in the readings and not described; {nearest(others[0], checked.surfaces)}"
-        raise InputError(rule, where="surfaces", value=others[0])
+    open_gaps = gaps(checked, columns)
+    not_described = undescribed(checked, columns)
+    if checked.surfaces and not_described:
+        rule = f"is named in the readings and not described; {nearest(not_described[0], checked.surfaces)}"
+        raise InputError(rule, where="surfaces", value=not_described[0])
     numbered = columns if draft.runs is None else {"run": draft.runs[::every], **columns}
-    comments = {gap.table: tuple(gap.comments()) for gap in lacking}
-    complete = not any(gap.required for gap in lacking)
+    comments = {gap.table: tuple(gap.comments()) for gap in open_gaps}
+    complete = not any(gap.required for gap in open_gaps)
     refusals: list[str] = []
 
     def read_back(folder: Path) -> None:
         step(STEPS[3])
         refusals.append(refuse_unreadable(folder, checked, complete, out))
 
-    warned = _warnings(draft)
-    if warned or (out / NAME).exists():
-        files[NAME] = findings_toml(warned).encode()
-    write_case(out, system, numbered, overwrite=overwrite, comments=comments, carried=files, check=read_back)
+    warnings = _warnings(draft)
+    if warnings or (out / NAME).exists():
+        files[NAME] = findings_toml(warnings).encode()
+    write_case(out, system, numbered, overwrite=overwrite, comments=comments, attachments=files, check=read_back)
     return out, "".join(refusals)

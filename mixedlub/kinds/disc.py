@@ -50,7 +50,7 @@ def contact_inputs(contact: system_file.Contact, table: Table) -> Inputs:
         raise InputError("one of the two bodies must be curved", where="contact.radius_mm", value=contact.radius_mm)
     radius = 1.0 / curvature
     speed = column(table["entrainment_speed_m_s"])
-    found: Inputs = {
+    inputs: Inputs = {
         "radius": radius,
         "transverse_radius": radius,
         "reduced_modulus": modulus,
@@ -59,8 +59,8 @@ def contact_inputs(contact: system_file.Contact, table: Table) -> Inputs:
         "sliding_speed": np.abs(column(table["slide_roll_ratio"])) * speed,
     }
     if contact.width_mm is not None:
-        found["contact_width"] = contact.width_mm * 1e-3
-    return found
+        inputs["contact_width"] = contact.width_mm * 1e-3
+    return inputs
 
 
 def inputs(system: system_file.System, rig: Rig, table: Table, recorded: Table) -> Inputs:

@@ -150,7 +150,7 @@ def chain(system: system_file.System, table: Table) -> Chain:
     )
 
 
-def reading_fault(recorded: Table, row: int, excess: float, sd: float) -> str | None:
+def instrument_fault(recorded: Table, row: int, excess: float, sd: float) -> str | None:
     """Identify a reading that deviates by one or two interference orders as miscounted.
 
     A corrected film below zero is not explained by an order.
@@ -201,13 +201,13 @@ KIND = Kind(
     subject="contact",
     readings=(FILM_THICKNESS,),
     columns=(*COLUMNS, columns.TIME),
-    channels=(FRINGE_ORDER,),
+    instrument_channels=(FRINGE_ORDER,),
     sections=("contact",),
     uses=("lubricant",),
     chain=chain,
     inputs=inputs,
     extra_calibration=extra_calibration,
-    reading_fault=reading_fault,
+    instrument_fault=instrument_fault,
     scale=1e9,
     asks_for_oil=True,
     standard=STANDARD,

@@ -24,7 +24,7 @@ COLUMNS = (
     *(replace(c, required=False) for c in (*disc.COLUMNS, *disc.SURFACES)),
 )
 NEEDED = tuple(c.name for c in (*disc.COLUMNS, *disc.SURFACES))
-SPREAD = 1.0
+FRICTION_SPREAD = 1.0
 """Judgement. Prior sd of the logarithm of the friction at the start: a factor of 2.7 either way."""
 USUAL_PRESSURE = 1e9
 """Judgement. Typical Hertz pressure (Pa) of a ball on a disc in traction machines."""
@@ -73,30 +73,30 @@ def _conditions(table: Table, recorded: Table) -> Inputs:
 
     The bodies are not known: at the largest load the contact has a typical pressure of such rigs.
     """
-    found: Inputs = {}
+    inputs: Inputs = {}
     if "entrainment_speed_m_s" in table:
-        found["entrainment_speed"] = column(table["entrainment_speed_m_s"])
+        inputs["entrainment_speed"] = column(table["entrainment_speed_m_s"])
     if "slide_roll_ratio" in table:
-        found["slide_roll_ratio"] = np.abs(column(table["slide_roll_ratio"]))
-    if {"entrainment_speed", "slide_roll_ratio"} <= set(found):
-        found["sliding_speed"] = found["slide_roll_ratio"] * found["entrainment_speed"]
-    found["hertz_pressure"] = USUAL_PRESSURE
+        inputs["slide_roll_ratio"] = np.abs(column(table["slide_roll_ratio"]))
+    if {"entrainment_speed", "slide_roll_ratio"} <= set(inputs):
+        inputs["sliding_speed"] = inputs["slide_roll_ratio"] * inputs["entrainment_speed"]
+    inputs["hertz_pressure"] = USUAL_PRESSURE
     if "load_N" in table:
-        found["load"] = column(table["load_N"])
+        inputs["load"] = column(table["load_N"])
         if "load_N" in recorded:
             share = table["load_N"] / max(float(np.max(np.abs(recorded["load_N"]))), 1e-300)
-            found["hertz_pressure"] = USUAL_PRESSURE * column(np.cbrt(np.abs(share)))
+            inputs["hertz_pressure"] = USUAL_PRESSURE * column(np.cbrt(np.abs(share)))
     if "oil_temperature_C" in table:
-        found["oil_temperature"] = column(table["oil_temperature_C"]) + ZERO_CELSIUS
-    return found
+        inputs["oil_temperature"] = column(table["oil_temperature_C"]) + ZERO_CELSIUS
+    return inputs
 
 
-def _given(system: system_file.System) -> bool:
+def _friction_is_given(system: system_file.System) -> bool:
     return system.uncertainty.boundary_friction > 0
 
 
 def _level(system: system_file.System, recorded: Table) -> float:
-    if _given(system) or "friction_coefficient" not in recorded:
+    if _friction_is_given(system) or "friction_coefficient" not in recorded:
         return system.boundary_friction
     return max(float(np.median(np.abs(recorded["friction_coefficient"]))), 1e-3)
 
@@ -105,11 +105,14 @@ def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Cali
     """Broad priors for a friction coefficient, or for an oil where the film is computed, that are not specified."""
     if resolved(system, recorded):
         return oil_priors.calibrations(system, recorded["oil_temperature_C"] + ZERO_CELSIUS)
-    if _given(system):
+    if _friction_is_given(system):
         return ()
     level = _level(system, recorded)
     parameter = Parameter(
-        "boundary_friction", "-", LogNormal(level, SPREAD), "friction coefficient at the start of the recording"
+        "boundary_friction",
+        "-",
+        LogNormal(level, FRICTION_SPREAD),
+        "friction coefficient at the start of the recording",
     )
     return (Calibration(parameter, lambda inputs, value: {"boundary_friction": value}, level, ("boundary_friction",)),)
 

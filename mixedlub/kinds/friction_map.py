@@ -10,7 +10,7 @@ import numpy as np
 
 from mixedlub.chain.effect import Parameter
 from mixedlub.chain.model import Chain
-from mixedlub.chain.priors import BetweenLog, LogNormal, Normal
+from mixedlub.chain.priors import LogNormal, LogUniform, Normal
 from mixedlub.kinds import columns
 from mixedlub.kinds.calibration import Calibration
 from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out, inverse_load, programme
@@ -69,10 +69,11 @@ MOTOR_TORQUE = Column(
     words=("motor torque",),
 )
 """Not a test condition: friction is its excess over the torque at the shaft."""
-LARGE, LEAST_SHARE = 0.95, 0.3
-"""Judgement. Quantile of the size of readings that counts as large, and the least share of it that is the typical
-size."""
-BEYOND = 2.5
+LARGE_QUANTILE = 0.95
+"""Judgement. Quantile of the size of readings that counts as their largest."""
+LEAST_SCALE = 0.3
+"""Judgement. Least typical size of the readings, as a share of their largest."""
+SIGNIFICANT = 2.5
 """Judgement. Difference between the slow and fast half of the readings, in standard deviations, that is significant."""
 BARE_SHARE = 0.3
 """Judgement. Prior of the friction of motor and sensor alone, relative to that of the complete drive."""
@@ -169,7 +170,7 @@ def _motor_torque(table: Table, recorded: Table) -> Inputs:
     return {"reference_torque": float(np.max(np.abs(recorded[motor]))), "motor_torque": column(table[own])}
 
 
-def completed(table: Table, recorded: Table) -> Table:
+def fill_channels(table: Table, recorded: Table) -> Table:
     """Rows without the motor's torque: that of the shaft plus the median friction, else the median motor torque."""
     if MOTOR_TORQUE.name in table or MOTOR_TORQUE.name not in recorded:
         return table
@@ -192,7 +193,9 @@ def _size(system: system_file.System, recorded: Table) -> float:
     """Typical size of the readings of the complete drive; a payload may cancel friction in one direction."""
     values, speed = _complete(system, recorded)
     size = np.abs(values)
-    return float(max(np.median(size), LEAST_SHARE * np.quantile(size, LARGE), made_up_for(values, speed))) or 1.0
+    return (
+        float(max(np.median(size), LEAST_SCALE * np.quantile(size, LARGE_QUANTILE), made_up_for(values, speed))) or 1.0
+    )
 
 
 def _largest(system: system_file.System, recorded: Table) -> float:
@@ -200,7 +203,7 @@ def _largest(system: system_file.System, recorded: Table) -> float:
     if system.recording.quantity not in recorded:
         return 1.0
     size = np.abs(recorded[system.recording.quantity])
-    return float(max(np.quantile(size, LARGE), made_up_for(*_complete(system, recorded)))) or 1.0
+    return float(max(np.quantile(size, LARGE_QUANTILE), made_up_for(*_complete(system, recorded)))) or 1.0
 
 
 def _complete(system: system_file.System, recorded: Table) -> tuple[np.ndarray, np.ndarray]:
@@ -230,7 +233,7 @@ def made_up_for(values: np.ndarray, speed: np.ndarray) -> float:
         slow, fast = np.median(ranked[: ranked.size // 2]), np.median(ranked[-(ranked.size // 2) :])
         scatter = float(np.median(np.abs(np.diff(ranked)))) / 0.954
         apart = float(abs(fast - slow))
-        spans.append(apart if slow * fast < 0.0 and apart > BEYOND * scatter else 0.0)
+        spans.append(apart if slow * fast < 0.0 and apart > SIGNIFICANT * scatter else 0.0)
     return max(spans)
 
 
@@ -238,7 +241,7 @@ def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Cali
     """Broad priors of dry, viscous and payload torque, scaled by the readings."""
     size, largest = _size(system, recorded), _largest(system, recorded)
 
-    def unknown(name: str, prior: LogNormal | BetweenLog | Normal, nominal: float, meaning: str) -> Calibration:
+    def unknown(name: str, prior: LogNormal | LogUniform | Normal, nominal: float, meaning: str) -> Calibration:
         torque = system.recording.quantity == "friction_torque_Nm"
         label = name if torque else name.replace("torque", "friction")
         parameter = Parameter(label, "N m" if torque else "-", prior, meaning)
@@ -248,7 +251,7 @@ def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Cali
         unknown("coulomb_torque", LogNormal(size, 1.0), size, "dry friction, the same in both directions"),
         unknown(
             "viscous_torque",
-            BetweenLog(3e-3 * size, 3.0 * largest),
+            LogUniform(3e-3 * size, 3.0 * largest),
             0.5 * size,
             "viscous friction at the largest speed",
         ),
@@ -297,8 +300,8 @@ KIND = Kind(
     inputs=inputs,
     extra_calibration=extra_calibration,
     part_rigs=(NO_GEARS,),
-    channels=(MOTOR_TORQUE,),
-    completed=completed,
+    instrument_channels=(MOTOR_TORQUE,),
+    fill_channels=fill_channels,
     direction=drive_speed,
     either=SPEEDS,
     standard=STANDARD,

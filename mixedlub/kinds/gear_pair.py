@@ -91,7 +91,7 @@ KIND = Kind(
     chain=lambda system, table: (*GEAR_LOSS, ("reading", reading)),
     inputs=inputs,
     part_rigs=(NO_GEARS,),
-    nominal={"power_loss": "nominal_loss"},
+    base_inputs={"power_loss": "nominal_loss"},
     asks_for_oil=True,
     standard=STANDARD,
 )

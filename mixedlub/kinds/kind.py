@@ -39,14 +39,14 @@ class Kind:
     one of the two of length one where a quantity does not depend on it; the chain ends in ``reading``,
     shape (rows, 1), in SI. ``recorded`` is the recording of the case, from which typical sizes (the largest
     speed, the duration) are taken, so that other predictions use the same ones; ``extra_calibration`` uses it to scale
-    the priors of unknown inputs. ``reading_fault(recorded, row, excess, sd)`` describes the instrument fault that
+    the priors of unknown inputs. ``instrument_fault(recorded, row, excess, sd)`` describes the fault that
     explains a residual ``excess`` of reading ``row`` with noise ``sd`` (unit of the column). ``logarithmic`` kinds span
     decades and are compared by the logarithm of the reading. ``part_rigs`` are the names in the column ``rig`` whose
-    readings are compared with a part of the base model. ``channels`` are further outputs of the instrument: read as
-    columns, but not test conditions. ``completed(table, recorded)`` adds predicted channels to rows that were not
-    recorded. ``nominal`` are quantities of the base model before calibration, provided to effects under other names.
-    ``limits(system)`` are the lowest and highest values of a column on this rig, by its name. ``direction(table)`` is
-    the signed speed of each row, for kinds whose reading changes sign with it.
+    readings are compared with a part of the base model. ``instrument_channels`` are further outputs of the
+    instrument: read as columns, but not test conditions. ``fill_channels(table, recorded)`` adds them, predicted, to
+    rows that were not recorded. ``base_inputs`` are quantities of the base model before calibration, and the names
+    under which effects read them. ``column_limits(system)`` are the lowest and highest values of a column on this rig,
+    by its name. ``direction(table)`` is the signed speed of each row, for kinds whose reading changes sign with it.
 
     For imports and figures: ``either`` are columns of which a table has one; histories (``is_history``) are plotted
     over time; logged series (``is_logged``) may be thinned; ``asks_for_oil`` means that the import requests the
@@ -62,13 +62,13 @@ class Kind:
     inputs: Callable[[system_file.System, Rig, Table, Table], Inputs]
     standard: StandardRig
     extra_calibration: Callable[[system_file.System, Table], tuple[Calibration, ...]] = lambda system, recorded: ()
-    reading_fault: Callable[[Table, int, float, float], str | None] = lambda recorded, row, excess, sd: None
+    instrument_fault: Callable[[Table, int, float, float], str | None] = lambda recorded, row, excess, sd: None
     logarithmic: bool = False
     part_rigs: tuple[str, ...] = ()
-    channels: tuple[Column, ...] = ()
-    completed: Callable[[Table, Table], Table] = lambda table, recorded: table
-    limits: Callable[[system_file.System], Mapping[str, tuple[float, float]]] = lambda system: {}
-    nominal: Mapping[str, str] = field(default_factory=dict)
+    instrument_channels: tuple[Column, ...] = ()
+    fill_channels: Callable[[Table, Table], Table] = lambda table, recorded: table
+    column_limits: Callable[[system_file.System], Mapping[str, tuple[float, float]]] = lambda system: {}
+    base_inputs: Mapping[str, str] = field(default_factory=dict)
     uses: tuple[str, ...] = ()
     scale: float = 1.0
     direction: Callable[[Table], np.ndarray] | None = None
@@ -108,9 +108,10 @@ NO_GEARS = "no_gears"
 """Name in the column ``rig`` of readings taken without gears."""
 
 
-LOADS_DIFFER, LEAST = 1.2, 1e-3
-"""Judgement. Load ratio above which a force offset is distinguishable from a friction offset; smallest load that is not
-zero."""
+LOADS_DIFFER = 1.2
+"""Judgement. Load ratio above which a force offset is distinguishable from a friction offset."""
+ZERO_LOAD = 1e-3
+"""Judgement. Share of the smallest recorded load below which a load is treated as zero."""
 
 
 def inverse_load(system: system_file.System, table: Table, recorded: Table) -> Inputs:
@@ -131,7 +132,7 @@ def inverse_of(load: np.ndarray, recorded: np.ndarray) -> Inputs:
     least, largest = float(np.min(recorded)), float(np.max(recorded))
     if least == 0.0 or largest < LOADS_DIFFER * least:
         return {}
-    return {"inverse_load": column(least / np.maximum(load, LEAST * least))}
+    return {"inverse_load": column(least / np.maximum(load, ZERO_LOAD * least))}
 
 
 def gears_out(table: Table) -> np.ndarray:
@@ -189,9 +190,9 @@ def programme(table: Table, recorded: Table) -> Inputs:
     """For rows with a time: the time, and the share of the recording's duration as position in the programme."""
     if "time_s" not in table:
         return {}
-    found: Inputs = {"time": column(table["time_s"])}
+    inputs: Inputs = {"time": column(table["time_s"])}
     if "sequence" not in table and "time_s" in recorded:
         first, last = float(recorded["time_s"].min()), float(recorded["time_s"].max())
         start = 0.0 if 0.0 <= first <= 0.5 * last else first
-        found["sequence"] = column((table["time_s"] - start) / ((last - start) or 1.0))
-    return found
+        inputs["sequence"] = column((table["time_s"] - start) / ((last - start) or 1.0))
+    return inputs

@@ -67,7 +67,7 @@ def _asked_of(share: np.ndarray, table: Table) -> np.ndarray:
     return np.asarray(table["torque_Nm"] * np.maximum(share, LEAST_SHARE))
 
 
-def limits(system: system_file.System) -> dict[str, tuple[float, float]]:
+def column_limits(system: system_file.System) -> dict[str, tuple[float, float]]:
     """Limits of the roll angle: contact exists on the path of contact only."""
     if system.gears is None:
         return {}
@@ -96,7 +96,7 @@ KIND = Kind(
     sections=("gears", "lubricant", "surfaces"),
     chain=lambda system, table: (*GEAR_CONTACT, ("reading", reading)),
     inputs=inputs,
-    limits=limits,
+    column_limits=column_limits,
     asks_for_oil=True,
     standard=STANDARD,
 )

@@ -254,9 +254,9 @@ def raw_coordinates(forward: Forward) -> dict[str, np.ndarray]:
     """Condition columns of a model's rows, the surfaces as a pair and as a composite roughness."""
     case, table = forward.case, forward.table
     found: dict[str, np.ndarray] = {}
-    names = [c for c in case.kind.columns if c.form == "name" and c.name in table]
+    names = [c for c in case.kind.columns if c.dtype == "name" and c.name in table]
     for column in case.kind.columns:
-        if column.form != "name" and column.name in table:
+        if column.dtype != "name" and column.name in table:
             found[column.name] = np.asarray(table[column.name], dtype=float)
     if names:
         label = table[names[0].name].astype(str)

@@ -228,7 +228,7 @@ def repeated(case: Case) -> np.ndarray | None:
 
 
 def _groups(case: Case, rows: Table) -> np.ndarray | None:
-    names = [*(c.name for c in (*case.kind.columns, *case.kind.channels)), "rig", "setup"]
+    names = [*(c.name for c in (*case.kind.columns, *case.kind.instrument_channels)), "rig", "setup"]
     keys = [np.unique(rows[name], return_inverse=True)[1] for name in names if name in rows]
     if not keys:
         return None

@@ -29,7 +29,7 @@ _RIG_INDENT = 20
 
 def shown(effect: Effect) -> dict[str, float]:
     """Parameter values that show the effect: the prior median, or one sd above it where the median is null."""
-    middle = effect.middle
+    middle = effect.prior_medians
     return {p.name: p.prior.value(1.0) if middle[p.name] == p.null else middle[p.name] for p in effect.parameters}
 
 

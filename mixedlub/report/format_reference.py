@@ -23,7 +23,7 @@ from profiles.errors import InputError, nearest
 
 WIDTH = 80
 """Columns of a terminal."""
-LEAST = 22
+LEAST_MEANING_WIDTH = 22
 """Columns that a meaning needs to the right of its key: about three words."""
 STUDY = "study"
 EVERY_CASE = ("", "uncertainty", "recording")
@@ -84,7 +84,7 @@ def _kind(k: Kind) -> Iterator[str]:
 def kind_rows(k: Kind) -> list[Row]:
     """The columns of a kind, readings last."""
     one = "reading" if len(k.readings) == 1 else "one of these"
-    rows = [_column(c) for c in (*k.columns, *k.channels)]
+    rows = [_column(c) for c in (*k.columns, *k.instrument_channels)]
     return [*rows, *(_column(c, needed=one) for c in k.readings)]
 
 
@@ -105,13 +105,13 @@ def common_rows() -> list[Row]:
 
 
 def _column(c: Column, needed: str = "", unit: str = "") -> Row:
-    unit = "" if c.form == "name" else unit or unit_of(c.name) or "-"
+    unit = "" if c.dtype == "name" else unit or unit_of(c.name) or "-"
     return c.name, unit, needed or ("required" if c.required else "optional"), _bounds(c), c.meaning
 
 
 def _bounds(c: Column) -> str:
-    if c.form != "number":
-        return {"whole": "whole number"}.get(c.form, c.form)
+    if c.dtype != "number":
+        return {"whole": "whole number"}.get(c.dtype, c.dtype)
     if np.isfinite(c.above):
         return f"above {c.above:g}"
     return _span(c.at_least, c.at_most)
@@ -199,7 +199,7 @@ def _blocks(rows: Sequence[Row], indent: int) -> Iterator[list[str]]:
     """The lines of each row, in columns; the meaning is in the last one, or below where that one is too narrow."""
     widths = [max(map(len, cells)) for cells in zip(*rows, strict=True)][:-1]
     width_before = indent + sum(widths) + len(_GAP) * len(widths)
-    below = WIDTH - width_before < LEAST
+    below = WIDTH - width_before < LEAST_MEANING_WIDTH
     for *facts, meaning in rows:
         start = " " * indent + _GAP.join(f"{cell:{width}}" for cell, width in zip(facts, widths, strict=True))
         lines = _wrapped(meaning, *(2 * [indent + 4 if below else width_before]))

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     Judged = dict[str, NormalProbability]
 
-SHOWN = 8
+MOST_CURVES = 8
 EXCERPT = 1.5e-3
 """Length of trace drawn (m): single asperities remain visible."""
 SCALE_RATIO = 5.0
@@ -29,7 +29,7 @@ SCALE_RATIO = 5.0
 
 def surface_rows(study: Study) -> list[tuple[str, ...]]:
     """Name, Rq (um), rms slope, rms curvature (1/mm), Nayak bandwidth, summits per mm2 and their radius (um)."""
-    surfaces = list(study.surfaces.values())[: 4 * SHOWN]
+    surfaces = list(study.surfaces.values())[: 4 * MOST_CURVES]
     m0, m2, m4 = (np.array([getattr(s, name) for s in surfaces]) for name in ("m0", "m2", "m4"))
     columns = (
         (np.sqrt(m0) * 1e6, ".3f"),
@@ -45,7 +45,7 @@ def surface_rows(study: Study) -> list[tuple[str, ...]]:
 
 def traced(study: Study) -> dict[str, Profile]:
     """The filtered profiles of the surfaces given as traces, at most as many as one figure holds."""
-    named = [name for name in study.surfaces if study.file.surfaces[name].profile is not None][:SHOWN]
+    named = [name for name in study.surfaces if study.file.surfaces[name].profile is not None][:MOST_CURVES]
     with collected():
         profiles = {name: study.rig.profile(name) for name in named}
     return {name: replace(profile, name=name) for name, profile in profiles.items()}
@@ -115,5 +115,5 @@ def provenance(study: Study) -> list[tuple[str, str]]:
     sections = study.file.surfaces
     return [
         (name, f"{sections[name].profile}: {'; '.join(s.steps)}" if sections[name].profile else "moments as given")
-        for name, s in list(study.surfaces.items())[: 4 * SHOWN]
+        for name, s in list(study.surfaces.items())[: 4 * MOST_CURVES]
     ]

@@ -14,7 +14,7 @@ BANDWIDTH = (1.0 - 1e-6, 1e5)
 """Nayak's m0 m4/m2^2: no profile has less than 1 (Cauchy and Schwarz), none of two scales apart by 300 more."""
 
 
-def far_off(rig: Rig, surfaces: Collection[str] | None = None) -> Iterator[Finding]:
+def implausible(rig: Rig, surfaces: Collection[str] | None = None) -> Iterator[Finding]:
     """What is implausible about a rig; of its ``surfaces``, all where none are named."""
     yield from ranges.unusual(rig.file)
     if rig.file.gears is not None:
@@ -39,7 +39,7 @@ def _roughness(surface: Surface, place: str, section: system_file.SurfaceSection
     if section.profile is not None:
         moments = (("m0_um2", surface.m0 * 1e12), ("m2", surface.m2), ("m4_per_um2", surface.m4 * 1e-12))
         for key, value in moments:
-            yield from ranges.beyond_usual(f"surfaces.{key}", value, f"{place}, {key} of its trace")
+            yield from ranges.atypical(f"surfaces.{key}", value, f"{place}, {key} of its trace")
     bandwidth = surface.m0 * surface.m4 / surface.m2**2
     if not BANDWIDTH[0] <= bandwidth <= BANDWIDTH[1]:
         text = (

@@ -14,7 +14,7 @@ from importlib.resources import files
 
 from profiles.errors import nearest
 
-SHOWN = 3
+PLACES_LISTED = 3
 """Largest number of places that a group of findings lists; longer lists are not read."""
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
 
@@ -157,7 +157,7 @@ def _as_one(group: Sequence[Finding]) -> Finding:
     return replace(first, text=f"{first.text}; likewise {listed(places[1:])}")
 
 
-def listed(items: Sequence[object], most: int = SHOWN) -> str:
+def listed(items: Sequence[object], most: int = PLACES_LISTED) -> str:
     """The first items and the number of remaining ones.
 
     >>> listed([3, 4]), listed([1, 2, 3, 4, 5])

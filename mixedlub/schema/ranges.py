@@ -26,22 +26,22 @@ class Range:
 
     key: str
     possible: tuple[float, float]
-    usual: tuple[float, float]
+    typical: tuple[float, float]
 
 
 @cache
 def ranges() -> Mapping[str, Range]:
     """The ranges by key of `system.toml`, without the name of a surface.
 
-    >>> ranges()["lubricant.eyring_stress_MPa"].usual
+    >>> ranges()["lubricant.eyring_stress_MPa"].typical
     (0.3, 60.0)
     """
     found: dict[str, Range] = {}
 
     def walk(place: str, table: Mapping[str, Any]) -> None:
         for key, value in table.items():
-            if "usual" in value:
-                found[f"{place}{key}"] = Range(f"{place}{key}", tuple(value["possible"]), tuple(value["usual"]))
+            if "typical" in value:
+                found[f"{place}{key}"] = Range(f"{place}{key}", tuple(value["possible"]), tuple(value["typical"]))
             else:
                 walk(f"{place}{key}.", value)
 
@@ -54,14 +54,14 @@ def range_of(field: FieldInfo) -> Range | None:
     return next((m for m in field.metadata if isinstance(m, Range)), None)
 
 
-def meant(name: str, value: object, low: float, high: float) -> str:
+def probable_unit(name: str, value: object, low: float, high: float) -> str:
     """Words for the unit in which a number outside a range would lie within it; empty where there is none.
 
-    >>> meant("kinematic_viscosity_mm2_s", 30e-6, 0.4, 2e6)
+    >>> probable_unit("kinematic_viscosity_mm2_s", 30e-6, 0.4, 2e6)
     '3e-05 m2/s would be 30 mm²/s: is it in that unit?'
-    >>> meant("temperature_C", 313.15, -80, 250), meant("m2", 0.5, 1.0, 2.0)
+    >>> probable_unit("temperature_C", 313.15, -80, 250), probable_unit("m2", 0.5, 1.0, 2.0)
     ('313.15 K would be 40 °C: is it in that unit?', '')
-    >>> meant("poisson_ratio", 0.5, 0.0, 0.4999), meant("sequence", 2.0, 0.0, 1.0)
+    >>> probable_unit("poisson_ratio", 0.5, 0.0, 0.4999), probable_unit("sequence", 2.0, 0.0, 1.0)
     ('', '')
     """
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not np.isfinite(value) or name in NO_SHARES:
@@ -78,12 +78,12 @@ def meant(name: str, value: object, low: float, high: float) -> str:
 ASKED = ": is it in that unit?"
 
 
-def broken(key: str | Range, value: object) -> str:
+def range_violation(key: str | Range, value: object) -> str:
     """The rule that an impossible value violates, with its probable unit; empty for a possible value.
 
-    >>> broken("gears.normal_module_mm", 0.0042)
+    >>> range_violation("gears.normal_module_mm", 0.0042)
     'must be from 0.01 to 200 mm; 0.0042 m would be 4.2 mm: is it in that unit?'
-    >>> broken("lubricant.temperature_C", (40.0, 373.15))
+    >>> range_violation("lubricant.temperature_C", (40.0, 373.15))
     'entry 2 must be from -150 to 300 °C; 373.15 K would be 100 °C: is it in that unit?'
     """
     within = key if isinstance(key, Range) else ranges()[key]
@@ -91,7 +91,7 @@ def broken(key: str | Range, value: object) -> str:
     for place, entry in _entries(value):
         if not low <= entry <= high:
             ends = f"at least {low:g}" if high == np.inf else f"from {low:g} to {high:g}"
-            other = meant(name, entry, *within.usual)
+            other = probable_unit(name, entry, *within.typical)
             return f"{place}must be {ends} {unit_of(name)}".rstrip() + (f"; {other}" if other else "")
     return ""
 
@@ -104,20 +104,20 @@ def _entries(value: Any) -> Iterator[tuple[str, float]]:
         yield "", value
 
 
-def beyond_usual(key: str | Range, value: float, place: str) -> list[Finding]:
+def atypical(key: str | Range, value: float, place: str) -> list[Finding]:
     """Finding on a possible value outside the typical range; empty where it lies within.
 
-    >>> print(*beyond_usual("lubricant.eyring_stress_MPa", 90.0, "lubricant.eyring_stress_MPa"))
+    >>> print(*atypical("lubricant.eyring_stress_MPa", 90.0, "lubricant.eyring_stress_MPa"))
     lubricant.eyring_stress_MPa: 90, where rigs have 0.3 to 60 MPa: check the number and its unit
     """
     within = key if isinstance(key, Range) else ranges()[key]
-    low, high = within.usual
+    low, high = within.typical
     if low <= value <= high:
         return []
     name = within.key.rpartition(".")[2]
-    usual = f"at least {low:g}" if high == np.inf else f"{low:g} to {high:g}"
-    unit = meant(name, value, low, high).removesuffix(ASKED) or "check the number and its unit"
-    text = f"{value:.6g}, where rigs have {usual} {unit_of(name)}".rstrip()
+    typical = f"at least {low:g}" if high == np.inf else f"{low:g} to {high:g}"
+    unit = probable_unit(name, value, low, high).removesuffix(ASKED) or "check the number and its unit"
+    text = f"{value:.6g}, where rigs have {typical} {unit_of(name)}".rstrip()
     return [finding("value_unusual", f"{text}: {unit}", place)]
 
 
@@ -127,7 +127,7 @@ def unusual(table: BaseModel, place: tuple[str, ...] = ()) -> Iterator[Finding]:
         value, within = getattr(table, name), range_of(field)
         if within is not None and value is not None:
             where = ".".join((*place, name))
-            each = (beyond_usual(within, x, f"{where}, {words}".rstrip(", ")) for words, x in _entries(value))
+            each = (atypical(within, x, f"{where}, {words}".rstrip(", ")) for words, x in _entries(value))
             yield from next(filter(None, each), [])
         named = value.items() if isinstance(value, dict) else [("", value)]
         for inner, section in named:

@@ -21,7 +21,7 @@ from pydantic import (
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
-from mixedlub.schema.ranges import Range, broken, range_of, ranges
+from mixedlub.schema.ranges import Range, range_of, range_violation, ranges
 from mixedlub.schema.units import unit_of
 
 
@@ -91,7 +91,7 @@ class Section(BaseModel):
     @classmethod
     def _possible(cls, value: Any, info: ValidationInfo) -> Any:
         within = range_of(cls.model_fields[str(info.field_name)])
-        rule = "" if within is None or value is None else broken(within, value)
+        rule = "" if within is None or value is None else range_violation(within, value)
         if rule:
             raise ValueError(rule)
         return value

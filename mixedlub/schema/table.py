@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mixedlub.schema.findings import Finding, finding, report
-from mixedlub.schema.ranges import meant
+from mixedlub.schema.ranges import probable_unit
 from mixedlub.schema.units import fits, read_as, split, unit_of, words_of
 from profiles.errors import InputError, nearest, refuse_no_file
 
@@ -25,18 +25,18 @@ if TYPE_CHECKING:
 class Column:
     """Description of a column: a number within bounds, an integer, or a name (one of ``names`` if given).
 
-    Where a number may be ``blank``, an empty cell is nan. ``words`` are the names used in instrument files, ``hints``
-    are ambiguous ones.
+    Where ``optional_cells`` are allowed, an empty cell is nan. ``words`` are the names used in instrument files,
+    ``hints`` are ambiguous ones.
     """
 
     name: str
-    form: str = "number"
+    dtype: str = "number"
     above: float = -np.inf
     at_least: float = -np.inf
     at_most: float = np.inf
     required: bool = True
     names: tuple[str, ...] = ()
-    blank: bool = False
+    optional_cells: bool = False
     meaning: str = ""
     words: tuple[str, ...] = ()
     hints: tuple[str, ...] = ()
@@ -48,13 +48,13 @@ class Column:
     def parse(self, text: str, where: str) -> float | int | str:
         """The cell's value, or an error that names the place."""
         text = text.strip()
-        if self.form == "name":
+        if self.dtype == "name":
             if not text:
                 raise InputError(f"{self.name} must name something", where=where, value=text)
             if self.names and text not in self.names:
                 raise InputError(f"no such name in system.toml; {nearest(text, self.names)}", where=where, value=text)
             return text
-        if self.blank and is_missing(text):
+        if self.optional_cells and is_missing(text):
             return float("nan")
         try:
             value = float(text)
@@ -65,9 +65,9 @@ class Column:
         if not self.allows(value):
             low = value <= self.above
             rule = f"be above {self.above:g}" if low else f"lie between {self.at_least:g} and {self.at_most:g}"
-            other = meant(self.name, value, self.at_least, self.at_most) if np.isfinite(self.at_most) else ""
+            other = probable_unit(self.name, value, self.at_least, self.at_most) if np.isfinite(self.at_most) else ""
             raise InputError(f"{self.name} must {rule}" + (f"; {other}" if other else ""), where=where, value=value)
-        if self.form == "whole":
+        if self.dtype == "whole":
             if value != int(value):
                 raise InputError(f"{self.name} must be a whole number", where=where, value=text)
             if abs(value) >= LARGEST:
@@ -78,18 +78,18 @@ class Column:
     def parse_all(self, cells: Sequence[str]) -> np.ndarray | None:
         """The values of all cells at once; None where a cell is empty or invalid, which ``parse`` reports."""
         try:
-            if self.form == "name":
+            if self.dtype == "name":
                 names = {cell: self.parse(cell, self.name) for cell in set(cells)}
                 return np.array([names[cell] for cell in cells])
             values = np.fromiter(map(float, cells), float, len(cells))
         except ValueError:
             return None
         allowed = (values > self.above) & (values >= self.at_least) & (values <= self.at_most) & np.isfinite(values)
-        if self.form == "whole":
+        if self.dtype == "whole":
             allowed &= (np.abs(values) < LARGEST) & (values == np.trunc(values))
         if not allowed.all():
             return None
-        return values.astype(int) if self.form == "whole" else values
+        return values.astype(int) if self.dtype == "whole" else values
 
 
 LARGEST = 2**53
@@ -114,12 +114,14 @@ BOOKKEEPING = (
 def sd_column(quantity: str) -> Column:
     """The standard deviations of the readings."""
     meaning = "standard deviation of each reading; 0 or empty: not given; it overrides recording.noise"
-    return Column(f"{quantity}_sd", at_least=0.0, required=False, blank=True, meaning=meaning)
+    return Column(f"{quantity}_sd", at_least=0.0, required=False, optional_cells=True, meaning=meaning)
 
 
 def check_column(name: str) -> Column:
     """A second channel."""
-    return Column(name, required=False, blank=True, meaning="the column that recording.check names: never fitted")
+    return Column(
+        name, required=False, optional_cells=True, meaning="the column that recording.check names: never fitted"
+    )
 
 
 @dataclass(frozen=True)

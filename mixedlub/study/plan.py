@@ -18,7 +18,7 @@ from mixedlub.gear.inputs import motion_inputs
 from mixedlub.laws.load import LEAST_SHARE
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.lubricant import Lubricant
-from mixedlub.rig.plausibility import far_off
+from mixedlub.rig.plausibility import implausible
 from mixedlub.rig.rig import Rig
 from mixedlub.rig.surface import Surface, paired
 from mixedlub.schema import system_file, toml_file
@@ -98,7 +98,7 @@ def read_study(path: Path, file: StudyFile | None = None) -> Study:
         with collected() as notes, np.errstate(all="ignore"):
             study = _resolve(path.stem, file, Rig(file, path.parent.resolve()))
         _check_finite(study)
-        doubtful = tuple(far_off(study.rig, study.surfaces))
+        doubtful = tuple(implausible(study.rig, study.surfaces))
     except InputError as error:
         placed = system_file.in_file(error, str(path))
         if str(path) in str(placed):

@@ -46,8 +46,8 @@ class Truth:
     @property
     def candidates(self) -> frozenset[str]:
         """Effects of the catalogue that are planted or were tried as rivals."""
-        own = frozenset() if self.group == "unknown" else frozenset(self.effects)
-        return own | {name for name in self.rivals if "+" not in name}
+        planted = frozenset() if self.group == "unknown" else frozenset(self.effects)
+        return planted | {name for name in self.rivals if "+" not in name}
 
     @property
     def off(self) -> np.ndarray:
@@ -126,20 +126,20 @@ def read_answer(folder: Path) -> Answer:
     for name in ("diagnosis.json", "predictions.csv"):
         if not (folder / name).exists():
             raise InputError(f"{name} is missing: the case was not answered", where=str(folder))
-    found = json.loads((folder / "diagnosis.json").read_text(encoding="utf-8"))
+    record = json.loads((folder / "diagnosis.json").read_text(encoding="utf-8"))
     table = read_columns(folder / "predictions.csv")
     timed = folder / "seconds.json"
     return Answer(
         case=folder.name,
-        verdict=_names(found["verdict"]),
-        tied=tuple(_names(one) for one in found.get("tied", [found["verdict"]])),
-        probabilities={name: float(p) for name, p in found["probabilities"].items()},
-        detected=bool(found["mismatch"]["detected"]),
-        outliers=frozenset(found.get("outlier_runs", [])),
-        location={int(run): float(z) for run, z in found.get("location", {}).get("rows", {}).items()},
+        verdict=_names(record["verdict"]),
+        tied=tuple(_names(one) for one in record.get("tied", [record["verdict"]])),
+        probabilities={name: float(p) for name, p in record["probabilities"].items()},
+        detected=bool(record["mismatch"]["detected"]),
+        outliers=frozenset(record.get("outlier_runs", [])),
+        location={int(run): float(z) for run, z in record.get("location", {}).get("rows", {}).items()},
         calibration={
             name: (float(value["low90"]), float(value["high90"]))
-            for name, value in found.get("calibration", {}).items()
+            for name, value in record.get("calibration", {}).items()
         },
         run=table["run"],
         calibrated=table["calibrated"],

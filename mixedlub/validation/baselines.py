@@ -60,7 +60,7 @@ class Fitted:
     spoiled: np.ndarray
 
     @property
-    def seen(self) -> int:
+    def n_recorded(self) -> int:
         return len(self.recorded)
 
     @property
@@ -71,7 +71,7 @@ class Fitted:
     @property
     def residual(self) -> np.ndarray:
         """Recorded minus calibrated over the sd, at the good rows."""
-        return ((self.recorded - self.value[: self.seen]) / self.sd[: self.seen])[self.good]
+        return ((self.recorded - self.value[: self.n_recorded]) / self.sd[: self.n_recorded])[self.good]
 
     @property
     def squares(self) -> float:
@@ -88,14 +88,14 @@ class Fitted:
 
 def recalibrate(folder: Path) -> Fitted:
     """Base model fitted to the recordings of a case under the priors, and again without the outliers of that fit."""
-    seen = read_case(folder)
+    recording = read_case(folder)
     table = folder / "conditions.csv"
     wanted = read_case(folder, "conditions.csv").columns if table.exists() else {}
-    quantity = seen.settings["recording"]["quantity"]
-    recorded = seen.columns[quantity]
-    names = [name for name in seen.columns if name != quantity]
-    columns = {name: np.concatenate([seen.columns[name], wanted.get(name, [])]) for name in names}
-    rig = RIGS[seen.kind](Case(settings=seen.settings, columns=columns, share=seen.share))
+    quantity = recording.settings["recording"]["quantity"]
+    recorded = recording.columns[quantity]
+    names = [name for name in recording.columns if name != quantity]
+    columns = {name: np.concatenate([recording.columns[name], wanted.get(name, [])]) for name in names}
+    rig = RIGS[recording.kind](Case(settings=recording.settings, columns=columns, share=recording.share))
     noise = rig.settings["recording"]["noise"]
     count, start = len(recorded), np.zeros(len(rig.names))
     base = rig.model(start, ())
@@ -108,9 +108,9 @@ def recalibrate(folder: Path) -> Fitted:
             return np.concatenate([(rig.model(z, ())[:count] - recorded) * weight, z])
 
         z, _ = descend(residual, z, -limit, limit)
-        left = (recorded - rig.model(z, ())[:count]) / sd[:count]
-        scatter = max(1.4826 * float(np.median(np.abs(left - np.median(left)))), 1.0)
-        spoiled = np.abs(left - np.median(left)) > 5 * scatter
+        standardised = (recorded - rig.model(z, ())[:count]) / sd[:count]
+        scatter = max(1.4826 * float(np.median(np.abs(standardised - np.median(standardised)))), 1.0)
+        spoiled = np.abs(standardised - np.median(standardised)) > 5 * scatter
     return Fitted(
         folder.name, rig, recorded, columns["run"], sd, rig.model(z, ()), sensitivity(rig, z), z, base, spoiled
     )
@@ -146,18 +146,18 @@ def write_answer(
     mismatch = (predicted - (fitted.value if base is None else base)) / fitted.sd
     verdict = list(explanations[0])
     spread = np.sqrt(fitted.sd**2 + fitted.calibration_sd**2 + extra_sd**2)
-    found = {
+    record = {
         "schema": "mixedlub-diagnosis/1",
         "case": fitted.name,
-        "mismatch": {"detected": verdict != ["none"], "chi2_before": fitted.squares, "rows": fitted.seen},
+        "mismatch": {"detected": verdict != ["none"], "chi2_before": fitted.squares, "rows": fitted.n_recorded},
         "verdict": verdict,
         "tied": [list(names) for names in explanations],
         "probabilities": {name: float(np.clip(p, FLOOR, 1 - FLOOR)) for name, p in everything.items()},
         "location": {
-            "rows": {str(run): float(z) for run, z in zip(fitted.run[: fitted.seen], mismatch)},
+            "rows": {str(run): float(z) for run, z in zip(fitted.run[: fitted.n_recorded], mismatch)},
         },
         "calibration": {},
-        "outlier_runs": [int(run) for run in fitted.run[: fitted.seen][fitted.spoiled]],
+        "outlier_runs": [int(run) for run in fitted.run[: fitted.n_recorded][fitted.spoiled]],
     }
     table = {
         "run": fitted.run,
@@ -169,7 +169,7 @@ def write_answer(
         "mismatch_z": mismatch,
     }
     pd.DataFrame(table).to_csv(out / "predictions.csv", index=False)
-    (out / "diagnosis.json").write_text(json.dumps(found, indent=1), encoding="utf-8")
+    (out / "diagnosis.json").write_text(json.dumps(record, indent=1), encoding="utf-8")
 
 
 def _nameless(fitted: Fitted, out: Path, nats: float, predicted: np.ndarray, extra_sd: np.ndarray) -> None:
@@ -218,15 +218,15 @@ def gradient_boosting(folder: Path, out: Path) -> None:
     ensemble, selection = _learner("ensemble"), _learner("model_selection")
     fitted = recalibrate(folder)
     x = _features(fitted)
-    known, left = x[fitted.good], fitted.residual
+    features, residual = x[fitted.good], fitted.residual
     machine = ensemble.GradientBoostingRegressor(
         n_estimators=100, max_depth=3, learning_rate=0.08, subsample=0.8, random_state=0
     )
     folds = selection.KFold(5, shuffle=True, random_state=0)
-    guessed = selection.cross_val_predict(machine, known, left, cv=folds)
-    evidence = 0.5 * float(left @ left - (left - guessed) @ (left - guessed)) - 3.0
-    machine.fit(known, left)
-    doubt = np.sqrt(max(float(np.mean((left - guessed) ** 2)) - 1.0, 0.0))
+    guessed = selection.cross_val_predict(machine, features, residual, cv=folds)
+    evidence = 0.5 * float(residual @ residual - (residual - guessed) @ (residual - guessed)) - 3.0
+    machine.fit(features, residual)
+    doubt = np.sqrt(max(float(np.mean((residual - guessed) ** 2)) - 1.0, 0.0))
     predicted = fitted.value + machine.predict(x) * fitted.sd
     _nameless(fitted, out, evidence, predicted, doubt * fitted.sd)
 
@@ -254,30 +254,33 @@ def sparse_regression(folder: Path, out: Path) -> None:
     fitted = recalibrate(folder)
     names, extra = _signatures(fitted)
     slopes = fitted.slopes / fitted.sd[:, None]
-    known, rows = slopes[fitted.good], fitted.good
-    taken = np.linalg.solve(known.T @ known + np.eye(known.shape[1]), known.T @ extra[rows])
+    calibration_slopes, rows = slopes[fitted.good], fitted.good
+    taken = np.linalg.solve(
+        calibration_slopes.T @ calibration_slopes + np.eye(calibration_slopes.shape[1]),
+        calibration_slopes.T @ extra[rows],
+    )
     cleared = extra - slopes @ taken
     x = cleared / np.linalg.norm(cleared[rows], axis=0) * np.sqrt(len(rows))
-    train, left = x[rows], fitted.residual
-    rng = np.random.default_rng(fitted.seen)
+    train, residual = x[rows], fitted.residual
+    rng = np.random.default_rng(fitted.n_recorded)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        ceiling = np.max(np.abs(train.T @ left)) / len(rows)
+        ceiling = np.max(np.abs(train.T @ residual)) / len(rows)
         grid = ceiling * np.geomspace(1.0, 1e-3, 40)
         search = linear.LassoCV(alphas=grid, cv=5, fit_intercept=False, max_iter=4000)
-        search.fit(train, left)
+        search.fit(train, residual)
         chosen = np.zeros(len(names))
         for _ in range(ROUNDS):
             drawn = rng.integers(0, len(rows), len(rows))
             machine = linear.Lasso(alpha=search.alpha_, fit_intercept=False, max_iter=4000)
-            machine.fit(train[drawn], left[drawn])
+            machine.fit(train[drawn], residual[drawn])
             chosen += np.abs(machine.coef_) > 0.1
     rates = chosen / ROUNDS
-    found = dict(zip(names, rates.tolist()))
-    found["none"] = float(np.prod(1 - rates))
+    probabilities = dict(zip(names, rates.tolist()))
+    probabilities["none"] = float(np.prod(1 - rates))
     predicted = fitted.value + x @ search.coef_ * fitted.sd
-    likely = sorted(name for name in names if found[name] > 0.5) or ["none"]
-    write_answer(fitted, out, found, [likely], predicted)
+    likely = sorted(name for name in names if probabilities[name] > 0.5) or ["none"]
+    write_answer(fitted, out, probabilities, [likely], predicted)
 
 
 BASELINES: dict[str, Callable[[Path, Path], None]] = {

@@ -22,7 +22,7 @@ from mixedlub.validation.rivals import Target, best, rivals
 from mixedlub.validation.sample_case import Order, Sample, sample_case
 from profiles.errors import InputError
 
-SURVEY = 60
+RIGS_SURVEYED = 60
 """Rigs of a kind that are drawn to find which effects can be planted on it."""
 Card = TypeVar("Card")
 
@@ -31,9 +31,9 @@ def deck(rng: np.random.Generator, cards: Sequence[Card], weights: Sequence[floa
     """``count`` cards in random order: each as often as its weight demands, the remainder by chance."""
     due = count * np.array(weights) / np.sum(weights)
     times = np.floor(due).astype(int)
-    rest = rng.random(len(cards)) + (due - times) * 4
-    for place in np.argsort(-rest)[: count - times.sum()]:
-        times[place] += 1
+    order = rng.random(len(cards)) + (due - times) * 4
+    for index in np.argsort(-order)[: count - times.sum()]:
+        times[index] += 1
     dealt = [card for card, n in zip(cards, times) for _ in range(n)]
     return [dealt[i] for i in rng.permutation(len(dealt))]
 
@@ -41,7 +41,7 @@ def deck(rng: np.random.Generator, cards: Sequence[Card], weights: Sequence[floa
 def _surveyed(kind: str, seed: int) -> tuple[dict[str, float], dict[str, float]]:
     """Effects that can be planted on rigs of a kind, of the catalogue and outside it, with their weights."""
     rng = np.random.default_rng([seed, 21])
-    drawn = [KINDS[kind].draw(rng) for _ in range(SURVEY)]
+    drawn = [KINDS[kind].draw(rng) for _ in range(RIGS_SURVEYED)]
     named = {form.id: form.rarity for rig in drawn for form in rig.forms if form.rarity > 0}
     outside = {form.id: form.rarity for rig in drawn for form in rig.outside}
     return dict(sorted(named.items())), dict(sorted(outside.items()))
@@ -73,13 +73,13 @@ def _contents(rng: np.random.Generator, family: Family, seed: int, cases: int) -
 
 
 def _orders(rng: np.random.Generator, family: Family, seed: int, cases: int) -> list[Order]:
-    found = []
-    for place, (label, kind, effects) in enumerate(_contents(rng, family, seed, cases)):
+    orders = []
+    for index, (label, kind, effects) in enumerate(_contents(rng, family, seed, cases)):
         small = label in ("none", "single") and rng.random() < family.small
-        clear = small or place % 2 == 0 or label == "pair"
+        clear = small or index % 2 == 0 or label == "pair"
         # Every third case of a kind whose oil may have no data sheet, unless its effects could then not be seen.
-        third = KINDS[kind].draw_without_data_sheet is not None and place % 3 == 1
-        found.append(
+        third = KINDS[kind].draw_without_data_sheet is not None and index % 3 == 1
+        orders.append(
             Order(
                 name="",
                 kind=kind,
@@ -91,7 +91,7 @@ def _orders(rng: np.random.Generator, family: Family, seed: int, cases: int) -> 
                 small=small,
             )
         )
-    return found
+    return orders
 
 
 def _families(kinds: Sequence[str]) -> list[Family]:
@@ -111,7 +111,7 @@ def plan(seed: int, cases: int, kinds: Sequence[str] = CONTACTS) -> list[Order]:
         raise InputError(f"a battery of these kinds has at least {fewest(kinds)} cases", where="cases", value=cases)
     families = _families(kinds)
     rng = np.random.default_rng([seed, 1])
-    each = [cases // len(families) + (place < cases % len(families)) for place in range(len(families))]
+    each = [cases // len(families) + (index < cases % len(families)) for index in range(len(families))]
     orders = [order for family, count in zip(families, each) for order in _orders(rng, family, seed, count)]
     return [replace(orders[i], name=f"case_{n:03d}") for n, i in enumerate(rng.permutation(len(orders)))]
 
@@ -151,13 +151,13 @@ def weighed(sample: Sample, label: str) -> tuple[dict[str, float], float]:
         return others, others["none"]
     if rig.planted is not None:
         return others, min(best(target, forms, z, known).chi_square for known in (knobs, ()))
-    own = float(z @ z)
-    return others, own if label == "unknown" else min(own, best(target, forms, z, knobs).chi_square)
+    planted = float(z @ z)
+    return others, planted if label == "unknown" else min(planted, best(target, forms, z, knobs).chi_square)
 
 
-def identifiable(sample: Sample, others: dict[str, float], own: float) -> bool:
+def identifiable(sample: Sample, others: dict[str, float], planted: float) -> bool:
     """No rival comes near the truth; where nothing is missing none may be better, if the model is not exact."""
-    least = min(others.values()) - own
+    least = min(others.values()) - planted
     if sample.forms:
         return least > IDENTIFIABLE
     return sample.rig.planted is None or least > -IDENTIFIABLE
@@ -167,7 +167,7 @@ def truth_of(order: Order, sample: Sample, outliers: Sequence[int]) -> dict[str,
     """Content of ``truth.json``: what is planted, at which calibration and noise, and how well rivals explain it."""
     rig, z = sample.rig.refined, sample.z
     truth = rig.records(z, sample.acts)
-    others, own = weighed(sample, order.label)
+    others, planted = weighed(sample, order.label)
     info = [
         {
             "id": form.id,
@@ -195,8 +195,8 @@ def truth_of(order: Order, sample: Sample, outliers: Sequence[int]) -> dict[str,
         "noise": {"relative": sample.relative, "absolute": sample.absolute},
         "outliers": sorted(int(rig.columns["run"][row]) for row in outliers),
         "alternatives": others,
-        "own": round(own, 4),
-        "identifiable": identifiable(sample, others, own),
+        "own": round(planted, 4),
+        "identifiable": identifiable(sample, others, planted),
         "rows": rows(
             rig.columns["run"],
             sample.hidden,
@@ -210,8 +210,8 @@ def truth_of(order: Order, sample: Sample, outliers: Sequence[int]) -> dict[str,
 
 def make(seed: int, index: int, order: Order, folder: Path) -> str:
     """Draw one case and write its folder with the truth; a complete folder stays as it is."""
-    place = folder / order.name
-    if (place / "truth.json").exists():
+    case_folder = folder / order.name
+    if (case_folder / "truth.json").exists():
         return order.name
     rng = np.random.default_rng([seed, 2, index])
     sample = sample_case(rng, order)
@@ -225,7 +225,7 @@ def make(seed: int, index: int, order: Order, folder: Path) -> str:
     settings = {**rig.settings, "recording": {**rig.settings["recording"], **stated}}
     case = Case(settings=settings, columns={**rig.columns, **counted}, share=rig.share)
     readings = {rig.quantity: recorded, **more}
-    write(place, case, readings, sample.hidden, truth_of(order, sample, list(outliers)))
+    write(case_folder, case, readings, sample.hidden, truth_of(order, sample, list(outliers)))
     return order.name
 
 

@@ -40,21 +40,21 @@ def auroc(score: np.ndarray, positive: np.ndarray) -> float:
 def location_auroc(truth: Truth, answer: Answer) -> float:
     """AUROC of |mismatch_z| against readings off by more than one sd; nan where a class has under a tenth."""
     scored = ~truth.withheld & ~np.isin(truth.run, list(truth.outliers))
-    off = np.abs(truth.off[scored]) > 1
-    if not 0.1 <= off.mean() <= 0.9:
+    displaced = np.abs(truth.off[scored]) > 1
+    if not 0.1 <= displaced.mean() <= 0.9:
         return float("nan")
-    found = np.array([abs(answer.location.get(int(run), 0.0)) for run in truth.run[scored]])
-    return auroc(found, off)
+    located = np.array([abs(answer.location.get(int(run), 0.0)) for run in truth.run[scored]])
+    return auroc(located, displaced)
 
 
 def _withheld(truth: Truth, answer: Answer, column: np.ndarray) -> np.ndarray:
     """A column of the predictions at the withheld runs, in the order of the truth; none may be missing."""
-    place = {int(run): i for i, run in enumerate(answer.run)}
+    index = {int(run): i for i, run in enumerate(answer.run)}
     wanted = truth.run[truth.withheld]
-    missing = [int(run) for run in wanted if int(run) not in place]
+    missing = [int(run) for run in wanted if int(run) not in index]
     if missing:
         raise InputError("withheld runs have no prediction", where=truth.case, value=missing[:5])
-    return np.asarray(column[[place[int(run)] for run in wanted]])
+    return np.asarray(column[[index[int(run)] for run in wanted]])
 
 
 def held_out(truth: Truth, answer: Answer) -> tuple[float, float]:
@@ -119,6 +119,6 @@ def held_ratio(truth: Truth, answer: Answer) -> float:
 
 def calibration_covers(truth: Truth, answer: Answer) -> float:
     """Share of the calibration's 90 % intervals that hold the true value."""
-    known = {name.removesuffix("_scale"): value for name, value in truth.theta.items()}
-    hits = [low <= known[name] <= high for name, (low, high) in answer.calibration.items() if name in known]
+    true_values = {name.removesuffix("_scale"): value for name, value in truth.theta.items()}
+    hits = [low <= true_values[name] <= high for name, (low, high) in answer.calibration.items() if name in true_values]
     return float(np.mean(hits)) if hits else float("nan")

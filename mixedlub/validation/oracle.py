@@ -19,7 +19,7 @@ from mixedlub.validation.rivals import Fit, Target, best
 
 PRIOR_NATS = {0: np.log(0.45), 1: np.log(0.30 / len(NAMED)), 2: np.log(0.12 / len(NAMED) ** 2)}
 UNKNOWN_NATS = np.log(0.08)
-LEADERS = 3
+LEADING_FORMS = 3
 Names = tuple[str, ...]
 
 
@@ -48,22 +48,22 @@ def _searched(fitted: Fitted) -> dict[Names, Suspect]:
         return Suspect(forms, fit, _evidence(fit, forms, count))
 
     none = tried((), fitted.z)
-    found: dict[Names, Suspect] = {(): none}
+    suspects: dict[Names, Suspect] = {(): none}
     for name in FORMS:
-        own = [tried((form,), none.fit.z) for form in fitted.rig.forms if form.id == name]
-        if own:
-            found[(name,)] = max(own, key=lambda one: one.nats)
+        fits = [tried((form,), none.fit.z) for form in fitted.rig.forms if form.id == name]
+        if fits:
+            suspects[(name,)] = max(fits, key=lambda one: one.nats)
     enough = count + 2.3 * np.sqrt(2 * count)
-    if min(one.fit.chi_square for one in found.values()) > enough:
-        singles = sorted((key for key in found if key), key=lambda key: -found[key].nats)
-        for lead in singles[:LEADERS]:
+    if min(one.fit.chi_square for one in suspects.values()) > enough:
+        singles = sorted((key for key in suspects if key), key=lambda key: -suspects[key].nats)
+        for lead in singles[:LEADING_FORMS]:
             for other in singles:
                 pair = tuple(sorted({*lead, *other}))
-                if len(pair) == 2 and pair not in found:
-                    parts = [found[(name,)] for name in pair]
+                if len(pair) == 2 and pair not in suspects:
+                    parts = [suspects[(name,)] for name in pair]
                     both = tuple(part.forms[0] for part in parts)
-                    found[pair] = tried(both, found[lead].fit.z, [part.fit.knobs[0] for part in parts])
-    return found
+                    suspects[pair] = tried(both, suspects[lead].fit.z, [part.fit.knobs[0] for part in parts])
+    return suspects
 
 
 def _unknown_nats(count: int) -> float:
@@ -75,16 +75,16 @@ def oracle(folder: Path, out: Path) -> None:
     """Answers a case with the generator's laws; drops the outliers of the best fit and searches again."""
     fitted = recalibrate(folder)
     for last in (False, True):
-        found = _searched(fitted)
-        top = max(found.values(), key=lambda one: one.nats)
+        suspects = _searched(fitted)
+        top = max(suspects.values(), key=lambda one: one.nats)
         hidden = [form.hide(values) for form, values in zip(top.forms, top.fit.knobs)]
         predicted = fitted.rig.model(top.fit.z, hidden)
-        left = np.abs(fitted.recorded - predicted[: fitted.seen]) / fitted.sd[: fitted.seen]
-        spoiled = left > 4.5
+        deviation = np.abs(fitted.recorded - predicted[: fitted.n_recorded]) / fitted.sd[: fitted.n_recorded]
+        spoiled = deviation > 4.5
         if last or spoiled.mean() > 0.1 or np.array_equal(spoiled, fitted.spoiled):
             break
         fitted = replace(fitted, spoiled=spoiled)
-    nats = {key: one.nats for key, one in found.items()}
+    nats = {key: one.nats for key, one in suspects.items()}
     nats[("unknown",)] = _unknown_nats(len(fitted.good))
     most = max(nats.values())
     weights = {key: float(np.exp(value - most)) for key, value in nats.items()}

@@ -87,11 +87,11 @@ def promising(
 ) -> list[np.ndarray]:
     """The starts of least chi-square when the calibration may move linearly (``slopes``) about ``origin``."""
     basis, _ = np.linalg.qr(slopes)
-    left = []
+    chi_squares = []
     for start in starts:
         r = residual(np.concatenate([origin, start]))
-        left.append(float(r @ r - np.sum((basis.T @ r) ** 2)))
-    return [starts[i] for i in np.argsort(left)[:count]]
+        chi_squares.append(float(r @ r - np.sum((basis.T @ r) ** 2)))
+    return [starts[i] for i in np.argsort(chi_squares)[:count]]
 
 
 def sensitivity(rig: Rig, z: np.ndarray) -> np.ndarray:
@@ -105,8 +105,8 @@ def visibility(extra: np.ndarray, sd: np.ndarray, slopes: np.ndarray) -> float:
     scaled = slopes / sd[:, None]
     whole = extra / sd
     taken = np.linalg.solve(scaled.T @ scaled + np.eye(slopes.shape[1]), scaled.T @ whole)
-    left = whole - scaled @ taken
-    return float(np.sqrt(left @ left + taken @ taken))
+    remainder = whole - scaled @ taken
+    return float(np.sqrt(remainder @ remainder + taken @ taken))
 
 
 def best(target: Target, forms: Sequence[Form], z: np.ndarray, knobs: Sequence[dict[str, float]] = ()) -> Fit:
@@ -129,8 +129,8 @@ def best(target: Target, forms: Sequence[Form], z: np.ndarray, knobs: Sequence[d
         model = rig.model(x[:count], acts)[target.rows]
         return np.concatenate([(model - target.values) / target.sd, x[:count]])
 
-    known = [value for one in knobs for value in one.values()]
-    starts = [np.concatenate([known, guess]) / unit for guess in guesses(forms[len(knobs) :])]
+    known_values = [value for one in knobs for value in one.values()]
+    starts = [np.concatenate([known_values, guess]) / unit for guess in guesses(forms[len(knobs) :])]
     if len(starts) > 1:
         tangents = np.concatenate([sensitivity(rig, z)[target.rows] / target.sd[:, None], np.eye(count)])
         starts = promising(starts, residual, z, tangents)
@@ -154,12 +154,12 @@ def rivals(
     special case and are no rivals.
     """
     none = best(target, (), z)
-    found = {"none": none.chi_square}
+    chi_squares = {"none": none.chi_square}
     truth = {form.id for form in hidden}
     special = [form for form in target.rig.forms if form.rank <= rank]
 
     def tried(name: str, value: float) -> None:
-        found[name] = min(value, none.chi_square, found.get(name, np.inf))
+        chi_squares[name] = min(value, none.chi_square, chi_squares.get(name, np.inf))
 
     for form in special:
         if truth != {form.id}:
@@ -168,4 +168,4 @@ def rivals(
         for form in special:
             if form.id not in truth:
                 tried("+".join(sorted((kept.id, form.id))), best(target, (kept, form), z, (values,)).chi_square)
-    return {name: round(value, 4) for name, value in found.items()}
+    return {name: round(value, 4) for name, value in chi_squares.items()}

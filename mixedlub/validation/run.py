@@ -50,13 +50,13 @@ class Steady:
 
 def unsealed(case: Path, into: Path) -> Path:
     """A copy of a case folder without its truth: what a tool is given."""
-    place = into / case.name
-    if not place.exists():
+    target = into / case.name
+    if not target.exists():
         aside = into / f".{case.name}"
         shutil.rmtree(aside, ignore_errors=True)
         shutil.copytree(case, aside, ignore=shutil.ignore_patterns("truth.json"))
-        aside.rename(place)
-    return place
+        aside.rename(target)
+    return target
 
 
 def answer(diagnose: Diagnose, case: Path, out: Path) -> str:
@@ -110,11 +110,11 @@ def validate(
         refuse_without_learners()
     sealed = generate(out / "sealed", seed, cases, kinds, jobs, lambda done, total: progress("deal", done, total))
     (out / "cases").mkdir(exist_ok=True)
-    given = [unsealed(case, out / "cases") for case in sealed]
-    answer_all(Steady(diagnose), given, out / "answers", jobs, "diagnose", progress)
+    open_cases = [unsealed(case, out / "cases") for case in sealed]
+    answer_all(Steady(diagnose), open_cases, out / "answers", jobs, "diagnose", progress)
     rivals = {name: out / "baselines" / name.replace(" ", "_") for name in (*BASELINES, CEILING) if baselines}
-    for name, place in rivals.items():
-        answer_all({**BASELINES, CEILING: oracle}[name], given, place, jobs, name, progress)
+    for name, answers in rivals.items():
+        answer_all({**BASELINES, CEILING: oracle}[name], open_cases, answers, jobs, name, progress)
     return judge(out, sealed, rivals)
 
 
@@ -145,16 +145,16 @@ def judge(out: Path, sealed: Sequence[Path], rivals: dict[str, Path] | None = No
     truths = [read_truth(case) for case in sealed]
     ids = sorted({name for truth in truths for name in truth.candidates})
     pairs, failed = _collected(out, truths)
-    whole = [pair for some in pairs.values() for pair in some]
+    every_pair = [pair for some in pairs.values() for pair in some]
     unnamed = {f"{kind}, unnamed": [pair for pair in some if pair[0].no_data_sheet] for kind, some in pairs.items()}
-    scores = {"all": score(whole, TOOL, ids)}
+    scores = {"all": score(every_pair, TOOL, ids)}
     scores |= {kind: score(some, f"{TOOL}, {kind}", ids) for kind, some in pairs.items() if some}
     others = {
-        name: score([(truth, read_answer(place / truth.case)) for truth in truths], name, ids)
-        for name, place in (rivals or {}).items()
+        name: score([(truth, read_answer(answers / truth.case)) for truth in truths], name, ids)
+        for name, answers in (rivals or {}).items()
     }
-    known = [one for name, one in others.items() if name != CEILING]
-    scores["all"] = scores["all"].above(known) if known else scores["all"]
+    baselines = [one for name, one in others.items() if name != CEILING]
+    scores["all"] = scores["all"].above(baselines) if baselines else scores["all"]
     scores |= others
     text = [scores["all"].text(), *(one.text() for one in others.values())]
     text += [by_kind({**pairs, **{name: some for name, some in unnamed.items() if some}}), wrong(pairs)]

@@ -15,11 +15,13 @@ from profiles.errors import InputError
 
 VISIBLE = {"clear": (16.0, 30.0), "faint": (7.0, 11.0), "pair": (10.0, 24.0)}
 """Root of the chi-square that recalibration leaves of an effect; of a pair, that of the weaker one."""
-NEAR = 0.25
+CLOSE_ENOUGH = 0.25
 """Logarithm of a visibility over the one ordered below which a sample is taken."""
-TRIES, DRAWS = 12, 400
-"""Samples among which the nearest to the order is taken; rigs that are drawn at most to find one."""
-SMALL = (20, 41)
+TRIES = 12
+"""Samples among which the nearest to the order is taken."""
+MOST_RIGS = 400
+"""Rigs that are drawn at most to find one."""
+SMALL_CASE_SIZES = (20, 41)
 """Readings of a small case."""
 
 
@@ -72,13 +74,13 @@ def sample_case(rng: np.random.Generator, order: Order) -> Sample:
         return abs(float(np.log(sample.visibility / goal))) if order.effects else 0.0
 
     nearest_yet: Sample | None = None
-    for place in range(DRAWS):
+    for place in range(MOST_RIGS):
         sample = _sample(rng, order, goal)
         if not sample.possible:
             continue
         if nearest_yet is None or far(sample) < far(nearest_yet):
             nearest_yet = sample
-        if far(nearest_yet) < NEAR or place + 1 >= TRIES:
+        if far(nearest_yet) < CLOSE_ENOUGH or place + 1 >= TRIES:
             return nearest_yet
     raise InputError("no rig with these effects can be read", where=order.kind, value=order.effects)
 
@@ -87,7 +89,7 @@ def _rig_for(rng: np.random.Generator, order: Order) -> tuple[Rig, tuple[Form, .
     """A rig on which the ordered effects can be at work, and one form of each."""
     kind = KINDS[order.kind]
     draw = kind.draw_without_data_sheet if order.no_data_sheet and kind.draw_without_data_sheet else kind.draw
-    for _ in range(DRAWS):
+    for _ in range(MOST_RIGS):
         rig = draw(rng)
         pool = rig.outside if order.label == "unknown" else rig.forms
         options = [[form for form in pool if form.id == name and form.rarity > 0] for name in order.effects]
@@ -115,7 +117,7 @@ def withhold(rng: np.random.Generator, rig: Rig, family: Family, small: bool = F
     count = len(rig.columns["run"])
     if small:
         hidden = np.ones(count, dtype=bool)
-        hidden[rng.choice(count, int(rng.integers(*SMALL)), replace=False)] = False
+        hidden[rng.choice(count, int(rng.integers(*SMALL_CASE_SIZES)), replace=False)] = False
         return hidden
     hidden = rng.random(count) < rng.uniform(*family.scattered)
     several = {
@@ -173,20 +175,20 @@ def _sample(rng: np.random.Generator, order: Order, goal: float) -> Sample:
     for i, form in enumerate(forms):
         widest = max(1.0, min(4.0, form.knobs[0].high / abs(knobs[i]["strength"])))
         wanted = goal if len(forms) == 1 else float(np.clip(each(level, factors)[i], goal, 1.6 * goal))
-        seen = partial(_seen, each, level, factors, i)
+        seen = partial(_visibility_of, each, level, factors, i)
         factors = _exchanged(factors, i, solve(seen, wanted, 0.05, widest, falling=False))
     return replace(sample(level, factors), visibility=max(min(each(level, factors)), 1e-3))
 
 
-def _exchanged(factors: Sequence[float], place: int, factor: float) -> list[float]:
-    return [factor if i == place else f for i, f in enumerate(factors)]
+def _exchanged(factors: Sequence[float], index: int, factor: float) -> list[float]:
+    return [factor if i == index else f for i, f in enumerate(factors)]
 
 
-def _seen(
-    each: Callable[[float, Sequence[float]], list[float]], level: float, factors: list[float], place: int, factor: float
+def _visibility_of(
+    each: Callable[[float, Sequence[float]], list[float]], level: float, factors: list[float], index: int, factor: float
 ) -> float:
     """Visibility of one effect at another factor on its strength."""
-    return each(level, _exchanged(factors, place, factor))[place]
+    return each(level, _exchanged(factors, index, factor))[index]
 
 
 def solve(measure: Callable[[float], float], goal: float, low: float, high: float, falling: bool) -> float:

@@ -142,7 +142,7 @@ class Figure:
     counts: Callable[[Truth, Answer], bool]
     measure: Callable[[Truth, Answer], float]
     goal: tuple[float, float] | None = None
-    how: str = "mean"
+    reduction: str = "mean"
     weight: Callable[[Truth], int] | None = None
 
 
@@ -200,34 +200,45 @@ def _glaring(truth: Truth, answer: Answer) -> bool:
 ONE, SOME = ("single", "measurement"), ("single", "measurement", "pair")
 HIDDEN = (*SOME, "unknown")
 FIGURES: tuple[Figure, ...] = (
-    Figure("right", "right verdict, one effect, identifiable", _clear(*ONE), right, at_least(0.95), how="share"),
-    Figure("right_physics", "  of these physics", _clear("single"), right, how="share"),
-    Figure("right_within", "    their law one that the catalogue can become", _formed(True, True), right, how="share"),
-    Figure("right_beyond", "    their law another", _formed(False, True), right, how="share"),
-    Figure("right_fault", "  of these instrument faults", _clear("measurement"), right, how="share"),
-    Figure("tied", "right or honestly tied, one effect, all", _in(*ONE), tied, at_least(0.98), how="share"),
+    Figure("right", "right verdict, one effect, identifiable", _clear(*ONE), right, at_least(0.95), reduction="share"),
+    Figure("right_physics", "  of these physics", _clear("single"), right, reduction="share"),
     Figure(
-        "tied_within", "  physics, their law one that the catalogue can become", _formed(True, False), tied, how="share"
+        "right_within", "    their law one that the catalogue can become", _formed(True, True), right, reduction="share"
     ),
-    Figure("tied_beyond", "  physics, their law another", _formed(False, False), tied, how="share"),
+    Figure("right_beyond", "    their law another", _formed(False, True), right, reduction="share"),
+    Figure("right_fault", "  of these instrument faults", _clear("measurement"), right, reduction="share"),
+    Figure("tied", "right or honestly tied, one effect, all", _in(*ONE), tied, at_least(0.98), reduction="share"),
+    Figure(
+        "tied_within",
+        "  physics, their law one that the catalogue can become",
+        _formed(True, False),
+        tied,
+        reduction="share",
+    ),
+    Figure("tied_beyond", "  physics, their law another", _formed(False, False), tied, reduction="share"),
     Figure("ties", "explanations named where one effect is hidden", _in(*ONE), _explanations),
-    Figure("pair_both", "both effects of a pair named", _in("pair"), _both, at_least(0.85), how="share"),
-    Figure("pair_exact", "pair named exactly", _in("pair"), right, how="share"),
-    Figure("none", "none where nothing is missing", _in("none"), right, at_least(0.98), how="share"),
-    Figure("false_alarm", "mismatch detected where nothing is missing", _in("none"), _detected, how="share"),
-    Figure("power", "mismatch detected where one effect is hidden", _in(*ONE), _detected, how="share"),
+    Figure("pair_both", "both effects of a pair named", _in("pair"), _both, at_least(0.85), reduction="share"),
+    Figure("pair_exact", "pair named exactly", _in("pair"), right, reduction="share"),
+    Figure("none", "none where nothing is missing", _in("none"), right, at_least(0.98), reduction="share"),
+    Figure("false_alarm", "mismatch detected where nothing is missing", _in("none"), _detected, reduction="share"),
+    Figure("power", "mismatch detected where one effect is hidden", _in(*ONE), _detected, reduction="share"),
     Figure(
-        "unknown", "unknown where so and identifiable", _clear("unknown"), _named_unknown, at_least(0.90), how="share"
+        "unknown",
+        "unknown where so and identifiable",
+        _clear("unknown"),
+        _named_unknown,
+        at_least(0.90),
+        reduction="share",
     ),
-    Figure("unknown_distinct", "  of these, not made to mimic", _distinct, _named_unknown, how="share"),
-    Figure("unknown_clear", "  of these, clearly visible (12 or more)", _glaring, _named_unknown, how="share"),
+    Figure("unknown_distinct", "  of these, not made to mimic", _distinct, _named_unknown, reduction="share"),
+    Figure("unknown_clear", "  of these, clearly visible (12 or more)", _glaring, _named_unknown, reduction="share"),
     Figure(
         "outliers_found",
         "outlier readings found",
         _spoiled,
         outliers_found,
         at_least(0.95),
-        how="share",
+        reduction="share",
         weight=spoiled,
     ),
     Figure(
@@ -239,7 +250,7 @@ FIGURES: tuple[Figure, ...] = (
         "share",
         clean,
     ),
-    Figure("crossed", "fault called physics or physics fault", _clear(*ONE), crossed, at_most(0.02), how="share"),
+    Figure("crossed", "fault called physics or physics fault", _clear(*ONE), crossed, at_most(0.02), reduction="share"),
     Figure(
         "held_out",
         "withheld: error of predicted over calibrated",
@@ -248,8 +259,8 @@ FIGURES: tuple[Figure, ...] = (
         at_most(0.25),
         "median",
     ),
-    Figure("held_out_unknown", "  outside the catalogue", _in("unknown"), held_ratio, how="median"),
-    Figure("held_out_none", "  where nothing is missing", _in("none"), held_ratio, how="median"),
+    Figure("held_out_unknown", "  outside the catalogue", _in("unknown"), held_ratio, reduction="median"),
+    Figure("held_out_none", "  where nothing is missing", _in("none"), held_ratio, reduction="median"),
     Figure("coverage", "90 % predictive intervals cover", _any, coverage, (0.85, 0.95)),
     Figure("coverage_hidden", "  where something is hidden", _in(*HIDDEN), coverage),
     Figure("calibration", "90 % intervals of the calibration cover", _any, calibration_covers),
@@ -265,28 +276,28 @@ def _once(truth: Truth) -> int:
     return 1
 
 
-def _reduce(values: np.ndarray, weights: np.ndarray, how: str) -> float:
+def _reduce(values: np.ndarray, weights: np.ndarray, reduction: str) -> float:
     if not len(values):
         return float("nan")
-    if how == "median":
+    if reduction == "median":
         return float(np.median(values))
-    return float(np.max(values) if how == "max" else np.average(values, weights=weights))
+    return float(np.max(values) if reduction == "max" else np.average(values, weights=weights))
 
 
-def _interval(values: np.ndarray, weights: np.ndarray, how: str) -> tuple[float, float]:
+def _interval(values: np.ndarray, weights: np.ndarray, reduction: str) -> tuple[float, float]:
     """90 % interval: Wilson's for a share, else by bootstrap over cases.
 
     A bootstrap of nothing but hits has no width. Errors in the readings of one case are correlated, which Wilson's
     interval ignores: where cases count for several, the interval is the hull of both.
     """
-    if how != "share":
-        return _bootstrap(values, weights, how)
+    if reduction != "share":
+        return _bootstrap(values, weights, reduction)
     if not len(values):
         return float("nan"), float("nan")
     low, high = wilson(round(float(values @ weights)), round(float(weights.sum())))
     if np.all(weights == 1.0) or len(values) < 2:
         return low, high
-    first, last = _bootstrap(values, weights, how)
+    first, last = _bootstrap(values, weights, reduction)
     return min(low, first), max(high, last)
 
 
@@ -304,13 +315,13 @@ def wilson(hits: int, of: int) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def _bootstrap(values: np.ndarray, weights: np.ndarray, how: str) -> tuple[float, float]:
+def _bootstrap(values: np.ndarray, weights: np.ndarray, reduction: str) -> tuple[float, float]:
     """90 % bootstrap interval over cases, from a fixed seed."""
-    if len(values) < 2 or how == "max":
+    if len(values) < 2 or reduction == "max":
         return float("nan"), float("nan")
     rng = np.random.default_rng(len(values))
     picks = rng.integers(0, len(values), (400, len(values)))
-    drawn = [_reduce(values[pick], weights[pick], how) for pick in picks]
+    drawn = [_reduce(values[pick], weights[pick], reduction) for pick in picks]
     low, high = np.quantile(drawn, [0.05, 0.95])
     return float(low), float(high)
 
@@ -327,12 +338,12 @@ def score(pairs: Sequence[Pair], tool: str = "mixedlub diagnose", ids: Sequence[
         values = np.array([float(figure.measure(*pair)) for pair in pairs if figure.counts(*pair)])
         weight = figure.weight or _once
         weights = np.array([float(weight(truth)) for truth, answer in pairs if figure.counts(truth, answer)])
-        known = np.isfinite(values)
-        values, weights = values[known], weights[known]
-        value, span = _reduce(values, weights, figure.how), _interval(values, weights, figure.how)
+        finite = np.isfinite(values)
+        values, weights = values[finite], weights[finite]
+        value, span = _reduce(values, weights, figure.reduction), _interval(values, weights, figure.reduction)
         rows.append(Row(figure.key, figure.text, value, int(weights.sum()), *span, figure.goal))
-    alone = {name for halves in HALVES for name in halves if not all(r.count for r in rows if r.key in halves)}
-    rows = [row for row in rows if row.key not in alone]
+    one_half_only = {name for halves in HALVES for name in halves if not all(r.count for r in rows if r.key in halves)}
+    rows = [row for row in rows if row.key not in one_half_only]
     rows += _probability_rows(pairs, ids)
     return Score(tool, tuple(rows), _reliability(pairs), _identification(pairs), _confusion(pairs))
 
@@ -345,8 +356,8 @@ def _probability_rows(pairs: Sequence[Pair], ids: Sequence[str]) -> list[Row]:
     some = [(p, so) for p, so in _claims(pairs) if p > 0.02]
     bins = np.digitize([p for p, _ in some], np.linspace(0, 1, 11)[1:-1])
     error = 0.0
-    for place in np.unique(bins):
-        inside = [some[i] for i in np.flatnonzero(bins == place)]
+    for index in np.unique(bins):
+        inside = [some[i] for i in np.flatnonzero(bins == index)]
         gap = np.mean([p for p, _ in inside]) - np.mean([so for _, so in inside])
         error += len(inside) / len(some) * abs(float(gap))
     return [
@@ -362,13 +373,13 @@ def _probability_rows(pairs: Sequence[Pair], ids: Sequence[str]) -> list[Row]:
 def _reliability(pairs: Sequence[Pair]) -> tuple[tuple[float, float, float, int], ...]:
     """Bins of the probabilities given: lower edge, mean probability, share that was so, count."""
     claims = _claims(pairs)
-    given = np.array([p for p, _ in claims])
+    claimed = np.array([p for p, _ in claims])
     so = np.array([float(is_so) for _, is_so in claims])
     table = []
     for low, high in pairwise(BINS):
-        inside = (given >= low) & ((given < high) | (high == 1.0))
+        inside = (claimed >= low) & ((claimed < high) | (high == 1.0))
         if inside.any():
-            table.append((low, float(given[inside].mean()), float(so[inside].mean()), int(inside.sum())))
+            table.append((low, float(claimed[inside].mean()), float(so[inside].mean()), int(inside.sum())))
     return tuple(table)
 
 
@@ -377,10 +388,10 @@ def _identification(pairs: Sequence[Pair]) -> tuple[tuple[float, float, float, i
     singles = [(truth.visibility, right(truth, answer)) for truth, answer in pairs if truth.group in ONE]
     table = []
     for low, high in pairwise(VISIBILITIES):
-        inside = [(seen, named) for seen, named in singles if low <= seen < high]
+        inside = [(visibility, named) for visibility, named in singles if low <= visibility < high]
         if inside:
-            seen, named = (float(np.mean(column)) for column in zip(*inside))
-            table.append((low, seen, named, len(inside)))
+            visibility, named = (float(np.mean(column)) for column in zip(*inside))
+            table.append((low, visibility, named, len(inside)))
     return tuple(table)
 
 

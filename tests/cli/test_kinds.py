@@ -75,7 +75,7 @@ def test_examples_go_together(file):
 def test_every_column_is_described():
     for name in KINDS:
         found = kind(name)
-        for column in (RUN, *BOOKKEEPING, *found.columns, *found.channels, *found.readings):
+        for column in (RUN, *BOOKKEEPING, *found.columns, *found.instrument_channels, *found.readings):
             assert column.meaning, f"{name}: {column.name}"
 
 
@@ -146,7 +146,7 @@ class Watched:
 
 
 def typical(column: Column) -> np.ndarray:
-    if column.form == "name":
+    if column.dtype == "name":
         return np.array(["ground"] * 3)
     return np.array([20.0, 21.0, 22.0]) if column.name == "roll_angle_deg" else np.array([0.5, 0.6, 0.7])
 

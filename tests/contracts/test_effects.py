@@ -118,7 +118,7 @@ def sharing_a_quantity() -> list[tuple[Effect, Effect]]:
 def test_effects_on_one_quantity_commute_or_are_ordered(a: Effect, b: Effect) -> None:
     if a.kinds and b.kinds and not set(a.kinds) & set(b.kinds):
         return
-    ordered = (b.id in a.after) + (a.id in b.after)
+    ordered = (b.id in a.applied_after) + (a.id in b.applied_after)
     assert ordered < 2, "each waits for the other"
     if ordered:
         return
@@ -162,7 +162,7 @@ def test_smooth_in_its_parameters(name: str, effect_id: str) -> None:
     effect = catalogue()[effect_id]
 
     def slope(k: int, step: float) -> np.ndarray:
-        step /= max(effect.parameters[k].scan, 1)
+        step /= max(effect.parameters[k].n_scan, 1)
         low, high = (
             rig(name).predict(
                 None, {effect_id: effect.values(np.where(np.arange(len(effect.parameters)) == k, z, 0.3))}
@@ -248,17 +248,17 @@ def test_table_lists_every_effect() -> None:
 
 def test_a_published_law_is_within_reach_where_what_is_held_is_already_its_own() -> None:
     """A viscometer knows no slope that changes with temperature, nor does Roelands; discs start from his law."""
-    law = catalogue()["pressure_viscosity_law"].contains["Roelands"]
+    law = catalogue()["pressure_viscosity_law"].special_cases["Roelands"]
     sample = known_in("viscosity")["pressure_viscosity_law"]
     assert set(law) - set(sample.laws_within_reach["Roelands"]) == {"slope_with_temperature", "slope_bow"}
     assert known_in("disc")["pressure_viscosity_law"].laws_within_reach == {}
-    assert sample.holding(sample.laws_within_reach["Roelands"]).laws_within_reach == {}
+    assert sample.fixing(sample.laws_within_reach["Roelands"]).laws_within_reach == {}
 
 
 @each
 def test_page_names_the_laws_that_an_effect_contains(effect: Effect) -> None:
     page = " ".join(effects_text(effect.id).split())
-    assert all(f"contains the law of {law}, at " in page for law in effect.contains)
+    assert all(f"special case {law}, at " in page for law in effect.special_cases)
 
 
 def test_unknown_effect_names_the_nearest() -> None:

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from mixedlub.chain.priors import EitherSign
+from mixedlub.chain.priors import SignedLogNormal
 from tests.contracts.rigs import EFFECTS
 
-SIZE = EitherSign(200.0, 0.25)
+SIZE = SignedLogNormal(200.0, 0.25)
 
 
 def test_every_prior_rises_with_its_coordinate() -> None:

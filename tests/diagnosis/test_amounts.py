@@ -57,7 +57,7 @@ def test_a_share_of_the_largest_speed_is_told_in_turns(drive: Diagnosis) -> None
 
 def test_what_a_parameter_is_a_share_of_is_read_by_its_law() -> None:
     for e in catalogue().values():
-        assert all(not p.of or p.of in (*e.acts_on, *e.reads) for p in e.parameters), e.id
+        assert all(not p.relative_to or p.relative_to in (*e.acts_on, *e.reads) for p in e.parameters), e.id
 
 
 def test_inputs_taken_from_the_readings_are_not_called_stated(
@@ -72,7 +72,7 @@ def test_inputs_taken_from_the_readings_are_not_called_stated(
     assert all("(" not in row[1] for row in tables.calibration(complete)[1][1:])
     history = {"kind": "friction_history", "recording": {"quantity": "friction_coefficient"}}
     columns = {"time_s": np.arange(1.0, 9.0), "friction_coefficient": np.linspace(0.10, 0.11, 8)}
-    assert tables._given(read_case(write_case(tmp_path / "case", history, columns))) == {
+    assert tables._sources(read_case(write_case(tmp_path / "case", history, columns))) == {
         "boundary_friction": " (from the readings)"
     }
 

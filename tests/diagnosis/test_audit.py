@@ -15,7 +15,7 @@ from mixedlub.data_checks.audit import check_readings
 from mixedlub.gear import RigidSharing, at_roll_angle
 from mixedlub.importers import write_case
 from mixedlub.rig.build import gear_pair
-from mixedlub.rig.plausibility import far_off
+from mixedlub.rig.plausibility import implausible
 from mixedlub.schema.findings import Finding, Severity, codes
 from mixedlub.schema.table import Table
 from profiles.errors import InputError
@@ -165,19 +165,19 @@ def test_temperatures_of_a_room_in_kelvin_are_asked_about(case: Case) -> None:
     assert "temperature_in_kelvin" in codes(notes)
 
 
-def implausible(folder: Path) -> list[Finding]:
+def implausible_in(folder: Path) -> list[Finding]:
     """What is implausible in a case's files beside the readings."""
-    return list(far_off(read_case(folder).rig))
+    return list(implausible(read_case(folder).rig))
 
 
 def test_what_is_far_off_in_the_system_stands_above_the_answer(make_case: Callable[..., Path], tmp_path: Path) -> None:
     folder = make_case(tmp_path / "case", "disc")
-    assert implausible(folder) == []
+    assert implausible_in(folder) == []
     file = folder / "system.toml"
     text = file.read_text(encoding="utf-8")
     assert "boundary_friction = 0.1" in text
     file.write_text(text.replace("boundary_friction = 0.1", "boundary_friction = 1.0", 1), encoding="utf-8")
-    (note,) = implausible(folder)
+    (note,) = implausible_in(folder)
     assert (note.code, note.place, note.severity) == ("value_unusual", "boundary_friction", Severity.DOUBT)
 
 
@@ -197,7 +197,7 @@ def test_shares_far_from_the_whole_load_question_the_answer_and_near_ones_are_no
     text = file.read_text(encoding="utf-8")
     assert text.count('model = "rigid"') == 1
     file.write_text(text.replace('model = "rigid"', 'table = "share.csv"'), encoding="utf-8")
-    (note,) = implausible(folder)
+    (note,) = implausible_in(folder)
     assert note.code == "load_share_sum"
     assert float(note.text.split(" on average")[0].split()[-1]) == pytest.approx(factor, abs=0.005)
     assert (note.severity is Severity.DOUBT) == alarm

@@ -52,7 +52,7 @@ def test_temperatures_some_kelvin_apart_were_meant(celsius: list[float], about: 
 def test_a_single_condition_that_jitters_makes_no_repeats() -> None:
     p = problem()
     case: Case = p.case
-    names = [c.name for c in case.kind.columns if c.form != "name" and c.name in p.rows]
+    names = [c.name for c in case.kind.columns if c.dtype != "name" and c.name in p.rows]
     one = Table({"run": np.arange(1, 9), names[0]: 100.0 + 0.3 * np.arange(8.0)}, "recordings.csv")
     assert nearly_repeated(replace(case, recordings=one)) is None
 

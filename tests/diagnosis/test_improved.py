@@ -151,10 +151,12 @@ def test_every_effect_of_a_case_acts_as_in_the_search(of_kind: Case, tmp_path: P
     base = Forward(of_kind, of_kind.recordings)
     calibration = {c.name: c.parameter.prior.value(0.5) for c in base.calibrations}
     for e in base.effects():
-        updated = {"effects": {e.id: e.middle}, "calibration": calibration}
+        updated = {"effects": {e.id: e.prior_medians}, "calibration": calibration}
         case = replace(of_kind, system=of_kind.system.model_copy(update=updated))
         there = Forward(case, of_kind.recordings)
-        assert there.predict() == pytest.approx(base.predict(calibration, {e.id: e.middle}), rel=1e-12, nan_ok=True)
+        assert there.predict() == pytest.approx(
+            base.predict(calibration, {e.id: e.prior_medians}), rel=1e-12, nan_ok=True
+        )
         assert e.id not in {other.id for other in there.effects()}
         if e.id == base.effects()[-1].id:
             read = read_case(written(case_files(case), tmp_path / "read"))

@@ -26,7 +26,7 @@ def test_roll_angles_near_the_ends_of_the_path_of_contact(
     path = folder / "recordings.csv"
     path.write_text(path.read_text(encoding="utf-8").replace(",16.0,", ",8.6,"), encoding="utf-8")
     d = diagnose_case(folder, exclude=excluded)
-    first, last = d.case.kind.limits(d.case.system)["roll_angle_deg"]
+    first, last = d.case.kind.column_limits(d.case.system)["roll_angle_deg"]
     assert first < 8.6
     assert d.next_tests
     assert all(first <= float(t.conditions["roll_angle_deg"]) <= last for t in d.next_tests)
@@ -38,7 +38,7 @@ def test_candidates_thinned_out_keep_every_level() -> None:
     levels |= {"pinion_surface": np.array(["a", "b", "c"]), "gear_surface": np.array(["ground", "polished"])}
     grid = np.meshgrid(*levels.values(), indexing="ij")
     table = Table({name: column.ravel() for name, column in zip(levels, grid, strict=True)}, "")
-    conditions = [Column(name, form="name" if "surface" in name else "number") for name in levels]
+    conditions = [Column(name, dtype="name" if "surface" in name else "number") for name in levels]
     found = candidates(table, conditions)
     assert len(found) == 600
     for name, column in levels.items():

@@ -64,7 +64,7 @@ def test_a_second_effect_that_took_the_place_of_another_is_exchanged() -> None:
 def test_half_of_what_is_believed_of_an_effect_is_its_published_law(viscous: float, gained: tuple) -> None:
     """Seal drag after ISO/TR 14179-2 has no power of viscosity to be paid for; another one costs log 2."""
     p = problem(relative=0.002)
-    held = replace(p, held={"seal_drag": {"viscous": viscous}})
+    held = replace(p, fixed={"seal_drag": {"viscous": viscous}})
     z = np.append(np.zeros(p.calibration_size), 2.0)
     made = replace(p, y=held.predict(Explanation.of("seal_drag"), z))
     low, high = gained

@@ -186,7 +186,7 @@ def test_noise_of_very_many_readings_is_estimated_though_a_share_of_them_is_look
     columns = {"time_s": 3600.0 * passed, "friction_coefficient": friction}
     system = {"kind": "friction_history", "recording": {"quantity": "friction_coefficient"}}
     d = diagnose_case(write_case(tmp_path / "case", system, columns))
-    assert float(np.median(d.seen_sd / d.recorded.predicted)) == pytest.approx(0.01, rel=0.15)
+    assert float(np.median(d.transformed_sd / d.recorded.predicted)) == pytest.approx(0.01, rel=0.15)
     assert d.test.detected
 
 

@@ -13,7 +13,7 @@ from mixedlub.diagnosis.assessment.identifiability import confusion
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.report.text import words
-from mixedlub.diagnosis.report.text.alternatives import resembling
+from mixedlub.diagnosis.report.text.alternatives import alternatives
 from mixedlub.diagnosis.report.text.answer import as_json
 from mixedlub.diagnosis.report.text.nearest_effect import nearest
 from mixedlub.diagnosis.report.text.tables import _interval_with_null
@@ -38,7 +38,7 @@ def test_what_is_called_nearest_is_neither_rejected_nor_untestable(unnamed: Diag
         found = nearest(d)
         assert found is not None
         assert found.explanation == Explanation.of(name)
-        said = " ".join(resembling(d, alike)[0])
+        said = " ".join(alternatives(d, alike)[0])
         assert name.replace("_", " ") not in said
 
 

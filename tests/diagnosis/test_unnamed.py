@@ -137,7 +137,7 @@ def test_an_effect_that_is_seldom_missing_has_lower_odds(monkeypatch: pytest.Mon
     known = search.effects_of
 
     def rarer(names: list[str]) -> list[Effect]:
-        return [replace(e, odds=0.1) if e.id == "churning" else e for e in known(names)]
+        return [replace(e, prior_odds=0.1) if e.id == "churning" else e for e in known(names)]
 
     monkeypatch.setattr(search, "effects_of", rarer)
     there = found.log_weights

@@ -21,7 +21,7 @@ class TestLookalikes:
             return signature(forward.predict(None, {name: values}) - base, "gear_pair")[0]
 
         rolling = sign("rolling_resistance", shown(catalogue()["rolling_resistance"]))
-        laws = catalogue()["churning"].contains
+        laws = catalogue()["churning"].special_cases
         alike = {
             law: float(rolling @ sign("churning", {"strength": 1.0, "surplus": 0.0, **values}))
             for law, values in laws.items()

@@ -97,7 +97,7 @@ def test_every_column_of_a_kind_is_taken(kind):
         answers = {"kind": kind, "recording.quantity": quantity, "recording.check": "coverage_percent"}
         answers["contact.geometry"] = "point"
         columns = [c for c in wanted(kind_of(kind), quantity, answers) if c.name != "sliding_speed_m_s"]
-        row = ",".join("ground" if c.form == "name" else "0.5" for c in columns)
+        row = ",".join("ground" if c.dtype == "name" else "0.5" for c in columns)
         header = ",".join(c.name for c in columns)
         found = draft(InputFile("t.csv", f"{header}\n{row}\n{row}\n"), answers)
         assert list(found.columns) == [c.name for c in columns]

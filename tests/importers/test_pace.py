@@ -48,7 +48,7 @@ def test_a_distance_is_seconds_by_the_speed(header, metres):
 
 def test_the_unit_of_a_distance_is_asked_with_those_of_lengths_first():
     question = needed("Distance")["import.units.time_s"]
-    assert (question.example, question.among[:3]) == ('"m"', ("m", "mm", "km"))
+    assert (question.example, question.options[:3]) == ('"m"', ("m", "mm", "km"))
     told = {**HISTORY, "import.units.time_s": "km", SPEED: 2}
     assert draft(InputFile("t.csv", history("Distance")), told).columns["time_s"].tolist() == [5000.0, 10000.0, 20000.0]
 
@@ -56,7 +56,7 @@ def test_the_unit_of_a_distance_is_asked_with_those_of_lengths_first():
 def test_a_header_of_another_name_is_told_and_its_unit_asked():
     assert "counts cycles or a distance will do" in needed("N")["import.columns.time_s"].text
     told = {**HISTORY, "import.columns.time_s": "N"}
-    assert "cycle" in needed("N", told)["import.units.time_s"].among
+    assert "cycle" in needed("N", told)["import.units.time_s"].options
     told |= {"import.units.time_s": "cycle", CYCLE: 2.0}
     assert draft(InputFile("t.csv", history("N")), told).columns["time_s"].tolist() == [20.0, 40.0, 80.0]
 
@@ -81,7 +81,7 @@ def beside(header, counts="Cycles", values=(7, 8, 9)):
 def test_a_count_beside_a_time_of_other_words_is_asked_about(header, pace):
     found = draft(InputFile("t.csv", beside(header)), {**HISTORY, **pace})
     (question,) = [q for q in found.questions if q.needed and q.key not in HISTORY]
-    assert (question.key, question.among) == ("import.columns.time_s", (header, "Cycles"))
+    assert (question.key, question.options) == ("import.columns.time_s", (header, "Cycles"))
     assert "time_s" not in found.columns
 
 
@@ -97,7 +97,7 @@ def test_either_answer_is_taken(header):
 
 def test_a_distance_beside_a_time_of_other_words_is_asked_about_too():
     found = draft(InputFile("t.csv", beside("t [s]", counts="Distance (m)")), HISTORY)
-    assert {q.key: q.among for q in found.questions}["import.columns.time_s"] == ("t [s]", "Distance (m)")
+    assert {q.key: q.options for q in found.questions}["import.columns.time_s"] == ("t [s]", "Distance (m)")
 
 
 def test_a_clock_is_no_time_beside_a_count():

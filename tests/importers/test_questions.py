@@ -234,7 +234,7 @@ def test_a_needed_column_that_only_another_thing_is_near_is_asked_without_a_prop
     found = draft(InputFile("t.csv", "duration_s,mu\n1,0.1\n2,0.2\n"), {"kind": "friction_history"})
     (question,) = [q for q in found.questions if q.key == "import.columns.time_s"]
     assert question.example == '"HEADER"'
-    assert question.among == ("duration_s", "mu")
+    assert question.options == ("duration_s", "mu")
 
 
 GERMAN = """Test no.;T1 [Nm];n1 [1/min];Oil sump temp. [°C];Pv total [kW]

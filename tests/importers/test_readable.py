@@ -201,7 +201,7 @@ def test_a_carried_file_never_takes_the_place_of_the_readings(rig, tmp_path):
 def test_a_carried_file_that_differs_is_not_replaced_unsaid(tmp_path):
     system = {"kind": "viscosity", "recording": {"quantity": "viscosity_mPa_s"}}
     columns = {"temperature_C": np.array([20.0, 40.0]), "viscosity_mPa_s": np.array([9.0, 5.0])}
-    folder = write_case(tmp_path / "case", system, columns, carried={"note.txt": b"one"})
+    folder = write_case(tmp_path / "case", system, columns, attachments={"note.txt": b"one"})
     with pytest.raises(InputError, match=r"note\.txt: exists and differs"):
-        write_case(folder, system, columns, carried={"note.txt": b"two"}, overwrite=False)
+        write_case(folder, system, columns, attachments={"note.txt": b"two"}, overwrite=False)
     assert (folder / "note.txt").read_bytes() == b"one"

@@ -104,7 +104,7 @@ def test_one_over_a_second_is_asked_about(unit, words):
     header = f"{words} ({unit})"
     questions = {q.key: q for q in draft(InputFile("t.csv", drive(header)), DRIVE).questions}
     question = questions["import.units.speed_rpm"]
-    assert (question.among, question.example) == (("rev/s", "rad/s"), '"UNIT"')
+    assert (question.options, question.example) == (("rev/s", "rad/s"), '"UNIT"')
     told = {**DRIVE, "import.columns.speed_rpm": header, "import.units.speed_rpm": "rad/s"}
     found = draft(InputFile("t.csv", drive(header)), told)
     assert found.columns["speed_rpm"].tolist() == pytest.approx([30.0 / np.pi, 60.0 / np.pi])

@@ -87,7 +87,7 @@ def least_squares(
     assert case.recordings is not None
     forward = Forward(case, case.recordings)
     y = case.recordings[case.quantity]
-    effects = [catalogue()[e].holding(held or {}) for e in ids]
+    effects = [catalogue()[e].fixing(held or {}) for e in ids]
     sizes = [len(forward.calibrations), *(len(e.parameters) for e in effects)]
 
     def predicted(z: np.ndarray) -> tuple[np.ndarray, dict[str, Any]]:

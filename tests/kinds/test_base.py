@@ -61,13 +61,13 @@ def test_film_needs_a_contact(make):
 def test_a_reading_one_fringe_off_is_called_a_miscount(make):
     case = make(system("film", "film_thickness_nm", contact=BALL, lubricant=OIL), film_columns())
     for excess, sd, said in ((203.0, 1.0, "one"), (-400.0, 1.0, "two"), (250.0, 20.0, "one"), (310.0, 90.0, "two")):
-        assert f"{said} interference order" in case.kind.reading_fault(case.recordings, 2, excess, sd)
-    assert "within the noise" in case.kind.reading_fault(case.recordings, 2, 250.0, 20.0)
-    assert "within the noise" not in case.kind.reading_fault(case.recordings, 2, 203.0, 20.0)
+        assert f"{said} interference order" in case.kind.instrument_fault(case.recordings, 2, excess, sd)
+    assert "within the noise" in case.kind.instrument_fault(case.recordings, 2, 250.0, 20.0)
+    assert "within the noise" not in case.kind.instrument_fault(case.recordings, 2, 203.0, 20.0)
     for excess, sd in ((60.0, 1.0), (-318.0, 1.0), (250.0, 5.0), (60.0, 90.0), (280.0, 90.0)):
-        assert case.kind.reading_fault(case.recordings, 2, excess, sd) is None
+        assert case.kind.instrument_fault(case.recordings, 2, excess, sd) is None
     below = {**case.recordings.columns, "film_thickness_nm": -case.recordings["film_thickness_nm"]}
-    assert case.kind.reading_fault(Table(below), 2, -400.0, 1.0) is None
+    assert case.kind.instrument_fault(Table(below), 2, -400.0, 1.0) is None
 
 
 def test_viscosity_is_d341_times_density_and_barus(make):
@@ -200,4 +200,4 @@ def test_a_torque_of_zeros_is_no_torque_of_the_motor(make, name, size):
     offered = {effect.id: effect for effect in forward.effects()}
     assert ("torque_constant" in offered) == (size > 0.0)
     for effect in offered.values():
-        assert np.isfinite(forward.predict(None, {effect.id: effect.middle})).all(), effect.id
+        assert np.isfinite(forward.predict(None, {effect.id: effect.prior_medians})).all(), effect.id

@@ -57,12 +57,12 @@ def test_what_changes_the_mesh_or_needs_wheels_changes_nothing_without_gears(for
     ]
     assert len(gone) > 15
     for effect in gone:
-        assert np.allclose(forward.predict(None, {effect.id: effect.middle})[BARE], 0.0, atol=1e-6), effect.id
+        assert np.allclose(forward.predict(None, {effect.id: effect.prior_medians})[BARE], 0.0, atol=1e-6), effect.id
 
 
 def test_every_effect_stays_finite(forward):
     for effect in forward.effects():
-        assert np.isfinite(forward.predict(None, {effect.id: effect.middle})).all(), effect.id
+        assert np.isfinite(forward.predict(None, {effect.id: effect.prior_medians})).all(), effect.id
 
 
 def test_what_was_assumed_is_said(forward):

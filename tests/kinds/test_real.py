@@ -49,7 +49,7 @@ def test_last_film_is_one_fringe_off(typed_in):
     case = read_case(typed_in / "ehd_film_31C_50N")
     after, _, _ = fit(case, "inlet_shear_heating", sd=without_last(case))
     excess = float(case.recordings["film_thickness_nm"][-1] - after[-1])
-    assert "one interference order" in case.kind.reading_fault(case.recordings, 20, excess, 0.02 * float(after[-1]))
+    assert "one interference order" in case.kind.instrument_fault(case.recordings, 20, excess, 0.02 * float(after[-1]))
 
 
 PER_CENT = 9.84e-5
@@ -140,7 +140,7 @@ def log_residual(case, *ids, held=None):
 def test_viscosity_under_pressure_needs_a_law_that_bends_twice(typed_in):
     case = read_case(typed_in / "lubricant_viscosity_vs_pressure")
     assert log_residual(case) > 0.18
-    roelands = catalogue()["pressure_viscosity_law"].contains["Roelands"]
+    roelands = catalogue()["pressure_viscosity_law"].special_cases["Roelands"]
     assert log_residual(case, "pressure_viscosity_law", held=roelands) > 0.15
     assert log_residual(case, "pressure_viscosity_law") < 0.06
 

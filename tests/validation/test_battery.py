@@ -292,7 +292,7 @@ def test_no_fault_of_an_instrument_makes_a_quantity_negative(kind, effects):
 
 def test_a_fault_that_always_makes_a_quantity_negative_is_refused(monkeypatch):
     monkeypatch.setattr(Sample, "possible", False)
-    monkeypatch.setattr(sampling, "DRAWS", 3)
+    monkeypatch.setattr(sampling, "MOST_RIGS", 3)
     with pytest.raises(InputError, match="can be read"):
         sample_case(np.random.default_rng(1), Order("", "film", "measurement", ("sensor_offset",), "clear"))
 

@@ -15,7 +15,7 @@ import pytest
 from scipy.optimize import least_squares
 
 from mixedlub.chain.effect import Effect
-from mixedlub.chain.priors import Between, BetweenLog, LogNormal
+from mixedlub.chain.priors import LogNormal, LogUniform, Uniform
 from mixedlub.effects import known_in
 from mixedlub.validation.contact import Contact
 from mixedlub.validation.planted import FORMS
@@ -120,13 +120,13 @@ LIMITS: dict[str, tuple[dict[str, float], ...]] = {
 """Values from which the fit also starts: far out, where a form may be the limit of the catalogue's."""
 
 
-def _median(prior: LogNormal | BetweenLog) -> float:
+def _median(prior: LogNormal | LogUniform) -> float:
     return prior.median if isinstance(prior, LogNormal) else float(np.sqrt(prior.low * prior.high))
 
 
 def _place(prior: Any, value: float) -> float:
     """Where a value stands, counted as the fit counts it."""
-    if isinstance(prior, Between):
+    if isinstance(prior, Uniform):
         return (value - prior.low) / (prior.high - prior.low)
     return float(np.log(value / _median(prior)))
 
@@ -138,20 +138,20 @@ def misfit(sign: Signature, enough: float = EXACT) -> float:
     given = [sign.given[name] for name in (*sign.effect.acts_on, *sign.effect.reads)]
 
     def value(prior: Any, x: float) -> float:
-        if isinstance(prior, LogNormal | BetweenLog):
+        if isinstance(prior, LogNormal | LogUniform):
             return _median(prior) * float(np.exp(x))
-        if isinstance(prior, Between):
+        if isinstance(prior, Uniform):
             return prior.low + (prior.high - prior.low) * x
         return x * float(getattr(prior, "sd", getattr(prior, "scale", getattr(prior, "median", 1.0))))
 
     def error(x: np.ndarray) -> np.ndarray:
         values = {p.name: value(p.prior, float(v)) for p, v in zip(parameters, x)}
         with np.errstate(all="ignore"):
-            made = sign.shaped(sign.effect.law(*given, **sign.effect.held, **values))
+            made = sign.shaped(sign.effect.law(*given, **sign.effect.fixed, **values))
         return np.nan_to_num(np.clip((made - sign.change) / size, -1e3, 1e3), nan=1e3)
 
-    even = np.array([isinstance(p.prior, Between) for p in parameters])
-    logs = np.array([isinstance(p.prior, LogNormal | BetweenLog) for p in parameters])
+    even = np.array([isinstance(p.prior, Uniform) for p in parameters])
+    logs = np.array([isinstance(p.prior, LogNormal | LogUniform) for p in parameters])
     low, high = np.where(even, 0.0, np.where(logs, -21.0, -np.inf)), np.where(even, 1.0, np.where(logs, 21.0, np.inf))
     rng = np.random.default_rng(1)
 

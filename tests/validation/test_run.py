@@ -64,7 +64,7 @@ def test_recalibration_finds_the_noise_where_nothing_is_missing(battery, tmp_pat
     for folder in nulls:
         fitted = recalibrate(folder)
         assert fitted.squares / len(fitted.good) == pytest.approx(1.0, abs=0.5)
-        flagged = {int(run) for run in fitted.run[: fitted.seen][fitted.spoiled]}
+        flagged = {int(run) for run in fitted.run[: fitted.n_recorded][fitted.spoiled]}
         assert flagged >= read_truth(folder).outliers
 
 

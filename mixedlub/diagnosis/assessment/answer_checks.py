@@ -32,9 +32,11 @@ from mixedlub.schema.units import unit_of
 
 def noise_notes(search: Search, stated: bool, inflation: NoiseInflation) -> list[Finding]:
     """What the readings show of their noise, where that is not what the recording states."""
-    lasting = search.problem.n_per_effective
-    text = f"residuals are autocorrelated: about {lasting:.2g} consecutive readings carry the information of one"
-    series = [finding("residuals_autocorrelated", text)] if lasting > 1.0 else []
+    n_per_effective = search.problem.n_per_effective
+    text = (
+        f"residuals are autocorrelated: about {n_per_effective:.2g} consecutive readings carry the information of one"
+    )
+    series = [finding("residuals_autocorrelated", text)] if n_per_effective > 1.0 else []
     return [*series, *_drift_notes(search), *_size_notes(search, stated, inflation)]
 
 
@@ -55,7 +57,7 @@ def _drift_notes(search: Search) -> list[Finding]:
 
 def _size_notes(search: Search, stated: bool, inflation: NoiseInflation) -> list[Finding]:
     times = inflation.factor
-    whole = times * search.problem.correlated_error.total_sd
+    total = times * search.problem.correlated_error.total_sd
     if inflation.extra_relative:
         text = (
             f"readings scatter {100.0 * inflation.extra_relative:.2g} % more than the stated standard deviations, "
@@ -63,9 +65,9 @@ def _size_notes(search: Search, stated: bool, inflation: NoiseInflation) -> list
         )
         return [finding("scatter_above_stated", text)]
     scatter = "with every explanation tried, readings scatter about {:.2g} times as much as stated"
-    if stated and whole > MOST_INFLATION:
+    if stated and total > MOST_INFLATION:
         text = (
-            f"{scatter.format(whole)}, which is too much for a wrongly stated noise: either an effect of another form "
+            f"{scatter.format(total)}, which is too much for a wrongly stated noise: either an effect of another form "
             "is present, or what is stated is not the noise of a reading; the answer was found under noise that large"
         )
         return [finding("scatter_unexplained", text)]
@@ -96,7 +98,7 @@ def _size_notes(search: Search, stated: bool, inflation: NoiseInflation) -> list
 
 def answer_warnings(
     verdict: Explanation,
-    kept: HeldOut,
+    heldout: HeldOut,
     rows: Table,
     y: np.ndarray,
     predicted: np.ndarray,
@@ -107,25 +109,25 @@ def answer_warnings(
 
     A mismatch ``at_one_place`` is not one that other levels could predict.
     """
-    found = []
+    warnings = []
     if wrong.mean() > MANY_OUTLIERS:
         text = (
             f"{wrong.sum()} of {wrong.size} readings are outliers: the noise may be taken too small, or the answer "
             "covers only a part of the recording"
         )
-        found.append(finding("outliers_many", text))
+        warnings.append(finding("outliers_many", text))
         turned = np.abs(y[wrong] + predicted[wrong]) < OPPOSITE_WITHIN * np.abs(y[wrong])
         if turned.mean() > 0.5:
             text = f"{turned.sum()} of {wrong.sum()} outliers have the expected size with the opposite sign"
-            found.append(finding("outliers_opposite_sign", text))
+            warnings.append(finding("outliers_opposite_sign", text))
     streak = outlier_streak(rows, wrong, y - predicted)
     if streak:
         text = (
             f"the {len(streak)} readings are consecutive outliers on one side; this is not chance, and the answer does "
             "not explain it"
         )
-        found.append(finding("outliers_consecutive", text, f"run {streak[0]} to run {streak[-1]}"))
-    found += [
+        warnings.append(finding("outliers_consecutive", text, f"run {streak[0]} to run {streak[-1]}"))
+    warnings += [
         finding(
             "outliers_at_level",
             f"{share} readings are outliers on one side; this is not chance, and the answer does not explain it",
@@ -133,19 +135,18 @@ def answer_warnings(
         )
         for level, share in outlier_levels(rows, wrong, y - predicted)
     ]
-    if verdict != NOTHING and not at_one_place and kept.score < kept.score_before:
+    if verdict != NOTHING and not at_one_place and heldout.score < heldout.score_before:
         answer = "the unnamed mismatch" if verdict == DISCREPANCY else "the answer"
         text = (
             f"{answer} predicts left-out levels no better than calibration alone: outside the recorded conditions rely "
             "on neither"
         )
-        found.append(finding("answer_not_predictive", text))
-    elif verdict != NOTHING and not at_one_place and kept.after > POOR_PREDICTION:
-        text = (
-            f"the answer predicts left-out levels poorly (rms {kept.after:.3g} sigma, 1 expected): do not extrapolate"
-        )
-        found.append(finding("answer_predicts_poorly", text))
-    return found
+        warnings.append(finding("answer_not_predictive", text))
+    elif verdict != NOTHING and not at_one_place and heldout.after > POOR_PREDICTION:
+        error = f"rms {heldout.after:.3g} sigma, 1 expected"
+        text = f"the answer predicts left-out levels poorly ({error}): do not extrapolate"
+        warnings.append(finding("answer_predicts_poorly", text))
+    return warnings
 
 
 def overdispersion_warning(judged: Posterior) -> list[Finding]:
@@ -160,7 +161,7 @@ def overdispersion_warning(judged: Posterior) -> list[Finding]:
     return [finding("explanation_incomplete", text)]
 
 
-def outlier_streak(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[int]:
+def outlier_streak(rows: Table, wrong: np.ndarray, residual: np.ndarray) -> list[int]:
     """Runs of the longest streak in time of wrong readings on one side, if chance would hardly make one.
 
     >>> table = Table({"run": np.arange(1, 41), "time_s": np.arange(40.0)})
@@ -172,7 +173,7 @@ def outlier_streak(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[int
     if clock is None or not wrong.any():
         return []
     order = np.argsort(clock, kind="stable")
-    side = (np.sign(left) * wrong)[order]
+    side = (np.sign(residual) * wrong)[order]
     starts = np.flatnonzero(np.diff(side, prepend=np.nan) != 0.0)
     lengths = np.diff(np.append(starts, side.size)) * (side[starts] != 0.0)
     longest = int(np.argmax(lengths))
@@ -184,26 +185,26 @@ def outlier_streak(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[int
     return [] if _one_level(rows, streak) else [int(run) for run in rows["run"][streak]]
 
 
-def outlier_levels(rows: Table, wrong: np.ndarray, left: np.ndarray) -> list[tuple[str, str]]:
+def outlier_levels(rows: Table, wrong: np.ndarray, residual: np.ndarray) -> list[tuple[str, str]]:
     """Levels nearly all of whose readings are wrong on one side, if chance would hardly make one, and how many are.
 
     None where all levels are like that.
     """
     if wrong.mean() >= MOST_OF_LEVEL:
         return []
-    found = []
+    levels = []
     for name, values in _conditions(rows):
         points, label = np.unique(set_points(values), return_inverse=True)
         size = np.bincount(label)
-        for side in (left > 0.0, left < 0.0):
-            off = np.bincount(label, weights=wrong & side).astype(int)
-            for i in np.flatnonzero((size >= LEAST_STREAK) & (off >= MOST_OF_LEVEL * size) & (size < label.size)):
-                by_chance = 2.0 * points.size * comb(int(size[i]), int(off[i])) * (0.5 * wrong.mean()) ** off[i]
+        for side in (residual > 0.0, residual < 0.0):
+            n_wrong = np.bincount(label, weights=wrong & side).astype(int)
+            for i in np.flatnonzero((size >= LEAST_STREAK) & (n_wrong >= MOST_OF_LEVEL * size) & (size < label.size)):
+                by_chance = 2.0 * points.size * comb(int(size[i]), int(n_wrong[i])) * (0.5 * wrong.mean()) ** n_wrong[i]
                 if by_chance <= RARE:
-                    many = f"all {size[i]}" if off[i] == size[i] else f"{off[i]} of the {size[i]}"
+                    share = f"all {size[i]}" if n_wrong[i] == size[i] else f"{n_wrong[i]} of the {size[i]}"
                     at = points[i] if points.dtype.kind in "US" else amount(float(points[i]), name)
-                    found.append((f"{words_of(name)} {at}", many))
-    return found
+                    levels.append((f"{words_of(name)} {at}", share))
+    return levels
 
 
 def _conditions(rows: Table) -> list[tuple[str, np.ndarray]]:
@@ -214,7 +215,7 @@ def _conditions(rows: Table) -> list[tuple[str, np.ndarray]]:
 def _one_level(rows: Table, streak: np.ndarray) -> bool:
     """Whether a streak is a level of a condition that was run in one go: no matter of time."""
     for _, values in _conditions(rows):
-        there = values == values[streak[0]]
-        if there[streak].all() and not there.all() and streak.size >= MOST_OF_LEVEL * there.sum():
+        at_level = values == values[streak[0]]
+        if at_level[streak].all() and not at_level.all() and streak.size >= MOST_OF_LEVEL * at_level.sum():
             return True
     return False

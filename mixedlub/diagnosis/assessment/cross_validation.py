@@ -82,8 +82,8 @@ class HeldOut:
         """
         noise = max(rms, 1.0) ** 2
         missing = max(self.before**2 - noise, LEAST_MISMATCH)
-        left = max(self.standardised_rms**2 - noise * (1.0 + SIGNIFICANT * np.sqrt(2.0 / self.readings)), 0.0)
-        return float(min(MOST_PENALTY * max(left / missing - TOLERATED_SHARE, 0.0), MOST_PENALTY))
+        unexplained = max(self.standardised_rms**2 - noise * (1.0 + SIGNIFICANT * np.sqrt(2.0 / self.readings)), 0.0)
+        return float(min(MOST_PENALTY * max(unexplained / missing - TOLERATED_SHARE, 0.0), MOST_PENALTY))
 
     def penalty_against(self, name: HeldOut) -> float:
         """Penalty in log odds of the discrepancy if effects predict left-out levels better.
@@ -104,9 +104,9 @@ class HeldOut:
         >>> ripple.dominated_by(stribeck), stribeck.dominated_by(ripple)
         (True, False)
         """
-        missing, left = name.before**2 - 1.0, name.after**2 - 1.0
-        near = left < (1.0 - PREDICTED_SHARE) * missing and name.overdispersion < MOST_OVERDISPERSION
-        return missing > LEAST_MISMATCH and near and left < CLEARLY_LESS * (self.after**2 - 1.0)
+        missing, unexplained = name.before**2 - 1.0, name.after**2 - 1.0
+        predicts_most = unexplained < (1.0 - PREDICTED_SHARE) * missing and name.overdispersion < MOST_OVERDISPERSION
+        return missing > LEAST_MISMATCH and predicts_most and unexplained < CLEARLY_LESS * (self.after**2 - 1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,55 +129,55 @@ class LevelsOut:
     folds: tuple[_Fold, ...]
     before: np.ndarray
     inner: np.ndarray
-    left: dict[Explanation, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
+    refitted: dict[Explanation, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
     """Residuals and prediction variance of the explanations that were tried."""
 
     @classmethod
-    def of(cls, whole: Search) -> LevelsOut:
+    def of(cls, search: Search) -> LevelsOut:
         """Folds over the levels of the condition with most levels (up to 8)."""
-        found = whole.full_screen
-        name, label, ordered = _folds(found)
-        folds, before = [], np.zeros(found.problem.y.size)
+        screened = search.full_screen
+        name, label, ordered = _folds(screened)
+        folds, before = [], np.zeros(screened.problem.y.size)
         for k in range(int(label.max()) + 1):
             out = label == k
-            train, test = found.problem.take(~out), found.problem.take(out)
+            train, test = screened.problem.take(~out), screened.problem.take(out)
             # The error of its set-up is part of the noise of a left-out reading.
             wide = test.sd * np.sqrt(1.0 + np.sum(test.shared**2, axis=1))
-            null_fit = map_fit(train, NOTHING, found.null_fit.z)
+            null_fit = map_fit(train, NOTHING, screened.null_fit.z)
             before[out] = (test.y - test.predict(NOTHING, null_fit.z)) / wide
             folds.append(_Fold(out, train, test, wide))
-        used = np.isin(whole.problem.rows["run"], found.problem.rows["run"])
+        used = np.isin(search.problem.rows["run"], screened.problem.rows["run"])
         inner = (label > label.min()) & (label < label.max()) if ordered else np.ones(label.size, bool)
-        return cls(found, used, name, tuple(folds), before, inner)
+        return cls(screened, used, name, tuple(folds), before, inner)
 
     def held(self, verdict: Explanation, outliers: np.ndarray, inner: bool = False) -> HeldOut:
         """How an explanation predicts each level without it; ``inner``: only levels between others."""
         outliers = outliers[self.used]
-        if verdict not in self.left:
-            self.left[verdict] = self._left_by(verdict)
-        after, open_variance = self.left[verdict]
-        kept = ~outliers if not outliers.all() else np.ones(outliers.size, bool)
-        kept = kept & self.inner if inner and (kept & self.inner).any() else kept
+        if verdict not in self.refitted:
+            self.refitted[verdict] = self._refit(verdict)
+        after, open_variance = self.refitted[verdict]
+        used = ~outliers if not outliers.all() else np.ones(outliers.size, bool)
+        used = used & self.inner if inner and (used & self.inner).any() else used
         spread = np.sqrt(1.0 + open_variance)
         return HeldOut(
-            float(np.sqrt(np.mean(self.before[kept] ** 2))),
-            float(np.sqrt(np.mean(after[kept] ** 2))),
+            float(np.sqrt(np.mean(self.before[used] ** 2))),
+            float(np.sqrt(np.mean(after[used] ** 2))),
             f"leave one level of {self.name} out" if self.name else "leave every fifth reading out",
             len(self.folds),
-            int(kept.sum()),
-            float(np.sqrt(np.mean((after / spread)[kept] ** 2))),
+            int(used.sum()),
+            float(np.sqrt(np.mean((after / spread)[used] ** 2))),
             float((log_likelihood(after / spread)[0] - np.log(spread)).sum()),
             float(log_likelihood(self.before)[0].sum()),
         )
 
-    def _left_by(self, verdict: Explanation) -> tuple[np.ndarray, np.ndarray]:
+    def _refit(self, verdict: Explanation) -> tuple[np.ndarray, np.ndarray]:
         """Residuals and prediction variance of all readings, parameters refitted without their level."""
         after, open_variance = np.zeros((2, self.before.size))
         forms = _discrepancy_columns(self.search) if verdict == DISCREPANCY else []
         for f in self.folds:
             if verdict == DISCREPANCY:
-                left, variance = _discrepancy_left(self.search, forms, f.out)
-                after[f.out] = left * f.test.sd / f.wide
+                residual, variance = _discrepancy_residuals(self.search, forms, f.out)
+                after[f.out] = residual * f.test.sd / f.wide
                 open_variance[f.out] = variance * (f.test.sd / f.wide) ** 2
             elif verdict == NOTHING:
                 after[f.out] = self.before[f.out]
@@ -185,16 +185,16 @@ class LevelsOut:
                 fit = map_fit(f.train, verdict, self.search.fits[verdict].z, warm=True)
                 run = f.test.run(fit.explanation, fit.z)
                 # The level left out may be the one that determines a change point.
-                found = change_point_posterior(f.train, fit)
+                posteriors = change_point_posterior(f.train, fit)
                 gain, (variance, _, _) = average_over_change_points(
-                    found, fit.z, partial(f.test.predict, fit.explanation), run.prediction
+                    posteriors, fit.z, partial(f.test.predict, fit.explanation), run.prediction
                 )
                 after[f.out] = (f.test.y - run.prediction - gain) / f.wide
-                sudden = [p.index for p in found]
+                jumps = [p.index for p in posteriors]
                 slopes = (
-                    drop_columns(f.test.jacobian(fit.explanation, fit.z, run), sudden) * (f.test.sd / f.wide)[:, None]
+                    drop_columns(f.test.jacobian(fit.explanation, fit.z, run), jumps) * (f.test.sd / f.wide)[:, None]
                 )
-                columns = np.hstack([drop_columns(fit.slopes, sudden), f.train.shared])
+                columns = np.hstack([drop_columns(fit.slopes, jumps), f.train.shared])
                 open_variance[f.out] = _open_variance(columns, fit.weight, slopes) + variance / f.wide**2
         return after, open_variance
 
@@ -204,8 +204,8 @@ def _open_variance(columns: np.ndarray, weight: np.ndarray, slopes: np.ndarray) 
 
     ``columns`` are the slopes of that fit; ``slopes`` has the first of them.
     """
-    own = covariance(columns, weight)[: slopes.shape[1], : slopes.shape[1]]
-    return np.asarray(np.einsum("ij,jk,ik->i", slopes, own, slopes))
+    covariances = covariance(columns, weight)[: slopes.shape[1], : slopes.shape[1]]
+    return np.asarray(np.einsum("ij,jk,ik->i", slopes, covariances, slopes))
 
 
 def _discrepancy_columns(search: Search) -> list[np.ndarray]:
@@ -214,24 +214,24 @@ def _discrepancy_columns(search: Search) -> list[np.ndarray]:
     return [shape.columns(search.space, search.values, search.discrepancy.scalings) for shape in shapes]
 
 
-def _discrepancy_left(search: Search, forms: list[np.ndarray], out: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _discrepancy_residuals(search: Search, forms: list[np.ndarray], out: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Residuals of left-out readings under the discrepancy fitted to the others (linearised), and prediction variance.
 
     The other readings also decide between its ``forms``.
     """
     problem, null_fit = search.problem, search.null_fit
-    log, left, variance = [], [], []
-    for own in forms:
-        columns = np.hstack([null_fit.slopes, problem.shared, own])
+    log, residuals, variance = [], [], []
+    for form in forms:
+        columns = np.hstack([null_fit.slopes, problem.shared, form])
         fit = linear_fit(null_fit.anchor[~out], columns[~out])
-        blind = np.hstack([null_fit.slopes, np.zeros_like(problem.shared), own])[out]
+        new_columns = np.hstack([null_fit.slopes, np.zeros_like(problem.shared), form])[out]
         log.append(fit.evidence)
-        left.append(null_fit.anchor[out] - blind @ fit.coefficients)
-        variance.append(_open_variance(columns[~out], fit.weight, blind))
+        residuals.append(null_fit.anchor[out] - new_columns @ fit.coefficients)
+        variance.append(_open_variance(columns[~out], fit.weight, new_columns))
     chance = np.exp(np.array(log) - max(log))
     chance = chance / chance.sum()
-    mean = chance @ np.array(left)
-    return mean, chance @ (np.array(variance) + (np.array(left) - mean) ** 2)
+    mean = chance @ np.array(residuals)
+    return mean, chance @ (np.array(variance) + (np.array(residuals) - mean) ** 2)
 
 
 def _folds(search: Search) -> tuple[str, np.ndarray, bool]:

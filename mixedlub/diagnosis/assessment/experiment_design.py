@@ -55,7 +55,7 @@ def next_tests(
         keys = [*keys, runner]
     keys = keys[:MOST_RIVALS]
     case = search.problem.case
-    table = candidates(search.problem.rows, columns, case.kind.limits(case.system), varied)
+    table = candidates(search.problem.rows, columns, case.kind.column_limits(case.system), varied)
     rows = NewRows(search, table)
     predictions = [rows.of_fit(refined[k]) for k in keys]
     weights = np.array([judged.weights[k] for k in keys])

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mixedlub.case.folder import SHOWN, Case
+from mixedlub.case.folder import RUNS_LISTED, Case
 from mixedlub.diagnosis.labels import amount
 from mixedlub.diagnosis.settings.assessment import OUTSIDE_OF_END, OUTSIDE_OF_LOWEST, OUTSIDE_OF_SPAN
 from mixedlub.schema.findings import Finding, finding
@@ -25,8 +25,8 @@ def beyond_recorded(case: Case, wanted: Table | None) -> list[Finding]:
                 beyond.setdefault(run, []).append(words)
     if not beyond:
         return []
-    listed = [f"run {run}: {', '.join(words)}" for run, words in list(beyond.items())[:SHOWN]]
-    more = f"; and {len(beyond) - SHOWN} more runs" if len(beyond) > SHOWN else ""
+    listed = [f"run {run}: {', '.join(words)}" for run, words in list(beyond.items())[:RUNS_LISTED]]
+    more = f"; and {len(beyond) - RUNS_LISTED} more runs" if len(beyond) > RUNS_LISTED else ""
     text = (
         f"{len(beyond)} of {len(wanted)} conditions to predict are outside the recorded range; their intervals hold "
         f"only if the laws also hold there ({'; '.join(listed)}{more})"
@@ -37,7 +37,7 @@ def beyond_recorded(case: Case, wanted: Table | None) -> list[Finding]:
 def _beyond(column: Column, wanted: Table, rows: Table) -> Iterator[tuple[int, str]]:
     """Runs whose value of a column is beyond the recorded ones, with the words for it."""
     name, values = column.name, wanted[column.name]
-    if column.form == "name":
+    if column.dtype == "name":
         for i in np.flatnonzero(~np.isin(values, rows[name])):
             yield int(wanted["run"][i]), f"{name} {values[i]}, never recorded"
         return

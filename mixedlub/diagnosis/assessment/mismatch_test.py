@@ -74,16 +74,18 @@ class _Alternatives:
         inner = np.eye(fixed.shape[1]) + fixed.T @ (fixed * weight[:, None])
         directions = [s.change[: s.n_prior] for s in search.draws]
         effects = np.vstack(directions) / scale if directions else np.zeros((0, weight.size))
-        seen = whitened(effects)
+        whitened_effects = whitened(effects)
         smooth = []
         for length, interactions in SMOOTH_ALTERNATIVES:
             shape = DiscrepancyForm((), length, 1.0, READING, interactions and len(search.space.axes) > 1)
             block = shape.columns(search.space, search.values, search.discrepancy.scalings)
-            pulled = whitened(block.T)
-            size, turn = np.linalg.eigh(pulled @ block)
-            smooth.append((np.maximum(size, 0.0), turn.T @ pulled))
+            whitened_block = whitened(block.T)
+            size, vectors = np.linalg.eigh(whitened_block @ block)
+            smooth.append((np.maximum(size, 0.0), vectors.T @ whitened_block))
         spread = float(np.linalg.slogdet(inner)[1]) + 2.0 * weight.size * float(np.log(scale))
-        return cls(scale, whitened, spread, seen, np.einsum("ij,ij->i", effects, seen), tuple(smooth))
+        return cls(
+            scale, whitened, spread, whitened_effects, np.einsum("ij,ij->i", effects, whitened_effects), tuple(smooth)
+        )
 
     def log_nothing(self, targets: np.ndarray) -> np.ndarray:
         """Log density of each row of targets if nothing is missing, up to a constant that no scale changes."""
@@ -155,10 +157,10 @@ def mismatch_test(
     alternatives = [_Alternatives.of(search, fixed, weight, scale) for scale in scales]
     rng = np.random.default_rng(seed)
     noise = rng.standard_normal((DRAWS, problem.y.size)) / np.sqrt(weight)
-    drawn = _statistic(alternatives, noise + rng.standard_normal((DRAWS, fixed.shape[1])) @ fixed.T)
+    simulated = _statistic(alternatives, noise + rng.standard_normal((DRAWS, fixed.shape[1])) @ fixed.T)
     observed = float(_statistic(alternatives, null_fit.anchor[None, :])[0]) - _cost(search, fixed, weight, scales)
-    p = (1.0 + float((drawn >= observed).sum())) / (DRAWS + 1.0)
-    if observed > drawn.max():
+    p = (1.0 + float((simulated >= observed).sum())) / (DRAWS + 1.0)
+    if observed > simulated.max():
         p = min(p, float(np.exp(-min(observed, LARGEST_EXPONENT))))
     p = min(p, BAYES_FACTOR_MARGIN * float(np.exp(-min(full.log_bayes_factor, LARGEST_EXPONENT))))
     chi2 = float(
@@ -173,22 +175,24 @@ def mismatch_against_null(result: NoiseSearch, level: float) -> tuple[Search, Mi
     Unstated noise was estimated under the best explanation, which is unfair to the null hypothesis. The test is
     therefore repeated with the noise that the null hypothesis needs, and that search is used if nothing is detected.
     """
-    found = result.search
-    test = mismatch_test(found, level)
+    search = result.search
+    test = mismatch_test(search, level)
     if result.stated:
-        test = beyond_noise(found, result.noise_factor, test)
+        test = beyond_noise(search, result.noise_factor, test)
         if not test.detected:
-            return found, test
-    alone = result.null_search()
+            return search, test
+    null_search = result.null_search()
     if result.stated:
-        other = test if alone is found else mismatch_test(alone, level)
+        null_test = test if null_search is search else mismatch_test(null_search, level)
     else:
-        other = mismatch_test(alone, level, weight=judged_weight(found.full_screen), scales=UNSTATED_NOISE_SCALES)
-    if other.p_value <= test.p_value:
-        return found, test
-    if not other.detected:
-        return alone, other
-    return found, replace(test, p_value=other.p_value, noise_adapted=True)
+        null_test = mismatch_test(
+            null_search, level, weight=judged_weight(search.full_screen), scales=UNSTATED_NOISE_SCALES
+        )
+    if null_test.p_value <= test.p_value:
+        return search, test
+    if not null_test.detected:
+        return null_search, null_test
+    return search, replace(test, p_value=null_test.p_value, noise_adapted=True)
 
 
 def beyond_noise(search: Search, times: float, test: Mismatch) -> Mismatch:
@@ -197,9 +201,9 @@ def beyond_noise(search: Search, times: float, test: Mismatch) -> Mismatch:
 
     if times <= MOST_INFLATION:
         return test
-    good = outlier_chance(search.null_fit.residual) <= LIKELY
-    if not good.any():
+    counted = outlier_chance(search.null_fit.residual) <= LIKELY
+    if not counted.any():
         return replace(test, p_value=SMALLEST_P, detected=True, unexplained_scatter=True)
-    left = float(np.sum(search.null_fit.residual[good] ** 2)) * (times / MOST_INFLATION) ** 2
-    p = min(max(float(chdtrc(int(good.sum()), left)), SMALLEST_P), test.p_value)
+    chi2 = float(np.sum(search.null_fit.residual[counted] ** 2)) * (times / MOST_INFLATION) ** 2
+    p = min(max(float(chdtrc(int(counted.sum()), chi2)), SMALLEST_P), test.p_value)
     return replace(test, p_value=p, detected=bool(p <= test.level), unexplained_scatter=True)

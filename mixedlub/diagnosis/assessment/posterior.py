@@ -50,7 +50,7 @@ class Posterior:
 def prior_of_untestable(search: Search) -> dict[str, float]:
     """Probability of the effects that change no reading: their prior."""
     looked = (*search.draws, *search.untestable)
-    odds = {e.id: e.odds for s in looked for e in effects_of((s.id,))}
+    odds = {e.id: e.prior_odds for s in looked for e in effects_of((s.id,))}
     nothing, single, pair = priors(len(odds))
     single /= nothing + single + pair + PRIOR["discrepancy"]
     return {s.id: single * odds[s.id] / sum(odds.values()) for s in search.untestable}
@@ -74,8 +74,8 @@ def posterior(
         relative = {k: search.scores[k] - (penalties or {}).get(k, 0.0) for k in names}
         foremost = max(log[key] for key in names)
         log |= {key: log[key] + value * (1.0 / overdispersion - 1.0) for key, value in relative.items()}
-        back = foremost - max(log[key] for key in names)
-        log |= {key: log[key] + back for key in names}
+        shift = foremost - max(log[key] for key in names)
+        log |= {key: log[key] + shift for key in names}
     if test.unexplained_scatter and log[NOTHING] > log[DISCREPANCY]:
         log[NOTHING], log[DISCREPANCY] = log[DISCREPANCY], log[NOTHING]
     others = [value for key, value in log.items() if key != NOTHING]

@@ -120,9 +120,9 @@ def absorbing_stages(search: Search) -> tuple[Absorbed, ...]:
             slope = log_slope(problem, calibrated, name)
             if slope is None or not np.isfinite(slope).all() or not slope.any():
                 continue
-            own = smooth * (slope / problem.sd)[:, None]
+            columns = smooth * (slope / problem.sd)[:, None]
             each = [
-                linear_fit(null_fit.anchor, np.hstack([base, size * own]), search.discrepancy.fit.weight).evidence
+                linear_fit(null_fit.anchor, np.hstack([base, size * columns]), search.discrepancy.fit.weight).evidence
                 for size in LOG_FACTOR_SIZES
             ]
             weighed.append(Absorbed(stage, name, float(np.logaddexp.reduce(each) - np.log(len(each)) - plain)))
@@ -133,29 +133,29 @@ def absorbing_stages(search: Search) -> tuple[Absorbed, ...]:
 def features(search: Search) -> dict[str, np.ndarray]:
     """Positive quantities that vary over the recording, one number a reading; look-alikes of earlier ones left out."""
     case, rows, forward = search.problem.case, search.problem.rows, search.problem.forward
-    every: dict[str, np.ndarray] = {}
+    candidates: dict[str, np.ndarray] = {}
     for column in case.kind.columns:
-        if column.form != "name" and column.name in rows and not column.name.endswith("_C"):
-            every[column.name] = np.abs(np.asarray(rows[column.name], dtype=float))
+        if column.dtype != "name" and column.name in rows and not column.name.endswith("_C"):
+            candidates[column.name] = np.abs(np.asarray(rows[column.name], dtype=float))
     base = search.problem.run(NOTHING, search.null_fit.z)
     inputs = base.inputs
-    made = set(inputs) | {name for name, _ in forward.chain}
-    parts = [name for name in (*CHAIN[1:], "film_thickness", "composite_roughness") if name in made]
+    computed = set(inputs) | {name for name, _ in forward.chain}
+    parts = [name for name in (*CHAIN[1:], "film_thickness", "composite_roughness") if name in computed]
     state = forward.model(parts)(inputs, base.record.values) if parts else {}
     if "film_thickness" in state and "composite_roughness" in state:
         state["film_ratio"] = state["film_thickness"] / state["composite_roughness"]
     for name in CHAIN:
-        if name in state and name not in every:
+        if name in state and name not in candidates:
             value = np.atleast_2d(np.asarray(state[name], dtype=float)).mean(axis=-1)
-            every[name] = np.broadcast_to(value, (len(rows),))
-    kept: dict[str, np.ndarray] = {}
-    for name, value in every.items():
+            candidates[name] = np.broadcast_to(value, (len(rows),))
+    distinct: dict[str, np.ndarray] = {}
+    for name, value in candidates.items():
         if not (np.isfinite(value).all() and (value > 0).all()) or np.ptp(np.log(value)) < VARIED_FROM:
             continue
         shape = _standard(np.log(value))
-        if all(abs(np.mean(shape * _standard(np.log(other)))) < COLLINEAR for other in kept.values()):
-            kept[name] = value
-    return kept
+        if all(abs(np.mean(shape * _standard(np.log(other)))) < COLLINEAR for other in distinct.values()):
+            distinct[name] = value
+    return distinct
 
 
 def _standard(values: np.ndarray) -> np.ndarray:
@@ -185,20 +185,20 @@ class _Search:
     def evidence(self, powers: np.ndarray, carrier: np.ndarray) -> np.ndarray:
         """Log evidence of each form over nothing, its amplitude averaged over READING_SIZES."""
         whitened = whitening(self.fixed, self.weight)
-        found = np.empty(len(powers))
+        log_evidence = np.empty(len(powers))
         step = max(1, BLOCK_CELLS // self.target.size)
         for start in range(0, len(powers), step):
             part = slice(start, start + step)
             each = self.columns(powers[part], carrier[part])
             each = each / np.sqrt(np.mean(each**2, axis=1))[:, None]
-            seen = whitened(each)
-            power = np.einsum("ij,ij->i", seen, each)
-            along = (seen @ self.target) ** 2
+            whitened_columns = whitened(each)
+            power = np.einsum("ij,ij->i", whitened_columns, each)
+            projected = (whitened_columns @ self.target) ** 2
             square = np.array(READING_SIZES)[:, None] ** 2
             grown = 1.0 + square * np.maximum(power, 0.0)
-            value = 0.5 * (square * along / grown - np.log(grown))
-            found[part] = np.logaddexp.reduce(value, axis=0) - np.log(len(READING_SIZES))
-        return found
+            value = 0.5 * (square * projected / grown - np.log(grown))
+            log_evidence[part] = np.logaddexp.reduce(value, axis=0) - np.log(len(READING_SIZES))
+        return log_evidence
 
     def best(self) -> tuple[float, np.ndarray, int]:
         """The form with the highest posterior, and its carrier: two factors at once, a third added to the leaders."""
@@ -224,11 +224,11 @@ class _Search:
         if not len(powers):
             return []
         count = self.share.shape[1]
-        every, carrier = np.tile(powers, (count, 1)), np.repeat(np.arange(count), len(powers))
+        all_powers, carrier = np.tile(powers, (count, 1)), np.repeat(np.arange(count), len(powers))
         forms = comb(len(self.names), size) * (2 * len(EXPONENTS)) ** size
-        score = self.evidence(every, carrier) - np.log(count * forms)
+        score = self.evidence(all_powers, carrier) - np.log(count * forms)
         order = np.argsort(-score, kind="stable")[:BEAM_WIDTH]
-        return [(float(score[i]), every[i], int(carrier[i])) for i in order]
+        return [(float(score[i]), all_powers[i], int(carrier[i])) for i in order]
 
 
 def _all_powers(count: int, size: int) -> np.ndarray:
@@ -271,24 +271,24 @@ def power_law(search: Search) -> Law | None:
     # Carriers of a law: 0 the base model's reading, 1 none, 2 the direction of motion where there are two.
     share = np.column_stack([level, np.ones_like(level), *_turning(search)]) / one[:, None]
     fixed = np.hstack([null_fit.slopes, problem.shared])
-    whole = _Search(names, logs, share, fixed, null_fit.anchor, search.discrepancy.fit.weight)
+    full = _Search(names, logs, share, fixed, null_fit.anchor, search.discrepancy.fit.weight)
     count = min(problem.y.size, LAW_READINGS)
     thin = np.sort(np.random.default_rng(SEED).choice(problem.y.size, count, replace=False))
-    every = whole.take(thin)
-    score, powers, carrier = every.best()
+    thinned = full.take(thin)
+    score, powers, carrier = thinned.best()
     if score < STRONG_EVIDENCE:
         return None
-    before, after, wins = _held_out(search, every, thin)
-    if after > MOST_ERROR_SHARE * before or not wins:
+    before, after, wins_most = _held_out(search, thinned, thin)
+    if after > MOST_ERROR_SHARE * before or not wins_most:
         return None
     in_single = float(np.sqrt(problem.n_per_effective))
-    own = whole.columns(powers[None], np.array([carrier]))[0]
-    coefficient, sd, c = _coefficient(whole, own)
-    chosen = np.flatnonzero(powers)
+    column = full.columns(powers[None], np.array([carrier]))[0]
+    coefficient, sd, c = _coefficient(full, column)
+    used = np.flatnonzero(powers)
     exponent = {float(b): b for b in EXPONENTS}
     return Law(
-        factors=tuple((names[i], exponent[powers[i]]) for i in chosen),
-        middles=tuple(float(middles[i]) for i in chosen),
+        factors=tuple((names[i], exponent[powers[i]]) for i in used),
+        middles=tuple(float(middles[i]) for i in used),
         relative=carrier == 0,
         coefficient=coefficient,
         sd=sd,
@@ -296,8 +296,8 @@ def power_law(search: Search) -> Law | None:
         evidence=score,
         heldout_before=in_single * before,
         heldout_after=in_single * after,
-        shape=own * one,
-        observed=(whole.target - fixed @ c[:-1]) * one,
+        shape=column * one,
+        observed=(full.target - fixed @ c[:-1]) * one,
         odd=carrier == 2,
     )
 
@@ -310,18 +310,18 @@ def _turning(search: Search) -> list[np.ndarray]:
     return [np.broadcast_to(np.sign(speed)[:, 0], search.problem.y.shape)]
 
 
-def _coefficient(every: _Search, own: np.ndarray) -> tuple[float, float, np.ndarray]:
+def _coefficient(search: _Search, column: np.ndarray) -> tuple[float, float, np.ndarray]:
     """Coefficient of a column, its sd and all coefficients, the prior of the coefficient wide open."""
-    scale = READING_SIZES[-1] / np.sqrt(np.mean(own**2))
-    columns = np.column_stack([every.fixed, own * scale])
-    fit = linear_fit(every.target, columns, every.weight)
+    scale = READING_SIZES[-1] / np.sqrt(np.mean(column**2))
+    columns = np.column_stack([search.fixed, column * scale])
+    fit = linear_fit(search.target, columns, search.weight)
     spread = covariance(columns, fit.weight)
     coefficients = fit.coefficients.copy()
     coefficients[-1] *= scale
     return float(coefficients[-1]), float(np.sqrt(spread[-1, -1]) * scale), coefficients
 
 
-def _held_out(search: Search, every: _Search, thin: np.ndarray) -> tuple[float, float, bool]:
+def _held_out(search: Search, thinned: _Search, thin: np.ndarray) -> tuple[float, float, bool]:
     """Rms error in sigmas on levels left out, without a law and with one chosen on the others; do most splits win."""
     squares: list[tuple[float, float]] = []
     for axis, values in zip(search.space.axes, search.values, strict=True):
@@ -329,17 +329,17 @@ def _held_out(search: Search, every: _Search, thin: np.ndarray) -> tuple[float, 
         if levels.size < LEAST_FOLDS or axis.name == "sequence":
             continue
         label = label * min(levels.size, LAW_BLOCKS) // levels.size
-        left = np.zeros((2, every.target.size))
+        residual = np.zeros((2, thinned.target.size))
         for k in range(int(label.max()) + 1):
             out = label == k
-            train, test = every.take(~out), every.take(out)
+            train, test = thinned.take(~out), thinned.take(out)
             plain = linear_fit(train.target, train.fixed, train.weight)
-            left[0, out] = test.target - test.fixed @ plain.coefficients
+            residual[0, out] = test.target - test.fixed @ plain.coefficients
             _, powers, carrier = train.best()
             by = np.array([carrier])
             _, _, c = _coefficient(train, train.columns(powers[None], by)[0])
-            left[1, out] = test.target - np.column_stack([test.fixed, test.columns(powers[None], by)[0]]) @ c
-        mean = (every.weight * left**2).sum(axis=1) / every.weight.sum()
+            residual[1, out] = test.target - np.column_stack([test.fixed, test.columns(powers[None], by)[0]]) @ c
+        mean = (thinned.weight * residual**2).sum(axis=1) / thinned.weight.sum()
         squares.append((float(mean[0]), float(mean[1])))
     if not squares:
         return 0.0, 0.0, False

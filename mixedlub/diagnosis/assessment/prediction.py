@@ -70,37 +70,38 @@ class Refined:
 def refine(search: Search, fit: Fit) -> Refined:
     """Fit the error of form, and the coordinates with it."""
     problem = search.problem
-    sudden, sloping = change_point_coordinates(problem, fit.explanation), fit
-    fit = replace(fit, slopes=drop_columns(fit.slopes, sudden))
+    at_change_points, sloping = change_point_coordinates(problem, fit.explanation), fit
+    fit = replace(fit, slopes=drop_columns(fit.slopes, at_change_points))
     fixed = np.hstack([fit.slopes, problem.shared])
     net = (fit.prediction - search.null_fit.prediction) / problem.sd
     typical = rms(net)
     columns = form_error_columns(net, typical, search.space, search.values)
     best, best_score = None, -np.inf
     for size, weight in FORM_ERRORS:
-        every = np.hstack([fixed, size * columns]) if size and columns.size else fixed
-        linear = linear_fit(fit.anchor, every, fit.weight)
+        all_columns = np.hstack([fixed, size * columns]) if size and columns.size else fixed
+        linear = linear_fit(fit.anchor, all_columns, fit.weight)
         score = linear.evidence + np.log(weight)
         if score > best_score:
-            best, best_score, used, bend = linear, score, every, (size if size and columns.size else 0.0)
+            best, best_score, used = linear, score, all_columns
+            form_error_size = size if columns.size else 0.0
         if not n_inexact(fit.explanation):
             break
     assert best is not None
     spread = covariance(used, best.weight)
-    spread[sudden, sudden] = 0.0
-    wanted = best.coefficients[: fit.z.size].copy()
-    wanted[sudden] = fit.z[sudden]
-    stand = change_point_posterior(problem, sloping, used[:, fixed.shape[1] :])
+    spread[at_change_points, at_change_points] = 0.0
+    target_z = best.coefficients[: fit.z.size].copy()
+    target_z[at_change_points] = fit.z[at_change_points]
+    change_points = change_point_posterior(problem, sloping, used[:, fixed.shape[1] :])
 
-    def bends(prediction: np.ndarray) -> np.ndarray:
-        if not bend:
+    def form_errors(prediction: np.ndarray) -> np.ndarray:
+        if not form_error_size:
             return np.zeros((prediction.size, 0))
         net = (prediction - search.null_fit.prediction) / problem.sd
-        return np.asarray(bend * form_error_columns(net, typical, search.space, search.values))
+        return np.asarray(form_error_size * form_error_columns(net, typical, search.space, search.values))
 
-    z, own = damped_update(problem, fit.explanation, fit.z, wanted, fit.common, bends, fit.weight)
-    coefficients = np.concatenate([z, best.coefficients[z.size : fixed.shape[1]], own.coefficients])
-    return Refined(fit, z, bend, coefficients, spread, own.residual, typical, stand)
+    z, form_error = damped_update(problem, fit.explanation, fit.z, target_z, fit.common, form_errors, fit.weight)
+    coefficients = np.concatenate([z, best.coefficients[z.size : fixed.shape[1]], form_error.coefficients])
+    return Refined(fit, z, form_error_size, coefficients, spread, form_error.residual, typical, change_points)
 
 
 class NewRows:
@@ -112,17 +113,18 @@ class NewRows:
         self.forward = Forward(search.problem.case, table, scale)
         self.table = table
         self.values = search.space.values(self.forward)
-        known = search.problem
-        start = known.transform(self.forward.predict(known.calibration(search.null_fit.z))) if level is None else level
-        self.sd, _ = _noise_at(known, table, start)
+        recorded = search.problem
+        if level is None:
+            level = recorded.transform(self.forward.predict(recorded.calibration(search.null_fit.z)))
+        self.sd, _ = _noise_at(recorded, table, level)
         null_fit = np.zeros((len(table), 0))
-        self.problem = Problem(known.case, table, self.forward, start, self.sd, null_fit).with_n_per_effective(
-            known.n_per_effective
+        self.problem = Problem(recorded.case, table, self.forward, level, self.sd, null_fit).with_n_per_effective(
+            recorded.n_per_effective
         )
 
-    def noise_at(self, seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def noise_at(self, transformed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Noise of a reading at a transformed prediction, and the variance of the error that it shares with others."""
-        single, setups = _noise_at(self.search.problem, self.table, seen)
+        single, setups = _noise_at(self.search.problem, self.table, transformed)
         return single, setups + correlated_error_variance(self.search) * single**2
 
     def of_fit(self, refined: Refined) -> Prediction:
@@ -132,35 +134,35 @@ class NewRows:
         run = self.problem.run(fit.explanation, z)
         mean, slopes = run.prediction, self.problem.jacobian(fit.explanation, z, run)
         slopes = drop_columns(slopes, [p.index for p in refined.change_points])
-        gain, apart = average_over_change_points(
+        gain, variances = average_over_change_points(
             refined.change_points, z, partial(self.problem.predict, fit.explanation), mean
         )
         base = self.problem.base(z)
         columns = [slopes, np.zeros((len(self.table), self.search.problem.shared.shape[1]))]
         if refined.bend:
             net = (mean - self.problem.predict(NOTHING, self.search.null_fit.z)) / self.problem.sd
-            own = refined.bend * form_error_columns(net, refined.typical, self.search.space, self.values)
-            columns.append(own)
-            mean = mean + self.problem.sd * (own @ refined.coefficients[-own.shape[1] :])
-        every = np.hstack(columns)
-        variance = np.einsum("ij,jk,ik->i", every, refined.covariance, every) * self.problem.sd**2
-        return Prediction(mean + gain, variance + apart[0], base, apart[1:] - apart[0])
+            form_error = refined.bend * form_error_columns(net, refined.typical, self.search.space, self.values)
+            columns.append(form_error)
+            mean = mean + self.problem.sd * (form_error @ refined.coefficients[-form_error.shape[1] :])
+        all_columns = np.hstack(columns)
+        variance = np.einsum("ij,jk,ik->i", all_columns, refined.covariance, all_columns) * self.problem.sd**2
+        return Prediction(mean + gain, variance + variances[0], base, variances[1:] - variances[0])
 
     def of_discrepancy(self) -> Prediction:
         """Prediction of the base model plus the discrepancy, which vanishes far from the recorded conditions."""
-        found = self.search
-        discrepancy = found.discrepancy
+        search = self.search
+        discrepancy = search.discrepancy
         run = self.problem.run(NOTHING, discrepancy.z)
         calibrated, slopes = run.prediction, self.problem.jacobian(NOTHING, discrepancy.z, run)
         name = discrepancy.best.modulates
         scalings = {
-            name: scaling_of(self.problem, self.problem.run(NOTHING, found.null_fit.z), discrepancy.typical, name)
+            name: scaling_of(self.problem, self.problem.run(NOTHING, search.null_fit.z), discrepancy.typical, name)
         }
-        own = discrepancy.best.columns(found.space, self.values, scalings)
-        shared = np.zeros((len(self.table), found.problem.shared.shape[1]))
-        every = np.hstack([slopes, shared, own])
-        mean = calibrated + self.problem.sd * (own @ discrepancy.fit.coefficients[-own.shape[1] :])
-        variance = np.einsum("ij,jk,ik->i", every, discrepancy.covariance, every) + self._phase_variance()
+        form = discrepancy.best.columns(search.space, self.values, scalings)
+        shared = np.zeros((len(self.table), search.problem.shared.shape[1]))
+        all_columns = np.hstack([slopes, shared, form])
+        mean = calibrated + self.problem.sd * (form @ discrepancy.fit.coefficients[-form.shape[1] :])
+        variance = np.einsum("ij,jk,ik->i", all_columns, discrepancy.covariance, all_columns) + self._phase_variance()
         return Prediction(mean, variance * self.problem.sd**2, calibrated)
 
     def _phase_variance(self) -> np.ndarray:
@@ -168,21 +170,21 @@ class NewRows:
         discrepancy, rows = self.search.discrepancy, self.problem.rows
         if not discrepancy.best.waves:
             return np.zeros(len(rows))
-        place = self.search.space.place(discrepancy.best.axes[0])
-        kept = self.search.space.axes[place].phase_known(self.values[place], discrepancy.best.waves)
+        index = self.search.space.place(discrepancy.best.axes[0])
+        phase_known = self.search.space.axes[index].phase_known(self.values[index], discrepancy.best.waves)
         height = discrepancy.best.size * np.linalg.norm(discrepancy.fit.coefficients[-2:])
-        return 0.5 * (1.0 - kept**2) * height**2
+        return 0.5 * (1.0 - phase_known**2) * height**2
 
 
-def _noise_at(problem: Problem, table: Table, seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _noise_at(problem: Problem, table: Table, transformed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Noise of a new reading at a transformed prediction, and the variance of its set-up's error."""
-    own = f"{problem.case.quantity}_sd"
-    level = problem.inverse(seen)
-    if own in problem.rows and own not in table:
+    sd_column = f"{problem.case.quantity}_sd"
+    level = problem.inverse(transformed)
+    if sd_column in problem.rows and sd_column not in table:
         relative, absolute = fit_noise_model(
             problem.single_sd * problem.d_inverse(problem.y), problem.inverse(problem.y)
         )
-        typical = np.hypot(relative * level, absolute) / problem.d_inverse(seen)
+        typical = np.hypot(relative * level, absolute) / problem.d_inverse(transformed)
     else:
         typical, _ = transformed_noise(problem.case, table, level)
     stated = problem.case.system.recording.noise

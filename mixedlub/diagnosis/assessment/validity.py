@@ -48,7 +48,7 @@ def unpublished(effects: Sequence[Effect], z: np.ndarray, spread: np.ndarray) ->
             continue
         least, most = p.published
         low, value, high = (p.prior.value(float(at + k * NINETY * sd)) for k in (-1.0, 0.0, 1.0))
-        named = (x for x in (law.get(p.name, least) for law in e.contains.values()) if not least <= x <= most)
+        named = (x for x in (law.get(p.name, least) for law in e.special_cases.values()) if not least <= x <= most)
         if least <= value <= most or any(low - EXACT_EXPONENT <= exact <= high + EXACT_EXPONENT for exact in named):
             continue
         cited = f"{number(least)} to {number(most)}"

@@ -16,18 +16,19 @@ Box = tuple[tuple[str, float, float], ...]
 
 
 def clearest_box(
-    space: Coordinates, values: list[np.ndarray], left: np.ndarray, scale: np.ndarray
+    space: Coordinates, values: list[np.ndarray], residual: np.ndarray, scale: np.ndarray
 ) -> tuple[Box, float] | None:
     """The box with the largest log likelihood gain, and the log of the number of equivalent boxes.
 
-    ``left`` are standardised residuals, ``scale`` multiplies the discrepancy there. A box of one condition is a step or
+    ``residual`` is standardised, ``scale`` multiplies the discrepancy there. A box of one condition is a step or
     a peak, and none is of so few readings that they may be outliers.
     """
     grid = _Grid.of(space, values)
     if len(grid.names) < 2:
         return None
     grown = (
-        grid.grown(seed, left * scale, scale**2) for seed in np.argsort(np.abs(left * scale))[::-1][:BOX_SEEDS].tolist()
+        grid.grown(seed, residual * scale, scale**2)
+        for seed in np.argsort(np.abs(residual * scale))[::-1][:BOX_SEEDS].tolist()
     )
     usable = [
         (worth, box)
@@ -36,17 +37,17 @@ def clearest_box(
     ]
     if not usable:
         return None
-    _, best = max(usable, key=lambda found: found[0])
+    _, best = max(usable, key=lambda item: item[0])
     return grid.named(best), grid.cost(best)
 
 
 def inside(box: Box, space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
     """Rows within a box."""
-    held = np.ones(values[0].size, bool)
+    within = np.ones(values[0].size, bool)
     for name, low, high in box:
         v = values[space.place(name)]
-        held &= (v >= low) & (v < high)
-    return held
+        within &= (v >= low) & (v < high)
+    return within
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,19 +64,19 @@ class _Grid:
     @classmethod
     def of(cls, space: Coordinates, values: list[np.ndarray]) -> _Grid:
         """The grid of all numeric conditions that were set, open at all ends."""
-        found = []
+        axes = []
         for axis, v in zip(space.axes, values, strict=True):
             if axis.named or axis.name in (*PASSING, DERIVED):
                 continue
             points = set_points(v)
             between = thinned(edges(np.unique(points))[1:])
             if between.size:
-                every = np.concatenate([[-np.inf], between, [np.inf]])
-                found.append((axis.name, every, np.searchsorted(between, points, side="right")))
+                limits = np.concatenate([[-np.inf], between, [np.inf]])
+                axes.append((axis.name, limits, np.searchsorted(between, points, side="right")))
         return cls(
-            tuple(name for name, _, _ in found),
-            tuple(at for _, at, _ in found),
-            np.array([cell for _, _, cell in found]),
+            tuple(name for name, _, _ in axes),
+            tuple(at for _, at, _ in axes),
+            np.array([cell for _, _, cell in axes]),
         )
 
     @cached_property
@@ -103,7 +104,7 @@ class _Grid:
     def named(self, box: np.ndarray) -> Box:
         """The ranges of a box by the names of the conditions that it cuts."""
         ranges = zip(self.names, self.edges, box.tolist(), self.cut(box), strict=True)
-        return tuple((name, float(at[low]), float(at[high + 1])) for name, at, (low, high), own in ranges if own)
+        return tuple((name, float(at[low]), float(at[high + 1])) for name, at, (low, high), is_cut in ranges if is_cut)
 
     def grown(self, seed: int, pull: np.ndarray, power: np.ndarray) -> tuple[float, np.ndarray]:
         """Penalised log likelihood gain of the box grown from a reading, and the box.
@@ -116,10 +117,10 @@ class _Grid:
             before = worth
             for k, count in enumerate(self.counts):
                 box[k] = 0, count - 1
-                held = self.holds(box)
+                within = self.holds(box)
                 sums, squares = (
                     np.concatenate(
-                        [[0.0], np.cumsum(np.bincount(self.cells[k][held], weights=x[held], minlength=count))]
+                        [[0.0], np.cumsum(np.bincount(self.cells[k][within], weights=x[within], minlength=count))]
                     )
                     for x in (pull, power)
                 )

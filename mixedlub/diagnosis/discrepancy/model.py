@@ -65,23 +65,23 @@ def fit_discrepancy(
     for family, cost in _boxes(clipped, space, values, scalings):
         _, reference = clearest(target, fixed, clipped, columns_of, family, lambda s: [s])
         weighed.append(_family_evidence(target, fixed, columns_of, family, reference.weight, cost))
-    best, fit = max(((each.best, each.fit) for each in weighed), key=lambda found: found[1].evidence)
-    own = columns_of(best)
-    every = np.hstack([fixed, own])
-    spread = covariance(every, fit.weight)
+    best, fit = max(((each.best, each.fit) for each in weighed), key=lambda pair: pair[1].evidence)
+    form_columns = columns_of(best)
+    all_columns = np.hstack([fixed, form_columns])
+    spread = covariance(all_columns, fit.weight)
     count = null_fit.z.size
     errors = fit.coefficients[count : fixed.shape[1]]
     common = problem.shared @ errors
-    z, beside = damped_update(
-        problem, NOTHING, null_fit.z, fit.coefficients[:count], common, lambda prediction: own, fit.weight
+    z, refitted = damped_update(
+        problem, NOTHING, null_fit.z, fit.coefficients[:count], common, lambda prediction: form_columns, fit.weight
     )
-    coefficients = np.concatenate([z, errors, beside.coefficients])
+    coefficients = np.concatenate([z, errors, refitted.coefficients])
     return Discrepancy(
         evidence=_mean_over_shapes({shape: e for each in weighed for shape, e in each.evidence.items()}),
         best=best,
         scalings=scalings,
         typical=typical,
-        fit=replace(fit, coefficients=coefficients, residual=beside.residual, weight=beside.weight),
+        fit=replace(fit, coefficients=coefficients, residual=refitted.residual, weight=refitted.weight),
         covariance=spread,
         z=z,
     )
@@ -125,14 +125,14 @@ def _family_evidence(
 
 
 def _boxes(
-    left: np.ndarray, space: Coordinates, values: list[np.ndarray], scalings: Scalings
+    residual: np.ndarray, space: Coordinates, values: list[np.ndarray], scalings: Scalings
 ) -> Iterator[tuple[list[DiscrepancyForm], float]]:
     """The best relative and the best additive box, each as a family, with the log of the number of such boxes."""
-    for carrier in (READING, ADDITIVE):
-        found = clearest_box(space, values, left, scalings[carrier]) if carrier in scalings else None
-        if found is not None:
-            box, cost = found
-            yield [DiscrepancyForm(tuple(name for name, _, _ in box), 0.0, 1.0, carrier, False, box=box)], cost
+    for modulated in (READING, ADDITIVE):
+        clearest = clearest_box(space, values, residual, scalings[modulated]) if modulated in scalings else None
+        if clearest is not None:
+            box, cost = clearest
+            yield [DiscrepancyForm(tuple(name for name, _, _ in box), 0.0, 1.0, modulated, False, box=box)], cost
 
 
 def _mean_over_shapes(tried: dict[DiscrepancyForm, float]) -> float:
@@ -145,7 +145,7 @@ def _mean_over_shapes(tried: dict[DiscrepancyForm, float]) -> float:
         halves = groups.setdefault(shape.modulates in (READING, ADDITIVE), {})
         form = "local" if shape.at is not None else shape.form
         halves.setdefault((len(shape.axes), form), []).append(value)
-    return _log_mean([_log_mean([_log_mean(alike) for alike in half.values()]) for half in groups.values()])
+    return _log_mean([_log_mean([_log_mean(logs) for logs in half.values()]) for half in groups.values()])
 
 
 def _log_mean(logs: list[float]) -> float:
@@ -153,13 +153,13 @@ def _log_mean(logs: list[float]) -> float:
 
 
 def _evidence_by_size(
-    target: np.ndarray, whitened: Callable[[np.ndarray], np.ndarray], own: np.ndarray, sizes: np.ndarray
+    target: np.ndarray, whitened: Callable[[np.ndarray], np.ndarray], columns: np.ndarray, sizes: np.ndarray
 ) -> np.ndarray:
     """Gaussian log evidence for each size, relative to size zero."""
-    seen = whitened(own.T)
-    power, turn = np.linalg.eigh(seen @ own)
+    whitened_columns = whitened(columns.T)
+    power, vectors = np.linalg.eigh(whitened_columns @ columns)
     power = np.maximum(power, 0.0)
-    along = (turn.T @ (seen @ target)) ** 2
+    projected = (vectors.T @ (whitened_columns @ target)) ** 2
     square = sizes[:, None] ** 2
     grown = 1.0 + square * power
-    return 0.5 * (square * along / grown - np.log(grown)).sum(axis=1)
+    return 0.5 * (square * projected / grown - np.log(grown)).sum(axis=1)

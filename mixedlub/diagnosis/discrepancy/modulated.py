@@ -71,18 +71,18 @@ def thermal_lag(problem: Problem, base: Run) -> np.ndarray:
     name = next((n for n in TEMPERATURES if n in rows and np.ptp(rows[n]) > 0.0), None)
     if order is None or name is None:
         return np.zeros(problem.y.size)
-    every = [rows]
+    tables = [rows]
     if problem.case.recordings is not None and clock_of(problem.case.recordings) is not None:
-        every.append(problem.case.recordings)
-    clock, first = np.unique(np.concatenate([clock_of(t) for t in every]), return_index=True)
-    warmth = np.concatenate([t[name] for t in every])[first]
+        tables.append(problem.case.recordings)
+    clock, first = np.unique(np.concatenate([clock_of(t) for t in tables]), return_index=True)
+    warmth = np.concatenate([t[name] for t in tables])[first]
     before = np.maximum(np.searchsorted(clock, order) - 1, 0)
     gap = np.maximum(order - clock[before], np.median(np.diff(clock)))
     step = (warmth[before] - rows[name]) * np.median(np.diff(clock)) / gap
     table = Table({**rows.columns, name: rows[name] + step}, rows.source)
-    there = Forward(problem.case, table, float(problem.forward.inputs["reading_scale"]))
+    lagged = Forward(problem.case, table, float(problem.forward.inputs["reading_scale"]))
     values = {name: move.value for name, move in base.applied.items()}
-    return problem.transform(there.predict(values)) - base.prediction
+    return problem.transform(lagged.predict(values)) - base.prediction
 
 
 def _share(problem: Problem, base: Run) -> np.ndarray:

@@ -121,18 +121,18 @@ def _is_miscount(place: Place, carrier: str) -> bool:
 
 def _smooth(space: Coordinates, scalings_of: Scalings) -> list[DiscrepancyForm]:
     names = [axis.name for axis in space.axes]
-    found = []
+    forms = []
     for length in SMOOTH_LENGTHS:
-        for carrier in (name for name in scalings_of if name != THERMAL_LAG):
-            found.append(DiscrepancyForm((), length, 1.0, carrier, False))
+        for modulated in (name for name in scalings_of if name != THERMAL_LAG):
+            forms.append(DiscrepancyForm((), length, 1.0, modulated, False))
             if len(names) == 1 and length == SMOOTH_LENGTHS[0]:
-                found.append(DiscrepancyForm((), ROUGH_LENGTH, 1.0, carrier, False))
+                forms.append(DiscrepancyForm((), ROUGH_LENGTH, 1.0, modulated, False))
             if len(names) > 1:
-                found.append(DiscrepancyForm((), length, 1.0, carrier, True))
-                found.extend(DiscrepancyForm((name,), length, 1.0, carrier, False) for name in names)
+                forms.append(DiscrepancyForm((), length, 1.0, modulated, True))
+                forms.extend(DiscrepancyForm((name,), length, 1.0, modulated, False) for name in names)
                 if length == SMOOTH_LENGTHS[0]:
-                    found.extend(DiscrepancyForm((name,), ROUGH_LENGTH, 1.0, carrier, False) for name in names)
+                    forms.extend(DiscrepancyForm((name,), ROUGH_LENGTH, 1.0, modulated, False) for name in names)
             if len(names) > 2:
                 pairs = (two for two in combinations(names, 2) if set(two) != REDUNDANT)
-                found.extend(DiscrepancyForm(two, length, 1.0, carrier, True) for two in pairs)
-    return found
+                forms.extend(DiscrepancyForm(two, length, 1.0, modulated, True) for two in pairs)
+    return forms

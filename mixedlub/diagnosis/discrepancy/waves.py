@@ -25,26 +25,26 @@ def frequencies(space: Coordinates, values: list[np.ndarray]) -> np.ndarray:
     names = [axis.name for axis in space.axes]
     if CLOCK not in names or TURNED in names:
         return np.zeros(0)
-    place = names.index(CLOCK)
-    levels = np.unique(values[place])
+    index = names.index(CLOCK)
+    levels = np.unique(values[index])
     if levels.size < 2.0 * LEAST_PERIODS:
         return np.zeros(0)
-    most = min(0.5 * np.ptp(levels) / np.median(np.diff(levels)), PERIODS_PER_LEVEL * levels.size, MOST_PERIODS)
-    found = np.arange(most, LEAST_PERIODS, -PERIOD_STEP)
-    stepped = stepped_levels(values, place)
+    highest = min(0.5 * np.ptp(levels) / np.median(np.diff(levels)), PERIODS_PER_LEVEL * levels.size, MOST_PERIODS)
+    tried = np.arange(highest, LEAST_PERIODS, -PERIOD_STEP)
+    stepped = stepped_levels(values, index)
     return np.array(
         [
             w
-            for w in found
-            if not any(is_explained_by(space.axes[place].wave(values[place], w), label) for label in stepped)
+            for w in tried
+            if not any(is_explained_by(space.axes[index].wave(values[index], w), label) for label in stepped)
         ]
     )
 
 
-def stepped_levels(values: list[np.ndarray], place: int) -> list[np.ndarray]:
+def stepped_levels(values: list[np.ndarray], index: int) -> list[np.ndarray]:
     """Level index of each reading in the other conditions with few levels."""
-    found = [np.unique(v, return_inverse=True)[1] for i, v in enumerate(values) if i != place]
-    return [label for label in found if label.max() < min(NODES, STEPPED_SHARE * label.size)]
+    labels = [np.unique(v, return_inverse=True)[1] for i, v in enumerate(values) if i != index]
+    return [label for label in labels if label.max() < min(NODES, STEPPED_SHARE * label.size)]
 
 
 def is_explained_by(columns: np.ndarray, label: np.ndarray, share: float = WAVE_CONFOUNDED) -> bool:

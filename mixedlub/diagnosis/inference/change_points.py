@@ -64,53 +64,56 @@ class ChangePointPosterior:
 def change_point_coordinates(problem: Problem, explanation: Explanation) -> list[int]:
     """Indices of the coordinates of an explanation that are change points."""
     parameters = [p for e in problem.effects(explanation) for p in e.parameters]
-    return [i for i, p in enumerate(parameters, problem.calibration_size) if p.sudden]
+    return [i for i, p in enumerate(parameters, problem.calibration_size) if p.change_point]
 
 
 def profile_change_point(
     problem: Problem,
     fit: Fit,
-    place: int,
-    more: np.ndarray,
+    index: int,
+    further: np.ndarray,
     follow: np.ndarray | None = None,
-    beside: np.ndarray | None = None,
+    extra_columns: np.ndarray | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Profile of the log density over one change point: coordinates (m, size) in rising order, and m log densities.
 
-    Places are denser where the density is steep; ``more`` are added. The other coordinates keep their values, or
-    ``follow`` in proportion where that is more probable. Columns given as ``beside`` are fitted at each place.
+    Places are denser where the density is steep; ``further`` are added. The other coordinates keep their values, or
+    ``follow`` in proportion where that is more probable. The ``extra_columns`` are fitted at each place.
     """
-    still = np.eye(fit.z.size)[place]
-    ways = [still] if follow is None else [still, follow]
-    columns = np.zeros((problem.y.size, 0)) if beside is None else beside
+    alone = np.eye(fit.z.size)[index]
+    directions = [alone] if follow is None else [alone, follow]
+    columns = np.zeros((problem.y.size, 0)) if extra_columns is None else extra_columns
     weighted = columns.T * fit.weight
     taken = np.linalg.solve(np.eye(columns.shape[1]) + weighted @ columns, weighted)
 
     def evaluated(where: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         every = [
-            np.clip(fit.z + np.outer(where - fit.z[place], way), -MOST_COORDINATE, MOST_COORDINATE) for way in ways
+            np.clip(fit.z + np.outer(where - fit.z[index], direction), -MOST_COORDINATE, MOST_COORDINATE)
+            for direction in directions
         ]
         logs = np.array([[density(z) for z in tried] for tried in every])
         return np.array(every)[logs.argmax(axis=0), np.arange(where.size)], logs.max(axis=0)
 
     def density(z: np.ndarray) -> float:
-        left = (problem.y - problem.predict(fit.explanation, z)) / problem.sd - fit.common
-        own = taken @ left
-        squares = float(z @ z - fit.z @ fit.z + fit.z[place] ** 2 + own @ own)
-        log = float(log_likelihood(left - columns @ own)[0].sum()) - 0.5 * squares
+        residual = (problem.y - problem.predict(fit.explanation, z)) / problem.sd - fit.common
+        extra = taken @ residual
+        squares = float(z @ z - fit.z @ fit.z + fit.z[index] ** 2 + extra @ extra)
+        log = float(log_likelihood(residual - columns @ extra)[0].sum()) - 0.5 * squares
         return log if np.isfinite(log) else -np.inf
 
     where = np.unique(
-        np.clip(np.append(np.linspace(-SCANNED_TO, SCANNED_TO, SCAN_PLACES), more), -MOST_COORDINATE, MOST_COORDINATE)
+        np.clip(
+            np.append(np.linspace(-SCANNED_TO, SCANNED_TO, SCAN_PLACES), further), -MOST_COORDINATE, MOST_COORDINATE
+        )
     )
     tried, log = evaluated(where)
     for _ in range(MOST_HALVINGS):
         steep = np.abs(np.diff(np.maximum(log, log.max() - NEGLIGIBLE_DENSITY))) > STEEP
         if not steep.any():
             break
-        between, its_log = evaluated(0.5 * (tried[1:, place] + tried[:-1, place])[steep])
+        between, its_log = evaluated(0.5 * (tried[1:, index] + tried[:-1, index])[steep])
         tried, log = np.vstack([tried, between]), np.append(log, its_log)
-        order = np.argsort(tried[:, place], kind="stable")
+        order = np.argsort(tried[:, index], kind="stable")
         tried, log = tried[order], log[order]
     return tried, log
 
@@ -121,47 +124,52 @@ def integrate_change_points(problem: Problem, fit: Fit) -> Fit:
     Where another place is more probable the fit is repeated from there, because the density is flat between readings.
     """
     gained = 0.0
-    for place in change_point_coordinates(problem, fit.explanation):
-        tried, log = profile_change_point(problem, fit, place, fit.z[[place]])
-        if log.max() > _height(fit, place) + REFIT_GAIN:
-            again = map_fit(problem, fit.explanation, tried[np.argmax(log)], warm=True)
-            if _height(again) > _height(fit) + REFIT_GAIN:
-                return integrate_change_points(problem, again)
-        curvature = 1.0 + float(fit.weight @ fit.slopes[:, place] ** 2)
-        whole = np.trapezoid(np.exp(np.minimum(log - _height(fit, place), MOST_LOG_RATIO)), tried[:, place])
-        gained += float(np.log(max(whole, 1e-300)) - 0.5 * np.log(2.0 * np.pi / curvature))
+    for index in change_point_coordinates(problem, fit.explanation):
+        tried, log = profile_change_point(problem, fit, index, fit.z[[index]])
+        if log.max() > _height(fit, index) + REFIT_GAIN:
+            refitted = map_fit(problem, fit.explanation, tried[np.argmax(log)], warm=True)
+            if _height(refitted) > _height(fit) + REFIT_GAIN:
+                return integrate_change_points(problem, refitted)
+        curvature = 1.0 + float(fit.weight @ fit.slopes[:, index] ** 2)
+        integral = np.trapezoid(np.exp(np.minimum(log - _height(fit, index), MOST_LOG_RATIO)), tried[:, index])
+        gained += float(np.log(max(integral, 1e-300)) - 0.5 * np.log(2.0 * np.pi / curvature))
     return replace(fit, evidence=fit.evidence + gained)
 
 
-def _height(fit: Fit, place: int | None = None) -> float:
+def _height(fit: Fit, index: int | None = None) -> float:
     """Log density of the readings and of a fit's coordinates, or of one of them."""
-    z = fit.z if place is None else fit.z[[place]]
+    z = fit.z if index is None else fit.z[[index]]
     return float(log_likelihood(fit.residual)[0].sum() - 0.5 * z @ z)
 
 
 def change_point_posterior(
-    problem: Problem, fit: Fit, beside: np.ndarray | None = None
+    problem: Problem, fit: Fit, extra_columns: np.ndarray | None = None
 ) -> tuple[ChangePointPosterior, ...]:
-    """Posterior of each change point of a fit, its other coordinates and columns ``beside`` adapted."""
-    found = []
-    every = fit.slopes if beside is None else np.hstack([fit.slopes, beside])
+    """Posterior of each change point of a fit, its other coordinates and the ``extra_columns`` adapted."""
+    posteriors = []
+    all_columns = fit.slopes if extra_columns is None else np.hstack([fit.slopes, extra_columns])
     for index in change_point_coordinates(problem, fit.explanation):
-        open_by = covariance(every, fit.weight)[index, : fit.z.size]
-        tried, log = profile_change_point(problem, fit, index, fit.z[index], open_by / open_by[index], beside)
+        open_by = covariance(all_columns, fit.weight)[index, : fit.z.size]
+        tried, log = profile_change_point(problem, fit, index, fit.z[index], open_by / open_by[index], extra_columns)
         where = tried[:, index]
         chance = np.where(log > log.max() - NEGLIGIBLE_DENSITY, np.exp(log - log.max()), 0.0) * np.gradient(where)
-        kept = chance > 0.0
-        found.append(ChangePointPosterior(index, where[kept], tried[kept] - fit.z, chance[kept] / chance.sum()))
-    return tuple(found)
+        probable = chance > 0.0
+        posteriors.append(
+            ChangePointPosterior(index, where[probable], tried[probable] - fit.z, chance[probable] / chance.sum())
+        )
+    return tuple(posteriors)
 
 
-def drop_columns(slopes: np.ndarray, sudden: Sequence[int]) -> np.ndarray:
+def drop_columns(slopes: np.ndarray, at_change_points: Sequence[int]) -> np.ndarray:
     """Jacobian with the change-point columns set to zero; change points are averaged over separately."""
-    return np.where(np.isin(np.arange(slopes.shape[1]), sudden), 0.0, slopes)
+    return np.where(np.isin(np.arange(slopes.shape[1]), at_change_points), 0.0, slopes)
 
 
 def average_over_change_points(
-    found: Sequence[ChangePointPosterior], z: np.ndarray, predict: Callable[[np.ndarray], np.ndarray], here: np.ndarray
+    posteriors: Sequence[ChangePointPosterior],
+    z: np.ndarray,
+    predict: Callable[[np.ndarray], np.ndarray],
+    here: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Change of predictions ``here``, at coordinates z, by averaging over change points, and variances (3, n) of it.
 
@@ -169,11 +177,11 @@ def average_over_change_points(
     normal 90 % interval ends at the lower and upper quantile.
     """
     gain, variances = np.zeros(here.size), np.zeros((3, here.size))
-    for p in found:
-        seen = np.array([predict(np.clip(z + step, -MOST_COORDINATE, MOST_COORDINATE)) for step in p.even])
-        seen = np.where(np.isfinite(seen), seen, here)
-        mean = np.mean(seen, axis=0)
-        ends = np.quantile(seen, INTERVAL_ENDS, axis=0, method="hazen")
+    for p in posteriors:
+        predicted = np.array([predict(np.clip(z + step, -MOST_COORDINATE, MOST_COORDINATE)) for step in p.even])
+        predicted = np.where(np.isfinite(predicted), predicted, here)
+        mean = np.mean(predicted, axis=0)
+        ends = np.quantile(predicted, INTERVAL_ENDS, axis=0, method="hazen")
         gain += mean - here
-        variances += np.vstack([np.var(seen, axis=0), ((ends - mean) / NINETY) ** 2])
+        variances += np.vstack([np.var(predicted, axis=0), ((ends - mean) / NINETY) ** 2])
     return gain, variances

@@ -55,45 +55,45 @@ def sample(problem: Problem, name: str, null_fit: Fit) -> PriorDraws:
     size = len(effect.parameters)
     z = spread(size, PRIOR_DRAWS[min(size, len(PRIOR_DRAWS)) - 1])
     n_prior = len(z)
-    for place, parameter in enumerate(effect.parameters):
-        if parameter.scan:
-            z = np.vstack([z, scan(problem, name, null_fit, place, parameter.scan)])
+    for index, parameter in enumerate(effect.parameters):
+        if parameter.n_scan:
+            z = np.vstack([z, scan(problem, name, null_fit, index, parameter.n_scan)])
     change = np.empty((len(z), problem.y.size))
     run = None
-    for i, own in enumerate(z):
-        run = problem.run(alone, np.concatenate([null_fit.z, own]), run)
+    for i, effect_z in enumerate(z):
+        run = problem.run(alone, np.concatenate([null_fit.z, effect_z]), run)
         change[i] = (run.prediction - null_fit.prediction) / problem.sd
     usable = np.asarray(np.isfinite(change).all(axis=1))
     return PriorDraws(name, z[usable], change[usable], int(usable[:n_prior].sum()))
 
 
-def scan(problem: Problem, name: str, null_fit: Fit, place: int, count: int) -> np.ndarray:
+def scan(problem: Problem, name: str, null_fit: Fit, index: int, count: int) -> np.ndarray:
     """Own coordinates at the best few of evenly spread values of one parameter, the others fitted linearly at each."""
     from scipy.special import ndtri
 
     alone = Explanation.of(name)
     size = len(problem.effects(alone)[0].parameters)
-    others = [k for k in range(size) if k != place]
+    others = [k for k in range(size) if k != index]
     fixed = np.hstack([null_fit.slopes, problem.shared])
     tried = []
     for z in ndtri((np.arange(count) + 0.5) / count):
-        own = np.zeros(size)
-        own[place] = z
-        here = problem.run(alone, np.concatenate([null_fit.z, own]))
+        effect_z = np.zeros(size)
+        effect_z[index] = z
+        at_value = problem.run(alone, np.concatenate([null_fit.z, effect_z]))
         slopes = np.empty((problem.y.size, len(others)))
         for i, k in enumerate(others):
-            moved = own.copy()
+            moved = effect_z.copy()
             moved[k] += FINITE_STEP
-            there = problem.run(alone, np.concatenate([null_fit.z, moved]), here)
-            slopes[:, i] = (there.prediction - here.prediction) / (FINITE_STEP * problem.sd)
+            stepped = problem.run(alone, np.concatenate([null_fit.z, moved]), at_value)
+            slopes[:, i] = (stepped.prediction - at_value.prediction) / (FINITE_STEP * problem.sd)
         if not np.isfinite(slopes).all():
             continue
-        change = (here.prediction - null_fit.prediction) / problem.sd
+        change = (at_value.prediction - null_fit.prediction) / problem.sd
         linear = linear_fit(null_fit.anchor - change, np.hstack([fixed, slopes]), rounds=QUICK_REWEIGHTINGS)
-        own[others] = np.clip(linear.coefficients[fixed.shape[1] :], -SCANNED_TO, SCANNED_TO)
-        tried.append((linear.evidence - 0.5 * z * z, own))
+        effect_z[others] = np.clip(linear.coefficients[fixed.shape[1] :], -SCANNED_TO, SCANNED_TO)
+        tried.append((linear.evidence - 0.5 * z * z, effect_z))
     best = sorted(tried, key=lambda t: -t[0])[:STARTS]
-    return np.array([own for _, own in best]).reshape(-1, size)
+    return np.array([effect_z for _, effect_z in best]).reshape(-1, size)
 
 
 def spread(size: int, count: int) -> np.ndarray:
@@ -152,8 +152,8 @@ def initial_guesses(problem: Problem, null_fit: Fit, draws: PriorDraws) -> tuple
 def fit_single(problem: Problem, null_fit: Fit, name: str, tries: Sequence[np.ndarray], rival: float = -np.inf) -> Fit:
     """The best of the fits of one effect from its initial guesses."""
     alone = Explanation.of(name)
-    found = map_fits(problem, alone, tries, rival)
+    fits = map_fits(problem, alone, tries, rival)
     if null_fit.weight.min() < OUTLIER_WEIGHT:
         # Outliers may pull a fit away from a good start.
-        found.append(map_fit(problem, alone, tries[0], warm=True, rival=rival))
-    return max(found, key=lambda fit: fit.evidence if np.isfinite(fit.evidence) else -np.inf)
+        fits.append(map_fit(problem, alone, tries[0], warm=True, rival=rival))
+    return max(fits, key=lambda fit: fit.evidence if np.isfinite(fit.evidence) else -np.inf)

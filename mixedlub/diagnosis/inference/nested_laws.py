@@ -24,20 +24,20 @@ def published_odds(problem: Problem, free: Fit, worst: float = np.inf) -> Iterat
         names = [p.name for p in e.parameters]
         for law, values in e.laws_within_reach.items():
             drop = [place + names.index(name) for name in values]
-            held = replace(problem, held={**problem.held, e.id: {**problem.held.get(e.id, {}), **values}})
-            fit = _held_fit(held, free, np.delete(free.z, drop), worst)
-            yield e.id, law, integrate_change_points(held, fit).evidence - free.evidence
+            nested = replace(problem, fixed={**problem.fixed, e.id: {**problem.fixed.get(e.id, {}), **values}})
+            fit = _nested_fit(nested, free, np.delete(free.z, drop), worst)
+            yield e.id, law, integrate_change_points(nested, fit).evidence - free.evidence
         place += len(names)
 
 
-def _held_fit(held: Problem, free: Fit, start: np.ndarray, worst: float) -> Fit:
+def _nested_fit(nested: Problem, free: Fit, start: np.ndarray, worst: float) -> Fit:
     """Fit the rest of an explanation again; also from a distant start where the near one has more outliers."""
-    fit = map_fit(held, free.explanation, start, warm=True, rival=free.evidence, hopeless=worst)
+    fit = map_fit(nested, free.explanation, start, warm=True, rival=free.evidence, hopeless=worst)
     if fit.evidence < free.evidence - worst or np.count_nonzero(fit.weight < OUTLIER_WEIGHT) <= np.count_nonzero(
         free.weight < OUTLIER_WEIGHT
     ):
         return fit
-    return max(fit, map_fit(held, free.explanation, start), key=lambda one: one.evidence)
+    return max(fit, map_fit(nested, free.explanation, start), key=lambda one: one.evidence)
 
 
 def published_gain(problem: Problem, free: Fit) -> float:

@@ -22,13 +22,13 @@ def promising_pairs(
     A first effect alone may have taken the few readings that show the second for outliers, so some pairs are ranked
     with bounded weights instead. Its fit may also be far from that of the pair, so others are ranked by joint draws.
     """
-    found: dict[Explanation, np.ndarray] = {}
+    starts: dict[Explanation, np.ndarray] = {}
     leaders = sorted(singles.values(), key=lambda f: -f.evidence)[:PAIR_LEADERS]
-    for write_off, most in ((True, PAIRS), (False, BOUNDED_PAIRS)):
+    for write_off, count in ((True, PAIRS), (False, BOUNDED_PAIRS)):
         weight = [f.weight if write_off else bounded(f.residual)(f.residual)[1] for f in leaders]
         ranked = _ranked(_added_to(problem, leaders, weight, draws, write_off))
-        found.update([item for item in ranked if item[0] not in found][:most])
-    return [*found.items(), *_ranked(_drawn_together(problem, null_fit, draws))[:JOINT_PAIRS]]
+        starts.update([item for item in ranked if item[0] not in starts][:count])
+    return [*starts.items(), *_ranked(_drawn_together(problem, null_fit, draws))[:JOINT_PAIRS]]
 
 
 def exchanged(problem: Problem, best: Fit, draws: tuple[PriorDraws, ...]) -> list[tuple[Explanation, np.ndarray]]:
@@ -38,11 +38,11 @@ def exchanged(problem: Problem, best: Fit, draws: tuple[PriorDraws, ...]) -> lis
     """
     calibration = problem.calibration_size
     first, second = (Explanation.of(name) for name in best.explanation.effects)
-    middle = problem.size(first)
-    parts = (best.z[:middle], np.concatenate([best.z[:calibration], best.z[middle:]]))
-    kept = [best.at(problem, alone, z) for alone, z in zip((first, second), parts, strict=True)]
+    split = problem.size(first)
+    parts = (best.z[:split], np.concatenate([best.z[:calibration], best.z[split:]]))
+    remaining = [best.at(problem, alone, z) for alone, z in zip((first, second), parts, strict=True)]
     others = tuple(s for s in draws if s.id not in best.explanation.effects)
-    ranked = _ranked(_added_to(problem, kept, [best.weight] * len(kept), others, False))
+    ranked = _ranked(_added_to(problem, remaining, [best.weight] * len(remaining), others, False))
     return ranked[:EXCHANGED_PAIRS]
 
 
@@ -57,50 +57,54 @@ def _drawn_together(
     if not draws:
         return {}
     columns = np.hstack([null_fit.slopes, problem.shared])
-    every = np.ones(len(columns))
-    inner = covariance(columns, every)
+    weight = np.ones(len(columns))
+    inner = covariance(columns, weight)
     changes = np.vstack([s.change for s in draws])
-    whitened = whitening(columns, every)(changes)
+    whitened = whitening(columns, weight)(changes)
     gain = whitened @ null_fit.anchor - 0.5 * np.einsum("ij,ij->i", changes, whitened)
     gain -= 0.5 * np.concatenate([np.einsum("ij,ij->i", s.z, s.z) for s in draws])
     ends = np.cumsum([len(s.z) for s in draws])
-    found: dict[Explanation, tuple[float, np.ndarray]] = {}
+    scored: dict[Explanation, tuple[float, np.ndarray]] = {}
     for one, other in combinations(range(len(draws)), 2):
         a, b = (slice(ends[k] - len(draws[k].z), ends[k]) for k in (one, other))
         score = gain[a][:, None] + gain[b][None, :] - whitened[a] @ changes[b].T
         i, j = np.unravel_index(int(np.argmax(score)), score.shape)
-        own = {draws[one].id: draws[one].z[i], draws[other].id: draws[other].z[j]}
-        left = null_fit.anchor - draws[one].change[i] - draws[other].change[j]
-        calibrated = (inner @ (columns.T @ left))[: null_fit.z.size]
-        pair = Explanation.of(*own)
-        start = np.concatenate([calibrated, *(own[name] for name in pair.effects)])
-        found[pair] = (float(score[i, j]), start)
-    return found
+        coordinates = {draws[one].id: draws[one].z[i], draws[other].id: draws[other].z[j]}
+        residual = null_fit.anchor - draws[one].change[i] - draws[other].change[j]
+        calibrated = (inner @ (columns.T @ residual))[: null_fit.z.size]
+        pair = Explanation.of(*coordinates)
+        start = np.concatenate([calibrated, *(coordinates[name] for name in pair.effects)])
+        scored[pair] = (float(score[i, j]), start)
+    return scored
 
 
 def _added_to(
-    problem: Problem, leaders: Sequence[Fit], weights: Sequence[np.ndarray], draws: tuple[PriorDraws, ...], whole: bool
+    problem: Problem,
+    leaders: Sequence[Fit],
+    weights: Sequence[np.ndarray],
+    draws: tuple[PriorDraws, ...],
+    full_evidence: bool,
 ) -> dict[Explanation, tuple[float, np.ndarray]]:
     """Score and start of each pair of a leading effect, at its fit, and a draw of another effect.
 
-    The leader counts with its ``whole`` evidence, or with its residuals at these weights.
+    The leader counts with its ``full_evidence``, or with its residuals at these weights.
     """
-    found: dict[Explanation, tuple[float, np.ndarray]] = {}
+    scored: dict[Explanation, tuple[float, np.ndarray]] = {}
     calibration = problem.calibration_size
     for fit, weight in zip(leaders, weights, strict=True):
         whitened = whitening(np.hstack([fit.slopes, problem.shared]), weight)
-        left = whitened(fit.anchor[None, :])[0]
-        level = fit.evidence if whole else -0.5 * float(left @ fit.anchor)
+        whitened_residual = whitened(fit.anchor[None, :])[0]
+        level = fit.evidence if full_evidence else -0.5 * float(whitened_residual @ fit.anchor)
         for other in draws:
             if other.id in fit.explanation.effects:
                 continue
-            gain = other.change @ left - 0.5 * np.einsum("ij,ij->i", other.change, whitened(other.change))
+            gain = other.change @ whitened_residual - 0.5 * np.einsum("ij,ij->i", other.change, whitened(other.change))
             gain -= 0.5 * np.einsum("ij,ij->i", other.z, other.z)
             k = int(np.argmax(gain))
             score = level + float(gain[k])
-            own = {fit.explanation.effects[0]: fit.z[calibration:], other.id: other.z[k]}
-            pair = Explanation.of(*own)
-            start = np.concatenate([fit.z[:calibration], *(own[name] for name in pair.effects)])
-            if pair not in found or score > found[pair][0]:
-                found[pair] = (score, start)
-    return found
+            coordinates = {fit.explanation.effects[0]: fit.z[calibration:], other.id: other.z[k]}
+            pair = Explanation.of(*coordinates)
+            start = np.concatenate([fit.z[:calibration], *(coordinates[name] for name in pair.effects)])
+            if pair not in scored or score > scored[pair][0]:
+                scored[pair] = (score, start)
+    return scored

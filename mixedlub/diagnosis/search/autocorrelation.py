@@ -33,15 +33,15 @@ def variance_inflation_under_null(search: Search) -> float:
 
 def _undrifted(search: Search) -> np.ndarray:
     """Residuals of the calibrated base model without slow drift, scaled down to the size of the noise."""
-    left = np.clip(search.problem.single_reading_units(search.null_fit.residual), -CLIPPED_AT, CLIPPED_AT)
+    residual = np.clip(search.problem.single_reading_units(search.null_fit.residual), -CLIPPED_AT, CLIPPED_AT)
     clock = clock_of(search.problem.rows)
-    order = np.arange(left.size) if clock is None else np.argsort(np.argsort(clock))
-    swings = np.cos(np.pi * np.outer(order, np.arange(DRIFT_HALF_WAVES + 1)) / left.size)
-    left = left - swings @ np.linalg.lstsq(swings, left, rcond=None)[0]
-    return left / max(float(np.sqrt(np.mean(left**2))), 1.0) / np.sqrt(search.problem.n_per_effective)
+    order = np.arange(residual.size) if clock is None else np.argsort(np.argsort(clock))
+    swings = np.cos(np.pi * np.outer(order, np.arange(DRIFT_HALF_WAVES + 1)) / residual.size)
+    residual = residual - swings @ np.linalg.lstsq(swings, residual, rcond=None)[0]
+    return residual / max(float(np.sqrt(np.mean(residual**2))), 1.0) / np.sqrt(search.problem.n_per_effective)
 
 
-def _inflation_of(search: Search, left: np.ndarray) -> float:
+def _inflation_of(search: Search, residual: np.ndarray) -> float:
     """Readings per effective reading of a search, from standardised residuals."""
     rows = search.problem.rows
     order = clock_of(rows)
@@ -50,13 +50,15 @@ def _inflation_of(search: Search, left: np.ndarray) -> float:
             return search.problem.n_per_effective
         # A series without a clock was logged in the order of its rows.
         order = np.arange(len(rows))
-    return max(batch_means_inflation(search.problem.single_reading_units(left), order), search.problem.n_per_effective)
+    return max(
+        batch_means_inflation(search.problem.single_reading_units(residual), order), search.problem.n_per_effective
+    )
 
 
-def batch_means_inflation(left: np.ndarray, clock: np.ndarray) -> float:
+def batch_means_inflation(residual: np.ndarray, clock: np.ndarray) -> float:
     r"""Variance inflation of sums over consecutive residuals, by the method of batch means; at least 1.
 
-    ``left`` are standardised residuals. For independent ones :math:`\sum_n z / \sqrt n` has variance one for batches
+    ``residual`` is standardised. For independent ones :math:`\sum_n z / \sqrt n` has variance one for batches
     of any length n. For autocorrelated ones it is larger, and a slow trend is known as if there were so many times
     fewer readings. An excess within two standard errors is chance.
     Batch means: G. S. Fishman, Principles of Discrete Event Simulation (1978).
@@ -67,12 +69,12 @@ def batch_means_inflation(left: np.ndarray, clock: np.ndarray) -> float:
     >>> round(batch_means_inflation(np.repeat(noise, 8), np.arange(4096.0)))
     7
     """
-    ordered = np.clip(left, -CLIPPED_AT, CLIPPED_AT)[np.argsort(clock, kind="stable")]
-    most, length = 1.0, 2
+    ordered = np.clip(residual, -CLIPPED_AT, CLIPPED_AT)[np.argsort(clock, kind="stable")]
+    largest, length = 1.0, 2
     while (count := ordered.size // length) >= LEAST_BATCHES:
         sums = ordered[: count * length].reshape(count, length).sum(axis=1)
-        times = float(np.mean(sums**2)) / length
-        if times > 1.0 + SIGNIFICANT * np.sqrt(2.0 / count):
-            most = max(most, times)
+        inflation = float(np.mean(sums**2)) / length
+        if inflation > 1.0 + SIGNIFICANT * np.sqrt(2.0 / count):
+            largest = max(largest, inflation)
         length *= 2
-    return most
+    return largest

@@ -29,59 +29,60 @@ from mixedlub.recording.correlated_error import CorrelatedError
 
 
 def search_correlated_error(
-    search: Search, inflation: NoiseInflation, most: float, trial: Callable[..., Search]
+    search: Search, inflation: NoiseInflation, largest: float, trial: Callable[..., Search]
 ) -> tuple[Search, NoiseInflation]:
     """Repeat the search with a correlated (Ornstein-Uhlenbeck) error, and return the inflation of the white noise left.
 
-    ``inflation`` is that of the stated noise so far, ``most`` the largest that repeats allow. ``trial`` searches for a
-    case and a correlated error. If nothing may be missing, the error is no larger than the scatter between neighbours.
+    ``inflation`` is that of the stated noise so far, ``largest`` the one that repeats allow at most. ``trial``
+    searches for a case and a correlated error. If nothing may be missing, the error is no larger than the scatter
+    between neighbours.
     """
     for _ in range(INFLATION_ROUNDS):
         correlated_error, times = estimate_correlated_error(search, 1.0 / inflation.factor)
         if (
             correlated_error == search.problem.correlated_error
-            or times * inflation.factor * correlated_error.total_sd > most
+            or times * inflation.factor * correlated_error.total_sd > largest
         ):
             break
-        again = trial(scaled(search.problem.case, times), correlated_error=correlated_error)
-        missing = max(again.log_weights.values()) > again.log_weights[NOTHING] + DRIFT_GAIN
-        if not missing and correlated_error.size * times > _farthest(search):
+        retried = trial(scaled(search.problem.case, times), correlated_error=correlated_error)
+        missing = max(retried.log_weights.values()) > retried.log_weights[NOTHING] + DRIFT_GAIN
+        if not missing and correlated_error.size * times > _largest_under_null(search):
             break
-        search, inflation = again, replace(inflation, factor=inflation.factor * times)
+        search, inflation = retried, replace(inflation, factor=inflation.factor * times)
     return search, inflation
 
 
-def estimate_correlated_error(whole: Search, least: float) -> tuple[CorrelatedError, float]:
+def estimate_correlated_error(search: Search, least: float) -> tuple[CorrelatedError, float]:
     """The most probable correlated error, and the factor on the white noise that remains.
 
     The best explanation with it must beat the best one without it. The white noise may shrink by the factor ``least``:
     part of it may have been the correlated error. Where a shaft turns none is fitted, because neighbours in time then
     share their position.
     """
-    now, found = whole.problem.correlated_error, whole.full_screen
-    record, clock = clock_of(whole.problem.rows, ties=True), clock_of(found.problem.rows, ties=True)
-    if record is None or clock is None or clock.size < DRIFT_READINGS or TURNED in whole.problem.rows:
-        return now, 1.0
+    present, screened = search.problem.correlated_error, search.full_screen
+    record, clock = clock_of(search.problem.rows, ties=True), clock_of(screened.problem.rows, ties=True)
+    if record is None or clock is None or clock.size < DRIFT_READINGS or TURNED in search.problem.rows:
+        return present, 1.0
     forms = [CorrelatedError.over(record, size, length) for length in CORRELATION_SHARES for size in ERROR_SIZES]
-    weights, null_fit, discrepancy = found.log_weights, found.null_fit, found.discrepancy
-    most, best = max(weights.values()) + DRIFT_GAIN, (now, 1.0)
-    named = sorted((m for m in found.fits if m.effects), key=weights.__getitem__)[-DRIFT_CANDIDATES:]
-    own = discrepancy.best.columns(found.space, found.values, discrepancy.scalings)
+    weights, null_fit, discrepancy = screened.log_weights, screened.null_fit, screened.discrepancy
+    best_log, best = max(weights.values()) + DRIFT_GAIN, (present, 1.0)
+    named = sorted((m for m in screened.fits if m.effects), key=weights.__getitem__)[-DRIFT_CANDIDATES:]
+    discrepancy_columns = discrepancy.best.columns(screened.space, screened.values, discrepancy.scalings)
     order = np.argsort(clock, kind="stable")
-    farthest = _farthest(found)
-    noise = [form for form in forms if form.size <= farthest]
+    largest = _largest_under_null(screened)
+    noise = [form for form in forms if form.size <= largest]
     tried = [(weights[NOTHING], null_fit.residual, null_fit.anchor, null_fit.slopes, noise)]
     for key in named:
-        fit = found.fits[key]
-        tried.append((weights[key] - found.scores[key] + fit.evidence, fit.residual, fit.anchor, fit.slopes, forms))
-    flexible = np.hstack([null_fit.slopes, own])
+        fit = screened.fits[key]
+        tried.append((weights[key] - screened.scores[key] + fit.evidence, fit.residual, fit.anchor, fit.slopes, forms))
+    flexible = np.hstack([null_fit.slopes, discrepancy_columns])
     tried.append((weights[DISCREPANCY], discrepancy.fit.residual, null_fit.anchor, flexible, forms))
-    for weight, left, target, slopes, allowed in tried:
-        if not allowed or not is_autocorrelated(left[order]):
+    for weight, residual, target, slopes, allowed in tried:
+        if not allowed or not is_autocorrelated(residual[order]):
             continue
-        gain, correlated_error = _most_probable(found.problem, allowed, least, target, slopes)
-        if weight + gain > most:
-            most, best = weight + gain, correlated_error
+        gain, correlated_error = _most_probable(screened.problem, allowed, least, target, slopes)
+        if weight + gain > best_log:
+            best_log, best = weight + gain, correlated_error
     return best
 
 
@@ -90,42 +91,42 @@ def correlated_error_variance(search: Search) -> float:
     if not search.problem.correlated_error.size:
         return 0.0
     best_named = search.best_named
-    own, every = search.problem.correlated_error.columns(search.problem.rows), search.problem.shared
-    errors = np.linalg.lstsq(every, best_named.common, rcond=None)[0][-own.shape[1] :]
-    left = search.problem.single_reading_units(best_named.residual) + own @ errors
-    return max(float(best_named.weight @ left**2 / best_named.weight.sum()) - 1.0, 0.0)
+    drift_columns, shared = search.problem.correlated_error.columns(search.problem.rows), search.problem.shared
+    errors = np.linalg.lstsq(shared, best_named.common, rcond=None)[0][-drift_columns.shape[1] :]
+    residual = search.problem.single_reading_units(best_named.residual) + drift_columns @ errors
+    return max(float(best_named.weight @ residual**2 / best_named.weight.sum()) - 1.0, 0.0)
 
 
-def _farthest(whole: Search) -> float:
+def _largest_under_null(search: Search) -> float:
     """Largest correlated error if nothing is missing, over the noise of single readings."""
-    found = whole.full_screen
-    clock = clock_of(found.problem.rows, ties=True)
+    screened = search.full_screen
+    clock = clock_of(screened.problem.rows, ties=True)
     assert clock is not None
     return MOST_UNDER_NULL * successive_difference_sd(
-        found.problem.single_reading_units(found.null_fit.residual)[np.argsort(clock, kind="stable")]
+        screened.problem.single_reading_units(screened.null_fit.residual)[np.argsort(clock, kind="stable")]
     )
 
 
-def successive_difference_sd(left: np.ndarray) -> float:
+def successive_difference_sd(residual: np.ndarray) -> float:
     """Standard deviation of the white part of residuals, from their successive differences.
 
     >>> noise = np.random.default_rng(1).standard_normal(1000)
     >>> bool(0.9 < successive_difference_sd(noise + np.linspace(0.0, 50.0, 1000)) < 1.1)
     True
     """
-    return float(np.median(np.abs(np.diff(left)))) * MAD_TO_SD / np.sqrt(2.0)
+    return float(np.median(np.abs(np.diff(residual)))) * MAD_TO_SD / np.sqrt(2.0)
 
 
-def is_autocorrelated(left: np.ndarray) -> bool:
+def is_autocorrelated(residual: np.ndarray) -> bool:
     """Whether residuals in order of time have a significant lag-1 autocorrelation.
 
     >>> noise = np.random.default_rng(1).standard_normal(100)
     >>> is_autocorrelated(noise), is_autocorrelated(np.repeat(noise, 3))
     (False, True)
     """
-    centred = np.clip(left - np.median(left), -CLIPPED_AT, CLIPPED_AT)
+    centred = np.clip(residual - np.median(residual), -CLIPPED_AT, CLIPPED_AT)
     square = float(centred @ centred)
-    return bool(float(centred[1:] @ centred[:-1]) * np.sqrt(left.size) > SIGNIFICANT * square)
+    return bool(float(centred[1:] @ centred[:-1]) * np.sqrt(residual.size) > SIGNIFICANT * square)
 
 
 def _most_probable(
@@ -135,19 +136,19 @@ def _most_probable(
 
     Where several readings count as one, the white noise stays as it is.
     """
-    quieter = (
+    smaller_noise = (
         [*(q for q in WHITE_SHARES if q > least), *([least] if least < 1.0 else [])]
         if problem.n_per_effective == 1.0
         else []
     )
     columns = np.hstack([slopes, problem.setups])
-    now = linear_fit(target, np.hstack([slopes, problem.shared])).evidence
-    most, best = -np.inf, (problem.correlated_error, 1.0)
+    present = linear_fit(target, np.hstack([slopes, problem.shared])).evidence
+    best_log, best = -np.inf, (problem.correlated_error, 1.0)
     for form in forms:
-        own = form.columns(problem.rows) / np.sqrt(problem.n_per_effective)
-        for times in (1.0, *quieter):
-            log = linear_fit(target / times, np.hstack([columns / times, own])).evidence
+        drift_columns = form.columns(problem.rows) / np.sqrt(problem.n_per_effective)
+        for times in (1.0, *smaller_noise):
+            log = linear_fit(target / times, np.hstack([columns / times, drift_columns])).evidence
             log -= target.size * np.log(times)
-            if log > most:
-                most, best = log, (form, times)
-    return most - now, best
+            if log > best_log:
+                best_log, best = log, (form, times)
+    return best_log - present, best

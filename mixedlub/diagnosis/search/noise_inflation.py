@@ -60,16 +60,16 @@ def search_stated_noise(case: Case, trial: Trial, most: float) -> tuple[Search, 
     conditions are a discrepancy, the rest is noise. Repeats at equal conditions bound the factor by ``most``. Without
     repeats a column of standard deviations may be repeatability only, and a share of the reading is added.
     """
-    found, inflation = trial(case), NoiseInflation()
+    accepted, inflation = trial(case), NoiseInflation()
     if f"{case.quantity}_sd" in rows_of(case) and np.isinf(most):
-        found, inflation = _with_share(case, trial, found)
+        accepted, inflation = _with_share(case, trial, accepted)
     for needed in (INFLATION_GAIN, *[0.0] * (INFLATION_ROUNDS - 1)):
-        gain, factor = best_inflation(found)
+        gain, factor = best_inflation(accepted)
         if gain <= needed or inflation.factor * factor > most:
             break
         inflation = replace(inflation, factor=inflation.factor * factor)
-        found = trial(inflation.of(case))
-    return found, inflation
+        accepted = trial(inflation.of(case))
+    return accepted, inflation
 
 
 def _with_share(case: Case, trial: Trial, search: Search) -> tuple[Search, NoiseInflation]:
@@ -80,24 +80,25 @@ def _with_share(case: Case, trial: Trial, search: Search) -> tuple[Search, Noise
     """
     tried = {-1: search, FIRST_SHARE: trial(NoiseInflation(extra_relative=EXTRA_SHARES[FIRST_SHARE]).of(case))}
 
-    def height(i: int) -> float:
+    def log_probability(i: int) -> float:
         if i not in tried:
             near = min((j for j in tried if j >= 0), key=lambda j: abs(j - i))
             tried[i] = trial(NoiseInflation(extra_relative=EXTRA_SHARES[i]).of(case), near=tried[near])
         return tried[i].log_probability
 
-    gain, asked = _lacking(search)
-    for i in (FIRST_SHARE, asked) if gain > SHARE_GAIN else (FIRST_SHARE,):
-        beside = [j for j in (i - 1, i + 1) if 0 <= j < EXTRA_SHARES.size]
-        step = max(beside, key=height) - i
-        while 0 <= i + step < EXTRA_SHARES.size and height(i + step) > height(i):
+    gain, suggested = _lacking(search)
+    for i in (FIRST_SHARE, suggested) if gain > SHARE_GAIN else (FIRST_SHARE,):
+        neighbours = [j for j in (i - 1, i + 1) if 0 <= j < EXTRA_SHARES.size]
+        step = max(neighbours, key=log_probability) - i
+        while 0 <= i + step < EXTRA_SHARES.size and log_probability(i + step) > log_probability(i):
             i += step
-    best = max(tried, key=height)
-    if best < 0 or height(best) <= height(-1) + SHARE_GAIN:
+    best = max(tried, key=log_probability)
+    if best < 0 or log_probability(best) <= log_probability(-1) + SHARE_GAIN:
         return search, NoiseInflation()
     inflation = NoiseInflation(extra_relative=float(EXTRA_SHARES[best]))
-    whole = tried[best] if best == FIRST_SHARE else trial(inflation.of(case))
-    return (whole, inflation) if whole.log_probability > height(-1) + SHARE_GAIN else (search, NoiseInflation())
+    searched = tried[best] if best == FIRST_SHARE else trial(inflation.of(case))
+    accepted = searched.log_probability > log_probability(-1) + SHARE_GAIN
+    return (searched, inflation) if accepted else (search, NoiseInflation())
 
 
 def _lacking(search: Search) -> tuple[float, int]:
@@ -117,9 +118,9 @@ def repeats_allow(y: np.ndarray, sd: np.ndarray, group: np.ndarray) -> float:
     """
     from scipy.special import chdtri
 
-    spare = group.size - int(group.max()) - 1
-    apart = (y - medians(y, group)[group]) / sd
-    return float(pooled_sd(apart, group) * np.sqrt(spare / chdtri(spare, 1.0 - BOUND_LEVEL)))
+    freedom = group.size - int(group.max()) - 1
+    deviation = (y - medians(y, group)[group]) / sd
+    return float(pooled_sd(deviation, group) * np.sqrt(freedom / chdtri(freedom, 1.0 - BOUND_LEVEL)))
 
 
 def best_inflation(search: Search) -> tuple[float, float]:
@@ -131,16 +132,16 @@ def best_inflation(search: Search) -> tuple[float, float]:
 def _under_other_noise(search: Search, times: np.ndarray) -> tuple[float, int]:
     """Gain in log probability of the best explanation under noise ``times`` (m, readings) as large, and which of m."""
     weights = search.log_weights
-    most, best = -np.inf, 0
+    best_log, best = -np.inf, 0
     for key, weight in weights.items():
         fit = search.fit_of(key)
-        bent = search.scores.get(key, fit.evidence) - fit.evidence
+        form_error_gain = search.scores.get(key, fit.evidence) - fit.evidence
         # The evidence of a fit far behind is carried over from another noise: it is no more than its likelihood.
         carried = max(fit.evidence - float(log_likelihood(fit.residual)[0].sum()), 0.0)
         gains = _gains(fit.residual, times)
-        if weight - bent - carried + gains.max() > most:
-            most, best = weight - bent - carried + float(gains.max()), int(np.argmax(gains))
-    return most - max(weights.values()), best
+        if weight - form_error_gain - carried + gains.max() > best_log:
+            best_log, best = weight - form_error_gain - carried + float(gains.max()), int(np.argmax(gains))
+    return best_log - max(weights.values()), best
 
 
 def search_estimated_noise(case: Case, trial: Trial) -> Search:
@@ -148,12 +149,12 @@ def search_estimated_noise(case: Case, trial: Trial) -> Search:
 
     The residuals then give the relative and the absolute part of the noise, better than a few repeats do.
     """
-    found = _fitting(case, trial)
-    gain, other = _other_parts(found)
+    fitted = _fitting(case, trial)
+    gain, other = _other_parts(fitted)
     if gain < MIXTURE_GAIN:
-        return found
-    again = trial(other)
-    return again if again.log_probability > found.log_probability + MIXTURE_GAIN else found
+        return fitted
+    retried = trial(other)
+    return retried if retried.log_probability > fitted.log_probability + MIXTURE_GAIN else fitted
 
 
 def _other_parts(search: Search) -> tuple[float, Case]:
@@ -163,8 +164,9 @@ def _other_parts(search: Search) -> tuple[float, Case]:
     size = problem.noise_size(best.prediction)
     typical = float(np.median(size))
     scales = MIXTURE_FACTORS * float(np.median(problem.sd * problem.d_inverse(best.prediction))) / typical
-    noises = [(k * own, k * common * typical) for k in scales for own, common in PARTS]
-    sds = np.array([np.hypot(own * size, common) for own, common in noises]) / problem.d_inverse(best.prediction)
+    noises = [(k * relative, k * absolute * typical) for k in scales for relative, absolute in PARTS]
+    sds = np.array([np.hypot(relative * size, absolute) for relative, absolute in noises])
+    sds /= problem.d_inverse(best.prediction)
     gain, which = _under_other_noise(search, np.maximum(sds, 1e-300) / problem.sd)
     return gain, with_noise(problem.case, *noises[which])
 
@@ -175,20 +177,20 @@ def _fitting(case: Case, trial: Trial) -> Search:
     Half the step is tried where the whole one fails. A start far too low would stay there, because fits then follow
     the noise; the estimate from a smooth fit is not too low.
     """
-    found = trial(case)
+    best = trial(case)
     for _ in range(NOISE_ITERATIONS):
-        _, best = _under_other_noise(found, ESTIMATE_FACTORS[:, None])
-        asked = float(ESTIMATE_FACTORS[best])
-        for step in (asked, np.sqrt(asked)):
+        _, best_factor = _under_other_noise(best, ESTIMATE_FACTORS[:, None])
+        factor = float(ESTIMATE_FACTORS[best_factor])
+        for step in (factor, np.sqrt(factor)):
             if abs(np.log(step)) < NOISE_CONVERGED:
-                return found
-            again = trial(scaled(found.problem.case, float(step)))
-            if again.log_probability > found.log_probability:
+                return best
+            retried = trial(scaled(best.problem.case, float(step)))
+            if retried.log_probability > best.log_probability:
                 break
         else:
-            return found
-        found = again
-    return found
+            return best
+        best = retried
+    return best
 
 
 def search_null_noise(search: Search, trial: Callable[[Case], Search]) -> Search:
@@ -221,9 +223,9 @@ def noise_overstated(search: Search) -> bool:
 
     That model has few free coordinates, so the noise must be overstated.
     """
-    spare = search.null_fit.residual.size - search.null_fit.z.size
-    left = search.problem.single_reading_units(search.null_fit.residual)
-    return spare >= LEAST_FREEDOM and float(left @ left) < OVERSTATED_VARIANCE * spare
+    freedom = search.null_fit.residual.size - search.null_fit.z.size
+    residual = search.problem.single_reading_units(search.null_fit.residual)
+    return freedom >= LEAST_FREEDOM and float(residual @ residual) < OVERSTATED_VARIANCE * freedom
 
 
 def scaled(case: Case, factor: float) -> Case:

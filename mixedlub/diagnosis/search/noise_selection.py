@@ -32,13 +32,13 @@ from mixedlub.recording.readings import rows_of
 class NoiseSearch:
     """The search under the selected noise, its inflation, and a function that repeats the search under another noise.
 
-    ``again`` takes the case, the number of readings per effective reading, and the correlated error.
+    ``repeat`` takes the case, the number of readings per effective reading, and the correlated error.
     """
 
     search: Search
     inflation: NoiseInflation
     stated: bool
-    again: Callable[[Case, float, CorrelatedError], Search]
+    repeat: Callable[[Case, float, CorrelatedError], Search]
 
     @property
     def noise_factor(self) -> float:
@@ -51,11 +51,15 @@ class NoiseSearch:
         Stated noise keeps its size but may be autocorrelated.
         """
         result = self.search
-        kept, correlated_error = result.problem.n_per_effective, result.problem.correlated_error
+        n_per_effective, correlated_error = result.problem.n_per_effective, result.problem.correlated_error
         if not self.stated:
-            result = search_null_noise(result, lambda case: self.again(case, kept, correlated_error))
-        lasts = variance_inflation_under_null(result)
-        return result if lasts <= kept else self.again(result.problem.case, lasts, correlated_error)
+            result = search_null_noise(result, lambda case: self.repeat(case, n_per_effective, correlated_error))
+        n_under_null = variance_inflation_under_null(result)
+        return (
+            result
+            if n_under_null <= n_per_effective
+            else self.repeat(result.problem.case, n_under_null, correlated_error)
+        )
 
 
 def search_under_noise(case: Case, forward: Forward, exclude: Sequence[str], progress: Progress) -> NoiseSearch:

@@ -83,7 +83,7 @@ class Search:
     @property
     def log_weights(self) -> dict[Explanation, float]:
         """Log prior plus log evidence of every explanation."""
-        odds = {e.id: e.odds for s in self.draws for e in effects_of((s.id,))}
+        odds = {e.id: e.prior_odds for s in self.draws for e in effects_of((s.id,))}
         each = list(odds.values())
         pairs = sum(a * b for a, b in combinations(each, 2))
         total = (1.0, sum(each), pairs)
@@ -301,7 +301,7 @@ def _again(problem: Problem, singles: dict[Explanation, Fit], best: Fit, scale: 
 def n_inexact(explanation: Explanation) -> int:
     """Number of effects whose form may be inexact: not those of an exact form, and none if one is descriptive."""
     effects = effects_of(explanation.effects)
-    return 0 if any(e.free_form for e in effects) else sum(not e.exact for e in effects)
+    return 0 if any(e.descriptive for e in effects) else sum(not e.exact_form for e in effects)
 
 
 def reference_fits(fits: Mapping[Explanation, Fit], explanation: Explanation) -> tuple[Fit, ...]:
@@ -309,7 +309,7 @@ def reference_fits(fits: Mapping[Explanation, Fit], explanation: Explanation) ->
 
     The second keeps an effect without influence from changing the form of an exact one.
     """
-    exact = Explanation(tuple(e.id for e in effects_of(explanation.effects) if e.exact))
+    exact = Explanation(tuple(e.id for e in effects_of(explanation.effects) if e.exact_form))
     return (fits[NOTHING], *([fits[exact]] if exact != NOTHING and exact in fits else []))
 
 

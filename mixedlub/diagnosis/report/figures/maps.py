@@ -61,7 +61,7 @@ def frame_of(d: Diagnosis) -> Frame:
 def _varied(d: Diagnosis) -> list[str]:
     """Numeric conditions that were varied by more than drift or noise about a set point."""
     table = d.recorded.table
-    names = [c.name for c in d.case.kind.columns if c.form != "name" and c.name in table]
+    names = [c.name for c in d.case.kind.columns if c.dtype != "name" and c.name in table]
     moved = [n for n in names if np.ptp(table[n]) > DRIFT * np.max(np.abs(table[n]))]
     return [n for n in moved if noisy_set_point(n, table[n]) is None]
 
@@ -190,7 +190,7 @@ def roll_angle_map(d: Diagnosis) -> Figure | None:
     if "roll_angle_deg" not in table:
         return None
     others = [n for n in _varied(d) if n != "roll_angle_deg"]
-    names = [c.name for c in d.case.kind.columns if c.form == "name" and c.name in table]
+    names = [c.name for c in d.case.kind.columns if c.dtype == "name" and c.name in table]
     used = [*others, *(n for n in names if np.unique(table[n]).size > 1)]
     texts = np.array([" · ".join(_short(n, table[n][i]) for n in used) or "all readings" for i in range(len(table))])
     keys = [table[n] for n in reversed(used)] or [np.zeros(len(table))]

@@ -21,9 +21,9 @@ AS_IF_NOTHING = "as if nothing were missing"
 HIDDEN = f"the noise was estimated {AS_IF_NOTHING}, and what is taken for noise may hide some of them"
 
 
-def resembling(d: Diagnosis, alike: Confusion) -> tuple[tuple[str, ...], tuple[str, ...]]:
+def alternatives(d: Diagnosis, similarity: Confusion) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Sentences, and the tests that separate the tied effects."""
-    sentences = _resemblance(d, alike)
+    sentences = _resemblance(d, similarity)
     names = dict.fromkeys(name for key in d.posterior.tied for name in key.effects)
     items = tuple(f"{effect_words(e.id)}: {e.separated_by}" for e in effects_of(names))
     if len(d.posterior.tied) < 2 or not items:
@@ -31,18 +31,18 @@ def resembling(d: Diagnosis, alike: Confusion) -> tuple[tuple[str, ...], tuple[s
     return (*sentences, "To separate them:"), items
 
 
-def _resemblance(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
-    judged = d.posterior
-    verdict = judged.verdict.effects
-    sentences, twins = [], set()
+def _resemblance(d: Diagnosis, similarity: Confusion) -> tuple[str, ...]:
+    posterior = d.posterior
+    verdict = posterior.verdict.effects
+    sentences, same_form = [], set()
     for name in verdict:
-        i = alike.ids.index(name)
+        i = similarity.ids.index(name)
         others = {
-            other: float(alike.cosine[i, j])
-            for j, other in sorted(enumerate(alike.ids), key=lambda item: -alike.cosine[i, item[0]])
-            if other not in verdict and alike.cosine[i, j] > SIMILAR
+            other: float(similarity.cosine[i, j])
+            for j, other in sorted(enumerate(similarity.ids), key=lambda item: -similarity.cosine[i, item[0]])
+            if other not in verdict and similarity.cosine[i, j] > SIMILAR
         }
-        twins |= {other for other, cosine in others.items() if cosine > SAME_SIGNATURE}
+        same_form |= {other for other, cosine in others.items() if cosine > SAME_SIGNATURE}
         if others:
             listed = ", ".join(
                 f"{effect_words(other)} ({cosine:.2f})" for other, cosine in list(others.items())[:MOST_SIMILAR]
@@ -52,51 +52,53 @@ def _resemblance(d: Diagnosis, alike: Confusion) -> tuple[str, ...]:
                 "identical)."
             )
     # Effects named as the nearest to the discrepancy are visible here and not simply rejected.
-    near = nearest(d)
-    named = () if near is None else near.explanation.effects
-    hidden = unshown(d, alike)
-    unseen = [name for name in hidden if name not in named]
-    improbable = [name for name in _improbable(d) if name not in (*hidden, *named)]
-    every = judged.inclusion(d.search)
-    open_still = _open_still(d, every, (*hidden, *named))
+    nearest_effects = nearest(d)
+    named = () if nearest_effects is None else nearest_effects.explanation.effects
+    undetectable = undetectable_effects(d, similarity)
+    not_shown = [name for name in undetectable if name not in named]
+    improbable = [name for name in _improbable(d) if name not in (*undetectable, *named)]
+    inclusion = posterior.inclusion(d.search)
+    open_still = _not_excluded(d, inclusion, (*undetectable, *named))
     if open_still:
         sentences.append(f"Less probable, not excluded: {', '.join(open_still)}.")
-    rejected = ", ".join(effect_words(name) for name in improbable if name not in twins)
+    rejected = ", ".join(effect_words(name) for name in improbable if name not in same_form)
     if rejected:
-        why = "Weighed and rejected" if verdict or judged.verdict.is_discrepancy else "Would show here, and did not"
-        under = "" if verdict or judged.verdict.is_discrepancy or d.noise_stated else f"; {HIDDEN}"
+        why = "Weighed and rejected" if verdict or posterior.verdict.is_discrepancy else "Would show here, and did not"
+        under = "" if verdict or posterior.verdict.is_discrepancy or d.noise_stated else f"; {HIDDEN}"
         sentences.append(f"{why} (probability below {REJECTED:g} each{under}): {rejected}.")
-    close = ", ".join(effect_words(name) for name in improbable if name in twins)
-    if close:
+    same_signature = ", ".join(effect_words(name) for name in improbable if name in same_form)
+    if same_signature:
         why = "Nearly the same signature, but they would need an implausible strength or calibration"
-        sentences.append(f"{why}: {close}.")
-    if unseen:
+        sentences.append(f"{why}: {same_signature}.")
+    if not_shown:
         sentences.append(
             f"This test cannot show them (below {VISIBLE:g} sigma at typical strength after recalibration), so they "
-            f"are neither named nor excluded: {', '.join(_with_chance(name, every) for name in unseen)}."
+            f"are neither named nor excluded: {', '.join(_with_chance(name, inclusion) for name in not_shown)}."
         )
     return tuple(sentences)
 
 
-def unshown(d: Diagnosis, alike: Confusion) -> list[str]:
+def undetectable_effects(d: Diagnosis, similarity: Confusion) -> list[str]:
     """Effects outside the tied explanations that these readings would not show at typical strength."""
     tied = {name for key in d.posterior.tied for name in key.effects}
-    return [name for name in alike.unseen() if name not in tied]
+    return [name for name in similarity.unseen() if name not in tied]
 
 
-def _open_still(d: Diagnosis, every: Mapping[str, float], named_elsewhere: Collection[str]) -> list[str]:
+def _not_excluded(d: Diagnosis, inclusion: Mapping[str, float], named_elsewhere: Collection[str]) -> list[str]:
     """Explanations neither tied, rejected nor ``named_elsewhere``, with probability, most probable first.
 
     Among them may be that nothing is missing, and the discrepancy.
     """
     named = {name for key in d.posterior.tied for name in key.ids}
-    names = [name for name, p in every.items() if p >= REJECTED and name not in named and name not in named_elsewhere]
-    return [_with_chance(name, every) for name in sorted(names, key=lambda n: -every[n])]
+    names = [
+        name for name, p in inclusion.items() if p >= REJECTED and name not in named and name not in named_elsewhere
+    ]
+    return [_with_chance(name, inclusion) for name in sorted(names, key=lambda n: -inclusion[n])]
 
 
-def _with_chance(name: str, every: Mapping[str, float]) -> str:
+def _with_chance(name: str, inclusion: Mapping[str, float]) -> str:
     """An effect, with its probability unless that is small enough to be rejected."""
-    p = every.get(name, 0.0)
+    p = inclusion.get(name, 0.0)
     return f"{effect_words(name)} ({chance(p)})" if p >= REJECTED else effect_words(name)
 
 

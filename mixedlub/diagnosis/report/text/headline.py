@@ -78,30 +78,30 @@ def headline(d: Diagnosis) -> str:
 
 
 def _verdict(d: Diagnosis) -> str:
-    judged = d.posterior
+    posterior = d.posterior
     common = _common(d)
     if common:
         return _tie_with_common(d, common)
-    if len(judged.tied) > 1:
-        named = [f"{explanation_words(k.ids)} ({chance(judged.weights[k])})" for k in judged.tied[:MOST_TIED]]
+    if len(posterior.tied) > 1:
+        named = [f"{explanation_words(k.ids)} ({chance(posterior.weights[k])})" for k in posterior.tied[:MOST_TIED]]
         rest = _rest(d)
-        if judged.verdict == NOTHING:
+        if posterior.verdict == NOTHING:
             others = _listed([*named[1:], *rest], "or")
             return (
-                f"No mismatch beyond noise: nothing needs to be missing ({chance(judged.weights[NOTHING])}). A tie all "
-                f"the same: these readings do not exclude {others}."
+                f"No mismatch beyond noise: nothing needs to be missing ({chance(posterior.weights[NOTHING])}). A tie "
+                f"all the same: these readings do not exclude {others}."
             )
         return f"A tie. Most probable: {named[0]}. Not excluded: {'; '.join([*named[1:], *rest])}."
-    p = chance(judged.weights[judged.verdict])
-    if judged.verdict == NOTHING:
+    p = chance(posterior.weights[posterior.verdict])
+    if posterior.verdict == NOTHING:
         return f"Nothing is missing that these readings could show: the calibrated model explains them ({p})."
-    if judged.verdict.is_discrepancy:
+    if posterior.verdict.is_discrepancy:
         count = len(d.excluded)
         which = f"of those weighed explains ({count} left out on request)" if count else "of the catalogue explains"
         return f"Something is missing that no one effect {which}, nor any two tried together (probability {p})."
-    effects = effects_of(judged.verdict.effects)
-    free = [effect_words(e.id) for e in effects if e.free_form]
-    physics = [effect_words(e.id) for e in effects if e.stage != "measurement" and not e.free_form]
+    effects = effects_of(posterior.verdict.effects)
+    free = [effect_words(e.id) for e in effects if e.descriptive]
+    physics = [effect_words(e.id) for e in effects if e.stage != "measurement" and not e.descriptive]
     faults = [effect_words(e.id) for e in effects if e.stage == "measurement"]
     if not physics and not free:
         return f"No physics is missing; the instrument is at fault: {' and '.join(faults)} (probability {p})."
@@ -127,12 +127,12 @@ def _common(d: Diagnosis) -> list[str]:
 
 def _tie_with_common(d: Diagnosis, common: list[str]) -> str:
     """A tie whose explanations share some effects and differ in the others."""
-    judged, inclusion = d.posterior, d.posterior.inclusion(d.search)
+    posterior, inclusion = d.posterior, d.posterior.inclusion(d.search)
     shared = " and ".join(f"{effect_words(name)} ({chance(inclusion[name])})" for name in common)
     each = []
-    for key in judged.tied[:MOST_TIED]:
+    for key in posterior.tied[:MOST_TIED]:
         others = [name for name in key.ids if name not in common]
-        p = chance(judged.weights[key])
+        p = chance(posterior.weights[key])
         each.append(f"{explanation_words(others) if others else 'nothing else'} ({p})")
     return f"In every explanation left: {shared}. A tie in what acts as well: {'; '.join([*each, *_rest(d)])}."
 
@@ -148,10 +148,10 @@ def _listed(items: list[str], last: str) -> str:
 
 def probabilities(d: Diagnosis) -> list[str]:
     """Probabilities of the effects of the answer, and of the steps of the model at fault."""
-    judged = d.posterior
+    posterior = d.posterior
     sentences = _each(d, set(_common(d)))
-    stages = {name: p for name, p in judged.stages().items() if p >= STAGE_SHOWN}
-    if judged.verdict != NOTHING and stages:
+    stages = {name: p for name, p in posterior.stages().items() if p >= STAGE_SHOWN}
+    if posterior.verdict != NOTHING and stages:
         ranked = sorted(stages.items(), key=lambda item: -item[1])
         sentences.append(
             "Step of the model at fault: " + ", ".join(f"{STAGE_WORDS[s]} ({chance(p)})" for s, p in ranked) + "."
@@ -161,9 +161,9 @@ def probabilities(d: Diagnosis) -> list[str]:
 
 def _each(d: Diagnosis, named: set[str]) -> list[str]:
     """Probability of each effect over all explanations, where it differs from that of the answer."""
-    judged = d.posterior
-    every, answer = judged.inclusion(d.search), chance(judged.weights[judged.verdict])
-    names = [name for name in judged.verdict.effects if name not in named and chance(every[name]) != answer]
+    posterior = d.posterior
+    inclusion, answer = posterior.inclusion(d.search), chance(posterior.weights[posterior.verdict])
+    names = [name for name in posterior.verdict.effects if name not in named and chance(inclusion[name]) != answer]
     if not names:
         return []
     return [f"{with_names(effect_words(name))}: {probability_words(d, name)}." for name in names]
@@ -172,10 +172,10 @@ def _each(d: Diagnosis, named: set[str]) -> list[str]:
 def probability_words(d: Diagnosis, name: str) -> str:
     """Probability of one effect of the verdict, alone and together with others."""
     key = d.posterior.verdict
-    answer, every = chance(d.posterior.weights[key]), chance(d.posterior.inclusion(d.search)[name])
-    if answer == every:
-        return f"probability {every}"
+    answer, overall = chance(d.posterior.weights[key]), chance(d.posterior.inclusion(d.search)[name])
+    if answer == overall:
+        return f"probability {overall}"
     if len(key.effects) == 1:
-        return f"probability {answer} alone, {every} alone or with a second effect"
+        return f"probability {answer} alone, {overall} alone or with a second effect"
     others = explanation_words([other for other in key.effects if other != name])
-    return f"probability {answer} together with {others}, {every} overall"
+    return f"probability {answer} together with {others}, {overall} overall"

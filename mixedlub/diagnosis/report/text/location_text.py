@@ -23,13 +23,13 @@ def where(d: Diagnosis) -> tuple[str, ...]:
     if d.posterior.verdict == NOTHING:
         return ()
     z = _mismatch(d)
-    most = int(np.argmax(np.abs(z)))
-    run, conditions = int(d.recorded.table["run"][most]), reading_conditions(d, most)
-    sentences: tuple[str, ...] = (located(d), f"Largest at run {run} ({conditions}): {z[most]:+.1f} sigma.")
+    largest = int(np.argmax(np.abs(z)))
+    run, conditions = int(d.recorded.table["run"][largest]), reading_conditions(d, largest)
+    sentences: tuple[str, ...] = (located(d), f"Largest at run {run} ({conditions}): {z[largest]:+.1f} sigma.")
     if d.posterior.verdict.is_discrepancy and d.search.problem.calibration_size and not d.region.inside.all():
         sentences = (*sentences, LEVEL)
-    turned = np.sign(d.residuals[0]) != np.sign(z)
-    return (*sentences, SPREAD) if turned.mean() > SIGNS_DIFFER else sentences
+    opposite = np.sign(d.residuals[0]) != np.sign(z)
+    return (*sentences, SPREAD) if opposite.mean() > SIGNS_DIFFER else sentences
 
 
 def located(d: Diagnosis) -> str:
@@ -37,13 +37,13 @@ def located(d: Diagnosis) -> str:
     z, inside = _mismatch(d), d.region.inside
     if not z.any():
         return NOWHERE
-    place = ", ".join(range_text(cut) for cut in d.region.where)
-    there = f"Above all at {place}: there" if place else "Everywhere:"
+    ranges = ", ".join(range_text(cut) for cut in d.region.where)
+    opening = f"Above all at {ranges}: there" if ranges else "Everywhere:"
     sign = _direction(z[inside], d.recorded.predicted[inside])
     share = 100.0 * float(np.median(_share(d.missing[1], d.recorded.predicted)[inside]))
     elsewhere = f" Elsewhere {_rms(z[~inside]):.1f} times the noise." if (~inside).any() else ""
     return (
-        f"{there} the rig reads {sign} than the model without this cause, typically by {number(share)} % (rms "
+        f"{opening} the rig reads {sign} than the model without this cause, typically by {number(share)} % (rms "
         f"{_rms(z[inside]):.1f} times the noise of a reading).{elsewhere}"
     )
 
@@ -61,12 +61,14 @@ def _direction(z: np.ndarray, predicted: np.ndarray) -> str:
     >>> _direction(np.array([-2.0, -3.0]), -np.ones(2))
     'more in size'
     """
-    whole = max(float(np.sum(np.abs(z))), 1e-300)
+    total = max(float(np.sum(np.abs(z))), 1e-300)
     size = float(z @ np.sign(predicted))
-    ways = ((float(z.sum()), ""), (size, " in size, either sign,")) if predicted.max() > 0.0 else ((size, " in size"),)
-    for way, how in ways:
-        if abs(way) >= ONE_SIGN * whole:
-            return f"{'more' if way > 0.0 else 'less'}{how}"
+    candidates = (
+        ((float(z.sum()), ""), (size, " in size, either sign,")) if predicted.max() > 0.0 else ((size, " in size"),)
+    )
+    for net, words in candidates:
+        if abs(net) >= ONE_SIGN * total:
+            return f"{'more' if net > 0.0 else 'less'}{words}"
     return "now more and now less"
 
 

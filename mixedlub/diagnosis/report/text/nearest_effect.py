@@ -28,7 +28,7 @@ class Nearest:
     """
 
     explanation: Explanation
-    taken: float
+    share: float
     before: float
     after: float
     count: int
@@ -39,20 +39,20 @@ def nearest(d: Diagnosis) -> Nearest | None:
     search, tied = d.search, d.posterior.tied
     if DISCREPANCY not in tied or search.discrepancy.best.form == "wave" or any(key.effects for key in tied):
         return None
-    good = d.counted
+    counted = d.counted
 
     def squares(residual: np.ndarray) -> float:
-        return float(np.sum(search.problem.single_reading_units(residual[good]) ** 2))
+        return float(np.sum(search.problem.single_reading_units(residual[counted]) ** 2))
 
     chi2 = {key: squares(fit.residual) for key, fit in search.fits.items()}
-    most = chi2[NOTHING] - squares(search.discrepancy.fit.residual)
+    reachable = chi2[NOTHING] - squares(search.discrepancy.fit.residual)
     names = [key for key in chi2 if key.effects and chi2[key] < chi2[NOTHING]]
-    if most <= 0.0 or not names:
+    if reachable <= 0.0 or not names:
         return None
     # A second effect is named only where it explains a good part of the remainder.
-    best = min(names, key=lambda key: chi2[key] + SECOND_SHARE * most * (len(key.effects) - 1))
-    taken = min((chi2[NOTHING] - chi2[best]) / most, 1.0)
-    return Nearest(best if taken >= NEAREST_SHARE else NOTHING, taken, chi2[NOTHING], chi2[best], int(good.sum()))
+    best = min(names, key=lambda key: chi2[key] + SECOND_SHARE * reachable * (len(key.effects) - 1))
+    share = min((chi2[NOTHING] - chi2[best]) / reachable, 1.0)
+    return Nearest(best if share >= NEAREST_SHARE else NOTHING, share, chi2[NOTHING], chi2[best], int(counted.sum()))
 
 
 def nearest_name(d: Diagnosis) -> list[str]:
@@ -67,7 +67,7 @@ def nearest_name(d: Diagnosis) -> list[str]:
     why = SUITS if noisy else "the remaining residuals have another form."
     named = explanation_words(best.explanation.effects)
     return [
-        f"Nearest in the catalogue: {named}, with {percent(best.taken)} of it taken up "
+        f"Nearest in the catalogue: {named}, with {percent(best.share)} of it taken up "
         f"(chi-square {number(best.before)} to {number(best.after)} for {best.count} readings, of which noise makes "
         f"about {best.count}). It is not the answer (probability {chance(p)}): {why}"
     ]

@@ -18,7 +18,7 @@ def reading_conditions(d: Diagnosis, row: int) -> str:
     for column in d.case.kind.columns:
         if column.name in table:
             value = table[column.name][row]
-            named[column.name] = str(value) if column.form == "name" else float(value)
+            named[column.name] = str(value) if column.dtype == "name" else float(value)
     return conditions_text(named)
 
 
@@ -42,12 +42,12 @@ def shrunk_noise(d: Diagnosis) -> tuple[str, ...]:
     if stated is None:
         return ()
     size = np.abs(d.readings) if d.case.kind.logarithmic else 1.0
-    most = float(np.exp(np.max(np.abs(np.log(d.search.problem.single_sd * size / stated)))))
-    if most < NOISE_CHANGED:
+    largest = float(np.exp(np.max(np.abs(np.log(d.search.problem.single_sd * size / stated)))))
+    if largest < NOISE_CHANGED:
         return ()
     return (
         "The stated standard deviations vary irregularly, as estimates from few repeats do; they were shrunk towards "
-        f"those of neighbouring conditions, by up to a factor {number(most)}.",
+        f"those of neighbouring conditions, by up to a factor {number(largest)}.",
     )
 
 
@@ -60,23 +60,23 @@ def outliers(d: Diagnosis) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]
     table = [("run", f"recorded ({unit})", f"predicted ({unit})", "off by", "conditions")]
     y = d.readings
     for i in rows[:MOST_LISTED]:
-        off = (y[i] - d.recorded.predicted[i]) / d.recorded.sd[i]
+        deviation = (y[i] - d.recorded.predicted[i]) / d.recorded.sd[i]
         table.append(
             (
                 str(int(d.recorded.table["run"][i])),
                 number(y[i]),
                 number(d.recorded.predicted[i]),
-                f"{off:+.1f} sigma",
+                f"{deviation:+.1f} sigma",
                 reading_conditions(d, int(i)),
             )
         )
     more = f" The first {len(table) - 1}:" if rows.size > MOST_LISTED else ""
-    many = f"{rows.size} readings are probably outliers and have"
-    count = "One reading is probably an outlier and has" if rows.size == 1 else many
+    several = f"{rows.size} readings are probably outliers and have"
+    count = "One reading is probably an outlier and has" if rows.size == 1 else several
     sentences = [f"{count} little weight.{more}"]
     for i in rows.tolist():
         excess, sd = float(y[i] - d.recorded.predicted[i]), float(d.recorded.sd[i])
-        fault = d.case.kind.reading_fault(d.recorded.table, i, excess, sd)
+        fault = d.case.kind.instrument_fault(d.recorded.table, i, excess, sd)
         if fault is not None:
             sentences.append(f"Run {int(d.recorded.table['run'][i])}: {fault}.")
     return tuple(sentences), tuple(table)

@@ -10,7 +10,7 @@ from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
 from mixedlub.chain.effect import Effect, Parameter
 from mixedlub.chain.plain_text import plain_equation, with_symbol
-from mixedlub.chain.priors import Between, BetweenLog, Prior
+from mixedlub.chain.priors import LogUniform, Prior, Uniform
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.labels import effect_words, in_reach, number, with_names
@@ -39,11 +39,11 @@ def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
     for e, record in zip(d.search.problem.effects(d.posterior.verdict), effect_records(d), strict=True):
         places = range(start, start + len(e.parameters))
         start += len(e.parameters)
-        if e.free_form:
+        if e.descriptive:
             continue
-        every = list(zip(e.parameters, record["parameters"], places, strict=True))
-        shown = [(p, fitted, i) for p, fitted, i in every if p.sudden or moved[i]]
-        sentences += _unmoved(e, [p for p, _, i in every if not (p.sudden or moved[i])])
+        rows = list(zip(e.parameters, record["parameters"], places, strict=True))
+        shown = [(p, fitted, i) for p, fitted, i in rows if p.change_point or moved[i]]
+        sentences += _unmoved(e, [p for p, _, i in rows if not (p.change_point or moved[i])])
         vague = [p.name.replace("_", " ") for p, _, i in shown if refined.spread[i] >= VAGUE]
         alone = _undetermined(replace(e, parameters=tuple(p for p, _, _ in shown)), vague)
         fitted_ones = [(p, fitted) for p, fitted, _ in shown]
@@ -55,8 +55,8 @@ def parameters(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
             scaled, unit = in_reach((fitted["value"], fitted["low90"], fitted["high90"]), p.unit, typical)
             value, low, high = (number(x) for x in scaled)
             name = with_symbol(p.name, plain_equation(p.symbol))
-            far = _far(p.prior, p.unit) if abs(refined.z[i]) > FAR and not p.sudden else ""
-            sentences += _stretched(e, p, far)
+            far = _far(p.prior, p.unit) if abs(refined.z[i]) > FAR and not p.change_point else ""
+            sentences += _doubtful(e, p, far)
             marks = [mark for mark, holds in ((UNDETERMINED, refined.spread[i] >= VAGUE), (far, far)) if holds]
             mark = f"[{'; '.join(marks)}] " if marks else ""
             table.append(
@@ -69,10 +69,10 @@ def _far(prior: Prior, unit: str) -> str:
     """Words for a parameter far outside its prior, with the prior's 90 % range.
 
     >>> from mixedlub.chain.priors import Normal
-    >>> _far(Normal(0.0, 0.1), "-"), _far(Between(0.0, 0.05), "1/K")
+    >>> _far(Normal(0.0, 0.1), "-"), _far(Uniform(0.0, 0.05), "1/K")
     ('far outside its expected range (-0.164 to 0.164)', 'at the limit of its range (0 to 0.05)')
     """
-    if isinstance(prior, Between | BetweenLog):
+    if isinstance(prior, Uniform | LogUniform):
         how, ends = "at the limit of its range", (prior.low, prior.high)
     else:
         how, ends = "far outside its expected range", interval(prior, 0.0, 1.0)[1:]
@@ -80,7 +80,7 @@ def _far(prior: Prior, unit: str) -> str:
     return f"{how} ({low} to {high})"
 
 
-def _stretched(e: Effect, p: Parameter, far: str) -> list[str]:
+def _doubtful(e: Effect, p: Parameter, far: str) -> list[str]:
     """Warning that an effect with such a parameter may stand for another one."""
     if not far:
         return []
@@ -110,11 +110,11 @@ def _undetermined(e: Effect, vague: list[str]) -> list[str]:
 
 def _meaning(d: Diagnosis, p: Parameter, value: float) -> str:
     """Meaning of a parameter; for a relative one also its reference and its absolute value, with unit."""
-    if not p.of:
+    if not p.relative_to:
         return p.meaning
-    size, unit = _whole(d, p.of)
-    made = f"{number(value * size)} {unit}{p.unit.removeprefix('-').removeprefix('1')}"
-    return f"{p.meaning} ({f'{number(size)} {unit}'.rstrip()}): {made.rstrip()}"
+    size, unit = _whole(d, p.relative_to)
+    absolute = f"{number(value * size)} {unit}{p.unit.removeprefix('-').removeprefix('1')}"
+    return f"{p.meaning} ({f'{number(size)} {unit}'.rstrip()}): {absolute.rstrip()}"
 
 
 def _whole(d: Diagnosis, name: str) -> tuple[float, str]:
@@ -173,7 +173,7 @@ def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
     if not d.search.problem.forward.calibrations:
         return ("The case lets calibration move nothing.",), ()
     z, spread = _calibrated(d)
-    given = _given(d.case)
+    sources = _sources(d.case)
     table = [("input", "stated", "moved to", "90 % interval", "moved by", "meaning")]
     strained = []
     for i, c in enumerate(d.search.problem.forward.calibrations):
@@ -185,7 +185,7 @@ def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
         table.append(
             (
                 name,
-                f"{number(c.nominal)}{given.get(c.name, '')}",
+                f"{number(c.nominal)}{sources.get(c.name, '')}",
                 number(value),
                 f"{number(low)} to {number(high)}",
                 f"{z[i]:+.1f} sd",
@@ -205,16 +205,16 @@ def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
     return tuple(sentences), tuple(table)
 
 
-def _given(case: Case) -> dict[str, str]:
+def _sources(case: Case) -> dict[str, str]:
     """Source of inputs that the case does not state: those that change with the readings are taken from them."""
     quantity, rows = case.quantity, case.recordings
     assert rows is not None
     doubled = Table({**rows.columns, quantity: 2.0 * rows[quantity]}, rows.source)
     with collected():
-        here, there = (case.kind.extra_calibration(case.system, table) for table in (rows, doubled))
+        as_recorded, with_doubled = (case.kind.extra_calibration(case.system, table) for table in (rows, doubled))
     return {
         c.name: " (assumed)" if c.nominal == moved.nominal else " (from the readings)"
-        for c, moved in zip(here, there, strict=True)
+        for c, moved in zip(as_recorded, with_doubled, strict=True)
     }
 
 

@@ -21,7 +21,7 @@ from mixedlub.diagnosis.labels import (
     words_of,
 )
 from mixedlub.diagnosis.problem import effects_of
-from mixedlub.diagnosis.report.text.alternatives import AS_IF_NOTHING, resembling
+from mixedlub.diagnosis.report.text.alternatives import AS_IF_NOTHING, alternatives
 from mixedlub.diagnosis.report.text.headline import doubts, headline, lesser, p_words, probabilities, probability_words
 from mixedlub.diagnosis.report.text.location_text import where
 from mixedlub.diagnosis.report.text.nearest_effect import nearest_name
@@ -70,7 +70,7 @@ class Section:
 
 def sections(d: Diagnosis, unnamed: DescribedDiscrepancy | None = None) -> list[Section]:
     """All sections of the answer that have content."""
-    resemblance, separating = resembling(d, confusion(d.search))
+    resemblance, separating = alternatives(d, confusion(d.search))
     parts = [
         Section(ANSWER, (headline(d), *probabilities(d)), alarms=doubts(d)),
         Section(MISMATCH, (*_mismatch(d), *shrunk_noise(d))),
@@ -117,12 +117,12 @@ def _mismatch(d: Diagnosis) -> tuple[str, ...]:
         "The test examines whether residuals follow the conditions or the form of an effect, not only chi-square. "
         f"It is wrong in {100 * test.level:g} % of the cases in which nothing is missing."
     )
-    kept = d.counted
+    counted = d.counted
     squares = d.search.problem.single_reading_units(d.search.null_fit.residual) ** 2
     strain = float(d.search.null_fit.z @ d.search.null_fit.z)
-    without = "" if kept.all() else ", outliers left out"
-    squared = number(float(squares[kept].sum()) + strain)
-    chi2 = f"chi-square {squared} for {int(kept.sum())} readings after calibration{without}{_noise(d)}"
+    exclusion = "" if counted.all() else ", outliers left out"
+    squared = number(float(squares[counted].sum()) + strain)
+    chi2 = f"chi-square {squared} for {int(counted.sum())} readings after calibration{exclusion}{_noise(d)}"
     size = p_words(test.p_value)
     size = f"p {size}" if size[0].isalpha() else f"p = {size}"
     if test.noise_adapted:
@@ -141,11 +141,11 @@ def _noise(d: Diagnosis) -> str:
 
 
 def _left_out(d: Diagnosis) -> Section:
-    judged = d.posterior
-    if not judged.verdict.effects:
+    posterior = d.posterior
+    if not posterior.verdict.effects:
         return Section(LEFT_OUT, ())
     sentences: list[str] = []
-    for e in effects_of(judged.verdict.effects):
+    for e in effects_of(posterior.verdict.effects):
         sentences += [
             f"{with_names(effect_words(e.id))}, {probability_words(d, e.id)}, in {STAGE_WORDS[e.stage]}: {e.summary}",
             equation_sentence(e),
@@ -154,7 +154,7 @@ def _left_out(d: Diagnosis) -> Section:
             f"To make sure: {e.separated_by}.",
         ]
     notes, table = parameters(d)
-    return Section(LEFT_OUT, (*sentences, *notes), table, heading=BEST_TIED if len(judged.tied) > 1 else "")
+    return Section(LEFT_OUT, (*sentences, *notes), table, heading=BEST_TIED if len(posterior.tied) > 1 else "")
 
 
 def equation_sentence(e: Effect) -> str:
@@ -243,14 +243,16 @@ def _improved(d: Diagnosis) -> tuple[str, ...]:
 
 
 def _gain(d: Diagnosis) -> tuple[str, ...]:
-    kept = d.heldout
-    split = kept.split
+    heldout = d.heldout
+    split = heldout.split
     for axis in d.search.space.axes:
         split = split.replace(axis.name, words_of(axis.name))
-    how = f"({split}, {kept.folds} folds; 1 is noise)"
+    how = f"({split}, {heldout.folds} folds; 1 is noise)"
     if d.posterior.verdict == NOTHING:
-        return (f"Calibration alone predicts left-out levels to {kept.before:.2f} sigma {how}.",)
-    change = f"from {kept.before:.2f} sigma with calibration alone to {kept.after:.2f} sigma with the answer {how}."
-    if kept.after > NOT_BETTER * kept.before:
+        return (f"Calibration alone predicts left-out levels to {heldout.before:.2f} sigma {how}.",)
+    change = (
+        f"from {heldout.before:.2f} sigma with calibration alone to {heldout.after:.2f} sigma with the answer {how}."
+    )
+    if heldout.after > NOT_BETTER * heldout.before:
         return (f"Not better: {change} Do not extrapolate it.", REFITTED)
     return (f"{change[:1].upper()}{change[1:]}", REFITTED)
