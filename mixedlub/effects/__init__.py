@@ -91,7 +91,8 @@ def known_effects(
             if key == LAW:
                 continue
             if name not in values[e.id]:
-                rule = f"no such parameter of {e.id}; {nearest(name, (*values[e.id], *([LAW] if e.special_cases else [])))}"
+                names = (*values[e.id], *([LAW] if e.special_cases else []))
+                rule = f"no such parameter of {e.id}; {nearest(name, names)}"
                 raise InputError(rule, where=f"effects.{e.id}", value=key)
             if isinstance(value, str):
                 raise InputError("must be a number", where=where, value=value)
