@@ -13,7 +13,7 @@ from mixedlub.diagnosis.inference.change_points import integrate_change_points
 from mixedlub.diagnosis.inference.initial_guesses import PriorDraws, fit_singles, sample
 from mixedlub.diagnosis.inference.map_fit import Fit, map_fit
 from mixedlub.diagnosis.inference.nested_laws import published_gain, published_odds
-from mixedlub.diagnosis.inference.pairs import exchanged, promising_pairs
+from mixedlub.diagnosis.inference.pairs import promising_pairs
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.search import one_in_time
 
@@ -46,18 +46,6 @@ def test_two_effects_start_where_they_are_best_together() -> None:
     ]
     wanted = np.concatenate([second.z[j], first.z[i]])
     assert any(np.allclose(start[p.calibration_size :], wanted) for start in starts)
-
-
-def test_a_second_effect_that_took_the_place_of_another_is_exchanged() -> None:
-    """Readings made of one draw of each of two effects, one of them beside a third in the best pair so far."""
-    made, null_fit, draws, (i, _j) = made_of_two()
-    _p, first, _second = made, draws[0], draws[1]
-    start = np.concatenate([null_fit.z, first.z[i], draws[2].z[0]])
-    best = map_fit(made, Explanation.of("churning", "tip_relief"), start)
-    found = dict(exchanged(made, best, draws))
-    assert best.explanation not in found
-    pair = Explanation.of("boundary_film_temperature", "churning")
-    assert map_fit(made, pair, found[pair]).evidence > best.evidence + 20.0
 
 
 @pytest.mark.parametrize(("viscous", "gained"), [(0.0, (3.0, 8.0)), (0.55, (-np.log(2.0), -0.6))])

@@ -18,13 +18,10 @@ from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.assessment import (
     CHANCE_GAIN,
-    CLEARLY_LESS,
     LEAST_FOLDS,
     LEAST_MISMATCH,
     MOST_FOLDS,
-    MOST_OVERDISPERSION,
     MOST_PENALTY,
-    PREDICTED_SHARE,
     TOLERATED_SHARE,
     UNORDERED_FOLDS,
     WIDE_SPAN,
@@ -94,20 +91,6 @@ class HeldOut:
         gain = min(name.score - self.score, name.score - name.score_before)
         return float(np.clip(gain - CHANCE_GAIN, 0.0, MOST_PENALTY))
 
-    def dominated_by(self, name: HeldOut) -> bool:
-        """Whether effects predict nearly all of the mismatch on left-out levels, and this discrepancy clearly less.
-
-        A discrepancy that overfits cannot rule out such effects. Both are judged on inner levels, because beyond them
-        laws extrapolate and flexible forms do not.
-
-        >>> ripple, stribeck = (HeldOut(3.9, left, "", 8, 144, s, 0.0, 0.0) for left, s in ((3.7, 1.0), (1.6, 1.4)))
-        >>> ripple.dominated_by(stribeck), stribeck.dominated_by(ripple)
-        (True, False)
-        """
-        missing, unexplained = name.before**2 - 1.0, name.after**2 - 1.0
-        predicts_most = unexplained < (1.0 - PREDICTED_SHARE) * missing and name.overdispersion < MOST_OVERDISPERSION
-        return missing > LEAST_MISMATCH and predicts_most and unexplained < CLEARLY_LESS * (self.after**2 - 1.0)
-
 
 @dataclass(frozen=True, eq=False)
 class _Fold:
@@ -128,7 +111,6 @@ class LevelsOut:
     name: str
     folds: tuple[_Fold, ...]
     before: np.ndarray
-    inner: np.ndarray
     refitted: dict[Explanation, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
     """Residuals and prediction variance of the explanations that were tried."""
 
@@ -136,7 +118,7 @@ class LevelsOut:
     def of(cls, search: Search) -> LevelsOut:
         """Folds over the levels of the condition with most levels (up to 8)."""
         screened = search.full_screen
-        name, label, ordered = _folds(screened)
+        name, label = _folds(screened)
         folds, before = [], np.zeros(screened.problem.y.size)
         for k in range(int(label.max()) + 1):
             out = label == k
@@ -147,17 +129,15 @@ class LevelsOut:
             before[out] = (test.y - test.predict(NOTHING, null_fit.z)) / wide
             folds.append(_Fold(out, train, test, wide))
         used = np.isin(search.problem.rows["run"], screened.problem.rows["run"])
-        inner = (label > label.min()) & (label < label.max()) if ordered else np.ones(label.size, bool)
-        return cls(screened, used, name, tuple(folds), before, inner)
+        return cls(screened, used, name, tuple(folds), before)
 
-    def held(self, verdict: Explanation, outliers: np.ndarray, inner: bool = False) -> HeldOut:
-        """How an explanation predicts each level without it; ``inner``: only levels between others."""
+    def held(self, verdict: Explanation, outliers: np.ndarray) -> HeldOut:
+        """How an explanation predicts each level without it."""
         outliers = outliers[self.used]
         if verdict not in self.refitted:
             self.refitted[verdict] = self._refit(verdict)
         after, open_variance = self.refitted[verdict]
         used = ~outliers if not outliers.all() else np.ones(outliers.size, bool)
-        used = used & self.inner if inner and (used & self.inner).any() else used
         spread = np.sqrt(1.0 + open_variance)
         return HeldOut(
             float(np.sqrt(np.mean(self.before[used] ** 2))),
@@ -234,12 +214,12 @@ def _discrepancy_residuals(search: Search, forms: list[np.ndarray], out: np.ndar
     return mean, chance @ (np.array(variance) + (np.array(residuals) - mean) ** 2)
 
 
-def _folds(search: Search) -> tuple[str, np.ndarray, bool]:
-    """The condition with most levels, the level of every reading, and whether levels have an order.
+def _folds(search: Search) -> tuple[str, np.ndarray]:
+    """The condition with most levels, and the level of every reading.
 
     Conditions of a narrow span come last, because a noisy constant has levels too; of equal ones the widest is taken.
     """
-    best: tuple[bool, int, float, str, np.ndarray, bool] | None = None
+    best: tuple[bool, int, float, str, np.ndarray] | None = None
     for axis, values in zip(search.space.axes, search.values, strict=True):
         if axis.name in ("sequence", "composite_roughness_um"):
             continue
@@ -256,7 +236,7 @@ def _folds(search: Search) -> tuple[str, np.ndarray, bool]:
         wide = not is_constant(axis.name, values) if warm else span > WIDE_SPAN
         rank = bool(wide), count, span
         if count >= LEAST_FOLDS and (best is None or rank > best[:3]):
-            best = (*rank, axis.name, np.unique(label, return_inverse=True)[1], not axis.named)
+            best = (*rank, axis.name, np.unique(label, return_inverse=True)[1])
     if best is None:
-        return "", np.arange(search.problem.y.size) % min(UNORDERED_FOLDS, search.problem.y.size), False
-    return best[3:]
+        return "", np.arange(search.problem.y.size) % min(UNORDERED_FOLDS, search.problem.y.size)
+    return best[3], best[4]

@@ -11,7 +11,7 @@ from mixedlub.diagnosis.explanation import DISCREPANCY, Explanation
 from mixedlub.diagnosis.inference.change_points import change_point_coordinates
 from mixedlub.diagnosis.inference.map_fit import outlier_chance
 from mixedlub.diagnosis.search.search import Search
-from mixedlub.diagnosis.settings.assessment import MOST_PENALTY, TEST_MARGIN, VALIDATED
+from mixedlub.diagnosis.settings.assessment import VALIDATED
 from mixedlub.diagnosis.settings.inference import LIKELY
 
 
@@ -19,8 +19,8 @@ def judge(search: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
     """Posterior probabilities, with cross-validation of the verdict and of all that ties with it.
 
     When VALIDATED were tried, the others get the least penalty among those. The discrepancy is compared with the first
-    effects, and is hardly more probable where these clearly predict better. Where even the best of those tried is
-    overdispersed on left-out levels, the odds between effects are reduced.
+    effects. Where even the best of those tried is overdispersed on left-out levels, the odds between effects are
+    reduced.
     """
     levels = LevelsOut.of(search)
     names = sorted((key for key in search.scores if key.effects), key=lambda key: -search.log_weights[key])
@@ -40,27 +40,15 @@ def judge(search: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
         if names and DISCREPANCY in judged.tied and not discrepancy_penalty:
             if names[0] not in tried:
                 tried[names[0]] = _cross_validated(levels, search, names[0])
-            discrepancy_penalty = {DISCREPANCY: _discrepancy_penalty(levels, search, names[0], tried[names[0]][0])}
+            outliers = outlier_chance(search.discrepancy.fit.residual) > LIKELY
+            against = levels.held(DISCREPANCY, outliers).penalty_against(tried[names[0]][0])
+            discrepancy_penalty = {DISCREPANCY: against}
             continue
         fresh = [key for key in judged.tied if key not in tried and key.effects]
         if not fresh or len(tried) >= VALIDATED:
             key = judged.verdict
             return judged, (tried.get(key) or _cross_validated(levels, search, key))[0]
         tried[fresh[0]] = _cross_validated(levels, search, fresh[0])
-
-
-def _discrepancy_penalty(levels: LevelsOut, search: Search, name: Explanation, named: HeldOut) -> float:
-    """Penalty of the discrepancy in log odds against the most probable effects, by cross-validation.
-
-    Effects that clearly predict inner levels better are put just ahead of it.
-    """
-    outliers = outlier_chance(search.discrepancy.fit.residual) > LIKELY
-    penalty_against = levels.held(DISCREPANCY, outliers).penalty_against(named)
-    # Outliers of the effects alone count, so that they cannot drop what they do not explain.
-    if not levels.held(DISCREPANCY, outliers, inner=True).dominated_by(levels.held(name, outliers, inner=True)):
-        return penalty_against
-    lead = search.log_weights[DISCREPANCY] - search.log_weights[name] - np.log(TEST_MARGIN)
-    return max(penalty_against, float(np.clip(lead, 0.0, MOST_PENALTY)))
 
 
 def _cross_validated(levels: LevelsOut, search: Search, key: Explanation) -> tuple[HeldOut, float]:

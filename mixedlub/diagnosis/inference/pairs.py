@@ -11,7 +11,7 @@ from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.inference.initial_guesses import PriorDraws
 from mixedlub.diagnosis.inference.map_fit import Fit, bounded, covariance, whitening
 from mixedlub.diagnosis.problem import Problem
-from mixedlub.diagnosis.settings.inference import BOUNDED_PAIRS, EXCHANGED_PAIRS, JOINT_PAIRS, PAIR_LEADERS, PAIRS
+from mixedlub.diagnosis.settings.inference import BOUNDED_PAIRS, JOINT_PAIRS, PAIR_LEADERS, PAIRS
 
 
 def promising_pairs(
@@ -29,21 +29,6 @@ def promising_pairs(
         ranked = _ranked(_added_to(problem, leaders, weight, draws, write_off))
         starts.update([item for item in ranked if item[0] not in starts][:count])
     return [*starts.items(), *_ranked(_drawn_together(problem, null_fit, draws))[:JOINT_PAIRS]]
-
-
-def exchanged(problem: Problem, best: Fit, draws: tuple[PriorDraws, ...]) -> list[tuple[Explanation, np.ndarray]]:
-    """Pairs in which one of the ``best`` two effects keeps its fit, and a third effect replaces the other.
-
-    Where one effect leads by far its pairs fill the list, and the right pair may be missing from it.
-    """
-    calibration = problem.calibration_size
-    first, second = (Explanation.of(name) for name in best.explanation.effects)
-    split = problem.size(first)
-    parts = (best.z[:split], np.concatenate([best.z[:calibration], best.z[split:]]))
-    remaining = [best.at(problem, alone, z) for alone, z in zip((first, second), parts, strict=True)]
-    others = tuple(s for s in draws if s.id not in best.explanation.effects)
-    ranked = _ranked(_added_to(problem, remaining, [best.weight] * len(remaining), others, False))
-    return ranked[:EXCHANGED_PAIRS]
 
 
 def _ranked(scores: dict[Explanation, tuple[float, np.ndarray]]) -> list[tuple[Explanation, np.ndarray]]:

@@ -14,10 +14,9 @@ from mixedlub.diagnosis.inference.change_points import integrate_change_points
 from mixedlub.diagnosis.inference.initial_guesses import PriorDraws, fit_singles, sample
 from mixedlub.diagnosis.inference.map_fit import Fit, Linear, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.inference.nested_laws import published_gain
-from mixedlub.diagnosis.inference.pairs import exchanged, promising_pairs
+from mixedlub.diagnosis.inference.pairs import promising_pairs
 from mixedlub.diagnosis.problem import Problem, effects_of
 from mixedlub.diagnosis.settings.inference import (
-    EXCHANGE_ROUNDS,
     HOPELESS_BEHIND,
     OUTLIER_SHARE,
     SEED,
@@ -227,7 +226,6 @@ def _search(
         fit = map_fit(problem, pair, start, rival=max(f.evidence for f in fits.values()))
         if pair not in fits or fit.evidence > fits[pair].evidence:
             fits[pair] = fit
-    _exchange(problem, null_fit, fits, draws)
     fits = {m: integrate_change_points(problem, f) for m, f in fits.items() if shows(problem, f, fits)}
     scores = _scores(problem, fits, space, values)
     progress("weighing a discrepancy")
@@ -239,27 +237,11 @@ def _scores(
     problem: Problem, fits: Mapping[Explanation, Fit], space: Coordinates, values: list[np.ndarray]
 ) -> dict[Explanation, float]:
     """Evidence of every explanation with errors of form, and with published laws where it is near the best."""
-    scores = {
-        m: min(form_error_evidence(problem, stiff, f, space, values) for stiff in reference_fits(fits, m))
-        for m, f in fits.items()
-    }
+    scores = {m: form_error_evidence(problem, fits[NOTHING], f, space, values) for m, f in fits.items()}
     best = max(scores.values())
     return {
         m: s + (published_gain(problem, fits[m]) if s > best - PUBLISHED_WITHIN else 0.0) for m, s in scores.items()
     }
-
-
-def _exchange(problem: Problem, null_fit: Fit, fits: dict[Explanation, Fit], draws: tuple[PriorDraws, ...]) -> None:
-    """Exchange either effect of the best pair for others, until no pair is better; adds to the fits."""
-    for _ in range(EXCHANGE_ROUNDS):
-        best = max((f for m, f in fits.items() if len(m.effects) == 2), key=lambda f: f.evidence, default=None)
-        if best is None:
-            return
-        for pair, start in exchanged(problem, best, draws):
-            if pair not in fits and not one_in_time(pair, problem, null_fit):
-                fits[pair] = map_fit(problem, pair, start, rival=best.evidence)
-        if best.evidence >= max(f.evidence for m, f in fits.items() if len(m.effects) == 2):
-            return
 
 
 def one_in_time(pair: Explanation, problem: Problem, null_fit: Fit) -> bool:
@@ -302,15 +284,6 @@ def n_inexact(explanation: Explanation) -> int:
     """Number of effects whose form may be inexact: not those of an exact form, and none if one is descriptive."""
     effects = effects_of(explanation.effects)
     return 0 if any(e.descriptive for e in effects) else sum(not e.exact_form for e in effects)
-
-
-def reference_fits(fits: Mapping[Explanation, Fit], explanation: Explanation) -> tuple[Fit, ...]:
-    """Reference fits for the error of form: the base model, and the exact effects of the explanation alone.
-
-    The second keeps an effect without influence from changing the form of an exact one.
-    """
-    exact = Explanation(tuple(e.id for e in effects_of(explanation.effects) if e.exact_form))
-    return (fits[NOTHING], *([fits[exact]] if exact != NOTHING and exact in fits else []))
 
 
 def form_error_evidence(problem: Problem, stiff: Fit, fit: Fit, space: Coordinates, values: list[np.ndarray]) -> float:

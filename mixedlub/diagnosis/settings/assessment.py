@@ -45,12 +45,6 @@ LEAST_MISMATCH = 0.3
 CHANCE_GAIN = 5.0
 """Judgement. Gain in log probability of effects over the discrepancy, on left-out levels, that may be chance: odds
 of 150."""
-PREDICTED_SHARE = 0.8
-"""Judgement. Share of the mismatch on inner levels that effects must predict, or a discrepancy rules them out."""
-MOST_OVERDISPERSION = 2.0
-"""Judgement. Largest overdispersion of such a prediction: errors of 1.4 times those expected."""
-CLEARLY_LESS = 0.5
-"""Judgement. Share of the discrepancy's excess error below which effects clearly predict better: a half."""
 VALIDATED = 6
 """Cost limit. Explanations that are cross-validated; each costs as many fits as there are levels."""
 

@@ -126,10 +126,6 @@ BOUNDED_PAIRS = 8
 """Cost limit. Further pairs, by bounded weights that take no reading for an outlier."""
 JOINT_PAIRS = 10
 """Cost limit. Further pairs, by joint draws of both effects."""
-EXCHANGED_PAIRS = 6
-"""Cost limit. Pairs that are tried in one exchange of an effect of the best pair."""
-EXCHANGE_ROUNDS = 3
-"""Cost limit. Exchanges of an effect of the best pair."""
 
 # Reference evidence
 PROPOSAL_FREEDOM = 6.0
