@@ -12,7 +12,20 @@ import mixedlub
 HOME = Path(mixedlub.__file__).parent
 ROOMS = {
     "": (
-        *("version", "atomic", "discovery", "schema", "slots", "laws", "chain", "effects", "gear", "rig", "kinds"),
+        *(
+            "version",
+            "atomic",
+            "discovery",
+            "parallel",
+            "schema",
+            "slots",
+            "laws",
+            "chain",
+            "effects",
+            "gear",
+            "rig",
+            "kinds",
+        ),
         *("case", "recording", "data_checks", "study", "report", "diagnosis", "importers", "api", "validation"),
         *("commands", "cli", "__main__"),
     ),

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from mixedlub.diagnosis.explanation import Explanation
-from mixedlub.diagnosis.inference.map_fit import Fit, linear_fit, map_fit, map_fits
+from mixedlub.diagnosis.inference.map_fit import Fit, fit_best_first, linear_fit, map_fit, map_fits
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.settings.inference import (
     FINITE_STEP,
@@ -23,6 +24,7 @@ from mixedlub.diagnosis.settings.inference import (
     STRAINED_CALIBRATION,
     VISIBLE_FROM,
 )
+from mixedlub.parallel import shared_out
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,14 +115,15 @@ def spread(size: int, count: int) -> np.ndarray:
 
 
 def fit_singles(problem: Problem, null_fit: Fit, draws: Sequence[PriorDraws]) -> dict[Explanation, Fit]:
-    """The fit of each effect alone; the most promising are fitted first, and are the rivals of the others."""
-    guesses = {s.id: initial_guesses(problem, null_fit, s) for s in draws}
-    fits: dict[str, Fit] = {}
-    rival = null_fit.evidence
-    for name in sorted(guesses, key=lambda name: -guesses[name][0]):
-        fits[name] = fit_single(problem, null_fit, name, guesses[name][1], rival)
-        rival = max(rival, fits[name].evidence)
-    return {Explanation.of(s.id): fits[s.id] for s in draws}
+    """The fit of each effect alone, the most promising first."""
+    guesses = dict(zip(draws, shared_out(partial(initial_guesses, problem, null_fit), draws), strict=True))
+    order = sorted(draws, key=lambda s: -guesses[s][0])
+
+    def fit(s: PriorDraws, rival: float) -> Fit:
+        return fit_single(problem, null_fit, s.id, guesses[s][1], rival)
+
+    fits = dict(zip(order, fit_best_first(fit, order, null_fit.evidence), strict=True))
+    return {Explanation.of(s.id): fits[s] for s in draws}
 
 
 def initial_guesses(problem: Problem, null_fit: Fit, draws: PriorDraws) -> tuple[float, list[np.ndarray]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from mixedlub.diagnosis.settings.inference import (
     DAMPING_TRIALS,
     EVIDENCE_BOUND_FACTOR,
     FIT_TOLERANCE,
+    FITTED_FIRST,
     GAUSS_NEWTON_STEPS,
     HOPELESS_BEHIND,
     HUBER_BOUND,
@@ -35,6 +37,9 @@ from mixedlub.diagnosis.settings.inference import (
     STEPS_BEFORE_GIVING_UP,
     WEIGHTS_CONVERGED,
 )
+from mixedlub.parallel import shared_out
+
+Item = TypeVar("Item")
 
 _LOG_IN = np.log1p(-OUTLIER_SHARE)
 _LOG_OUT = np.log(OUTLIER_SHARE / OUTLIER_WIDTH * np.sqrt(2.0 / np.pi))
@@ -196,6 +201,16 @@ def map_fits(
             places.append(state.z)
             found.append(_laplace_fit(problem, explanation, state, rival))
     return found
+
+
+def fit_best_first(fit: Callable[[Item, float], Fit], items: Sequence[Item], rival: float) -> list[Fit]:
+    """Fits of items in order of promise: the best of the first few is the rival of the others.
+
+    ``fit`` takes an item and the evidence of the rival. The result does not depend on the number of processors.
+    """
+    first = shared_out(lambda item: fit(item, rival), items[:FITTED_FIRST])
+    best = max([rival, *(one.evidence for one in first)])
+    return first + shared_out(lambda item: fit(item, best), items[FITTED_FIRST:])
 
 
 def _initial_state(problem: Problem, explanation: Explanation, start: np.ndarray) -> _State:

@@ -16,6 +16,7 @@ from mixedlub.diagnosis.report.text import words
 from mixedlub.diagnosis.report.text.answer import as_json, predictions
 from mixedlub.diagnosis.search.search import Progress
 from mixedlub.diagnosis.settings.assessment import FALSE_ALARM_RATE
+from mixedlub.parallel import shared_out
 
 XML = '<?xml version="1.0" encoding="utf-8" standalone="no"?>\n'
 
@@ -47,7 +48,8 @@ def files(d: Diagnosis) -> dict[str, str | bytes]:
 
     extra = _described(d)
     parts = words.sections(d, extra)
-    drawings = {name: as_drawn(figure) for name, figure in figures.all_figures(d, extra).items()}
+    drawn = figures.all_figures(d, extra)
+    drawings = dict(zip(drawn, shared_out(as_drawn, list(drawn.values())), strict=True))
     return {
         "diagnosis.json": json.dumps({**as_json(d), **_discrepancy_record(extra)}, indent=1, ensure_ascii=False) + "\n",
         "predictions.csv": predictions(d).to_csv(index=False, float_format="%.9g", lineterminator="\n"),

@@ -12,7 +12,7 @@ from mixedlub.diagnosis.discrepancy.model import Discrepancy, fit_discrepancy
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.change_points import integrate_change_points
 from mixedlub.diagnosis.inference.initial_guesses import PriorDraws, fit_singles, sample
-from mixedlub.diagnosis.inference.map_fit import Fit, Linear, linear_fit, log_likelihood, map_fit
+from mixedlub.diagnosis.inference.map_fit import Fit, Linear, fit_best_first, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.inference.nested_laws import published_gain
 from mixedlub.diagnosis.inference.pairs import promising_pairs
 from mixedlub.diagnosis.problem import Problem, effects_of
@@ -42,6 +42,7 @@ from mixedlub.diagnosis.settings.search import (
     SIGNED_FORM_ERROR_LENGTH,
     SUBSET,
 )
+from mixedlub.parallel import shared_out
 from mixedlub.recording.conditions import Coordinates
 
 CLOCKS = {"time", "sequence", "ageing"}
@@ -220,12 +221,9 @@ def _search(
             draws = tuple(replace(s, change=s.change * (old / problem.sd)) for s in draws)
     fits: dict[Explanation, Fit] = {NOTHING: null_fit, **singles}
     progress("trying pairs of effects")
-    for pair, start in promising_pairs(problem, null_fit, singles, draws):
-        if one_in_time(pair, problem, null_fit):
-            continue
-        fit = map_fit(problem, pair, start, rival=max(f.evidence for f in fits.values()))
-        if pair not in fits or fit.evidence > fits[pair].evidence:
-            fits[pair] = fit
+    for fit in _fit_pairs(problem, null_fit, singles, draws):
+        if fit.explanation not in fits or fit.evidence > fits[fit.explanation].evidence:
+            fits[fit.explanation] = fit
     fits = {m: integrate_change_points(problem, f) for m, f in fits.items() if shows(problem, f, fits)}
     scores = _scores(problem, fits, space, values)
     progress("weighing a discrepancy")
@@ -239,9 +237,22 @@ def _scores(
     """Evidence of every explanation with errors of form, and with published laws where it is near the best."""
     scores = {m: form_error_evidence(problem, fits[NOTHING], f, space, values) for m, f in fits.items()}
     best = max(scores.values())
-    return {
-        m: s + (published_gain(problem, fits[m]) if s > best - PUBLISHED_WITHIN else 0.0) for m, s in scores.items()
-    }
+    near = [m for m, s in scores.items() if s > best - PUBLISHED_WITHIN]
+    gains = shared_out(lambda m: published_gain(problem, fits[m]), near)
+    return {**scores, **{m: scores[m] + gain for m, gain in zip(near, gains, strict=True)}}
+
+
+def _fit_pairs(
+    problem: Problem, null_fit: Fit, singles: dict[Explanation, Fit], draws: tuple[PriorDraws, ...]
+) -> list[Fit]:
+    """Fits of the promising pairs of effects that time alone does not confuse."""
+
+    def fit(pair: tuple[Explanation, np.ndarray], rival: float) -> Fit:
+        return map_fit(problem, *pair, rival=rival)
+
+    every = promising_pairs(problem, null_fit, singles, draws)
+    pairs = [pair for pair in every if not one_in_time(pair[0], problem, null_fit)]
+    return fit_best_first(fit, pairs, max([null_fit.evidence, *(f.evidence for f in singles.values())]))
 
 
 def one_in_time(pair: Explanation, problem: Problem, null_fit: Fit) -> bool:

@@ -88,6 +88,8 @@ STARTS_APART = 1.2
 """Judgement. Least distance of two starts in prior standard deviations: nearer ones rarely lead elsewhere."""
 STARTS = 3
 """Cost limit. Starts of a fit."""
+FITTED_FIRST = 4
+"""Cost limit. Most promising fits from which the rival of the others is taken."""
 SCANNED_TO = 3.0
 """Judgement. Largest coordinate of a scan in prior standard deviations: 99.7 % of the prior."""
 VISIBLE_FROM = 1.0
