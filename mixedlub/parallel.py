@@ -6,6 +6,7 @@ import multiprocessing
 import os
 import sys
 from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from typing import Any, TypeVar
 
 Item = TypeVar("Item")
@@ -25,8 +26,9 @@ def shared_out(function: Callable[[Item], Result], items: Sequence[Item]) -> lis
     count = min(len(items), len(os.sched_getaffinity(0)) if sys.platform == "linux" else 1)
     if count < 2 or multiprocessing.parent_process() is not None:
         return [function(item) for item in items]
-    with multiprocessing.get_context("fork").Pool(count, _take, (function, items)) as pool:
-        return pool.map(_one, range(len(items)), chunksize=1)
+    fork = multiprocessing.get_context("fork")
+    with ProcessPoolExecutor(count, fork, initializer=_take, initargs=(function, items)) as pool:
+        return list(pool.map(_one, range(len(items))))
 
 
 def _take(function: Callable[[Any], Any], items: Sequence[Any]) -> None:

@@ -2,6 +2,7 @@
 
 import multiprocessing
 import os
+from concurrent.futures.process import BrokenProcessPool
 
 import pytest
 
@@ -24,11 +25,12 @@ def test_an_error_of_one_item_is_raised(monkeypatch: pytest.MonkeyPatch) -> None
         shared_out(lambda item: 1 // item, [1, 0, 2])
 
 
-def test_a_process_that_is_one_of_several_works_in_turn() -> None:
-    with multiprocessing.get_context("spawn").Pool(1) as pool:
-        process, workers = pool.apply(_within)
-    assert workers == {process}
+def test_a_process_that_is_one_of_several_works_in_turn(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(parallel.multiprocessing, "parent_process", lambda: "the first process")
+    assert set(shared_out(lambda item: os.getpid(), range(4))) == {os.getpid()}
 
 
-def _within() -> tuple[int, set[int]]:
-    return os.getpid(), set(shared_out(lambda item: os.getpid(), range(4)))
+def test_a_process_that_dies_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(parallel.os, "sched_getaffinity", lambda process: {0, 1}, raising=False)
+    with pytest.raises(BrokenProcessPool):
+        shared_out(lambda item: os._exit(1), range(4))
