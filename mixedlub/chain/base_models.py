@@ -48,7 +48,9 @@ POINT: Chain = (
 GEAR_CONTACT: Chain = (("line_load", load.gear_line_load), *LINE)
 GEAR_LOSS: Chain = (
     *GEAR_CONTACT,
+    ("sliding_power", loss.sliding_power),
     ("mesh_loss", loss.mesh_loss),
+    ("mean_friction", loss.mean_friction),
     ("rolling_loss", loss.rolling_loss),
     ("power_loss", loss.power_loss),
 )

@@ -104,7 +104,9 @@ nominal_loss            | P_n        | W       | power lost as the base model ha
 rolling_force           | f_r        | N/m     | tangential force per length on each body that resists rolling
 rolling_loss            | P_r        | W       | rolling power lost in the mesh, mean over a mesh cycle
 tangential_friction     | mu_t       | -       | tangential force on a body over the load, rolling included
+sliding_power           | F v_s      | W       | load times sliding speed at a point of the path, times its weight
 mesh_loss               | P_m        | W       | sliding power lost in the mesh, mean over a mesh cycle
+mean_friction           | mu_m       | -       | mesh loss over load times sliding speed along the path
 friction_torque         | T_f        | N m     | friction torque of a drive, or its friction coefficient
 coulomb_torque          | T_c        | N m     | dry friction torque of a drive, the same in both directions
 viscous_torque          | T_v        | N m     | friction torque that grows with speed, at the reference speed

@@ -24,7 +24,17 @@ from mixedlub.laws.loss import over_path
 from mixedlub.study.cluster import on_cluster
 from mixedlub.study.plan import Plan
 
-OUTPUTS = ("power_loss", "mean_friction", "area_ratio", "film_thickness", "film_parameter", "composite_roughness")
+OUTPUTS = (
+    "power_loss",
+    "mean_friction",
+    "area_ratio",
+    "film_thickness",
+    "film_parameter",
+    "composite_roughness",
+    "mesh_loss",
+    "rolling_loss",
+    "other_loss",
+)
 CHECKS = ("asperity_load_ratio", "largest_area_ratio")
 
 PIECE_POINTS = 80_000
@@ -136,7 +146,6 @@ def _taken(inputs: Inputs, ranges: Sequence[slice]) -> dict[str, Any]:
 def _reduced(state: Inputs) -> Found:
     """Results of a piece with the mesh axis reduced to one; checks are made where the film is thinnest."""
     film, area, weight = state["film_thickness"], state["area_ratio"], state["mean_weight"]
-    power = state["load_share"] * state["transmitted_force"] * state["sliding_speed"]
     mean_film = over_path(film, weight)
     thinnest = np.where(weight > 0, film, np.inf).argmin(axis=-1, keepdims=True)
 
@@ -147,7 +156,10 @@ def _reduced(state: Inputs) -> Found:
     carried = asperity_pressure(there(state["separation"]), *summits, state["reduced_modulus"])
     return {
         "power_loss": state["power_loss"],
-        "mean_friction": state["power_loss"] / over_path(power, state["path_weight"]),
+        "mesh_loss": state["mesh_loss"],
+        "rolling_loss": state["rolling_loss"],
+        "other_loss": state["power_loss"] - (state["mesh_loss"] + state["rolling_loss"]),
+        "mean_friction": state["mean_friction"],
         "area_ratio": over_path(area, weight),
         "film_thickness": mean_film,
         "film_parameter": mean_film / state["composite_roughness"],

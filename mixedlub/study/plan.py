@@ -29,6 +29,9 @@ from profiles.errors import InputError, nearest
 
 WANTED = (
     "power_loss",
+    "mesh_loss",
+    "rolling_loss",
+    "mean_friction",
     "area_ratio",
     "film_thickness",
     "composite_roughness",

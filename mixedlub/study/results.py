@@ -32,16 +32,23 @@ COLUMNS = {
     "film_thickness": ("film_thickness_um", 1e6),
     "film_parameter": ("film_parameter", 1.0),
     "composite_roughness": ("composite_roughness_um", 1e6),
+    "mesh_loss": ("mesh_loss_W", 1.0),
+    "rolling_loss": ("rolling_loss_W", 1.0),
+    "other_loss": ("other_loss_W", 1.0),
 }
 """Column of each output, and the factor from SI to its unit."""
 
 DEFINITIONS = {
     "power_loss": "total power loss, mean over a mesh cycle: the mesh and every loss that is switched on as an effect",
-    "mean_friction": "power loss over the path integral of load times sliding speed",
+    "mean_friction": "sliding loss of the mesh over the path integral of load times sliding speed; with "
+    'averaging = "paper", the plain mean of friction over the path',
     "area_ratio": "boundary area ratio, plain mean over the path of contact as far as it carries load",
     "film_thickness": "film thickness, plain mean over the path of contact as far as it carries load",
     "film_parameter": "mean film thickness over composite roughness",
     "composite_roughness": GLOSSARY["composite_roughness"].meaning,
+    "mesh_loss": GLOSSARY["mesh_loss"].meaning,
+    "rolling_loss": GLOSSARY["rolling_loss"].meaning,
+    "other_loss": "power lost outside the mesh by effects that are switched on: bearings, seals, churning, windage",
     "asperity_load_ratio": "pressure elastic asperities would carry over mean Hertz pressure, thinnest film",
     "largest_area_ratio": "boundary area ratio at the thinnest film of the path",
 }
