@@ -33,8 +33,8 @@ def averaged_sliding_power(
 ) -> np.ndarray:
     r"""Force at the base circle times mean sliding speed, spread evenly over the path (W).
 
-    The mesh loss is then :math:`P = \hat\mu\, \hat V_s\, F_m`: the plain mean of friction over the path, a quarter of the
-    sum of the sliding speeds at its two ends, and the force at the base circle.
+    The mesh loss is then :math:`P = \hat\mu\, \hat V_s\, F_m`: the plain mean of friction over the path, a quarter of
+    the sum of the sliding speeds at its two ends, and the force at the base circle.
     Source: Hong, Aneshansley, Talbot, Gear Technology, eq. 3 and 4.
 
     >>> averaged_sliding_power(np.array([0.25, 0.5, 0.25]), 2.0, 1000.0).tolist()

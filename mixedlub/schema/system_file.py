@@ -64,6 +64,17 @@ class LoadSharing(_SharingKeys):
             raise ValueError(f"needs either {', '.join(keys)}, or model = {names}; not both")
         return self
 
+    @model_validator(mode="after")
+    def _keys_of_the_model(self) -> LoadSharing:
+        """Refuse a modification that the chosen model would ignore; one of zero changes nothing."""
+        for name in self.model_fields_set - self.chosen.keys.model_fields.keys() - {"model"}:
+            if getattr(self, name) != type(self).model_fields[name].default:
+                takers = " or ".join(f'"{one.name}"' for one in SHARING if name in one.keys.model_fields)
+                raise ValueError(
+                    f"{name} acts only with model = {takers}; with {self.chosen.meaning} leave it out or give 0"
+                )
+        return self
+
 
 class Gears(Section):
     teeth: tuple[Whole, Whole] = key("numbers of teeth, pinion (driving) and gear", example=[17, 26])

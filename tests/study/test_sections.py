@@ -40,6 +40,18 @@ WRONG = {
     "unknown option": ({"options__film": "hamrock"}, "film"),
     "unknown effect": ({"effects__starvatoin": {}}, "starvatoin"),
     "unknown effect parameter": ({"effects__inlet_shear_heating": {"stength": 1.0}}, "'strength'"),
+    "relief of rigid teeth": (
+        {"gears__load_sharing": {"model": "rigid", "tip_relief_um": [20, 20], "relief_length_mm": [2, 2]}},
+        'model = "ldp"',
+    ),
+    "crown of rigid teeth": (
+        {"gears__load_sharing": {"model": "rigid", "lead_crown_um": 5}},
+        "lead_crown_um acts only",
+    ),
+    "misalignment beside a share table": (
+        {"gears__load_sharing": {"table": "share.csv", "misalignment_um": 5}},
+        "misalignment_um acts only",
+    ),
     "wrong schema": ({"schema": "mixedlub-case/1"}, "schema"),
 }
 
@@ -107,3 +119,8 @@ def test_an_input_that_is_not_finite_is_told_with_its_level(write_study):
     )
     with pytest.raises(InputError, match=r"cold\.toml: conditions: oil_temperature_C -60: .*no finite viscosity"):
         read_study(path)
+
+
+def test_a_modification_of_zero_is_accepted_by_every_sharing(write_study):
+    sharing = {"model": "rigid", "lead_crown_um": 0, "tip_relief_um": [0, 0]}
+    assert read_study(write_study(gears__load_sharing=sharing)).file.gears.load_sharing.model == "rigid"
