@@ -100,15 +100,6 @@ def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (
     )
 
 
-def _trace(named: str, folder: Path, key: str) -> Profile:
-    """A shipped trace, or one from a file relative to the folder."""
-    from profiles.read import read
-
-    if not named.startswith(SHIPPED_MARK):
-        return read(named_file(folder, named, key))
-    return shipped_trace(named, key)
-
-
 def shipped_trace(named: str, key: str) -> Profile:
     """A trace that comes with the package, by its name behind the mark; ``key`` is where it is named."""
     wanted = named.removeprefix(SHIPPED_MARK)
@@ -119,8 +110,17 @@ def shipped_trace(named: str, key: str) -> Profile:
 
 def trace(name: str, section: system_file.SurfaceSection, folder: Path) -> Profile:
     """The trace that a surface names; what is wrong with it is said with the surface's name."""
+    from profiles.read import read
+
+    named, place = section.profile or "", f"surfaces.{name}"
     with _of_surface(name):
-        return _trace(section.profile or "", folder, f"surfaces.{name}.profile")
+        if not named.startswith(SHIPPED_MARK):
+            return read(named_file(folder, named, f"{place}.profile"), unit=section.unit, spacing=section.spacing)
+        for key in ("unit", "spacing"):
+            if getattr(section, key) is not None:
+                rule = "a shipped trace has its own; leave it out"
+                raise InputError(rule, where=f"{place}.{key}", value=getattr(section, key))
+        return shipped_trace(named, f"{place}.profile")
 
 
 @contextmanager
@@ -131,47 +131,45 @@ def _of_surface(name: str) -> Iterator[None]:
     except InputError as error:
         if error.where.startswith("surfaces."):
             raise
-        raise InputError(error.rule, where=f"surfaces.{name}: {error.where}", value=error.value) from None
+        rule = error.rule.replace("as unit '", "as unit = '").replace("as spacing '", "as spacing = '")
+        place = f"surfaces.{name}{'.' if error.where in ('unit', 'spacing') else ': '}{error.where}"
+        raise InputError(rule, where=place, value=error.value) from None
 
 
 def flank_profile(name: str, section: system_file.SurfaceSection, trace: Profile) -> Profile:
     """The roughness profile of a trace, prepared as `mixedlub profile` does.
 
-    Cut-offs are those of the section; without any, a profile that its file says is filtered stays as it is.
-    A short cut-off of fewer than two points is left out, as the trace does not show such waves.
+    Cut-offs that the section leaves out are those that the file says it was filtered with, else by ISO 4288 and ISO
+    3274. A short cut-off of fewer than two points is left out, as the trace does not show such waves.
     """
-    with _of_surface(name):
-        return _prepared(name, section, trace)
-
-
-def _prepared(name: str, section: system_file.SurfaceSection, trace: Profile) -> Profile:
     from roughness import evaluation_profile
 
-    if "cutoff" in trace.cutoffs and section.cutoff_mm is None and section.short_cutoff_um is None:
-        return evaluation_profile(trace, form=section.form or "line", edges=section.edges, outliers=section.outliers)
-    band = {
-        "cutoff_mm": section.cutoff_mm or system_file.CUTOFF_MM,
-        "short_cutoff_um": section.short_cutoff_um or system_file.SHORT_CUTOFF_UM,
-    }
-    assumed = [f"{key} = {value:g}" for key, value in band.items() if getattr(section, key) is None]
+    short = None if section.short_cutoff_um is None else section.short_cutoff_um * 1e-6
+    too_fine = short is not None and short < 2.0 * trace.spacing
+    with _of_surface(name):
+        profile = evaluation_profile(
+            trace,
+            form=section.form or "line",
+            cutoff="auto" if section.cutoff_mm is None else section.cutoff_mm * 1e-3,
+            short_cutoff=None if too_fine else short or "auto",
+            edges=section.edges,
+            outliers=section.outliers,
+        )
+    used = {"cutoff_mm": ("cutoff", 1e3, "ISO 4288"), "short_cutoff_um": ("short_cutoff", 1e6, "ISO 3274")}
+    assumed = [
+        f"{key} = {profile.cutoffs[cutoff] * factor:.4g} ({rule})"
+        for key, (cutoff, factor, rule) in used.items()
+        if getattr(section, key) is None and profile.cutoffs.get(cutoff) != trace.cutoffs.get(cutoff)
+    ]
     if assumed:
         report(finding("cutoff_assumed", f"{', '.join(assumed)} assumed", f"surfaces.{name}"))
-    short: float | None = band["short_cutoff_um"] * 1e-6
-    if band["short_cutoff_um"] * 1e-6 < 2.0 * trace.spacing:
-        short = None
+    if "short_cutoff" not in profile.cutoffs and "cutoff" not in trace.cutoffs:
         text = (
-            f"short cut-off not applied: the spacing of the trace, {trace.spacing * 1e6:.3g} um, is too coarse for "
-            f"{band['short_cutoff_um']:g} um, so slope and curvature are those of the spacing"
+            f"short cut-off not applied: the spacing of the trace, {trace.spacing * 1e6:.3g} um, is too coarse, so "
+            "slope and curvature are those of the spacing"
         )
         report(finding("short_cutoff_skipped", text, f"surfaces.{name}"))
-    return evaluation_profile(
-        trace,
-        form=section.form or "line",
-        cutoff=band["cutoff_mm"] * 1e-3,
-        short_cutoff=short,
-        edges=section.edges,
-        outliers=section.outliers,
-    )
+    return profile
 
 
 def _moments(name: str, trace: Profile, profile: Profile) -> Moments:

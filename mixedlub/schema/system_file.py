@@ -23,9 +23,6 @@ def _known_quantity(name: str) -> str:
 KINDS = ("mixedlub.kinds", "mixedlub.kinds", "KIND")
 """Module that declares the kinds of recording; imported only when a file is read, since it imports this one."""
 Pair = tuple[Number, Number]
-CUTOFF_MM, SHORT_CUTOFF_UM = 0.8, 2.5
-"""Default cut-offs of a trace: ISO 4288 for Ra of 0.1 to 2 um, typical of ground flanks, and ISO 3274."""
-
 
 SHARING: tuple[Any, ...] = declared("mixedlub.gear.sharing", "mixedlub.load_sharing", "MODEL")
 """Load-sharing models, each with its name, meaning and keys."""
@@ -153,11 +150,18 @@ class SurfaceSection(Section):
         example="profiles/ground.csv",
         alternative=True,
     )
-    cutoff_mm: Number | None = key(
-        f"long cut-off of a trace; left out: {CUTOFF_MM}, or its own", None, example=CUTOFF_MM
+    unit: str | None = key(
+        "unit of a trace of plain numbers, as um or 'mm, um' (place, height); left out: as its file says",
+        None,
+        example="mm, um",
+        alternative=True,
     )
+    spacing: str | None = key(
+        "step of a trace, as '0.5 um'; left out: as its file says", None, example="0.5 um", alternative=True
+    )
+    cutoff_mm: Number | None = key("long cut-off of a trace; left out: its own, or by ISO 4288", None, example=0.8)
     short_cutoff_um: Number | None = key(
-        f"short cut-off of a trace; left out: {SHORT_CUTOFF_UM}, or its own", None, example=SHORT_CUTOFF_UM
+        "short cut-off of a trace; left out: its own, or by ISO 3274", None, example=2.5
     )
     form: str | None = key(
         "form taken off a trace: line (left out), none, mean, circle, polynomial-N, involute-MM", None, example="line"
@@ -178,6 +182,8 @@ class SurfaceSection(Section):
             raise ValueError("needs m0_um2, m2 and m4_per_um2, or a profile")
         if self.profile is not None and any(m is not None for m in moments):
             raise ValueError("has both moments and a profile; give one of them")
+        if self.profile is None and (self.unit or self.spacing) is not None:
+            raise ValueError("unit and spacing belong to a profile, which is not given")
         return self
 
 
