@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mixedlub.chain.model import Chain
-from mixedlub.laws import contact, film, heating, load, loss, mixture, oil, shear
+from mixedlub.laws import contact, drag, film, heating, load, loss, mixture, oil, shear
 from roughness.mccool import plane_offset, summit_density, summit_radius, summit_sigma
 
 ASPERITIES: Chain = (
@@ -53,4 +53,5 @@ GEAR_LOSS: Chain = (
     ("mean_friction", loss.mean_friction),
     ("rolling_loss", loss.rolling_loss),
     ("power_loss", loss.power_loss),
+    ("bath_acceleration", drag.bath_acceleration),
 )

@@ -141,6 +141,7 @@ pinion_teeth            | z_1        | -       | teeth of the pinion
 gear_teeth              | z_2        | -       | teeth of the gear
 contact_ratio           | epsilon_alpha | -       | length of the path of contact over the base pitch
 # one wheel, shaft or seal of a gearbox
+bath_acceleration       | gamma      | m/s^2   | centrifugal acceleration of the oil that clings to the gear
 wheel_radius            | r          | m       | operating pitch radius of one wheel
 wheel_speed             | omega      | rad/s   | angular speed of one wheel and its shaft
 wheel_teeth             | z          | -       | teeth of one wheel

@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 
 from mixedlub.chain.effect import Effect
-from mixedlub.chain.model import Model
+from mixedlub.chain.model import Law, Model, Parameters
 from mixedlub.effects import find, known_effects
 from mixedlub.gear import GearPair, Mesh
 from mixedlub.gear.inputs import motion_inputs
+from mixedlub.laws.contact import asperity_pressure
 from mixedlub.laws.load import LEAST_SHARE
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.lubricant import Lubricant
@@ -23,7 +24,7 @@ from mixedlub.rig.rig import Rig
 from mixedlub.rig.surface import Surface, paired
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, report
-from mixedlub.study.options import study_chain
+from mixedlub.study.options import at_hardness, study_chain
 from mixedlub.study.schema import Options, Pairings, StudyFile
 from profiles.errors import InputError, nearest
 
@@ -42,8 +43,6 @@ WANTED = (
     "summit_sigma",
 )
 
-Parameters = Mapping[str, Mapping[str, float]]
-
 
 @dataclass(frozen=True, eq=False)
 class Plan:
@@ -60,10 +59,21 @@ class Plan:
     shape: tuple[int, int, int, int]
     points: int
 
+    @property
+    def effects(self) -> tuple[Effect, ...]:
+        """The active effects."""
+        return find(sorted(self.parameters)) if self.parameters else ()
+
     def model(self) -> Model:
         """The chain of the chosen options with the active effects."""
-        effects = find(sorted(self.parameters)) if self.parameters else ()
-        return Model(study_chain(self.options), tuple(self.inputs), WANTED, effects)
+        wanted = dict.fromkeys((*WANTED, *(name for e in self.effects for name in e.valid)))
+        return Model(study_chain(self.options), tuple(self.inputs), tuple(wanted), self.effects)
+
+    @property
+    def asperities(self) -> Law:
+        """Law of the pressure that asperities would carry: yielding ones where plasticity is on."""
+        plastic = self.parameters.get("asperity_plasticity")
+        return at_hardness(**plastic) if plastic else asperity_pressure
 
 
 @dataclass(frozen=True, eq=False)

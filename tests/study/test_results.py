@@ -25,6 +25,9 @@ HEADER = [
     "mesh_loss_W",
     "rolling_loss_W",
     "other_loss_W",
+    "hertz_pressure_MPa",
+    "asperity_load_ratio",
+    "validity",
 ]
 
 
@@ -50,7 +53,8 @@ def test_csv_and_parquet_hold_the_same_numbers(results, tmp_path):
     assert table.column_names == HEADER
     with (tmp_path / "r.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
-    for name in HEADER[2:]:
+    assert [row["validity"] for row in rows] == table["validity"].to_pylist()
+    for name in HEADER[2:-1]:
         assert np.array_equal([float(row[name]) for row in rows], table[name].to_numpy())
     for name in HEADER[:2]:
         assert [row[name] for row in rows] == table[name].to_pylist()
