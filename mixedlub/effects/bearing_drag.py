@@ -22,6 +22,7 @@ _LEAST_LOAD = 0.1
             "factor on the torque, for bearing size and design",
             null=0.0,
             symbol="c",
+            nominal=1.0,
         ),
         Parameter(
             "loaded",

@@ -253,8 +253,8 @@ class System(RigFile):
     uncertainty: Uncertainty = key("one standard deviation of what calibration may move; 0: known", Uncertainty())
     recording: Recording = key("what was read, and how well")
     effects: dict[str, dict[str, NumberOrName]] = key(
-        "EFFECT = { PARAMETER = VALUE }: physics that the rig is known to have, part of the base model; parameters "
-        "left out: median of their prior; PARAMETER_sd: its standard deviation; law = NAME: those of a published law",
+        "EFFECT = { PARAMETER = VALUE }: physics that the rig is known to have, part of the base model; law = NAME: "
+        "a published law; parameters left out: as the first published law has them; PARAMETER_sd: standard deviation",
         {},
         example={"sensor_gain": {"gain": 0.01, "gain_sd": 0.005}},
     )

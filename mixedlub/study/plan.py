@@ -12,7 +12,7 @@ import numpy as np
 
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Law, Model, Parameters
-from mixedlub.effects import find, known_effects
+from mixedlub.effects import LAW, find, known_effects
 from mixedlub.gear import GearPair, Mesh
 from mixedlub.gear.inputs import motion_inputs
 from mixedlub.laws.contact import asperity_pressure
@@ -213,8 +213,22 @@ def _pairing_inputs(pairs: list[tuple[Surface, Surface]]) -> dict[str, np.ndarra
 
 
 def _effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, ...], Parameters]:
-    """The active effects, each parameter at its given value or the median of its prior."""
+    """The active effects, each parameter at its given value or as its law has it."""
     known = known_effects(file.effects, "gear_pair", study_chain(file.options), tuple(inputs), "power_loss")
     for effect, name in known.sds:
         raise InputError("a study has no uncertainty; leave it out", where=f"effects.{effect}.{name}_sd")
+    for e in known.effects:
+        _tell_defaults(e, file.effects[e.id], known.values[e.id])
     return known.effects, known.values
+
+
+def _tell_defaults(e: Effect, given: Mapping[str, float | str], values: Mapping[str, float]) -> None:
+    """Report the law that was taken where none is named, and an effect that nothing switches on."""
+    taken, *others = e.laws_within_reach or ("",)
+    if others and LAW not in given and not given.keys() >= e.laws_within_reach[taken].keys():
+        text = f"taken as the law of {taken}; law = NAME chooses {' or '.join(others)}"
+        report(finding("effect_law_assumed", text, f"effects.{e.id}"))
+    switches = {p.name: p.null for p in e.parameters if p.null is not None}
+    if switches and all(values[name] == null for name, null in switches.items()) and not switches.keys() & given.keys():
+        text = f"changes nothing: a value for {' or '.join(switches)} switches it on"
+        report(finding("effect_off", text, f"effects.{e.id}"))

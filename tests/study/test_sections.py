@@ -52,6 +52,11 @@ WRONG = {
         {"gears__load_sharing": {"table": "share.csv", "misalignment_um": 5}},
         "misalignment_um acts only",
     ),
+    "unknown law of an effect": ({"effects__churning": {"law": "Changenet"}}, "Changenet and Velex"),
+    "law of an effect with one": ({"effects__film_heating": {"law": "Archard"}}, "film_heating"),
+    "law against a number": ({"effects__churning": {"law": "Boness, laminar", "viscous": 0.5}}, "churning.viscous"),
+    "number that is a name": ({"effects__churning": {"strength": "one"}}, "churning.strength"),
+    "number that is none": ({"effects__churning": {"strength": True}}, "churning.strength"),
     "wrong schema": ({"schema": "mixedlub-case/1"}, "schema"),
 }
 
