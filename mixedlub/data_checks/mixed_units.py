@@ -175,7 +175,7 @@ def teeth_too_hard_pressed(case: Case, rows: Table, forward: Forward) -> list[Fi
 
 def _yielding(where: str, pressure: float, modulus: float, cause: str) -> list[Finding]:
     """A finding where hard bodies of this reduced modulus (Pa) would yield at this pressure (Pa)."""
-    if not yields(pressure, modulus):
+    if not yields(np.array(pressure), modulus):
         return []
     text = (
         f"the Hertz pressure would be {1e-9 * pressure:.3g} GPa, where hard bodies yield below "

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mixedlub.gear import GearPair, Sharing
-from mixedlub.laws.oil import ZERO_CELSIUS
+from mixedlub.laws.oil import ZERO_CELSIUS, gold_pressure_viscosity
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.surface import Surface
 from mixedlub.schema import system_file
@@ -62,6 +62,14 @@ def named_bases() -> dict[str, dict[str, Any]]:
     return tomllib.loads(files("mixedlub.rig").joinpath("lubricants.toml").read_text(encoding="utf-8"))
 
 
+def typical(section: system_file.Lubricant) -> dict[str, Any]:
+    """A typical oil of the base stock; its pressure-viscosity by Gold's relation at the viscosities of the section."""
+    base = dict(named_bases()[section.base or DEFAULT_BASE])
+    at = section.kinematic_viscosity_mm2_s or base["kinematic_viscosity_mm2_s"]
+    alpha = gold_pressure_viscosity(np.array(at) * 1e-6, *base.pop("gold")) * 1e9
+    return {**base, "pressure_viscosity_per_GPa": alpha.round(1).tolist()}
+
+
 def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = ()) -> Lubricant:
     """The oil; what the section leaves open comes from its base stock, with a warning that says so.
 
@@ -69,7 +77,7 @@ def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (
     """
     section = section or system_file.Lubricant()
     known = {k: v for k, v in section.model_dump().items() if v is not None and k not in ("name", "base")}
-    base = named_bases()[section.base or DEFAULT_BASE]
+    base = typical(section)
     assumed = [key for key in base if key not in known and key != "source" and key not in unread]
     if assumed:
         stock = section.base or f"{DEFAULT_BASE} (assumed)"

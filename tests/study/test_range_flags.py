@@ -94,3 +94,10 @@ def test_load_of_asperities_is_the_largest_of_the_path(write_study):
     ratio = carried / (0.25 * np.pi * state["hertz_pressure"])
     found = run_study(study)["asperity_load_ratio"]
     assert found == pytest.approx(ratio.max(axis=-1), rel=0.04)
+
+
+def test_an_area_ratio_is_never_above_one(write_study):
+    """A mean of ones over the path may round to more."""
+    full = {"a": {"m0_um2": 100.0, "m2": 0.0025, "m4_per_um2": 0.9}}
+    every = {"conditions__speed_rpm": {"from": 100, "to": 3000, "count": 30}}
+    assert run_study(read_study(write_study(surfaces=full, **every)))["area_ratio"].max() == 1.0

@@ -129,3 +129,13 @@ def test_an_input_that_is_not_finite_is_told_with_its_level(write_study):
 def test_a_modification_of_zero_is_accepted_by_every_sharing(write_study):
     sharing = {"model": "rigid", "lead_crown_um": 0, "tip_relief_um": [0, 0]}
     assert read_study(write_study(gears__load_sharing=sharing)).file.gears.load_sharing.model == "rigid"
+
+
+@pytest.mark.parametrize(
+    ("base", "viscosity", "per_GPa"), [("pao", [460, 45], [16.7, 12.3]), ("mineral", [34, 7.2], [16.2, 13.0])]
+)
+def test_the_pressure_viscosity_that_is_left_out_follows_the_viscosity(base, viscosity, per_GPa, write_study):
+    """Gold's relation at the viscosities of the oil, not of a typical one."""
+    oil = {"base": base, "temperature_C": [40, 100], "kinematic_viscosity_mm2_s": viscosity}
+    found = read_study(write_study(lubricant=oil)).oil.pressure_viscosity
+    assert [1e9 * alpha for alpha in found] == pytest.approx(per_GPa, abs=0.051)
