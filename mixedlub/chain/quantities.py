@@ -72,6 +72,9 @@ eyring_stress           | tau_0      | Pa      | stress at which shear stops bei
 m0                      | m_0        | m^2     | variance of the profile heights
 m2                      | m_2        | -       | variance of the profile slopes
 m4                      | m_4        | 1/m^2   | variance of the profile curvatures
+height_share            | s_0        | -       | share of the first surface in the variance of the heights
+slope_share             | s_2        | -       | share of the first surface in the variance of the slopes
+curvature_share         | s_4        | -       | share of the first surface in the variance of the curvatures
 composite_roughness     | sigma      | m       | root of the summed height variances
 summit_density          | D          | 1/m^2   | summits per area
 summit_radius           | R_s        | m       | radius of a summit of mean curvature

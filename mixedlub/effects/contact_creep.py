@@ -18,7 +18,7 @@ REFERENCE_PRESSURE = 1e9
         Parameter(
             "saturation_slip",
             "-",
-            LogNormal(0.002, 1.5),
+            LogNormal(0.015, 1.0),
             "slip at which the whole contact slides, at a friction coefficient of 0.05 and 1 GPa",
             null=0.0,
             symbol="S_0",
