@@ -128,7 +128,10 @@ def trace(name: str, section: system_file.SurfaceSection, folder: Path) -> Profi
             if getattr(section, key) is not None:
                 rule = "a shipped trace has its own; leave it out"
                 raise InputError(rule, where=f"{place}.{key}", value=getattr(section, key))
-        return shipped_trace(named, f"{place}.profile")
+        found = shipped_trace(named, f"{place}.profile")
+    text = "a synthetic trace: only Ra, Rq and Rz are of a measured flank, its slopes and curvatures were chosen"
+    report(finding("trace_synthetic", text, place))
+    return found
 
 
 @contextmanager

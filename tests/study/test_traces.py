@@ -40,7 +40,7 @@ def test_moments_are_those_of_profile(write_study):
 def test_stated_cutoffs_are_not_assumed(write_study):
     study = read_study(write_study(**only({"profile": "shipped:0036", "cutoff_mm": 0.8, "short_cutoff_um": 2.5})))
     assert "cutoff_assumed" not in codes(study.notes)
-    assert study.rig.profile("flank").cutoffs["cutoff"] == pytest.approx(0.8e-3)
+    assert "cut-off 0.8 mm" in " ".join(study.surfaces["flank"].steps)
 
 
 def test_unit_and_spacing_are_keys_of_a_surface(heights_alone, write_study):
