@@ -3,7 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Uniform, LogNormal
+from mixedlub.chain.priors import LogNormal, Uniform
 from mixedlub.laws.film import wave_amplitude
 
 REFERENCE = 0.01
