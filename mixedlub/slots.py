@@ -71,6 +71,8 @@ VISCOSITY = Slot("viscosity_law", "contact_viscosity", "law of the viscosity und
 SHEAR = Slot("effective_viscosity", "shear_stress", "how the film thins under shear", "asinh")
 FILM_FRICTION = Slot("contact_pressure", "fluid_friction", "pressure that the shear stress is divided by", "maximum")
 MIXTURE = Slot("mixture", "friction", "friction of film and asperities together", "tallian")
-MESH_LOSS = Slot("averaging", "mesh_loss", "how the power loss is averaged over the path of contact", "mesh_integral")
-SLOTS = (FILM, VISCOSITY, SHEAR, FILM_FRICTION, MIXTURE, MESH_LOSS)
+SLIDING_POWER = Slot(
+    "averaging", "sliding_power", "how the power loss is averaged over the path of contact", "mesh_integral"
+)
+SLOTS = (FILM, VISCOSITY, SHEAR, FILM_FRICTION, MIXTURE, SLIDING_POWER)
 """In the order of the chain."""

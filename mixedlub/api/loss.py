@@ -50,7 +50,7 @@ def power_loss(
     oil_temperature_C: ArrayLike,
     boundary_friction: float = 0.1,
     options: Mapping[str, Any] | None = None,
-    effects: Mapping[str, Mapping[str, float]] | None = None,
+    effects: Mapping[str, Mapping[str, float | str]] | None = None,
 ) -> xr.Dataset:
     """Power lost by a gear pair at every combination of torque, speed (both of the pinion) and oil temperature.
 
@@ -83,7 +83,7 @@ def along_path(
     oil_temperature_C: float,
     boundary_friction: float = 0.1,
     options: Mapping[str, Any] | None = None,
-    effects: Mapping[str, Mapping[str, float]] | None = None,
+    effects: Mapping[str, Mapping[str, float | str]] | None = None,
 ) -> xr.Dataset:
     """Load, film, contact and friction of one tooth pair along its path of contact, at one condition.
 
@@ -126,7 +126,7 @@ def _study(
     conditions: Mapping[str, ArrayLike],
     boundary_friction: float,
     options: Mapping[str, Any] | None,
-    effects: Mapping[str, Mapping[str, float]] | None,
+    effects: Mapping[str, Mapping[str, float | str]] | None,
 ) -> Study:
     """A study of one pairing; traces are read from the current folder."""
     pinion, gear = (surfaces, surfaces) if isinstance(surfaces, SurfaceSection) else surfaces

@@ -43,7 +43,7 @@ def gears_taken(section: system_file.Gears) -> dict[str, str]:
 def oil_taken(section: system_file.Lubricant | None) -> dict[str, str]:
     """Keys of the oil that are not given, with typical values of its base stock."""
     section = section or system_file.Lubricant()
-    typical = build.named_bases()[section.base or MINERAL]
+    typical = build.typical(section)
     base = {} if section.base else {"base": f"{MINERAL}, if needed"}
     return base | {key: _shown(value) for key, value in typical.items() if getattr(section, key, "") is None}
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mixedlub.chain.model import Chain
-from mixedlub.laws import contact, film, heating, load, loss, mixture, oil, shear
+from mixedlub.laws import contact, drag, film, heating, load, loss, mixture, oil, shear
 from roughness.mccool import plane_offset, summit_density, summit_radius, summit_sigma
 
 ASPERITIES: Chain = (
@@ -48,7 +48,10 @@ POINT: Chain = (
 GEAR_CONTACT: Chain = (("line_load", load.gear_line_load), *LINE)
 GEAR_LOSS: Chain = (
     *GEAR_CONTACT,
+    ("sliding_power", loss.sliding_power),
     ("mesh_loss", loss.mesh_loss),
+    ("mean_friction", loss.mean_friction),
     ("rolling_loss", loss.rolling_loss),
     ("power_loss", loss.power_loss),
+    ("bath_acceleration", drag.bath_acceleration),
 )

@@ -30,6 +30,7 @@ class Parameter:
     ``kinds`` restricts the kinds of recording in which it is free (empty: all); in others it stays at its null.
     ``published`` is the range that the laws cited in the source have, where other values are tried as well.
     ``relative_to`` is the input that the parameter is a fraction of, if there is one.
+    ``nominal`` is the value that the cited laws have, where the prior is centred on another.
     """
 
     name: str
@@ -43,6 +44,12 @@ class Parameter:
     kinds: tuple[str, ...] = ()
     published: tuple[float, float] | None = None
     relative_to: str = ""
+    nominal: float | None = None
+
+    @property
+    def usual(self) -> float:
+        """The value in the cited laws where no named one has another: ``nominal``, else the middle of the prior."""
+        return self.prior.value(0.0) if self.nominal is None else self.nominal
 
     @property
     def null_value(self) -> float:
@@ -100,6 +107,12 @@ class Effect:
             for law, values in self.special_cases.items()
         }
         return {law: values for law, values in still_to_fix.items() if values and values.keys() <= free}
+
+    def law_values(self, law: str = "") -> dict[str, float]:
+        """Every parameter as a named law has it, where none is named as the first law within reach has it."""
+        laws = self.laws_within_reach
+        fixed = laws.get(law or next(iter(laws), ""), {})
+        return {p.name: fixed.get(p.name, p.usual) for p in self.parameters}
 
     @property
     def summary(self) -> str:

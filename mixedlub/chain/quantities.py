@@ -72,6 +72,9 @@ eyring_stress           | tau_0      | Pa      | stress at which shear stops bei
 m0                      | m_0        | m^2     | variance of the profile heights
 m2                      | m_2        | -       | variance of the profile slopes
 m4                      | m_4        | 1/m^2   | variance of the profile curvatures
+height_share            | s_0        | -       | share of the first surface in the variance of the heights
+slope_share             | s_2        | -       | share of the first surface in the variance of the slopes
+curvature_share         | s_4        | -       | share of the first surface in the variance of the curvatures
 composite_roughness     | sigma      | m       | root of the summed height variances
 summit_density          | D          | 1/m^2   | summits per area
 summit_radius           | R_s        | m       | radius of a summit of mean curvature
@@ -104,7 +107,9 @@ nominal_loss            | P_n        | W       | power lost as the base model ha
 rolling_force           | f_r        | N/m     | tangential force per length on each body that resists rolling
 rolling_loss            | P_r        | W       | rolling power lost in the mesh, mean over a mesh cycle
 tangential_friction     | mu_t       | -       | tangential force on a body over the load, rolling included
+sliding_power           | F v_s      | W       | load times sliding speed at a point of the path, times its weight
 mesh_loss               | P_m        | W       | sliding power lost in the mesh, mean over a mesh cycle
+mean_friction           | mu_m       | -       | mesh loss over load times sliding speed along the path
 friction_torque         | T_f        | N m     | friction torque of a drive, or its friction coefficient
 coulomb_torque          | T_c        | N m     | dry friction torque of a drive, the same in both directions
 viscous_torque          | T_v        | N m     | friction torque that grows with speed, at the reference speed
@@ -139,6 +144,7 @@ pinion_teeth            | z_1        | -       | teeth of the pinion
 gear_teeth              | z_2        | -       | teeth of the gear
 contact_ratio           | epsilon_alpha | -       | length of the path of contact over the base pitch
 # one wheel, shaft or seal of a gearbox
+bath_acceleration       | gamma      | m/s^2   | centrifugal acceleration of the oil that clings to the gear
 wheel_radius            | r          | m       | operating pitch radius of one wheel
 wheel_speed             | omega      | rad/s   | angular speed of one wheel and its shaft
 wheel_teeth             | z          | -       | teeth of one wheel

@@ -74,7 +74,7 @@ def command(
 
                 text = given.decode("utf-8-sig")
                 with busy("drawing figures") as doing:
-                    seen = (*study.notes, *warnings)
+                    seen = (*warnings, *study.notes)
                     of_heights = write_page(results, aside, seen, given=text, formats=formats, doing=doing)
                 print_findings(of_heights)
             write_record(aside, folder, study, file, given)

@@ -11,6 +11,7 @@ from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
 from mixedlub.kinds.disc import contact_inputs
 from mixedlub.laws.contact import line_hertz_pressure, point_hertz_pressure
+from mixedlub.rig.plausibility import YIELD_RATIO, yields
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.ranges import atypical
 from mixedlub.schema.table import Table
@@ -48,11 +49,6 @@ WARM = 20.0
 """Judgement. Temperature (degC) from which oils have their working viscosity."""
 LOW_PRESSURE = 100.0
 """Judgement. Pressure (MPa) up to which oils have their working viscosity."""
-LEAST_HARD_MODULUS = 50e9
-"""Judgement. Least reduced modulus (Pa) of metals, ceramics and glass."""
-YIELD_RATIO = 0.025
-"""Source: ISO 76. Hertz pressure over reduced modulus at which these yield: bearings are rated to 4.2 GPa, 0.018 of the
-modulus of steel; polymers bear a larger share."""
 PARTS_DIFFER = 1.5
 """Judgement. Factor by which the base model differs between two parts at least, and their gap exceeds gaps within
 them."""
@@ -179,7 +175,7 @@ def teeth_too_hard_pressed(case: Case, rows: Table, forward: Forward) -> list[Fi
 
 def _yielding(where: str, pressure: float, modulus: float, cause: str) -> list[Finding]:
     """A finding where hard bodies of this reduced modulus (Pa) would yield at this pressure (Pa)."""
-    if modulus < LEAST_HARD_MODULUS or pressure <= YIELD_RATIO * modulus:
+    if not yields(np.array(pressure), modulus):
         return []
     text = (
         f"the Hertz pressure would be {1e-9 * pressure:.3g} GPa, where hard bodies yield below "

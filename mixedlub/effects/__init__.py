@@ -68,10 +68,10 @@ class Known:
 def known_effects(
     section: Mapping[str, Mapping[str, float | str]], kind: str, chain: Chain, given: Sequence[str], want: str
 ) -> Known:
-    """The effects of a section ``[effects]`` in a chain; what is left out is the median of its prior.
+    """The effects of a section ``[effects]`` in a chain; what is left out is as its published law has it.
 
-    ``law`` names a published law that the effect contains and fixes the parameters which this law has; NAME_sd is the
-    standard deviation of the parameter NAME.
+    ``law`` names a published law that the effect contains and fixes the parameters which this law has; without it the
+    first one holds. NAME_sd is the standard deviation of the parameter NAME.
     """
     own = known_in(kind)
     effects = tuple(own[e.id] for e in find(sorted(section), "effects"))
@@ -83,8 +83,9 @@ def known_effects(
             rule = f"cannot act on the {want.replace('_', ' ')} of a {kind.replace('_', ' ')}"
             rule += f"; it needs {', '.join(lacking)}, which these columns and keys do not give" if lacking else ""
             raise InputError(rule, where=f"effects.{e.id}")
-        fixed = _of_law(e, section[e.id].get(LAW))
-        values[e.id] = {**e.prior_medians, **fixed}
+        law = section[e.id].get(LAW)
+        fixed = _of_law(e, law)
+        values[e.id] = e.law_values("" if law is None else str(law))
         for key, value in section[e.id].items():
             name = key.removesuffix(SD)
             where = f"effects.{e.id}.{key}"

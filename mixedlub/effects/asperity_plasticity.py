@@ -4,7 +4,7 @@ import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import LogNormal
-from mixedlub.laws.contact import area_per_overlap
+from mixedlub.laws.contact import area_per_overlap, yield_overlap
 from roughness.integrals import area_integral
 
 _FARTHEST = 10.0
@@ -53,7 +53,7 @@ def asperity_plasticity(
     >>> round(float(smooth / elastic), 2)   # plasticity index 0.6
     1.0
     """
-    onset = (np.pi * 0.577 * hardness / reduced_modulus) ** 2 * summit_radius / summit_sigma
+    onset = yield_overlap(hardness, reduced_modulus, summit_radius, summit_sigma)
     yielded = area_integral(np.minimum(separation + onset, _FARTHEST))
     added = area_per_overlap(summit_density, summit_radius, summit_sigma) * yielded
     return np.minimum(area_ratio + strength * added, 1.0)

@@ -22,6 +22,7 @@ _LEAST_LOAD = 0.1
             "factor on the torque, for bearing size and design",
             null=0.0,
             symbol="c",
+            nominal=1.0,
         ),
         Parameter(
             "loaded",
@@ -50,7 +51,7 @@ _LEAST_LOAD = 0.1
     equation=r"P_L \leftarrow P_L + c\,\sum_{i=1,2} 2\,\omega_i\,"
     r"[x^b M_{0,i} + \chi c_1 x^{a-1} (1 + m\,\phi_{bl,i}) M_1],\quad "
     r"x = \max(\chi F_t/F_r,\ 0.1),\ F_r = 3\,\text{kN},\ "
-    r"M_1 = f_1\,\tfrac12 F_t d_m,\ f_1 = 0.0005,\ d_m = 1.25\,r_1,\quad "
+    r"M_1 = f_1\,\tfrac12 F_t d_m,\ f_1 = 0.0003,\ d_m = 1.25\,r_1,\quad "
     r"M_{0,i} = 2\times10^{-7}\,(N_i^4 + 2000^4)^{1/6} d_m^3,\ "
     r"\phi_{bl,i} = \exp(-2.6\times10^{-8}\,N_i^{1.4} d_m),\ "
     r"N_i = \nu\,\frac{30\,\omega_i}{\pi},\ \nu = \frac{\eta_0}{\rho}\ "
@@ -87,7 +88,7 @@ def bearing_drag(
     >>> gear = dict(transmitted_force=3000.0, pinion_radius=0.036, pinion_speed=157.1, gear_speed=102.7, gears_fitted=1)
     >>> palmgren = dict(strength=1.0, loaded=1.0, load_power=1.0, rolling_power=0.0, rubbing=0.0)
     >>> round(bearing_drag(0.0, **gear, viscosity=0.01275, oil_density=850.0, **palmgren))   # 15.7 kW
-    24
+    17
     """
     diameter = _SIZE * pinion_radius
     size = np.where(gears_fitted > 0, np.maximum(transmitted_force / _TYPICAL_LOAD, _LEAST_LOAD), _LEAST_LOAD)

@@ -51,6 +51,7 @@ TURBULENT = -1.0 / 3.0, 8.0 / 3.0
         "Boness, turbulent": {"viscous": TURBULENT[0]},
         "ISO/TR 14179-1": {"viscous": 1.0, "surplus": 1.0},
     },
+    valid={"bath_acceleration": (0.0, 750.0)},
     separated_by="the oil level, or a dry sump: it changes with depth, rolling resistance does not; out of mesh it "
     "stays",
 )

@@ -74,7 +74,8 @@ def contact_creep(
     Creep is proportional to traction, so full sliding begins at a slip proportional to friction and pressure;
     wheel-rail laws often use one constant slip. In dry contact this holds for all friction. In lubricated contact it
     may hold for the film's traction only: asperities meet and part many times in a passage and may slide from first
-    touch. The reference pressure of 1 GPa of S_0 makes the form belong to Pa.
+    touch. Steel bodies alone have S_0 of 0.0009 (Carter; Vermeulen and Johnson); the film and the fixtures of a rig
+    give way too. The reference pressure of 1 GPa of S_0 makes the form belong to Pa.
 
     >>> S, creep = np.array([0.0, 0.01, 0.05]), dict(saturation_slip=0.02, power=3.0, elastic=1.0)
     >>> contact_creep(0.05, 0.1, 0.2, S, 1e9, **creep, of_asperities=1.0).round(5).tolist()

@@ -25,6 +25,7 @@ from mixedlub.laws import heating
             Uniform(0.0, 1.0),
             "temperature coefficient: 0 that at ambient pressure, 1 Roelands' at contact pressure",
             symbol="k",
+            nominal=1.0,
         ),
     ),
     equation=r"\tau \leftarrow \tau' = "

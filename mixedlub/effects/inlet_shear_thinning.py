@@ -14,13 +14,21 @@ REFERENCE = 0.01
     parameters=(
         Parameter("index", "-", Uniform(0.6, 0.97), "power-law index n of the oil", null=1.0, symbol="n"),
         Parameter("critical_stress", "Pa", LogUniform(3e3, 1e6), "stress at which thinning begins", symbol="G_{cr}"),
-        Parameter("plateau", "-", Uniform(0.0, 0.9), "share of the film that remains at full thinning", symbol="c"),
+        Parameter(
+            "plateau",
+            "-",
+            Uniform(0.0, 0.9),
+            "share of the film that remains at full thinning",
+            symbol="c",
+            nominal=0.0,
+        ),
         Parameter(
             "stress_rule",
             "-",
             Uniform(0.0, 1.0),
             "onset criterion: 1 critical stress, 0 critical shear rate",
             symbol="m",
+            nominal=1.0,
         ),
         Parameter(
             "onset",
@@ -31,7 +39,14 @@ REFERENCE = 0.01
             symbol="a",
             kinds=("film", "mesh_friction"),
         ),
-        Parameter("sliding", "-", Uniform(0.0, 1.0), "weight of sliding in the shear rate of the inlet", symbol="b"),
+        Parameter(
+            "sliding",
+            "-",
+            Uniform(0.0, 1.0),
+            "weight of sliding in the shear rate of the inlet",
+            symbol="b",
+            nominal=1.0,
+        ),
     ),
     equation=r"h \leftarrow h\,\left\{c + (1 - c)\left[1 + (0.79\,((1+bS)N)^{1/(1+0.2bS)})^a\right]"
     r"^{-3.6(1-n)^{1.7}/a}\right\},\quad N = \eta_0^m\,\eta_r^{1-m} u/(h G_{cr}),\ \eta_r = 0.01\,\text{Pa s}",

@@ -21,7 +21,7 @@ from mixedlub.chain.priors import LogNormal, Normal, Uniform
         Parameter(
             "onset", "-", LogNormal(0.4, 0.8), "film parameter at which the lay begins to matter", symbol=r"\lambda_r"
         ),
-        Parameter("decay", "-", Uniform(1.0, 2.2), "exponent of the decay in thicker films", symbol="k"),
+        Parameter("decay", "-", Uniform(1.0, 2.2), "exponent of the decay in thicker films", symbol="k", nominal=2.0),
         Parameter(
             "saturation",
             "-",

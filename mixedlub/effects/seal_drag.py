@@ -20,6 +20,7 @@ _PIVOT = 20e-6
             "factor on the torque, for size and number of lips",
             null=0.0,
             symbol="c",
+            nominal=1.0,
         ),
         Parameter("viscous", "-", Uniform(0.0, 0.6), "exponent of viscosity", symbol="k"),
     ),

@@ -28,6 +28,7 @@ _LIMIT_BELOW = 1e-4
             Uniform(0.0, 0.6),
             "degree to which the spread of the summits narrows to that of the plateau",
             symbol="n",
+            nominal=0.0,
         ),
     ),
     equation=r"P_B \leftarrow P_B + \pi D R_s\sigma_s\,[w F(t/w) - F_1(t)]\ (0 \leq P_B \leq 1),\quad "

@@ -14,7 +14,13 @@ _PIVOT = 15.0
     acts_on="power_loss",
     parameters=(
         Parameter(
-            "strength", "-", LogNormal(1.5, 1.2), "factor for housing walls and oil in the air", null=0.0, symbol="c"
+            "strength",
+            "-",
+            LogNormal(1.5, 1.2),
+            "factor for housing walls and oil in the air",
+            null=0.0,
+            symbol="c",
+            nominal=1.0,
         ),
         Parameter("exponent", "-", Uniform(2.5, 3.0), "exponent of speed", symbol="k", published=(2.75, 2.9)),
     ),
@@ -26,6 +32,11 @@ _PIVOT = 15.0
     source="Y. Diab, F. Ville, P. Velex, C. Changenet, J. Mech. Des. 126 (2004) 903; power 2.9 after P. H. Dawson, "
     "Proc. IMechE A 198 (1984) 51, 2.8 after N. E. Anderson, S. H. Loewenthal, NASA TP-1622, 1980",
     fingerprint={"load": "-", "speed": "+", "oil_temperature": "0", "roughness": "-"},
+    special_cases={
+        "Diab and others": {"exponent": 2.75},
+        "Dawson": {"exponent": 2.9},
+        "Anderson and Loewenthal": {"exponent": 2.8},
+    },
     separated_by="a dry, shrouded or evacuated run: nearly the cube of speed, and blind to oil and its temperature",
 )
 def windage(

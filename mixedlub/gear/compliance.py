@@ -55,6 +55,8 @@ def weber_foundation(poisson_ratio: float) -> tuple[float, float, float, float]:
     )
 
 
+SAINSOT_ANGLES = 0.01, 0.12
+"""Half root angles (rad) for which the ring foundation holds."""
 SAINSOT = np.array(
     [
         [-5.574e-5, -1.9986e-3, -2.3015e-4, 4.7702e-3, 0.0271, 6.8045],

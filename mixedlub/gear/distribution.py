@@ -16,6 +16,7 @@ import numpy as np
 
 from mixedlub.gear.checks import torques_above_zero
 from mixedlub.gear.compliance import (
+    SAINSOT_ANGLES,
     bending_compliance,
     foundation_compliance,
     hertz_approach,
@@ -28,7 +29,7 @@ from mixedlub.gear.geometry import GearPair, Pair, number, two, whole
 from mixedlub.gear.modifications import Modifications
 from mixedlub.gear.plate import Plate, tapered_plate
 from mixedlub.gear.tooth import tooth
-from mixedlub.schema.findings import Finding
+from mixedlub.schema.findings import Finding, finding
 from profiles.errors import InputError, nearest
 
 if TYPE_CHECKING:
@@ -96,15 +97,21 @@ class LdpSharing:
         self.modifications.check(pair)
         if self.foundation != "sainsot" or self.bore_radius is None:
             return ()
+        found = []
         for wheel, bore in enumerate(self.bore_radius):
-            ratio = tooth(pair, wheel).root_radius / bore
+            body = tooth(pair, wheel)
+            ratio, angle = body.root_radius / bore, body.half_root_angle
             if not 1.4 <= ratio <= 7:
                 raise InputError(
                     f"the ring foundation needs a root circle 1.4 to 7 times the bore, here {ratio:.3g}",
                     where="bore_diameter_mm",
                     value=2e3 * bore,
                 )
-        return ()
+            if not SAINSOT_ANGLES[0] <= angle <= SAINSOT_ANGLES[1]:
+                low, high = SAINSOT_ANGLES
+                text = f"the ring foundation holds for half root angles of {low:g} to {high:g} rad, here {angle:.3g}"
+                found.append(finding("law_extrapolated", text, ("pinion", "gear")[wheel]))
+        return tuple(found)
 
     def breakpoints(self, pair: GearPair) -> np.ndarray:
         """Ends of contact and starts of relief of this pair and, whole base pitches away, of its neighbours."""
@@ -235,8 +242,7 @@ def _bodies(pair: GearPair, foundation: str, bore: Pair | None, slices: int) -> 
         poisson = pair.poisson_ratio[wheel]
         if foundation == "sainsot" and bore is not None:
             ratio = body.root_radius / bore[wheel]
-            half_angle = math.atan(body.root_chord / 2 / body.height[0])
-            coefficients = sainsot_foundation(ratio, half_angle)
+            coefficients = sainsot_foundation(ratio, body.half_root_angle)
         else:
             coefficients = weber_foundation(poisson)
         young = pair.youngs_modulus[wheel]

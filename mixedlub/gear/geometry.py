@@ -13,6 +13,7 @@ from functools import cached_property
 from typing import Any
 
 from mixedlub.laws.contact import reduced_modulus
+from mixedlub.schema.findings import finding, report
 from profiles.errors import InputError
 
 Pair = tuple[float, float]
@@ -366,6 +367,9 @@ class GearPair:
 
         Source: Ohlendorf 1958, in the form of Niemann and Winter, Maschinenelemente II.
         """
+        if not 1.0 <= self.contact_ratio <= 2.0:
+            text = f"the loss factor holds for contact ratios from 1 to 2, not {self.contact_ratio:.4g}"
+            report(finding("law_extrapolated", text, "contact ratio"))
         ratio = self.gear_ratio
         scale = math.pi * (ratio + 1) / (self.teeth[0] * ratio * math.cos(self.base_helix_angle))
         return scale * (1 - self.contact_ratio + self.approach_ratio**2 + self.recess_ratio**2)

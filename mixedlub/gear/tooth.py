@@ -39,6 +39,11 @@ class Tooth:
         """Thickness s_f of the root section, m."""
         return 2 * float(self.half_thickness[0])
 
+    @property
+    def half_root_angle(self) -> float:
+        """Half the angle (rad) that the root section fills, seen from the wheel's axis."""
+        return math.atan(float(self.half_thickness[0] / self.height[0]))
+
     def load_angle(self, roll_distance: np.ndarray) -> np.ndarray:
         """Angle (rad) between the load line and the normal of the centreline, alpha' = x/r_b - half_angle."""
         return np.asarray(roll_distance) / self.base_radius - self.half_angle

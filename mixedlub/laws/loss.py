@@ -4,48 +4,65 @@ from __future__ import annotations
 
 import numpy as np
 
-from mixedlub.slots import MESH_LOSS
+from mixedlub.slots import SLIDING_POWER
 
 
-@MESH_LOSS.offers(
+@SLIDING_POWER.offers(
     "mesh_integral", "power loss by the integral of friction times load times sliding speed over the path"
 )
-def mesh_loss(
-    friction: np.ndarray,
-    load_share: np.ndarray,
-    transmitted_force: np.ndarray,
-    sliding_speed: np.ndarray,
-    path_weight: np.ndarray,
+def sliding_power(
+    load_share: np.ndarray, transmitted_force: np.ndarray, sliding_speed: np.ndarray, path_weight: np.ndarray
 ) -> np.ndarray:
-    r"""Sliding power lost in the mesh, mean over a mesh cycle (W).
+    r"""Load times sliding speed of each point of the path with its part of the path (W).
 
-    .. math:: P = \frac{1}{p_{bt}} \int_A^E \mu\, F\, |v_s|\, dx,\quad F = s\, T_1 / r_{b1}
+    .. math:: F\, |v_s|\, dx / p_{bt},\quad F = s\, T_1 / r_{b1}
 
-    ``path_weight`` carries dx/p_bt; the last axis, the path, shrinks to one.
+    ``path_weight`` carries dx/p_bt.
 
     Source: A. Arana, J. Larranaga, I. Ulacia, Proc. IMechE J 233 (2019) 303, eq. 29.
 
-    >>> path = np.array([[0.25, 0.5, 0.25]])
-    >>> float(mesh_loss(np.full((1, 3), 0.05), np.ones((1, 3)), np.array([[1000.0]]), 2.0, path)[0, 0])
-    100.0
+    >>> sliding_power(np.ones(3), 1000.0, 2.0, np.array([0.25, 0.5, 0.25])).tolist()
+    [500.0, 1000.0, 500.0]
     """
-    return over_path(friction, load_share * transmitted_force * sliding_speed * path_weight)
+    return load_share * transmitted_force * sliding_speed * path_weight
 
 
-@MESH_LOSS.offers("paper", "power loss by the paper's separate averages, its eq. 3 and 4")
-def averaged_mesh_loss(
-    friction: np.ndarray, mean_weight: np.ndarray, mean_sliding_speed: np.ndarray, transmitted_force: np.ndarray
+@SLIDING_POWER.offers("paper", "power loss by the paper's separate averages, its eq. 3 and 4")
+def averaged_sliding_power(
+    mean_weight: np.ndarray, mean_sliding_speed: np.ndarray, transmitted_force: np.ndarray
 ) -> np.ndarray:
-    r"""Sliding power lost in the mesh from separate averages (W), :math:`P = \hat\mu\, \hat V_s\, F_m`.
+    r"""Force at the base circle times mean sliding speed, spread evenly over the path (W).
 
-    The plain mean of friction over the path, a quarter of the sum of the sliding speeds at its two ends, and
-    the force at the base circle. Source: Hong, Aneshansley, Talbot, Gear Technology, eq. 3 and 4.
+    The mesh loss is then :math:`P = \hat\mu\, \hat V_s\, F_m`: the plain mean of friction over the path, a quarter of
+    the sum of the sliding speeds at its two ends, and the force at the base circle.
+    Source: Hong, Aneshansley, Talbot, Gear Technology, eq. 3 and 4.
 
-    >>> weight = np.array([[0.25, 0.5, 0.25]])
-    >>> float(averaged_mesh_loss(np.full((1, 3), 0.05), weight, 2.0, 1000.0)[0, 0])
+    >>> averaged_sliding_power(np.array([0.25, 0.5, 0.25]), 2.0, 1000.0).tolist()
+    [500.0, 1000.0, 500.0]
+    """
+    return mean_weight * (mean_sliding_speed * transmitted_force)
+
+
+def mesh_loss(friction: np.ndarray, sliding_power: np.ndarray) -> np.ndarray:
+    r"""Sliding power lost in the mesh, mean over a mesh cycle (W), :math:`P_m = \sum \mu\, F |v_s|\, dx / p_{bt}`.
+
+    The last axis, the path, shrinks to one.
+
+    >>> float(mesh_loss(np.full((1, 3), 0.05), np.array([[500.0, 1000.0, 500.0]]))[0, 0])
     100.0
     """
-    return over_path(friction, mean_weight) * (mean_sliding_speed * transmitted_force)
+    return over_path(friction, sliding_power)
+
+
+def mean_friction(mesh_loss: np.ndarray, sliding_power: np.ndarray) -> np.ndarray:
+    r"""Friction coefficient of the mesh (-): sliding loss over load times sliding speed, both over the path.
+
+    .. math:: \hat\mu = \frac{P_m}{\sum F |v_s|\, dx / p_{bt}}
+
+    >>> float(mean_friction(np.array([100.0]), np.array([500.0, 1000.0, 500.0]))[0])
+    0.05
+    """
+    return mesh_loss / sliding_power.sum(axis=-1, keepdims=True)
 
 
 def over_path(value: np.ndarray, weight: np.ndarray) -> np.ndarray:

@@ -160,3 +160,16 @@ def barus_viscosity(viscosity: np.ndarray, pressure_viscosity: np.ndarray, press
     0.07389
     """
     return viscosity * np.exp(pressure_viscosity * pressure)
+
+
+def gold_pressure_viscosity(kinematic_viscosity: np.ndarray, scale: float, exponent: float) -> np.ndarray:
+    r"""Pressure-viscosity coefficient of an oil by its base stock (1/Pa), :math:`\alpha = s\,\nu^t`.
+
+    With nu in mm^2/s and s in 1/GPa: 9.904 and 0.1390 of mineral oils, 7.382 and 0.1335 of polyalphaolefins, 6.605 and
+    0.1360 of esters, 5.489 and 0.1485 of polyglycols. These make the form belong to Pa and m^2/s.
+    Source: P. W. Gold, A. Schmidt, H. Dicke, J. Loos, C. Assmann, J. Synth. Lubr. 18 (2001) 51.
+
+    >>> [round(float(alpha) * 1e9, 1) for alpha in gold_pressure_viscosity(np.array([460e-6, 45e-6]), 7.382, 0.1335)]
+    [16.7, 12.3]
+    """
+    return scale * (kinematic_viscosity * 1e6) ** exponent * 1e-9

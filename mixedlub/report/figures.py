@@ -60,7 +60,8 @@ def _over_temperature(results: Results) -> Drawn:
     return Drawn(
         f"power_loss_{key}_temperature",
         f"Power loss against oil temperature: {words} at a {whose} speed of {fastest} rpm. "
-        + _title_words(_some_of(levels.torque_Nm, MOST_LEVELS, "torques", "Nm")),
+        + _title_words(_some_of(levels.torque_Nm, MOST_LEVELS, "torques", "Nm"))
+        + _hollow(results.outside[chosen][..., int(np.argmax(levels.speed_rpm))]),
         over_temperature(results, chosen),
     )
 
@@ -76,6 +77,7 @@ def _at_temperature(results: Results, theta: int, several: bool) -> Iterator[Dra
         for key, words, chosen in _groups(results):
             if len(chosen):
                 caption = f"{title} against {whose} speed: {words}{at}. {_title_words(some_torques)}"
+                caption += _hollow(results.outside[chosen, theta])
                 if quantity == "area_ratio":
                     caption += _log_words(results["area_ratio"][chosen, theta])
                 yield Drawn(f"{quantity}_{key}{suffix}", caption, over_speed(results, quantity, chosen, theta))
@@ -96,9 +98,14 @@ def _at_temperature(results: Results, theta: int, several: bool) -> Iterator[Dra
     yield Drawn(
         f"film_and_friction{suffix}",
         f"Mean film thickness, {whose_film}, and mean friction of the smoothest and the roughest pairing{at}."
-        + some_torques,
+        + some_torques
+        + _hollow(results.outside[:, theta]),
         film_and_friction(results, theta),
     )
+
+
+def _hollow(outside: np.ndarray) -> str:
+    return " Hollow marks: outside the model's range, as the table says." if outside.any() else ""
 
 
 def _title_words(more: str) -> str:
@@ -115,13 +122,10 @@ def _log_words(ratios: np.ndarray) -> str:
 def _symbols(results: Results, theta: int) -> str:
     """Meaning of the symbols, number of pairings shown, and a note on the scales."""
     count = len(results.study.pairings)
-    outside = (results["asperity_load_ratio"][:, theta] > 1.0).any()
     return "".join(
         (
             "Filled: both surfaces equal; open: different.",
-            " Triangles: outside the model's range, as elastic asperities would carry more than the load."
-            if outside
-            else "",
+            " Triangles: outside the model's range, as the table says." if results.outside[:, theta].any() else "",
             f" {MOST_PAIRINGS} of {count} pairings are shown." if count > MOST_PAIRINGS else "",
             " Each torque has its own scale of the loss." if has_own_scales(results, theta) else "",
         )

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub.report.cutoff_table import FEWEST_PAIRINGS, cutoff_rows, squares
 from mixedlub.report.figures import Drawn, figures
 from mixedlub.report.laws import laws_used
 from mixedlub.report.style import as_svg, save
@@ -27,7 +28,7 @@ from mixedlub.study import counted, factors
 from mixedlub.study.checkpoint import fingerprint
 from mixedlub.study.plan import Study
 from mixedlub.study.record import assumed, resolved
-from mixedlub.study.results import COLUMNS, DEFINITIONS, Results, versions
+from mixedlub.study.results import COLUMNS, DEFINITIONS, VALIDITY, VALIDITY_MEANING, Results, versions
 from mixedlub.study.schema import Options, StudyFile
 
 MOST_SURFACES = 12
@@ -86,6 +87,7 @@ def content(results: Results) -> dict[str, Any]:
         "roughness_table": roughness_table(results),
         "loss_table": loss_table(results),
         "surfaces": surface_rows(study),
+        "cutoffs": cutoff_rows(results),
         "gears": input_rows(study, "gears"),
         "geometry": geometry_rows(study),
         "lubricant": input_rows(study, "lubricant"),
@@ -93,7 +95,8 @@ def content(results: Results) -> dict[str, Any]:
         "options": option_rows(file.options),
         "effects": [(e, study.plan.parameters[e.id]) for e in study.effects],
         "laws": list(laws_used(study.plan.model())),
-        "definitions": [(column, DEFINITIONS[name]) for name, (column, _) in COLUMNS.items()],
+        "definitions": [(column, DEFINITIONS[name]) for name, (column, _) in COLUMNS.items()]
+        + [(VALIDITY, VALIDITY_MEANING)],
         "fingerprint": fingerprint(study.plan),
         "versions": ", ".join(f"{name} {version}" for name, version in versions().items()),
     }
@@ -129,6 +132,7 @@ def findings(results: Results) -> list[str]:
             f"{' / '.join(study.pairings[best])} loses {100 * (1 - column[best] / column[worst]):.0f} % less than "
             f"{' / '.join(study.pairings[worst])}."
         )
+    sentences += [text for text in (_linear(results, where), _left_above_one(results)) if text]
     quiet = (ratio < 1e-3).any(axis=(1, 2, 3))
     if quiet.any() and not quiet.all():
         names = [" / ".join(study.pairings[i]) for i in np.flatnonzero(quiet)[:6]]
@@ -137,6 +141,37 @@ def findings(results: Results) -> list[str]:
             f"Practically free of asperity contact (area ratio below 0.001) somewhere: {', '.join(names)}{more}."
         )
     return sentences
+
+
+def _linear(results: Results, where: Callable[[int], str]) -> str:
+    """How well a straight line over composite roughness fits; empty where it would fit any pairings."""
+    fits = squares(results)
+    if len(results.study.pairings) < FEWEST_PAIRINGS or not np.isfinite(fits).all():
+        return ""
+    worst = where(int(fits.argmin())).partition(" at ")[2]
+    return (
+        f"A straight line of loss over composite roughness has R² of {fits.min():.3f} to {fits.max():.3f} at single "
+        f"conditions, the least at {worst}."
+    )
+
+
+def _left_above_one(results: Results) -> str:
+    """What of the loss between roughest and smoothest pairing is left above a film parameter of 1, by speed."""
+    loss = np.where(results["film_parameter"] >= 1.0, results["power_loss"], -np.inf).max(axis=0)
+    least, most = (edge(results["power_loss"], axis=0) for edge in (np.min, np.max))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        left = (loss - least) / (most - least)
+    told = [
+        f"{100 * by_speed[by_speed >= 0].mean():.0f} % at {rpm:g} rpm"
+        for by_speed, rpm in zip(np.moveaxis(left, -1, 0), results.study.file.conditions.speed_rpm)
+        if (by_speed >= 0).any()
+    ]
+    if len(results.study.pairings) < FEWEST_PAIRINGS or not 0 < len(told) <= MOST_SURFACES:
+        return ""
+    return (
+        "Of the loss between the roughest and the smoothest pairing there is left above a film parameter of 1, mean "
+        f"over torques and oil temperatures: {', '.join(told)}."
+    )
 
 
 def _triangle(results: Results, values: np.ndarray, form: str) -> dict[str, Any] | None:

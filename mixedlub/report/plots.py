@@ -81,8 +81,16 @@ def _whose(results: Results) -> str:
     return results.study.file.options.conditions_of
 
 
-def _marker(count: int) -> str:
-    return "o" if count <= MOST_MARKED else ""
+def _curve(panel: Axes, x: np.ndarray, y: np.ndarray, outside: np.ndarray, colour: Any, label: str) -> None:
+    """A line with marks, hollow where a condition is outside the model's range; of many conditions some are marked."""
+    panel.plot(x, y, color=colour, marker="o", markevery=np.flatnonzero(~outside & _marked(x.size)), label=label)
+    hollow = outside & _marked(x.size)
+    if hollow.any():
+        panel.scatter(x[hollow], y[hollow], 13.0, facecolor="white", edgecolor=[colour], linewidth=0.8, zorder=3)
+
+
+def _marked(count: int) -> np.ndarray:
+    return np.isin(np.arange(count), some(count, MOST_MARKED))
 
 
 def over_speed(results: Results, quantity: str, chosen: Sequence[int] | np.ndarray, theta: int) -> Figure:
@@ -90,8 +98,8 @@ def over_speed(results: Results, quantity: str, chosen: Sequence[int] | np.ndarr
     levels = results.study.file.conditions
     order = np.argsort(levels.speed_rpm)
 
-    def values(pairing: int, torque: int) -> np.ndarray:
-        return results[quantity][pairing, theta, torque][order]
+    def values(array: np.ndarray, pairing: int, torque: int) -> np.ndarray:
+        return array[pairing, theta, torque][order]
 
     figure, axes = _over(results, quantity, chosen, np.array(levels.speed_rpm)[order], values)
     for panel in axes:
@@ -106,8 +114,8 @@ def over_temperature(results: Results, chosen: Sequence[int] | np.ndarray) -> Fi
     levels = results.study.file.conditions
     order, fastest = np.argsort(levels.oil_temperature_C), int(np.argmax(levels.speed_rpm))
 
-    def values(pairing: int, torque: int) -> np.ndarray:
-        return results["power_loss"][pairing, :, torque, fastest][order]
+    def values(array: np.ndarray, pairing: int, torque: int) -> np.ndarray:
+        return array[pairing, :, torque, fastest][order]
 
     figure, axes = _over(results, "power_loss", chosen, np.array(levels.oil_temperature_C)[order], values)
     for panel in axes:
@@ -121,7 +129,7 @@ def _over(
     quantity: str,
     chosen: Sequence[int] | np.ndarray,
     x: np.ndarray,
-    values: Callable[[int, int], np.ndarray],
+    values: Callable[[np.ndarray, int, int], np.ndarray],
 ) -> tuple[Figure, Sequence[Axes]]:
     """A quantity over a condition, one line per torque, one panel per pairing; the lowest panels have a label."""
     from matplotlib.ticker import NullLocator
@@ -131,7 +139,8 @@ def _over(
     figure, axes, columns = panels(len(chosen), 3)
     for panel, pairing in zip(axes, chosen):
         for colour, t, label in zip(shades(len(torques)), torques, labels):
-            panel.plot(x, values(pairing, t), marker=_marker(x.size), color=colour, label=label)
+            outside = values(results.outside, pairing, t)
+            _curve(panel, x, values(results[quantity], pairing, t), outside, colour, label)
         sigma = results["composite_roughness"][pairing, 0, 0, 0] * 1e6
         panel.set_title(paired_title(results, pairing, f"Rq {sigma:.3f} µm"), loc="left")
     for number, panel in enumerate(axes):
@@ -142,7 +151,7 @@ def _over(
             panel.set_xlabel("-")
         if quantity == "power_loss" and number % columns == columns - 1:
             normalised_axis(panel, float(results["power_loss"].max()))
-    drawn = np.concatenate([values(p, t) for p in chosen for t in torques])
+    drawn = np.concatenate([values(results[quantity], p, t) for p in chosen for t in torques])
     if quantity == "area_ratio" and is_wide(drawn):
         for panel in axes:
             panel.set_yscale("log")
@@ -175,7 +184,7 @@ def loss_over(results: Results, quantity: str, theta: int, *, fitted: bool = Fal
             x = results[quantity][:, theta, t, n] * AXIS[quantity][1]
             y = results["power_loss"][:, theta, t, n]
             fits.append(_line(panel, x, y, colour) if fitted else "")
-            within = results["asperity_load_ratio"][:, theta, t, n] <= 1.0
+            within = ~results.outside[:, theta, t, n]
             _points(panel, x, y, within, _equal_surfaces(results), colour)
         panel.set_title(f"({letter}) {text}", loc="left")
         panel.set_xlabel(AXIS[quantity][0])
@@ -246,22 +255,17 @@ def film_and_friction(results: Results, theta: int) -> Figure:
     sigma = results["composite_roughness"][:, 0, 0, 0]
     ends = tuple(dict.fromkeys((int(sigma.argmin()), int(sigma.argmax()))))
     film = "all pairings" if one_film(results) else paired_title(results, ends[0])
-    draw: list[tuple[str, np.ndarray, str]] = [
-        ("mean film thickness (µm)", results["film_thickness"][ends[0], theta] * 1e6, f"film: {film}"),
-        *(
-            (
-                "mean friction coefficient (-)",
-                results["mean_friction"][i, theta],
-                f"friction: {paired_title(results, i)}",
-            )
-            for i in ends
-        ),
+    draw: list[tuple[str, str, int, str]] = [
+        ("mean film thickness (µm)", "film_thickness", ends[0], f"film: {film}"),
+        *(("mean friction coefficient (-)", "mean_friction", i, f"friction: {paired_title(results, i)}") for i in ends),
     ]
     figure = Figure(figsize=(WIDTH, 2.9), layout="constrained")
     axes = figure.subplots(1, len(draw), squeeze=False)[0]
-    for panel, (label, values, title) in zip(axes, draw):
+    for panel, (label, quantity, i, title) in zip(axes, draw):
+        values = results[quantity][i, theta] * (1e6 if quantity == "film_thickness" else 1.0)
+        outside = results.outside[i, theta] & (quantity != "film_thickness")
         for colour, t, text in zip(shades(len(torques)), torques, _torque_labels(results, torques)):
-            panel.plot(rpm, values[t, order], marker=_marker(rpm.size), color=colour, label=text)
+            _curve(panel, rpm, values[t, order], outside[t, order], colour, text)
         panel.set_title(title, loc="left", fontsize=SMALL)
         panel.set_ylabel(label)
         panel.set_xlabel(f"{_whose(results)} speed (rpm)")

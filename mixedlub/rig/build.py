@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mixedlub.gear import GearPair, Sharing
-from mixedlub.laws.oil import ZERO_CELSIUS
+from mixedlub.laws.oil import ZERO_CELSIUS, gold_pressure_viscosity
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.surface import Surface
 from mixedlub.schema import system_file
@@ -62,6 +62,14 @@ def named_bases() -> dict[str, dict[str, Any]]:
     return tomllib.loads(files("mixedlub.rig").joinpath("lubricants.toml").read_text(encoding="utf-8"))
 
 
+def typical(section: system_file.Lubricant) -> dict[str, Any]:
+    """A typical oil of the base stock; its pressure-viscosity by Gold's relation at the viscosities of the section."""
+    base = dict(named_bases()[section.base or DEFAULT_BASE])
+    at = section.kinematic_viscosity_mm2_s or base["kinematic_viscosity_mm2_s"]
+    alpha = gold_pressure_viscosity(np.array(at) * 1e-6, *base.pop("gold")) * 1e9
+    return {**base, "pressure_viscosity_per_GPa": alpha.round(1).tolist()}
+
+
 def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = ()) -> Lubricant:
     """The oil; what the section leaves open comes from its base stock, with a warning that says so.
 
@@ -69,7 +77,7 @@ def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (
     """
     section = section or system_file.Lubricant()
     known = {k: v for k, v in section.model_dump().items() if v is not None and k not in ("name", "base")}
-    base = named_bases()[section.base or DEFAULT_BASE]
+    base = typical(section)
     assumed = [key for key in base if key not in known and key != "source" and key not in unread]
     if assumed:
         stock = section.base or f"{DEFAULT_BASE} (assumed)"
@@ -100,15 +108,6 @@ def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (
     )
 
 
-def _trace(named: str, folder: Path, key: str) -> Profile:
-    """A shipped trace, or one from a file relative to the folder."""
-    from profiles.read import read
-
-    if not named.startswith(SHIPPED_MARK):
-        return read(named_file(folder, named, key))
-    return shipped_trace(named, key)
-
-
 def shipped_trace(named: str, key: str) -> Profile:
     """A trace that comes with the package, by its name behind the mark; ``key`` is where it is named."""
     wanted = named.removeprefix(SHIPPED_MARK)
@@ -119,8 +118,20 @@ def shipped_trace(named: str, key: str) -> Profile:
 
 def trace(name: str, section: system_file.SurfaceSection, folder: Path) -> Profile:
     """The trace that a surface names; what is wrong with it is said with the surface's name."""
+    from profiles.read import read
+
+    named, place = section.profile or "", f"surfaces.{name}"
     with _of_surface(name):
-        return _trace(section.profile or "", folder, f"surfaces.{name}.profile")
+        if not named.startswith(SHIPPED_MARK):
+            return read(named_file(folder, named, f"{place}.profile"), unit=section.unit, spacing=section.spacing)
+        for key in ("unit", "spacing"):
+            if getattr(section, key) is not None:
+                rule = "a shipped trace has its own; leave it out"
+                raise InputError(rule, where=f"{place}.{key}", value=getattr(section, key))
+        found = shipped_trace(named, f"{place}.profile")
+    text = "a synthetic trace: only Ra, Rq and Rz are of a measured flank, its slopes and curvatures were chosen"
+    report(finding("trace_synthetic", text, place))
+    return found
 
 
 @contextmanager
@@ -131,47 +142,45 @@ def _of_surface(name: str) -> Iterator[None]:
     except InputError as error:
         if error.where.startswith("surfaces."):
             raise
-        raise InputError(error.rule, where=f"surfaces.{name}: {error.where}", value=error.value) from None
+        rule = error.rule.replace("as unit '", "as unit = '").replace("as spacing '", "as spacing = '")
+        place = f"surfaces.{name}{'.' if error.where in ('unit', 'spacing') else ': '}{error.where}"
+        raise InputError(rule, where=place, value=error.value) from None
 
 
 def flank_profile(name: str, section: system_file.SurfaceSection, trace: Profile) -> Profile:
     """The roughness profile of a trace, prepared as `mixedlub profile` does.
 
-    Cut-offs are those of the section; without any, a profile that its file says is filtered stays as it is.
-    A short cut-off of fewer than two points is left out, as the trace does not show such waves.
+    Cut-offs that the section leaves out are those that the file says it was filtered with, else by ISO 4288 and ISO
+    3274. A short cut-off of fewer than two points is left out, as the trace does not show such waves.
     """
-    with _of_surface(name):
-        return _prepared(name, section, trace)
-
-
-def _prepared(name: str, section: system_file.SurfaceSection, trace: Profile) -> Profile:
     from roughness import evaluation_profile
 
-    if "cutoff" in trace.cutoffs and section.cutoff_mm is None and section.short_cutoff_um is None:
-        return evaluation_profile(trace, form=section.form or "line", edges=section.edges, outliers=section.outliers)
-    band = {
-        "cutoff_mm": section.cutoff_mm or system_file.CUTOFF_MM,
-        "short_cutoff_um": section.short_cutoff_um or system_file.SHORT_CUTOFF_UM,
-    }
-    assumed = [f"{key} = {value:g}" for key, value in band.items() if getattr(section, key) is None]
+    short = None if section.short_cutoff_um is None else section.short_cutoff_um * 1e-6
+    too_fine = short is not None and short < 2.0 * trace.spacing
+    with _of_surface(name):
+        profile = evaluation_profile(
+            trace,
+            form=section.form or "line",
+            cutoff="auto" if section.cutoff_mm is None else section.cutoff_mm * 1e-3,
+            short_cutoff=None if too_fine else short or "auto",
+            edges=section.edges,
+            outliers=section.outliers,
+        )
+    used = {"cutoff_mm": ("cutoff", 1e3, "ISO 4288"), "short_cutoff_um": ("short_cutoff", 1e6, "ISO 3274")}
+    assumed = [
+        f"{key} = {profile.cutoffs[cutoff] * factor:.4g} ({rule})"
+        for key, (cutoff, factor, rule) in used.items()
+        if getattr(section, key) is None and profile.cutoffs.get(cutoff) != trace.cutoffs.get(cutoff)
+    ]
     if assumed:
         report(finding("cutoff_assumed", f"{', '.join(assumed)} assumed", f"surfaces.{name}"))
-    short: float | None = band["short_cutoff_um"] * 1e-6
-    if band["short_cutoff_um"] * 1e-6 < 2.0 * trace.spacing:
-        short = None
+    if "short_cutoff" not in profile.cutoffs and "cutoff" not in trace.cutoffs:
         text = (
-            f"short cut-off not applied: the spacing of the trace, {trace.spacing * 1e6:.3g} um, is too coarse for "
-            f"{band['short_cutoff_um']:g} um, so slope and curvature are those of the spacing"
+            f"short cut-off not applied: the spacing of the trace, {trace.spacing * 1e6:.3g} um, is too coarse, so "
+            "slope and curvature are those of the spacing"
         )
         report(finding("short_cutoff_skipped", text, f"surfaces.{name}"))
-    return evaluation_profile(
-        trace,
-        form=section.form or "line",
-        cutoff=band["cutoff_mm"] * 1e-3,
-        short_cutoff=short,
-        edges=section.edges,
-        outliers=section.outliers,
-    )
+    return profile
 
 
 def _moments(name: str, trace: Profile, profile: Profile) -> Moments:

@@ -4,12 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 
+import numpy as np
+
 from mixedlub.rig.rig import Rig
 from mixedlub.rig.surface import Surface
 from mixedlub.schema import ranges, system_file
 from mixedlub.schema.findings import Finding, collected, finding
 from profiles.errors import InputError
 
+LEAST_HARD_MODULUS = 50e9
+"""Judgement. Reduced modulus (Pa) of metals, ceramics and glass at least."""
+YIELD_RATIO = 0.025
+"""Source: ISO 76. Hertz pressure over reduced modulus at which these yield: bearings are rated to 4.2 GPa, 0.018 of the
+modulus of steel; polymers bear a larger share."""
 BANDWIDTH = (1.0 - 1e-6, 1e5)
 """Nayak's m0 m4/m2^2: no profile has less than 1 (Cauchy and Schwarz), none of two scales apart by 300 more."""
 
@@ -23,6 +30,15 @@ def implausible(rig: Rig, surfaces: Collection[str] | None = None) -> Iterator[F
         found = _surface(rig, name)
         if found is not None:
             yield from _roughness(found, f"surfaces.{name}", rig.file.surfaces[name])
+
+
+def yields(pressure: np.ndarray, modulus: float) -> np.ndarray:
+    """Whether hard bodies of a reduced modulus (Pa) yield at a Hertz pressure (Pa); soft ones are not judged.
+
+    >>> yields(np.array([2e9, 12e9]), 226e9).tolist(), bool(yields(2e9, 2e9))
+    ([False, True], False)
+    """
+    return (np.asarray(pressure) > YIELD_RATIO * modulus) & (modulus >= LEAST_HARD_MODULUS)
 
 
 def _surface(rig: Rig, name: str) -> Surface | None:

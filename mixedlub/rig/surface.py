@@ -38,6 +38,8 @@ def paired(first: Sequence[Surface], second: Sequence[Surface], coated: bool = F
         return np.array([getattr(s, attribute) for s in side], dtype=float)
 
     both = {name: each(name, first) + each(name, second) for name in ("m0", "m2", "m4")}
+    for moment, share in (("m0", "height_share"), ("m2", "slope_share"), ("m4", "curvature_share")):
+        both[share] = each(moment, first) / both[moment]
     for name, attribute in (
         ("solid_conductivity", "conductivity"),
         ("solid_density", "density"),

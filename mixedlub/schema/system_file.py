@@ -23,9 +23,6 @@ def _known_quantity(name: str) -> str:
 KINDS = ("mixedlub.kinds", "mixedlub.kinds", "KIND")
 """Module that declares the kinds of recording; imported only when a file is read, since it imports this one."""
 Pair = tuple[Number, Number]
-CUTOFF_MM, SHORT_CUTOFF_UM = 0.8, 2.5
-"""Default cut-offs of a trace: ISO 4288 for Ra of 0.1 to 2 um, typical of ground flanks, and ISO 3274."""
-
 
 SHARING: tuple[Any, ...] = declared("mixedlub.gear.sharing", "mixedlub.load_sharing", "MODEL")
 """Load-sharing models, each with its name, meaning and keys."""
@@ -62,6 +59,17 @@ class LoadSharing(_SharingKeys):
             keys = [f'{one.chosen_by} = "FILE"' for one in SHARING if one.chosen_by]
             names = " or ".join(f'"{name}"' for name in _NAMED)
             raise ValueError(f"needs either {', '.join(keys)}, or model = {names}; not both")
+        return self
+
+    @model_validator(mode="after")
+    def _keys_of_the_model(self) -> LoadSharing:
+        """Refuse a modification that the chosen model would ignore; one of zero changes nothing."""
+        for name in self.model_fields_set - self.chosen.keys.model_fields.keys() - {"model"}:
+            if getattr(self, name) != type(self).model_fields[name].default:
+                takers = " or ".join(f'"{one.name}"' for one in SHARING if name in one.keys.model_fields)
+                raise ValueError(
+                    f"{name} acts only with model = {takers}; with {self.chosen.meaning} leave it out or give 0"
+                )
         return self
 
 
@@ -142,11 +150,18 @@ class SurfaceSection(Section):
         example="profiles/ground.csv",
         alternative=True,
     )
-    cutoff_mm: Number | None = key(
-        f"long cut-off of a trace; left out: {CUTOFF_MM}, or its own", None, example=CUTOFF_MM
+    unit: str | None = key(
+        "unit of a trace of plain numbers, as um or 'mm, um' (place, height); left out: as its file says",
+        None,
+        example="mm, um",
+        alternative=True,
     )
+    spacing: str | None = key(
+        "step of a trace, as '0.5 um'; left out: as its file says", None, example="0.5 um", alternative=True
+    )
+    cutoff_mm: Number | None = key("long cut-off of a trace; left out: its own, or by ISO 4288", None, example=0.8)
     short_cutoff_um: Number | None = key(
-        f"short cut-off of a trace; left out: {SHORT_CUTOFF_UM}, or its own", None, example=SHORT_CUTOFF_UM
+        "short cut-off of a trace; left out: its own, or by ISO 3274", None, example=2.5
     )
     form: str | None = key(
         "form taken off a trace: line (left out), none, mean, circle, polynomial-N, involute-MM", None, example="line"
@@ -167,6 +182,8 @@ class SurfaceSection(Section):
             raise ValueError("needs m0_um2, m2 and m4_per_um2, or a profile")
         if self.profile is not None and any(m is not None for m in moments):
             raise ValueError("has both moments and a profile; give one of them")
+        if self.profile is None and (self.unit or self.spacing) is not None:
+            raise ValueError("unit and spacing belong to a profile, which is not given")
         return self
 
 
@@ -236,8 +253,8 @@ class System(RigFile):
     uncertainty: Uncertainty = key("one standard deviation of what calibration may move; 0: known", Uncertainty())
     recording: Recording = key("what was read, and how well")
     effects: dict[str, dict[str, NumberOrName]] = key(
-        "EFFECT = { PARAMETER = VALUE }: physics that the rig is known to have, part of the base model; parameters "
-        "left out: median of their prior; PARAMETER_sd: its standard deviation; law = NAME: those of a published law",
+        "EFFECT = { PARAMETER = VALUE }: physics that the rig is known to have, part of the base model; law = NAME: "
+        "a published law; parameters left out: as the first published law has them; PARAMETER_sd: standard deviation",
         {},
         example={"sensor_gain": {"gain": 0.01, "gain_sd": 0.005}},
     )

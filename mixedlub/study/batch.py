@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import copy
 import ctypes
+import functools
 import itertools
 import os
 import platform
@@ -19,14 +20,30 @@ from typing import Any
 import numpy as np
 
 from mixedlub.chain.model import Model, Step
-from mixedlub.laws.contact import asperity_pressure, mean_hertz_pressure
+from mixedlub.laws.contact import mean_hertz_pressure
 from mixedlub.laws.loss import over_path
 from mixedlub.study.cluster import on_cluster
 from mixedlub.study.plan import Plan
 
-OUTPUTS = ("power_loss", "mean_friction", "area_ratio", "film_thickness", "film_parameter", "composite_roughness")
-CHECKS = ("asperity_load_ratio", "largest_area_ratio")
+OUTPUTS = (
+    "power_loss",
+    "mean_friction",
+    "area_ratio",
+    "film_thickness",
+    "film_parameter",
+    "composite_roughness",
+    "mesh_loss",
+    "rolling_loss",
+    "other_loss",
+    "hertz_pressure",
+    "asperity_load_ratio",
+)
+CHECKS = ("largest_area_ratio",)
+BEYOND = "beyond_"
+"""Before the id of an effect: the check that is 1 where its law is used outside the range of its source."""
 
+SLACK = 1e-6
+"""Rounding that a quantity may have beyond the range of a law."""
 PIECE_POINTS = 80_000
 PIECE_PAIRINGS = 64
 BLOCK_POINTS = 4_000_000
@@ -74,10 +91,15 @@ def blocks(plan: Plan) -> list[Block]:
     return split(plan.shape, reach(plan.shape, plan.points, BLOCK_POINTS, plan.shape[0]))
 
 
+def names(plan: Plan) -> tuple[str, ...]:
+    """Names of the outputs and checks of a plan."""
+    return (*OUTPUTS, *CHECKS, *(BEYOND + e.id for e in plan.effects if e.valid))
+
+
 def compute(plan: Plan, block: Block) -> Found:
     """Outputs and checks of one block in SI, each of the block's shape."""
     shape = tuple(s.stop - s.start for s in block)
-    found = {name: np.empty(shape) for name in (*OUTPUTS, *CHECKS)}
+    found = {name: np.empty(shape) for name in names(plan)}
     with np.errstate(all="ignore"):
         _fill(plan, block, found)
     return found
@@ -95,7 +117,7 @@ def _fill(plan: Plan, block: Block, found: Found) -> None:
             pairings = slice(start, min(start + size[0], shape[0]))
             piece = _taken(shared, (pairings,))
             piece.update(own(piece, plan.parameters))
-            for name, values in _reduced(piece).items():
+            for name, values in _reduced(piece, plan).items():
                 found[name][(pairings, *conditions[1:])] = values[..., 0]
 
 
@@ -133,28 +155,40 @@ def _taken(inputs: Inputs, ranges: Sequence[slice]) -> dict[str, Any]:
     return {name: part(value) for name, value in inputs.items()}
 
 
-def _reduced(state: Inputs) -> Found:
-    """Results of a piece with the mesh axis reduced to one; checks are made where the film is thinnest."""
-    film, area, weight = state["film_thickness"], state["area_ratio"], state["mean_weight"]
-    power = state["load_share"] * state["transmitted_force"] * state["sliding_speed"]
-    mean_film = over_path(film, weight)
-    thinnest = np.where(weight > 0, film, np.inf).argmin(axis=-1, keepdims=True)
+def _reduced(state: Inputs, plan: Plan) -> Found:
+    """Results of a piece with the mesh axis reduced to one; what is not loaded is in no mean and no check."""
+    film, area, pressure, weight = (state[n] for n in ("film_thickness", "area_ratio", "hertz_pressure", "mean_weight"))
+    loaded = weight > 0
+    mean_pressure = mean_hertz_pressure(pressure)
+    # The largest ratio of pressures is sought where that of area to pressure is: that costs no integral a point.
+    hardest = (area * (loaded / mean_pressure)).argmax(axis=-1, keepdims=True)
 
     def there(value: np.ndarray) -> np.ndarray:
-        return np.take_along_axis(value, thinnest, axis=-1)
+        return value if value.shape[-1] == 1 else np.take_along_axis(value, hardest, axis=-1)
 
     summits = (state["summit_density"], state["summit_radius"], state["summit_sigma"])
-    carried = asperity_pressure(there(state["separation"]), *summits, state["reduced_modulus"])
-    return {
+    carried = plan.asperities(there(state["separation"]), *map(there, summits), state["reduced_modulus"])
+    mean_film = over_path(film, weight)
+    in_mesh = state["mesh_loss"] + state["rolling_loss"]
+    found = {
         "power_loss": state["power_loss"],
-        "mean_friction": state["power_loss"] / over_path(power, state["path_weight"]),
-        "area_ratio": over_path(area, weight),
+        "mean_friction": state["mean_friction"],
+        "area_ratio": np.minimum(over_path(area, weight), 1.0),  # a mean of ones may round to more
         "film_thickness": mean_film,
         "film_parameter": mean_film / state["composite_roughness"],
         "composite_roughness": state["composite_roughness"],
-        "asperity_load_ratio": carried / mean_hertz_pressure(there(state["hertz_pressure"])),
+        "mesh_loss": state["mesh_loss"],
+        "rolling_loss": state["rolling_loss"],
+        "other_loss": state["power_loss"] - in_mesh,
+        "hertz_pressure": np.max(pressure, axis=-1, keepdims=True, where=loaded, initial=0.0),
+        "asperity_load_ratio": carried / there(mean_pressure),
         "largest_area_ratio": there(area),
     }
+    for e in plan.effects:
+        if e.valid:
+            within = [(state[n] >= low) & (state[n] <= high * (1 + SLACK)) for n, (low, high) in e.valid.items()]
+            found[BEYOND + e.id] = np.any(loaded & ~functools.reduce(np.logical_and, within), axis=-1, keepdims=True)
+    return found
 
 
 def run(

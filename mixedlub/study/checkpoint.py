@@ -19,7 +19,7 @@ import numpy as np
 
 import mixedlub
 import roughness
-from mixedlub.study.batch import CHECKS, OUTPUTS, Block, Found
+from mixedlub.study.batch import Block, Found
 from mixedlub.study.plan import Plan
 
 if TYPE_CHECKING:
@@ -73,8 +73,8 @@ def kept(folder: Path, todo: list[Block]) -> Iterator[tuple[Block, Found]]:
         except (OSError, pa.ArrowInvalid):
             continue
         shape = tuple(s.stop - s.start for s in block)
-        if table.num_rows == np.prod(shape) and set(table.column_names) == {*OUTPUTS, *CHECKS}:
-            yield block, {name: table[name].to_numpy().reshape(shape) for name in (*OUTPUTS, *CHECKS)}
+        if table.num_rows == np.prod(shape):
+            yield block, {name: table[name].to_numpy().reshape(shape) for name in table.column_names}
 
 
 def keep(folder: Path, block: Block, found: Found) -> None:
@@ -101,14 +101,14 @@ def floats(values: np.ndarray) -> pa.Array:
     return pa.Array.from_buffers(pa.float64(), flat.size, [None, pa.py_buffer(flat)])
 
 
-def words(names: Sequence[str], times: int) -> pa.Array:
-    """A column of names, each repeated ``times`` times; built as in `floats`."""
+def words(names: Sequence[str], index: np.ndarray) -> pa.Array:
+    """A column of names by their index; built as in `floats`."""
     import pyarrow as pa
 
     encoded = [name.encode() for name in names]
-    ends = np.cumsum(np.repeat([len(e) for e in encoded], times), dtype=np.int32)
+    ends = np.cumsum(np.array([len(e) for e in encoded])[index], dtype=np.int32)
     offsets = pa.py_buffer(np.concatenate([np.zeros(1, np.int32), ends]))
-    data = pa.py_buffer(b"".join(e * times for e in encoded))
+    data = pa.py_buffer(b"".join(map(encoded.__getitem__, index.tolist())))
     return pa.StringArray.from_buffers(ends.size, offsets, data)
 
 

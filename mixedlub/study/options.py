@@ -8,7 +8,7 @@ from typing import Any
 
 from mixedlub.chain.base_models import GEAR_LOSS
 from mixedlub.chain.model import Chain, Law
-from mixedlub.laws.contact import mean_hertz_pressure
+from mixedlub.laws.contact import asperity_pressure, mean_hertz_pressure, yielding_asperity_pressure
 from mixedlub.slots import SLOTS, VISCOSITY
 from mixedlub.study.schema import Options
 
@@ -32,6 +32,23 @@ def at_mean_pressure(law: Law) -> Law:
     head, _, rest = (inspect.getdoc(law) or "").partition("\n")
     averaged.__doc__ = f"{head} Taken at the mean Hertz pressure.\n{rest}"
     return averaged
+
+
+def at_hardness(strength: float, hardness: float) -> Law:
+    """Pressure of asperities of which plasticity of this strength lets those yield that `asperity_plasticity` does.
+
+    >>> gap = (0.1806, 4.4106e10, 7.8332e-6, 0.48970e-6, 226.374e9)
+    >>> [round(float(at_hardness(strength, 6e9)(*gap)) / 1e9, 1) for strength in (0.0, 1.0)]
+    [2.1, 1.1]
+    """
+
+    yielding: Law = yielding_asperity_pressure
+
+    def law(*values: Any) -> Any:
+        elastic = asperity_pressure(*values)
+        return elastic + strength * (yielding(*values, hardness) - elastic)
+
+    return law
 
 
 def study_chain(options: Options) -> Chain:

@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 
 from mixedlub.chain.effect import Effect
-from mixedlub.chain.model import Model
-from mixedlub.effects import find, known_effects
+from mixedlub.chain.model import Law, Model, Parameters
+from mixedlub.effects import LAW, find, known_effects
 from mixedlub.gear import GearPair, Mesh
 from mixedlub.gear.inputs import motion_inputs
+from mixedlub.laws.contact import asperity_pressure
 from mixedlub.laws.load import LEAST_SHARE
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.lubricant import Lubricant
@@ -23,12 +24,15 @@ from mixedlub.rig.rig import Rig
 from mixedlub.rig.surface import Surface, paired
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, report
-from mixedlub.study.options import study_chain
+from mixedlub.study.options import at_hardness, study_chain
 from mixedlub.study.schema import Options, Pairings, StudyFile
 from profiles.errors import InputError, nearest
 
 WANTED = (
     "power_loss",
+    "mesh_loss",
+    "rolling_loss",
+    "mean_friction",
     "area_ratio",
     "film_thickness",
     "composite_roughness",
@@ -38,8 +42,6 @@ WANTED = (
     "summit_radius",
     "summit_sigma",
 )
-
-Parameters = Mapping[str, Mapping[str, float]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,10 +59,21 @@ class Plan:
     shape: tuple[int, int, int, int]
     points: int
 
+    @property
+    def effects(self) -> tuple[Effect, ...]:
+        """The active effects."""
+        return find(sorted(self.parameters)) if self.parameters else ()
+
     def model(self) -> Model:
         """The chain of the chosen options with the active effects."""
-        effects = find(sorted(self.parameters)) if self.parameters else ()
-        return Model(study_chain(self.options), tuple(self.inputs), WANTED, effects)
+        wanted = dict.fromkeys((*WANTED, *(name for e in self.effects for name in e.valid)))
+        return Model(study_chain(self.options), tuple(self.inputs), tuple(wanted), self.effects)
+
+    @property
+    def asperities(self) -> Law:
+        """Law of the pressure that asperities would carry: yielding ones where plasticity is on."""
+        plastic = self.parameters.get("asperity_plasticity")
+        return at_hardness(**plastic) if plastic else asperity_pressure
 
 
 @dataclass(frozen=True, eq=False)
@@ -200,8 +213,22 @@ def _pairing_inputs(pairs: list[tuple[Surface, Surface]]) -> dict[str, np.ndarra
 
 
 def _effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, ...], Parameters]:
-    """The active effects, each parameter at its given value or the median of its prior."""
+    """The active effects, each parameter at its given value or as its law has it."""
     known = known_effects(file.effects, "gear_pair", study_chain(file.options), tuple(inputs), "power_loss")
     for effect, name in known.sds:
         raise InputError("a study has no uncertainty; leave it out", where=f"effects.{effect}.{name}_sd")
+    for e in known.effects:
+        _tell_defaults(e, file.effects[e.id], known.values[e.id])
     return known.effects, known.values
+
+
+def _tell_defaults(e: Effect, given: Mapping[str, float | str], values: Mapping[str, float]) -> None:
+    """Report the law that was taken where none is named, and an effect that nothing switches on."""
+    taken, *others = e.laws_within_reach or ("",)
+    if others and LAW not in given and not given.keys() >= e.laws_within_reach[taken].keys():
+        text = f"taken as the law of {taken}; law = NAME chooses {' or '.join(others)}"
+        report(finding("effect_law_assumed", text, f"effects.{e.id}"))
+    switches = {p.name: p.null for p in e.parameters if p.null is not None}
+    if switches and all(values[name] == null for name, null in switches.items()) and not switches.keys() & given.keys():
+        text = f"changes nothing: a value for {' or '.join(switches)} switches it on"
+        report(finding("effect_off", text, f"effects.{e.id}"))

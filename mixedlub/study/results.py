@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +17,7 @@ from mixedlub.schema.units import unit_of
 from mixedlub.study import batch, checkpoint
 from mixedlub.study.batch import CHECKS, OUTPUTS
 from mixedlub.study.plan import Study
+from mixedlub.study.range_flags import VALID, as_words, flags
 from mixedlub.study.schema import StudyFile
 from mixedlub.version import installed_version
 from profiles.errors import InputError
@@ -32,25 +34,39 @@ COLUMNS = {
     "film_thickness": ("film_thickness_um", 1e6),
     "film_parameter": ("film_parameter", 1.0),
     "composite_roughness": ("composite_roughness_um", 1e6),
+    "mesh_loss": ("mesh_loss_W", 1.0),
+    "rolling_loss": ("rolling_loss_W", 1.0),
+    "other_loss": ("other_loss_W", 1.0),
+    "hertz_pressure": ("hertz_pressure_MPa", 1e-6),
+    "asperity_load_ratio": ("asperity_load_ratio", 1.0),
 }
 """Column of each output, and the factor from SI to its unit."""
 
 DEFINITIONS = {
     "power_loss": "total power loss, mean over a mesh cycle: the mesh and every loss that is switched on as an effect",
-    "mean_friction": "power loss over the path integral of load times sliding speed",
+    "mean_friction": "sliding loss of the mesh over the path integral of load times sliding speed; with "
+    'averaging = "paper", the plain mean of friction over the path',
     "area_ratio": "boundary area ratio, plain mean over the path of contact as far as it carries load",
     "film_thickness": "film thickness, plain mean over the path of contact as far as it carries load",
     "film_parameter": "mean film thickness over composite roughness",
     "composite_roughness": GLOSSARY["composite_roughness"].meaning,
-    "asperity_load_ratio": "pressure elastic asperities would carry over mean Hertz pressure, thinnest film",
-    "largest_area_ratio": "boundary area ratio at the thinnest film of the path",
+    "mesh_loss": GLOSSARY["mesh_loss"].meaning,
+    "rolling_loss": GLOSSARY["rolling_loss"].meaning,
+    "other_loss": "power lost outside the mesh by effects that are switched on: bearings, seals, churning, windage",
+    "hertz_pressure": "largest Hertz pressure of the path of contact",
+    "asperity_load_ratio": "pressure that asperities would carry over mean Hertz pressure, the largest of the path; "
+    "above 1 the film would have to give way, which the model does not let it",
+    "largest_area_ratio": "boundary area ratio where asperities carry most",
 }
 """Meaning of each output."""
 
+VALIDITY = "validity"
+"""Column that says of a condition where it is outside the range of the model."""
+VALIDITY_MEANING = f"'{VALID}', or the kinds of findings that say why the condition is outside the model's range"
 LEVELS = ("oil_temperature_C", "torque_Nm", "speed_rpm")
 """Conditions of a study in the order of the axes of its arrays."""
 _ROWS = 200_000
-_REPEATING = ["pinion_surface", "gear_surface", "torque_Nm", "speed_rpm", "oil_temperature_C"]
+_REPEATING = ["pinion_surface", "gear_surface", "torque_Nm", "speed_rpm", "oil_temperature_C", VALIDITY]
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +75,16 @@ class Results:
 
     study: Study
     values: Mapping[str, np.ndarray]
+
+    @cached_property
+    def flags(self) -> Mapping[str, np.ndarray]:
+        """Where conditions are outside the range of the model, by the code of the finding that says why."""
+        return flags(self.study.plan, self.values)
+
+    @cached_property
+    def outside(self) -> np.ndarray:
+        """Whether a condition is outside the range of the model for any reason."""
+        return np.logical_or.reduce([np.zeros(self.study.plan.shape, bool), *self.flags.values()])
 
     def __getitem__(self, name: str) -> np.ndarray:
         return self.values[name]
@@ -78,6 +104,8 @@ class Results:
             column: (("pairing", *LEVELS), self.values[name] * scale, _described(name, column))
             for name, (column, scale) in {**COLUMNS, **{name: (name, 1.0) for name in CHECKS}}.items()
         }
+        index, texts = as_words(self.flags, self.study.plan.shape)
+        variables[VALIDITY] = (("pairing", *LEVELS), np.array(texts)[index], {"long_name": VALIDITY_MEANING})
         return xr.Dataset(variables, coordinates, {"title": self.study.file.title})
 
     def to_pandas(self) -> pd.DataFrame:
@@ -94,16 +122,18 @@ class Results:
         axes = (levels.oil_temperature_C, levels.torque_Nm, levels.speed_rpm)
         theta, torque, speed = (grid.ravel() for grid in np.meshgrid(*axes, indexing="ij"))
         step = max(1, _ROWS // theta.size)
+        index, texts = as_words(self.flags, self.study.plan.shape)
         for start in range(0, len(self.study.pairings), step):
             pairings = self.study.pairings[start : start + step]
             columns = {
-                name: checkpoint.words([both[side] for both in pairings], theta.size)
+                name: checkpoint.words([both[side] for both in pairings], np.arange(len(pairings)).repeat(theta.size))
                 for side, name in enumerate(("pinion_surface", "gear_surface"))
             }
             for name, level in (("torque_Nm", torque), ("speed_rpm", speed), ("oil_temperature_C", theta)):
                 columns[name] = checkpoint.floats(np.tile(level, len(pairings)))
             for name, (column, scale) in COLUMNS.items():
                 columns[column] = checkpoint.floats(self.values[name][start : start + step] * scale)
+            columns[VALIDITY] = checkpoint.words(texts, index[start : start + step].ravel())
             yield pa.table(columns)
 
     def _described_schema(self, schema: pa.Schema) -> pa.Schema:
@@ -142,7 +172,8 @@ def meanings() -> dict[str, str]:
     """Meaning of each column of the table."""
     levels = {key.name: key.meaning for key in file_table(StudyFile, "conditions").fields}
     sides = {f"{side}_surface": f"surface of the {side}" for side in ("pinion", "gear")}
-    return sides | levels | {column: DEFINITIONS[name] for name, (column, _) in COLUMNS.items()}
+    outputs = {column: DEFINITIONS[name] for name, (column, _) in COLUMNS.items()}
+    return sides | levels | outputs | {VALIDITY: VALIDITY_MEANING}
 
 
 def versions() -> dict[str, str]:
@@ -164,7 +195,7 @@ def run_study(
     progress: Callable[[int, int], None] = lambda done, of: None,
 ) -> Results:
     """Run a study; with a folder for parts, finished blocks are saved and those of an earlier run are reused."""
-    values = {name: np.empty(study.plan.shape) for name in (*OUTPUTS, *CHECKS)}
+    values = {name: np.empty(study.plan.shape) for name in batch.names(study.plan)}
     todo = batch.blocks(study.plan)
     waiting = {checkpoint.block_name(b): b for b in todo}
     total, done = len(todo), 0

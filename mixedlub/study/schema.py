@@ -131,9 +131,9 @@ class StudyFile(RigFile):
     options: Options = key("readings of the model on which its authors leave room", Options())
     effects: dict[str, dict[str, NumberOrName]] = key(
         "EFFECT = { PARAMETER = VALUE }: physics beyond the base model, as `mixedlub effects` lists it; "
-        "parameters left out: median of their prior; law = NAME: those of a published law",
+        "law = NAME: a published law; parameters left out: as the first published law has them",
         {},
-        example={"churning": {}},
+        example={"churning": {"law": "Changenet and Velex"}},
     )
 
 

@@ -1,51 +1,65 @@
-"""Number of conditions outside the validity range of the laws."""
+"""Findings on conditions of a study outside the validity range of the laws."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+
 import numpy as np
 
+from mixedlub.chain.effect import Effect
+from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.rig.plausibility import YIELD_RATIO
 from mixedlub.schema.findings import Finding, finding
+from mixedlub.study.range_flags import EXTRAPOLATED
 from mixedlub.study.results import Results
-from roughness.mccool import nayak_parameter
 
 
 def out_of_range(results: Results) -> tuple[Finding, ...]:
-    """Findings on conditions outside the validity range of the laws; empty where all are within."""
-    return (*_load_balance(results), *_clipped(results), *_bandwidth(results))
+    """Findings on conditions outside the validity range of the laws, gravest first; empty where all are within."""
+    return tuple(_finding(results, code, where) for code, where in results.flags.items())
 
 
-def _load_balance(results: Results) -> list[Finding]:
-    ratio = results["asperity_load_ratio"]
-    count = int((ratio > 1).sum())
-    if not count:
-        return []
-    text = (
-        f"{count} of {ratio.size} conditions ({_pairings(results, ratio > 1)}) are outside the model's range: elastic "
-        f"asperities would carry up to {ratio.max():.3g} times the mean Hertz pressure, so the boundary area ratio and "
-        "the loss of these conditions are not quantitative"
+def _finding(results: Results, code: str, where: np.ndarray) -> Finding:
+    count = f"{int(where.sum())} of {where.size} conditions ({_pairings(results, where)})"
+    if code.startswith(EXTRAPOLATED):
+        (used,) = (e for e in results.study.effects if EXTRAPOLATED + e.id == code)
+        return finding("law_extrapolated", f"in {count} {_range(used)}", f"effects.{used.id}")
+    return finding(code, _TEXTS[code](results, count))
+
+
+def _overloaded(results: Results, count: str) -> str:
+    yielding = "asperity_plasticity" in results.study.plan.parameters
+    return (
+        f"{count} are outside the model's range: {'yielding' if yielding else 'elastic'} asperities would carry up to "
+        f"{results['asperity_load_ratio'].max():.3g} times the mean Hertz pressure, so the boundary area ratio and the "
+        "loss of these conditions are not quantitative"
     )
-    return [finding("asperities_overloaded", text)]
 
 
-def _clipped(results: Results) -> list[Finding]:
-    full = results["largest_area_ratio"] >= 1.0
-    if not full.any():
-        return []
-    count = f"in {int(full.sum())} of {full.size} conditions ({_pairings(results, full)})"
-    return [finding("area_ratio_limited", f"{count} the boundary area ratio was limited to 1")]
-
-
-def _bandwidth(results: Results) -> list[Finding]:
-    moments = [np.asarray(results.study.plan.inputs[name]).ravel() for name in ("m0", "m2", "m4")]
-    with np.errstate(divide="ignore", over="ignore"):
-        low = nayak_parameter(*moments) < 1.5
-    if not low.any():
-        return []
-    text = (
-        f"{int(low.sum())} of {low.size} pairings have a Nayak bandwidth below 1.5, which no isotropic Gaussian "
-        "surface has; 1.5 was used"
+def _pressed(results: Results, count: str) -> str:
+    bearable = YIELD_RATIO * float(results.study.plan.inputs["reduced_modulus"])
+    return (
+        f"in {count} the Hertz pressure, up to {1e-9 * results['hertz_pressure'].max():.3g} GPa, is above what hard "
+        f"flanks bear, {1e-9 * bearable:.2g} GPa: check torque_Nm, and module and face width in [gears]"
     )
-    return [finding("bandwidth_limited", text)]
+
+
+_TEXTS: Mapping[str, Callable[[Results, str], str]] = {
+    "pressure_above_yield": _pressed,
+    "asperities_overloaded": _overloaded,
+    "area_ratio_limited": lambda results, count: f"in {count} the boundary area ratio was limited to 1",
+    "bandwidth_limited": lambda results, count: (
+        f"in {count} the Nayak bandwidth is below 1.5, which no isotropic Gaussian surface has; 1.5 was used"
+    ),
+}
+
+
+def _range(used: Effect) -> str:
+    spans = (
+        f"{GLOSSARY[name].meaning} {low:g} to {high:g} {GLOSSARY[name].unit.removeprefix('-')}".rstrip()
+        for name, (low, high) in used.valid.items()
+    )
+    return f"its law is used outside the range of its source: {', '.join(spans)}"
 
 
 def _pairings(results: Results, flagged: np.ndarray) -> str:

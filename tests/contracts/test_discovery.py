@@ -85,7 +85,7 @@ def studied(installed: Path, folder: Path, text: str, *options: str) -> tuple[di
     assert said.returncode == 0, said.stderr
     with (folder / "out" / "results.csv").open(encoding="utf-8", newline="") as file:
         (row,) = csv.DictReader(file)
-    numbers = {name: float(cell) for name, cell in row.items() if "surface" not in name}
+    numbers = {name: float(cell) for name, cell in row.items() if "surface" not in name and name != "validity"}
     page = folder / "out" / "index.html"
     return numbers, page.read_text(encoding="utf-8") if page.exists() else ""
 

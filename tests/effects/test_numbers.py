@@ -14,6 +14,7 @@ from mixedlub.effects.elastic_hysteresis import elastic_hysteresis
 from mixedlub.effects.film_heating import film_heating
 from mixedlub.effects.inlet_shear_heating import inlet_shear_heating
 from mixedlub.effects.inlet_shear_thinning import inlet_shear_thinning
+from mixedlub.effects.micro_ehl import micro_ehl
 from mixedlub.effects.misalignment import misalignment
 from mixedlub.effects.rolling_resistance import rolling_resistance
 from mixedlub.effects.roughness_lay import roughness_lay
@@ -23,6 +24,7 @@ from mixedlub.effects.torque_offset import torque_offset
 from mixedlub.effects.viscosity_temperature_law import viscosity_temperature_law
 from mixedlub.kinds.standard import ROUGHNESS_UM
 from mixedlub.laws import drag, heating, loss
+from mixedlub.laws.film import wave_amplitude
 from mixedlub.report.effect_pages import shown
 from mixedlub.rig.lubricant import Lubricant
 from roughness.integrals import area_integral
@@ -43,6 +45,22 @@ def goksem(radius: float, modulus: float, viscosity: float, speed: float, alpha:
 
 
 class TestLiterature:
+    @pytest.mark.parametrize(("wavelength", "left"), [(1.0, 0.183), (0.5, 0.394), (0.25, 0.660), (0.125, 0.839)])
+    def test_amplitude_of_waves_in_a_line_contact(self, wavelength: float, left: float) -> None:
+        """Solutions of Venner, Couhier, Lubrecht and Greenwood (1997), M 100, L 11, for a tenth of the film."""
+        assert wave_amplitude(wavelength, 100.0, 11.0) == pytest.approx(left, rel=0.05)
+
+    def test_each_surface_is_flattened_by_its_own_waves(self) -> None:
+        """The long waves of the first surface go, the short ones of the second stay."""
+        here = {"hertz_half_width": 0.18e-3, "hertz_pressure": 1e9, "radius": 8e-3, "reduced_modulus": 226e9}
+        oil = {"viscosity": 0.015, "entrainment_speed": 1.0, "pressure_viscosity": 15e-9}
+        shares = {"height_share": 0.5, "slope_share": 1e-4, "curvature_share": 1e-8}
+        form = {"relative_wavelength": 1.0, "viscous": 1.0, "texture": 1.0}
+        m0, m2, m4 = micro_ehl(1e-14, 1e-2, 1e9, **shares, **here, **oil, **form)
+        assert m0 / 1e-14 == pytest.approx(0.5, abs=0.05)
+        assert m2 / 1e-2 == pytest.approx(1.0, abs=0.1)
+        assert m4 / 1e9 == pytest.approx(1.0, abs=0.1)
+
     """Published numbers, at the tolerance they support."""
 
     @pytest.mark.parametrize(

@@ -10,9 +10,7 @@ from hypothesis import strategies as st
 
 from mixedlub.gear import LdpSharing, mesh, transmission_error
 from profiles.errors import InputError
-from tests.gear.pairs import (
-    HONG,
-)
+from tests.gear.pairs import HONG, NASA
 
 REFUSED = [
     ("tip_relief_um", {"tip_relief": (-1e-6, 0.0)}),
@@ -94,3 +92,10 @@ class TestRefusals:
             return
         assert np.all(np.isfinite(share))
         assert np.all(share >= 0)
+
+
+def test_the_ring_foundation_is_told_beyond_its_root_angles():
+    """Half a root angle of 0.133 rad on 17 teeth, where the fit ends at 0.12; 28 teeth have 0.079."""
+    beyond = mesh(HONG, LdpSharing(foundation="sainsot", bore_radius=(18e-3, 25e-3))).notes
+    assert [(one.code, one.place) for one in beyond] == [("law_extrapolated", "pinion")]
+    assert mesh(NASA, LdpSharing(foundation="sainsot", bore_radius=(18e-3, 18e-3))).notes == ()

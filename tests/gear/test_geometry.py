@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 
 from mixedlub.gear import GearPair
 from mixedlub.gear.geometry import inverse_involute, involute
+from mixedlub.schema.findings import collected
 from profiles.errors import InputError
-from tests.gear.pairs import FZG_C, HONG, NASA
+from tests.gear.pairs import FZG_C, HIGH_SPEED_A, HONG, NASA
 
 
 def roll_degrees(pair, position):
@@ -217,3 +218,10 @@ class TestRefusals:
             return
         assert pair.contact_ratio >= 1
         assert 0 <= pair.path_start < pair.pitch_point < pair.path_end <= pair.line_of_action_length * 1.000001
+
+
+def test_a_loss_factor_beyond_its_contact_ratios_is_told():
+    """Ohlendorf's factor ends at a contact ratio of 2; geometry A of the fast gears has 2.004."""
+    with collected() as found:
+        assert 0.15 < replace(HIGH_SPEED_A).loss_factor < 0.17
+    assert [one.code for one in found] == ["law_extrapolated"]

@@ -7,6 +7,7 @@ import pytest
 
 from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file
+from mixedlub.schema.findings import codes, collected
 from profiles import shipped
 from profiles.errors import InputError
 from roughness import evaluation_profile, moments
@@ -18,7 +19,9 @@ def rig(folder: Path, name: str) -> Rig:
 
 
 def test_a_shipped_trace_needs_no_file(tmp_path: Path) -> None:
-    found = rig(tmp_path, "shipped:0302").surface("ground")
+    with collected() as told:
+        found = rig(tmp_path, "shipped:0302").surface("ground")
+    assert codes(told) == ["trace_synthetic"]
     own = moments(evaluation_profile(shipped("0302"), form="line", cutoff=0.8e-3, short_cutoff=2.5e-6))
     assert np.array([found.m0, found.m2, found.m4]) == pytest.approx(np.array([own.m0, own.m2, own.m4]), rel=1e-12)
 

@@ -165,3 +165,35 @@ def test_mean_sliding_of_equation_3(results):
     z1, z2 = pair.teeth
     expected = 0.5 * pair.contact_ratio * np.pi * (1 / z1 + 1 / z2)
     assert pair.end_mean_sliding == pytest.approx(expected, rel=1e-12)
+
+
+def test_mean_friction_of_the_papers_averages_is_its_plain_mean(results):
+    """An independent computation of eq. 4 has 0.0369 for 0258 / 0302 at 100 Nm and 1500 rpm."""
+    options = results.study.file.options.model_copy(update={"averaging": "paper"})
+    file = results.study.file.model_copy(update={"options": options})
+    found = run_study(read_study(EXAMPLE, file))["mean_friction"][place(results, "0258", "0302"), 0, 1, 2]
+    assert found == pytest.approx(0.0369, abs=5e-5)
+
+
+OVERLOADS = [
+    (("0450", "0450"), 0, 0, 14.9, 5.9),
+    (("0450", "0450"), 2, 0, 8.8, 3.5),
+    (("0258", "0302"), 1, 2, 3.8, 2.0),
+    (("0036", "0258"), 1, 2, 1.6, 1.2),
+]
+
+
+@pytest.fixture(scope="module", params=[{}, {"asperity_plasticity": {"strength": 1.0, "hardness": 6e9}}], ids=str)
+def rigid(results, request):
+    """The study with rigid teeth, elastic or yielding asperities."""
+    gears = results.study.file.gears
+    sharing = type(gears.load_sharing)(model="rigid")
+    rigid_teeth = {"gears": gears.model_copy(update={"load_sharing": sharing}), "effects": request.param}
+    return run_study(read_study(EXAMPLE, results.study.file.model_copy(update=rigid_teeth)))
+
+
+@pytest.mark.parametrize(("pairing", "t", "n", "elastic", "plastic"), OVERLOADS)
+def test_asperities_carry_what_an_independent_computation_has(rigid, pairing, t, n, elastic, plastic):
+    """Greenwood and Williamson, and Chang, Etsion and Bogy at 6 GPa, over the mean Hertz pressure."""
+    expected = plastic if rigid.study.effects else elastic
+    assert rigid["asperity_load_ratio"][place(rigid, *pairing), 0, t, n] == pytest.approx(expected, abs=0.06)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mixedlub.report.figures import MOST_PANELS, figures
+from mixedlub.report.figures import MOST_PANELS, equal_pairings, figures
 from mixedlub.report.plots import MOST_LEVELS, MOST_PAIRINGS
 from mixedlub.study import read_study, run_study
 
@@ -238,3 +238,13 @@ def test_a_doubtful_verdict_is_doubted_at_its_panel(write_study):
     title = probability.figure.axes[0].get_title(loc="left")
     assert "19 independent heights" in title
     assert "0.14 × Gaussian" in title
+
+
+def test_conditions_outside_the_range_are_hollow(write_study):
+    """As many hollow marks as there are such conditions among those drawn."""
+    results = run_study(read_study(write_study()))
+    drawn = next(d for d in figures(results) if d.name.startswith("power_loss_equal"))
+    chosen = equal_pairings(results)
+    hollow = sum(len(c.get_offsets()) for panel in drawn.figure.axes for c in panel.collections)
+    assert hollow == results.outside[chosen, 0].sum()
+    assert "Hollow" in drawn.caption

@@ -22,6 +22,12 @@ HEADER = [
     "film_thickness_um",
     "film_parameter",
     "composite_roughness_um",
+    "mesh_loss_W",
+    "rolling_loss_W",
+    "other_loss_W",
+    "hertz_pressure_MPa",
+    "asperity_load_ratio",
+    "validity",
 ]
 
 
@@ -47,7 +53,8 @@ def test_csv_and_parquet_hold_the_same_numbers(results, tmp_path):
     assert table.column_names == HEADER
     with (tmp_path / "r.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
-    for name in HEADER[2:]:
+    assert [row["validity"] for row in rows] == table["validity"].to_pylist()
+    for name in HEADER[2:-1]:
         assert np.array_equal([float(row[name]) for row in rows], table[name].to_numpy())
     for name in HEADER[:2]:
         assert [row[name] for row in rows] == table[name].to_pylist()
@@ -114,3 +121,30 @@ def test_area_ratio_held_at_one_is_flagged(write_study):
     found = run_study(read_study(write_study(surfaces=wide)))
     assert found["area_ratio"].max() == 1.0
     assert "area_ratio_limited" in codes(out_of_range(found))
+
+
+LOSSES_BESIDE_THE_MESH = {"churning": {}, "windage": {}, "bearing_drag": {}, "seal_drag": {}}
+
+
+def test_mean_friction_is_that_of_the_mesh_whatever_else_loses_power(write_study):
+    base = run_study(read_study(write_study()))
+    whole = run_study(read_study(write_study("whole", effects=LOSSES_BESIDE_THE_MESH)))
+    assert np.array_equal(base["mean_friction"], whole["mean_friction"])
+
+
+def test_power_loss_is_the_sum_of_its_origins(write_study):
+    found = run_study(read_study(write_study(effects={**LOSSES_BESIDE_THE_MESH, "rolling_resistance": {}})))
+    assert (found["rolling_loss"] > 0).all()
+    assert (found["other_loss"] > 0).all()
+    parts = found["mesh_loss"] + found["rolling_loss"] + found["other_loss"]
+    assert found["power_loss"] == pytest.approx(parts, rel=1e-12)
+
+
+def test_friction_of_one_pairing_follows_an_effect_on_its_load(write_study):
+    """A uniform factor on the force leaves the mesh's coefficient where the load itself puts it."""
+    force = {"amplitude": 0.1, "resonance": 850.0, "damping": 0.1, "phase": 0.0, "second": 0.0}
+    one = {"every": ["mid"]}
+    many = run_study(read_study(write_study("many", effects={"dynamic_load": force})))
+    alone = run_study(read_study(write_study("alone", effects={"dynamic_load": force}, pairings=one)))
+    pairing = many.study.pairings.index(("mid", "mid"))
+    assert alone["mean_friction"][0] == pytest.approx(many["mean_friction"][pairing], rel=1e-12)

@@ -40,6 +40,23 @@ WRONG = {
     "unknown option": ({"options__film": "hamrock"}, "film"),
     "unknown effect": ({"effects__starvatoin": {}}, "starvatoin"),
     "unknown effect parameter": ({"effects__inlet_shear_heating": {"stength": 1.0}}, "'strength'"),
+    "relief of rigid teeth": (
+        {"gears__load_sharing": {"model": "rigid", "tip_relief_um": [20, 20], "relief_length_mm": [2, 2]}},
+        'model = "ldp"',
+    ),
+    "crown of rigid teeth": (
+        {"gears__load_sharing": {"model": "rigid", "lead_crown_um": 5}},
+        "lead_crown_um acts only",
+    ),
+    "misalignment beside a share table": (
+        {"gears__load_sharing": {"table": "share.csv", "misalignment_um": 5}},
+        "misalignment_um acts only",
+    ),
+    "unknown law of an effect": ({"effects__churning": {"law": "Changenet"}}, "Changenet and Velex"),
+    "law of an effect with one": ({"effects__film_heating": {"law": "Archard"}}, "film_heating"),
+    "law against a number": ({"effects__churning": {"law": "Boness, laminar", "viscous": 0.5}}, "churning.viscous"),
+    "number that is a name": ({"effects__churning": {"strength": "one"}}, "churning.strength"),
+    "number that is none": ({"effects__churning": {"strength": True}}, "churning.strength"),
     "wrong schema": ({"schema": "mixedlub-case/1"}, "schema"),
 }
 
@@ -107,3 +124,18 @@ def test_an_input_that_is_not_finite_is_told_with_its_level(write_study):
     )
     with pytest.raises(InputError, match=r"cold\.toml: conditions: oil_temperature_C -60: .*no finite viscosity"):
         read_study(path)
+
+
+def test_a_modification_of_zero_is_accepted_by_every_sharing(write_study):
+    sharing = {"model": "rigid", "lead_crown_um": 0, "tip_relief_um": [0, 0]}
+    assert read_study(write_study(gears__load_sharing=sharing)).file.gears.load_sharing.model == "rigid"
+
+
+@pytest.mark.parametrize(
+    ("base", "viscosity", "per_GPa"), [("pao", [460, 45], [16.7, 12.3]), ("mineral", [34, 7.2], [16.2, 13.0])]
+)
+def test_the_pressure_viscosity_that_is_left_out_follows_the_viscosity(base, viscosity, per_GPa, write_study):
+    """Gold's relation at the viscosities of the oil, not of a typical one."""
+    oil = {"base": base, "temperature_C": [40, 100], "kinematic_viscosity_mm2_s": viscosity}
+    found = read_study(write_study(lubricant=oil)).oil.pressure_viscosity
+    assert [1e9 * alpha for alpha in found] == pytest.approx(per_GPa, abs=0.051)

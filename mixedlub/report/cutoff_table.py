@@ -1,0 +1,59 @@
+"""How the straight line of loss over composite roughness depends on the short cut-off of the traces."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from mixedlub.schema.findings import collected
+from mixedlub.study import Results, read_study, run_study
+from mixedlub.study.plan import Study
+from profiles.errors import InputError
+
+FACTORS = (0.5, 1.0, 2.0, 3.2)
+"""Short cut-offs over those of the study; the last takes 2.5 um to the next of ISO 3274, 8 um."""
+FEWEST_PAIRINGS, MOST_TRACES, MOST_ROWS = 3, 12, 20_000
+"""Fewest pairings that a straight line says anything of, and most traces and conditions that are computed again."""
+
+
+def squares(results: Results) -> np.ndarray:
+    """R^2 of a straight line of loss over composite roughness, of shape (oil temperature, torque, speed)."""
+    x, y = (a - a.mean(axis=0) for a in (results["composite_roughness"], results["power_loss"]))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return (x * y).sum(axis=0) ** 2 / ((x**2).sum(axis=0) * (y**2).sum(axis=0))
+
+
+def cutoff_rows(results: Results) -> list[tuple[str, str, str, str]]:
+    """Short cut-off, least and largest R^2, largest boundary area ratio; empty where no trace has a cut-off."""
+    study = results.study
+    with collected():
+        own = {name: study.rig.profile(name).cutoffs.get("short_cutoff") for name in _traced(study)}
+    few = len(study.pairings) < FEWEST_PAIRINGS or len(own) > MOST_TRACES or study.conditions > MOST_ROWS
+    if few or not own or None in own.values():
+        return []
+    rows = []
+    for factor in FACTORS:
+        try:
+            found = results if factor == 1.0 else _at(study, {name: factor * (own[name] or 0.0) for name in own})
+        except InputError:
+            continue
+        used = sorted({factor * (cutoff or 0.0) * 1e6 for cutoff in own.values()})
+        fits = squares(found)
+        label = " to ".join(f"{value:.3g}" for value in dict.fromkeys((used[0], used[-1])))
+        rows.append((label, f"{fits.min():.3f}", f"{fits.max():.3f}", f"{found['area_ratio'].max():.2f}"))
+    return rows
+
+
+def _traced(study: Study) -> list[str]:
+    return [name for name in study.surfaces if study.file.surfaces[name].profile is not None]
+
+
+def _at(study: Study, cutoffs: dict[str, float]) -> Results:
+    """The study with other short cut-offs (m) of its traces."""
+    surfaces = dict(study.file.surfaces)
+    for name, cutoff in cutoffs.items():
+        surfaces[name] = surfaces[name].model_copy(update={"short_cutoff_um": cutoff * 1e6})
+    file = study.file.model_copy(update={"surfaces": surfaces})
+    with collected():
+        return run_study(read_study(Path(study.rig.folder) / f"{study.name}.toml", file))

@@ -1,0 +1,47 @@
+"""Where conditions of a study lie outside the range of the model, by the code of the finding that says why."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from mixedlub.rig.plausibility import yields
+from mixedlub.study.batch import BEYOND
+from mixedlub.study.plan import Plan
+from roughness.mccool import nayak_parameter
+
+VALID = "valid"
+"""What the table says of a condition with no flag."""
+EXTRAPOLATED = "law_extrapolated:"
+"""Before the id of an effect whose law is used outside the range of its source."""
+
+
+def flags(plan: Plan, values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Boolean arrays of the shape of the study by code, gravest first; codes that apply nowhere are left out."""
+    moments = [np.asarray(plan.inputs[name]).reshape(-1, 1, 1, 1) for name in ("m0", "m2", "m4")]
+    with np.errstate(divide="ignore", over="ignore"):
+        narrow = nayak_parameter(*moments) < 1.5
+    found = {
+        "pressure_above_yield": yields(values["hertz_pressure"], float(plan.inputs["reduced_modulus"])),
+        "asperities_overloaded": values["asperity_load_ratio"] > 1.0,
+        "area_ratio_limited": values["largest_area_ratio"] >= 1.0,
+        "bandwidth_limited": np.broadcast_to(narrow, plan.shape),
+        **{EXTRAPOLATED + name.removeprefix(BEYOND): v > 0.0 for name, v in values.items() if name.startswith(BEYOND)},
+    }
+    return {code: where for code, where in found.items() if where.any()}
+
+
+def as_words(found: Mapping[str, np.ndarray], shape: tuple[int, ...]) -> tuple[np.ndarray, list[str]]:
+    """The codes of every condition: an index of the given shape, and the words of each index.
+
+    >>> index, words = as_words({"a": np.array([True, False]), "b": np.array([True, True])}, (2,))
+    >>> [words[i] for i in index]
+    ['a; b', 'b']
+    """
+    bits = np.zeros(shape, dtype=int)
+    for place, where in enumerate(found.values()):
+        bits |= where.astype(int) << place
+    sets, index = np.unique(bits, return_inverse=True)
+    named = ["; ".join(code for place, code in enumerate(found) if one >> place & 1) for one in sets.tolist()]
+    return index.reshape(shape), [text or VALID for text in named]

@@ -1,0 +1,92 @@
+"""An effect of a study is a published law, chosen by its name."""
+
+import numpy as np
+import pytest
+
+from mixedlub.effects import known_in
+from mixedlub.laws import drag
+from mixedlub.schema.findings import codes
+from mixedlub.study import read_study, run_study
+
+
+def added(write_study, **effects):
+    """What effects add to the loss outside the mesh (W), and the study."""
+    study = read_study(write_study(effects=effects))
+    return run_study(study)["other_loss"][0], study
+
+
+def wheels(study):
+    """Radius, speed and teeth of both wheels at the speeds of the study."""
+    inputs = study.plan.inputs
+    for side in ("pinion", "gear"):
+        yield inputs[f"{side}_radius"], np.ravel(inputs[f"{side}_speed"]), inputs[f"{side}_teeth"]
+
+
+def test_churning_is_that_of_changenet_and_velex(write_study):
+    loss, study = added(write_study, churning={})
+    inputs, (_, gear) = study.plan.inputs, wheels(study)
+    for at, (eta, rho) in enumerate(zip(np.ravel(inputs["viscosity"]), np.ravel(inputs["oil_density"]))):
+        radius, speed, teeth = gear
+        law = drag.churning_changenet_velex(radius, speed, 14e-3, 4.2333333e-3, teeth, eta, rho)
+        assert loss[at, 0] == pytest.approx(law, rel=1e-9)
+
+
+def test_windage_is_that_of_diab(write_study):
+    loss, study = added(write_study, windage={})
+    law = sum(drag.windage_diab(radius, speed, 14e-3, teeth) for radius, speed, teeth in wheels(study))
+    assert loss[0, 0] == pytest.approx(law, rel=1e-9)
+
+
+def test_seals_are_those_of_the_standard(write_study):
+    """ISO/TR 14179-2, P = 7.69e-6 d^2 n in W, mm and rpm, at both shafts."""
+    loss, study = added(write_study, seal_drag={})
+    shaft = 1e3 * study.plan.inputs["pinion_radius"]
+    law = sum(7.69e-6 * shaft**2 * speed * 30 / np.pi for _, speed, _ in wheels(study))
+    assert loss[0, 0] == pytest.approx(law, rel=1e-3)
+
+
+def test_inlet_heating_is_guptas(write_study):
+    taken = read_study(write_study(effects={"inlet_shear_heating": {}})).plan.parameters["inlet_shear_heating"]
+    assert taken == {"strength": 1.0, "sliding": 1.0, "loading_power": 0.64, "pressure_power": 0.0}
+
+
+def test_a_law_is_chosen_by_its_name(write_study):
+    """Boness' laminar power is proportional to n^2 nu: with speed as 500, 1500, 3000 rpm."""
+    loss, study = added(write_study, churning={"law": "Boness, laminar"})
+    assert loss[0, 0] / loss[0, 0, 0] == pytest.approx([1.0, 9.0, 36.0], rel=1e-9)
+    assert loss[0, 0, 0] / loss[1, 0, 0] == pytest.approx(
+        study.oil.viscosity(np.array(333.15)) / study.oil.viscosity(np.array(363.15)), rel=1e-9
+    )
+    assert "effect_law_assumed" not in codes(study.notes)
+
+
+def test_the_law_that_is_taken_is_told(write_study):
+    (told,) = (n for n in read_study(write_study(effects={"churning": {}})).notes if n.code == "effect_law_assumed")
+    assert "Changenet and Velex" in told.text
+    assert "ISO/TR 14179-1" in told.text
+
+
+@pytest.mark.parametrize("name", ["roughness_lay", "dynamic_load", "boundary_speed_dependence"])
+def test_an_effect_that_nothing_switches_on_says_so(name, write_study):
+    study = read_study(write_study(effects={name: {}}))
+    assert "effect_off" in codes(study.notes)
+    base = run_study(read_study(write_study("base")))
+    assert np.array_equal(run_study(study)["power_loss"], base["power_loss"])
+
+
+def test_an_effect_switched_off_by_hand_is_not_told(write_study):
+    assert "effect_off" not in codes(read_study(write_study(effects={"roughness_lay": {"lay": 0.0}})).notes)
+
+
+def test_skewness_alone_leaves_the_spread_of_the_summits(write_study):
+    taken = read_study(write_study(effects={"skewed_heights": {"skewness": -0.6}})).plan.parameters
+    assert taken["skewed_heights"]["narrowing"] == 0.0
+
+
+def test_every_named_law_of_a_study_runs(write_study):
+    """Each changes the loss, or says that it needs a number."""
+    known = known_in("gear_pair")
+    for name in ("churning", "windage", "bearing_drag", "seal_drag", "rolling_resistance", "inlet_shear_heating"):
+        for law in known[name].laws_within_reach:
+            found = run_study(read_study(write_study(effects={name: {"law": law}})))
+            assert np.isfinite(found["power_loss"]).all(), (name, law)

@@ -1,0 +1,103 @@
+"""Every row of a study says whether it is within the model's range, and why not."""
+
+import csv
+
+import numpy as np
+import pytest
+
+from mixedlub.schema.findings import codes
+from mixedlub.study import read_study, run_study
+from mixedlub.study.validity import out_of_range
+
+THICK = {
+    "surfaces": {"a": {"m0_um2": 4e-4, "m2": 2e-4, "m4_per_um2": 4e-4}},
+    "conditions__speed_rpm": [3000],
+    "conditions__oil_temperature_C": [40],
+}
+
+
+def rows_of(study, tmp_path):
+    run_study(study).write(tmp_path / "r.csv", tmp_path / "r.parquet")
+    with (tmp_path / "r.csv").open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+@pytest.mark.parametrize("torque", [15_000, 150_000])
+def test_flanks_pressed_beyond_steel_are_told(torque, write_study):
+    """12 GPa, where bearings are rated to 4.2 GPa."""
+    study = read_study(write_study(**{**THICK, "conditions__torque_Nm": [torque]}))
+    (told,) = (one for one in out_of_range(run_study(study)) if one.code == "pressure_above_yield")
+    assert told.severity == "doubt"
+
+
+def test_hertz_pressure_is_the_largest_of_the_path(write_study):
+    """At one torque a hundred times another it is ten times as high."""
+    found = run_study(read_study(write_study(**{**THICK, "conditions__torque_Nm": [150, 15_000]})))["hertz_pressure"]
+    low, high = found.ravel()
+    assert high == pytest.approx(10 * low, rel=1e-9)
+    assert low == pytest.approx(1.26e9, rel=0.01)
+
+
+def test_every_row_says_why_it_is_outside(write_study, tmp_path):
+    study = read_study(write_study(conditions__torque_Nm=[50, 15_000]))
+    for row in rows_of(study, tmp_path):
+        reasons = row["validity"].split("; ")
+        assert ("pressure_above_yield" in reasons) == (float(row["torque_Nm"]) > 1000)
+        assert ("asperities_overloaded" in reasons) == (float(row["asperity_load_ratio"]) > 1.0)
+
+
+def test_a_row_within_the_range_is_valid(write_study, tmp_path):
+    rows = rows_of(read_study(write_study(**THICK)), tmp_path)
+    assert {row["validity"] for row in rows} == {"valid"}
+
+
+def test_labelled_result_has_the_validity(write_study):
+    data = run_study(read_study(write_study())).to_xarray()
+    outside = data["asperity_load_ratio"] > 1
+    assert ((data["validity"] != "valid") == outside).all()
+
+
+def churned(write_study, speed):
+    study = read_study(write_study(**THICK | {"conditions__speed_rpm": [speed]}, effects={"churning": {}}))
+    return codes(out_of_range(run_study(study)))
+
+
+def test_churning_is_flagged_where_its_other_law_holds(write_study):
+    """Changenet and Velex's first law ends at 750 m/s^2, at 3280 rpm of this pinion."""
+    assert "law_extrapolated" not in churned(write_study, 3270)
+    assert "law_extrapolated" in churned(write_study, 3290)
+
+
+def overloaded(write_study, effects, **changes):
+    """Largest asperity load ratio of the rough pairing, by torque and speed."""
+    rough = {"rough": {"m0_um2": 0.3, "m2": 0.003, "m4_per_um2": 0.004}}
+    study = read_study(write_study(surfaces=rough, effects=effects, **changes))
+    return run_study(study)["asperity_load_ratio"]
+
+
+def test_yielding_asperities_carry_less(write_study):
+    elastic = overloaded(write_study, {})
+    yielding = overloaded(write_study, {"asperity_plasticity": {"hardness": 6e9}})
+    never = overloaded(write_study, {"asperity_plasticity": {"hardness": 6e13}})
+    assert (yielding < 0.6 * elastic).all()
+    assert never == pytest.approx(elastic, rel=1e-6)
+
+
+def test_load_of_asperities_is_the_largest_of_the_path(write_study):
+    """Not that at the thinnest film: where the load changes hands films are as thin at half the pressure."""
+    study = read_study(write_study())
+    plan = study.plan
+    chain = ("separation", "summit_density", "summit_radius", "summit_sigma")
+    model = plan.model()
+    state = model(plan.inputs)
+    carried = plan.asperities(*(state[name] for name in chain), plan.inputs["reduced_modulus"])
+    ratio = carried / (0.25 * np.pi * state["hertz_pressure"])
+    found = run_study(study)["asperity_load_ratio"]
+    assert found == pytest.approx(ratio.max(axis=-1), rel=0.04)
+
+
+def test_an_area_ratio_is_never_above_one(write_study):
+    """A mean of ones over the path may round to more."""
+    full = {"a": {"m0_um2": 100.0, "m2": 0.0025, "m4_per_um2": 0.9}}
+    every = {"conditions__speed_rpm": {"from": 100, "to": 3000, "count": 30}}
+    assert run_study(read_study(write_study(surfaces=full, **every)))["area_ratio"].max() == 1.0
