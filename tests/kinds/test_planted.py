@@ -280,10 +280,11 @@ def test_the_answer_says_whether_roelands_law_would_do(make, plant, holds):
 def test_ripple_is_found_whatever_its_order(make, order):
     found = diagnose_case(make(*planted_ripple(order)).folder)
     assert found.posterior.verdict == Explanation.of("periodic_mesh")
-    z = found.search.fits[Explanation.of("periodic_mesh")].z
-    values = found.search.problem.parameters(Explanation.of("periodic_mesh"), z)["periodic_mesh"]
+    problem, z = found.search.problem, found.search.fits[Explanation.of("periodic_mesh")].z
+    values = problem.parameters(Explanation.of("periodic_mesh"), z)["periodic_mesh"]
     assert values["order"] == pytest.approx(order, rel=0.01)
-    assert np.hypot(values["cosine"], values["sine"]) == pytest.approx(0.2, rel=0.1)
+    torque = problem.calibration(z)["coulomb_torque"]
+    assert np.hypot(values["cosine"], values["sine"]) * torque == pytest.approx(0.4, rel=0.05)
 
 
 def test_films_wanted_without_an_order_are_predicted_as_the_lowest_order_reads(make):
