@@ -9,7 +9,7 @@ import numpy as np
 
 from mixedlub.diagnosis.discrepancy.modulated import READING
 from mixedlub.diagnosis.discrepancy.smooth import DiscrepancyForm
-from mixedlub.diagnosis.inference.map_fit import linear_fit, outlier_chance, whitening
+from mixedlub.diagnosis.inference.map_fit import outlier_chance, whitening
 from mixedlub.diagnosis.search.noise_selection import NoiseSearch
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.assessment import (
@@ -23,7 +23,7 @@ from mixedlub.diagnosis.settings.assessment import (
     UNSTATED_NOISE_SCALES,
     WEIGHT_OF_EFFECTS,
 )
-from mixedlub.diagnosis.settings.inference import LARGEST_EXPONENT, LIKELY, REWEIGHTINGS
+from mixedlub.diagnosis.settings.inference import LARGEST_EXPONENT, LIKELY
 from mixedlub.diagnosis.settings.search import MOST_INFLATION
 
 
@@ -116,35 +116,18 @@ def _statistic(alternatives: Sequence[_Alternatives], targets: np.ndarray) -> np
     return np.asarray(np.logaddexp.reduce(missing, axis=0) - np.logaddexp.reduce(nothing, axis=0))
 
 
-def _cost(search: Search, fixed: np.ndarray, weight: np.ndarray, scales: Sequence[float]) -> float:
-    """Log probability that the null hypothesis loses by the outliers of another explanation."""
-
-    def log_nothing(weight: np.ndarray, rounds: int) -> float:
-        each = [
-            linear_fit(search.null_fit.anchor / scale, fixed / scale, weight, rounds).evidence
-            - weight.size * np.log(scale)
-            for scale in scales
-        ]
-        return float(np.logaddexp.reduce(each))
-
-    return (
-        max(0.0, log_nothing(search.null_fit.weight, REWEIGHTINGS) - log_nothing(weight, 1)) if len(scales) > 1 else 0.0
-    )
-
-
 def mismatch_test(
     search: Search,
     level: float,
     seed: int = TEST_SEED,
     *,
-    weight: np.ndarray | None = None,
     scales: Sequence[float] = STATED_NOISE_SCALES,
 ) -> Mismatch:
     """Compare the Bayes factor of the readings with its distribution when nothing is missing.
 
     Alternatives are prior draws of the effects with free amplitude, and smooth functions of the conditions. Unstated
-    noise may have any of the ``scales`` under both hypotheses, as in Student's test. ``weight`` are the weights of the
-    readings, by default those of the best explanation; what these cost the null hypothesis is subtracted.
+    noise may have any of the ``scales`` under both hypotheses, as in Student's test. Readings have the weights of the
+    best explanation.
     Readings without a mismatch are simulated from the linearised base model: calibration from its prior, noise from its
     distribution. Beyond the largest draw the bound P(B > b) <= 1/b of any Bayes factor gives the p-value. The Bayes
     factor of the search, which fits forms that no prior draw resembles, is used with a margin for its approximations.
@@ -153,12 +136,12 @@ def mismatch_test(
     search = full.full_screen
     problem, null_fit = search.problem, search.null_fit
     fixed = np.hstack([null_fit.slopes, problem.shared])
-    weight = judged_weight(search) if weight is None else weight
+    weight = judged_weight(search)
     alternatives = [_Alternatives.of(search, fixed, weight, scale) for scale in scales]
     rng = np.random.default_rng(seed)
     noise = rng.standard_normal((DRAWS, problem.y.size)) / np.sqrt(weight)
     simulated = _statistic(alternatives, noise + rng.standard_normal((DRAWS, fixed.shape[1])) @ fixed.T)
-    observed = float(_statistic(alternatives, null_fit.anchor[None, :])[0]) - _cost(search, fixed, weight, scales)
+    observed = float(_statistic(alternatives, null_fit.anchor[None, :])[0])
     p = (1.0 + float((simulated >= observed).sum())) / (DRAWS + 1.0)
     if observed > simulated.max():
         p = min(p, float(np.exp(-min(observed, LARGEST_EXPONENT))))
@@ -172,22 +155,20 @@ def mismatch_test(
 def mismatch_against_null(result: NoiseSearch, level: float) -> tuple[Search, Mismatch]:
     """Test against nothing missing, and the search that the answer uses.
 
-    Unstated noise was estimated under the best explanation, which is unfair to the null hypothesis. The test is
-    therefore repeated with the noise that the null hypothesis needs, and that search is used if nothing is detected.
+    Unstated noise was estimated under the best explanation, which is unfair to the null hypothesis: any noise is then
+    tried under both hypotheses. A detection at stated noise is tested again with the autocorrelation that residuals
+    have under the null hypothesis, and that search is used if nothing is detected.
     """
-    search = result.search
+    search = null_search = result.search
     test = mismatch_test(search, level)
+    scales = UNSTATED_NOISE_SCALES
     if result.stated:
         test = beyond_noise(search, result.noise_factor, test)
-        if not test.detected:
+        null_search = result.null_search() if test.detected else search
+        if null_search is search:
             return search, test
-    null_search = result.null_search()
-    if result.stated:
-        null_test = test if null_search is search else mismatch_test(null_search, level)
-    else:
-        null_test = mismatch_test(
-            null_search, level, weight=judged_weight(search.full_screen), scales=UNSTATED_NOISE_SCALES
-        )
+        scales = STATED_NOISE_SCALES
+    null_test = mismatch_test(null_search, level, scales=scales)
     if null_test.p_value <= test.p_value:
         return search, test
     if not null_test.detected:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -13,7 +12,6 @@ from mixedlub.diagnosis.inference.map_fit import log_likelihood
 from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.search import (
     BOUND_LEVEL,
-    ESTIMATE_FACTORS,
     EXTRA_SHARES,
     FIRST_SHARE,
     INFLATION_FACTORS,
@@ -21,8 +19,6 @@ from mixedlub.diagnosis.settings.search import (
     INFLATION_ROUNDS,
     LEAST_FREEDOM,
     MIXTURE_FACTORS,
-    NOISE_CONVERGED,
-    NOISE_ITERATIONS,
     OVERSTATED_VARIANCE,
     SHARE_GAIN,
 )
@@ -138,7 +134,7 @@ def _under_other_noise(search: Search, times: np.ndarray) -> tuple[float, int]:
         form_error_gain = search.scores.get(key, fit.evidence) - fit.evidence
         # The evidence of a fit far behind is carried over from another noise: it is no more than its likelihood.
         carried = max(fit.evidence - float(log_likelihood(fit.residual)[0].sum()), 0.0)
-        gains = _gains(fit.residual, times)
+        gains = inflation_gains(fit.residual, times)
         if weight - form_error_gain - carried + gains.max() > best_log:
             best_log, best = weight - form_error_gain - carried + float(gains.max()), int(np.argmax(gains))
     return best_log - max(weights.values()), best
@@ -149,7 +145,7 @@ def search_estimated_noise(case: Case, trial: Trial) -> Search:
 
     The residuals then give the relative and the absolute part of the noise, better than a few repeats do.
     """
-    fitted = _fitting(case, trial)
+    fitted = trial(case)
     gain, other = _other_parts(fitted)
     if gain < MIXTURE_GAIN:
         return fitted
@@ -171,48 +167,7 @@ def _other_parts(search: Search) -> tuple[float, Case]:
     return gain, with_noise(problem.case, *noises[which])
 
 
-def _fitting(case: Case, trial: Trial) -> Search:
-    """Iterate the noise: residuals under one noise give the next, kept while the readings become more probable.
-
-    Half the step is tried where the whole one fails. A start far too low would stay there, because fits then follow
-    the noise; the estimate from a smooth fit is not too low.
-    """
-    best = trial(case)
-    for _ in range(NOISE_ITERATIONS):
-        _, best_factor = _under_other_noise(best, ESTIMATE_FACTORS[:, None])
-        factor = float(ESTIMATE_FACTORS[best_factor])
-        for step in (factor, np.sqrt(factor)):
-            if abs(np.log(step)) < NOISE_CONVERGED:
-                return best
-            retried = trial(scaled(best.problem.case, float(step)))
-            if retried.log_probability > best.log_probability:
-                break
-        else:
-            return best
-        best = retried
-    return best
-
-
-def search_null_noise(search: Search, trial: Callable[[Case], Search]) -> Search:
-    """The search under the noise that the calibrated base model needs if nothing is missing."""
-    gain, times = noise_inflation(search.null_fit.residual)
-    return trial(scaled(search.problem.case, times)) if gain > 0.0 else search
-
-
-def noise_inflation(residual: np.ndarray) -> tuple[float, float]:
-    """Largest gain of the log likelihood of residuals (in sigmas) by more noise, and how many times the noise.
-
-    >>> gain, times = noise_inflation(2.0 * np.random.default_rng(1).standard_normal(100))
-    >>> bool(gain > 20.0), times
-    (True, 1.6)
-    >>> bool(noise_inflation(np.random.default_rng(1).standard_normal(100))[0] < 1.0)
-    True
-    """
-    gains = _gains(residual, INFLATION_FACTORS[:, None])
-    return float(gains.max()), float(INFLATION_FACTORS[int(np.argmax(gains))])
-
-
-def _gains(residual: np.ndarray, times: np.ndarray) -> np.ndarray:
+def inflation_gains(residual: np.ndarray, times: np.ndarray) -> np.ndarray:
     """Gains (m,) of the log likelihood of residuals by noise ``times`` (m, readings) as large."""
     logs = np.broadcast_to(np.log(times), (len(times), residual.size))
     return np.asarray((log_likelihood(residual / times)[0] - logs).sum(axis=1) - log_likelihood(residual)[0].sum())

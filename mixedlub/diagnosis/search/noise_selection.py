@@ -17,7 +17,6 @@ from mixedlub.diagnosis.search.noise_inflation import (
     NoiseInflation,
     repeats_allow,
     search_estimated_noise,
-    search_null_noise,
     search_stated_noise,
 )
 from mixedlub.diagnosis.search.search import Progress, Search, reweighed, search, spread_rows
@@ -46,20 +45,12 @@ class NoiseSearch:
         return self.inflation.factor * self.search.problem.correlated_error.total_sd
 
     def null_search(self) -> Search:
-        """The search under the noise that the calibrated base model needs if nothing is missing.
-
-        Stated noise keeps its size but may be autocorrelated.
-        """
-        result = self.search
-        n_per_effective, correlated_error = result.problem.n_per_effective, result.problem.correlated_error
-        if not self.stated:
-            result = search_null_noise(result, lambda case: self.repeat(case, n_per_effective, correlated_error))
-        n_under_null = variance_inflation_under_null(result)
-        return (
-            result
-            if n_under_null <= n_per_effective
-            else self.repeat(result.problem.case, n_under_null, correlated_error)
-        )
+        """The search with the autocorrelation that residuals have if nothing is missing."""
+        problem = self.search.problem
+        n_under_null = variance_inflation_under_null(self.search)
+        if n_under_null <= problem.n_per_effective:
+            return self.search
+        return self.repeat(problem.case, n_under_null, problem.correlated_error)
 
 
 def search_under_noise(case: Case, forward: Forward, exclude: Sequence[str], progress: Progress) -> NoiseSearch:

@@ -221,9 +221,7 @@ def _search(
             draws = tuple(replace(s, change=s.change * (old / problem.sd)) for s in draws)
     fits: dict[Explanation, Fit] = {NOTHING: null_fit, **singles}
     progress("trying pairs of effects")
-    for fit in _fit_pairs(problem, null_fit, singles, draws):
-        if fit.explanation not in fits or fit.evidence > fits[fit.explanation].evidence:
-            fits[fit.explanation] = fit
+    fits |= {fit.explanation: fit for fit in _fit_pairs(problem, null_fit, singles, draws)}
     fits = {m: integrate_change_points(problem, f) for m, f in fits.items() if shows(problem, f, fits)}
     scores = _scores(problem, fits, space, values)
     progress("weighing a discrepancy")
@@ -250,8 +248,7 @@ def _fit_pairs(
     def fit(pair: tuple[Explanation, np.ndarray], rival: float) -> Fit:
         return map_fit(problem, *pair, rival=rival)
 
-    every = promising_pairs(problem, null_fit, singles, draws)
-    pairs = [pair for pair in every if not one_in_time(pair[0], problem, null_fit)]
+    pairs = [pair for pair in promising_pairs(problem, singles, draws) if not one_in_time(pair[0], problem, null_fit)]
     return fit_best_first(fit, pairs, max([null_fit.evidence, *(f.evidence for f in singles.values())]))
 
 

@@ -124,10 +124,6 @@ PAIR_LEADERS = 8
 """Cost limit. Best single effects with which pairs are formed; other pairs are found from their draws."""
 PAIRS = 30
 """Cost limit. Pairs that are fitted, by the weights of the single fits."""
-BOUNDED_PAIRS = 8
-"""Cost limit. Further pairs, by bounded weights that take no reading for an outlier."""
-JOINT_PAIRS = 10
-"""Cost limit. Further pairs, by joint draws of both effects."""
 
 # Reference evidence
 PROPOSAL_FREEDOM = 6.0

@@ -61,12 +61,6 @@ SHARE_GAIN = 4.0
 of standard deviations is weaker evidence."""
 MIXTURE_FACTORS = np.geomspace(0.3, 3.0, 13)
 """Grid. Factors on an estimated noise with another mixture of its parts."""
-ESTIMATE_FACTORS = np.geomspace(0.25, 2.0, 31)
-"""Grid. Factors on an estimated noise."""
-NOISE_CONVERGED = 0.1
-"""Judgement. Change of the logarithm of an estimated noise below which its iteration has converged: 10 % of it."""
-NOISE_ITERATIONS = 5
-"""Cost limit. Iterations of an estimated noise."""
 LEAST_FREEDOM = 10
 """Judgement. Degrees of freedom from which the scatter of residuals is known well enough: within 22 %."""
 OVERSTATED_VARIANCE = 0.25

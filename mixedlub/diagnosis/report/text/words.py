@@ -126,7 +126,9 @@ def _mismatch(d: Diagnosis) -> tuple[str, ...]:
     size = p_words(test.p_value)
     size = f"p {size}" if size[0].isalpha() else f"p = {size}"
     if test.noise_adapted:
-        size += " even with the noise that this would need" if d.noise_stated else ", with the noise estimated"
+        size += (
+            " even with the autocorrelation that this would need" if d.noise_stated else ", with the noise estimated"
+        )
     if test.detected:
         return (f"Yes ({size}; {chi2}).", alarm)
     return (f"None distinguishable from noise ({size}; {chi2}).", alarm)
