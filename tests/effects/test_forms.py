@@ -60,6 +60,7 @@ def test_a_coefficient_of_pressure_may_bow_between_the_temperatures_at_which_it_
     assert np.log(found / thin) == pytest.approx(1e-9 * modulus * pressure, rel=2e-3)
 
 
+@pytest.mark.literature("SKF (2018), Rolling Bearings, model of the frictional moment")
 @pytest.mark.parametrize(("speed", "rise"), [(0.05, 1.4), (2000.0, 0.0)])
 def test_bearings_rub_where_they_have_no_film_and_only_there(speed: float, rise: float) -> None:
     """SKF's 0.12 over 0.05 for the part that load adds; at rest it is nearly all of the torque."""
@@ -103,6 +104,7 @@ def test_a_film_that_collapses_keeps_viscosity_times_speed() -> None:
     assert doubled == pytest.approx(cold, rel=1e-12)
 
 
+@pytest.mark.literature("Boness (1989), Proc. Int. Symp. Gearing")
 def test_churning_between_reynolds_numbers_2000_and_1e5_goes_as_boness_has_it() -> None:
     """C_m = 8.6e-4 Re^(1/3): loss as n^(10/3) nu^(-1/3)."""
     wheel = {"gear_radius": 0.05, "face_width": 0.02, "gear_module": 4e-3, "gear_teeth": 25.0, "gears_fitted": 1.0}
@@ -141,6 +143,7 @@ def test_a_change_that_is_undone_leaves_the_friction_of_before() -> None:
     assert found[-4:] == pytest.approx(0.1, rel=1e-3)
 
 
+@pytest.mark.literature("Hsu and Lee (1994), J. Tribol. 116, 762")
 def test_thermal_loading_and_pressure_have_the_powers_that_are_asked_for() -> None:
     """Hsu and Lee: loss as L^0.527 and, of a line contact, load^0.447, which is pressure^0.894."""
     law = {"strength": 1e-6, "sliding": 0.0, "loading_power": 0.527, "pressure_power": 0.894}

@@ -63,6 +63,7 @@ class TestLiterature:
 
     """Published numbers, at the tolerance they support."""
 
+    @pytest.mark.literature("Gupta, Cheng, Zhu, Forster and Schrand (1992), Tribol. Trans. 35, 269")
     @pytest.mark.parametrize(
         ("loading", "sliding", "factor"),
         [
@@ -79,6 +80,7 @@ class TestLiterature:
         found = inlet_shear_heating(1.0, 1.0, loading, 1.0, 1.0, sliding, 0.005, 1.0, **gupta)
         assert found == pytest.approx(factor, rel=0.03)
 
+    @pytest.mark.literature("Diab, Ville, Velex and Changenet (2004), J. Mech. Des. 126, 903")
     @pytest.mark.parametrize(
         ("diameter", "width", "teeth", "rpm", "watts"),
         [(0.1, 0.02, 25, 10_000, 114), (0.2794, 0.0284, 44, 10_000, 5390), (0.288, 0.03, 72, 6685, 1710),
@@ -101,16 +103,19 @@ class TestLiterature:
         disc = 0.073 * reynolds**-0.2 * drag.AIR_DENSITY * omega**3 * radius**5
         assert drag.windage_diab(radius, omega, 0.028, 44.0) > disc
 
+    @pytest.mark.literature("Changenet and Velex (2007), J. Mech. Des. 129, 128")
     @pytest.mark.parametrize(("rpm", "watts"), [(1000, 5.8), (2000, 17), (3000, 33), (5000, 74)])
     def test_churning_of_changenet_and_velex(self, rpm: float, watts: float) -> None:
         found = drag.churning_changenet_velex(0.05, rpm * np.pi / 30, 0.02, 4e-3, 25.0, 50e-6 * 850, 850.0)
         assert found == pytest.approx(watts, rel=0.03)
 
+    @pytest.mark.literature("Palmgren (1964), Grundlagen der Waelzlagertechnik; ISO/TR 14179-2")
     def test_palmgren_joins_its_two_ranges(self) -> None:
         """160e-7 f0 d^3 below nu n of 2000 mm^2/s rpm."""
         slow = drag.palmgren_idle_torque(1e-6 * 850, 850.0, np.pi / 30, 0.045)
         assert slow == pytest.approx(160e-7 * 2 * 45**3 * 1e-3, rel=0.01)
 
+    @pytest.mark.literature("Goksem and Hargreaves (1978), J. Lubr. Technol. 100, 346")
     @pytest.mark.parametrize("speed", [1.0, 2.2, 5.0])
     def test_rolling_near_goksem_and_hargreaves(self, speed: float) -> None:
         """4.318 (G U)^0.658 W^0.0126 R/alpha; the two laws meet within 40 % at gear conditions."""
@@ -118,6 +123,7 @@ class TestLiterature:
         found = rolling_resistance(0.0, *contact, strength=1.0, exponent=0.75)
         assert found == pytest.approx(goksem(*contact), rel=0.4)
 
+    @pytest.mark.literature("Goksem and Hargreaves (1978), J. Lubr. Technol. 100, 346")
     @pytest.mark.parametrize("speed", [1.0, 2.2, 5.0])
     @pytest.mark.parametrize("alpha", [8e-9, 14.81e-9, 25e-9])
     def test_rolling_with_their_power_of_speed_is_that_of_goksem_and_hargreaves(
@@ -127,6 +133,10 @@ class TestLiterature:
         found = rolling_resistance(0.0, *contact, strength=1.0, exponent=0.658)
         assert found == pytest.approx(goksem(*contact), rel=0.03)
 
+    @pytest.mark.literature(
+        "Biboulet and Houpert (2010), Proc. IMechE J 224, 765; Goksem and Hargreaves (1978), J. Lubr. Technol. 100, "
+        "346; Zhou and Hoeprich; Pan and Hamrock"
+    )
     @pytest.mark.parametrize(("power", "published"), [(0.75, 0.0), (0.658, -0.342), (0.648, -0.352), (0.638, -0.358)])
     def test_rolling_falls_with_the_published_powers_of_alpha(self, power: float, published: float) -> None:
         """Biboulet and Houpert; Goksem and Hargreaves; Zhou and Hoeprich; Pan and Hamrock."""
@@ -136,12 +146,19 @@ class TestLiterature:
         )
         assert np.log2(stiff / soft) == pytest.approx(published, abs=0.03)
 
+    @pytest.mark.literature(
+        "Patir and Cheng (1978), J. Lubr. Technol. 100, 12; Tripp (1983), J. Lubr. Technol. 105, 458"
+    )
     def test_lay_of_a_film_below_the_range_of_flow_factors_stays_what_it_was_there(self) -> None:
         """Patir and Cheng give them for h/sigma above 0.5; a = 0.5, k = 2 is Tripp's 1 + 3/H^2 to first order."""
         ridges = {"lay": 0.5, "onset": 6.0**0.5, "decay": 2.0, "saturation": 0.5}
         gone, thick = (roughness_lay(h, 1.0, **ridges) / h for h in (1e-9, 20.0))
         assert gone == pytest.approx((1.0 + 6.0 / 0.25) ** 0.5, rel=1e-6)
         assert thick == pytest.approx(1.0 + 3.0 / 20.0**2, rel=1e-4)
+
+
+class TestStandardGear:
+    """The standard gear against an independent prototype of it."""
 
     @pytest.mark.parametrize(
         ("effect_id", "torque", "speed"),

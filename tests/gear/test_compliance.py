@@ -57,6 +57,7 @@ def pair_stiffness(pair, kind, line_load=3e5):
 class TestLiterature:
     """Published stiffnesses and exact solutions, at the tolerance they support."""
 
+    @pytest.mark.literature("ISO 6336-1, method B")
     def test_iso_stiffness_of_the_standard_pair(self):
         assert iso_single_stiffness(STANDARD) / 1e9 == pytest.approx(16.032, abs=5e-4)
 
@@ -68,17 +69,21 @@ class TestLiterature:
         # A plane-strain finite element model of this pair gives 17.06 N/(mm um).
         assert pair_stiffness(STANDARD, "weber") / 1e9 == pytest.approx(17.06, rel=0.05)
 
+    @pytest.mark.literature("Sainsot, Velex and Duverger (2004)")
     def test_ring_foundation_is_15_to_20_percent_softer(self):
         ratio = pair_stiffness(STANDARD, "sainsot") / pair_stiffness(STANDARD, "weber")
         assert 0.80 < ratio < 0.85
 
+    @pytest.mark.literature("ISO 6336-1, method B")
     @pytest.mark.parametrize("pair", PAIRS)
     def test_stiffness_is_near_the_iso_standard(self, pair):
         assert pair_stiffness(pair, "weber") == pytest.approx(iso_single_stiffness(pair), rel=0.15)
 
+    @pytest.mark.literature("Weber and Banaschek (1953)")
     def test_weber_foundation_constants(self):
         assert weber_foundation(0.3)[1:] == pytest.approx((1.04, 1.534 * 0.91, 0.3205), abs=1e-4)
 
+    @pytest.mark.literature("Palmgren's roller, 3.84e-5 F^0.9 / l^0.8")
     @pytest.mark.parametrize("force", [300.0, 1e3, 1e4])
     def test_hertz_approach_agrees_with_palmgrens_roller(self, force):
         # Empirical: 3.84e-5 F^0.9 / l^0.8 (mm, N); roller of 10 mm on a raceway 20 mm deep.
@@ -88,6 +93,7 @@ class TestLiterature:
         computed, _ = hertz_approach(line, 5e-3, 206e9 / 0.91, (5e-3, 20e-3), (206e9, 206e9), (0.3, 0.3))
         assert computed == pytest.approx(measured, rel=0.03)
 
+    @pytest.mark.literature("Timoshenko and Woinowsky-Krieger, Theory of Plates and Shells")
     def test_point_load_on_the_free_edge_of_a_long_cantilever_plate(self):
         # Timoshenko and Woinowsky-Krieger: 0.168 P a^2/D; exact by transform in the next test.
         assert self.edge_deflection() == pytest.approx(0.168, rel=0.02)

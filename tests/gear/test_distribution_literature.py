@@ -20,6 +20,7 @@ from tests.gear.pairs import (
 class TestLiterature:
     """Published figures, at the tolerance their unstated details allow."""
 
+    @pytest.mark.literature("Arana, Larranaga and Ulacia (2019), Proc. IMechE J 233, 303, relieved FZG type C gear")
     def test_contact_pressure_of_the_fzg_c_test_gear(self):
         x = FZG_C.lowest_single_contact
         radius = x * (FZG_C.line_of_action_length - x) / FZG_C.line_of_action_length
@@ -27,12 +28,16 @@ class TestLiterature:
         pressure = math.sqrt(line_load * FZG_C.reduced_modulus / (2 * math.pi * radius))
         assert pressure == pytest.approx(1.39e9, rel=0.01)
 
+    @pytest.mark.literature("Arana, Larranaga and Ulacia (2019), Proc. IMechE J 233, 303, relieved FZG type C gear")
     def test_relieved_fzg_c_loss_factor(self):
         # 35 um is given, its length is not: any from 1 mm to the whole double contact stays within 10 %.
         double = (FZG_C.lowest_single_contact - FZG_C.path_start) / (FZG_C.path_end - FZG_C.path_start)
         for fraction in (0.05, 0.15, double):
             assert loss_factor(FZG_C, relieved(FZG_C, 35e-6, fraction), 183.4) == pytest.approx(0.168, rel=0.1)
 
+    @pytest.mark.literature(
+        "Measurement and Modelling of Friction for Cylindrical Gears with Pitch Line Velocities up to 100 m/s"
+    )
     def test_loss_factor_of_high_speed_gears_rises_with_torque_then_flattens(self):
         torques = np.array([250.0, 1000.0, 2000.0, 4000.0])
         a = loss_factor(HIGH_SPEED_A, relieved(HIGH_SPEED_A, 30e-6, 0.25), torques / HIGH_SPEED_A.gear_ratio)

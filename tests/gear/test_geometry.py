@@ -22,29 +22,41 @@ def roll_degrees(pair, position):
 class TestLiterature:
     """Numbers printed in papers, at the paper's last digit."""
 
+    @pytest.mark.literature(
+        "Hong, Aneshansley and Talbot, Mechanical Power Loss of Spur Gears Subject to Various Surface Finish "
+        "Pairings, Gear Technology, table 3"
+    )
     def test_hong_pitch_and_base_diameters(self):
         assert 2e3 * np.array(HONG.reference_radius) == pytest.approx([71.97, 110.07], abs=0.01)
         assert 2e3 * np.array(HONG.base_radius) == pytest.approx([66.49, 101.69], abs=0.01)
 
+    @pytest.mark.literature("Rebbechi, Oswald and Townsend (1996), NASA TM-107279")
     def test_rebbechi_roll_angle_of_the_pitch_point(self):
         assert roll_degrees(NASA, NASA.pitch_point) == pytest.approx(21, abs=0.5)
 
+    @pytest.mark.literature("Rebbechi, Oswald and Townsend (1996), NASA TM-107279")
     def test_rebbechi_contact_ratio(self):
         assert NASA.contact_ratio == pytest.approx(1.64, abs=0.005)
 
+    @pytest.mark.literature("Vaishya and Houser (1999), AGMA 99FTMS1, table 2")
     def test_vaishya_contact_ratio_and_curvature(self):
         assert NASA.contact_ratio == pytest.approx(1.638, abs=0.0005)
         assert NASA.pitch_point / 25.4e-3 == pytest.approx(0.599, abs=0.0006)
 
+    @pytest.mark.literature("Vaishya and Houser (1999), AGMA 99FTMS1, table 2")
     def test_vaishya_speeds_at_1200_rpm(self):
         inch_per_second = 1200 * math.pi / 30 / 25.4e-3
         assert NASA.pitch_point * inch_per_second == pytest.approx(75.2, rel=1e-3)
         sliding = 2 * (NASA.pitch_point - NASA.path_start)
         assert sliding * inch_per_second == pytest.approx(76.0, rel=1e-3)
 
+    @pytest.mark.literature("Ohlendorf (1958), loss factor of the FZG type C test gear")
     def test_loss_factor_of_fzg_c(self):
         assert FZG_C.loss_factor == pytest.approx(0.195, abs=5e-4)
 
+    @pytest.mark.literature(
+        "Measurement and Modelling of Friction for Cylindrical Gears with Pitch Line Velocities up to 100 m/s"
+    )
     @pytest.mark.parametrize(
         ("teeth", "module", "angle", "width", "shift", "tips"),
         [

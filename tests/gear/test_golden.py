@@ -7,6 +7,8 @@ import pytest
 
 from mixedlub.gear import GearPair, LdpSharing, mesh, transmission_error
 
+pytestmark = pytest.mark.golden
+
 HONG = GearPair((17, 26), 25.4e-3 / 6, math.radians(22.5), 14e-3)
 TORQUES = np.array([50.0, 100.0, 150.0])
 RELIEVED = LdpSharing(tip_relief=(15e-6, 15e-6), relief_length=(2e-3, 2e-3), lead_crown=3e-6)

@@ -6,7 +6,6 @@ an area ratio counts as none is ours.
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +13,11 @@ import pytest
 
 from mixedlub.laws.contact import composite_roughness
 from mixedlub.study import Results, read_study, run_study
+
+pytestmark = pytest.mark.literature(
+    "Hong, Aneshansley and Talbot, Mechanical Power Loss of Spur Gears Subject to Various Surface Finish Pairings, "
+    "Gear Technology"
+)
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "study_21_pairings.toml"
 
@@ -73,10 +77,8 @@ def correlation(x, y):
     return np.corrcoef(x, y)[0, 1] ** 2
 
 
-def test_378_conditions_within_a_minute():
-    start = time.perf_counter()
-    assert run_study(read_study(EXAMPLE)).study.conditions == 378
-    assert time.perf_counter() - start < 60
+def test_the_simulation_matrix_has_378_conditions(results):
+    assert results.study.conditions == 378
 
 
 @pytest.mark.parametrize(("pairing", "printed"), list(TABLE_5.items()), ids=["-".join(p) for p in TABLE_5])

@@ -25,6 +25,7 @@ def number(text):
     return float(text.split()[0])
 
 
+@pytest.mark.literature("Rebbechi, Oswald and Townsend (1996), NASA TM-107279")
 @pytest.mark.parametrize("stated", ["Hertz pressure (GPa)", "half width of the contact (mm)"])
 def test_contact_of_the_nasa_rig_is_that_of_the_paper(rows, stated):
     """The paper calculates it with measured forces, which are dynamic."""
@@ -32,6 +33,9 @@ def test_contact_of_the_nasa_rig_is_that_of_the_paper(rows, stated):
     assert number(base) == pytest.approx(number(paper), rel=0.06)
 
 
+@pytest.mark.literature(
+    "Measurement and Modelling of Friction for Cylindrical Gears with Pitch Line Velocities up to 100 m/s"
+)
 def test_speed_lowers_friction_as_measured_when_the_oil_may_warm(rows):
     """20 to 95 m/s, -28 %: within the 25 % band of the source's own model, and nearer than with cold oil."""
     paper, base, heat = map(number, rows["A: mean friction, 20 to 95 m/s, geometry B, ground"])
@@ -42,6 +46,10 @@ def test_speed_lowers_friction_as_measured_when_the_oil_may_warm(rows):
 LOADED = "A: mean friction, 1900 to 4000 Nm, geometry A, 100 °C, ground"
 
 
+@pytest.mark.literature(
+    "Measurement and Modelling of Friction for Cylindrical Gears with Pitch Line Velocities up to 100 m/s; "
+    "Rebbechi, Oswald and Townsend (1996), NASA TM-107279"
+)
 @pytest.mark.parametrize("model", [1, 2])
 @pytest.mark.parametrize("stated", [LOADED, "B: 78 to 141 % torque"])
 def test_load_acts_by_no_more_than_the_sources_own_model_errs(rows, stated, model):
@@ -49,11 +57,15 @@ def test_load_acts_by_no_more_than_the_sources_own_model_errs(rows, stated, mode
     assert abs(number(rows[stated][model]) + 3.0) < 25.0
 
 
+@pytest.mark.literature("Rebbechi, Oswald and Townsend (1996), NASA TM-107279")
 def test_friction_at_speed_is_that_of_the_nasa_rig(rows):
     """0.04 at 6000 rpm, where the film is thick and the unknown finish matters least."""
     assert number(rows["B: largest friction, 6000 rpm"][2]) == pytest.approx(0.04, rel=0.26)
 
 
+@pytest.mark.literature(
+    "Measurement and Modelling of Friction for Cylindrical Gears with Pitch Line Velocities up to 100 m/s, table I"
+)
 @pytest.mark.parametrize("geometry", ["a", "b"])
 def test_the_fast_gears_are_those_of_the_paper(geometry):
     """Contact ratio 2.00, and one centre distance for both pairs."""

@@ -28,6 +28,10 @@ def test_there_are_six():
     assert tuple(TABLE_1) == profiles.SHIPPED
 
 
+@pytest.mark.literature(
+    "Hong, Aneshansley and Talbot, Mechanical Power Loss of Spur Gears Subject to Various Surface Finish Pairings, "
+    "Gear Technology, table 1"
+)
 @pytest.mark.parametrize("name", TABLE_1)
 def test_height_parameters_equal_the_published_table_to_its_last_digit(name):
     found = height_parameters(band(name))

@@ -116,6 +116,7 @@ def test_overlap_is_the_integral_it_stands_for():
     assert overlap(np.array(0.7)) == pytest.approx(integral, rel=1e-8)
 
 
+@pytest.mark.literature("Rebbechi, Oswald and Townsend (1996), NASA TM-107279")
 def test_contact_ratio_of_the_nasa_pair():
     """28/28 teeth of module 3.175 mm and 20 degrees: contact ratio 1.64 (NASA TM-107279)."""
     path = path_of_contact(Gears((28, 28), 3.175e-3, np.radians(20.0), (47.625e-3, 47.625e-3), 6.35e-3))
@@ -140,6 +141,7 @@ def test_nearest_torque_of_a_load_share_table():
     np.testing.assert_allclose(share[:, 0], [0.2, 0.8])
 
 
+@pytest.mark.literature("Hamrock and Dowson (1977), J. Lubr. Technol. 99, 264")
 def test_film_of_a_steel_ball_on_glass_is_hamrock_and_dowson():
     """2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 e^(-0.73 k)) by hand, at the first reading."""
     rig = films.draw(np.random.default_rng(4))

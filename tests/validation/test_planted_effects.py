@@ -211,6 +211,7 @@ def test_warm_teeth_leave_the_bath_and_the_housing_as_warm_as_recorded(rigs, nam
     np.testing.assert_allclose(found, EVERY[name].law(told, **values).recorded - mesh)
 
 
+@pytest.mark.literature("ISO/TR 13989-1")
 def test_literature_flash_rise_against_the_standard(rigs):
     """ISO/TR 13989-1 writes the maximum with 0.62 w^0.75 (E/R)^0.25; the mean is 0.542/0.786 of it."""
     rig, nominal = rigs["disc"]

@@ -40,6 +40,7 @@ WHERE = {
 WATER = (20.0, 80.0), (1.0016, 0.3540)
 
 
+@pytest.mark.literature("IAPWS (2008), viscosity of water; Viswanath and Natarajan; Thorpe and Rodger")
 def test_vogel_and_slotte_between_two_viscosities_of_water_give_the_others():
     """IAPWS 2008 at 25 and 50 C: 0.890 and 0.5465 mPa s; constants of Viswanath and Natarajan, Thorpe and Rodger."""
     celsius, measured = np.array([25.0, 50.0]), [0.8900, 0.5465]
@@ -55,6 +56,7 @@ def test_andrade_between_two_viscosities_of_mercury_gives_the_others():
     assert found == pytest.approx([1.402, 1.312], rel=0.01)
 
 
+@pytest.mark.literature("Williams, Landel and Ferry (1955)")
 def test_vogel_is_the_law_of_williams_landel_and_ferry():
     """Their constants for all glasses: log10 of the shift is -17.44 (T - Tg)/(51.6 + T - Tg)."""
     glass, celsius = -70.0, np.linspace(-20.0, 150.0, 12)
@@ -165,6 +167,7 @@ def test_only_drives_that_creep_show_what_comes_before_sliding():
         )
 
 
+@pytest.mark.literature("Rogers and Lance (1960); Dorfman (1963)")
 def test_a_free_disc_drags_by_its_exact_flow_and_by_the_logarithmic_law():
     """Slope at the disc 0.6159 (Rogers and Lance 1960), of both sides; Dorfman 1963: 0.491 (lg Re)^-2.58 a side."""
     assert free_disc(np.array([1e4, 2e5])) == pytest.approx(2 * np.pi * 0.6159 * np.array([1e4, 2e5]) ** -0.5, rel=1e-3)
@@ -173,6 +176,7 @@ def test_a_free_disc_drags_by_its_exact_flow_and_by_the_logarithmic_law():
     assert free_disc(np.array([TRANSITION]))[0] == pytest.approx(free_disc(np.array([0.999999 * TRANSITION]))[0])
 
 
+@pytest.mark.literature("Donnelly and Simon (1960)")
 def test_a_rotor_in_a_gap_drags_linearly_and_then_as_the_measured_powers():
     """Donnelly and Simon 1960: about the 1.36th power from the first vortices on, the 1.51th well beyond."""
 

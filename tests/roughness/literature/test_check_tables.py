@@ -14,6 +14,7 @@ ROWS = [
 ]
 
 
+@pytest.mark.literature("McCool (1986), Wear 107, 37")
 @pytest.mark.parametrize(("m0", "m2", "m4", "alpha", "density", "radius", "sigma", "offset"), ROWS)
 def test_mccool_rows(m0, m2, m4, alpha, density, radius, sigma, offset):
     a = mccool_asperities(Moments(m0, m2, m4))
@@ -24,6 +25,7 @@ def test_mccool_rows(m0, m2, m4, alpha, density, radius, sigma, offset):
     assert a.plane_offset == pytest.approx(offset, abs=1e-6)
 
 
+@pytest.mark.literature("McCool (1986), Wear 107, 37, as eliminated in the CEB and KE models")
 @pytest.mark.parametrize("alpha", [1.6, 2.5, 6.0, 40.0])
 def test_forms_in_density_times_radius(alpha):
     """The eliminated forms of the CEB, KE and slider codes: 2412.74, 3.717e-4, 0.045944."""
@@ -34,6 +36,7 @@ def test_forms_in_density_times_radius(alpha):
     assert 0.045944 / product == pytest.approx(a.plane_offset, rel=1e-4)
 
 
+@pytest.mark.literature("McCool (1986), Wear 107, 37")
 def test_packing_identity():
     """D R sigma = 0.020358 sqrt(alpha), sigma that of the surface."""
     a = mccool_asperities(Moments(4.0, 1.0, 3.0))
@@ -87,6 +90,7 @@ def test_sine_amplitude_after_twice_its_wavelength(nist):
     assert p.Ra * 1e6 == pytest.approx(0.5968, abs=1e-4)
 
 
+@pytest.mark.literature("ISO 4288:1996")
 @pytest.mark.parametrize(("ra_um", "cutoff_mm"), [(0.036, 0.25), (0.122, 0.8), (0.219, 0.8), (0.450, 0.8), (3.3, 2.5)])
 def test_cutoffs_of_the_gear_flanks(ra_um, cutoff_mm):
     """ISO 4288 for the flanks of Hong, Aneshansley and Talbot (Ra 0.036 to 0.450 um)."""

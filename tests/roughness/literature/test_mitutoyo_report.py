@@ -25,6 +25,7 @@ def report(mitutoyo):
     return replace(mitutoyo("mitutoyo_2_mock"), cutoffs={"cutoff": 2.5e-3, "short_cutoff": 8e-6})
 
 
+@pytest.mark.literature("Mitutoyo SurfTest report printed beside the stored profile")
 @pytest.mark.parametrize("symbol", [*HEIGHTS, *SHAPES])
 def test_parameter_to_the_last_printed_digit(report, symbol):
     found = getattr(height_parameters(report, convention="Mitutoyo", sections=4), symbol)
@@ -33,6 +34,7 @@ def test_parameter_to_the_last_printed_digit(report, symbol):
     assert found * (1e6 if symbol in HEIGHTS else 1) == pytest.approx(value, abs=0.501 * 10**-digits)
 
 
+@pytest.mark.literature("Mitutoyo SurfTest report printed beside the stored profile")
 @pytest.mark.parametrize("method", ["least squares", "class levels"])
 @pytest.mark.parametrize("symbol", CORE)
 def test_core_parameters_within_the_spread_between_programs(report, method, symbol):
@@ -40,10 +42,12 @@ def test_core_parameters_within_the_spread_between_programs(report, method, symb
     assert found == pytest.approx(CORE[symbol], rel=0.08)
 
 
+@pytest.mark.literature("Mitutoyo SurfTest report printed beside the stored profile")
 def test_class_levels_are_the_instruments_convention_for_the_core(report):
     assert core_parameters(report, method="class levels").Rk * 1e6 == pytest.approx(11.440, rel=0.005)
 
 
+@pytest.mark.literature("Mitutoyo SurfTest report printed beside the stored profile")
 @pytest.mark.parametrize(("symbol", "value"), [("RSm", 419.9), ("Rc", 13.306)])
 def test_elements_discriminated_by_total_height(report, symbol, value):
     found = element_parameters(report, discrimination="10 % of Rt", sections=4)

@@ -61,6 +61,7 @@ def trace(measured, nist, mitutoyo):
     return read
 
 
+@pytest.mark.literature("SurfaceTopography 1.27.1")
 @pytest.mark.parametrize("path", FILES)
 def test_moments_before_the_filter_are_surfacetopographys(trace, path):
     profile, peer = trace(path)
@@ -71,6 +72,7 @@ def test_moments_before_the_filter_are_surfacetopographys(trace, path):
     assert np.sqrt(m.m4) * 1e-6 == pytest.approx(theirs["Rddq"], rel=2e-3)
 
 
+@pytest.mark.literature("surfalize 0.19.2")
 @pytest.mark.parametrize("path", FILES)
 def test_parameters_are_surfalizes_under_its_own_conventions(trace, path):
     """Mirrored ends, half a cut-off trimmed, re-centred, averages over the whole length."""

@@ -22,6 +22,7 @@ STORED = {
 ELEMENTS = {"edm": (46.09835, 1.21012), "sine": (400.00563, 2.0), "square": (200.0, 2.0)}
 
 
+@pytest.mark.literature("NIST Surface Metrology Algorithm Testing System, values stored with the softgauges")
 @pytest.mark.parametrize(("name", "lost"), [("mill", 3), ("square", 1)])
 def test_short_cutoff_filter_is_nists(nist, name, lost):
     profile, filtered = nist(name)
@@ -36,6 +37,7 @@ def test_exact_mode_is_not_the_floored_one(nist, name, lost):
     assert np.abs(ours - filtered).max() > 1e-10
 
 
+@pytest.mark.literature("NIST Surface Metrology Algorithm Testing System, values stored with the softgauges")
 @pytest.mark.parametrize("name", STORED)
 def test_primary_parameters_are_nists_to_all_digits(nist, name):
     profile, filtered = nist(name)
@@ -46,6 +48,7 @@ def test_primary_parameters_are_nists_to_all_digits(nist, name):
         assert ours == pytest.approx(value, abs=6e-6), symbol
 
 
+@pytest.mark.literature("NIST Surface Metrology Algorithm Testing System, values stored with the softgauges")
 @pytest.mark.parametrize("name", ELEMENTS)
 def test_elements_are_nists(nist, name):
     profile, filtered = nist(name)
