@@ -9,8 +9,9 @@ QUICK ?=
 study: .venv/base
 	$(BIN)/mixedlub study examples/study_21_pairings.toml --out out/study
 
+# Threads of linear algebra in each worker would wait for each other.
 test: .venv/dev
-	$(BIN)/pytest -n auto
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto
 
 bench: .venv/dev
 	@for file in benchmarks/*.py; do $(BIN)/python $$file || exit 1; done

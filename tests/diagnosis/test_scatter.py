@@ -169,10 +169,15 @@ def test_sds_of_one_setting_leave_out_a_share_of_the_reading(tmp_path: Path) -> 
     assert d.search.problem.single_sd[-1] == pytest.approx(0.02 * recorded[-1], rel=0.6)
 
 
-def test_noise_of_very_many_readings_is_estimated_though_a_share_of_them_is_looked_at(tmp_path: Path) -> None:
-    passed = np.linspace(0.0, 1.0, 1300)
+def test_noise_of_very_many_readings_is_estimated_though_a_share_of_them_is_looked_at(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("mixedlub.diagnosis.search.noise_selection.MANY", 250)
+    monkeypatch.setattr("mixedlub.diagnosis.search.search.MANY", 250)
+    monkeypatch.setattr("mixedlub.diagnosis.search.search.SUBSET", 130)
+    passed = np.linspace(0.0, 1.0, 300)
     friction = 0.1 * (1.0 - 0.3 * (1.0 - np.exp(-4.0 * passed)) + 0.15 * (passed > 0.6))
-    friction *= 1.0 + 0.01 * np.random.default_rng(3).standard_normal(1300)
+    friction *= 1.0 + 0.01 * np.random.default_rng(3).standard_normal(300)
     columns = {"time_s": 3600.0 * passed, "friction_coefficient": friction}
     system = {"kind": "friction_history", "recording": {"quantity": "friction_coefficient"}}
     d = diagnose_case(write_case(tmp_path / "case", system, columns))

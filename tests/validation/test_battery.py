@@ -39,7 +39,7 @@ def _recorded(folder):
 
 def test_same_seed_writes_the_same_bytes(battery, others, named_orders, tmp_path):
     orders = plan(11, 8)
-    for index in (0, 5):
+    for index in (1, 4):
         make(11, index, orders[index], tmp_path / "battery")
         assert _bytes(tmp_path / "battery" / orders[index].name) == _bytes(battery[index])
     for place, (name, order) in enumerate(named_orders.items()):
