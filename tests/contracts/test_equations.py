@@ -96,7 +96,7 @@ def test_an_equation_that_lacks_a_parameter_or_explains_a_letter_nowhere_is_foun
     assert missing(replace(creep, parameters=nameless)) == [p.name for p in creep.parameters]
 
 
-@each
+@pytest.mark.parametrize("effect", [catalogue()["churning"], catalogue()["sensor_offset"]], ids=lambda e: e.id)
 def test_page_shows_the_symbol_beside_the_name(effect: Effect) -> None:
     page = effects_text(effect.id)
     for p in effect.parameters:

@@ -20,11 +20,6 @@ FILM = """Rollgeschwindigkeit (mm/s);Schlupf (%);Last (N);Schmierstofftemperatur
 """
 
 
-@pytest.mark.parametrize("written", KNOWN)
-def test_a_known_unit_is_read_as_itself_and_as_nothing_else(written):
-    assert {w: change_to(written, w) for w in UNITS} == {w: FORMS[w].get(written) for w in UNITS}
-
-
 def test_there_are_units_that_differ_by_capitals_only():
     assert ("Nm", "nm") in ALIKE
 

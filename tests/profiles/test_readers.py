@@ -3,7 +3,6 @@
 import io
 import struct
 import sys
-import time
 import zipfile
 
 import numpy as np
@@ -138,15 +137,13 @@ def bomb(member, size=300 * 2**20):
 @pytest.mark.parametrize(
     ("name", "member"), [("a.x3p", "main.xml"), ("a.xlsx", "xl/workbook.xml"), ("a.zip", "trace.txt")]
 )
-def test_zip_bomb_is_refused_quickly_and_in_little_memory(name, member):
+def test_zip_bomb_is_refused_in_little_memory(name, member):
     import tracemalloc
 
     data = bomb(member)
     tracemalloc.start()
-    began = time.perf_counter()
     with pytest.raises(InputError, match="unpacks to more than"):
         read_source(Source(name, data))
-    assert time.perf_counter() - began < 2
     assert tracemalloc.get_traced_memory()[1] < 64 * 2**20
     tracemalloc.stop()
 
