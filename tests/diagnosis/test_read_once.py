@@ -14,7 +14,7 @@ SHARE = [(13.5, 0.5), (18.0, 0.5), (18.01, 1.0), (24.0, 1.0), (24.01, 0.5), (34.
 
 
 def test_a_trace_and_a_load_share_table_are_read_once(
-    make_case: Callable[..., Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    make_case: Callable[..., Path], excluded: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     case = make_case(tmp_path / "case", "gear_pair")
     rows = "".join(f"100,{angle},{share}\n" for angle, share in SHARE)
@@ -35,5 +35,5 @@ def test_a_trace_and_a_load_share_table_are_read_once(
             return of(path, *rest, **named)
 
         monkeypatch.setattr(module, name, counted)
-    diagnose_case(case)
+    diagnose_case(case, exclude=excluded)
     assert read == {"share.csv": 1, "flank.txt": 1}

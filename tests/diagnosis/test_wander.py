@@ -32,18 +32,23 @@ def answer_to(folder, friction, clock=CLOCK):
     return diagnose_case(folder)
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.fixture(scope="module")
+def wandering(tmp_path_factory):
+    """The answer to noise that wanders, and nothing else."""
+    return answer_to(tmp_path_factory.mktemp("wandering"), 0.1 * (1.0 + wandering_noise(3, 0.9, 0.01)))
+
+
+@pytest.mark.parametrize("seed", [1, 2])
 def test_wandering_noise_is_no_event(tmp_path, seed):
     d = answer_to(tmp_path, 0.1 * (1.0 + wandering_noise(seed, 0.9, 0.01)))
     assert d.posterior.verdict in (NOTHING, DISCREPANCY)
     assert {"residuals_drift", "residuals_autocorrelated"} & set(codes(d.warnings))
 
 
-def test_noise_that_is_seen_to_wander_is_told_as_that(tmp_path):
-    d = answer_to(tmp_path, 0.1 * (1.0 + wandering_noise(3, 0.9, 0.01)))
-    assert d.posterior.verdict == NOTHING
-    assert d.search.problem.correlated_error.size >= 1.0
-    assert "residuals_drift" in codes(d.warnings)
+def test_noise_that_is_seen_to_wander_is_told_as_that(wandering):
+    assert wandering.posterior.verdict == NOTHING
+    assert wandering.search.problem.correlated_error.size >= 1.0
+    assert "residuals_drift" in codes(wandering.warnings)
 
 
 def test_noise_that_does_not_wander_is_left_as_it_is(tmp_path):
@@ -75,8 +80,8 @@ def test_an_error_that_wanders_is_the_same_for_some_of_the_rows():
     assert correlated_error.columns(Table({"load_N": CLOCK}, "rows")).shape == (COUNT, 0)
 
 
-def test_a_new_reading_scatters_as_the_recorded_ones(tmp_path):
-    d = answer_to(tmp_path, 0.1 * (1.0 + wandering_noise(3, 0.9, 0.01)))
+def test_a_new_reading_scatters_as_the_recorded_ones(wandering):
+    d = wandering
     inside = (d.readings > d.recorded.low90) & (d.readings < d.recorded.high90)
     assert 0.84 < inside.mean() < 0.97
 

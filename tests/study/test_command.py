@@ -8,8 +8,12 @@ def run(file, out, *options):
     assert main(["study", str(file), "--out", str(out), *options]) == 0
 
 
+FEW = {"conditions__oil_temperature_C": [60], "conditions__torque_Nm": [50]}
+"""Conditions of few figures."""
+
+
 def test_a_page_of_another_study_is_named_where_none_is_drawn(write_study, tmp_path, capsys):
-    first, other = write_study("first"), write_study("other", gears__face_width_mm=20.0)
+    first, other = write_study("first", **FEW), write_study("other", **FEW, gears__face_width_mm=20.0)
     run(first, tmp_path / "o")
     capsys.readouterr()
     run(first, tmp_path / "o", "--no-figures")
@@ -22,11 +26,11 @@ def test_a_page_of_another_study_is_named_where_none_is_drawn(write_study, tmp_p
 
 def test_files_of_the_user_among_the_figures_stay_and_old_figures_go(write_study, tmp_path):
     drawings = tmp_path / "o" / "figures"
-    run(write_study("first"), tmp_path / "o")
+    run(write_study("first", **FEW), tmp_path / "o")
     drawn = {path.name for path in drawings.iterdir()}
     next(iter(drawings.iterdir())).rename(drawings / "figure_of_old.svg")
     (drawings / "notes.txt").write_text("mine", encoding="utf-8")
-    run(write_study("first"), tmp_path / "o")
+    run(write_study("first", **FEW), tmp_path / "o")
     assert {path.name for path in drawings.iterdir()} == {*drawn, "notes.txt"}
 
 
