@@ -74,6 +74,9 @@ def test_the_fast_gears_are_those_of_the_paper(geometry):
     assert pair.working_centre_distance == pytest.approx(203.33e-3, abs=1e-5)
 
 
+@pytest.mark.literature(
+    "Gupta, Cheng, Zhu, Forster and Schrand (1992), Tribol. Trans. 35, 269; Archard (1959), Wear 2, 438"
+)
 def test_the_laws_of_heat_are_as_published(script):
     heat = script["HEAT"]
     assert heat["inlet_shear_heating"]["loading_power"] == 0.64
