@@ -340,7 +340,7 @@ def _gauss_newton(
         if step_number >= STEPS_BEFORE_GIVING_UP and _evidence_bound(cost, slope, curvature) < rival - hopeless:
             break
         for _ in range(DAMPING_TRIALS):
-            step = np.linalg.solve(curvature + damping * np.eye(slope.size), slope)
+            step = np.linalg.solve(curvature + damping * np.diag(np.diag(curvature)), slope)
             step *= min(1.0, LONGEST_STEP / max(np.max(np.abs(step[: z.size]), initial=0.0), 1e-12))
             moved = np.clip(z + step[: z.size], -MOST_COORDINATE, MOST_COORDINATE)
             moved_shared = shared + step[z.size :]

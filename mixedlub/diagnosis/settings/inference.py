@@ -55,7 +55,7 @@ GAUSS_NEWTON_STEPS = 20
 DAMPING_TRIALS = 8
 """Cost limit. Dampings that are tried for one step."""
 DAMPING_START, DAMPING_RETRY = 1e-2, 1e-3
-"""Judgement. Damping of the first step, and the least after a failed one, over the prior's curvature: small."""
+"""Judgement. Damping of the first step, and the least after a failed one, over the curvature: small."""
 DAMPING_RISE, DAMPING_FALL, LEAST_DAMPING = 6.0, 5.0, 1e-9
 """Judgement. Factors on the damping after a failed and a good step, and its least value: one of each nearly cancel."""
 LONGEST_STEP = 2.0
