@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from mixedlub.case.folder import (
     Case,
@@ -152,13 +153,16 @@ def diagnosis_of(
         new_model = Forward(case, new_rows)
         new_model.base_prediction()
         warnings += [note for note in new_model.notes if note not in forward.notes] + beyond_recorded(case, new_rows)
-    noise_search = search_under_noise(case, forward, exclude, progress)
-    progress("testing against nothing missing")
-    search, test = mismatch_against_null(noise_search, level)
+    # Matrices are small: a second thread of linear algebra costs more than it saves, and processes share the work.
+    with threadpool_limits(limits=1, user_api="blas"):
+        noise_search = search_under_noise(case, forward, exclude, progress)
+        progress("testing against nothing missing")
+        search, test = mismatch_against_null(noise_search, level)
     given, case, rows = case, search.problem.case, search.problem.rows
     warnings += noise_notes(search, noise_search.stated, noise_search.inflation)
     progress("leaving levels out")
-    decided, heldout = judge(search, test)
+    with threadpool_limits(limits=1, user_api="blas"):
+        decided, heldout = judge(search, test)
     heldout = heldout.single_reading_units(search.full_screen.problem.n_per_effective)
     refined = leaders(search, decided)
     progress("predicting")
