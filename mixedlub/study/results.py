@@ -105,7 +105,11 @@ class Results:
             for name, (column, scale) in {**COLUMNS, **{name: (name, 1.0) for name in CHECKS}}.items()
         }
         index, texts = as_words(self.flags, self.study.plan.shape)
-        variables[VALIDITY] = (("pairing", *LEVELS), np.array(texts)[index], {"units": "", "long_name": VALIDITY_MEANING})
+        variables[VALIDITY] = (
+            ("pairing", *LEVELS),
+            np.array(texts)[index],
+            {"units": "", "long_name": VALIDITY_MEANING},
+        )
         return xr.Dataset(variables, coordinates, {"title": self.study.file.title})
 
     def to_pandas(self) -> pd.DataFrame:
