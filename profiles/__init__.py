@@ -3,6 +3,6 @@
 from profiles.errors import InputError
 from profiles.profile import Profile
 from profiles.read import read
-from profiles.traces import SHIPPED, shipped
+from profiles.traces import SHIPPED, SHIPPED_MARK, shipped
 
-__all__ = ["SHIPPED", "InputError", "Profile", "read", "shipped"]
+__all__ = ["SHIPPED", "SHIPPED_MARK", "InputError", "Profile", "read", "shipped"]

@@ -6,9 +6,9 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from mixedlub.case.folder import Case
-from mixedlub.rig.build import SHIPPED_MARK
 from mixedlub.schema.table import Table
 from mixedlub.schema.toml_file import named_file, to_toml
+from profiles import SHIPPED_MARK
 
 TABLES = ("recordings", "conditions")
 

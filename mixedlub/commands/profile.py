@@ -78,14 +78,13 @@ def command(
 
     ISO parameters, spectral moments, asperities and Gaussian verdict, with figures.
     """
-    from mixedlub.rig.build import SHIPPED_MARK, shipped_trace
-    from profiles import read
+    from profiles import SHIPPED_MARK, read, shipped
     from roughness import trace_record
     from roughness.guards import overruled
 
     def trace_of(file: Path) -> Profile:
         if str(file).startswith(SHIPPED_MARK):
-            return shipped_trace(str(file), "FILE")
+            return shipped(str(file), "FILE")
         return read(file, unit=unit, spacing=spacing)
 
     traces = each_read(files, trace_of)

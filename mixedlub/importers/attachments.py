@@ -9,7 +9,7 @@ from typing import Any
 
 from mixedlub.case.import_file import NAME
 from mixedlub.importers.base import nested
-from mixedlub.rig.build import SHIPPED_MARK
+from profiles import SHIPPED_MARK
 from profiles.errors import InputError, nearest
 
 RESERVED_NAMES = ("system.toml", "recordings.csv", "conditions.csv", NAME)

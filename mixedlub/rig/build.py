@@ -19,15 +19,12 @@ from mixedlub.rig.surface import Surface
 from mixedlub.schema import system_file
 from mixedlub.schema.findings import finding, report
 from mixedlub.schema.toml_file import named_file
-from profiles import SHIPPED, shipped
-from profiles.errors import InputError, nearest
+from profiles import SHIPPED_MARK, shipped
+from profiles.errors import InputError
 from profiles.profile import Profile
 
 if TYPE_CHECKING:
     from roughness import Moments
-
-SHIPPED_MARK = "shipped:"
-"""Before the name of a trace that comes with the package."""
 
 
 def gear_pair(section: system_file.Gears) -> GearPair:
@@ -108,14 +105,6 @@ def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (
     )
 
 
-def shipped_trace(named: str, key: str) -> Profile:
-    """A trace that comes with the package, by its name behind the mark; ``key`` is where it is named."""
-    wanted = named.removeprefix(SHIPPED_MARK)
-    if wanted not in SHIPPED:
-        raise InputError(f"no such shipped trace; {nearest(wanted, SHIPPED)}", where=key, value=named)
-    return shipped(wanted)
-
-
 def trace(name: str, section: system_file.SurfaceSection, folder: Path) -> Profile:
     """The trace that a surface names; what is wrong with it is said with the surface's name."""
     from profiles.read import read
@@ -128,7 +117,7 @@ def trace(name: str, section: system_file.SurfaceSection, folder: Path) -> Profi
             if getattr(section, key) is not None:
                 rule = "a shipped trace has its own; leave it out"
                 raise InputError(rule, where=f"{place}.{key}", value=getattr(section, key))
-        found = shipped_trace(named, f"{place}.profile")
+        found = shipped(named, f"{place}.profile")
     text = "a synthetic trace: only Ra, Rq and Rz are of a measured flank, its slopes and curvatures were chosen"
     report(finding("trace_synthetic", text, place))
     return found

@@ -13,10 +13,12 @@ from profiles.errors import InputError, nearest
 from profiles.profile import Profile
 
 SHIPPED = ("0036", "0122", "0219", "0258", "0302", "0450")
+SHIPPED_MARK = "shipped:"
+"""Before the name of a shipped trace where a file could be named as well."""
 
 
-def shipped(name: str) -> Profile:
-    """One of the shipped traces, by its name.
+def shipped(name: str, where: str = "shipped trace") -> Profile:
+    """One of the shipped traces, by its name with or without the mark; ``where`` is the place that names it.
 
     >>> trace = shipped("0258")
     >>> trace.name, trace.origin["kind"], round(trace.length * 1e3, 3)
@@ -25,7 +27,8 @@ def shipped(name: str) -> Profile:
     from profiles.read import read_source
     from profiles.readers.base import Source
 
-    if name not in SHIPPED:
-        raise InputError(f"no such shipped trace; {nearest(name, SHIPPED)}", where="shipped trace", value=name)
-    data = resources.files("profiles.traces").joinpath(f"{name}.txt").read_bytes()
-    return replace(read_source(Source(f"{name}.txt", data)), name=name)
+    wanted = name.removeprefix(SHIPPED_MARK)
+    if wanted not in SHIPPED:
+        raise InputError(f"no such shipped trace; {nearest(wanted, SHIPPED)}", where=where, value=name)
+    data = resources.files("profiles.traces").joinpath(f"{wanted}.txt").read_bytes()
+    return replace(read_source(Source(f"{wanted}.txt", data)), name=wanted)
