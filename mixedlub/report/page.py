@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub.parallel import shared_out
 from mixedlub.report.cutoff_table import FEWEST_PAIRINGS, cutoff_rows, squares
 from mixedlub.report.figures import Drawn, figures
 from mixedlub.report.laws import laws_used
@@ -45,7 +46,7 @@ def write_page(
 ) -> list[Finding]:
     """Write ``index.html`` and ``figures/`` into a folder; return the findings on the heights of the traces.
 
-    ``given`` is the study file as text; ``doing`` is called with the name of each figure.
+    ``given`` is the study file as text; ``doing`` is called with what is done next.
     """
     from jinja2 import Environment
 
@@ -54,14 +55,10 @@ def write_page(
     study = results.study
     profiles = traced(study)
     judged = judgement(profiles)
-    shown = []
-    for drawn in (*surface_figures(study, profiles, judged), *figures(results)):
-        doing(f"drawing figures: {drawn.name}")
-        svg = as_svg(drawn.figure)
-        for form in formats:
-            path = drawings / f"{drawn.name}.{form}"
-            path.write_text(svg, encoding="utf-8") if form == "svg" else save(drawn.figure, path)
-        shown.append({"name": drawn.name, "caption": drawn.caption, "svg": svg})
+    drawn = [*surface_figures(study, profiles, judged), *figures(results)]
+    doing(f"drawing {len(drawn)} figures")
+    svgs = shared_out(lambda one: _saved(one, drawings, formats), drawn)
+    shown = [{"name": one.name, "caption": one.caption, "svg": svg} for one, svg in zip(drawn, svgs, strict=True)]
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(files("mixedlub.report").joinpath("template.html").read_text(encoding="utf-8"))
     of_heights = [*not_gaussian(judged), *height_notes(profiles, judged)]
@@ -69,6 +66,15 @@ def write_page(
     page = template.render(**content(results), **texts, figures=shown)
     (folder / "index.html").write_text(page, encoding="utf-8")
     return of_heights
+
+
+def _saved(drawn: Drawn, folder: Path, formats: Sequence[str]) -> str:
+    """A figure as SVG, once its files are written."""
+    svg = as_svg(drawn.figure)
+    for form in formats:
+        path = folder / f"{drawn.name}.{form}"
+        path.write_text(svg, encoding="utf-8") if form == "svg" else save(drawn.figure, path)
+    return svg
 
 
 def content(results: Results) -> dict[str, Any]:
