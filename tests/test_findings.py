@@ -109,13 +109,13 @@ def imported(folder: Path, *more: str) -> Path:
 
 def test_what_an_import_warned_of_is_repeated_by_later_commands(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
     case = imported(tmp_path)
-    (warned,) = of_severity(read_case(case).notes, Severity.CAUTION)
+    (warned,) = of_severity(read_case(case).notes, Severity.DOUBT)
     assert (warned.code, warned.place) == ("things_pooled", "rig.csv")
     assert str(warned) in capsys.readouterr().out
     assert main(["check", str(case)]) == 0
     assert f"  {warned}." in capsys.readouterr().out.partition("Doubtful:")[2]
     assert main(["simulate", str(case), "--out", str(tmp_path / "o")]) == 0
-    assert f"caution: {warned}" in capsys.readouterr().err
+    assert f"doubt: {warned}" in capsys.readouterr().err
 
 
 def test_an_import_that_warns_of_nothing_takes_back_what_one_before_warned_of(tmp_path: Path) -> None:

@@ -106,7 +106,12 @@ def _kinds() -> Iterator[tuple[str, str]]:
     for name in KINDS:
         k = kind(name)
         taken = {*EVERY_CASE, *k.sections, *k.uses}
-        parts = [f"# {name}", f"{k.about.rstrip('.')}.", "## Columns", _table(COLUMN_HEAD, kind_rows(k))]
+        parts = [
+            f"# {name}",
+            f"{k.about.rstrip('.')}. Base model: {k.base_model}",
+            "## Columns",
+            _table(COLUMN_HEAD, kind_rows(k)),
+        ]
         parts += ["Columns of every kind:", _table(COLUMN_HEAD, common_rows()), "## Keys of system.toml"]
         for table in tables(System):
             if table.name.split(".")[0] in taken:

@@ -47,6 +47,7 @@ def understood(case: Case) -> Iterator[str]:
     yield f"{case.name}: a case of kind {case.system.kind}, recording {case.quantity}."
     if case.system.description:
         yield f"  Described as: {case.system.description}"
+    yield f"Base model: {case.kind.base_model}"
     with collected() as reported:
         bodies = list(_bodies(case))
         forward = _forward(case)

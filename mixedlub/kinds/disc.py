@@ -8,7 +8,7 @@ from mixedlub.chain.base_models import LINE, POINT
 from mixedlub.chain.model import Chain
 from mixedlub.kinds import columns, oil_priors
 from mixedlub.kinds.calibration import Calibration
-from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, inverse_load
+from mixedlub.kinds.kind import MIXED_FRICTION, Inputs, Kind, bookkeeping_inputs, column, inverse_load
 from mixedlub.kinds.standard import DISCS, OIL, ROUGHNESS_UM, StandardRig
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws import load, loss
@@ -109,6 +109,9 @@ KIND = Kind(
     readings=(columns.FRICTION,),
     columns=(*COLUMNS, *SURFACES),
     sections=("contact", "lubricant", "surfaces"),
+    base_model=(
+        f"Dowson-Toyoda film of a line contact or Hamrock-Dowson film of a point contact, {MIXED_FRICTION}. No heat."
+    ),
     chain=chain,
     inputs=inputs,
     extra_calibration=extra_calibration,

@@ -204,6 +204,10 @@ KIND = Kind(
     instrument_channels=(FRINGE_ORDER,),
     sections=("contact",),
     uses=("lubricant",),
+    base_model=(
+        "Hamrock-Dowson central film thickness of a point contact, Dowson-Toyoda of a line contact: fully "
+        "flooded, smooth, isothermal, Newtonian."
+    ),
     chain=chain,
     inputs=inputs,
     extra_calibration=extra_calibration,

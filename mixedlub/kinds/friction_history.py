@@ -144,6 +144,7 @@ KIND = Kind(
     columns=COLUMNS,
     sections=(),
     uses=("contact", "lubricant", "surfaces"),
+    base_model="A constant friction coefficient, or that of kind disc where oil, surfaces and conditions are given.",
     chain=chain,
     inputs=inputs,
     extra_calibration=extra_calibration,

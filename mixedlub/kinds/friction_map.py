@@ -296,6 +296,10 @@ KIND = Kind(
     readings=(FRICTION_TORQUE, FRICTION),
     columns=COLUMNS,
     sections=(),
+    base_model=(
+        "Coulomb friction, the same in both directions, viscous friction in proportion to speed, and a "
+        "constant torque of the payload."
+    ),
     chain=chain,
     inputs=inputs,
     extra_calibration=extra_calibration,

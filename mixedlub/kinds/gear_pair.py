@@ -7,7 +7,7 @@ import numpy as np
 from mixedlub.chain.base_models import GEAR_LOSS
 from mixedlub.gear.inputs import contact_inputs
 from mixedlub.kinds import columns
-from mixedlub.kinds.kind import NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out
+from mixedlub.kinds.kind import MIXED_FRICTION, NO_GEARS, Inputs, Kind, bookkeeping_inputs, column, gears_out
 from mixedlub.kinds.standard import GEARS, OIL, ROUGHNESS_UM, StandardRig
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws.oil import ZERO_CELSIUS
@@ -88,6 +88,10 @@ KIND = Kind(
     readings=(POWER_LOSS,),
     columns=CONDITIONS,
     sections=("gears", "lubricant", "surfaces"),
+    base_model=(
+        f"Dowson-Toyoda film along the path of contact, {MIXED_FRICTION}; sliding loss integrated over the path. No "
+        "other loss, no heat."
+    ),
     chain=lambda system, table: (*GEAR_LOSS, ("reading", reading)),
     inputs=inputs,
     part_rigs=(NO_GEARS,),

@@ -23,6 +23,11 @@ CONSTANT_WITHIN = 0.02
 
 Controllers hold load and speed within 1 % and oil temperature within 3 K; at 2 % a temperature may span 6 K.
 """
+MIXED_FRICTION = (
+    "Roelands viscosity at the largest Hertz pressure, Ree-Eyring shear, Greenwood-Williamson area ratio of McCool "
+    "asperities, friction of film and asperities weighted by that ratio (Tallian)"
+)
+"""The laws that the base models of friction share, from the film to the friction coefficient."""
 SUBJECTS = ("gears", "contact", "drive", "oil")
 """Subjects of recordings, in the order in which kinds are listed."""
 
@@ -33,7 +38,7 @@ class Kind:
 
     ``subject`` is the test object, one of SUBJECTS. ``readings`` are the columns of which a recording has one, and
     ``scale`` is the factor from SI to their unit; ``uses`` are optional sections. ``standard`` is the rig on which the
-    catalogue compares effects.
+    catalogue compares effects. ``base_model`` names the laws of the chain for a reader of the answer.
 
     ``inputs(system, rig, table, recorded)`` gives the chain's inputs as arrays of shape (rows, points),
     one of the two of length one where a quantity does not depend on it; the chain ends in ``reading``,
@@ -58,6 +63,7 @@ class Kind:
     readings: tuple[Column, ...]
     columns: tuple[Column, ...]
     sections: tuple[str, ...]
+    base_model: str
     chain: Callable[[system_file.System, Table], Chain]
     inputs: Callable[[system_file.System, Rig, Table, Table], Inputs]
     standard: StandardRig

@@ -9,7 +9,7 @@ from mixedlub.gear import Mesh, at_roll_angle
 from mixedlub.gear.inputs import motion_inputs
 from mixedlub.kinds import columns
 from mixedlub.kinds.gear_pair import CONDITIONS
-from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, inverse_of
+from mixedlub.kinds.kind import MIXED_FRICTION, Inputs, Kind, bookkeeping_inputs, column, inverse_of
 from mixedlub.kinds.standard import GEARS, OIL, ROUGHNESS_UM, StandardRig
 from mixedlub.kinds.surfaces import pair_of_surfaces
 from mixedlub.laws.oil import ZERO_CELSIUS
@@ -94,6 +94,7 @@ KIND = Kind(
     readings=(columns.FRICTION,),
     columns=(*CONDITIONS, ROLL_ANGLE),
     sections=("gears", "lubricant", "surfaces"),
+    base_model=(f"Dowson-Toyoda film at each roll angle, {MIXED_FRICTION}. No heat."),
     chain=lambda system, table: (*GEAR_CONTACT, ("reading", reading)),
     inputs=inputs,
     column_limits=column_limits,

@@ -127,6 +127,7 @@ KIND = Kind(
     columns=COLUMNS,
     sections=(),
     uses=("lubricant",),
+    base_model="ASTM D341 over temperature, Barus over pressure.",
     chain=chain,
     inputs=inputs,
     extra_calibration=extra_calibration,

@@ -75,6 +75,7 @@ def _kind(k: Kind) -> Iterator[str]:
     yield from _wrapped(about(k.name), 0, 2)
     used = f"; uses where given {_named(k.uses)}" if k.uses else ""
     yield from _wrapped(f"needs {_named(k.sections) or 'no section but [recording]'}{used}", 2, 4)
+    yield from _wrapped(f"base model: {k.base_model}", 2, 4)
     if k.part_rigs:
         rigs = " or ".join(k.part_rigs)
         yield from _wrapped(f"readings of the rig {rigs} are compared with a part of the base model", 2, 4)

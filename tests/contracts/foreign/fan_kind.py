@@ -43,6 +43,7 @@ KIND = Kind(
     scale=1e3,
     columns=(columns.SPEED,),
     sections=(),
+    base_model="drag in proportion to the square of the speed.",
     chain=lambda system, table: (("friction_torque", drag), ("reading", reading)),
     inputs=inputs,
     extra_calibration=extra_calibration,
