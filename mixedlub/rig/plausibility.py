@@ -17,6 +17,8 @@ LEAST_HARD_MODULUS = 50e9
 YIELD_RATIO = 0.025
 """Source: ISO 76. Hertz pressure over reduced modulus at which these yield: bearings are rated to 4.2 GPa, 0.018 of the
 modulus of steel; polymers bear a larger share."""
+MOST_BACKLASH = 0.1
+"""Judgement. Backlash over normal module; ISO/TR 10064-2 recommends at least 0.02 to 0.05 for industrial gears."""
 BANDWIDTH = (1.0 - 1e-6, 1e5)
 """Nayak's m0 m4/m2^2: no profile has less than 1 (Cauchy and Schwarz), none of two scales apart by 300 more."""
 
@@ -26,10 +28,22 @@ def implausible(rig: Rig, surfaces: Collection[str] | None = None) -> Iterator[F
     yield from ranges.unusual(rig.file)
     if rig.file.gears is not None:
         yield from rig.sharing.check(rig.gears)
+        yield from _backlash(rig)
     for name in rig.file.surfaces if surfaces is None else surfaces:
         found = _surface(rig, name)
         if found is not None:
             yield from _roughness(found, f"surfaces.{name}", rig.file.surfaces[name])
+
+
+def _backlash(rig: Rig) -> Iterator[Finding]:
+    """A centre distance that leaves the flanks far apart for the profile shifts."""
+    pair = rig.gears
+    if pair.centre_distance is not None and pair.backlash > MOST_BACKLASH * pair.normal_module:
+        text = (
+            f"the flanks have {pair.backlash * 1e3:.3g} mm of backlash, {pair.backlash / pair.normal_module:.2g} of the "
+            "module: check it, and profile_shift"
+        )
+        yield finding("backlash_large", text, "gears.centre_distance_mm")
 
 
 def yields(pressure: np.ndarray, modulus: float) -> np.ndarray:

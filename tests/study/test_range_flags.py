@@ -101,3 +101,10 @@ def test_an_area_ratio_is_never_above_one(write_study):
     full = {"a": {"m0_um2": 100.0, "m2": 0.0025, "m4_per_um2": 0.9}}
     every = {"conditions__speed_rpm": {"from": 100, "to": 3000, "count": 30}}
     assert run_study(read_study(write_study(surfaces=full, **every)))["area_ratio"].max() == 1.0
+
+
+@pytest.mark.parametrize(("centre_distance_mm", "doubted"), [(91.1, False), (91.5, False), (92.0, True)])
+def test_a_centre_distance_that_leaves_the_flanks_far_apart_is_doubted(centre_distance_mm, doubted, write_study):
+    """Backlash is 2 tan(22.5 deg) times what the centre distance exceeds 91.017 mm by: 0.40 mm at 91.5, 0.81 at 92."""
+    notes = read_study(write_study(gears__centre_distance_mm=centre_distance_mm)).notes
+    assert ("backlash_large" in codes(notes)) == doubted
