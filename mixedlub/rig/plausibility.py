@@ -40,8 +40,8 @@ def _backlash(rig: Rig) -> Iterator[Finding]:
     pair = rig.gears
     if pair.centre_distance is not None and pair.backlash > MOST_BACKLASH * pair.normal_module:
         text = (
-            f"the flanks have {pair.backlash * 1e3:.3g} mm of backlash, {pair.backlash / pair.normal_module:.2g} of the "
-            "module: check it, and profile_shift"
+            f"{pair.backlash * 1e3:.3g} mm of backlash, {pair.backlash / pair.normal_module:.2g} of the "
+            "module, for these profile shifts: check both"
         )
         yield finding("backlash_large", text, "gears.centre_distance_mm")
 
