@@ -17,6 +17,7 @@ bench: .venv/dev
 	@for file in benchmarks/*.py; do $(BIN)/python $$file || exit 1; done
 
 prove: .venv/dev
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto -m long
 	$(BIN)/mixedlub prove --out out/prove $(if $(QUICK),--quick)
 	$(BIN)/mixedlub prove --rigs --out out/prove_rigs $(if $(QUICK),--quick)
 

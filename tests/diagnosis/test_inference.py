@@ -14,12 +14,12 @@ from mixedlub.diagnosis.assessment.posterior import posterior
 from mixedlub.diagnosis.diagnose import Diagnosis
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.map_fit import linear_fit, map_fit, outlier_chance
-from mixedlub.diagnosis.inference.reference_evidence import importance_evidence
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search import search as searching
 from mixedlub.effects import catalogue
 from mixedlub.recording.conditions import coordinates
 from mixedlub.recording.noise import noise_from_repeats, noise_from_smoothness
+from tests.reference_evidence import importance_evidence
 
 KEPT = ("inlet_shear_heating", "churning", "sensor_offset", "sensor_gain")
 OTHERS = [name for name in catalogue() if name not in KEPT]

@@ -14,13 +14,13 @@ from mixedlub.diagnosis.assessment import mismatch_test as mismatch_module
 from mixedlub.diagnosis.assessment.mismatch_test import mismatch_test
 from mixedlub.diagnosis.explanation import NOTHING, Explanation
 from mixedlub.diagnosis.inference.map_fit import map_fit
-from mixedlub.diagnosis.inference.reference_evidence import nested_evidence
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.search import Search, search
 from mixedlub.diagnosis.settings.assessment import BAYES_FACTOR_MARGIN, STATED_NOISE_SCALES, UNSTATED_NOISE_SCALES
 from mixedlub.effects import catalogue
 from mixedlub.recording.conditions import coordinates
 from mixedlub.validation.battery import make, plan
+from tests.reference_evidence import nested_evidence
 
 LEVEL, TRIALS, SEED = 0.05, 448, 47
 OFF = 0.15
@@ -40,6 +40,7 @@ def problems(tmp_path_factory: pytest.TempPathFactory) -> list[Problem]:
     return [p.take(np.arange(p.y.size) % 2 == 0) for p in whole]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("explanation", [NOTHING, Explanation.of("sensor_gain"), Explanation.of("inlet_shear_heating")])
 def test_fast_evidence_agrees_with_nested_sampling(problems: list[Problem], explanation: Explanation) -> None:
     pytest.importorskip("dynesty")
@@ -86,6 +87,7 @@ def calibrated_only(found: Search, drawn: Problem) -> Search:
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("scales", [STATED_NOISE_SCALES, UNSTATED_NOISE_SCALES])
 def test_false_alarms_stay_at_the_stated_level(
     searches: list[Search], scales: tuple[float, ...], monkeypatch: pytest.MonkeyPatch

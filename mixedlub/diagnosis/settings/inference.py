@@ -124,13 +124,3 @@ PAIR_LEADERS = 8
 """Cost limit. Best single effects with which pairs are formed; other pairs are found from their draws."""
 PAIRS = 30
 """Cost limit. Pairs that are fitted, by the weights of the single fits."""
-
-# Reference evidence
-PROPOSAL_FREEDOM = 6.0
-"""Judgement. Degrees of freedom of the proposal of importance sampling: wider tails than a normal posterior."""
-REFERENCE_DRAWS = 2000
-"""Cost limit. Draws of importance sampling."""
-REFERENCE_POINTS = 300
-"""Cost limit. Live points of nested sampling."""
-REFERENCE_TOLERANCE = 0.1
-"""Judgement. Log evidence that nested sampling may leave uncounted: small against the differences that matter."""

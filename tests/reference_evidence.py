@@ -8,18 +8,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import gammaln, ndtri
 
 from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.inference.map_fit import Fit, covariance, log_likelihood
 from mixedlub.diagnosis.problem import Problem
-from mixedlub.diagnosis.settings.inference import (
-    PROPOSAL_FREEDOM,
-    REFERENCE_DRAWS,
-    REFERENCE_POINTS,
-    REFERENCE_TOLERANCE,
-    SEED,
-)
-from profiles.errors import InputError
+
+PROPOSAL_FREEDOM = 6.0
+"""Degrees of freedom of the Student law that draws are taken from: tails wider than those of the posterior."""
+STOP = 0.1
+"""Share of the evidence (log) left when nested sampling stops."""
 
 
 @dataclass(frozen=True)
@@ -31,8 +29,8 @@ class Evidence:
     effective_share: float
 
 
-def importance_evidence(problem: Problem, fit: Fit, draws: int = REFERENCE_DRAWS, seed: int = SEED) -> Evidence:
-    """Evidence by importance sampling from a Student law (6 degrees) laid over the fit."""
+def importance_evidence(problem: Problem, fit: Fit, draws: int, seed: int = 1) -> Evidence:
+    """Evidence by importance sampling from a Student law laid over the fit."""
     rng = np.random.default_rng(seed)
     root = np.linalg.cholesky(covariance(fit.slopes, fit.weight))
     size = fit.z.size
@@ -41,8 +39,8 @@ def importance_evidence(problem: Problem, fit: Fit, draws: int = REFERENCE_DRAWS
     z = fit.z + (normal * stretch[:, None]) @ root.T
     distance = np.einsum("ij,ij->i", normal, normal) * stretch**2
     log_proposal = (
-        _log_gamma(0.5 * (PROPOSAL_FREEDOM + size))
-        - _log_gamma(0.5 * PROPOSAL_FREEDOM)
+        gammaln(0.5 * (PROPOSAL_FREEDOM + size))
+        - gammaln(0.5 * PROPOSAL_FREEDOM)
         - 0.5 * size * np.log(PROPOSAL_FREEDOM * np.pi)
         - np.log(np.diag(root)).sum()
         - 0.5 * (PROPOSAL_FREEDOM + size) * np.log1p(distance / PROPOSAL_FREEDOM)
@@ -58,15 +56,9 @@ def importance_evidence(problem: Problem, fit: Fit, draws: int = REFERENCE_DRAWS
     return Evidence(float(top + np.log(mean)), error, effective / draws)
 
 
-def nested_evidence(
-    problem: Problem, explanation: Explanation, points: int = REFERENCE_POINTS, seed: int = 1
-) -> Evidence:
-    """Evidence by nested sampling over the prior (needs the extra ``bayes``)."""
-    try:
-        import dynesty
-    except ImportError:
-        raise InputError("nested sampling needs dynesty: pip install dynesty") from None
-    from scipy.special import ndtri
+def nested_evidence(problem: Problem, explanation: Explanation, points: int, seed: int = 1) -> Evidence:
+    """Evidence by nested sampling over the prior."""
+    import dynesty
 
     sampler = dynesty.NestedSampler(
         lambda z: _log_likelihood(problem, explanation, z),
@@ -77,7 +69,7 @@ def nested_evidence(
         bootstrap=0,
         rstate=np.random.default_rng(seed),
     )
-    sampler.run_nested(print_progress=False, dlogz=REFERENCE_TOLERANCE)
+    sampler.run_nested(print_progress=False, dlogz=STOP)
     result = sampler.results
     return Evidence(float(result.logz[-1]), float(result.logzerr[-1]), float("nan"))
 
@@ -90,9 +82,3 @@ def _log_likelihood(problem: Problem, explanation: Explanation, z: np.ndarray) -
         return -1e10
     value, _ = log_likelihood(residual)
     return float(value.sum())
-
-
-def _log_gamma(x: float) -> float:
-    from math import lgamma
-
-    return lgamma(x)
