@@ -52,8 +52,7 @@ class Model:
         state: State = dict(inputs)
         values = self._values(parameters)
         for step in self.steps:
-            arguments = [state[name] for name in step.reads]
-            result = step.law(*arguments, **values[step.effect]) if step.effect else step.law(*arguments)
+            result = _result(step, [state[name] for name in step.reads], values)
             state.update(zip(step.outputs, (result,) if len(step.outputs) == 1 else result, strict=True))
         return {name: state[name] for name in self.want}
 
@@ -75,8 +74,7 @@ class Model:
             changed_effects = [name for name, own in values.items() if own != near.values[name]]
             calls = self._reached_by(frozenset([*changed, *changed_effects]))
         for call in calls:
-            arguments = [made[i] for i in call.reads]
-            result = call.law(*arguments, **values[call.effect]) if call.effect else call.law(*arguments)
+            result = _result(call, [made[i] for i in call.reads], values)
             if len(call.writes) == 1:
                 made[call.writes[0]] = result
             else:
@@ -134,6 +132,10 @@ class _Call:
     reads: tuple[int, ...]
     writes: tuple[int, ...]
     effect: str | None
+
+
+def _result(call: Step | _Call, arguments: Sequence[Any], values: Mapping[str, Mapping[str, float]]) -> Any:
+    return call.law(*arguments, **values[call.effect]) if call.effect else call.law(*arguments)
 
 
 @dataclass(frozen=True, eq=False)

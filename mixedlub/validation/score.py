@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from mixedlub.validation.answers import Answer, Truth
+from mixedlub.validation.intervals import interval, reduced
 from mixedlub.validation.measures import (
     ANSWERS_WITHOUT_EFFECT,
     Pair,
@@ -276,56 +277,6 @@ def _once(truth: Truth) -> int:
     return 1
 
 
-def _reduce(values: np.ndarray, weights: np.ndarray, reduction: str) -> float:
-    if not len(values):
-        return float("nan")
-    if reduction == "median":
-        return float(np.median(values))
-    return float(np.max(values) if reduction == "max" else np.average(values, weights=weights))
-
-
-def _interval(values: np.ndarray, weights: np.ndarray, reduction: str) -> tuple[float, float]:
-    """90 % interval: Wilson's for a share, else by bootstrap over cases.
-
-    A bootstrap of nothing but hits has no width. Errors in the readings of one case are correlated, which Wilson's
-    interval ignores: where cases count for several, the interval is the hull of both.
-    """
-    if reduction != "share":
-        return _bootstrap(values, weights, reduction)
-    if not len(values):
-        return float("nan"), float("nan")
-    low, high = wilson(round(float(values @ weights)), round(float(weights.sum())))
-    if np.all(weights == 1.0) or len(values) < 2:
-        return low, high
-    first, last = _bootstrap(values, weights, reduction)
-    return min(low, first), max(high, last)
-
-
-def wilson(hits: int, of: int) -> tuple[float, float]:
-    """Wilson's 90 % score interval of a proportion.
-
-    Source: E. B. Wilson, J. Am. Stat. Assoc. 22 (1927) 209.
-
-    >>> [round(end, 3) for end in wilson(20, 20)]   # 1 / (1 + 1.645^2 / 20)
-    [0.881, 1.0]
-    """
-    from scipy.stats import binomtest
-
-    low, high = binomtest(hits, of).proportion_ci(0.90, "wilson")
-    return float(low), float(high)
-
-
-def _bootstrap(values: np.ndarray, weights: np.ndarray, reduction: str) -> tuple[float, float]:
-    """90 % bootstrap interval over cases, from a fixed seed."""
-    if len(values) < 2 or reduction == "max":
-        return float("nan"), float("nan")
-    rng = np.random.default_rng(len(values))
-    picks = rng.integers(0, len(values), (400, len(values)))
-    drawn = [_reduce(values[pick], weights[pick], reduction) for pick in picks]
-    low, high = np.quantile(drawn, [0.05, 0.95])
-    return float(low), float(high)
-
-
 def score(pairs: Sequence[Pair], tool: str = "mixedlub diagnose", ids: Sequence[str] = tuple(NAMED)) -> Score:
     """Every figure of a battery answered by a tool; goals as the project set them.
 
@@ -340,7 +291,7 @@ def score(pairs: Sequence[Pair], tool: str = "mixedlub diagnose", ids: Sequence[
         weights = np.array([float(weight(truth)) for truth, answer in pairs if figure.counts(truth, answer)])
         finite = np.isfinite(values)
         values, weights = values[finite], weights[finite]
-        value, span = _reduce(values, weights, figure.reduction), _interval(values, weights, figure.reduction)
+        value, span = reduced(values, weights, figure.reduction), interval(values, weights, figure.reduction)
         rows.append(Row(figure.key, figure.text, value, int(weights.sum()), *span, figure.goal))
     one_half_only = {name for halves in HALVES for name in halves if not all(r.count for r in rows if r.key in halves)}
     rows = [row for row in rows if row.key not in one_half_only]
@@ -362,9 +313,9 @@ def _probability_rows(pairs: Sequence[Pair], ids: Sequence[str]) -> list[Row]:
         error += len(inside) / len(some) * abs(float(gap))
     return [
         Row("log_score", "log score of the probabilities, a case", float(logs.mean()), len(logs),
-            *_interval(logs, np.ones_like(logs), "mean"), None),
+            *interval(logs, np.ones_like(logs), "mean"), None),
         Row("claims", "claims above 0.9 that are right", _ratio(list(bold)), len(bold),
-            *_interval(bold, np.ones_like(bold), "share"), (0.90, INF)),
+            *interval(bold, np.ones_like(bold), "share"), (0.90, INF)),
         Row("calibration_error", "expected calibration error, probabilities over 0.02", error, len(some),
             float("nan"), float("nan"), None),
     ]  # fmt: skip
