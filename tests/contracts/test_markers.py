@@ -1,12 +1,27 @@
-"""Numbers of the literature name their source, and none of them is held beside numbers of our own code."""
+"""Numbers of the literature name their source, and none of them is held beside numbers of our own code.
+
+A source in a journal has its DOI, with which a reader finds it.
+"""
 
 import ast
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 TESTS = Path(__file__).parents[1]
+ARTICLE = re.compile(r"\(\d{4}\), [^,;\d]+ \d+, \w*\d")
+"""Year, journal, volume and page."""
+DOI = re.compile(r"\bdoi:10\.\d{4,9}/\w")
+WITHOUT_DOI = {
+    "Archard (1959), Wear 2, 438",
+    "Changenet and Velex (2007), J. Mech. Des. 129, 128",
+    "Diab, Ville, Velex and Changenet (2004), J. Mech. Des. 126, 903",
+    "Hamrock and Dowson (1977), J. Lubr. Technol. 99, 264",
+    "Hsu and Lee (1994), J. Tribol. 116, 762",
+}
+"""Articles whose DOI is not confirmed."""
 
 
 def marks(node: ast.expr) -> Iterator[tuple[str, str]]:
@@ -47,6 +62,11 @@ def unsourced(found: dict[str, dict[str, str]]) -> list[str]:
     return [name for name, own in found.items() if not own.get("literature")]
 
 
+def without_doi(source: str) -> list[str]:
+    """Articles of a marker, which semicolons part, that have no DOI."""
+    return [part for part in source.split("; ") if ARTICLE.search(part) and not DOI.search(part)]
+
+
 @pytest.mark.parametrize(
     ("text", "without"),
     [
@@ -80,3 +100,26 @@ def test_no_test_holds_numbers_of_the_literature_beside_our_own() -> None:
 def test_a_marker_has_a_source_wherever_it_stands() -> None:
     every = [own for path in TESTS.rglob("test_*.py") for own in marked(path.read_text("utf-8")).values()]
     assert [own for own in every if own.get("literature") == ""] == []
+
+
+@pytest.mark.parametrize(
+    ("source", "without"),
+    [
+        ("Blok (1937), Wear 2, 438", ["Blok (1937), Wear 2, 438"]),
+        ("Blok (1937), J. Mech. Des. 126, 903, table 2", ["Blok (1937), J. Mech. Des. 126, 903, table 2"]),
+        ("Blok (1937), Proc. IMechE J 233, 303, doi:", ["Blok (1937), Proc. IMechE J 233, 303, doi:"]),
+        ("Blok (1937), Wear 2, 438, doi:10.1016/0043-1648(86)90045-1, table 2", []),
+        ("Blok (1937), Wear 2, 438, doi:10.1115/1.1; Hertz (1881), Wear 1, 2", ["Hertz (1881), Wear 1, 2"]),
+        ("Blok (1937)", []),
+        ("Blok (1996), NASA TM-107279", []),
+        ("Blok (1999), AGMA 99FTMS1, table 2", []),
+        ("ISO 4288:1996", []),
+    ],
+)
+def test_an_article_without_a_doi_is_recognised(source: str, without: list[str]) -> None:
+    assert without_doi(source) == without
+
+
+def test_every_article_has_a_doi_or_is_listed() -> None:
+    every = [own for path in TESTS.rglob("test_*.py") for own in marked(path.read_text("utf-8")).values()]
+    assert {part for own in every for part in without_doi(own.get("literature", ""))} == WITHOUT_DOI

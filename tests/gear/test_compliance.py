@@ -69,7 +69,7 @@ class TestLiterature:
         # A plane-strain finite element model of this pair gives 17.06 N/(mm um).
         assert pair_stiffness(STANDARD, "weber") / 1e9 == pytest.approx(17.06, rel=0.05)
 
-    @pytest.mark.literature("Sainsot, Velex and Duverger (2004)")
+    @pytest.mark.literature("Sainsot, Velex and Duverger (2004), J. Mech. Des. 126, 748, doi:10.1115/1.1758252")
     def test_ring_foundation_is_15_to_20_percent_softer(self):
         ratio = pair_stiffness(STANDARD, "sainsot") / pair_stiffness(STANDARD, "weber")
         assert 0.80 < ratio < 0.85

@@ -20,7 +20,10 @@ from tests.gear.pairs import (
 class TestLiterature:
     """Published figures, at the tolerance their unstated details allow."""
 
-    @pytest.mark.literature("Arana, Larranaga and Ulacia (2019), Proc. IMechE J 233, 303, relieved FZG type C gear")
+    @pytest.mark.literature(
+        "Arana, Larranaga and Ulacia (2019), Proc. IMechE J 233, 303, doi:10.1177/1350650118778655, "
+        "relieved FZG type C gear"
+    )
     def test_contact_pressure_of_the_fzg_c_test_gear(self):
         x = FZG_C.lowest_single_contact
         radius = x * (FZG_C.line_of_action_length - x) / FZG_C.line_of_action_length
@@ -28,7 +31,10 @@ class TestLiterature:
         pressure = math.sqrt(line_load * FZG_C.reduced_modulus / (2 * math.pi * radius))
         assert pressure == pytest.approx(1.39e9, rel=0.01)
 
-    @pytest.mark.literature("Arana, Larranaga and Ulacia (2019), Proc. IMechE J 233, 303, relieved FZG type C gear")
+    @pytest.mark.literature(
+        "Arana, Larranaga and Ulacia (2019), Proc. IMechE J 233, 303, doi:10.1177/1350650118778655, "
+        "relieved FZG type C gear"
+    )
     def test_relieved_fzg_c_loss_factor(self):
         # 35 um is given, its length is not: any from 1 mm to the whole double contact stays within 10 %.
         double = (FZG_C.lowest_single_contact - FZG_C.path_start) / (FZG_C.path_end - FZG_C.path_start)

@@ -75,7 +75,8 @@ def test_the_fast_gears_are_those_of_the_paper(geometry):
 
 
 @pytest.mark.literature(
-    "Gupta, Cheng, Zhu, Forster and Schrand (1992), Tribol. Trans. 35, 269; Archard (1959), Wear 2, 438"
+    "Gupta, Cheng, Zhu, Forster and Schrand (1992), Tribol. Trans. 35, 269, doi:10.1080/10402009208982117; "
+    "Archard (1959), Wear 2, 438"
 )
 def test_the_laws_of_heat_are_as_published(script):
     heat = script["HEAT"]

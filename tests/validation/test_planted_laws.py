@@ -56,7 +56,7 @@ def test_andrade_between_two_viscosities_of_mercury_gives_the_others():
     assert found == pytest.approx([1.402, 1.312], rel=0.01)
 
 
-@pytest.mark.literature("Williams, Landel and Ferry (1955)")
+@pytest.mark.literature("Williams, Landel and Ferry (1955), J. Am. Chem. Soc. 77, 3701, doi:10.1021/ja01619a008")
 def test_vogel_is_the_law_of_williams_landel_and_ferry():
     """Their constants for all glasses: log10 of the shift is -17.44 (T - Tg)/(51.6 + T - Tg)."""
     glass, celsius = -70.0, np.linspace(-20.0, 150.0, 12)

@@ -14,7 +14,7 @@ ROWS = [
 ]
 
 
-@pytest.mark.literature("McCool (1986), Wear 107, 37")
+@pytest.mark.literature("McCool (1986), Wear 107, 37, doi:10.1016/0043-1648(86)90045-1")
 @pytest.mark.parametrize(("m0", "m2", "m4", "alpha", "density", "radius", "sigma", "offset"), ROWS)
 def test_mccool_rows(m0, m2, m4, alpha, density, radius, sigma, offset):
     a = mccool_asperities(Moments(m0, m2, m4))
@@ -25,7 +25,9 @@ def test_mccool_rows(m0, m2, m4, alpha, density, radius, sigma, offset):
     assert a.plane_offset == pytest.approx(offset, abs=1e-6)
 
 
-@pytest.mark.literature("McCool (1986), Wear 107, 37, as eliminated in the CEB and KE models")
+@pytest.mark.literature(
+    "McCool (1986), Wear 107, 37, doi:10.1016/0043-1648(86)90045-1, as eliminated in the CEB and KE models"
+)
 @pytest.mark.parametrize("alpha", [1.6, 2.5, 6.0, 40.0])
 def test_forms_in_density_times_radius(alpha):
     """The eliminated forms of the CEB, KE and slider codes: 2412.74, 3.717e-4, 0.045944."""
@@ -36,7 +38,7 @@ def test_forms_in_density_times_radius(alpha):
     assert 0.045944 / product == pytest.approx(a.plane_offset, rel=1e-4)
 
 
-@pytest.mark.literature("McCool (1986), Wear 107, 37")
+@pytest.mark.literature("McCool (1986), Wear 107, 37, doi:10.1016/0043-1648(86)90045-1")
 def test_packing_identity():
     """D R sigma = 0.020358 sqrt(alpha), sigma that of the surface."""
     a = mccool_asperities(Moments(4.0, 1.0, 3.0))
