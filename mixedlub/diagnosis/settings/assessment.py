@@ -32,7 +32,8 @@ MOST_FOLDS = 8
 LEAST_FOLDS = 3
 """Judgement. Levels from which leaving one out is a test: two others then show a slope."""
 UNORDERED_FOLDS = 5
-"""Judgement. Folds where no condition has enough levels: every fifth reading, a usual convention."""
+"""Source: T. Hastie, R. Tibshirani, J. Friedman, The Elements of Statistical Learning, 2nd ed. (2009), p. 243, which
+recommends five or ten. Folds where no condition has enough levels: every fifth reading."""
 WIDE_SPAN = 0.2
 """Judgement. Span of a condition over its size, from which leaving out its levels tests a prediction: levels that lie
 close together predict one another whatever the law. It only ranks conditions that were varied."""
@@ -62,9 +63,11 @@ NEGLIGIBLE = 2e-3
 
 # Published laws and their ranges
 LAW_REJECTED = -4.6
-"""Source: H. Jeffreys (1961), appendix B. Log odds below which a law is rejected: a hundred to one is decisive."""
+"""Source: H. Jeffreys, Theory of Probability, 3rd ed. (1961), appendix B. Log odds below which a law is rejected: a
+Bayes factor of a hundred against it, from which evidence is decisive."""
 LAW_OPEN = -2.3
-"""Source: H. Jeffreys (1961), appendix B. Log odds from which a law cannot be excluded: ten to one is strong."""
+"""Source: H. Jeffreys, Theory of Probability, 3rd ed. (1961), appendix B. Log odds above which a law cannot be
+excluded: a Bayes factor of ten against it, from which evidence is strong."""
 RANGE_SLACK = 1e-6
 """Judgement. Share of a bound that rounding may exceed it by."""
 EXACT_EXPONENT = 0.01

@@ -14,9 +14,11 @@ INTERVAL_ENDS = (0.05, 0.95)
 MAD_TO_SD = 1.4826
 """Definition. Standard deviation over the median absolute deviation of a normal distribution."""
 SIGNIFICANT = 2.0
-"""Judgement. Standard errors within which a deviation is chance: about 95 % of a normal distribution."""
+"""Source: R. A. Fisher, Statistical Methods for Research Workers (1925). Standard errors within which a deviation is
+chance: about 95 % of a normal distribution."""
 STRONG_EVIDENCE = 3.0
-"""Source: R. E. Kass, A. E. Raftery (1995), section 3.2. Gain in log evidence that counts: odds of 20 are strong."""
+"""Source: R. E. Kass, A. E. Raftery, J. Am. Stat. Assoc. 90 (1995) 773, doi:10.1080/01621459.1995.10476572, table on
+p. 777. Gain in log evidence that counts: a Bayes factor of 20, from which evidence is strong."""
 LARGEST_EXPONENT = 700.0
 """Definition. Largest exponent whose exponential a double can hold, rounded down."""
 
