@@ -23,7 +23,7 @@ PUBLIC = {
     "Answer": "mixedlub.api.diagnosis",
 }
 """Functions and types that notebooks and other packages may rely on, with the module that defines each."""
-ROOMS = ("case", "effects", "gear", "laws", "study")
+ROOMS = ("case", "effects", "friction", "gear", "laws", "study")
 """Rooms whose own ``__all__`` is public as well."""
 BESIDE = ("profiles", "roughness")
 """Packages of this distribution that are offered under this name too."""

@@ -65,6 +65,7 @@ second_known_temperature | theta_2  | K       | temperature of the second of the
 known_fall              | f_12       | -       | logarithm of the first given viscosity over the second
 fall_from_first         | f_1        | -       | logarithm of the first given viscosity over that at hand
 oil_density             | rho        | kg/m^3  | density of the oil
+kinematic_viscosity     | nu         | m^2/s   | kinematic viscosity at oil temperature and ambient pressure
 oil_conductivity        | k_f        | W/(m K) | thermal conductivity of the oil
 oil_heat_capacity       | c_f        | J/(kg K) | specific heat of the oil
 eyring_stress           | tau_0      | Pa      | stress at which shear stops being Newtonian
@@ -76,6 +77,7 @@ height_share            | s_0        | -       | share of the first surface in t
 slope_share             | s_2        | -       | share of the first surface in the variance of the slopes
 curvature_share         | s_4        | -       | share of the first surface in the variance of the curvatures
 composite_roughness     | sigma      | m       | root of the summed height variances
+mean_roughness          | Ra         | m       | arithmetic mean roughness, mean of both surfaces
 summit_density          | D          | 1/m^2   | summits per area
 summit_radius           | R_s        | m       | radius of a summit of mean curvature
 summit_sigma            | sigma_s    | m       | standard deviation of summit heights
@@ -143,6 +145,17 @@ gear_module             | m_n        | m       | normal module
 pinion_teeth            | z_1        | -       | teeth of the pinion
 gear_teeth              | z_2        | -       | teeth of the gear
 contact_ratio           | epsilon_alpha | -       | length of the path of contact over the base pitch
+# pitch point, for friction laws that give one value for the whole mesh
+working_pressure_angle  | alpha_w    | rad     | working pressure angle in the transverse plane
+base_helix_angle        | beta_b     | rad     | helix angle at the base circle
+pitch_line_speed        | v_t        | m/s     | circumferential speed at the operating pitch circle
+pitch_entrainment_speed | u_C        | m/s     | mean of the two surface speeds at the pitch point
+pitch_radius            | rho_C      | m       | reduced radius of curvature at the pitch point
+mesh_line_load          | w_m        | N/m     | force at the base circle over face width
+load_intensity          | K          | Pa      | load intensity of the flanks, F_t/(b d_w1) times (u+1)/u
+pitch_pressure          | p_C        | Pa      | largest Hertz pressure of one pair at the pitch point
+pitch_film              | h_C        | m       | central film thickness at the pitch point
+pitch_minimum_film      | h_minC     | m       | minimum film thickness at the pitch point
 # one wheel, shaft or seal of a gearbox
 bath_acceleration       | gamma      | m/s^2   | centrifugal acceleration of the oil that clings to the gear
 wheel_radius            | r          | m       | operating pitch radius of one wheel

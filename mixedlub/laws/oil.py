@@ -32,6 +32,15 @@ def kinematic_viscosity(
     return from_d341(start - slope * np.log10(temperature / known_temperature[0]))
 
 
+def kinematic(viscosity: np.ndarray, oil_density: np.ndarray) -> np.ndarray:
+    r"""Kinematic viscosity (m^2/s), :math:`\nu = \eta/\rho`.
+
+    >>> round(float(kinematic(0.0106, 799.3)) * 1e6, 2)
+    13.26
+    """
+    return viscosity / oil_density
+
+
 def to_d341(kinematic_viscosity: np.ndarray) -> np.ndarray:
     """The ordinate of the ASTM D341 chart, log log (nu + 0.7), which makes the form belong to mm^2/s.
 

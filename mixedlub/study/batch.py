@@ -40,7 +40,7 @@ OUTPUTS = (
 )
 CHECKS = ("largest_area_ratio",)
 BEYOND = "beyond_"
-"""Before the id of an effect: the check that is 1 where its law is used outside the range of its source."""
+"""Before the id of an effect or friction law: the check that is 1 where it is outside the range of its source."""
 
 SLACK = 1e-6
 """Rounding that a quantity may have beyond the range of a law."""
@@ -93,7 +93,8 @@ def blocks(plan: Plan) -> list[Block]:
 
 def names(plan: Plan) -> tuple[str, ...]:
     """Names of the outputs and checks of a plan."""
-    return (*OUTPUTS, *CHECKS, *(BEYOND + e.id for e in plan.effects if e.valid))
+    law = () if plan.friction is None else (BEYOND + plan.friction.name,)
+    return (*OUTPUTS, *CHECKS, *(BEYOND + e.id for e in plan.effects if e.valid), *law)
 
 
 def compute(plan: Plan, block: Block) -> Found:
@@ -188,6 +189,8 @@ def _reduced(state: Inputs, plan: Plan) -> Found:
         if e.valid:
             within = [(state[n] >= low) & (state[n] <= high * (1 + SLACK)) for n, (low, high) in e.valid.items()]
             found[BEYOND + e.id] = np.any(loaded & ~functools.reduce(np.logical_and, within), axis=-1, keepdims=True)
+    if plan.friction is not None:
+        found[BEYOND + plan.friction.name] = np.any(loaded & plan.friction.outside(state), axis=-1, keepdims=True)
     return found
 
 

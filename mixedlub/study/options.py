@@ -6,10 +6,13 @@ import inspect
 from functools import wraps
 from typing import Any
 
+from mixedlub import friction
 from mixedlub.chain.base_models import GEAR_LOSS
-from mixedlub.chain.model import Chain, Law
+from mixedlub.chain.model import Chain, Law, Model
+from mixedlub.laws import contact, oil, pitch_point
 from mixedlub.laws.contact import asperity_pressure, mean_hertz_pressure, yielding_asperity_pressure
-from mixedlub.slots import SLOTS, VISCOSITY
+from mixedlub.laws.film import dowson_higginson
+from mixedlub.slots import FILM, SLOTS, VISCOSITY
 from mixedlub.study.schema import Options
 
 
@@ -60,4 +63,66 @@ def study_chain(options: Options) -> Chain:
     chosen = {slot.quantity: slot.choices[getattr(options, slot.option)].law for slot in SLOTS}
     if options.viscosity_pressure == "mean":
         chosen[VISCOSITY.quantity] = at_mean_pressure(chosen[VISCOSITY.quantity])
-    return tuple((name, chosen.get(name, law)) for name, law in GEAR_LOSS)
+    base = tuple((name, chosen.get(name, law)) for name, law in GEAR_LOSS)
+    if options.friction == friction.BASE:
+        return base
+    own = friction.find(options.friction).with_coefficients(options.friction_coefficients)
+    return with_friction(base, own)
+
+
+def with_friction(base: Chain, law: Law) -> Chain:
+    """A gear chain with another law of friction, and before it what such laws read beyond the base model.
+
+    >>> from mixedlub.friction.iso_tc60 import iso_tc60
+    >>> dict(with_friction(GEAR_LOSS, iso_tc60))["friction"].__name__
+    'iso_tc60'
+    """
+    place = [name for name, _ in base].index("friction")
+    pitch = (("pitch_film", at_pitch_point(dict(base)[FILM.quantity])),)
+    return (*base[:place], *BEFORE_FRICTION, *pitch, ("friction", law), *base[place + 1 :])
+
+
+def at_pitch_point(law: Law) -> Law:
+    """A law of a line contact at the pitch point, where one tooth pair carries the whole load.
+
+    >>> tuple(inspect.signature(at_pitch_point(contact.line_hertz_pressure)).parameters)
+    ('mesh_line_load', 'pitch_radius', 'reduced_modulus')
+    """
+
+    @wraps(law)
+    def at_point(*values: Any) -> Any:
+        return law(*values)
+
+    own = inspect.signature(law)
+    at_point.__signature__ = own.replace(  # type: ignore[attr-defined]
+        parameters=[a.replace(name=_AT_PITCH_POINT.get(name, name)) for name, a in own.parameters.items()]
+    )
+    return at_point
+
+
+_AT_PITCH_POINT = {
+    "radius": "pitch_radius",
+    "entrainment_speed": "pitch_entrainment_speed",
+    "line_load": "mesh_line_load",
+}
+BEFORE_FRICTION: Chain = (
+    ("kinematic_viscosity", oil.kinematic),
+    ("mean_roughness", contact.mean_roughness),
+    ("pitch_line_speed", pitch_point.pitch_line_speed),
+    ("pitch_entrainment_speed", pitch_point.pitch_entrainment_speed),
+    ("pitch_radius", pitch_point.pitch_radius),
+    ("mesh_line_load", pitch_point.mesh_line_load),
+    ("load_intensity", pitch_point.load_intensity),
+    ("pitch_pressure", at_pitch_point(contact.line_hertz_pressure)),
+    ("pitch_minimum_film", at_pitch_point(dowson_higginson)),
+)
+"""What friction laws read beyond the quantities of the base model."""
+
+
+def ignored(options: Options, model: Model) -> tuple[str, ...]:
+    """Options that choose a law which nothing reads in the model, because of the law of friction."""
+    if options.friction == friction.BASE:
+        return ()
+    made = {name for step in model.steps for name in step.outputs}
+    unread = [slot.option for slot in SLOTS if slot.quantity not in made or slot.quantity == "friction"]
+    return (*unread, *(["viscosity_pressure"] if VISCOSITY.quantity not in made else []))

@@ -10,9 +10,11 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub import friction
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Law, Model, Parameters
 from mixedlub.effects import LAW, find, known_effects
+from mixedlub.friction import FrictionLaw
 from mixedlub.gear import GearPair, Mesh
 from mixedlub.gear.inputs import motion_inputs
 from mixedlub.laws.contact import asperity_pressure
@@ -24,6 +26,7 @@ from mixedlub.rig.rig import Rig
 from mixedlub.rig.surface import Surface, paired
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, report
+from mixedlub.study.friction_options import check_coefficients, check_effects, check_friction
 from mixedlub.study.options import at_hardness, study_chain
 from mixedlub.study.schema import Options, Pairings, StudyFile
 from profiles.errors import InputError, nearest
@@ -66,8 +69,14 @@ class Plan:
 
     def model(self) -> Model:
         """The chain of the chosen options with the active effects."""
-        wanted = dict.fromkeys((*WANTED, *(name for e in self.effects for name in e.valid)))
+        checked = () if self.friction is None else self.friction.checked
+        wanted = dict.fromkeys((*WANTED, *(name for e in self.effects for name in e.valid), *checked))
         return Model(study_chain(self.options), tuple(self.inputs), tuple(wanted), self.effects)
+
+    @property
+    def friction(self) -> FrictionLaw | None:
+        """The friction law that takes the place of the base model's."""
+        return None if self.options.friction == friction.BASE else friction.find(self.options.friction)
 
     @property
     def asperities(self) -> Law:
@@ -171,6 +180,7 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     if idle:
         report(finding("surfaces_unused", f"in no pairing: {', '.join(idle)}", "surfaces"))
     pair, options = rig.gears, file.options
+    check_coefficients(options)
     points = rig.mesh(options.path_points, options.face_slices)
     oil = rig.oil()
     surfaces = {s: rig.surface(s) for s in used}
@@ -183,6 +193,7 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     levels = file.conditions
     shape = (len(chosen), len(levels.oil_temperature_C), len(levels.torque_Nm), len(levels.speed_rpm))
     plan = Plan(inputs, options, parameters, shape, points.position.size)
+    check_friction(file, plan.model())
     return Study(name, file, rig, pair, points, oil, surfaces, chosen, effects, plan)
 
 
@@ -204,6 +215,8 @@ def _condition_inputs(file: StudyFile, pair: GearPair, points: Mesh, oil: Lubric
         "load_share": share[None, None, :, None, :],
         "mean_weight": (mean / mean.sum(axis=-1, keepdims=True))[None, None, :, None, :],
         "mean_sliding_speed": pair.end_mean_sliding * pair.base_radius[0] * speed,
+        "working_pressure_angle": pair.working_pressure_angle,
+        "base_helix_angle": pair.base_helix_angle,
     }
 
 
@@ -214,6 +227,7 @@ def _pairing_inputs(pairs: list[tuple[Surface, Surface]]) -> dict[str, np.ndarra
 
 def _effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, ...], Parameters]:
     """The active effects, each parameter at its given value or as its law has it."""
+    check_effects(file, tuple(inputs))
     known = known_effects(file.effects, "gear_pair", study_chain(file.options), tuple(inputs), "power_loss")
     for effect, name in known.sds:
         raise InputError("a study has no uncertainty; leave it out", where=f"effects.{effect}.{name}_sd")

@@ -14,7 +14,7 @@ from roughness.mccool import nayak_parameter
 VALID = "valid"
 """What the table says of a condition with no flag."""
 EXTRAPOLATED = "law_extrapolated:"
-"""Before the id of an effect whose law is used outside the range of its source."""
+"""Before the name of an effect or friction law that is used outside the range of its source."""
 
 
 def flags(plan: Plan, values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:

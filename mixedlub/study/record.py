@@ -19,6 +19,7 @@ from mixedlub.rig.surface import Surface
 from mixedlub.schema.section import Section
 from mixedlub.schema.system_file import Gears, SurfaceSection
 from mixedlub.study.checkpoint import fingerprint, input_fingerprint
+from mixedlub.study.options import ignored
 from mixedlub.study.plan import Study
 from mixedlub.study.results import versions
 from profiles.errors import InputError
@@ -46,6 +47,8 @@ def resolved(study: Study) -> dict[str, Any]:
     inputs["lubricant"] = _oil(study.oil) | _base(study)
     inputs["surfaces"] = {name: _moments(s, file.surfaces[name]) for name, s in study.surfaces.items()}
     inputs.setdefault("pairings", {"every": list(study.surfaces)})
+    for option in ignored(file.options, study.plan.model()):
+        del inputs["options"][option]
     inputs["effects"] = {name: dict(values) for name, values in study.plan.parameters.items()}
     return {
         "inputs": inputs,
@@ -80,7 +83,8 @@ def assumed(study: Study) -> Iterator[str]:
     for name in study.surfaces:
         section, keys = file.surfaces[name], ("thermal_conductivity_W_mK", "density_kg_m3", "specific_heat_J_kgK")
         yield from _left_out(section, f"surfaces.{name}", keys)
-    yield from _left_out(file.options, "options", tuple(type(file.options).model_fields))
+    unread = ignored(file.options, study.plan.model())
+    yield from _left_out(file.options, "options", tuple(n for n in type(file.options).model_fields if n not in unread))
     for effect, values in study.plan.parameters.items():
         yield from (f"effects.{effect}.{name}" for name in values if name not in file.effects[effect])
 

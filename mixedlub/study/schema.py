@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BeforeValidator, Field, create_model, model_validator
 
+from mixedlub.friction import BASE, PLACES, catalogue
 from mixedlub.schema.section import Number, NumberOrName, Section, Whole, key, table, with_ranges
 from mixedlub.schema.system_file import Gears, RigFile, SurfaceSection
 from mixedlub.slots import SLOTS
@@ -80,12 +81,15 @@ class Pairings(Section):
 
 
 def _laws() -> Any:
-    """An option for each step that has a choice of laws."""
+    """An option for each step that has a choice of laws, and that for the law of friction."""
     fields: dict[str, Any] = {}
     for slot in SLOTS:
         names: Any = Literal[tuple(slot.choices)]
         values = {choice.name: choice.meaning for choice in slot.choices.values()}
         fields[slot.option] = (names, key(slot.meaning, slot.default, values=values))
+    meaning = "law of the friction coefficient; `mixedlub friction-laws NAME` shows its page"
+    values = {law.name: f"{law.title}, {PLACES[law.place]}" for law in catalogue().values()}
+    fields["friction"] = (Literal[tuple(catalogue())], key(meaning, BASE, values=values))
     return create_model("Laws", __base__=Section, **fields)
 
 
@@ -102,6 +106,9 @@ class Options(_Laws):
             "maximum": "viscosity taken at the largest Hertz pressure",
             "mean": "viscosity taken at the mean Hertz pressure",
         },
+    )
+    friction_coefficients: dict[str, Number] = key(
+        "NAME = VALUE: coefficients of the friction law that are the user's, by the names of its page", {}
     )
     conditions_of: Literal["pinion", "gear"] = key(
         "the wheel of the conditions",

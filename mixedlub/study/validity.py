@@ -8,6 +8,7 @@ import numpy as np
 
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.friction import FrictionLaw
 from mixedlub.rig.plausibility import YIELD_RATIO
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.study.range_flags import EXTRAPOLATED
@@ -22,6 +23,9 @@ def out_of_range(results: Results) -> tuple[Finding, ...]:
 def _finding(results: Results, code: str, where: np.ndarray) -> Finding:
     count = f"{int(where.sum())} of {where.size} conditions ({_pairings(results, where)})"
     if code.startswith(EXTRAPOLATED):
+        law = results.study.plan.friction
+        if law is not None and EXTRAPOLATED + law.name == code:
+            return finding("law_extrapolated", f"in {count} {_friction_range(law)}", "options.friction")
         (used,) = (e for e in results.study.effects if EXTRAPOLATED + e.id == code)
         return finding("law_extrapolated", f"in {count} {_range(used)}", f"effects.{used.id}")
     return finding(code, _TEXTS[code](results, count))
@@ -60,6 +64,11 @@ def _range(used: Effect) -> str:
         for name, (low, high) in used.valid.items()
     )
     return f"its law is used outside the range of its source: {', '.join(spans)}"
+
+
+def _friction_range(law: FrictionLaw) -> str:
+    spans = "; ".join(law.ranges()) or "no negative friction"
+    return f"{law.name} is used at points of the path that are outside the range of its source: {spans}"
 
 
 def _pairings(results: Results, flagged: np.ndarray) -> str:

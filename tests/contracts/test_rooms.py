@@ -22,6 +22,7 @@ ROOMS = {
             "laws",
             "chain",
             "effects",
+            "friction",
             "gear",
             "rig",
             "kinds",

@@ -1,0 +1,229 @@
+"""What a friction law is: one published formula for the friction coefficient, with its range and its status."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+
+from mixedlub.chain.effect import entry
+from mixedlub.chain.model import Law
+from mixedlub.chain.plain_text import plain_equation
+from mixedlub.chain.quantities import GLOSSARY
+from profiles.errors import nearest
+
+Place = Literal["contact", "mesh"]
+PLACES: Mapping[Place, str] = {"contact": "every contact point", "mesh": "one value for the mesh"}
+NEAR_REST = 0.02
+"""Judgement. Slide-to-roll ratio below which a law that diverges without sliding is flagged."""
+_SHOWN = {"m^2/s": ("mm²/s", 1e6), "m": ("µm", 1e6), "Pa": ("MPa", 1e-6)}
+"""Unit in which a page gives a quantity, and the factor from SI."""
+_OWN_UNIT = {"load_intensity": ("N/mm²", 1e-6), "radius": ("mm", 1e3), "pitch_radius": ("mm", 1e3)}
+
+
+@dataclass(frozen=True)
+class Coefficient:
+    """A number of a law that its user gives; one without a default must be given."""
+
+    name: str
+    unit: str
+    meaning: str
+    default: float | None = None
+
+
+@dataclass(frozen=True, repr=False)
+class FrictionLaw:
+    """A friction law: the function, where it is evaluated, and what is known of its validity.
+
+    ``valid`` is the range of its source in SI, by quantity of the glossary; ``diverges`` names quantities at whose
+    zero the law has no finite value; ``sources`` counts independent sources of the constants, 0 where none was found.
+    """
+
+    name: str
+    law: Law
+    title: str
+    place: Place
+    sources: int
+    status: str
+    valid: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    diverges: tuple[str, ...] = ()
+    coefficients: tuple[Coefficient, ...] = ()
+
+    @property
+    def reads(self) -> tuple[str, ...]:
+        """Quantities of the glossary that the law needs."""
+        return tuple(n for n, a in inspect.signature(self.law).parameters.items() if a.kind is not a.KEYWORD_ONLY)
+
+    @property
+    def summary(self) -> str:
+        """The first line of its docstring."""
+        return self._text.split("\n")[0]
+
+    @property
+    def source(self) -> str:
+        """The source that its docstring names."""
+        found = re.search(r"Source: (.*?)(?:\n\s*\n|\Z)", self._text, re.DOTALL)
+        return " ".join(found[1].split()) if found else ""
+
+    @property
+    def equation(self) -> str:
+        """Its equation in TeX."""
+        found = re.search(r"\.\. math::(.*?)(?:\n\s*\n|\Z)", self._text, re.DOTALL)
+        return " ".join(found[1].split()) if found else ""
+
+    @property
+    def _text(self) -> str:
+        return (inspect.getdoc(self.law) or "").partition(">>>")[0]
+
+    @property
+    def remarks(self) -> str:
+        """What its docstring says between equation and source."""
+        _, _, below = self._text.partition(".. math::")
+        _, _, rest = below.partition("\n\n")
+        return " ".join(rest.partition("Source: ")[0].split())
+
+    def with_coefficients(self, given: Mapping[str, float]) -> Law:
+        """The law with its coefficients fixed, defaults where none are given; a number becomes an array of one."""
+        values = {c.name: given.get(c.name, c.default) for c in self.coefficients}
+        law = self.law
+
+        def fixed(*quantities: Any) -> Any:
+            return np.atleast_1d(law(*quantities, **values))
+
+        fixed.__doc__, fixed.__name__ = law.__doc__, self.name
+        own = inspect.signature(law)
+        kept = [a for a in own.parameters.values() if a.kind is not a.KEYWORD_ONLY]
+        fixed.__signature__ = own.replace(parameters=kept)  # type: ignore[attr-defined]
+        return fixed
+
+    def outside(self, state: Mapping[str, Any]) -> np.ndarray:
+        """Where quantities are outside the range of the source, or friction is no finite positive number."""
+        friction = np.asarray(state["friction"])
+        beyond = ~(np.isfinite(friction) & (friction >= 0.0))
+        for name, (low, high) in self.valid.items():
+            beyond = beyond | (state[name] < low * (1 - SLACK)) | (state[name] > high * (1 + SLACK))
+        return beyond
+
+    def divergent(self, state: Mapping[str, Any]) -> np.ndarray:
+        """Where sliding is too slow for a law that diverges without it."""
+        if not self.diverges_at_pitch_point:
+            return np.zeros(1, bool)
+        return np.asarray(state["sliding_speed"] < NEAR_REST * state["entrainment_speed"])
+
+    @property
+    def diverges_at_pitch_point(self) -> bool:
+        """Whether friction grows without limit where sliding ends, as at the pitch point of gears."""
+        return "sliding_speed" in self.diverges
+
+    @property
+    def checked(self) -> tuple[str, ...]:
+        """Quantities that its flags need."""
+        slow = ("sliding_speed", "entrainment_speed") if self.diverges_at_pitch_point else ()
+        return tuple(dict.fromkeys(("friction", *self.valid, *slow)))
+
+    def ranges(self) -> list[str]:
+        """The range of each quantity in words."""
+        return [_range(name, *ends) for name, ends in self.valid.items()]
+
+    def page(self) -> str:
+        """Equation, inputs, range, status, coefficients and source, as text of 80 columns."""
+        zero = " or ".join(GLOSSARY[name].meaning for name in self.diverges)
+        parts = {
+            "gives": PLACES[self.place],
+            "equation": plain_equation(self.equation),
+            "": self.remarks,
+            "reads": ", ".join(f"{name} ({shown_unit(name)})".replace(" ()", "") for name in self.reads) or "nothing",
+            "range": "; ".join(self.ranges()) or "none printed in its source",
+            "diverges": f"as this goes to zero: {zero}" if zero else "nowhere",
+            "status": self.status,
+            "source": self.source,
+        }
+        facts = [entry(f"  {name}", text) for name, text in parts.items() if text]
+        numbers = [entry(f"  {c.name}", _described(c), 2 + max(16, len(c.name) + 2)) for c in self.coefficients]
+        head = entry(f"{self.name}: ", self.summary, indent=2)
+        return "\n".join([head, "", *facts, *(["", "coefficients", *numbers] if numbers else [])])
+
+    __repr__ = page
+
+
+SLACK = 1e-9
+"""Rounding that a quantity may have beyond the range of a law."""
+
+
+def shown_unit(quantity: str) -> str:
+    """Unit in which a page gives a quantity."""
+    return _unit(quantity)[0].removeprefix("-")
+
+
+def _unit(quantity: str) -> tuple[str, float]:
+    unit = GLOSSARY[quantity].unit
+    return _OWN_UNIT.get(quantity) or _SHOWN.get(unit, (unit, 1.0))
+
+
+def _range(name: str, low: float, high: float) -> str:
+    """A range in words.
+
+    >>> _range("kinematic_viscosity", 4e-6, 500e-6), _range("pitch_line_speed", 0.0, 50.0)
+    ('kinematic viscosity 4 to 500 mm²/s', 'pitch line speed up to 50 m/s')
+    """
+    unit, factor = _unit(name)
+    ends = f"{low * factor:.4g} to {high * factor:.4g}"
+    if not np.isfinite(high):
+        ends = f"from {low * factor:.4g}"
+    elif low <= 0.0:
+        ends = f"up to {high * factor:.4g}"
+    return f"{name.replace('_', ' ')} {ends} {unit.removeprefix('-')}".rstrip()
+
+
+def _described(c: Coefficient) -> str:
+    unit = f" ({c.unit})" if c.unit not in ("", "-") else ""
+    return f"{c.meaning}{unit}; " + ("must be given" if c.default is None else f"left out: {c.default:g}")
+
+
+REGISTRY: dict[str, FrictionLaw] = {}
+"""Laws by name, as their modules were imported; `mixedlub.friction.catalogue` imports them all."""
+Function = Callable[..., Any]
+
+
+def friction_law(
+    title: str,
+    place: Place,
+    *,
+    sources: int,
+    status: str,
+    valid: Mapping[str, tuple[float, float]] | None = None,
+    diverges: tuple[str, ...] = (),
+    coefficients: tuple[Coefficient, ...] = (),
+) -> Callable[[Function], Function]:
+    """Register the function below as a friction law under its own name.
+
+    Its arguments are quantities of the glossary, its keyword-only arguments the coefficients; its docstring has the
+    equation and names the source.
+    """
+
+    def register(law: Function) -> Function:
+        found = FrictionLaw(law.__name__, law, title, place, sources, status, valid or {}, diverges, coefficients)
+        _check(found)
+        REGISTRY[found.name] = found
+        return law
+
+    return register
+
+
+def _check(found: FrictionLaw) -> None:
+    where = f"friction law {found.name!r}"
+    known = REGISTRY.get(found.name)
+    if known is not None and known.law.__module__ != found.law.__module__:
+        raise TypeError(f"{where} is already defined in {known.law.__module__}")
+    for name in (*found.reads, *found.valid, *found.diverges):
+        if name not in GLOSSARY:
+            raise TypeError(f"{where}: {name!r} is no quantity; {nearest(name, GLOSSARY)}")
+    keywords = {n for n, a in inspect.signature(found.law).parameters.items() if a.kind is a.KEYWORD_ONLY}
+    if keywords != {c.name for c in found.coefficients}:
+        raise TypeError(f"{where}: its coefficients are not its keyword-only arguments")
+    if not found.source:
+        raise TypeError(f"{where}: its docstring names no 'Source: '")

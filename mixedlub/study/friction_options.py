@@ -1,0 +1,67 @@
+"""What a study's choice of friction law asks of its other inputs, checked before anything is computed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from mixedlub import friction
+from mixedlub.chain.model import Model, available
+from mixedlub.effects import known_in
+from mixedlub.schema.findings import finding, report
+from mixedlub.study.options import ignored, study_chain
+from mixedlub.study.schema import Options, StudyFile
+from profiles.errors import InputError, nearest
+
+PLACE = "options.friction_coefficients"
+
+
+def check_coefficients(options: Options) -> None:
+    """Refuse coefficients that the law does not have, and those that it lacks; report the defaults taken."""
+    law, given = friction.find(options.friction), options.friction_coefficients
+    known = {c.name: c for c in law.coefficients}
+    for name in given:
+        if name not in known:
+            hint = nearest(name, known) if known else "it has none"
+            raise InputError(f"no such coefficient of {law.name}; {hint}", where=PLACE, value=name)
+    missing = [c.name for c in law.coefficients if c.default is None and c.name not in given]
+    if missing:
+        rule = f"needs {', '.join(missing)}: no source prints them; `mixedlub friction-laws {law.name}` says what they are"
+        raise InputError(rule, where=PLACE, value=dict(given) or None)
+    assumed = [f"{c.name} = {c.default:g}" for c in law.coefficients if c.name not in given]
+    if assumed:
+        report(finding("friction_coefficient_assumed", f"{', '.join(assumed)} taken for {law.name}", PLACE))
+
+
+def check_effects(file: StudyFile, given: Sequence[str]) -> None:
+    """Refuse effects on what the friction law does not read."""
+    if file.options.friction == friction.BASE:
+        return
+    base = study_chain(Options())
+    chain = study_chain(file.options)
+    own = known_in("gear_pair")
+    for name in file.effects:
+        reaches = [name in own and available(own[name], c, given, "power_loss", "gear_pair") for c in (base, chain)]
+        if reaches == [True, False]:
+            rule = f"would change nothing, as friction = {file.options.friction!r} does not read it; leave one of them out"
+            raise InputError(rule, where=f"effects.{name}")
+
+
+def check_friction(file: StudyFile, model: Model) -> None:
+    """Refuse options that the friction law ignores; report what it does not read, and where it diverges."""
+    options = file.options
+    for option in ignored(options, model):
+        if option in options.model_fields_set:
+            rule = f"friction = {options.friction!r} does not read it; leave it out"
+            raise InputError(rule, where=f"options.{option}", value=getattr(options, option))
+    if options.friction == friction.BASE:
+        return
+    law = friction.find(options.friction)
+    read = {name for step in model.steps for name in step.reads}
+    if "boundary_friction" in file.model_fields_set and "boundary_friction" not in read:
+        report(finding("boundary_friction_unread", f"{law.name} does not read it", "boundary_friction"))
+    if law.diverges_at_pitch_point:
+        text = (
+            f"{law.name} diverges at the pitch point, where sliding ends; the loss there goes to zero, but friction "
+            "near it is no number to quote"
+        )
+        report(finding("friction_diverges", text, "options.friction"))
