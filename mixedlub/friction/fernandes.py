@@ -33,8 +33,8 @@ def fernandes(
 
     in SI; F_n is the normal force on the flank.
 
-    Source: C. M. C. G. Fernandes, P. M. T. Marques, R. C. Martins, J. H. O. Seabra, Tribol. Int. 88 (2015) 309; constants as in the
-    authors' program.
+    Source: C. M. C. G. Fernandes, P. M. T. Marques, R. C. Martins, J. H. O. Seabra, Tribol. Int. 88 (2015) 309;
+    constants as in the authors' program.
 
     >>> gear = (6.3362 / 2, 0.010, 15e-9, 387.24e3 * 14e-3, 0.0, 0.2e-6, 1.44, 14e-3, 8.3820e-3)
     >>> round(float(fernandes(*gear, lubricant_factor=1.0)), 4)   # test gear FZG C at 183.4 N m and 8.3 m/s

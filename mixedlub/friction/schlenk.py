@@ -44,9 +44,7 @@ def schlenk(
     return 0.048 * load * (viscosity * 1e3) ** -0.05 * (mean_roughness * 1e6) ** 0.25 * lubricant_factor
 
 
-def pitch_load(
-    mesh_line_load: np.ndarray, pitch_entrainment_speed: np.ndarray, pitch_radius: float
-) -> np.ndarray:
+def pitch_load(mesh_line_load: np.ndarray, pitch_entrainment_speed: np.ndarray, pitch_radius: float) -> np.ndarray:
     r"""Group of load, speed and curvature that the laws of FZG share, :math:`(w_m/(v_{\Sigma C}\rho_C))^{0.2}`.
 
     w_m in N/mm, the sum speed in m/s, rho_C in mm, which the form belongs to.

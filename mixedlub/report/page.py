@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -27,6 +27,7 @@ from mixedlub.schema.findings import Finding, grouped
 from mixedlub.schema.section import FileTable, Key, table
 from mixedlub.study import counted, factors
 from mixedlub.study.checkpoint import fingerprint
+from mixedlub.study.options import ignored
 from mixedlub.study.plan import Study
 from mixedlub.study.record import assumed, resolved
 from mixedlub.study.results import COLUMNS, DEFINITIONS, VALIDITY, VALIDITY_MEANING, Results, versions
@@ -98,7 +99,7 @@ def content(results: Results) -> dict[str, Any]:
         "geometry": geometry_rows(study),
         "lubricant": input_rows(study, "lubricant"),
         "oil": oil_rows(results),
-        "options": option_rows(file.options),
+        "options": option_rows(file.options, ignored(file.options, study.plan.model())),
         "effects": [(e, study.plan.parameters[e.id]) for e in study.effects],
         "laws": list(laws_used(study.plan.model())),
         "definitions": [(column, DEFINITIONS[name]) for name, (column, _) in COLUMNS.items()]
@@ -256,22 +257,24 @@ def geometry_rows(study: Study) -> list[tuple[str, str]]:
     return rows if pair.helix_angle else [row for row in rows if row[0] != "overlap ratio"]
 
 
-def option_rows(options: Options) -> list[tuple[str, str, str, bool]]:
-    """Option, choice, its meaning, whether it is the default."""
+def option_rows(options: Options, unread: Collection[str] = ()) -> list[tuple[str, str, str, bool]]:
+    """Option, choice, its meaning, whether it is the default; without those that the law of friction leaves unread."""
     standard = Options()
     rows = []
     for key in FileTable(Options, "", "options").fields:
         name, chosen = key.name, getattr(options, key.name)
-        meaning = key.values.get(chosen, key.meaning)
-        shown = (
-            "as the load sharing needs"
-            if chosen is None
-            else f"{chosen:g}"
-            if isinstance(chosen, float)
-            else str(chosen)
-        )
-        rows.append((name, shown, meaning, chosen == getattr(standard, name)))
+        if name not in unread:
+            meaning = key.values.get(str(chosen), key.meaning)
+            rows.append((name, _chosen(chosen), meaning, chosen == getattr(standard, name)))
     return rows
+
+
+def _chosen(value: Any) -> str:
+    if value is None:
+        return "as the load sharing needs"
+    if isinstance(value, dict):
+        return ", ".join(f"{name} = {number:g}" for name, number in value.items()) or "none"
+    return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 __all__ = ["Drawn", "content", "write_page"]

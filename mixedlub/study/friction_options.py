@@ -25,7 +25,9 @@ def check_coefficients(options: Options) -> None:
             raise InputError(f"no such coefficient of {law.name}; {hint}", where=PLACE, value=name)
     missing = [c.name for c in law.coefficients if c.default is None and c.name not in given]
     if missing:
-        rule = f"needs {', '.join(missing)}: no source prints them; `mixedlub friction-laws {law.name}` says what they are"
+        rule = (
+            f"needs {', '.join(missing)}: no source prints them; `mixedlub friction-laws {law.name}` says what they are"
+        )
         raise InputError(rule, where=PLACE, value=dict(given) or None)
     assumed = [f"{c.name} = {c.default:g}" for c in law.coefficients if c.name not in given]
     if assumed:
@@ -42,7 +44,9 @@ def check_effects(file: StudyFile, given: Sequence[str]) -> None:
     for name in file.effects:
         reaches = [name in own and available(own[name], c, given, "power_loss", "gear_pair") for c in (base, chain)]
         if reaches == [True, False]:
-            rule = f"would change nothing, as friction = {file.options.friction!r} does not read it; leave one of them out"
+            rule = (
+                f"would change nothing, as friction = {file.options.friction!r} does not read it; leave one of them out"
+            )
             raise InputError(rule, where=f"effects.{name}")
 
 

@@ -108,7 +108,9 @@ class Options(_Laws):
         },
     )
     friction_coefficients: dict[str, Number] = key(
-        "NAME = VALUE: coefficients of the friction law that are the user's, by the names of its page", {}
+        "NAME = VALUE: coefficients of the friction law that are the user's, by the names of its page",
+        {},
+        example={},
     )
     conditions_of: Literal["pinion", "gear"] = key(
         "the wheel of the conditions",
