@@ -13,7 +13,19 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import typer
 
-from mixedlub.commands import check, diagnose, effects, import_files, kinds, new, profile, prove, simulate, study
+from mixedlub.commands import (
+    check,
+    diagnose,
+    effects,
+    friction_laws,
+    import_files,
+    kinds,
+    new,
+    profile,
+    prove,
+    simulate,
+    study,
+)
 from mixedlub.commands.console import (
     drop_empty_folders,
     echo,
@@ -31,7 +43,7 @@ from mixedlub.schema.findings import FindingWarning
 from mixedlub.schema.messages import of_option
 from profiles.errors import InputError, RunError, nearest
 
-COMMANDS = (profile, study, simulate, diagnose, check, import_files, new, kinds, effects, prove)
+COMMANDS = (profile, study, simulate, diagnose, check, import_files, new, kinds, effects, friction_laws, prove)
 
 PARTIAL = {study.NAME: ".parts-*/*.parquet", prove.NAME: "**/*"}
 """Commands that keep what they did when they are stopped, with the pattern of those files."""

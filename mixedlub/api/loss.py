@@ -12,6 +12,7 @@ from mixedlub.chain.model import Model
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.schema.system_file import Gears, Lubricant, SurfaceSection
 from mixedlub.schema.toml_file import parse
+from mixedlub.study.friction_comparison import judged
 from mixedlub.study.options import study_chain
 from mixedlub.study.plan import Study, read_study
 from mixedlub.study.results import run_study
@@ -87,7 +88,8 @@ def along_path(
 ) -> xr.Dataset:
     """Load, film, contact and friction of one tooth pair along its path of contact, at one condition.
 
-    The dimension is the pinion's roll angle; with a sliced face, that and the place across the face.
+    The dimension is the pinion's roll angle; with a sliced face, that and the place across the face. With a friction
+    law of the options, ``friction_validity`` says where it holds.
 
     >>> import mixedlub as ml
     >>> pair = ml.gear_pair(teeth=(17, 26), normal_module_mm=4.2333, pressure_angle_deg=22.5, face_width_mm=14.0)
@@ -100,7 +102,9 @@ def along_path(
 
     conditions = {"torque_Nm": torque_Nm, "speed_rpm": speed_rpm, "oil_temperature_C": oil_temperature_C}
     study = _study(gears, oil, surfaces, conditions, boundary_friction, options, effects)
-    model = Model(study_chain(study.file.options), tuple(study.plan.inputs), tuple(ALONG_PATH), study.effects)
+    checked = () if study.plan.friction is None else study.plan.friction.checked
+    wanted = tuple(dict.fromkeys((*ALONG_PATH, *checked)))
+    model = Model(study_chain(study.file.options), tuple(study.plan.inputs), wanted, study.effects)
     with np.errstate(all="ignore"):
         state = model(study.plan.inputs, study.plan.parameters)
     points = study.mesh
@@ -115,6 +119,14 @@ def along_path(
         )
         for name, (column, factor) in ALONG_PATH.items()
     }
+    law = study.plan.friction
+    if law is not None:
+        holds = judged(law, state, (points.position.size,))
+        variables["friction_validity"] = (
+            ("roll_angle_deg", "face_position_mm"),
+            holds.reshape(shape),
+            {"long_name": f"whether {law.name} holds at the point"},
+        )
     found = xr.Dataset(variables, {"roll_angle_deg": angle, "face_position_mm": face}, conditions)
     return found.isel(face_position_mm=0, drop=True) if points.slices == 1 else found
 

@@ -47,7 +47,7 @@ def kinds_text(name: str | None = None) -> str:
     lines += [] if name else ["`mixedlub kinds study` shows the keys of a study file."]
     for k in chosen:
         lines += ["", *_kind(k)]
-    lines += ["", "columns of every kind (conditions.csv has all but the reading)", *_aligned(common_rows())]
+    lines += ["", "columns of every kind (conditions.csv has all but the reading)", *aligned(common_rows())]
     lines += ["", "keys of system.toml: unit, default, what is allowed, meaning"]
     for table in tables(System):
         if table.name.split(".")[0] in taken:
@@ -79,7 +79,7 @@ def _kind(k: Kind) -> Iterator[str]:
     if k.part_rigs:
         rigs = " or ".join(k.part_rigs)
         yield from _wrapped(f"readings of the rig {rigs} are compared with a part of the base model", 2, 4)
-    yield from _aligned(kind_rows(k), indent=4)
+    yield from aligned(kind_rows(k), indent=4)
 
 
 def kind_rows(k: Kind) -> list[Row]:
@@ -149,7 +149,7 @@ def _keys(table: FileTable) -> Iterator[str]:
     """The keys of a table, and the meaning of each allowed value where there are few."""
     for key, lines in zip(table.keys, _blocks([key_row(key) for key in table.keys], 2), strict=True):
         yield from lines
-        yield from _aligned([(toml_value(value), meaning) for value, meaning in key.values.items()], indent=6)
+        yield from aligned([(toml_value(value), meaning) for value, meaning in key.values.items()], indent=6)
 
 
 def key_row(key: Key) -> Row:
@@ -192,7 +192,8 @@ def _wrapped(text: str, indent: int, hanging: int) -> list[str]:
     )
 
 
-def _aligned(rows: Sequence[Row], indent: int = 2) -> list[str]:
+def aligned(rows: Sequence[Row], indent: int = 2) -> list[str]:
+    """Rows as lines in columns, the last cell wrapped."""
     return [line for lines in _blocks(rows, indent) for line in lines]
 
 

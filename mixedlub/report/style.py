@@ -117,6 +117,9 @@ _MADE_BY = {"pdf": {"Creator": OWNER, "CreationDate": None}, "png": {"Software":
 
 
 def save(figure: Figure, path: Path) -> None:
-    """Write a figure for print, as PDF or PNG by the suffix of its name."""
+    """Write a figure as SVG, or for print as PDF or PNG, by the suffix of its name."""
+    if path.suffix == ".svg":
+        path.write_text(as_svg(figure), encoding="utf-8")
+        return
     with styled():
         figure.savefig(path, dpi=PNG_DPI, metadata=_MADE_BY[path.suffix[1:]])

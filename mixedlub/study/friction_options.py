@@ -15,23 +15,23 @@ from profiles.errors import InputError, nearest
 PLACE = "options.friction_coefficients"
 
 
-def check_coefficients(options: Options) -> None:
+def check_coefficients(options: Options, place: str = PLACE) -> None:
     """Refuse coefficients that the law does not have, and those that it lacks; report the defaults taken."""
     law, given = friction.find(options.friction), options.friction_coefficients
     known = {c.name: c for c in law.coefficients}
     for name in given:
         if name not in known:
             hint = nearest(name, known) if known else "it has none"
-            raise InputError(f"no such coefficient of {law.name}; {hint}", where=PLACE, value=name)
+            raise InputError(f"no such coefficient of {law.name}; {hint}", where=place, value=name)
     missing = [c.name for c in law.coefficients if c.default is None and c.name not in given]
     if missing:
         rule = (
             f"needs {', '.join(missing)}: no source prints them; `mixedlub friction-laws {law.name}` says what they are"
         )
-        raise InputError(rule, where=PLACE, value=dict(given) or None)
+        raise InputError(rule, where=place, value=dict(given) or None)
     assumed = [f"{c.name} = {c.default:g}" for c in law.coefficients if c.name not in given]
     if assumed:
-        report(finding("friction_coefficient_assumed", f"{', '.join(assumed)} taken for {law.name}", PLACE))
+        report(finding("friction_coefficient_assumed", f"{', '.join(assumed)} taken for {law.name}", place))
 
 
 def check_effects(file: StudyFile, given: Sequence[str]) -> None:

@@ -185,8 +185,8 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     oil = rig.oil()
     surfaces = {s: rig.surface(s) for s in used}
     inputs = {
-        **_condition_inputs(file, pair, points, oil),
-        **_pairing_inputs([(surfaces[a], surfaces[b]) for a, b in chosen]),
+        **condition_inputs(file, pair, points, oil),
+        **surface_inputs([(surfaces[a], surfaces[b]) for a, b in chosen]),
         "boundary_friction": file.boundary_friction,
     }
     effects, parameters = _effects(file, inputs)
@@ -197,7 +197,7 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     return Study(name, file, rig, pair, points, oil, surfaces, chosen, effects, plan)
 
 
-def _condition_inputs(file: StudyFile, pair: GearPair, points: Mesh, oil: Lubricant) -> dict[str, Any]:
+def condition_inputs(file: StudyFile, pair: GearPair, points: Mesh, oil: Lubricant) -> dict[str, Any]:
     """Inputs shared by all pairings."""
     levels, options = file.conditions, file.options
     of_gear = options.conditions_of == "gear"
@@ -220,7 +220,8 @@ def _condition_inputs(file: StudyFile, pair: GearPair, points: Mesh, oil: Lubric
     }
 
 
-def _pairing_inputs(pairs: list[tuple[Surface, Surface]]) -> dict[str, np.ndarray]:
+def surface_inputs(pairs: list[tuple[Surface, Surface]]) -> dict[str, np.ndarray]:
+    """Inputs of the surfaces, pairing by pairing."""
     both = paired([a for a, _ in pairs], [b for _, b in pairs])
     return {name: values.reshape(-1, 1, 1, 1, 1) for name, values in both.items()}
 

@@ -1,0 +1,112 @@
+"""`mixedlub friction-laws`: the friction laws in words, and all of them side by side on a gear pair."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from mixedlub.atomic import writing
+from mixedlub.commands.console import busy, echo, input_errors_from, note, output_folder, print_findings
+from profiles.errors import InputError
+
+NAME = "friction-laws"
+EXAMPLE = "mixedlub friction-laws schlenk"
+
+
+def command(
+    law: Annotated[str | None, typer.Argument(metavar="NAME", help="One law; a table of all when left out.")] = None,
+    study: Annotated[
+        Path | None,
+        typer.Option("--study", "--gear", metavar="FILE.toml", help="Study file: compare all laws on its gears."),
+    ] = None,
+    torque: Annotated[
+        float | None,
+        typer.Option("--torque-Nm", metavar="NUMBER", help="Torque compared at; default the study's last."),
+    ] = None,
+    speed: Annotated[
+        float | None, typer.Option("--speed-rpm", metavar="NUMBER", help="Speed compared at; default the study's last.")
+    ] = None,
+    temperature: Annotated[
+        float | None,
+        typer.Option("--oil-temperature-C", metavar="NUMBER", help="Oil temperature; default the study's last."),
+    ] = None,
+    pairing: Annotated[
+        str | None, typer.Option(metavar="'A / B'", help="Surfaces of pinion and gear; default the study's first.")
+    ] = None,
+    coefficients: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE.toml", help="Coefficients of laws that need them: a table for each, by its name."),
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Folder for the results; default out/friction-laws/NAME.")
+    ] = None,
+    format_: Annotated[
+        str,
+        typer.Option("--format", metavar="LIST", help="Formats of the figures: svg, pdf, png, with commas between."),
+    ] = "svg",
+) -> None:
+    """The friction laws: a table, the page of one, or all of them side by side on the gears of a study.
+
+    A page has equation, source, range, status, inputs and coefficients.
+
+    With a study: friction along the path of contact, over the slide-to-roll ratio and of the mesh, as CSV and figures,
+    grey where a law is outside its range.
+    """
+    condition = {"torque_Nm": torque, "speed_rpm": speed, "oil_temperature_C": temperature}
+    if study is None:
+        from mixedlub.report.friction_pages import friction_text
+
+        if any(given is not None for given in (*condition.values(), pairing, coefficients, out)):
+            raise InputError("name the study to compare the laws on: --study FILE.toml", where="--study")
+
+        echo(friction_text(law))
+        return
+    if law is not None:
+        raise InputError("all laws are compared on a study; leave the name out", where="NAME", value=law)
+    _compare(study, condition, pairing, coefficients, out, format_)
+
+
+def _compare(
+    study: Path,
+    condition: dict[str, float | None],
+    pairing: str | None,
+    coefficients: Path | None,
+    out: Path | None,
+    format_: str,
+) -> None:
+    from mixedlub.commands.study import chosen_formats
+    from mixedlub.report.friction_figures import figures
+    from mixedlub.report.style import save
+    from mixedlub.schema.toml_file import read_toml
+    from mixedlub.study import read_study
+    from mixedlub.study.friction_comparison import compared, mesh_table
+
+    formats = chosen_formats(format_)
+    with input_errors_from(str(study)):
+        read = read_study(study)
+        given: dict[str, Any] = {} if coefficients is None else read_toml(coefficients)
+        comparison = compared(read, given, pairing=pairing, **condition)
+    folder = output_folder(out, NAME, read.name)
+    print_findings(read.notes)
+    for name, lacking in comparison.left_out.items():
+        note(f"{name} is left out: give {', '.join(lacking)} in a file for --coefficients")
+    if read.file.effects:
+        note("the effects of the study are left out of the comparison")
+    with writing(folder) as aside, busy("computing"):
+        tables = {
+            "along_path": comparison.along_path(),
+            "over_slide_roll_ratio": comparison.over_ratio(),
+            "mesh": mesh_table(read, comparison.coefficients),
+        }
+        for name, table in tables.items():
+            table.to_csv(aside / f"{name}.csv", index=False, float_format="%.9g")
+        here = mesh_table(comparison.every, comparison.coefficients)
+        drawn = list(figures(comparison, tables["along_path"], tables["over_slide_roll_ratio"], here))
+        for one in drawn:
+            for form in formats:
+                save(one.figure, aside / f"{one.name}.{form}")
+        captions = "\n\n".join(f"{one.name}\n{one.caption}" for one in drawn)
+        (aside / "captions.txt").write_text(captions + "\n", encoding="utf-8")
+    echo(f"along_path.csv, over_slide_roll_ratio.csv, mesh.csv and figures in {folder}")

@@ -1,0 +1,189 @@
+"""All friction laws on one gear pair: along the path of contact, over the slide-to-roll ratio, and for the mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from mixedlub.chain.friction_law import FrictionLaw
+from mixedlub.chain.model import Model
+from mixedlub.friction import BASE, catalogue, find
+from mixedlub.gear.mesh import at_roll_angle
+from mixedlub.schema.toml_file import parse
+from mixedlub.study.friction_options import check_coefficients
+from mixedlub.study.options import study_chain, with_friction
+from mixedlub.study.plan import Study, condition_inputs, read_study, surface_inputs
+from mixedlub.study.results import Results, run_study
+from mixedlub.study.schema import Conditions, Options, Pairings
+from profiles.errors import InputError, nearest
+
+POINTS = 201
+"""Points along the path of contact, and over the slide-to-roll ratio."""
+LARGEST_RATIO = 2.0
+"""Slide-to-roll ratio of a contact whose slower surface is at rest."""
+VALID, OUTSIDE, DIVERGES = "valid", "outside range", "diverges"
+Coefficients = Mapping[str, Mapping[str, float]]
+COLUMNS = {
+    "slide_roll_ratio": ("slide_roll_ratio", 1.0),
+    "sliding_speed": ("sliding_speed_m_s", 1.0),
+    "entrainment_speed": ("entrainment_speed_m_s", 1.0),
+    "hertz_pressure": ("hertz_pressure_MPa", 1e-6),
+}
+"""Columns of a contact point, and the factor from SI to their unit."""
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """Friction laws at one condition of a study with one pairing, and ``every`` pairing at that condition.
+
+    ``coefficients`` are the user's, by law.
+    """
+
+    study: Study
+    every: Study
+    coefficients: Coefficients
+
+    @cached_property
+    def laws(self) -> tuple[FrictionLaw, ...]:
+        """The laws that have all their coefficients."""
+        return complete(self.coefficients)
+
+    @property
+    def left_out(self) -> dict[str, list[str]]:
+        """Laws without them, each with the coefficients that it lacks."""
+        return {law.name: lacks for law in catalogue().values() if (lacks := _lacks(law, self.coefficients))}
+
+    def along_path(self) -> pd.DataFrame:
+        """Friction of every law over the pinion roll angle, the pitch point among its points."""
+        pair = self.study.pair
+        angles = np.linspace(pair.path_start, pair.path_end, POINTS) / pair.base_radius[0]
+        angles = np.unique(np.append(angles, pair.pitch_point / pair.base_radius[0]))
+        mesh = at_roll_angle(pair, self.study.rig.sharing, angles, slices=1)
+        inputs = condition_inputs(self.study.file, pair, mesh, self.study.oil)
+        place = np.argmin(np.abs(mesh.sliding_per_speed))
+        inputs["sliding_speed"][..., place] = 0.0  # rounding aside
+        return self._table("roll_angle_deg", np.degrees(angles), inputs)
+
+    def over_ratio(self) -> pd.DataFrame:
+        """Friction of every law over the slide-to-roll ratio, in the contact that the pitch point has."""
+        pair = self.study.pair
+        mesh = at_roll_angle(pair, self.study.rig.sharing, [pair.pitch_point / pair.base_radius[0]], slices=1)
+        inputs = condition_inputs(self.study.file, pair, mesh, self.study.oil)
+        ratio = np.linspace(0.0, LARGEST_RATIO, POINTS)
+        inputs["sliding_speed"] = ratio * inputs["entrainment_speed"]
+        return self._table("slide_roll_ratio", ratio, inputs)
+
+    def _inputs(self, inputs: Mapping[str, Any]) -> dict[str, Any]:
+        file = self.study.file
+        surfaces = surface_inputs([(self.study.surfaces[a], self.study.surfaces[b]) for a, b in self.study.pairings])
+        return {**inputs, **surfaces, "boundary_friction": file.boundary_friction}
+
+    def _table(self, name: str, place: np.ndarray, inputs: Mapping[str, Any]) -> pd.DataFrame:
+        """One row a law and place: the conditions there, friction, and whether the law holds."""
+        given, chain = self._inputs(inputs), study_chain(_base_options(self.study))
+        parts = []
+        for law in self.laws:
+            own = law.with_coefficients(self.coefficients.get(law.name, {}))
+            steps = chain if law.name == BASE else with_friction(chain, own)
+            model = Model(steps, tuple(given), tuple(dict.fromkeys((*law.checked, *COLUMNS))))
+            with np.errstate(all="ignore"):
+                state = model(given)
+                friction = np.broadcast_to(np.asarray(state["friction"], float).ravel(), place.shape)
+                holds = judged(law, state, place.shape)
+            columns = {c: np.broadcast_to(np.ravel(state[q]), place.shape) * f for q, (c, f) in COLUMNS.items()}
+            shown = np.where(np.isfinite(friction), friction, np.nan)
+            parts.append(pd.DataFrame({"law": law.name, name: place, **columns, "friction": shown, "validity": holds}))
+        return pd.concat(parts, ignore_index=True)
+
+
+def complete(coefficients: Coefficients) -> tuple[FrictionLaw, ...]:
+    """The laws that have all their coefficients."""
+    return tuple(law for law in catalogue().values() if not _lacks(law, coefficients))
+
+
+def _lacks(law: FrictionLaw, coefficients: Coefficients) -> list[str]:
+    given = coefficients.get(law.name, {})
+    return [c.name for c in law.coefficients if c.default is None and c.name not in given]
+
+
+def judged(law: FrictionLaw, state: Mapping[str, Any], shape: tuple[int, ...]) -> np.ndarray:
+    """Whether the law holds at each place."""
+    outside = np.broadcast_to(law.outside(state).ravel(), shape)
+    divergent = np.broadcast_to(law.divergent(state).ravel(), shape)
+    return np.where(divergent, DIVERGES, np.where(outside, OUTSIDE, VALID))
+
+
+def _base_options(study: Study) -> Options:
+    """The options of a study with the friction of the base model."""
+    return study.file.options.model_copy(update={"friction": BASE, "friction_coefficients": {}})
+
+
+def compared(
+    study: Study,
+    coefficients: Coefficients,
+    *,
+    pairing: str | None = None,
+    **conditions: float | None,
+) -> Comparison:
+    """The comparison at one condition: what is not given is the last level of the study, and its first pairing."""
+    levels = study.file.conditions
+    chosen = {
+        name: [given[-1] if (wanted := conditions.get(name)) is None else wanted]
+        for name, given in levels.model_dump().items()
+    }
+    names = {f"{a} / {b}": (a, b) for a, b in study.pairings}
+    if pairing is not None and pairing not in names:
+        raise InputError(f"no such pairing; {nearest(pairing, names)}", where="--pairing", value=pairing)
+    a, b = study.pairings[0] if pairing is None else names[pairing]
+    here = study.file.model_copy(update={"conditions": parse(Conditions, chosen, "condition to compare at")})
+    one = here.model_copy(update={"pairings": Pairings(pinion=(a,), gear=(b,))})
+    given = checked(coefficients) | _own(study, coefficients)
+    return Comparison(_altered(study, one), _altered(study, here), given)
+
+
+def _altered(study: Study, file: Any) -> Study:
+    path = study.rig.folder / f"{study.name}.toml"
+    return read_study(path, file)
+
+
+def _own(study: Study, coefficients: Coefficients) -> dict[str, Mapping[str, float]]:
+    """The coefficients that the study itself gives its friction law."""
+    options = study.file.options
+    given = options.friction_coefficients
+    return {options.friction: given} if given and options.friction not in coefficients else {}
+
+
+def checked(coefficients: Coefficients) -> dict[str, Mapping[str, float]]:
+    """The coefficients by law; a law or coefficient that does not exist is refused."""
+    for name, given in coefficients.items():
+        find(name, "--coefficients")
+        check_coefficients(Options(friction=name, friction_coefficients=dict(given)), f"--coefficients: {name}")
+    return dict(coefficients)
+
+
+def of_mesh(study: Study, coefficients: Coefficients) -> Iterator[tuple[FrictionLaw, Results]]:
+    """The results of a study with each law that has its coefficients, effects left out."""
+    values = {name: getattr(study.file.options, name) for name in type(study.file.options).model_fields}
+    for law in complete(coefficients):
+        own = {"friction": law.name, "friction_coefficients": dict(coefficients.get(law.name, {}))}
+        # Of the options none counts as given, so that a law may ignore those that another one reads.
+        options = Options.model_construct({"friction", "friction_coefficients"}, **values | own)
+        altered = _altered(study, study.file.model_copy(update={"options": options, "effects": {}}))
+        yield law, run_study(altered)
+
+
+def mesh_table(study: Study, coefficients: Coefficients) -> pd.DataFrame:
+    """Mean friction and mesh loss of every law at every condition of a study."""
+    parts = []
+    for law, results in of_mesh(study, coefficients):
+        rows = results.to_pandas()
+        kept = ["pinion_surface", "gear_surface", "torque_Nm", "speed_rpm", "oil_temperature_C"]
+        rows = rows[[*kept, "mean_friction", "mesh_loss_W", "validity"]]
+        rows.insert(0, "law", law.name)
+        parts.append(rows)
+    return pd.concat(parts, ignore_index=True)
