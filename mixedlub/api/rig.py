@@ -5,6 +5,7 @@ from __future__ import annotations
 from os import PathLike
 from typing import Any
 
+from mixedlub.schema.oil_file import STOCKS
 from mixedlub.schema.system_file import Gears, Lubricant, SurfaceSection
 from mixedlub.schema.toml_file import parse
 
@@ -29,14 +30,19 @@ def gear_pair(**keys: Any) -> Gears:
     return parse(Gears, keys, "gear_pair")
 
 
-def oil(base: str | None = None, **keys: Any) -> Lubricant:
-    """An oil, by the keys of the section ``[lubricant]``; what is left out is typical of its ``base`` stock.
+def oil(named: str | None = None, /, **keys: Any) -> Lubricant:
+    """An oil by name, by its file (NAME.toml), or by base stock, with the keys of the section ``[lubricant]``.
+
+    What is left out is typical of its ``base`` stock; what the keys state wins over the oil of that name.
 
     >>> import mixedlub as ml
     >>> ml.oil("pao", kinematic_viscosity_mm2_s=(32.0, 6.0), temperature_C=(40.0, 100.0)).base
     'pao'
+    >>> ml.oil("n100").kinematic_viscosity_mm2_s
+    (97.9, 8.61)
     """
-    return parse(Lubricant, {"base": base, **keys}, "oil")
+    given = {} if named is None else {"base" if named in STOCKS else "oil": named}
+    return parse(Lubricant, given | keys, "oil")
 
 
 def surface(profile: str | PathLike[str] | None = None, **keys: Any) -> SurfaceSection:

@@ -23,6 +23,7 @@ def case_files(case: Case) -> dict[str, str | bytes]:
     1,100.0,0.51
     """
     system = case.system.model_dump(by_alias=True, exclude_unset=True)
+    system.get("lubricant", {}).pop("oil", None)  # its values are all there
     carried: dict[str, bytes] = {}
     sharing = system.get("gears", {}).get("load_sharing", {})
     if sharing.get("table"):

@@ -18,6 +18,7 @@ from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.surface import Surface
 from mixedlub.schema import system_file
 from mixedlub.schema.findings import finding, report
+from mixedlub.schema.oil_file import oil_of, overridden
 from mixedlub.schema.toml_file import named_file
 from profiles import SHIPPED_MARK, shipped
 from profiles.errors import InputError
@@ -67,13 +68,14 @@ def typical(section: system_file.Lubricant) -> dict[str, Any]:
     return {**base, "pressure_viscosity_per_GPa": alpha.round(1).tolist()}
 
 
-def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = ()) -> Lubricant:
+def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (), folder: Path = Path()) -> Lubricant:
     """The oil; what the section leaves open comes from its base stock, with a warning that says so.
 
-    Keys that are ``unread`` in a kind of recording are not warned of.
+    Keys that are ``unread`` in a kind of recording are not warned of. The file of an oil is relative to ``folder``.
     """
     section = section or system_file.Lubricant()
-    known = {k: v for k, v in section.model_dump().items() if v is not None and k not in ("name", "base")}
+    _report_oil(section, folder)
+    known = {k: v for k, v in section.model_dump().items() if v is not None and k not in ("name", "base", "oil")}
     base = typical(section)
     assumed = [key for key in base if key not in known and key != "source" and key not in unread]
     if assumed:
@@ -103,6 +105,22 @@ def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (
         conductivity=full["thermal_conductivity_W_mK"],
         heat_capacity=full["specific_heat_J_kgK"],
     )
+
+
+def _report_oil(section: system_file.Lubricant, folder: Path) -> None:
+    """What the section states against its named oil, and what that oil has of its class alone."""
+    if section.oil is None:
+        return
+    stated = section.model_dump()
+    other = overridden(stated, folder)
+    if other:
+        text = ", ".join(f"{name} = {stated[name]} in place of {value}" for name, value in other.items())
+        report(finding("oil_overridden", f"{text} of oil {section.oil}", "lubricant"))
+    properties = oil_of(section.oil, folder).properties
+    typical = [name for name, p in properties.items() if p.status == "typical" and name not in other]
+    if typical:
+        text = f"{', '.join(typical)} of oil {section.oil} not printed by its source; typical of its class"
+        report(finding("oil_typical", text, "lubricant"))
 
 
 def trace(name: str, section: system_file.SurfaceSection, folder: Path) -> Profile:

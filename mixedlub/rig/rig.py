@@ -51,7 +51,7 @@ class Rig:
 
     def oil(self, unread: Collection[str] = ()) -> Lubricant:
         """The lubricant; nothing is reported of keys that are ``unread`` in a kind of recording."""
-        return self._once(("oil", *unread), lambda: build.lubricant(self.file.lubricant, unread))
+        return self._once(("oil", *unread), lambda: build.lubricant(self.file.lubricant, unread, self.folder))
 
     def trace(self, name: str) -> Profile:
         """The measured trace of a surface, as its file has it."""

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
+from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field, create_model, model_validator
+from pydantic import AfterValidator, Field, ValidationInfo, create_model, model_validator
 
 from mixedlub.discovery import declared
+from mixedlub.schema.oil_file import STOCKS, Base, oil_titles, with_oil
 from mixedlub.schema.section import Float, Number, NumberOrName, Section, Whole, key, one_of, tables, with_ranges
 from profiles.errors import InputError
 
@@ -108,17 +111,19 @@ class Contact(Section):
 
 
 class Lubricant(Section):
+    oil: str | None = key(
+        "oil by name, or its file relative to this one (NAME.toml); what this section states itself wins",
+        None,
+        example="n100",
+        alternative=True,
+        values=oil_titles(),
+    )
     name: str = key("name of the oil, for the report", "unnamed oil", example="sample oil")
-    base: Literal["mineral", "pao", "ester", "pag"] | None = key(
+    base: Base | None = key(
         "base stock, whose typical oil fills what is left out; left out: mineral",
         None,
         example="mineral",
-        values={
-            "mineral": "mineral oil",
-            "pao": "polyalphaolefin",
-            "ester": "synthetic ester",
-            "pag": "polyalkylene glycol",
-        },
+        values=STOCKS,
     )
     temperature_C: Pair | None = key("two temperatures, those of the next two keys", None, example=[40.0, 100.0])
     kinematic_viscosity_mm2_s: Pair | None = key(
@@ -132,6 +137,13 @@ class Lubricant(Section):
     eyring_stress_MPa: Number | None = key("Eyring stress of the film", None, example=5.0)
     thermal_conductivity_W_mK: Number | None = key("thermal conductivity of the oil", None, example=0.14)
     specific_heat_J_kgK: Number | None = key("specific heat of the oil", None, example=2000.0)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_its_oil(cls, given: Any, info: ValidationInfo) -> Any:
+        """Complete the section by what its oil says."""
+        named = given.get("oil") if isinstance(given, Mapping) else None
+        return given if not isinstance(named, str) else with_oil(given, (info.context or {}).get("folder", Path()))
 
 
 class Coating(Section):

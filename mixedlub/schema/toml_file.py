@@ -47,9 +47,12 @@ def named_file(folder: Path, name: str, key: str) -> Path:
 
 
 def parse(model: type[T], data: Mapping[str, Any], where: str) -> T:
-    """The validated section; the first error becomes a message that names place, value and rule."""
+    """The validated section; the first error becomes a message that names place, value and rule.
+
+    Files that it names are relative to the folder of ``where``.
+    """
     try:
-        return model.model_validate(data)
+        return model.model_validate(data, context={"folder": Path(where).parent})
     except ValidationError as error:
         raise _refused(model, error.errors(), where) from None
 

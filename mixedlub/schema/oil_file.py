@@ -1,0 +1,139 @@
+"""Oils by name: one file an oil, with viscosity, shear and heat of it together, and where each number comes from."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import AfterValidator, Field
+
+from mixedlub.schema.section import Section, key
+from mixedlub.schema.toml_file import parse, read_toml
+from profiles.errors import InputError, nearest
+
+SUFFIX = ".toml"
+Status = Literal["stated", "derived", "typical"]
+STATUSES: Mapping[str, str] = {
+    "stated": "printed by the source",
+    "derived": "computed from what the source prints",
+    "typical": "not of this oil: typical of its class or base stock",
+}
+Base = Literal["mineral", "pao", "ester", "pag"]
+STOCKS: Mapping[str, str] = {
+    "mineral": "mineral oil",
+    "pao": "polyalphaolefin",
+    "ester": "synthetic ester",
+    "pag": "polyalkylene glycol",
+}
+
+
+def _numbers(value: Any) -> Any:
+    entries = value if isinstance(value, (list, tuple)) else [value]
+    if len(entries) not in (1, 2) or any(isinstance(x, bool) or not isinstance(x, (int, float)) for x in entries):
+        raise ValueError("is a number, or a list of two")
+    return tuple(value) if isinstance(value, (list, tuple)) else value
+
+
+class Property(Section):
+    """A number of an oil, or two at its two temperatures."""
+
+    value: Annotated[Any, AfterValidator(_numbers)] = key("the number, or two at temperature_C", example=[97.9, 8.61])
+    status: Status = key("where it comes from", example="stated", values=STATUSES)
+    source: str = key("its source", example="data sheet")
+
+
+class FurtherLaw(Section):
+    """Data of a law that no law of this package reads: kept with the oil, and used with nothing else."""
+
+    equation: str = key("the law, in words or symbols with units", example="eta = K exp(C/(D + T))")
+    values: dict[str, float] = key("its numbers", example={"K": 1e-4})
+    status: Status = key("where they come from", example="stated", values=STATUSES)
+    source: str = key("their source", example="data sheet")
+
+
+class OilFile(Section):
+    """The file of an oil."""
+
+    schema_: Literal["mixedlub-oil/1"] = key("format of the file", example="mixedlub-oil/1", alias="schema")
+    name: str = key("name of the oil, for the report", example="gear oil of the rig")
+    about: str = key("what is known of it, free text", "")
+    base: Base = key("base stock, whose typical values fill what the file leaves out", example="mineral", values=STOCKS)
+    properties: Annotated[dict[str, Property], Field(min_length=1)] = key(
+        "one table a key of [lubricant], with its value, status and source"
+    )
+    further: dict[str, FurtherLaw] = key("laws of the oil beyond those of this package", {})
+
+    @property
+    def keys(self) -> dict[str, Any]:
+        """The keys of a section ``[lubricant]`` that this oil means."""
+        return {"name": self.name, "base": self.base} | {name: p.value for name, p in self.properties.items()}
+
+
+def oil_names() -> tuple[str, ...]:
+    """Oils that come with the package.
+
+    >>> oil_names()[:2]
+    ('75w90', 'agma_7ep')
+    """
+    found = files("mixedlub").joinpath("rig").joinpath("oils").iterdir()
+    return tuple(sorted(path.name.removesuffix(SUFFIX) for path in found if path.name.endswith(SUFFIX)))
+
+
+@cache
+def oil_titles() -> Mapping[str, str]:
+    """The full name of each oil that comes with the package."""
+    return {name: str(tomllib.loads(_text(name))["name"]) for name in oil_names()}
+
+
+def _text(name: str) -> str:
+    return files("mixedlub").joinpath("rig", "oils", name + SUFFIX).read_text(encoding="utf-8")
+
+
+@cache
+def shipped_oil(name: str) -> OilFile:
+    """An oil that comes with the package; an unknown name raises an error with the nearest known one.
+
+    >>> shipped_oil("n100").base
+    'mineral'
+    """
+    if name not in oil_names():
+        own = "; an oil of your own is a file whose name ends in .toml"
+        raise InputError(f"no such oil; {nearest(name, oil_names())}{own}", where="oil", value=name)
+    return parse(OilFile, tomllib.loads(_text(name)), f"oil {name}")
+
+
+def oil_of(named: str, folder: Path) -> OilFile:
+    """An oil by name, or by its file relative to a folder."""
+    if not named.endswith(SUFFIX):
+        return shipped_oil(named)
+    return parse(OilFile, read_toml(folder / named), named)
+
+
+PAIRS = ("kinematic_viscosity_mm2_s", "pressure_viscosity_per_GPa")
+"""Keys with a value at each of the two temperatures of the section."""
+
+
+def with_oil(given: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+    """A section ``[lubricant]`` with what its oil adds; what the section states itself stays.
+
+    >>> with_oil({"oil": "n100", "eyring_stress_MPa": 6.0}, Path())["kinematic_viscosity_mm2_s"]
+    (97.9, 8.61)
+    """
+    own = oil_of(str(given["oil"]), folder).keys
+    moved = "temperature_C" in given and tuple(given["temperature_C"]) != tuple(own.get("temperature_C", ()))
+    lacking = [name for name in PAIRS if moved and name in own and name not in given]
+    if lacking:
+        at = list(own["temperature_C"])
+        rule = f"the oil has its values at {at} °C: leave it out, or give {' and '.join(lacking)} too"
+        raise InputError(rule, where="temperature_C", value=given["temperature_C"])
+    return {**own, **given}
+
+
+def overridden(section: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+    """What a section states itself although its oil has another value; the name aside."""
+    own = oil_of(str(section["oil"]), folder).keys
+    return {k: v for k, v in own.items() if k != "name" and section.get(k) is not None and section[k] != v}
