@@ -21,7 +21,7 @@ LAW_MODULES = ("roughness.mccool", "roughness.integrals")
 TITLES = {"mccool": "McCool's asperities", "integrals": "Integrals of Gaussian heights"}
 COLUMN_HEAD = ("column", "unit", "needed", "allowed", "meaning")
 KEY_HEAD = ("key", "unit", "default", "allowed", "meaning")
-WITH_PAGES = ("laws", "effects")
+WITH_PAGES = ("laws", "effects", "friction")
 """Rooms of public names that other pages list."""
 BASELINES = (
     "right verdict, one effect, identifiable",
@@ -52,6 +52,9 @@ def pieces() -> dict[str, str]:
         "missed_rigs": scores.missed(others[scores.TOOL]),
         "by_kind": scores.by_kind(rigs),
         "study_keys": _study_keys(),
+        "friction_laws": _friction_laws(),
+        "oils": _oils(),
+        "oil_keys": _oil_keys(),
         "api": _api(),
         "rooms": _rooms(),
         "ranges": _ranges(),
@@ -118,6 +121,60 @@ def _kinds() -> Iterator[tuple[str, str]]:
                 use = " Optional for this kind." if table.name.split(".")[0] in k.uses else ""
                 parts += _keys(table, use)
         yield f"kinds/{name}", "\n\n".join(parts) + "\n"
+
+
+def _friction_laws() -> str:
+    """Every friction law: its equation drawn, and its page."""
+    from mixedlub.chain.friction_law import PLACES
+    from mixedlub.friction import catalogue
+
+    parts = []
+    for place, words in PLACES.items():
+        parts.append(f"## {words[:1].upper()}{words[1:]}")
+        for law in (one for one in catalogue().values() if one.place == place):
+            parts += [
+                f"### {law.name}",
+                law.summary,
+                f"```{{math}}\n{law.equation}\n```",
+                f"```{{code-block}} text\n:class: wide\n{law.page().partition(chr(10) * 2)[2]}\n```",
+            ]
+    return "\n\n".join(parts)
+
+
+def _oils() -> str:
+    """Every oil that comes with the package: its numbers with unit, status and source."""
+    from mixedlub.schema.oil_file import oil_names, shipped_oil
+
+    parts = []
+    for name in oil_names():
+        oil = shipped_oil(name)
+        parts += [f"## {name}", f"{oil.name}, base stock `{oil.base}`. {oil.about}".rstrip()]
+        rows = [(key, _numbers(one.value), one.status, one.source) for key, one in oil.properties.items()]
+        parts.append(_table(("key", "value", "status", "source"), rows))
+        if oil.further:
+            further = [
+                (
+                    key,
+                    f"{one.equation}; {', '.join(f'{n} = {v:g}' for n, v in one.values.items())}",
+                    one.status,
+                    one.source,
+                )
+                for key, one in oil.further.items()
+            ]
+            parts += ["Further laws:", _table(("law", "equation and numbers", "status", "source"), further)]
+    return "\n\n".join(parts)
+
+
+def _numbers(value: Any) -> str:
+    return ", ".join(f"{x:g}" for x in (value if isinstance(value, tuple) else (value,)))
+
+
+def _oil_keys() -> str:
+    """The keys of the file of an oil."""
+    from mixedlub.schema.oil_file import OilFile
+    from mixedlub.schema.section import tables
+
+    return "\n\n".join(part for table in tables(OilFile) for part in _keys(table))
 
 
 def _study_keys() -> str:

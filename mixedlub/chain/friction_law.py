@@ -86,10 +86,13 @@ class FrictionLaw:
         _, _, rest = below.partition("\n\n")
         return " ".join(rest.partition("Source: ")[0].split())
 
+    def values(self, given: Mapping[str, float]) -> dict[str, Any]:
+        """The coefficients, defaults where none are given."""
+        return {c.name: given.get(c.name, c.default) for c in self.coefficients}
+
     def with_coefficients(self, given: Mapping[str, float]) -> Law:
         """The law with its coefficients fixed, defaults where none are given; a number becomes an array of one."""
-        values = {c.name: given.get(c.name, c.default) for c in self.coefficients}
-        law = self.law
+        values, law = self.values(given), self.law
 
         def fixed(*quantities: Any) -> Any:
             return np.atleast_1d(law(*quantities, **values))

@@ -12,8 +12,8 @@ def friction_text(name: str | None = None) -> str:
     if name is not None:
         return find(name).page()
     lines = [f"{len(catalogue())} friction laws. `mixedlub friction-laws NAME` shows the page of one, and"]
-    lines += ['[options] friction = "NAME" chooses it in a study. The number after a name is that']
-    lines += ["of independent sources for its constants; 0: the coefficients are yours."]
+    lines += ['[options] friction = "NAME" chooses it in a study. The number counts independent']
+    lines += ["sources for its constants; 0: the coefficients are yours."]
     for place, words in PLACES.items():
         lines += ["", words]
         lines += aligned([_row(law) for law in catalogue().values() if law.place == place])

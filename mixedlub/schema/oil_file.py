@@ -83,12 +83,6 @@ def oil_names() -> tuple[str, ...]:
     return tuple(sorted(path.name.removesuffix(SUFFIX) for path in found if path.name.endswith(SUFFIX)))
 
 
-@cache
-def oil_titles() -> Mapping[str, str]:
-    """The full name of each oil that comes with the package."""
-    return {name: str(tomllib.loads(_text(name))["name"]) for name in oil_names()}
-
-
 def _text(name: str) -> str:
     return files("mixedlub").joinpath("rig", "oils", name + SUFFIX).read_text(encoding="utf-8")
 

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, Field, ValidationInfo, create_model, model_validator
 
 from mixedlub.discovery import declared
-from mixedlub.schema.oil_file import STOCKS, Base, oil_titles, with_oil
+from mixedlub.schema.oil_file import STOCKS, Base, oil_names, with_oil
 from mixedlub.schema.section import Float, Number, NumberOrName, Section, Whole, key, one_of, tables, with_ranges
 from profiles.errors import InputError
 
@@ -112,11 +112,11 @@ class Contact(Section):
 
 class Lubricant(Section):
     oil: str | None = key(
-        "oil by name, or its file relative to this one (NAME.toml); what this section states itself wins",
+        f"oil by name ({', '.join(oil_names())}), or its file NAME.toml, relative to this one; what this section "
+        "states itself wins",
         None,
         example="n100",
         alternative=True,
-        values=oil_titles(),
     )
     name: str = key("name of the oil, for the report", "unnamed oil", example="sample oil")
     base: Base | None = key(

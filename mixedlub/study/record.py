@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub import friction
 from mixedlub.atomic import is_alive
 from mixedlub.rig.build import DEFAULT_BASE, ZERO_CELSIUS
 from mixedlub.rig.lubricant import Lubricant
@@ -47,6 +48,8 @@ def resolved(study: Study) -> dict[str, Any]:
     inputs["lubricant"] = _oil(study.oil) | _base(study)
     inputs["surfaces"] = {name: _moments(s, file.surfaces[name]) for name, s in study.surfaces.items()}
     inputs.setdefault("pairings", {"every": list(study.surfaces)})
+    law = friction.find(file.options.friction)
+    inputs["options"]["friction_coefficients"] = law.values(file.options.friction_coefficients)
     for option in ignored(file.options, study.plan.model()):
         del inputs["options"][option]
     inputs["effects"] = {name: dict(values) for name, values in study.plan.parameters.items()}

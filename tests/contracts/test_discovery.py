@@ -22,6 +22,7 @@ FOREIGN = Path(__file__).with_name("foreign")
 POINTS = {
     "mixedlub.effects": ("fan_effect",),
     "mixedlub.kinds": ("fan_kind",),
+    "mixedlub.friction": ("fan_rubbing",),
     "mixedlub.laws": ("fan_film", "fan_viscosity", "fan_shear", "fan_friction"),
     "mixedlub.load_sharing": ("fan_sharing",),
     "mixedlub.importers": ("fan_importer",),
@@ -113,6 +114,15 @@ def test_a_study_runs_with_the_laws_and_the_trace_of_another_package(installed: 
     assert "lost_share" in page
 
 
+def test_a_study_follows_the_friction_law_of_another_package(installed: Path, tmp_path: Path) -> None:
+    rubbing = STUDY + '[options]\nfriction = "fan_rubbing"\nfriction_coefficients = { grip = 0.07 }\n'
+    found, _ = studied(installed, tmp_path / "rubbing", rubbing, "--no-figures")
+    assert found["mean_friction"] == pytest.approx(0.07, rel=1e-12)
+    page = run(installed, "-m", "mixedlub", "friction-laws", "fan_rubbing").stdout
+    assert "grip" in page
+    assert "the maker of the fan" in page
+
+
 @pytest.mark.parametrize(
     ("change", "said"),
     [
@@ -150,7 +160,7 @@ def test_the_format_reference_has_the_parts_of_another_package(installed: Path) 
     text = run(installed, "-m", "mixedlub", "kinds").stdout + run(installed, "-m", "mixedlub", "kinds", "study").stdout
     for part in ("fan_drag: drag of a fan against its speed", "fan_drag_mNm", "lost_share", '"lossy"'):
         assert part in text
-    for law in ("half_film", "linear", "newton", "film_only"):
+    for law in ("half_film", "linear", "newton", "film_only", "fan_rubbing"):
         assert f'"{law}"' in text
 
 

@@ -138,6 +138,10 @@ def test_the_record_of_a_study_runs_again(write_study: Any, tmp_path: Any) -> No
     inputs = json.loads(json.dumps(resolved(first)["inputs"]))
     path = tmp_path / "again.toml"
     path.write_text(to_toml(inputs), encoding="utf-8")
+    assert inputs["options"]["friction_coefficients"] == {}
+    schlenk = resolved(study(write_study, "schlenk"))["inputs"]["options"]
+    assert schlenk["friction_coefficients"] == {"lubricant_factor": 1.0}
+    assert "mixture" not in schlenk
     assert tomllib.loads(path.read_text(encoding="utf-8"))["options"]["friction"] == "misharin"
     again = run_study(read_study(path))
     assert again["mesh_loss"] == pytest.approx(run_study(first)["mesh_loss"], rel=1e-12)
