@@ -10,8 +10,7 @@ from mixedlub.laws.contact import mean_hertz_pressure
     "Arana, Larranaga and Ulacia",
     "contact",
     sources=1,
-    status="one source; its measured gear losses agree within 5 % with boundary friction 0.065",
-    valid={"kinematic_viscosity": (0.0, 220e-6)},
+    status="one source, read in full; gear losses measured there agree within 5 % with boundary friction 0.065",
     coefficients=(
         Coefficient(
             "limiting_stress_ratio",
@@ -37,11 +36,12 @@ def arana(
               \frac{\eta_p\,\alpha\,v_s}{2\Lambda h},\ \Lambda\right] + \xi\mu_B,\quad
               \xi = 1 - \operatorname{erf}(h/\sigma)
 
-    with the mean Hertz pressure and the viscosity at it left to the chain; the Eyring stress is 2 Lambda/alpha. The
-    source has boundary friction 0.065 to 0.07 and a film reduced by inlet heating, which is an effect here. For oils up
-    to ISO VG 220.
+    with the mean Hertz pressure; the Eyring stress is 2 Lambda/alpha. The source takes the viscosity at the mean
+    pressure and temperature of the contact, alpha at the pressure there, a film reduced by inlet heating, and boundary
+    friction 0.065 to 0.07; here the options and effects of the study choose viscosity and film, and alpha is that at
+    the inlet. For oils up to ISO VG 220, which is not checked.
 
-    Source: A. Arana, J. Larranaga, I. Ulacia, Proc. IMechE J 233 (2019) 303.
+    Source: A. Arana, J. Larranaga, I. Ulacia, Proc. IMechE J 233 (2019) 303, eq. 13 and 14.
 
     >>> [round(float(arana(1.0, 15e-9, 1e9, 0.0, h, 1e-6, 1.0, limiting_stress_ratio=0.047)), 4)
     ...  for h in (0.5e-6, 1e-6, 1.5e-6)]   # the share of the asperities
