@@ -68,6 +68,8 @@ oil_density             | rho        | kg/m^3  | density of the oil
 kinematic_viscosity     | nu         | m^2/s   | kinematic viscosity at oil temperature and ambient pressure
 oil_conductivity        | k_f        | W/(m K) | thermal conductivity of the oil
 oil_heat_capacity       | c_f        | J/(kg K) | specific heat of the oil
+pressure_modulus        | A          | Pa      | pressure over the logarithm of the viscosity's rise, at small pressure
+modulus_slope           | B          | -       | rise of that modulus with pressure
 eyring_stress           | tau_0      | Pa      | stress at which shear stops being Newtonian
 # roughness (both surfaces together unless a side is named)
 m0                      | m_0        | m^2     | variance of the profile heights

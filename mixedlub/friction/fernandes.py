@@ -31,7 +31,8 @@ def fernandes(
     .. math:: \mu_m = 0.014\,S_p^{-0.25} S_g^{0.125} X_L,\quad
               S_p = v_{\Sigma C}\,\eta\sqrt{\alpha/F_n},\quad S_g = \frac{R_a^2}{\epsilon_\alpha b\,\rho_C}
 
-    in SI; F_n is the normal force on the flank.
+    in SI; F_n is the normal force on the flank. The source has the shortest total contact line in place of the face
+    width b, which differs in helical gears.
 
     Source: C. M. C. G. Fernandes, P. M. T. Marques, R. C. Martins, J. H. O. Seabra, Tribol. Int. 88 (2015) 309;
     constants as in the authors' program.

@@ -148,6 +148,26 @@ def roelands_coefficient(viscosity: np.ndarray, exponent: float) -> np.ndarray:
     return exponent * (np.log(viscosity) + ROELANDS_LOG) / ROELANDS_PRESSURE
 
 
+@VISCOSITY.offers("modulus", "viscosity in the contact by the modulus equation, of an oil that has its constants")
+def modulus_viscosity(
+    viscosity: np.ndarray, pressure_modulus: np.ndarray, modulus_slope: np.ndarray, hertz_pressure: np.ndarray
+) -> np.ndarray:
+    r"""Viscosity under pressure (Pa s), :math:`\eta = \eta_0\exp[p/(A + B p)]`.
+
+    The pressure-viscosity coefficient falls from 1/A at no pressure for B above 0. Below 0 it grows, and where A + B p
+    would reach 0 the viscosity is held at a rise of exp(500).
+    Source: A. Arana, J. Larranaga, I. Ulacia, Proc. IMechE J 233 (2019) 303, eq. 30.
+
+    >>> a, b = 1e9 * np.array([0.043639, 0.052494, 0.072629]), np.array([-1.0966e-3, 24.016e-3, 38.924e-3])
+    >>> rise = np.log(modulus_viscosity(1.0, a, b, 1e9))   # N100, M100 and PAO100 at 60 degC
+    >>> rise.round(2).tolist()
+    [23.51, 13.07, 8.96]
+    """
+    stiffness = pressure_modulus + modulus_slope * hertz_pressure
+    rise = np.where(stiffness > hertz_pressure / LARGEST_LOG, hertz_pressure / np.maximum(stiffness, 1.0), LARGEST_LOG)
+    return viscosity * np.exp(rise)
+
+
 @VISCOSITY.offers("barus", "viscosity in the contact by Barus (far too high above 0.3 GPa)")
 def barus_in_contact(viscosity: np.ndarray, pressure_viscosity: np.ndarray, hertz_pressure: np.ndarray) -> np.ndarray:
     r"""Barus viscosity at the largest Hertz pressure (Pa s), :math:`\eta_0 e^{\alpha p_0}`.

@@ -94,6 +94,7 @@ def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (
             value=(nu1, nu2),
         )
     a1, a2 = full["pressure_viscosity_per_GPa"]
+    modulus = full.get("pressure_modulus_MPa")
     return Lubricant(
         name=section.name,
         temperature=(t1 + ZERO_CELSIUS, t2 + ZERO_CELSIUS),
@@ -104,6 +105,8 @@ def lubricant(section: system_file.Lubricant | None, unread: Collection[str] = (
         eyring_stress=full["eyring_stress_MPa"] * 1e6,
         conductivity=full["thermal_conductivity_W_mK"],
         heat_capacity=full["specific_heat_J_kgK"],
+        pressure_modulus=None if modulus is None else (modulus[0] * 1e6, modulus[1] * 1e6),
+        modulus_slope=full.get("pressure_modulus_slope"),
     )
 
 
@@ -114,7 +117,10 @@ def _report_oil(section: system_file.Lubricant, folder: Path) -> None:
     stated = section.model_dump()
     other = overridden(stated, folder)
     if other:
-        text = ", ".join(f"{name} = {stated[name]} in place of {value}" for name, value in other.items())
+        text = ", ".join(
+            f"{name} {value} left out" if stated[name] is None else f"{name} = {stated[name]} in place of {value}"
+            for name, value in other.items()
+        )
         report(finding("oil_overridden", f"{text} of oil {section.oil}", "lubricant"))
     properties = oil_of(section.oil, folder).properties
     typical = [name for name, p in properties.items() if p.status == "typical" and name not in other]

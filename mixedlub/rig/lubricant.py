@@ -22,6 +22,8 @@ class Lubricant:
     eyring_stress: float
     conductivity: float
     heat_capacity: float
+    pressure_modulus: tuple[float, float] | None = None
+    modulus_slope: tuple[float, float] | None = None
 
     def density(self, temperature: np.ndarray) -> np.ndarray:
         """Density at ambient pressure (kg/m^3): linear in temperature (K)."""
@@ -34,7 +36,11 @@ class Lubricant:
 
     def pressure_coefficient(self, temperature: np.ndarray) -> np.ndarray:
         """Pressure-viscosity coefficient (1/Pa): linear in temperature through its two values."""
-        (t1, t2), (a1, a2) = self.temperature, self.pressure_viscosity
+        return self._linear(self.pressure_viscosity, temperature)
+
+    def _linear(self, values: tuple[float, float], temperature: np.ndarray) -> np.ndarray:
+        """A property that is linear in temperature (K), by its values at the two known temperatures."""
+        (t1, t2), (a1, a2) = self.temperature, values
         return a1 + (a2 - a1) * (temperature - t1) / (t2 - t1)
 
     def inputs(self, temperature: np.ndarray) -> dict[str, np.ndarray | float]:
@@ -56,4 +62,14 @@ class Lubricant:
             "oil_conductivity": self.conductivity,
             "oil_heat_capacity": self.heat_capacity,
             "eyring_stress": self.eyring_stress,
+            **self._modulus(temperature),
+        }
+
+    def _modulus(self, temperature: np.ndarray) -> dict[str, np.ndarray]:
+        """Constants of the modulus equation, where the oil has them."""
+        if self.pressure_modulus is None or self.modulus_slope is None:
+            return {}
+        return {
+            "pressure_modulus": self._linear(self.pressure_modulus, temperature),
+            "modulus_slope": self._linear(self.modulus_slope, temperature),
         }

@@ -109,6 +109,8 @@ def oil_of(named: str, folder: Path) -> OilFile:
 
 PAIRS = ("kinematic_viscosity_mm2_s", "pressure_viscosity_per_GPa")
 """Keys with a value at each of the two temperatures of the section."""
+MODULUS = ("pressure_modulus_MPa", "pressure_modulus_slope")
+"""Keys of the modulus equation, also at these temperatures: another pressure-viscosity coefficient contradicts them."""
 
 
 def with_oil(given: Mapping[str, Any], folder: Path) -> dict[str, Any]:
@@ -124,10 +126,12 @@ def with_oil(given: Mapping[str, Any], folder: Path) -> dict[str, Any]:
         at = list(own["temperature_C"])
         rule = f"the oil has its values at {at} °C: leave it out, or give {' and '.join(lacking)} too"
         raise InputError(rule, where="temperature_C", value=given["temperature_C"])
+    if PAIRS[1] in given:
+        own = {name: value for name, value in own.items() if name not in MODULUS}
     return {**own, **given}
 
 
 def overridden(section: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """What a section states itself although its oil has another value; the name aside."""
+    """What an oil has that its section states otherwise, or has no use for; the name aside."""
     own = oil_of(str(section["oil"]), folder).keys
-    return {k: v for k, v in own.items() if k != "name" and section.get(k) is not None and section[k] != v}
+    return {name: value for name, value in own.items() if name != "name" and section[name] != value}

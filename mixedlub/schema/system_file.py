@@ -132,11 +132,23 @@ class Lubricant(Section):
     pressure_viscosity_per_GPa: Pair | None = key(
         "pressure-viscosity coefficient there; linear between and beyond", None, example=[18.0, 14.0]
     )
+    pressure_modulus_MPa: Pair | None = key(
+        'A of the modulus equation there, for viscosity_law = "modulus"; linear between and beyond',
+        None,
+        example=[55.6, 71.4],
+    )
+    pressure_modulus_slope: Pair | None = key("B of the modulus equation there", None, example=[0.03, 0.04])
     density_15C_kg_m3: Number | None = key("density at 15 °C", None, example=850.0)
     density_change_per_K: Number | None = key("relative fall of the density", None, example=7e-4)
     eyring_stress_MPa: Number | None = key("Eyring stress of the film", None, example=5.0)
     thermal_conductivity_W_mK: Number | None = key("thermal conductivity of the oil", None, example=0.14)
     specific_heat_J_kgK: Number | None = key("specific heat of the oil", None, example=2000.0)
+
+    @model_validator(mode="after")
+    def _both_of_the_modulus(self) -> Lubricant:
+        if (self.pressure_modulus_MPa is None) != (self.pressure_modulus_slope is None):
+            raise ValueError("the modulus equation needs both pressure_modulus_MPa and pressure_modulus_slope")
+        return self
 
     @model_validator(mode="before")
     @classmethod

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from mixedlub import friction
 from mixedlub.chain.model import Model, available
 from mixedlub.effects import known_in
+from mixedlub.rig.lubricant import Lubricant
 from mixedlub.schema.findings import finding, report
 from mixedlub.study.options import ignored, study_chain
 from mixedlub.study.schema import Options, StudyFile
@@ -32,6 +33,17 @@ def check_coefficients(options: Options, place: str = PLACE) -> None:
     assumed = [f"{c.name} = {c.default:g}" for c in law.coefficients if c.name not in given]
     if assumed:
         report(finding("friction_coefficient_assumed", f"{', '.join(assumed)} taken for {law.name}", place))
+
+
+def check_viscosity(options: Options, oil: Lubricant) -> None:
+    """Refuse the modulus equation of an oil without its constants; say where an oil has them and they are not used."""
+    if options.viscosity_law == "modulus":
+        if oil.pressure_modulus is None:
+            rule = "needs pressure_modulus_MPa and pressure_modulus_slope in [lubricant], or an oil that has them"
+            raise InputError(rule, where="options.viscosity_law", value="modulus")
+    elif oil.pressure_modulus is not None:
+        text = f"{options.viscosity_law} in place of the modulus equation, whose constants the oil has"
+        report(finding("oil_law_unread", text, "options.viscosity_law"))
 
 
 def check_effects(file: StudyFile, given: Sequence[str]) -> None:

@@ -26,7 +26,7 @@ from mixedlub.rig.rig import Rig
 from mixedlub.rig.surface import Surface, paired
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, report
-from mixedlub.study.friction_options import check_coefficients, check_effects, check_friction
+from mixedlub.study.friction_options import check_coefficients, check_effects, check_friction, check_viscosity
 from mixedlub.study.options import at_hardness, study_chain
 from mixedlub.study.schema import Options, Pairings, StudyFile
 from profiles.errors import InputError, nearest
@@ -183,6 +183,7 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     check_coefficients(options)
     points = rig.mesh(options.path_points, options.face_slices)
     oil = rig.oil()
+    check_viscosity(options, oil)
     surfaces = {s: rig.surface(s) for s in used}
     inputs = {
         **condition_inputs(file, pair, points, oil),

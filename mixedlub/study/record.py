@@ -110,7 +110,12 @@ def _geometry(study: Study) -> dict[str, Any]:
 
 
 def _oil(oil: Lubricant) -> dict[str, Any]:
+    modulus = {}
+    if oil.pressure_modulus is not None and oil.modulus_slope is not None:
+        modulus["pressure_modulus_MPa"] = [_plain(a * 1e-6) for a in oil.pressure_modulus]
+        modulus["pressure_modulus_slope"] = list(oil.modulus_slope)
     return {
+        **modulus,
         "name": oil.name,
         "temperature_C": [_plain(t - ZERO_CELSIUS) for t in oil.temperature],
         "kinematic_viscosity_mm2_s": [_plain(nu * 1e6) for nu in oil.kinematic_viscosity],

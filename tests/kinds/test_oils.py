@@ -13,12 +13,14 @@ import pytest
 import mixedlub as ml
 from mixedlub.case.files import case_files
 from mixedlub.case.folder import read_case
-from mixedlub.laws.oil import temperature_viscosity
+from mixedlub.laws.oil import modulus_viscosity, temperature_viscosity
 from mixedlub.rig import build
 from mixedlub.schema.findings import collected
 from mixedlub.schema.oil_file import STATUSES, oil_names, shipped_oil
 from mixedlub.schema.system_file import Lubricant
+from mixedlub.schema.toml_file import to_toml
 from mixedlub.study import read_study, run_study
+from mixedlub.study.record import resolved
 from profiles.errors import InputError
 
 CASE = Path(__file__).parents[2] / "examples" / "case"
@@ -60,10 +62,10 @@ def test_every_oil_is_complete_and_every_number_has_its_source(name: str) -> Non
 
 
 def test_pressure_viscosity_of_the_modulus_equation_is_its_slope_without_pressure() -> None:
-    """alpha = 1/(a1 + a2 T); at 60 °C 22.92, 19.05 and 13.77 per GPa."""
+    """alpha = 1/A, linear in temperature; at 60 °C 22.92, 19.05 and 13.77 per GPa."""
     for name, at_60 in (("n100", 22.92), ("m100", 19.05), ("pao_vg100", 13.77)):
-        law = shipped_oil(name).further["modulus_equation"].values
-        alpha = [1e9 / (law["a1"] + law["a2"] * (celsius + 273.15)) for celsius in (40.0, 60.0, 100.0)]
+        low, high = shipped_oil(name).properties["pressure_modulus_MPa"].value
+        alpha = [1e3 / modulus for modulus in (low, low + (high - low) / 3, high)]
         assert alpha[1] == pytest.approx(at_60, abs=0.006)
         assert shipped_oil(name).properties["pressure_viscosity_per_GPa"].value == pytest.approx(
             [alpha[0], alpha[2]], abs=0.06
@@ -71,6 +73,35 @@ def test_pressure_viscosity_of_the_modulus_equation_is_its_slope_without_pressur
         ratio = shipped_oil(name).further["limiting_stress"].values["Lambda"]
         stress = shipped_oil(name).properties["eyring_stress_MPa"].value
         assert stress == pytest.approx(2e3 * ratio / alpha[1], abs=0.06)
+
+
+def test_modulus_equation_of_an_oil_is_a_law_of_its_own(tmp_path: Path) -> None:
+    """At 1 GPa and 60 °C viscosity rises by exp(23.51), exp(13.07) and exp(8.96)."""
+    for name, rise in (("n100", 23.51), ("m100", 13.07), ("pao_vg100", 8.96)):
+        inputs = lubricant(oil=name)[0].inputs(np.array(333.15))
+        found = modulus_viscosity(1.0, inputs["pressure_modulus"], inputs["modulus_slope"], 1e9)
+        assert np.log(found) == pytest.approx(rise, abs=0.006)
+    modulus = tmp_path / "modulus.toml"
+    modulus.write_text(
+        STUDY + 'lubricant = { oil = "m100" }\noptions = { viscosity_law = "modulus" }\n', encoding="utf-8"
+    )
+    first = read_study(modulus)
+    assert "oil_law_unread" not in {one.code for one in first.notes}
+    again = tmp_path / "again.toml"
+    again.write_text(to_toml(resolved(first)["inputs"]), encoding="utf-8")
+    assert run_study(read_study(again))["mesh_loss"] == pytest.approx(run_study(first)["mesh_loss"], rel=1e-12)
+    plain = read_study(study(tmp_path, 'oil = "m100"'))
+    assert "oil_law_unread" in {one.code for one in plain.notes}
+    assert not np.allclose(run_study(plain)["mesh_loss"], run_study(first)["mesh_loss"], rtol=0.01)
+
+
+def test_modulus_equation_without_its_constants_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "modulus.toml"
+    path.write_text(STUDY + 'options = { viscosity_law = "modulus" }\n', encoding="utf-8")
+    with pytest.raises(InputError, match="needs pressure_modulus_MPa and pressure_modulus_slope in"):
+        read_study(path)
+    with pytest.raises(InputError, match="needs both pressure_modulus_MPa and pressure_modulus_slope"):
+        ml.oil("mineral", pressure_modulus_MPa=(50.0, 60.0))
 
 
 def test_turbine_oil_has_the_viscosity_that_the_gear_tests_print() -> None:
@@ -118,7 +149,9 @@ def test_values_at_other_temperatures_are_not_mixed() -> None:
     with pytest.raises(InputError, match=r"the oil has its values at \[40.0, 100.0\] °C"):
         ml.oil("n100", temperature_C=[20.0, 80.0], kinematic_viscosity_mm2_s=[300.0, 15.0])
     own = {"kinematic_viscosity_mm2_s": [300.0, 15.0], "pressure_viscosity_per_GPa": [28.0, 18.0]}
-    assert ml.oil("n100", temperature_C=[20.0, 80.0], **own).temperature_C == (20.0, 80.0)
+    moved, said = lubricant(oil="n100", temperature_C=[20.0, 80.0], **own)
+    assert moved.pressure_modulus is None
+    assert "pressure_modulus_slope (-0.00073064, -0.00182865) left out of oil n100" in said["oil_overridden"]
 
 
 def study(tmp_path: Path, lubricant: str) -> Path:
