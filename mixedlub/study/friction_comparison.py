@@ -13,7 +13,7 @@ import pandas as pd
 from mixedlub.chain.friction_law import FrictionLaw
 from mixedlub.chain.model import Model
 from mixedlub.friction import BASE, catalogue, find
-from mixedlub.gear.mesh import at_roll_angle
+from mixedlub.gear.mesh import Mesh, at_roll_angle
 from mixedlub.schema.toml_file import parse
 from mixedlub.study.friction_options import check_coefficients
 from mixedlub.study.options import study_chain, with_friction
@@ -63,8 +63,7 @@ class Comparison:
         pair = self.study.pair
         angles = np.linspace(pair.path_start, pair.path_end, POINTS) / pair.base_radius[0]
         angles = np.unique(np.append(angles, pair.pitch_point / pair.base_radius[0]))
-        mesh = at_roll_angle(pair, self.study.rig.sharing, angles, slices=1)
-        inputs = condition_inputs(self.study.file, pair, mesh, self.study.oil)
+        mesh, inputs = self._at(angles)
         place = np.argmin(np.abs(mesh.sliding_per_speed))
         inputs["sliding_speed"][..., place] = 0.0  # rounding aside
         return self._table("roll_angle_deg", np.degrees(angles), inputs)
@@ -72,11 +71,16 @@ class Comparison:
     def over_ratio(self) -> pd.DataFrame:
         """Friction of every law over the slide-to-roll ratio, in the contact that the pitch point has."""
         pair = self.study.pair
-        mesh = at_roll_angle(pair, self.study.rig.sharing, [pair.pitch_point / pair.base_radius[0]], slices=1)
-        inputs = condition_inputs(self.study.file, pair, mesh, self.study.oil)
+        _, inputs = self._at(np.array([pair.pitch_point / pair.base_radius[0]]))
         ratio = np.linspace(0.0, LARGEST_RATIO, POINTS)
         inputs["sliding_speed"] = ratio * inputs["entrainment_speed"]
         return self._table("slide_roll_ratio", ratio, inputs)
+
+    def _at(self, angles: np.ndarray) -> tuple[Mesh, dict[str, Any]]:
+        """The contact points at pinion roll angles (rad), and their chain inputs."""
+        mesh = at_roll_angle(self.study.pair, self.study.rig.sharing, angles, slices=1)
+        with np.errstate(invalid="ignore"):  # points of no quadrature have no weights for a mean
+            return mesh, condition_inputs(self.study.file, self.study.pair, mesh, self.study.oil)
 
     def _inputs(self, inputs: Mapping[str, Any]) -> dict[str, Any]:
         file = self.study.file
@@ -162,7 +166,8 @@ def checked(coefficients: Coefficients) -> dict[str, Mapping[str, float]]:
     """The coefficients by law; a law or coefficient that does not exist is refused."""
     for name, given in coefficients.items():
         find(name, "--coefficients")
-        check_coefficients(Options(friction=name, friction_coefficients=dict(given)), f"--coefficients: {name}")
+        where = f"--coefficients: {name}"
+        check_coefficients(parse(Options, {"friction": name, "friction_coefficients": given}, where), where)
     return dict(coefficients)
 
 

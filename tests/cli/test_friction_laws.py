@@ -12,7 +12,9 @@ import mixedlub as ml
 from mixedlub.cli import main
 from mixedlub.friction import catalogue
 from mixedlub.friction.benedict_kelley import benedict_kelley
+from mixedlub.report.friction_figures import COLOURS, GREY, figures
 from mixedlub.study import read_study, run_study
+from mixedlub.study.friction_comparison import compared
 
 STUDY = """
 schema = "mixedlub-study/1"
@@ -55,6 +57,9 @@ def test_a_page_has_equation_range_status_source_and_coefficients(name, capsys):
         (["misharin", "--study", "gears.toml"], "leave the name out"),
         (["--study", "gears.toml", "--pairing", "ground / groun"], "nearest known: 'ground / ground'"),
         (["--study", "gears.toml", "--coefficients", "laws.toml"], "nearest known: 'limiting_stress_ratio'"),
+        (["--study", "gears.toml", "--coefficients", "words.toml"], "limiting_stress_ratio: 'much': must be a number"),
+        (["--study", "gears.toml", "--coefficients", "flat.toml"], "must be a table of keys"),
+        (["--study", "gears.toml", "--coefficients", "absent.toml"], "absent.toml: no such file"),
         (["--study", "gears.toml", "--format", "gif"], "no such format"),
         (["--study", "gears.toml", "--torque-Nm", "-5"], "torque_Nm"),
         (["--study", "nothing.toml"], "nothing.toml"),
@@ -64,6 +69,8 @@ def test_a_page_has_equation_range_status_source_and_coefficients(name, capsys):
 def test_bad_input_is_refused(words, said, study, capsys, monkeypatch):
     monkeypatch.chdir(study.parent)
     (study.parent / "laws.toml").write_text("[arana]\nlimiting_stress_rati = 0.05\n", encoding="utf-8")
+    (study.parent / "words.toml").write_text('[arana]\nlimiting_stress_ratio = "much"\n', encoding="utf-8")
+    (study.parent / "flat.toml").write_text("arana = 3\n", encoding="utf-8")
     assert main(["friction-laws", *words]) == 2
     assert said in capsys.readouterr().err
     assert not (study.parent / "out").exists()
@@ -96,6 +103,30 @@ def test_the_comparison_writes_tables_with_units_and_three_figures(study, tmp_pa
     inside = misharin["validity"] == "valid"
     assert (misharin["slide_roll_ratio"][inside] >= 0.8 - 1e-9).all()
     assert (misharin["validity"] == "outside range").any()
+
+
+def test_figures_are_grey_outside_the_range_of_a_law(study):
+    comparison = compared(read_study(study), {})
+    path = comparison.along_path()
+    drawn = next(iter(figures(comparison, path, path.head(0), path.head(0)))).figure
+    (panel,) = (p for p in drawn.axes if p.get_title() == "Misharin")
+    shown = {line.get_color(): np.isfinite(line.get_ydata()) for line in panel.lines}
+    validity = path[path["law"] == "misharin"]["validity"].to_numpy()
+    assert (shown[GREY] == (validity == "outside range")).all()
+    assert (shown[COLOURS["contact"]] == (validity == "valid")).all()
+    (panel,) = (p for p in drawn.axes if p.get_title() == "ISO TC60")
+    assert not any(np.isfinite(line.get_ydata()).any() for line in panel.lines if line.get_color() == GREY)
+
+
+def test_coefficients_of_the_study_itself_are_compared_with(study):
+    text = study.read_text(encoding="utf-8")
+    own = 'options = { friction = "constant", friction_coefficients = { friction = 0.04 } }\n'
+    study.write_text(text + own, encoding="utf-8")
+    comparison = compared(read_study(study), {}, speed_rpm=1500.0)
+    path = comparison.along_path()
+    assert path[path["law"] == "constant"]["friction"].unique().tolist() == [0.04]
+    assert comparison.study.file.conditions.speed_rpm == (1500.0,)
+    assert "schlenk" in set(path["law"])
 
 
 def test_the_mesh_table_is_that_of_studies_with_the_law(study, tmp_path):
