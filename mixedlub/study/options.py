@@ -8,7 +8,8 @@ from typing import Any
 
 from mixedlub.chain.base_models import GEAR_LOSS
 from mixedlub.chain.model import Chain, Law
-from mixedlub.laws.contact import asperity_pressure, mean_hertz_pressure, yielding_asperity_pressure
+from mixedlub.laws.contact import asperity_pressure, mean_hertz_pressure
+from mixedlub.laws.yielding import chang_etsion_bogy_pressure
 from mixedlub.slots import SLOTS, VISCOSITY
 from mixedlub.study.schema import Options
 
@@ -42,11 +43,9 @@ def at_hardness(strength: float, hardness: float) -> Law:
     [2.1, 1.1]
     """
 
-    yielding: Law = yielding_asperity_pressure
-
     def law(*values: Any) -> Any:
         elastic = asperity_pressure(*values)
-        return elastic + strength * (yielding(*values, hardness) - elastic)
+        return elastic + strength * (chang_etsion_bogy_pressure(*values, hardness) - elastic)
 
     return law
 
