@@ -40,7 +40,9 @@ def balanced_film(
     1.0
     """
     with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
-        return full_load_film * np.exp(sharing_exponent * _root(full_load_film, mean_pressure, sharing_exponent, carried))
+        return full_load_film * np.exp(
+            sharing_exponent * _root(full_load_film, mean_pressure, sharing_exponent, carried)
+        )
 
 
 def _root(film: np.ndarray, pressure: np.ndarray, k: float, carried: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:

@@ -98,7 +98,7 @@ area_ratio              | P_B        | -       | real over nominal contact area,
 asperity_pressure       | p_a        | Pa      | mean pressure that asperities carry at this gap
 asperity_load_share     | L          | -       | share of the load that asperities carry, at most 1
 full_load_film          | h_0        | m       | film thickness if the film carried the whole load
-sharing_exponent        | k          | -       | power of whole over film load by which a film that carries less is thicker
+sharing_exponent        | k          | -       | power of whole over film load in the growth of a film that carries less
 film_load_share         | L_h        | -       | share of the load that the film carries
 least_film_share        | L_i        | -       | share of the load below which the film's own contact is isoviscous
 flash_per_friction      | theta_mu   | K       | rise of the surfaces by sliding per unit of friction coefficient

@@ -19,9 +19,7 @@ def full_load_film(film_thickness: np.ndarray) -> np.ndarray:
     return film_thickness
 
 
-def film_load_share(
-    film_thickness: np.ndarray, full_load_film: np.ndarray, sharing_exponent: np.ndarray
-) -> np.ndarray:
+def film_load_share(film_thickness: np.ndarray, full_load_film: np.ndarray, sharing_exponent: np.ndarray) -> np.ndarray:
     r"""Share of the load that a film of this thickness carries (-), :math:`1/\gamma = (h/h_0)^{-1/k}`.
 
     Source: K. L. Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91.
@@ -57,4 +55,3 @@ def least_film_share(
     load = line_load / (reduced_modulus * radius) * speed**-0.5
     material = pressure_viscosity * reduced_modulus * speed**0.25
     return (2.05 / 1.65 * load**-0.075 * material**-0.75) ** (5.0 / 3.0)
-

@@ -7,7 +7,6 @@ import numpy as np
 from mixedlub.slots import ASPERITY_AREA, ASPERITY_LOAD
 from roughness.integrals import area_integral, load_integral
 
-
 GREENWOOD_WILLIAMSON = "elastic asperities of Greenwood and Williamson against a smooth plane"
 
 
@@ -130,9 +129,11 @@ def area_per_overlap(summit_density: np.ndarray, summit_radius: np.ndarray, summ
 def pressure_per_overlap(
     summit_density: np.ndarray, summit_radius: np.ndarray, summit_sigma: np.ndarray, reduced_modulus: np.ndarray
 ) -> np.ndarray:
-    r"""Pressure of elastic summits per mean overlap to the power 3/2 (Pa), :math:`\tfrac43 E^* D R_s^{1/2}\sigma_s^{3/2}`.
+    r"""Pressure of elastic summits per mean overlap to the power 3/2 (Pa).
 
-    A sphere pressed in elastically by d carries 4/3 E* R^(1/2) d^(3/2); E* = E'/2.
+    .. math:: \tfrac43 E^* D R_s^{1/2}\sigma_s^{3/2},\quad E^* = E'/2
+
+    A sphere pressed in elastically by d carries 4/3 E* R^(1/2) d^(3/2).
     Source: J. A. Greenwood, J. B. P. Williamson, Proc. R. Soc. A 295 (1966) 300.
 
     >>> round(float(pressure_per_overlap(4.4106e10, 7.8332e-6, 0.48970e-6, 226.374e9)) / 1e9, 3)

@@ -29,7 +29,7 @@ from mixedlub.study import counted, factors
 from mixedlub.study.checkpoint import fingerprint
 from mixedlub.study.plan import Study
 from mixedlub.study.record import assumed, resolved
-from mixedlub.study.results import COLUMNS, DEFINITIONS, VALIDITY, VALIDITY_MEANING, Results, versions
+from mixedlub.study.results import DEFINITIONS, VALIDITY, VALIDITY_MEANING, Results, versions
 from mixedlub.study.schema import Options, StudyFile
 
 MOST_SURFACES = 12
@@ -101,7 +101,7 @@ def content(results: Results) -> dict[str, Any]:
         "options": option_rows(file.options),
         "effects": [(e, study.plan.parameters[e.id]) for e in study.effects],
         "laws": list(laws_used(study.plan.model())),
-        "definitions": [(column, DEFINITIONS[name]) for name, (column, _) in COLUMNS.items()]
+        "definitions": [(column, DEFINITIONS[name]) for name, (column, _) in results.columns.items()]
         + [(VALIDITY, VALIDITY_MEANING)],
         "fingerprint": fingerprint(study.plan),
         "versions": ", ".join(f"{name} {version}" for name, version in versions().items()),

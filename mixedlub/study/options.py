@@ -6,11 +6,12 @@ import inspect
 from functools import wraps
 from typing import Any
 
+from mixedlub.chain.balance import balanced
 from mixedlub.chain.base_models import GEAR_LOSS
 from mixedlub.chain.model import Chain, Law
 from mixedlub.laws.contact import asperity_pressure, mean_hertz_pressure
 from mixedlub.laws.yielding import chang_etsion_bogy_pressure
-from mixedlub.slots import SLOTS, VISCOSITY
+from mixedlub.slots import VISCOSITY
 from mixedlub.study.schema import Options
 
 
@@ -43,6 +44,7 @@ def at_hardness(strength: float, hardness: float) -> Law:
     [2.1, 1.1]
     """
 
+    @wraps(asperity_pressure)
     def law(*values: Any) -> Any:
         elastic = asperity_pressure(*values)
         return elastic + strength * (chang_etsion_bogy_pressure(*values, hardness) - elastic)
@@ -56,7 +58,8 @@ def study_chain(options: Options) -> Chain:
     >>> dict(study_chain(Options(effective_viscosity="secant")))["shear_stress"].__name__
     'ree_eyring_secant'
     """
-    chosen = {slot.quantity: slot.choices[getattr(options, slot.option)].law for slot in SLOTS}
+    chosen = options.laws
     if options.viscosity_pressure == "mean":
         chosen[VISCOSITY.quantity] = at_mean_pressure(chosen[VISCOSITY.quantity])
-    return tuple((name, chosen.get(name, law)) for name, law in GEAR_LOSS)
+    chain = tuple((name, chosen.get(name, law)) for name, law in GEAR_LOSS)
+    return chain if options.balance == "none" else balanced(chain)

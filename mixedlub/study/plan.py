@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from inspect import signature
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,6 @@ from mixedlub.chain.model import Law, Model, Parameters
 from mixedlub.effects import LAW, find, known_effects
 from mixedlub.gear import GearPair, Mesh
 from mixedlub.gear.inputs import motion_inputs
-from mixedlub.laws.contact import asperity_pressure
 from mixedlub.laws.load import LEAST_SHARE
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.lubricant import Lubricant
@@ -37,11 +37,11 @@ WANTED = (
     "film_thickness",
     "composite_roughness",
     "hertz_pressure",
-    "separation",
-    "summit_density",
-    "summit_radius",
-    "summit_sigma",
 )
+BALANCED = ("asperity_pressure", "full_load_film", "film_load_share", "least_film_share")
+"""What is wanted as well where film and asperities share the load."""
+AREA_ALONE = ("balance", "asperities", "mixture")
+"""Options at whose defaults an effect on the contact area needs no other change."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,14 +66,25 @@ class Plan:
 
     def model(self) -> Model:
         """The chain of the chosen options with the active effects."""
-        wanted = dict.fromkeys((*WANTED, *(name for e in self.effects for name in e.valid)))
+        of_effects = (name for e in self.effects for name in e.valid)
+        wanted = dict.fromkeys((*WANTED, *(BALANCED if self.balanced else ()), *self.asperities_read, *of_effects))
         return Model(study_chain(self.options), tuple(self.inputs), tuple(wanted), self.effects)
+
+    @property
+    def balanced(self) -> bool:
+        """Whether film and asperities share the load."""
+        return self.options.balance != "none"
 
     @property
     def asperities(self) -> Law:
         """Law of the pressure that asperities would carry: yielding ones where plasticity is on."""
         plastic = self.parameters.get("asperity_plasticity")
-        return at_hardness(**plastic) if plastic else asperity_pressure
+        return at_hardness(**plastic) if plastic else self.options.laws["asperity_pressure"]
+
+    @property
+    def asperities_read(self) -> tuple[str, ...]:
+        """The quantities that this law reads."""
+        return tuple(signature(self.asperities).parameters)
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,7 +189,10 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
         **_condition_inputs(file, pair, points, oil),
         **_pairing_inputs([(surfaces[a], surfaces[b]) for a, b in chosen]),
         "boundary_friction": file.boundary_friction,
+        **({} if options.hardness_GPa is None else {"hardness": options.hardness_GPa * 1e9}),
     }
+    if options.balance != "none":
+        _refuse_smooth([(surfaces[a], surfaces[b]) for a, b in chosen])
     effects, parameters = _effects(file, inputs)
     levels = file.conditions
     shape = (len(chosen), len(levels.oil_temperature_C), len(levels.torque_Nm), len(levels.speed_rpm))
@@ -212,14 +226,38 @@ def _pairing_inputs(pairs: list[tuple[Surface, Surface]]) -> dict[str, np.ndarra
     return {name: values.reshape(-1, 1, 1, 1, 1) for name, values in both.items()}
 
 
+def _refuse_smooth(pairs: list[tuple[Surface, Surface]]) -> None:
+    """Refuse pairings without roughness, whose film carries all of the load."""
+    for a, b in pairs:
+        for moment in ("m0", "m2", "m4"):
+            if not getattr(a, moment) + getattr(b, moment) > 0.0:
+                rule = f"{a.name} / {b.name} has no roughness ({moment} is 0), so there is no load to share"
+                raise InputError(f'{rule}; balance = "none" has the film alone', where="options.balance")
+
+
 def _effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, ...], Parameters]:
     """The active effects, each parameter at its given value or as its law has it."""
     known = known_effects(file.effects, "gear_pair", study_chain(file.options), tuple(inputs), "power_loss")
     for effect, name in known.sds:
         raise InputError("a study has no uncertainty; leave it out", where=f"effects.{effect}.{name}_sd")
     for e in known.effects:
+        _refuse_ignored(e, file.options)
         _tell_defaults(e, file.effects[e.id], known.values[e.id])
     return known.effects, known.values
+
+
+def _refuse_ignored(e: Effect, options: Options) -> None:
+    """Refuse an effect on the contact area alone where asperities carry load by a law that does not know of it."""
+    default = Options()
+    changed = [
+        f'{name} = "{getattr(default, name)}"'
+        for name in AREA_ALONE
+        if getattr(options, name) != getattr(default, name)
+    ]
+    if "area_ratio" in e.acts_on and changed:
+        rule = f"changes the contact area and not the load of the asperities; it needs {' and '.join(changed)}"
+        other = '; for asperities that yield, asperities = "chang_etsion_bogy" has the same law with its load'
+        raise InputError(rule + (other if e.id == "asperity_plasticity" else ""), where=f"effects.{e.id}")
 
 
 def _tell_defaults(e: Effect, given: Mapping[str, float | str], values: Mapping[str, float]) -> None:
