@@ -138,7 +138,8 @@ def findings(results: Results) -> list[str]:
             f"{' / '.join(study.pairings[best])} loses {100 * (1 - column[best] / column[worst]):.0f} % less than "
             f"{' / '.join(study.pairings[worst])}."
         )
-    sentences += [text for text in (_linear(results, where), _left_above_one(results)) if text]
+    further = (_shared(results), _linear(results, where), _left_above_one(results))
+    sentences += [text for text in further if text]
     quiet = (ratio < 1e-3).any(axis=(1, 2, 3))
     if quiet.any() and not quiet.all():
         names = [" / ".join(study.pairings[i]) for i in np.flatnonzero(quiet)[:6]]
@@ -147,6 +148,17 @@ def findings(results: Results) -> list[str]:
             f"Practically free of asperity contact (area ratio below 0.001) somewhere: {', '.join(names)}{more}."
         )
     return sentences
+
+
+def _shared(results: Results) -> str:
+    """How film and asperities share the load; empty where the film formula sets the gap."""
+    if not results.study.plan.balanced:
+        return ""
+    share, thicker = results["mean_asperity_load_share"], results["film_over_unbalanced"]
+    return (
+        f"Of the load, asperities carry between {share.min():.2g} and {share.max():.3g}, mean over the path of contact; "
+        f"the film is {thicker.min():.3g} to {thicker.max():.3g} times as thick as one that carries all of it."
+    )
 
 
 def _linear(results: Results, where: Callable[[int], str]) -> str:

@@ -63,7 +63,8 @@ DEFINITIONS = {
     "they carry most; 0 where none touch",
     "mean_asperity_load_share": "share of the load that asperities carry, plain mean over the path of contact as far "
     "as it carries load",
-    "film_over_unbalanced": "film thickness over that of a film which carries the whole load, plain mean over the path of contact",
+    "film_over_unbalanced": "film thickness over that of a film which carries the whole load, plain mean over the "
+    "path of contact as far as it carries load",
     "balance_error": "part of the load by which film and asperities together miss it, the largest of the path",
     "film_below_its_share": "1 where the film carries less than its law is for, anywhere on the path",
     "largest_area_ratio": "boundary area ratio where asperities carry most",
