@@ -22,7 +22,7 @@ _DEEPEST = 10.0
 
 
 def yield_overlap(
-    hardness: np.ndarray, reduced_modulus: np.ndarray, summit_radius: np.ndarray, summit_sigma: np.ndarray
+    hardness: np.ndarray | float, reduced_modulus: np.ndarray, summit_radius: np.ndarray, summit_sigma: np.ndarray
 ) -> np.ndarray:
     r"""Overlap at which a summit begins to yield, over summit sigma (-), for a Poisson's ratio of 0.3.
 
@@ -39,7 +39,7 @@ def yield_overlap(
 
 
 def mean_pressure_overlap(
-    hardness: np.ndarray, reduced_modulus: np.ndarray, summit_radius: np.ndarray, summit_sigma: np.ndarray
+    hardness: np.ndarray | float, reduced_modulus: np.ndarray, summit_radius: np.ndarray, summit_sigma: np.ndarray
 ) -> np.ndarray:
     r"""Overlap at which the mean pressure on a summit reaches 0.4 H, over summit sigma (-).
 
@@ -55,7 +55,7 @@ def mean_pressure_overlap(
 
 
 def strength_overlap(
-    hardness: np.ndarray, reduced_modulus: np.ndarray, summit_radius: np.ndarray, summit_sigma: np.ndarray
+    hardness: np.ndarray | float, reduced_modulus: np.ndarray, summit_radius: np.ndarray, summit_sigma: np.ndarray
 ) -> np.ndarray:
     r"""Overlap at which a summit begins to yield by its strength, over summit sigma (-), for a Poisson's ratio of 0.3.
 
@@ -78,7 +78,7 @@ def yielded_area(
     summit_radius: np.ndarray,
     summit_sigma: np.ndarray,
     reduced_modulus: np.ndarray,
-    hardness: np.ndarray,
+    hardness: np.ndarray | float,
 ) -> np.ndarray:
     r"""Area that yielding adds to elastic summits, over nominal area (-), :math:`\pi D R_s\sigma_s F_1(t + w_c)`.
 
@@ -101,7 +101,7 @@ def chang_etsion_bogy_area(
     summit_radius: np.ndarray,
     summit_sigma: np.ndarray,
     reduced_modulus: np.ndarray,
-    hardness: np.ndarray,
+    hardness: np.ndarray | float,
 ) -> np.ndarray:
     r"""Real over nominal contact area (-), :math:`\pi D R_s\sigma_s[F_1(t) + F_1(t + w_c)]`, at most 1.
 
@@ -122,7 +122,7 @@ def chang_etsion_bogy_pressure(
     summit_radius: np.ndarray,
     summit_sigma: np.ndarray,
     reduced_modulus: np.ndarray,
-    hardness: np.ndarray,
+    hardness: np.ndarray | float,
 ) -> np.ndarray:
     r"""Mean pressure that yielding asperities carry (Pa), each K H on the area pi R w (2 - w_c/w).
 
@@ -154,7 +154,7 @@ def zhao_maietta_chang_area(
     summit_radius: np.ndarray,
     summit_sigma: np.ndarray,
     reduced_modulus: np.ndarray,
-    hardness: np.ndarray,
+    hardness: np.ndarray | float,
 ) -> np.ndarray:
     r"""Real over nominal contact area (-), :math:`\pi D R_s\sigma_s S_A(t, w_1)`, at most 1.
 
@@ -176,7 +176,7 @@ def zhao_maietta_chang_pressure(
     summit_radius: np.ndarray,
     summit_sigma: np.ndarray,
     reduced_modulus: np.ndarray,
-    hardness: np.ndarray,
+    hardness: np.ndarray | float,
 ) -> np.ndarray:
     r"""Mean pressure that yielding asperities carry (Pa), :math:`\tfrac43 E^* D R_s^{1/2}\sigma_s^{3/2} S_P(t, w_1)`.
 
@@ -205,7 +205,7 @@ def kogut_etsion_area(
     summit_radius: np.ndarray,
     summit_sigma: np.ndarray,
     reduced_modulus: np.ndarray,
-    hardness: np.ndarray,
+    hardness: np.ndarray | float,
 ) -> np.ndarray:
     r"""Real over nominal contact area (-), :math:`\pi D R_s\sigma_s S_A(t, w_c)`, at most 1.
 
@@ -225,7 +225,7 @@ def kogut_etsion_pressure(
     summit_radius: np.ndarray,
     summit_sigma: np.ndarray,
     reduced_modulus: np.ndarray,
-    hardness: np.ndarray,
+    hardness: np.ndarray | float,
 ) -> np.ndarray:
     r"""Mean pressure that yielding asperities carry (Pa), :math:`\tfrac43 E^* D R_s^{1/2}\sigma_s^{3/2} S_P(t, w_c)`.
 
@@ -248,7 +248,7 @@ def jackson_green_area(
     summit_radius: np.ndarray,
     summit_sigma: np.ndarray,
     reduced_modulus: np.ndarray,
-    hardness: np.ndarray,
+    hardness: np.ndarray | float,
 ) -> np.ndarray:
     r"""Real over nominal contact area (-), :math:`\pi D R_s\sigma_s S_A(t, w_c)`, at most 1; yield strength H/2.8.
 
@@ -269,7 +269,7 @@ def jackson_green_pressure(
     summit_radius: np.ndarray,
     summit_sigma: np.ndarray,
     reduced_modulus: np.ndarray,
-    hardness: np.ndarray,
+    hardness: np.ndarray | float,
 ) -> np.ndarray:
     r"""Mean pressure that yielding asperities carry (Pa), :math:`\tfrac43 E^* D R_s^{1/2}\sigma_s^{3/2} S_P(t, w_c)`.
 
@@ -285,7 +285,7 @@ def jackson_green_pressure(
     return _carried(one, separation, onset, summit_density, summit_radius, summit_sigma, reduced_modulus)
 
 
-def _jackson_green(hardness: np.ndarray, reduced_modulus: np.ndarray) -> single_asperity.Asperity:
+def _jackson_green(hardness: np.ndarray | float, reduced_modulus: np.ndarray) -> single_asperity.Asperity:
     """The asperity of a hardness and a modulus."""
     strength = float(hardness) / single_asperity.HARDNESS_OVER_STRENGTH
     return single_asperity.jackson_green(2.0 * strength / float(reduced_modulus))

@@ -156,7 +156,7 @@ def _shared(results: Results) -> str:
         return ""
     share, thicker = results["mean_asperity_load_share"], results["film_over_unbalanced"]
     return (
-        f"Of the load, asperities carry between {share.min():.2g} and {share.max():.3g}, mean over the path of contact; "
+        f"Of the load, asperities carry between {share.min():.2g} and {share.max():.3g}, mean over the path; "
         f"the film is {thicker.min():.3g} to {thicker.max():.3g} times as thick as one that carries all of it."
     )
 

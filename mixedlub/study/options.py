@@ -44,10 +44,12 @@ def at_hardness(strength: float, hardness: float) -> Law:
     [2.1, 1.1]
     """
 
+    yielding: Law = chang_etsion_bogy_pressure
+
     @wraps(asperity_pressure)
     def law(*values: Any) -> Any:
         elastic = asperity_pressure(*values)
-        return elastic + strength * (chang_etsion_bogy_pressure(*values, hardness) - elastic)
+        return elastic + strength * (yielding(*values, hardness) - elastic)
 
     return law
 

@@ -191,8 +191,6 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
         "boundary_friction": file.boundary_friction,
         **({} if options.hardness_GPa is None else {"hardness": options.hardness_GPa * 1e9}),
     }
-    if options.balance != "none":
-        _refuse_smooth([(surfaces[a], surfaces[b]) for a, b in chosen])
     effects, parameters = _effects(file, inputs)
     levels = file.conditions
     shape = (len(chosen), len(levels.oil_temperature_C), len(levels.torque_Nm), len(levels.speed_rpm))
@@ -226,22 +224,14 @@ def _pairing_inputs(pairs: list[tuple[Surface, Surface]]) -> dict[str, np.ndarra
     return {name: values.reshape(-1, 1, 1, 1, 1) for name, values in both.items()}
 
 
-def _refuse_smooth(pairs: list[tuple[Surface, Surface]]) -> None:
-    """Refuse pairings without roughness, whose film carries all of the load."""
-    for a, b in pairs:
-        for moment in ("m0", "m2", "m4"):
-            if not getattr(a, moment) + getattr(b, moment) > 0.0:
-                rule = f"{a.name} / {b.name} has no roughness ({moment} is 0), so there is no load to share"
-                raise InputError(f'{rule}; balance = "none" has the film alone', where="options.balance")
-
-
 def _effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, ...], Parameters]:
     """The active effects, each parameter at its given value or as its law has it."""
+    for e in find(sorted(file.effects), "effects"):
+        _refuse_ignored(e, file.options)
     known = known_effects(file.effects, "gear_pair", study_chain(file.options), tuple(inputs), "power_loss")
     for effect, name in known.sds:
         raise InputError("a study has no uncertainty; leave it out", where=f"effects.{effect}.{name}_sd")
     for e in known.effects:
-        _refuse_ignored(e, file.options)
         _tell_defaults(e, file.effects[e.id], known.values[e.id])
     return known.effects, known.values
 
