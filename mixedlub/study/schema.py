@@ -115,7 +115,7 @@ class Options(_Laws):
         },
     )
     hardness_GPa: Number | None = key(
-        "indentation hardness of the softer flank, for asperities that yield", None, example=6.0
+        "indentation hardness of the softer flank, for asperities that yield", None, example=6.0, alternative=True
     )
     viscosity_pressure: Literal["maximum", "mean"] = key(
         "pressure at which the viscosity is taken",
