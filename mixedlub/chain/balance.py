@@ -91,7 +91,7 @@ def balanced(chain: Chain) -> Chain:
     laws = dict(chain)
     exponent = sharing_exponent(laws["film_thickness"])
     shared = (
-        ("sharing_exponent", lambda: exponent),
+        ("sharing_exponent", _constant(exponent)),
         ("full_load_film", balance.full_load_film),
         ("film_thickness", _film_law(laws["separation"], laws["asperity_pressure"])),
         ("film_load_share", balance.film_load_share),
@@ -99,6 +99,16 @@ def balanced(chain: Chain) -> Chain:
     )
     place = [name for name, _ in chain].index("separation")
     return (*chain[:place], *shared, *chain[place:])
+
+
+def _constant(exponent: float) -> Law:
+    """The exponent as a law of the chain."""
+
+    def law() -> float:
+        return exponent
+
+    law.__doc__ = sharing_exponent.__doc__
+    return law
 
 
 def _film_law(separation: Law, asperity_pressure: Law) -> Law:

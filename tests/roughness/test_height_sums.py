@@ -64,12 +64,15 @@ def test_table_is_within_its_bound_over_the_whole_range(law, which):
 
 
 @each
-def test_an_onset_of_its_own_for_every_gap_is_integrated(law):
-    gaps = np.linspace(-2.0, 5.0, MOST_ONSETS + 1)
-    onsets = np.geomspace(1e-3, 1.0, MOST_ONSETS + 1)
-    together = height_sum(law, LOAD, gaps, onsets)
-    alone = [height_sum(law, LOAD, gaps[i], onsets[i]) for i in (0, 100, MOST_ONSETS)]
-    assert together[[0, 100, MOST_ONSETS]] == pytest.approx(np.array(alone), rel=1e-7, abs=0.0)
+@pytest.mark.parametrize("which", [AREA, LOAD], ids=["area", "load"])
+def test_many_different_onsets_are_within_their_bound(law, which):
+    rng = np.random.default_rng(3)
+    gaps = rng.uniform(-5.0, LAST, (12, MOST_ONSETS))
+    onsets = 10.0 ** rng.uniform(-3.0, 1.0, (12, MOST_ONSETS))
+    exact = integrated(law, gaps, onsets)[which]
+    assert height_sum(law, which, gaps, onsets) == pytest.approx(exact, rel=1e-6, abs=0.0)
+    edges = np.exp(np.arange(-300, 301) / 64.0)  # on the nodes of the grid, the outermost among them
+    assert height_sum(law, which, 1.0, edges) == pytest.approx(integrated(law, 1.0, edges)[which], rel=1e-6, abs=0.0)
 
 
 @each

@@ -281,3 +281,27 @@ def test_blocks_and_threads_change_nothing(write_study):
     for block in batch.split(shape, (2, 1, 1, shape[3])):
         for name, part in batch.compute(study.plan, block).items():
             assert part == pytest.approx(whole[name][block], rel=1e-9, abs=1e-11)
+
+
+def test_effects_on_film_and_roughness_are_balanced_too(write_study):
+    """Micro-EHL lets the onset of yield vary along the path; inlet heating thins the film that would carry all."""
+    options = {**BALANCE, "asperities": "kogut_etsion", "hardness_GPa": 6.0}
+    effects = {"micro_ehl": {"relative_wavelength": 1.0}, "inlet_shear_heating": {}}
+    found = results(write_study, options, effects=effects, conditions__oil_temperature_C=[60])
+    assert found["balance_error"].max() < 1e-8
+    plain = results(write_study, options, conditions__oil_temperature_C=[60])
+    assert (found["mean_asperity_load_share"] != plain["mean_asperity_load_share"]).all()
+
+
+def test_page_tells_the_shares_and_draws_them(write_study):
+    from mixedlub.report.figures import figures
+    from mixedlub.report.page import content
+
+    shown = results(write_study, conditions__oil_temperature_C=[60])
+    page = content(shown)
+    assert any("asperities carry between" in sentence for sentence in page["findings"])
+    assert any("Johnson" in law.source and law.gives == "film thickness" for law in page["laws"])
+    assert all(law.says for law in page["laws"])
+    assert "mean_asperity_load_share_equal" in [drawn.name for drawn in figures(shown)]
+    plain = results(write_study, {}, conditions__oil_temperature_C=[60])
+    assert not any("asperities carry between" in sentence for sentence in content(plain)["findings"])
