@@ -67,6 +67,8 @@ def _load() -> None:
 
 
 FILM = Slot("film", "film_thickness", "law of the film thickness", "dowson_toyoda_central")
+ASPERITY_AREA = Slot("asperities", "area_ratio", "law of the asperities", "greenwood_williamson")
+ASPERITY_LOAD = Slot("asperities", "asperity_pressure", "law of the asperities", "greenwood_williamson")
 VISCOSITY = Slot("viscosity_law", "contact_viscosity", "law of the viscosity under pressure", "roelands")
 SHEAR = Slot("effective_viscosity", "shear_stress", "how the film thins under shear", "asinh")
 FILM_FRICTION = Slot("contact_pressure", "fluid_friction", "pressure that the shear stress is divided by", "maximum")
@@ -74,5 +76,5 @@ MIXTURE = Slot("mixture", "friction", "friction of film and asperities together"
 SLIDING_POWER = Slot(
     "averaging", "sliding_power", "how the power loss is averaged over the path of contact", "mesh_integral"
 )
-SLOTS = (FILM, VISCOSITY, SHEAR, FILM_FRICTION, MIXTURE, SLIDING_POWER)
-"""In the order of the chain."""
+SLOTS = (FILM, ASPERITY_AREA, ASPERITY_LOAD, VISCOSITY, SHEAR, FILM_FRICTION, MIXTURE, SLIDING_POWER)
+"""In the order of the chain. Slots of one option take the laws of one name."""

@@ -16,7 +16,7 @@ import thresholds
 from sphinx.application import Sphinx
 
 ROOT = Path(__file__).parents[2]
-LAW_MODULES = ("roughness.mccool", "roughness.integrals")
+LAW_MODULES = ("roughness.mccool", "roughness.integrals", "roughness.single_asperity", "roughness.height_sums")
 """Laws of surfaces that the chain calls; those of `mixedlub.laws` come first."""
 TITLES = {"mccool": "McCool's asperities", "integrals": "Integrals of Gaussian heights"}
 COLUMN_HEAD = ("column", "unit", "needed", "allowed", "meaning")

@@ -34,6 +34,7 @@ ALONG_PATH = {
     "film_thickness": ("film_thickness_um", 1e6),
     "composite_roughness": ("composite_roughness_um", 1e6),
     "area_ratio": ("boundary_area_ratio", 1.0),
+    "asperity_pressure": ("asperity_pressure_MPa", 1e-6),
     "shear_stress": ("shear_stress_MPa", 1e-6),
     "fluid_friction": ("fluid_friction", 1.0),
     "friction": ("friction", 1.0),

@@ -15,6 +15,7 @@ ASPERITIES: Chain = (
     ("separation", contact.summit_separation),
     ("area_ratio", contact.real_area_ratio),
     ("asperity_pressure", contact.asperity_pressure),
+    ("asperity_load_share", contact.asperity_load_share),
 )
 
 FRICTION: Chain = (

@@ -49,6 +49,7 @@ mean_weight             | dx/g       | -       | weight of a plain mean over the
 mean_sliding_speed      | V_s        | m/s     | a quarter of the sum of the sliding speeds at both ends of the path
 # bodies
 reduced_modulus         | E'         | Pa      | 2/[(1-nu1^2)/E1 + (1-nu2^2)/E2]
+hardness                | H          | Pa      | indentation hardness of the softer surface
 solid_conductivity      | k_s        | W/(m K) | thermal conductivity of the bodies
 solid_density           | rho_s      | kg/m^3  | density of the bodies
 solid_heat_capacity     | c_s        | J/(kg K) | specific heat of the bodies
@@ -98,7 +99,12 @@ middle_load             | F_m        | N       | geometric mean of the load in t
 film_thickness          | h          | m       | central film thickness
 separation              | t          | -       | gap to the summits' mean plane over summit sigma
 area_ratio              | P_B        | -       | real over nominal contact area, the share of boundary friction
-asperity_pressure       | p_a        | Pa      | mean pressure that elastic asperities would carry at this gap
+asperity_pressure       | p_a        | Pa      | mean pressure that asperities carry at this gap
+asperity_load_share     | L          | -       | share of the load that asperities carry, at most 1
+full_load_film          | h_0        | m       | film thickness if the film carried the whole load
+sharing_exponent        | k          | -       | power of whole over film load in the growth of a film that carries less
+film_load_share         | L_h        | -       | share of the load that the film carries
+least_film_share        | L_i        | -       | share of the load below which the film's own contact is isoviscous
 flash_per_friction      | theta_mu   | K       | rise of the surfaces by sliding per unit of friction coefficient
 contact_viscosity       | eta_p      | Pa s    | viscosity of the film in the contact, of a sample under pressure
 shear_stress            | tau        | Pa      | shear stress of the film

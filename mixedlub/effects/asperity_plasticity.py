@@ -4,10 +4,7 @@ import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import LogNormal
-from mixedlub.laws.contact import area_per_overlap, yield_overlap
-from roughness.integrals import area_integral
-
-_FARTHEST = 10.0
+from mixedlub.laws.yielding import yielded_area
 
 
 @effect(
@@ -45,7 +42,7 @@ def asperity_plasticity(
     K = 0.454 + 0.41 nu at nu = 0.3. With E* = E'/2, onset is at the plasticity index
     (E*/H) sqrt(sigma_s/R_s) = (pi K/2) w_c^(-1/2); below 0.6 contacts are elastic, far above 1 plastic.
 
-    >>> elastic = np.pi * 1e-2 * area_integral(1.0)
+    >>> elastic = np.pi * 1e-2 * 0.08331547   # F_1(1)
     >>> rough = asperity_plasticity(elastic, 1.0, 1e10, 1e-5, 1e-7, 226e9, strength=1.0, hardness=0.6e9)
     >>> round(float(rough / elastic), 2)   # plasticity index 19
     2.0
@@ -53,7 +50,6 @@ def asperity_plasticity(
     >>> round(float(smooth / elastic), 2)   # plasticity index 0.6
     1.0
     """
-    onset = yield_overlap(hardness, reduced_modulus, summit_radius, summit_sigma)
-    yielded = area_integral(np.minimum(separation + onset, _FARTHEST))
-    added = area_per_overlap(summit_density, summit_radius, summit_sigma) * yielded
+    summits = (summit_density, summit_radius, summit_sigma)
+    added = yielded_area(separation, *summits, reduced_modulus, hardness)
     return np.minimum(area_ratio + strength * added, 1.0)

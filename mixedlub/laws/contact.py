@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.slots import ASPERITY_AREA, ASPERITY_LOAD
 from roughness.integrals import area_integral, load_integral
+
+GREENWOOD_WILLIAMSON = "elastic asperities of Greenwood and Williamson against a smooth plane"
 
 
 def reduced_modulus(youngs_modulus: tuple[float, float], poisson_ratio: tuple[float, float]) -> float:
@@ -136,6 +139,23 @@ def area_per_overlap(summit_density: np.ndarray, summit_radius: np.ndarray, summ
     return np.pi * summit_density * summit_radius * summit_sigma
 
 
+def pressure_per_overlap(
+    summit_density: np.ndarray, summit_radius: np.ndarray, summit_sigma: np.ndarray, reduced_modulus: np.ndarray
+) -> np.ndarray:
+    r"""Pressure of elastic summits per mean overlap to the power 3/2 (Pa).
+
+    .. math:: \tfrac43 E^* D R_s^{1/2}\sigma_s^{3/2},\quad E^* = E'/2
+
+    A sphere pressed in elastically by d carries 4/3 E* R^(1/2) d^(3/2).
+    Source: J. A. Greenwood, J. B. P. Williamson, Proc. R. Soc. A 295 (1966) 300.
+
+    >>> round(float(pressure_per_overlap(4.4106e10, 7.8332e-6, 0.48970e-6, 226.374e9)) / 1e9, 3)
+    6.384
+    """
+    return 2.0 / 3.0 * reduced_modulus * summit_density * np.sqrt(summit_radius) * summit_sigma**1.5
+
+
+@ASPERITY_AREA.offers("greenwood_williamson", GREENWOOD_WILLIAMSON)
 def real_area_ratio(
     separation: np.ndarray, summit_density: np.ndarray, summit_radius: np.ndarray, summit_sigma: np.ndarray
 ) -> np.ndarray:
@@ -151,6 +171,7 @@ def real_area_ratio(
     return np.minimum(area, 1.0, out=area if np.ndim(area) else None)
 
 
+@ASPERITY_LOAD.offers("greenwood_williamson", GREENWOOD_WILLIAMSON)
 def asperity_pressure(
     separation: np.ndarray,
     summit_density: np.ndarray,
@@ -169,65 +190,15 @@ def asperity_pressure(
     >>> round(float(p) / 1e9, 1)
     2.1
     """
-    scale = 2.0 / 3.0 * reduced_modulus * summit_density * np.sqrt(summit_radius) * summit_sigma**1.5
-    return scale * load_integral(separation)
+    return pressure_per_overlap(summit_density, summit_radius, summit_sigma, reduced_modulus) * load_integral(
+        separation
+    )
 
 
-def yield_overlap(
-    hardness: float, reduced_modulus: np.ndarray, summit_radius: np.ndarray, summit_sigma: np.ndarray
-) -> np.ndarray:
-    r"""Overlap at which a summit begins to yield, over summit sigma (-), for a Poisson's ratio of 0.3.
+def asperity_load_share(asperity_pressure: np.ndarray, hertz_pressure: np.ndarray) -> np.ndarray:
+    r"""Share of the load that asperities carry (-), :math:`p_a/p_m` with the mean Hertz pressure, at most 1.
 
-    .. math:: w_c = \left(\frac{\pi K H}{E'}\right)^2\frac{R_s}{\sigma_s},\quad K = 0.454 + 0.41\,\nu = 0.577
-
-    The plasticity index is :math:`(E^*/H)\sqrt{\sigma_s/R_s} = (\pi K/2)\,w_c^{-1/2}`, with E* = E'/2.
-    Source: W. R. Chang, I. Etsion, D. B. Bogy, J. Tribol. 109 (1987) 257.
-
-    >>> index = 0.5 * np.pi * YIELD_FACTOR * yield_overlap(6e9, 226e9, 1e-5, 1e-7) ** -0.5
-    >>> round(float(index / (113 / 6 * 0.01**0.5)), 12)
-    1.0
+    >>> float(asperity_load_share(0.3785e9, 0.9642e9).round(3)), float(asperity_load_share(2.1e9, 0.9642e9))
+    (0.5, 1.0)
     """
-    return (np.pi * YIELD_FACTOR * hardness / reduced_modulus) ** 2 * summit_radius / summit_sigma
-
-
-YIELD_FACTOR = 0.577
-"""Largest pressure at the onset of yield over hardness, for a Poisson's ratio of 0.3."""
-
-
-def yielding_asperity_pressure(
-    separation: np.ndarray,
-    summit_density: np.ndarray,
-    summit_radius: np.ndarray,
-    summit_sigma: np.ndarray,
-    reduced_modulus: np.ndarray,
-    hardness: float,
-) -> np.ndarray:
-    r"""Mean pressure that asperities which yield at ``hardness`` (Pa) would carry at this gap (Pa).
-
-    .. math:: p_a = D\sigma_s\left\{\tfrac43 E^* R_s^{1/2}\sigma_s^{1/2}\int_0^{w_c} x^{3/2}\varphi(t+x)\,dx +
-              \pi K H R_s\,[2F_1(t+w_c) + w_c F_0(t+w_c)]\right\}
-
-    Summits beyond `yield_overlap` carry K H on the area pi R w (2 - w_c/w); the others as in `asperity_pressure`.
-    Source: W. R. Chang, I. Etsion, D. B. Bogy, J. Tribol. 109 (1987) 257.
-
-    >>> rough = (0.1806, 4.4106e10, 7.8332e-6, 0.48970e-6, 226.374e9)
-    >>> pressures = [yielding_asperity_pressure(*rough, hardness) for hardness in (600e9, 6e9)]
-    >>> [round(float(p) / 1e9, 1) for p in pressures]   # never yielding: 2.1 as elastic asperities
-    [2.1, 1.1]
-    """
-    from scipy.special import ndtr, roots_jacobi
-
-    onset = yield_overlap(hardness, reduced_modulus, summit_radius, summit_sigma)
-    length = np.minimum(onset, _FARTHEST)
-    nodes, weights = roots_jacobi(_NODES, 0.0, 1.5)
-    elastic = np.zeros(np.broadcast_shapes(np.shape(separation), np.shape(onset)))
-    for node, weight in zip(0.5 * (nodes + 1.0), weights * 0.5**2.5 / np.sqrt(2.0 * np.pi), strict=True):
-        elastic += weight * np.exp(-0.5 * (separation + node * length) ** 2)
-    elastic *= 2.0 / 3.0 * reduced_modulus * np.sqrt(summit_sigma / summit_radius) * length**2.5 / np.pi
-    beyond = separation + length
-    yielded = YIELD_FACTOR * hardness * (2.0 * area_integral(beyond) + length * ndtr(-beyond))
-    return area_per_overlap(summit_density, summit_radius, summit_sigma) * (elastic + yielded)
-
-
-_FARTHEST, _NODES = 12.0, 24
-"""Overlap in summit sigma that no summit has, and points of the quadrature up to it."""
+    return np.minimum(asperity_pressure / mean_hertz_pressure(hertz_pressure), 1.0)

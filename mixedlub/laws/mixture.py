@@ -42,3 +42,19 @@ def tallian_friction(fluid_friction: np.ndarray, boundary_friction: np.ndarray, 
     0.03633
     """
     return fluid_friction + (boundary_friction - fluid_friction) * area_ratio
+
+
+@MIXTURE.offers("load_weighted", "film and asperity friction weighted by the load that each carries")
+def load_weighted_friction(
+    fluid_friction: np.ndarray, boundary_friction: np.ndarray, asperity_load_share: np.ndarray
+) -> np.ndarray:
+    r"""Friction coefficient of the contact (-), :math:`\mu = \mu_E (1 - L) + \mu_B L`.
+
+    L is the share of the load that asperities carry. Meant for contacts in which film and asperities balance the load;
+    under an imposed film L is often limited to 1.
+    Source: E. R. M. Gelinck, D. J. Schipper, Tribol. Int. 33 (2000) 175, with the film friction of the whole load.
+
+    >>> round(float(load_weighted_friction(0.0236, 0.1, 0.91)), 4)
+    0.0931
+    """
+    return fluid_friction + (boundary_friction - fluid_friction) * asperity_load_share

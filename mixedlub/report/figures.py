@@ -30,6 +30,12 @@ from mixedlub.study.results import Results
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+OVER_SPEED = {
+    "power_loss": "Power loss",
+    "area_ratio": "Boundary area ratio",
+    "mean_asperity_load_share": "Share of the load that asperities carry",
+}
+"""Quantities drawn over speed, those that the study has."""
 MOST_PANELS = 6
 MOST_TEMPERATURES = 2
 
@@ -73,7 +79,9 @@ def _at_temperature(results: Results, theta: int, several: bool) -> Iterator[Dra
     of_oil = _some_of(levels.oil_temperature_C, MOST_TEMPERATURES, "oil temperatures", "°C")
     whose = results.study.file.options.conditions_of
     some_torques = _some_of(levels.torque_Nm, MOST_LEVELS, "torques", "Nm") + of_oil
-    for quantity, title in (("power_loss", "Power loss"), ("area_ratio", "Boundary area ratio")):
+    for quantity, title in OVER_SPEED.items():
+        if quantity not in results.values:
+            continue
         for key, words, chosen in _groups(results):
             if len(chosen):
                 caption = f"{title} against {whose} speed: {words}{at}. {_title_words(some_torques)}"

@@ -30,7 +30,7 @@ from mixedlub.study.checkpoint import fingerprint
 from mixedlub.study.options import ignored
 from mixedlub.study.plan import Study
 from mixedlub.study.record import assumed, resolved
-from mixedlub.study.results import COLUMNS, DEFINITIONS, VALIDITY, VALIDITY_MEANING, Results, versions
+from mixedlub.study.results import DEFINITIONS, VALIDITY, VALIDITY_MEANING, Results, versions
 from mixedlub.study.schema import Options, StudyFile
 
 MOST_SURFACES = 12
@@ -102,7 +102,7 @@ def content(results: Results) -> dict[str, Any]:
         "options": option_rows(file.options, ignored(file.options, study.plan.model())),
         "effects": [(e, study.plan.parameters[e.id]) for e in study.effects],
         "laws": list(laws_used(study.plan.model())),
-        "definitions": [(column, DEFINITIONS[name]) for name, (column, _) in COLUMNS.items()]
+        "definitions": [(column, DEFINITIONS[name]) for name, (column, _) in results.columns.items()]
         + [(VALIDITY, VALIDITY_MEANING)],
         "fingerprint": fingerprint(study.plan),
         "versions": ", ".join(f"{name} {version}" for name, version in versions().items()),
@@ -139,7 +139,8 @@ def findings(results: Results) -> list[str]:
             f"{' / '.join(study.pairings[best])} loses {100 * (1 - column[best] / column[worst]):.0f} % less than "
             f"{' / '.join(study.pairings[worst])}."
         )
-    sentences += [text for text in (_linear(results, where), _left_above_one(results)) if text]
+    further = (_shared(results), _linear(results, where), _left_above_one(results))
+    sentences += [text for text in further if text]
     quiet = (ratio < 1e-3).any(axis=(1, 2, 3))
     if quiet.any() and not quiet.all():
         names = [" / ".join(study.pairings[i]) for i in np.flatnonzero(quiet)[:6]]
@@ -148,6 +149,17 @@ def findings(results: Results) -> list[str]:
             f"Practically free of asperity contact (area ratio below 0.001) somewhere: {', '.join(names)}{more}."
         )
     return sentences
+
+
+def _shared(results: Results) -> str:
+    """How film and asperities share the load; empty where the film formula sets the gap."""
+    if not results.study.plan.balanced:
+        return ""
+    share, thicker = results["mean_asperity_load_share"], results["film_over_unbalanced"]
+    return (
+        f"Of the load, asperities carry between {share.min():.2g} and {share.max():.3g}, mean over the path; "
+        f"the film is {thicker.min():.3g} to {thicker.max():.3g} times as thick as one that carries all of it."
+    )
 
 
 def _linear(results: Results, where: Callable[[int], str]) -> str:

@@ -33,6 +33,7 @@ AXIS = {
     "composite_roughness": ("composite roughness Rq (µm)", 1e6),
     "film_parameter": ("film parameter (-)", 1.0),
     "area_ratio": ("boundary area ratio (-)", 1.0),
+    "mean_asperity_load_share": ("asperity load share (-)", 1.0),
     "power_loss": ("power loss (W)", 1.0),
 }
 """Label of each quantity, and the factor from SI to its unit."""

@@ -37,8 +37,13 @@ OUTPUTS = (
     "other_loss",
     "hertz_pressure",
     "asperity_load_ratio",
+    "asperity_real_pressure",
 )
+SHARED = ("mean_asperity_load_share", "film_over_unbalanced")
+"""Further outputs where film and asperities share the load."""
 CHECKS = ("largest_area_ratio",)
+SHARED_CHECKS = ("balance_error", "film_below_its_share")
+"""Further checks where film and asperities share the load."""
 BEYOND = "beyond_"
 """Before the id of an effect or friction law: the check that is 1 where it is outside the range of its source."""
 
@@ -93,8 +98,9 @@ def blocks(plan: Plan) -> list[Block]:
 
 def names(plan: Plan) -> tuple[str, ...]:
     """Names of the outputs and checks of a plan."""
+    shared = (*SHARED, *SHARED_CHECKS) if plan.balanced else ()
     law = () if plan.friction is None else (BEYOND + plan.friction.name,)
-    return (*OUTPUTS, *CHECKS, *(BEYOND + e.id for e in plan.effects if e.valid), *law)
+    return (*OUTPUTS, *CHECKS, *shared, *(BEYOND + e.id for e in plan.effects if e.valid), *law)
 
 
 def compute(plan: Plan, block: Block) -> Found:
@@ -165,10 +171,10 @@ def _reduced(state: Inputs, plan: Plan) -> Found:
     hardest = (area * (loaded / mean_pressure)).argmax(axis=-1, keepdims=True)
 
     def there(value: np.ndarray) -> np.ndarray:
-        return value if value.shape[-1] == 1 else np.take_along_axis(value, hardest, axis=-1)
+        return value if np.ndim(value) == 0 or value.shape[-1] == 1 else np.take_along_axis(value, hardest, axis=-1)
 
-    summits = (state["summit_density"], state["summit_radius"], state["summit_sigma"])
-    carried = plan.asperities(there(state["separation"]), *map(there, summits), state["reduced_modulus"])
+    carried = plan.asperities(*(there(state[name]) for name in plan.asperities_read))
+    touching = there(area)
     mean_film = over_path(film, weight)
     in_mesh = state["mesh_loss"] + state["rolling_loss"]
     found = {
@@ -183,7 +189,9 @@ def _reduced(state: Inputs, plan: Plan) -> Found:
         "other_loss": state["power_loss"] - in_mesh,
         "hertz_pressure": np.max(pressure, axis=-1, keepdims=True, where=loaded, initial=0.0),
         "asperity_load_ratio": carried / there(mean_pressure),
-        "largest_area_ratio": there(area),
+        "asperity_real_pressure": np.divide(carried, touching, out=np.zeros_like(carried), where=touching > 0.0),
+        "largest_area_ratio": touching,
+        **(_shared(state, loaded, mean_pressure) if plan.balanced else {}),
     }
     for e in plan.effects:
         if e.valid:
@@ -192,6 +200,22 @@ def _reduced(state: Inputs, plan: Plan) -> Found:
     if plan.friction is not None:
         found[BEYOND + plan.friction.name] = np.any(loaded & plan.friction.outside(state), axis=-1, keepdims=True)
     return found
+
+
+def _shared(state: Inputs, loaded: np.ndarray, mean_pressure: np.ndarray) -> Found:
+    """Outputs and checks of a piece in which film and asperities share the load; its largest share is sought."""
+    share, of_film, weight = state["asperity_pressure"] / mean_pressure, state["film_load_share"], state["mean_weight"]
+
+    def largest(value: np.ndarray) -> np.ndarray:
+        return np.max(value, axis=-1, keepdims=True, where=loaded, initial=0.0)
+
+    return {
+        "asperity_load_ratio": largest(share),
+        "mean_asperity_load_share": over_path(share, weight),
+        "film_over_unbalanced": over_path(state["film_thickness"] / state["full_load_film"], weight),
+        "balance_error": largest(np.abs(share + of_film - 1.0)),
+        "film_below_its_share": np.any(loaded & (of_film < state["least_film_share"]), axis=-1, keepdims=True),
+    }
 
 
 def run(

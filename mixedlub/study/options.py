@@ -7,11 +7,13 @@ from functools import wraps
 from typing import Any
 
 from mixedlub import friction
+from mixedlub.chain.balance import balanced
 from mixedlub.chain.base_models import GEAR_LOSS
 from mixedlub.chain.model import Chain, Law, Model
 from mixedlub.laws import contact, oil, pitch_point
-from mixedlub.laws.contact import asperity_pressure, mean_hertz_pressure, yielding_asperity_pressure
+from mixedlub.laws.contact import asperity_pressure, mean_hertz_pressure
 from mixedlub.laws.film import dowson_higginson
+from mixedlub.laws.yielding import chang_etsion_bogy_pressure
 from mixedlub.slots import FILM, SLOTS, VISCOSITY
 from mixedlub.study.schema import Options
 
@@ -45,8 +47,9 @@ def at_hardness(strength: float, hardness: float) -> Law:
     [2.1, 1.1]
     """
 
-    yielding: Law = yielding_asperity_pressure
+    yielding: Law = chang_etsion_bogy_pressure
 
+    @wraps(asperity_pressure)
     def law(*values: Any) -> Any:
         elastic = asperity_pressure(*values)
         return elastic + strength * (yielding(*values, hardness) - elastic)
@@ -60,14 +63,14 @@ def study_chain(options: Options) -> Chain:
     >>> dict(study_chain(Options(effective_viscosity="secant")))["shear_stress"].__name__
     'ree_eyring_secant'
     """
-    chosen = {slot.quantity: slot.choices[getattr(options, slot.option)].law for slot in SLOTS}
+    chosen = options.laws
     if options.viscosity_pressure == "mean":
         chosen[VISCOSITY.quantity] = at_mean_pressure(chosen[VISCOSITY.quantity])
-    base = tuple((name, chosen.get(name, law)) for name, law in GEAR_LOSS)
-    if options.friction == friction.BASE:
-        return base
-    own = friction.find(options.friction).with_coefficients(options.friction_coefficients)
-    return with_friction(base, own)
+    chain = tuple((name, chosen.get(name, law)) for name, law in GEAR_LOSS)
+    if options.friction != friction.BASE:
+        own = friction.find(options.friction).with_coefficients(options.friction_coefficients)
+        chain = with_friction(chain, own)
+    return chain if options.balance == "none" else balanced(chain)
 
 
 def with_friction(base: Chain, law: Law) -> Chain:
@@ -124,5 +127,6 @@ def ignored(options: Options, model: Model) -> tuple[str, ...]:
     if options.friction == friction.BASE:
         return ()
     made = {name for step in model.steps for name in step.outputs}
-    unread = [slot.option for slot in SLOTS if slot.quantity not in made or slot.quantity == "friction"]
+    read = {slot.option for slot in SLOTS if slot.quantity in made and slot.quantity != "friction"}
+    unread = [option for option in dict.fromkeys(slot.option for slot in SLOTS) if option not in read]
     return (*unread, *(["viscosity_pressure"] if VISCOSITY.quantity not in made else []))

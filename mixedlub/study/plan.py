@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from inspect import signature
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,6 @@ from mixedlub.effects import LAW, find, known_effects
 from mixedlub.friction import FrictionLaw
 from mixedlub.gear import GearPair, Mesh
 from mixedlub.gear.inputs import motion_inputs
-from mixedlub.laws.contact import asperity_pressure
 from mixedlub.laws.load import LEAST_SHARE
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.lubricant import Lubricant
@@ -40,11 +40,11 @@ WANTED = (
     "film_thickness",
     "composite_roughness",
     "hertz_pressure",
-    "separation",
-    "summit_density",
-    "summit_radius",
-    "summit_sigma",
 )
+BALANCED = ("asperity_pressure", "full_load_film", "film_load_share", "least_film_share")
+"""What is wanted as well where film and asperities share the load."""
+AREA_ALONE = ("balance", "asperities", "mixture")
+"""Options at whose defaults an effect on the contact area needs no other change."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,8 +69,10 @@ class Plan:
 
     def model(self) -> Model:
         """The chain of the chosen options with the active effects."""
-        checked = () if self.friction is None else self.friction.checked
-        wanted = dict.fromkeys((*WANTED, *(name for e in self.effects for name in e.valid), *checked))
+        of_effects = (name for e in self.effects for name in e.valid)
+        of_friction = () if self.friction is None else self.friction.checked
+        of_balance = BALANCED if self.balanced else ()
+        wanted = dict.fromkeys((*WANTED, *of_balance, *self.asperities_read, *of_effects, *of_friction))
         return Model(study_chain(self.options), tuple(self.inputs), tuple(wanted), self.effects)
 
     @property
@@ -79,10 +81,20 @@ class Plan:
         return None if self.options.friction == friction.BASE else friction.find(self.options.friction)
 
     @property
+    def balanced(self) -> bool:
+        """Whether film and asperities share the load."""
+        return self.options.balance != "none"
+
+    @property
     def asperities(self) -> Law:
         """Law of the pressure that asperities would carry: yielding ones where plasticity is on."""
         plastic = self.parameters.get("asperity_plasticity")
-        return at_hardness(**plastic) if plastic else asperity_pressure
+        return at_hardness(**plastic) if plastic else self.options.laws["asperity_pressure"]
+
+    @property
+    def asperities_read(self) -> tuple[str, ...]:
+        """The quantities that this law reads."""
+        return tuple(signature(self.asperities).parameters)
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,6 +201,7 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
         **condition_inputs(file, pair, points, oil),
         **surface_inputs([(surfaces[a], surfaces[b]) for a, b in chosen]),
         "boundary_friction": file.boundary_friction,
+        **({} if options.hardness_GPa is None else {"hardness": options.hardness_GPa * 1e9}),
     }
     effects, parameters = _effects(file, inputs)
     levels = file.conditions
@@ -230,12 +243,28 @@ def surface_inputs(pairs: list[tuple[Surface, Surface]]) -> dict[str, np.ndarray
 def _effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, ...], Parameters]:
     """The active effects, each parameter at its given value or as its law has it."""
     check_effects(file, tuple(inputs))
+    for e in find(sorted(file.effects), "effects"):
+        _refuse_ignored(e, file.options)
     known = known_effects(file.effects, "gear_pair", study_chain(file.options), tuple(inputs), "power_loss")
     for effect, name in known.sds:
         raise InputError("a study has no uncertainty; leave it out", where=f"effects.{effect}.{name}_sd")
     for e in known.effects:
         _tell_defaults(e, file.effects[e.id], known.values[e.id])
     return known.effects, known.values
+
+
+def _refuse_ignored(e: Effect, options: Options) -> None:
+    """Refuse an effect on the contact area alone where asperities carry load by a law that does not know of it."""
+    default = Options()
+    changed = [
+        f'{name} = "{getattr(default, name)}"'
+        for name in AREA_ALONE
+        if getattr(options, name) != getattr(default, name)
+    ]
+    if "area_ratio" in e.acts_on and changed:
+        rule = f"changes the contact area and not the load of the asperities; it needs {' and '.join(changed)}"
+        other = '; for asperities that yield, asperities = "chang_etsion_bogy" has the same law with its load'
+        raise InputError(rule + (other if e.id == "asperity_plasticity" else ""), where=f"effects.{e.id}")
 
 
 def _tell_defaults(e: Effect, given: Mapping[str, float | str], values: Mapping[str, float]) -> None:

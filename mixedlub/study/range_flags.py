@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from mixedlub.chain.balance import EXACT
 from mixedlub.rig.plausibility import yields
 from mixedlub.study.batch import BEYOND
 from mixedlub.study.plan import Plan
@@ -19,12 +20,15 @@ EXTRAPOLATED = "law_extrapolated:"
 
 def flags(plan: Plan, values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     """Boolean arrays of the shape of the study by code, gravest first; codes that apply nowhere are left out."""
+    within = np.zeros(plan.shape)
     moments = [np.asarray(plan.inputs[name]).reshape(-1, 1, 1, 1) for name in ("m0", "m2", "m4")]
     with np.errstate(divide="ignore", over="ignore"):
         narrow = nayak_parameter(*moments) < 1.5
     found = {
         "pressure_above_yield": yields(values["hertz_pressure"], float(plan.inputs["reduced_modulus"])),
-        "asperities_overloaded": values["asperity_load_ratio"] > 1.0,
+        "balance_not_found": values.get("balance_error", within) > EXACT,
+        "asperities_overloaded": values["asperity_load_ratio"] > 1.0 + (EXACT if plan.balanced else 0.0),
+        "film_carries_too_little": values.get("film_below_its_share", within) > 0.0,
         "area_ratio_limited": values["largest_area_ratio"] >= 1.0,
         "bandwidth_limited": np.broadcast_to(narrow, plan.shape),
         **{EXTRAPOLATED + name.removeprefix(BEYOND): v > 0.0 for name, v in values.items() if name.startswith(BEYOND)},

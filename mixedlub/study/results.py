@@ -15,7 +15,7 @@ from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.schema.section import table as file_table
 from mixedlub.schema.units import unit_of
 from mixedlub.study import batch, checkpoint
-from mixedlub.study.batch import CHECKS, OUTPUTS
+from mixedlub.study.batch import CHECKS
 from mixedlub.study.plan import Study
 from mixedlub.study.range_flags import VALID, as_words, flags
 from mixedlub.study.schema import StudyFile
@@ -39,8 +39,11 @@ COLUMNS = {
     "other_loss": ("other_loss_W", 1.0),
     "hertz_pressure": ("hertz_pressure_MPa", 1e-6),
     "asperity_load_ratio": ("asperity_load_ratio", 1.0),
+    "asperity_real_pressure": ("asperity_real_pressure_MPa", 1e-6),
+    "mean_asperity_load_share": ("mean_asperity_load_share", 1.0),
+    "film_over_unbalanced": ("film_over_unbalanced_film", 1.0),
 }
-"""Column of each output, and the factor from SI to its unit."""
+"""Column of each output, and the factor from SI to its unit; some outputs need an option."""
 
 DEFINITIONS = {
     "power_loss": "total power loss, mean over a mesh cycle: the mesh and every loss that is switched on as an effect",
@@ -55,7 +58,15 @@ DEFINITIONS = {
     "other_loss": "power lost outside the mesh by effects that are switched on: bearings, seals, churning, windage",
     "hertz_pressure": "largest Hertz pressure of the path of contact",
     "asperity_load_ratio": "pressure that asperities would carry over mean Hertz pressure, the largest of the path; "
-    "above 1 the film would have to give way, which the model does not let it",
+    'above 1 the film would have to give way, which it does with balance = "johnson_greenwood_poon"',
+    "asperity_real_pressure": "pressure of the asperities over their real contact area, at the place of the path where "
+    "they carry most; 0 where none touch",
+    "mean_asperity_load_share": "share of the load that asperities carry, plain mean over the path of contact as far "
+    "as it carries load",
+    "film_over_unbalanced": "film thickness over that of a film which carries the whole load, plain mean over the "
+    "path of contact as far as it carries load",
+    "balance_error": "part of the load by which film and asperities together miss it, the largest of the path",
+    "film_below_its_share": "1 where the film carries less than its law is for, anywhere on the path",
     "largest_area_ratio": "boundary area ratio where asperities carry most",
 }
 """Meaning of each output."""
@@ -86,6 +97,11 @@ class Results:
         """Whether a condition is outside the range of the model for any reason."""
         return np.logical_or.reduce([np.zeros(self.study.plan.shape, bool), *self.flags.values()])
 
+    @property
+    def columns(self) -> Mapping[str, tuple[str, float]]:
+        """The columns of the table that this study has."""
+        return {name: column for name, column in COLUMNS.items() if name in self.values}
+
     def __getitem__(self, name: str) -> np.ndarray:
         return self.values[name]
 
@@ -102,7 +118,7 @@ class Results:
         }
         variables = {
             column: (("pairing", *LEVELS), self.values[name] * scale, _described(name, column))
-            for name, (column, scale) in {**COLUMNS, **{name: (name, 1.0) for name in CHECKS}}.items()
+            for name, (column, scale) in {**self.columns, **{name: (name, 1.0) for name in CHECKS}}.items()
         }
         index, texts = as_words(self.flags, self.study.plan.shape)
         variables[VALIDITY] = (
@@ -135,7 +151,7 @@ class Results:
             }
             for name, level in (("torque_Nm", torque), ("speed_rpm", speed), ("oil_temperature_C", theta)):
                 columns[name] = checkpoint.floats(np.tile(level, len(pairings)))
-            for name, (column, scale) in COLUMNS.items():
+            for name, (column, scale) in self.columns.items():
                 columns[column] = checkpoint.floats(self.values[name][start : start + step] * scale)
             columns[VALIDITY] = checkpoint.words(texts, index[start : start + step].ravel())
             yield pa.table(columns)
@@ -224,7 +240,7 @@ def run_study(
 
 def _check_finite(results: Results) -> None:
     """Refuse inputs at which a law leaves its domain."""
-    for name in OUTPUTS:
+    for name in results.columns:
         wrong = ~np.isfinite(results[name])
         if wrong.any():
             p, o, t, s = np.argwhere(wrong)[0]

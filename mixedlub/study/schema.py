@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from inspect import signature
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -10,7 +12,7 @@ from pydantic import BeforeValidator, Field, create_model, model_validator
 from mixedlub.friction import BASE, PLACES, catalogue
 from mixedlub.schema.section import Number, NumberOrName, Section, Whole, key, table, with_ranges
 from mixedlub.schema.system_file import Gears, RigFile, SurfaceSection
-from mixedlub.slots import SLOTS
+from mixedlub.slots import ASPERITY_LOAD, SLOTS
 
 MOST_LEVELS = 100_000
 
@@ -84,9 +86,9 @@ def _laws() -> Any:
     """An option for each step that has a choice of laws, and that for the law of friction."""
     fields: dict[str, Any] = {}
     for slot in SLOTS:
-        names: Any = Literal[tuple(slot.choices)]
-        values = {choice.name: choice.meaning for choice in slot.choices.values()}
-        fields[slot.option] = (names, key(slot.meaning, slot.default, values=values))
+        together = [other.choices for other in SLOTS if other.option == slot.option]
+        values = {c.name: c.meaning for c in slot.choices.values() if all(c.name in one for one in together)}
+        fields[slot.option] = (Literal[tuple(values)], key(slot.meaning, slot.default, values=values))
     meaning = "law of the friction coefficient; `mixedlub friction-laws NAME` shows its page"
     values = {law.name: f"{law.title}, {PLACES[law.place]}" for law in catalogue().values()}
     fields["friction"] = (Literal[tuple(catalogue())], key(meaning, BASE, values=values))
@@ -96,9 +98,29 @@ def _laws() -> Any:
 _Laws: Any = _laws()
 
 
+def reads_hardness(law: Callable[..., Any]) -> bool:
+    """Whether asperities of a law yield.
+
+    >>> [name for name, one in ASPERITY_LOAD.choices.items() if not reads_hardness(one.law)]
+    ['greenwood_williamson', 'greenwood_tripp']
+    """
+    return "hardness" in signature(law).parameters
+
+
 class Options(_Laws):
     """Readings of the model on which its authors leave room; the defaults are those of the base model."""
 
+    balance: Literal["none", "johnson_greenwood_poon"] = key(
+        "whether film and asperities share the load",
+        "none",
+        values={
+            "none": "the film formula sets the gap, whatever the asperities would carry",
+            "johnson_greenwood_poon": "the film gives way until it and the asperities together carry the load",
+        },
+    )
+    hardness_GPa: Number | None = key(
+        "indentation hardness of the softer flank, for asperities that yield", None, example=6.0, alternative=True
+    )
     viscosity_pressure: Literal["maximum", "mean"] = key(
         "pressure at which the viscosity is taken",
         "maximum",
@@ -122,6 +144,21 @@ class Options(_Laws):
     )
     path_points: Whole = key("quadrature points along the path of contact, about", 48)
     face_slices: Whole | None = key("slices across the face; left out: as the load sharing needs", None, example=1)
+
+    @property
+    def laws(self) -> dict[str, Callable[..., Any]]:
+        """The chosen laws by the quantity that they give."""
+        return {slot.quantity: slot.choices[getattr(self, slot.option)].law for slot in SLOTS}
+
+    @model_validator(mode="after")
+    def _hardness_where_it_acts(self) -> Options:
+        law = ASPERITY_LOAD.choices[self.asperities].law
+        if reads_hardness(law) and self.hardness_GPa is None:
+            raise ValueError(f'asperities = "{self.asperities}" needs hardness_GPa, that of the softer flank')
+        if self.hardness_GPa is not None and not reads_hardness(law):
+            takers = " or ".join(f'"{c.name}"' for c in ASPERITY_LOAD.choices.values() if reads_hardness(c.law))
+            raise ValueError(f"hardness_GPa acts only with asperities = {takers}; leave it out")
+        return self
 
 
 class StudyFile(RigFile):

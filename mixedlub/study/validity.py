@@ -32,11 +32,12 @@ def _finding(results: Results, code: str, where: np.ndarray) -> Finding:
 
 
 def _overloaded(results: Results, count: str) -> str:
-    yielding = "asperity_plasticity" in results.study.plan.parameters
+    plan = results.study.plan
+    yielding = "asperity_plasticity" in plan.parameters or plan.options.hardness_GPa is not None
     return (
         f"{count} are outside the model's range: {'yielding' if yielding else 'elastic'} asperities would carry up to "
         f"{results['asperity_load_ratio'].max():.3g} times the mean Hertz pressure, so the boundary area ratio and the "
-        "loss of these conditions are not quantitative"
+        'loss of these conditions are not quantitative; balance = "johnson_greenwood_poon" lets the film give way'
     )
 
 
@@ -51,6 +52,14 @@ def _pressed(results: Results, count: str) -> str:
 _TEXTS: Mapping[str, Callable[[Results, str], str]] = {
     "pressure_above_yield": _pressed,
     "asperities_overloaded": _overloaded,
+    "balance_not_found": lambda results, count: (
+        f"in {count} no film was found at which film and asperities carry the load, which they miss by up to "
+        f"{results['balance_error'].max():.2g} of it"
+    ),
+    "film_carries_too_little": lambda results, count: (
+        f"in {count} the film carries so little of the load that its own contact is isoviscous, for which its law is "
+        "not made; asperities carry the rest, so the loss hangs on their friction and area"
+    ),
     "area_ratio_limited": lambda results, count: f"in {count} the boundary area ratio was limited to 1",
     "bandwidth_limited": lambda results, count: (
         f"in {count} the Nayak bandwidth is below 1.5, which no isotropic Gaussian surface has; 1.5 was used"

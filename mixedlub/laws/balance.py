@@ -1,0 +1,57 @@
+r"""Film and asperities that share the load of a line contact, after Johnson, Greenwood and Poon.
+
+The film carries the share :math:`1/\gamma` of the load. It then is as thick as in a smooth contact with
+:math:`w/\gamma` for the load and :math:`E'/\gamma` for the modulus, which has the same width. The asperities carry
+the rest; `mixedlub.chain.balance` finds the film at which both add up.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def full_load_film(film_thickness: np.ndarray) -> np.ndarray:
+    """Film thickness if the film carried the whole load (m): that of the film law and of the effects on it.
+
+    >>> full_load_film(2e-7)
+    2e-07
+    """
+    return film_thickness
+
+
+def film_load_share(film_thickness: np.ndarray, full_load_film: np.ndarray, sharing_exponent: np.ndarray) -> np.ndarray:
+    r"""Share of the load that a film of this thickness carries (-), :math:`1/\gamma = (h/h_0)^{-1/k}`.
+
+    Source: K. L. Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91.
+
+    >>> round(float(film_load_share(2.0**0.13, 1.0, 0.13)), 12)
+    0.5
+    """
+    return (film_thickness / full_load_film) ** (-1.0 / sharing_exponent)
+
+
+def least_film_share(
+    radius: np.ndarray,
+    entrainment_speed: np.ndarray,
+    line_load: np.ndarray,
+    viscosity: np.ndarray,
+    pressure_viscosity: np.ndarray,
+    reduced_modulus: np.ndarray,
+) -> np.ndarray:
+    r"""Share of the load below which an isoviscous film in the film's own contact is thicker (-): its law ends there.
+
+    .. math:: \frac{1}{\gamma} = \left(\frac{2.05}{1.65}\,M^{-3/40} L^{-3/4}\right)^{5/3}
+
+    of Moes' groups :math:`M = W(2U)^{-1/2}` and :math:`L = G(2U)^{1/4}` at the whole load, which become
+    :math:`\gamma^{-1/2} M` and :math:`\gamma^{-3/4} L`; the elastic films are :math:`2.05\,M^{-1/5}` (isoviscous) and
+    :math:`1.65\,M^{-1/8} L^{3/4}` (piezoviscous). Above 1 the contact is isoviscous at its whole load.
+    Source: H. Moes, Wear 159 (1992) 57, the elastic asymptotes.
+
+    >>> here = (8.3262e-3, 2.1630, 214.86e3, 0.01489, 14.81e-9, 226.374e9)
+    >>> round(float(least_film_share(*here)), 4)
+    0.0724
+    """
+    speed = 2.0 * viscosity * entrainment_speed / (reduced_modulus * radius)
+    load = line_load / (reduced_modulus * radius) * speed**-0.5
+    material = pressure_viscosity * reduced_modulus * speed**0.25
+    return (2.05 / 1.65 * load**-0.075 * material**-0.75) ** (5.0 / 3.0)
