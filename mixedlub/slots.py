@@ -20,11 +20,15 @@ Law = TypeVar("Law", bound=Callable[..., Any])
 
 @dataclass(frozen=True)
 class Choice:
-    """A law that is offered for a slot: its name in a study file and what choosing it means."""
+    """A law that is offered for a slot: its name in a study file and what choosing it means.
+
+    ``valid`` is the range in which it is known to hold, in SI by quantity of the glossary.
+    """
 
     name: str
     meaning: str
     law: Callable[..., Any]
+    valid: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,8 +44,10 @@ class Slot:
     default: str
     _offered: dict[str, Choice] = field(default_factory=dict, init=False, repr=False)
 
-    def offers(self, name: str, meaning: str) -> Callable[[Law], Law]:
-        """Offer the law below under a name, with what the choice means."""
+    def offers(
+        self, name: str, meaning: str, valid: Mapping[str, tuple[float, float]] | None = None
+    ) -> Callable[[Law], Law]:
+        """Offer the law below under a name, with what the choice means and where the law is known to hold."""
 
         def register(law: Law) -> Law:
             known = self._offered.get(name)
@@ -49,7 +55,7 @@ class Slot:
                 raise TypeError(f"{self.option} = {name!r} is already defined in {known.law.__module__}")
             if "Source: " not in (inspect.getdoc(law) or ""):
                 raise TypeError(f"{self.option} = {name!r}: the docstring of its law names no 'Source: '")
-            self._offered[name] = Choice(name, meaning, law)
+            self._offered[name] = Choice(name, meaning, law, valid or {})
             return law
 
         return register

@@ -30,6 +30,7 @@ LINE: Chain = (
     ("slide_roll_ratio", load.slide_roll_ratio),
     ("hertz_pressure", contact.line_hertz_pressure),
     ("hertz_half_width", contact.line_hertz_half_width),
+    ("moes_load", film.moes_load),
     ("film_thickness", film.dowson_toyoda),
     *ASPERITIES,
     *FRICTION,

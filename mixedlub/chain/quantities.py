@@ -31,6 +31,7 @@ radius                  | R          | m       | reduced radius of curvature of 
 transverse_radius       | R_y        | m       | reduced radius across the direction of motion (point contact)
 entrainment_speed       | u          | m/s     | mean of the two surface speeds
 sliding_speed           | v_s        | m/s     | difference of the two surface speeds, without sign
+moes_load               | M          | -       | Moes' load parameter of a line contact
 slide_roll_ratio        | S          | -       | sliding speed over entrainment speed
 roll_angle              | theta      | rad     | pinion roll angle of the contact point
 path_fraction           | xi         | -       | place along the path of contact, 0 at its start and 1 at its end

@@ -6,8 +6,11 @@ import numpy as np
 
 from mixedlub.slots import SHEAR
 
+MOST_FRICTION = {"fluid_friction": (0.0, 0.12)}
+"""Judgement. Oils yield at a share of the pressure of 0.03 to 0.09 in the literature, traction fluids at up to 0.12."""
 
-@SHEAR.offers("asinh", "effective viscosity such that the stress is tau0 asinh(eta v_s/(h tau0))")
+
+@SHEAR.offers("asinh", "effective viscosity such that the stress is tau0 asinh(eta v_s/(h tau0))", MOST_FRICTION)
 def ree_eyring(
     contact_viscosity: np.ndarray,
     sliding_speed: np.ndarray,

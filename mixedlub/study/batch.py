@@ -45,7 +45,7 @@ CHECKS = ("largest_area_ratio",)
 SHARED_CHECKS = ("balance_error", "film_below_its_share")
 """Further checks where film and asperities share the load."""
 BEYOND = "beyond_"
-"""Before the id of an effect or friction law: the check that is 1 where it is outside the range of its source."""
+"""Before the name of an effect or law: the check that is 1 where it is used outside the range in which it holds."""
 
 SLACK = 1e-6
 """Rounding that a quantity may have beyond the range of a law."""
@@ -100,7 +100,7 @@ def names(plan: Plan) -> tuple[str, ...]:
     """Names of the outputs and checks of a plan."""
     shared = (*SHARED, *SHARED_CHECKS) if plan.balanced else ()
     law = () if plan.friction is None else (BEYOND + plan.friction.name,)
-    return (*OUTPUTS, *CHECKS, *shared, *(BEYOND + e.id for e in plan.effects if e.valid), *law)
+    return (*OUTPUTS, *CHECKS, *shared, *(BEYOND + name for name in plan.ranges), *law)
 
 
 def compute(plan: Plan, block: Block) -> Found:
@@ -193,10 +193,9 @@ def _reduced(state: Inputs, plan: Plan) -> Found:
         "largest_area_ratio": touching,
         **(_shared(state, loaded, mean_pressure) if plan.balanced else {}),
     }
-    for e in plan.effects:
-        if e.valid:
-            within = [(state[n] >= low) & (state[n] <= high * (1 + SLACK)) for n, (low, high) in e.valid.items()]
-            found[BEYOND + e.id] = np.any(loaded & ~functools.reduce(np.logical_and, within), axis=-1, keepdims=True)
+    for name, valid in plan.ranges.items():
+        within = [(state[n] >= low) & (state[n] <= high * (1 + SLACK)) for n, (low, high) in valid.items()]
+        found[BEYOND + name] = np.any(loaded & ~functools.reduce(np.logical_and, within), axis=-1, keepdims=True)
     if plan.friction is not None:
         found[BEYOND + plan.friction.name] = np.any(loaded & plan.friction.outside(state), axis=-1, keepdims=True)
     return found

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from inspect import signature
 from pathlib import Path
 from typing import Any
@@ -26,8 +27,9 @@ from mixedlub.rig.rig import Rig
 from mixedlub.rig.surface import Surface, paired
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, report
+from mixedlub.slots import SLOTS
 from mixedlub.study.friction_options import check_coefficients, check_effects, check_friction, check_viscosity
-from mixedlub.study.options import at_hardness, study_chain
+from mixedlub.study.options import at_hardness, ignored, study_chain
 from mixedlub.study.schema import Options, Pairings, StudyFile
 from profiles.errors import InputError, nearest
 
@@ -69,11 +71,21 @@ class Plan:
 
     def model(self) -> Model:
         """The chain of the chosen options with the active effects."""
-        of_effects = (name for e in self.effects for name in e.valid)
+        return self._model(name for valid in self.ranges.values() for name in valid)
+
+    def _model(self, checked: Iterable[str]) -> Model:
         of_friction = () if self.friction is None else self.friction.checked
         of_balance = BALANCED if self.balanced else ()
-        wanted = dict.fromkeys((*WANTED, *of_balance, *self.asperities_read, *of_effects, *of_friction))
+        wanted = dict.fromkeys((*WANTED, *of_balance, *self.asperities_read, *of_friction, *checked))
         return Model(study_chain(self.options), tuple(self.inputs), tuple(wanted), self.effects)
+
+    @cached_property
+    def ranges(self) -> Mapping[str, Mapping[str, tuple[float, float]]]:
+        """The range of every active effect and chosen law that has one, by its name: in SI, by quantity."""
+        unread = ignored(self.options, self._model(()))
+        chosen = [slot.choices[getattr(self.options, slot.option)] for slot in SLOTS if slot.option not in unread]
+        known = {e.id: e.valid for e in self.effects} | {c.law.__name__: c.valid for c in chosen}
+        return {name: valid for name, valid in known.items() if valid}
 
     @property
     def friction(self) -> FrictionLaw | None:

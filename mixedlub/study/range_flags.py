@@ -15,7 +15,7 @@ from roughness.mccool import nayak_parameter
 VALID = "valid"
 """What the table says of a condition with no flag."""
 EXTRAPOLATED = "law_extrapolated:"
-"""Before the name of an effect or friction law that is used outside the range of its source."""
+"""Before the name of an effect or law that is used outside the range in which it holds."""
 
 
 def flags(plan: Plan, values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:

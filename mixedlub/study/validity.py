@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from mixedlub.chain.effect import Effect
 from mixedlub.chain.quantities import GLOSSARY
-from mixedlub.friction import FrictionLaw
 from mixedlub.rig.plausibility import YIELD_RATIO
 from mixedlub.schema.findings import Finding, finding
+from mixedlub.slots import SLOTS
+from mixedlub.study.plan import Plan
 from mixedlub.study.range_flags import EXTRAPOLATED
 from mixedlub.study.results import Results
 
@@ -23,11 +23,7 @@ def out_of_range(results: Results) -> tuple[Finding, ...]:
 def _finding(results: Results, code: str, where: np.ndarray) -> Finding:
     count = f"{int(where.sum())} of {where.size} conditions ({_pairings(results, where)})"
     if code.startswith(EXTRAPOLATED):
-        law = results.study.plan.friction
-        if law is not None and EXTRAPOLATED + law.name == code:
-            return finding("law_extrapolated", f"in {count} {_friction_range(law)}", "options.friction")
-        (used,) = (e for e in results.study.effects if EXTRAPOLATED + e.id == code)
-        return finding("law_extrapolated", f"in {count} {_range(used)}", f"effects.{used.id}")
+        return finding("law_extrapolated", f"in {count} {_range(results.study.plan, code)}", _place(results, code))
     return finding(code, _TEXTS[code](results, count))
 
 
@@ -67,17 +63,32 @@ _TEXTS: Mapping[str, Callable[[Results, str], str]] = {
 }
 
 
-def _range(used: Effect) -> str:
-    spans = (
-        f"{GLOSSARY[name].meaning} {low:g} to {high:g} {GLOSSARY[name].unit.removeprefix('-')}".rstrip()
-        for name, (low, high) in used.valid.items()
-    )
-    return f"its law is used outside the range of its source: {', '.join(spans)}"
+def _range(plan: Plan, code: str) -> str:
+    name = code.removeprefix(EXTRAPOLATED)
+    if plan.friction is not None and name == plan.friction.name:
+        spans = "; ".join(plan.friction.ranges()) or "no negative friction"
+    else:
+        spans = "; ".join(_span(quantity, *ends) for quantity, ends in plan.ranges[name].items())
+    return f"{name} is used at points of the path that are outside the range in which it holds: {spans}"
 
 
-def _friction_range(law: FrictionLaw) -> str:
-    spans = "; ".join(law.ranges()) or "no negative friction"
-    return f"{law.name} is used at points of the path that are outside the range of its source: {spans}"
+def _span(quantity: str, low: float, high: float) -> str:
+    """The range of a quantity in words.
+
+    >>> _span("moes_load", 2.0, np.inf), _span("fluid_friction", 0.0, 0.12)
+    ("Moes' load parameter of a line contact of at least 2", 'friction coefficient of the film 0 to 0.12')
+    """
+    ends = f"{low:g} to {high:g}" if np.isfinite(high) else f"of at least {low:g}"
+    return f"{GLOSSARY[quantity].meaning} {ends} {GLOSSARY[quantity].unit.removeprefix('-')}".rstrip()
+
+
+def _place(results: Results, code: str) -> str:
+    """The key that chose the effect or law."""
+    name, options = code.removeprefix(EXTRAPOLATED), results.study.file.options
+    if name in {e.id for e in results.study.effects}:
+        return f"effects.{name}"
+    slots = (s.option for s in SLOTS if s.choices[getattr(options, s.option)].law.__name__ == name)
+    return f"options.{next(slots, 'friction')}"
 
 
 def _pairings(results: Results, flagged: np.ndarray) -> str:

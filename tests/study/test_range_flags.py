@@ -108,3 +108,17 @@ def test_a_centre_distance_that_leaves_the_flanks_far_apart_is_doubted(centre_di
     """Backlash is 2 tan(22.5 deg) times what the centre distance exceeds 91.017 mm by: 0.40 mm at 91.5, 0.81 at 92."""
     notes = read_study(write_study(gears__centre_distance_mm=centre_distance_mm)).notes
     assert ("backlash_large" in codes(notes)) == doubted
+
+
+@pytest.mark.parametrize(
+    ("changes", "law", "place"),
+    [
+        ({"conditions__speed_rpm": [100_000]}, "dowson_toyoda", "options.film"),
+        ({"lubricant__pressure_viscosity_per_GPa": [60.0, 45.0]}, "ree_eyring", "options.effective_viscosity"),
+    ],
+)
+def test_laws_of_the_base_model_are_flagged_outside_their_range(changes, law, place, write_study):
+    """A pitch line at 380 m/s, and films whose friction would be ten times that of asperities."""
+    results = run_study(read_study(write_study(**changes)))
+    assert results.flags[f"law_extrapolated:{law}"].any()
+    assert place in {one.place for one in out_of_range(results) if one.code == "law_extrapolated"}
