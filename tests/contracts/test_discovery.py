@@ -156,6 +156,40 @@ def test_a_file_of_another_package_is_imported_and_its_kind_diagnosed(installed:
     assert told["probabilities"]["sensor_offset"] > 0.5
 
 
+def test_a_case_with_the_load_sharing_and_the_effect_of_another_package_is_diagnosed(
+    installed: Path, tmp_path: Path
+) -> None:
+    """The readings of the template, and 60 W more each: the fan, or an offset of the instrument."""
+    found = run(installed, "-m", "mixedlub", "new", "case", "--out", tmp_path / "case")
+    assert found.returncode == 0, found.stderr
+    system = tmp_path / "case" / "system.toml"
+    given = system.read_text(encoding="utf-8")
+    lossy = given.replace("[lubricant]", 'load_sharing = { model = "lossy", lost_share = 0.05 }\n\n[lubricant]', 1)
+    system.write_text(lossy, encoding="utf-8")
+    head, *rows = (tmp_path / "case" / "recordings.csv").read_text(encoding="utf-8").splitlines()
+    place = head.split(",").index("power_loss_W")
+    cells = [row.split(",") for row in rows]
+    more = [[*row[:place], str(float(row[place]) + 60.0), *row[place + 1 :]] for row in cells]
+    lines = [head, *map(",".join, more)]
+    (tmp_path / "case" / "recordings.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    found = run(installed, "-m", "mixedlub", "diagnose", tmp_path / "case", "--out", tmp_path / "out")
+    assert found.returncode == 0, found.stderr
+    told = json.loads((tmp_path / "out" / "diagnosis.json").read_text(encoding="utf-8"))
+    assert told["probabilities"]["cooling_fan"] > 0.1
+    assert "A fan on the shaft takes power." in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+
+
+def test_the_pages_of_the_docs_have_the_parts_of_another_package(installed: Path) -> None:
+    extensions = ROOT / "docs" / "extensions"
+    code = (
+        f"import sys; sys.path.insert(0, {str(extensions)!r}); import generated;"
+        "print(*generated.pages().values(), *generated.pieces().values())"
+    )
+    text = run(installed, "-c", code).stdout
+    for part in ("A fan on the shaft takes power.", "fan_drag_mNm", "half_film", "fan_rubbing", "lost_share"):
+        assert part in text
+
+
 def test_the_format_reference_has_the_parts_of_another_package(installed: Path) -> None:
     text = run(installed, "-m", "mixedlub", "kinds").stdout + run(installed, "-m", "mixedlub", "kinds", "study").stdout
     for part in ("fan_drag: drag of a fan against its speed", "fan_drag_mNm", "lost_share", '"lossy"'):

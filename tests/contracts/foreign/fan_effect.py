@@ -7,7 +7,7 @@ from mixedlub.chain.priors import LogNormal
 @effect(
     stage="loss",
     acts_on="power_loss",
-    parameters=(Parameter("strength", "W", LogNormal(1.0, 0.5), "power of the fan", null=0.0),),
+    parameters=(Parameter("strength", "W", LogNormal(50.0, 0.5), "power of the fan", null=0.0),),
     equation="P + c",
     source="the maker of the fan",
     fingerprint={"load": "-"},
