@@ -21,6 +21,7 @@ PUBLIC = {
     "diagnose": "mixedlub.api.diagnosis",
     "simulate": "mixedlub.api.diagnosis",
     "Answer": "mixedlub.api.diagnosis",
+    "CautionWarning": "mixedlub.schema.findings",
 }
 """Functions and types that notebooks and other packages may rely on, with the module that defines each."""
 ROOMS = ("case", "effects", "friction", "gear", "laws", "study")

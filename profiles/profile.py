@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import wraps
+from inspect import signature
 from types import MappingProxyType
-from typing import Any
+from typing import Any, TypeVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from profiles.errors import InputError
+
+Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def frozen(values: ArrayLike, kind: type) -> np.ndarray:
@@ -87,3 +91,19 @@ class Profile:
     def after(self, step: str, heights: np.ndarray, **changes: Any) -> Profile:
         """The profile with new heights and one more step in its history."""
         return replace(self, heights=heights, steps=(*self.steps, step), **changes)
+
+
+def of_profile(function: Function) -> Function:
+    """A function of a `Profile` that refuses anything else as its first argument: heights alone have no spacing."""
+    name = next(iter(signature(function).parameters))
+    place = f"{function.__module__.partition('.')[0]}.{function.__name__}"
+
+    @wraps(function)
+    def checked(*args: Any, **keys: Any) -> Any:
+        given = args[:1] or ((keys[name],) if name in keys else ())
+        if given and not isinstance(given[0], Profile):
+            kind = type(given[0]).__name__
+            raise InputError(f"needs profiles.Profile(heights, spacing), not {kind}", where=f"{place}: {name}")
+        return function(*args, **keys)
+
+    return cast(Function, checked)

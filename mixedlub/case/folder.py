@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -15,11 +15,24 @@ from mixedlub.kinds import Kind, kind
 from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, listed, report
-from mixedlub.schema.table import BOOKKEEPING, RUN, Column, Table, check_column, read_table, sd_column, table_of
+from mixedlub.schema.table import (
+    BOOKKEEPING,
+    RUN,
+    Column,
+    Table,
+    check_column,
+    frame_of,
+    read_table,
+    sd_column,
+    table_of,
+)
 from profiles.errors import InputError, nearest
 
 if TYPE_CHECKING:
     import pandas as pd
+    from numpy.typing import ArrayLike
+
+    Frame: TypeAlias = pd.DataFrame | Mapping[str, ArrayLike]
 
 RUNS_LISTED = 5
 """Largest number of runs that a note lists."""
@@ -62,13 +75,13 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
 
 def case_of(
     system: Mapping[str, Any],
-    recordings: pd.DataFrame,
-    conditions: pd.DataFrame | None = None,
+    recordings: Frame,
+    conditions: Frame | None = None,
     *,
     name: str = "case",
     folder: str | Path = ".",
 ) -> Case:
-    """A case from the sections of its system and from data frames, checked like a case folder.
+    """A case from the sections of its system and from data frames (or lists by column), checked like a case folder.
 
     Files that the system names, such as traces, are read relative to ``folder``.
 
@@ -78,11 +91,14 @@ def case_of(
     >>> len(ml.case.case_of(drive, rows).recordings)
     3
     """
-    frames = {"recordings": recordings, "conditions": conditions}
+    if not isinstance(system, Mapping):
+        raise InputError("must be a table of keys", where=f"{name}: system", value=system)
+    frames = {"recordings": frame_of(recordings, "recordings")}
+    if conditions is not None:
+        frames["conditions"] = frame_of(conditions, "conditions")
 
     def table(which: str, columns: tuple[Column, ...]) -> Table | None:
-        frame = frames[which]
-        return None if frame is None else table_of(frame, columns, which)
+        return table_of(frames[which], columns, which) if which in frames else None
 
     parsed = toml_file.parse(system_file.System, {"schema": "mixedlub-case/1", **system}, name)
     return _checked(name, Path(folder), parsed, name, table)
@@ -123,8 +139,9 @@ def read_conditions(case: Case, path: Path) -> Table:
     return _with_filled_sds(read_table(path, _columns(case.kind, case.system, False)), f"{case.quantity}_sd")
 
 
-def conditions_for(case: Case, frame: pd.DataFrame) -> Table:
+def conditions_for(case: Case, at: Frame) -> Table:
     """Conditions to predict from a data frame, numbered after the recorded runs where it has no ``run``."""
+    frame = frame_of(at, "conditions")
     if RUN.name not in frame and case.recordings is not None:
         first = int(case.recordings["run"].max()) + 1
         frame = frame.assign(run=np.arange(first, first + len(frame)))

@@ -88,7 +88,9 @@ class Mesh:
         The share of each slice acts on the width of that slice, so the number of slices does not change the result.
 
         >>> from mixedlub.gear import LdpSharing
-        >>> fzg = GearPair((16, 24), 4.5e-3, np.radians(20), 14e-3, profile_shift=(0.182, 0.172), centre_distance=91.5e-3)
+        >>> fzg = GearPair(
+        ...     (16, 24), 4.5e-3, np.radians(20), 14e-3, profile_shift=(0.182, 0.172), centre_distance=91.5e-3
+        ... )
         >>> print(round(mesh(fzg, LdpSharing()).line_load(302.0).max() / 1e3), "N/mm")
         651 N/mm
         """

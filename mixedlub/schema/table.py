@@ -209,6 +209,26 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] 
     return _table(lines, columns, key, path.name, where)
 
 
+def frame_of(given: object, where: str) -> pd.DataFrame:
+    """A data frame as it is, or one of columns by name; anything else is an error at the place ``where``.
+
+    >>> frame_of({"speed_rpm": [150.0, 250.0], "load_N": 40.0}, "conditions").shape
+    (2, 2)
+    """
+    import pandas as pd
+
+    if isinstance(given, pd.DataFrame):
+        return given
+    if not isinstance(given, Mapping):
+        rule = f"needs a pandas DataFrame, or lists by the name of their column, not {type(given).__name__}"
+        raise InputError(rule, where=where)
+    try:
+        alone = all(np.ndim(values) == 0 for values in given.values())
+        return pd.DataFrame(dict(given), index=[0] if alone else None)
+    except ValueError as error:
+        raise InputError(f"these columns make no DataFrame ({error})", where=where) from None
+
+
 def table_of(frame: pd.DataFrame, columns: tuple[Column, ...], source: str = "table") -> Table:
     """A table from a data frame, checked like a file; rows are numbered where there is no column ``run``."""
     if RUN.name not in frame:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.schema.findings import Finding, as_texts
 from mixedlub.schema.section import table as file_table
 from mixedlub.schema.units import unit_of
 from mixedlub.study import batch, checkpoint
@@ -19,6 +20,7 @@ from mixedlub.study.batch import CHECKS
 from mixedlub.study.plan import Study
 from mixedlub.study.range_flags import VALID, as_words, flags
 from mixedlub.study.schema import StudyFile
+from mixedlub.study.validity import out_of_range
 from mixedlub.version import installed_version
 from profiles.errors import InputError
 
@@ -102,11 +104,20 @@ class Results:
         """The columns of the table that this study has."""
         return {name: column for name, column in COLUMNS.items() if name in self.values}
 
+    @cached_property
+    def findings(self) -> tuple[Finding, ...]:
+        """What a reader should know: conditions outside the range of the model, gravest first, then assumptions."""
+        return (*out_of_range(self), *self.study.notes)
+
     def __getitem__(self, name: str) -> np.ndarray:
+        """An output in SI by its name in ``values``."""
         return self.values[name]
 
     def to_xarray(self) -> xr.Dataset:
-        """The result as labelled arrays: the columns of the table over pairing and conditions, with meanings."""
+        """The result as labelled arrays: the columns of the table over pairing and conditions, with meanings.
+
+        The attribute ``findings`` has the notes, cautions and doubts as texts.
+        """
         import xarray as xr
 
         levels = self.study.file.conditions
@@ -126,7 +137,8 @@ class Results:
             np.array(texts)[index],
             {"units": "", "long_name": VALIDITY_MEANING},
         )
-        return xr.Dataset(variables, coordinates, {"title": self.study.file.title})
+        whole = {"title": self.study.file.title, "findings": as_texts(self.findings)}
+        return xr.Dataset(variables, coordinates, whole)
 
     def to_pandas(self) -> pd.DataFrame:
         """The rows of the table that `write` writes."""
