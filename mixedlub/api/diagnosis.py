@@ -17,7 +17,9 @@ from mixedlub.diagnosis.diagnose import Diagnosis, diagnosis_of
 from mixedlub.diagnosis.report.files import files, write
 from mixedlub.diagnosis.report.improved import improved_case
 from mixedlub.diagnosis.report.text.answer import as_json, predictions
-from mixedlub.schema.findings import as_texts, collected, warn_of
+from mixedlub.diagnosis.report.text.headline import chance
+from mixedlub.schema.findings import as_texts, collected, listed, warn_of
+from mixedlub.study.plan import counted
 from profiles.errors import InputError, as_path
 
 if TYPE_CHECKING:
@@ -30,9 +32,22 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Answer:
-    """The answer to the question which physics a simulation lacks; it prints as the report of `mixedlub diagnose`.
+    """The answer to the question which physics a simulation lacks.
 
-    ``diagnosis`` holds everything that it was computed from; what is public is what stands here.
+    It shows as a summary and prints as the report of `mixedlub diagnose`. ``diagnosis`` holds everything that it was
+    computed from; what is public is what stands here.
+
+    >>> import mixedlub as ml, numpy as np
+    >>> speed = np.array([10.0, 20, 50, 100, 200, 300, 400, 500] * 4)
+    >>> torque = (0.5 + 2e-3 * speed + 0.6 * np.exp(-speed / 40)) * (1 + 0.01 * np.cos(7.0 * np.arange(32)))
+    >>> drive = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm", "noise": {"relative": 0.01}}}
+    >>> answer = ml.diagnose(ml.case.case_of(drive, {"speed_rpm": speed, "friction_torque_Nm": torque}, name="joint"))
+    >>> print(repr(answer).partition("\\n")[0])
+    Answer for 'joint': 32 readings of friction_torque_Nm
+    >>> answer.verdict, answer.probabilities.index[0]
+    (['stribeck'], 'stribeck')
+    >>> answer.parameters["of"].unique().tolist()
+    ['stribeck', 'calibration']
     """
 
     diagnosis: Diagnosis
@@ -71,8 +86,8 @@ class Answer:
 
     @property
     def findings(self) -> list[str]:
-        """Warnings about the input and the answer."""
-        return [str(one) for one in self.diagnosis.warnings]
+        """Notes, cautions and doubts about the input and the answer."""
+        return as_texts(self.diagnosis.warnings)
 
     @property
     def improved(self) -> Case:
@@ -90,7 +105,17 @@ class Answer:
 
         return report_text(self.diagnosis)
 
-    __repr__ = summary
+    __str__ = summary
+
+    def __repr__(self) -> str:
+        d, (verdict, *tied) = self.diagnosis, (" + ".join(names) for names in self.record["tied"])
+        before, after = map(_rms, d.residuals)
+        lines = [f"Answer for {d.case.name!r}: {len(d.recorded.table)} readings of {d.case.quantity}"]
+        lines += [f"verdict: {verdict} (probability {chance(d.posterior.weights[d.posterior.verdict])})"]
+        lines += [f"tied with {listed(tied, 2)}"] if tied else []
+        lines += [f"residuals in standard deviations: rms {before:.2f} before, {after:.2f} with the verdict"]
+        lines += [f"{counted(len(self.findings), 'finding')}; summary() is the report"]
+        return "\n  ".join(lines)
 
     def figures(self) -> dict[str, Figure]:
         """Every figure of the report, by name."""

@@ -24,6 +24,7 @@ from mixedlub.schema.table import (
     frame_of,
     read_table,
     sd_column,
+    span,
     table_of,
 )
 from profiles.errors import InputError, nearest
@@ -34,13 +35,24 @@ if TYPE_CHECKING:
 
     Frame: TypeAlias = pd.DataFrame | Mapping[str, ArrayLike]
 
+SUMMARY_WIDTH = 80
+"""Characters of the summary of a table."""
 RUNS_LISTED = 5
 """Largest number of runs that a note lists."""
 
 
 @dataclass(frozen=True)
 class Case:
-    """Everything in a case folder, checked."""
+    """Everything in a case folder, checked. It prints as a summary:
+
+    >>> import mixedlub as ml
+    >>> drive = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm"}}
+    >>> rows = {"speed_rpm": [100.0, 200.0, 300.0], "friction_torque_Nm": [0.51, 0.62, 0.69]}
+    >>> ml.case.case_of(drive, rows, name="joint")
+    Case 'joint': friction_map, recorded quantity friction_torque_Nm
+      recordings: 3 rows; speed_rpm 100 to 300; friction_torque_Nm 0.51 to 0.69
+      conditions: none
+    """
 
     name: str
     folder: Path
@@ -51,10 +63,28 @@ class Case:
     conditions: Table | None
     notes: tuple[Finding, ...]
 
+    def __repr__(self) -> str:
+        tables = {"recordings": self.recordings, "conditions": self.conditions}
+        lines = [f"Case {self.name!r}: {self.kind.name}, recorded quantity {self.quantity}"]
+        lines += [f"{name}: {'none' if table is None else _summary(table)}" for name, table in tables.items()]
+        lines += [f"notes: {listed([one.code for one in self.notes])}"] if self.notes else []
+        return "\n  ".join(lines)
+
     @property
     def quantity(self) -> str:
         """Name of the recorded column, with its unit."""
         return self.system.recording.quantity
+
+
+def _summary(table: Table) -> str:
+    """Rows and columns of a table in one line; the last columns are left out where they do not fit."""
+    spans = [span(name, values) for name, values in table.columns.items() if name != RUN.name]
+    text = f"{len(table)} rows"
+    for number, one in enumerate(spans):
+        if len(text) + len(one) > SUMMARY_WIDTH:
+            return f"{text} and {len(spans) - number} more columns"
+        text += f"; {one}"
+    return text
 
 
 def read_case(folder: Path, *, need_recordings: bool = True) -> Case:

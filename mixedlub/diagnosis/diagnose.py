@@ -132,7 +132,7 @@ def diagnose_case(
 def _refuse_level(level: object) -> None:
     """Refuse a level of the mismatch test that is no number or beyond those that make sense."""
     low, high = LEVELS
-    if not isinstance(level, Real) or isinstance(level, bool) or not low <= level <= high:
+    if not isinstance(level, Real) or isinstance(level, bool) or not low <= float(level) <= high:
         raise InputError(f"must be a number from {low:g} to {high:g}", where="level", value=level)
 
 
