@@ -20,7 +20,7 @@ from mixedlub.diagnosis.report.text.answer import as_json, predictions
 from mixedlub.diagnosis.report.text.headline import chance
 from mixedlub.schema.findings import as_texts, collected, listed, warn_of
 from mixedlub.study.plan import counted
-from profiles.errors import InputError, as_path
+from profiles.errors import InputError, as_path, nearest
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -129,9 +129,12 @@ class Answer:
 
         from mixedlub.diagnosis.labels import axis_label
 
+        columns = self.diagnosis.recorded.table.columns
+        if over not in columns:
+            raise InputError(f"no such column; {nearest(over, columns)}", where="plot_residuals: over", value=over)
         axes = plt.gca() if axes is None else axes
         before, after = self.diagnosis.residuals
-        at = self.diagnosis.recorded.table[over]
+        at = columns[over]
         axes.axhspan(-2.0, 2.0, color="0.93", lw=0)
         axes.plot(at, before, "o", ms=3, color="0.6", label=f"calibrated base model, rms {_rms(before):.2f}")
         axes.plot(at, after, "o", ms=3, color="C0", label=f"with the answer, rms {_rms(after):.2f}")
