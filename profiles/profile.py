@@ -59,8 +59,12 @@ class Profile:
     valid: np.ndarray = None  # type: ignore[assignment]  # left out it is all True, from construction on
 
     def __post_init__(self) -> None:
-        heights = frozen(self.heights, float)
         where = f"profile {self.name!r}"
+        try:
+            heights, spacing = frozen(self.heights, float), float(self.spacing)
+        except (TypeError, ValueError):
+            rule = "heights and spacing must be numbers, in metres"
+            raise InputError(rule, where=where, value=(self.heights, self.spacing)) from None
         if heights.ndim != 1 or heights.size < 3:
             raise InputError("a profile needs at least three heights in one line", where=where, value=heights.shape)
         if not np.isfinite(heights).all():
@@ -68,12 +72,13 @@ class Profile:
             raise InputError(
                 "heights must be finite numbers", where=f"{where}, point {first + 1}", value=heights[first]
             )
-        if not (np.isfinite(self.spacing) and self.spacing > 0):
+        if not (np.isfinite(spacing) and spacing > 0):
             raise InputError("spacing must be above zero", where=where, value=self.spacing)
         valid = frozen(np.ones(heights.size, bool) if self.valid is None else self.valid, bool)
         if valid.shape != heights.shape:
             raise InputError("the mask must be as long as the heights", where=where, value=valid.shape)
         object.__setattr__(self, "heights", heights)
+        object.__setattr__(self, "spacing", spacing)
         object.__setattr__(self, "valid", valid)
         object.__setattr__(self, "cutoffs", MappingProxyType(dict(self.cutoffs)))
         object.__setattr__(self, "origin", MappingProxyType(dict(self.origin)))

@@ -100,7 +100,7 @@ def open_source(path: Path, unit: tuple[str, str] | None, spacing: float | None)
 def _units(unit: str | None) -> tuple[str, str] | None:
     if unit is None:
         return None
-    words = [word for word in unit.replace(",", " ").split() if word]
+    words = [word for word in unit.replace(",", " ").split() if word] if isinstance(unit, str) else []
     if not 1 <= len(words) <= 2:
         raise InputError("one unit, or two for position and height", where="unit", value=unit)
     for word in words:

@@ -120,6 +120,21 @@ def test_a_profile_has_its_own_spacing() -> None:
     refused(lambda: ml.surface(trace, m2=0.1), "surface", "moments and a profile")
 
 
+def test_a_profile_is_made_of_numbers() -> None:
+    for heights, spacing in (("abc", 1e-6), (HEIGHTS, "1 um"), (HEIGHTS, None), ([[1.0], [2.0, 3.0]], 1e-6)):
+        refused(lambda h=heights, s=spacing: profiles.Profile(h, s), "heights and spacing must be numbers")
+
+
+def test_a_unit_is_text(tmp_path) -> None:
+    refused(lambda: profiles.read(tmp_path / "flank.txt", unit=5), "unit: 5", "one unit")
+
+
+def test_effects_are_found_by_one_name_or_several() -> None:
+    assert [e.id for e in ml.effects.find("starvation")] == ["starvation"]
+    refused(lambda: ml.effects.page(["starvation"]), "no such effect")
+    refused(lambda: ml.effects.page("starv"), "nearest known: 'starvation'")
+
+
 TAKES_PROFILE = [
     name
     for name in roughness.__all__
