@@ -39,7 +39,7 @@ types: .venv/dev
 # Examples run from a copy elsewhere, so that they use the installed package and no file they do not bring.
 examples: .venv/dev
 	@copy=$$(mktemp -d) && cp -r examples/. $$copy && here=$$(pwd) && cd $$copy && \
-	for file in [0-9]*.py; do echo "examples/$$file"; $$here/$(BIN)/python -W error $$file > $$file.log || exit 1; done; \
+	for file in [0-9]*.py; do echo "examples/$$file"; $$here/$(BIN)/python -W error -W default:caution -W default:doubt $$file > $$file.log || exit 1; done; \
 	rm -rf $$copy
 
 .venv/pip:

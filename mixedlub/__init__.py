@@ -18,9 +18,11 @@ PUBLIC = {
     "surface": "mixedlub.api.rig",
     "power_loss": "mixedlub.api.loss",
     "along_path": "mixedlub.api.loss",
+    "plot": "mixedlub.api.plot",
     "diagnose": "mixedlub.api.diagnosis",
     "simulate": "mixedlub.api.diagnosis",
     "Answer": "mixedlub.api.diagnosis",
+    "CautionWarning": "mixedlub.schema.findings",
 }
 """Functions and types that notebooks and other packages may rely on, with the module that defines each."""
 ROOMS = ("case", "effects", "friction", "gear", "laws", "study")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import os
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -18,8 +19,22 @@ class InputError(ValueError):
 
     def __init__(self, rule: str, *, where: str = "", value: object = None) -> None:
         self.rule, self.where, self.value = rule, where, value
-        shown = "" if value is None else f"{value!r:.80}"
+        shown = "" if value is None else repr(value).replace("\n", " ")[:80]
         super().__init__(": ".join(part for part in (where, shown, rule) if part))
+
+
+def as_path(given: object, where: str) -> Path:
+    """The path that a caller names as text or as a path; anything else is an error at the place ``where``.
+
+    >>> as_path(None, "read")
+    Traceback (most recent call last):
+    ...
+    profiles.errors.InputError: read: needs a path, as text or pathlib.Path, not None
+    """
+    named = os.fspath(given) if isinstance(given, str | os.PathLike) else None
+    if not isinstance(named, str):
+        raise InputError(f"needs a path, as text or pathlib.Path, not {given!r:.80}", where=where)
+    return Path(named)
 
 
 def refuse_no_file(path: Path) -> None:

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import wraps
+from inspect import signature
 from types import MappingProxyType
-from typing import Any
+from typing import Any, TypeVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from profiles.errors import InputError
+
+Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def frozen(values: ArrayLike, kind: type) -> np.ndarray:
@@ -55,8 +59,12 @@ class Profile:
     valid: np.ndarray = None  # type: ignore[assignment]  # left out it is all True, from construction on
 
     def __post_init__(self) -> None:
-        heights = frozen(self.heights, float)
         where = f"profile {self.name!r}"
+        try:
+            heights, spacing = frozen(self.heights, float), float(self.spacing)
+        except (TypeError, ValueError):
+            rule = "heights and spacing must be numbers, in metres"
+            raise InputError(rule, where=where, value=(self.heights, self.spacing)) from None
         if heights.ndim != 1 or heights.size < 3:
             raise InputError("a profile needs at least three heights in one line", where=where, value=heights.shape)
         if not np.isfinite(heights).all():
@@ -64,12 +72,13 @@ class Profile:
             raise InputError(
                 "heights must be finite numbers", where=f"{where}, point {first + 1}", value=heights[first]
             )
-        if not (np.isfinite(self.spacing) and self.spacing > 0):
+        if not (np.isfinite(spacing) and spacing > 0):
             raise InputError("spacing must be above zero", where=where, value=self.spacing)
         valid = frozen(np.ones(heights.size, bool) if self.valid is None else self.valid, bool)
         if valid.shape != heights.shape:
             raise InputError("the mask must be as long as the heights", where=where, value=valid.shape)
         object.__setattr__(self, "heights", heights)
+        object.__setattr__(self, "spacing", spacing)
         object.__setattr__(self, "valid", valid)
         object.__setattr__(self, "cutoffs", MappingProxyType(dict(self.cutoffs)))
         object.__setattr__(self, "origin", MappingProxyType(dict(self.origin)))
@@ -87,3 +96,19 @@ class Profile:
     def after(self, step: str, heights: np.ndarray, **changes: Any) -> Profile:
         """The profile with new heights and one more step in its history."""
         return replace(self, heights=heights, steps=(*self.steps, step), **changes)
+
+
+def of_profile(function: Function) -> Function:
+    """A function of a `Profile` that refuses anything else as its first argument: heights alone have no spacing."""
+    name = next(iter(signature(function).parameters))
+    place = f"{function.__module__.partition('.')[0]}.{function.__name__}"
+
+    @wraps(function)
+    def checked(*args: Any, **keys: Any) -> Any:
+        given = args[:1] or ((keys[name],) if name in keys else ())
+        if given and not isinstance(given[0], Profile):
+            kind = type(given[0]).__name__
+            raise InputError(f"needs profiles.Profile(heights, spacing), not {kind}", where=f"{place}: {name}")
+        return function(*args, **keys)
+
+    return cast(Function, checked)

@@ -9,7 +9,7 @@ from functools import cache
 from importlib.metadata import entry_points
 from pathlib import Path, PurePath
 
-from profiles.errors import InputError, refuse_no_file
+from profiles.errors import InputError, as_path, refuse_no_file
 from profiles.profile import Profile
 from profiles.readers.base import MAX_BYTES, Reader, Source
 from profiles.readers.container import ZipReader
@@ -38,7 +38,11 @@ def read(path: str | os.PathLike[str], *, unit: str | None = None, spacing: floa
     ``spacing`` the step, in metres or as ``"0.5 um"``, for one column of heights or bad positions. Formats
     that carry their own units ignore ``unit``; a step of the file that ``spacing`` overrules is in ``origin``.
     """
-    return read_source(open_source(Path(path), _units(unit), None if spacing is None else length(spacing, "spacing")))
+    return read_source(
+        open_source(
+            as_path(path, "profiles.read"), _units(unit), None if spacing is None else length(spacing, "spacing")
+        )
+    )
 
 
 def read_source(source: Source) -> Profile:
@@ -96,7 +100,7 @@ def open_source(path: Path, unit: tuple[str, str] | None, spacing: float | None)
 def _units(unit: str | None) -> tuple[str, str] | None:
     if unit is None:
         return None
-    words = [word for word in unit.replace(",", " ").split() if word]
+    words = [word for word in unit.replace(",", " ").split() if word] if isinstance(unit, str) else []
     if not 1 <= len(words) <= 2:
         raise InputError("one unit, or two for position and height", where="unit", value=unit)
     for word in words:

@@ -8,6 +8,7 @@ import numpy as np
 
 from profiles import InputError, Profile
 from profiles.errors import nearest
+from profiles.profile import of_profile
 from roughness.mccool import nayak_parameter, plane_offset, summit_density, summit_radius, summit_sigma
 from roughness.moments import Moments, moments
 from roughness.probability import two_lines
@@ -36,6 +37,7 @@ class Asperities:
         return self.density * self.radius * self.sigma
 
 
+@of_profile
 def asperities(profile: Profile, *, model: str = "McCool") -> Asperities:
     """Asperities of one profile under one of ``MODELS``, so that a surface can be seen under all of them.
 

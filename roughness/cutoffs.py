@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from profiles import InputError, Profile
 from profiles.errors import nearest
+from profiles.profile import of_profile
 from roughness.elements import element_parameters
 from roughness.parameters import height_parameters
 from roughness.prepare import roughness_profile
@@ -59,6 +60,7 @@ def short_cutoff_for(cutoff: float) -> CutoffChoice:
     return CutoffChoice(cutoff, *row[1:], reason=f"ISO 3274 table 1 for a cut-off of {cutoff * 1e3:g} mm")
 
 
+@of_profile
 def choose_cutoffs(profile: Profile) -> CutoffChoice:
     """Cut-offs of a levelled trace by the rule of ISO 4288:1996, 7.2.
 

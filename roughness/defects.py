@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from profiles import InputError, Profile
+from profiles.profile import of_profile
 from roughness.robust import robust_mean_line
 
 CUT = "edges cut"
 """How the step begins that shortens a trace."""
 
 
+@of_profile
 def mask_outliers(
     profile: Profile,
     *,
@@ -46,6 +48,7 @@ def mask_outliers(
     return masked(profile, found, f"outliers beyond {sigmas:g} sigma masked ({side})")
 
 
+@of_profile
 def mask_edges(profile: Profile, *, steepness: float = 8.0, share: float = 0.02) -> Profile:
     """Mask the chamfers, steps and falling ends of a trace that runs over the edges of a part.
 
@@ -118,6 +121,7 @@ def masked(profile: Profile, away: np.ndarray, step: str) -> Profile:
     return profile.after(f"{step}: {newly} points", heights, valid=valid)
 
 
+@of_profile
 def without_edges(profile: Profile) -> Profile:
     """The longest stretch without masked ends: what is left between the edges of a part."""
     kept = np.flatnonzero(profile.valid)

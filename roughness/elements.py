@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from profiles import InputError, Profile
+from profiles.profile import of_profile
 from roughness.parameters import height_parameters
 
 DISCRIMINATIONS = {"10 % of Rz": (0.1, "Rz"), "10 % of Rt": (0.1, "Rt"), "5 % of Rz": (0.05, "Rz")}
@@ -26,6 +27,7 @@ class ElementParameters:
     discrimination: str
 
 
+@of_profile
 def element_parameters(
     profile: Profile, *, discrimination: str = "10 % of Rz", sections: int | None = None
 ) -> ElementParameters:

@@ -8,6 +8,7 @@ import numpy as np
 
 from profiles import InputError, Profile
 from profiles.errors import nearest
+from profiles.profile import of_profile
 
 CORE_METHODS = ("least squares", "class levels")
 
@@ -31,6 +32,7 @@ class CoreParameters:
     method: str
 
 
+@of_profile
 def material_ratio_curve(profile: Profile) -> tuple[np.ndarray, np.ndarray]:
     """Heights from highest to lowest (m) and the percentage of the profile at or above each.
 
@@ -42,6 +44,7 @@ def material_ratio_curve(profile: Profile) -> tuple[np.ndarray, np.ndarray]:
     return 100.0 * (np.arange(heights.size) + 0.5) / heights.size, heights
 
 
+@of_profile
 def material_ratio(profile: Profile, height: float) -> float:
     """Rmr(c): percentage of the profile at or above a height (m) over the zero line. ISO 4287, 4.5.2.
 
@@ -61,6 +64,7 @@ def section_height_difference(profile: Profile, upper_percent: float, lower_perc
     return height_at_ratio(profile, upper_percent) - height_at_ratio(profile, lower_percent)
 
 
+@of_profile
 def core_parameters(profile: Profile, *, method: str = "least squares") -> CoreParameters:
     """Rk Rpk Rvk Mr1 Mr2 by the line through the flattest 40 % of the curve. ISO 13565-2, 4.
 

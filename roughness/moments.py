@@ -8,6 +8,7 @@ import numpy as np
 
 from profiles import InputError, Profile
 from profiles.errors import nearest
+from profiles.profile import of_profile
 from roughness.mccool import nayak_parameter
 from roughness.spectrum import power_density
 
@@ -87,6 +88,7 @@ def across_and_along(across: Moments, along: Moments, *, rule: str = "geometric"
     )
 
 
+@of_profile
 def moments(profile: Profile, *, estimator: str = "differences") -> Moments:
     """Moments of a levelled, filtered profile.
 

@@ -7,10 +7,12 @@ from dataclasses import replace
 import numpy as np
 
 from profiles import InputError, Profile
+from profiles.profile import of_profile
 from roughness.filters import gaussian_kernel
 from roughness.moments import Moments
 
 
+@of_profile
 def height_quantum(profile: Profile) -> float | None:
     """Step between the height levels of a digitised trace (m); None where the heights take no levels.
 
@@ -66,6 +68,7 @@ def without_noise(moments: Moments, sigma: float) -> Moments:
     return replace(moments, m0=left[0], m2=left[1], m4=left[2], estimator=f"{moments.estimator}, noise removed")
 
 
+@of_profile
 def tip_traced(profile: Profile, radius: float) -> Profile:
     """The trace that a round tip of a radius (m) would draw: its lowest point where it rests on the surface.
 
@@ -82,6 +85,7 @@ def tip_traced(profile: Profile, radius: float) -> Profile:
     return profile.after(f"traced by a tip of {radius * 1e6:g} um", drawn)
 
 
+@of_profile
 def tip_reconstructed(profile: Profile, radius: float) -> Profile:
     """The highest surface that could have given this trace under a round tip of a radius (m).
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from profiles import InputError, Profile
 from profiles.errors import nearest
+from profiles.profile import of_profile
 
 FEWEST = 8
 """Points that a sampling length needs: the slope formula alone takes seven."""
@@ -74,6 +75,7 @@ class HeightParameters:
     convention: str
 
 
+@of_profile
 def height_parameters(
     profile: Profile, *, convention: str = "ISO 4287:1997", sections: int | None = None
 ) -> HeightParameters:

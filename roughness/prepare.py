@@ -8,6 +8,7 @@ import numpy as np
 
 from profiles import InputError, Profile
 from profiles.errors import nearest
+from profiles.profile import of_profile
 from roughness.filters import gaussian_mean_line
 from roughness.form import circle, involute
 from roughness.robust import robust_mean_line, spline_mean_line
@@ -18,11 +19,13 @@ HIGHEST = 20
 FORMS = ("none", "mean", "line", "polynomial-N", "circle", "involute-RADIUS")
 
 
+@of_profile
 def level(profile: Profile) -> Profile:
     """Take off the least-squares straight line."""
     return remove_form(profile, "line")
 
 
+@of_profile
 def remove_form(profile: Profile, form: str) -> Profile:
     """Take off the least-squares form; masked points do not pull the fit.
 
@@ -54,6 +57,7 @@ def remove_form(profile: Profile, form: str) -> Profile:
     return profile.after(f"form {form} removed", profile.heights - fitted)
 
 
+@of_profile
 def roughness_profile(
     profile: Profile,
     *,
@@ -109,6 +113,7 @@ def roughness_profile(
     return result
 
 
+@of_profile
 def primary_profile(
     profile: Profile, short_cutoff: float, *, ends: str = "regression", floored: bool = False
 ) -> Profile:
@@ -126,6 +131,7 @@ def primary_profile(
     )
 
 
+@of_profile
 def waviness_profile(profile: Profile, cutoff: float, *, ends: str = "regression", floored: bool = False) -> Profile:
     """What is longer than the cut-off (m): the mean line that the roughness profile leaves behind."""
     return profile.after(
@@ -135,6 +141,7 @@ def waviness_profile(profile: Profile, cutoff: float, *, ends: str = "regression
     )
 
 
+@of_profile
 def trim(profile: Profile, start: float = 0.0, end: float = 0.0) -> Profile:
     """Cut lengths (m) off the two ends.
 

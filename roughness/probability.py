@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from profiles import InputError, Profile
+from profiles.profile import of_profile
 from roughness.integrals import area_integral
 from roughness.spectrum import autocorrelation
 
@@ -77,6 +78,7 @@ class NormalProbability:
         return self.verdict == "gaussian" and not 1.0 / _CONTACT <= self.contact_ratio[1] <= _CONTACT
 
 
+@of_profile
 def normal_probability(profile: Profile, *, tolerance: float = TOLERANCE) -> NormalProbability:
     """Judge whether the heights of a filtered profile are Gaussian, and between which percentages.
 

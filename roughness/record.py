@@ -9,6 +9,7 @@ from dataclasses import asdict, replace
 import numpy as np
 
 from profiles import InputError, Profile
+from profiles.profile import of_profile
 from roughness.asperities import Asperities, mccool_asperities
 from roughness.cutoffs import choose_cutoffs, short_cutoff_for
 from roughness.defects import mask_edges, mask_outliers, without_edges
@@ -28,6 +29,7 @@ ROUNDING = 1e-13
 _LENGTHS = ("Ra", "Rq", "Rz", "Rt", "Rp", "Rv", "Rz1max")
 
 
+@of_profile
 def evaluation_profile(
     trace: Profile,
     *,
@@ -81,6 +83,7 @@ def evaluation_profile(
     )
 
 
+@of_profile
 def trace_record(
     trace: Profile,
     *,
@@ -121,6 +124,7 @@ def trace_record(
     return profile, profile_record(profile, convention=convention, sections=sections, raw=trace, band=band)
 
 
+@of_profile
 def profile_record(
     profile: Profile,
     *,

@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from profiles import InputError, Profile
+from profiles.profile import of_profile
 
 
+@of_profile
 def power_density(profile: Profile) -> tuple[np.ndarray, np.ndarray]:
     """One-sided spectral density (m3) over the wavenumber (cycles per m).
 
@@ -58,6 +60,7 @@ def log_binned(wavenumber: np.ndarray, density: np.ndarray, *, per_decade: int =
     )
 
 
+@of_profile
 def autocorrelation(profile: Profile) -> np.ndarray:
     """Correlation of the heights with themselves, lags 0 to n-1 samples, 1 at lag 0.
 
@@ -78,6 +81,7 @@ def autocorrelation(profile: Profile) -> np.ndarray:
     return products / products[0]
 
 
+@of_profile
 def correlation_length(profile: Profile, *, fall_to: float = 0.2) -> float:
     """Lag (m) at which the autocorrelation first falls to ``fall_to``; linear between samples.
 

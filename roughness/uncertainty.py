@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from profiles import InputError, Profile
+from profiles.profile import of_profile
 from roughness.asperities import mccool_asperities
 from roughness.filters import gaussian_mean_line
 from roughness.moments import Moments, moments
@@ -15,6 +16,7 @@ from roughness.parameters import section_count
 Prepare = Callable[[Profile, float], Profile]
 
 
+@of_profile
 def short_cutoff_band(
     before: Profile, short_cutoff: float, prepare: Prepare, *, factors: Sequence[float] = (0.5, 1.0, 2.0)
 ) -> tuple[Moments, ...]:
@@ -29,6 +31,7 @@ def short_cutoff_band(
     )
 
 
+@of_profile
 def smoothed_moments(profile: Profile, short_cutoff: float) -> Moments:
     """Moments of a profile as if its short cut-off had been a longer one (m).
 
@@ -46,6 +49,7 @@ def smoothed_moments(profile: Profile, short_cutoff: float) -> Moments:
     return moments(profile.after("smoothed", heights, cutoffs={**profile.cutoffs, "short_cutoff": short_cutoff}))
 
 
+@of_profile
 def bootstrap(
     profile: Profile, *, sections: int | None = None, draws: int = 400, level: float = 0.9, seed: int = 0
 ) -> dict[str, tuple[float, float]]:

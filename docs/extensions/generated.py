@@ -217,11 +217,26 @@ def _api() -> str:
     """Every public name of the package, and the public names of its rooms that have no page of their own."""
     import mixedlub
 
-    parts = [f".. autofunction:: mixedlub.{name}" for name in mixedlub.PUBLIC]
+    parts = [_documented(f"mixedlub.{name}", getattr(mixedlub, name)) for name in mixedlub.PUBLIC]
     found = [f"```{{eval-rst}}\n{chr(10).join(parts)}\n```"]
     for name in (*(f"mixedlub.{room}" for room in mixedlub.ROOMS if room not in WITH_PAGES), *mixedlub.BESIDE):
         found.append(f"## {name}\n\n```{{eval-rst}}\n.. automodule:: {name}\n   :members:\n```")
     return "\n\n".join(found)
+
+
+def _documented(name: str, what: object) -> str:
+    """The directive that documents a function, or a class with its public members.
+
+    >>> _documented("builtins.len", len), _documented("builtins.UserWarning", UserWarning)
+    ('.. autofunction:: builtins.len', '.. autoexception:: builtins.UserWarning')
+    >>> _documented("pathlib.Path", Path)
+    '.. autoclass:: pathlib.Path\\n   :members:'
+    """
+    if not isinstance(what, type):
+        return f".. autofunction:: {name}"
+    if issubclass(what, Exception):
+        return f".. autoexception:: {name}"
+    return f".. autoclass:: {name}\n   :members:"
 
 
 def _printed(*words: str) -> str:

@@ -25,6 +25,8 @@ from sphinx.util.docutils import SphinxDirective
 
 ROOT = Path(__file__).parents[2]
 COPIED = ("examples", "profiles/traces")
+STRICT = ("-W", "error", "-W", "default:caution", "-W", "default:doubt")
+"""Any warning is an error but those about the numbers of a result, which the page shows."""
 LIMIT_S = 300
 """Seconds after which a block has hung: the slowest takes some ten on two cores."""
 
@@ -130,7 +132,7 @@ class Run(SphinxDirective, _InPage):
             self.wait_for(self.options["with"], self.options.get("once", ""))
         try:
             for program in programs:
-                words = [sys.executable, "-W", "error", "-c", program] if python else ["bash", "-c", program]
+                words = [sys.executable, *STRICT, "-c", program] if python else ["bash", "-c", program]
                 output = self.output(words, self.options.get("status", 0))
                 output = shortened(output, self.options.get("head"), self.options.get("tail"))
                 shown += (

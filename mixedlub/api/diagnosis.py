@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
@@ -17,19 +17,37 @@ from mixedlub.diagnosis.diagnose import Diagnosis, diagnosis_of
 from mixedlub.diagnosis.report.files import files, write
 from mixedlub.diagnosis.report.improved import improved_case
 from mixedlub.diagnosis.report.text.answer import as_json, predictions
-from profiles.errors import InputError
+from mixedlub.diagnosis.report.text.headline import chance
+from mixedlub.schema.findings import as_texts, collected, listed, warn_of
+from mixedlub.study.plan import counted
+from profiles.errors import InputError, as_path, nearest
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from mixedlub.case.folder import Frame
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Answer:
-    """The answer to the question which physics a simulation lacks; it prints as the report of `mixedlub diagnose`.
+    """The answer to the question which physics a simulation lacks.
 
-    ``diagnosis`` holds everything that it was computed from; what is public is what stands here.
+    It shows as a summary and prints as the report of `mixedlub diagnose`. ``diagnosis`` holds everything that it was
+    computed from; what is public is what stands here.
+
+    >>> import mixedlub as ml, numpy as np
+    >>> speed = np.array([10.0, 20, 50, 100, 200, 300, 400, 500] * 4)
+    >>> torque = (0.5 + 2e-3 * speed + 0.6 * np.exp(-speed / 40)) * (1 + 0.01 * np.cos(7.0 * np.arange(32)))
+    >>> drive = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm", "noise": {"relative": 0.01}}}
+    >>> answer = ml.diagnose(ml.case.case_of(drive, {"speed_rpm": speed, "friction_torque_Nm": torque}, name="joint"))
+    >>> print(repr(answer).partition("\\n")[0])
+    Answer for 'joint': 32 readings of friction_torque_Nm
+    >>> answer.verdict, answer.probabilities.index[0]
+    (['stribeck'], 'stribeck')
+    >>> answer.parameters["of"].unique().tolist()
+    ['stribeck', 'calibration']
     """
 
     diagnosis: Diagnosis
@@ -68,8 +86,8 @@ class Answer:
 
     @property
     def findings(self) -> list[str]:
-        """Warnings about the input and the answer."""
-        return [str(one) for one in self.diagnosis.warnings]
+        """Notes, cautions and doubts about the input and the answer."""
+        return as_texts(self.diagnosis.warnings)
 
     @property
     def improved(self) -> Case:
@@ -87,7 +105,17 @@ class Answer:
 
         return report_text(self.diagnosis)
 
-    __repr__ = summary
+    __str__ = summary
+
+    def __repr__(self) -> str:
+        d, (verdict, *tied) = self.diagnosis, (" + ".join(names) for names in self.record["tied"])
+        before, after = map(_rms, d.residuals)
+        lines = [f"Answer for {d.case.name!r}: {len(d.recorded.table)} readings of {d.case.quantity}"]
+        lines += [f"verdict: {verdict} (probability {chance(d.posterior.weights[d.posterior.verdict])})"]
+        lines += [f"tied with {listed(tied, 2)}"] if tied else []
+        lines += [f"residuals in standard deviations: rms {before:.2f} before, {after:.2f} with the verdict"]
+        lines += [f"{counted(len(self.findings), 'finding')}; summary() is the report"]
+        return "\n  ".join(lines)
 
     def figures(self) -> dict[str, Figure]:
         """Every figure of the report, by name."""
@@ -101,9 +129,12 @@ class Answer:
 
         from mixedlub.diagnosis.labels import axis_label
 
+        columns = self.diagnosis.recorded.table.columns
+        if over not in columns:
+            raise InputError(f"no such column; {nearest(over, columns)}", where="plot_residuals: over", value=over)
         axes = plt.gca() if axes is None else axes
         before, after = self.diagnosis.residuals
-        at = self.diagnosis.recorded.table[over]
+        at = columns[over]
         axes.axhspan(-2.0, 2.0, color="0.93", lw=0)
         axes.plot(at, before, "o", ms=3, color="0.6", label=f"calibrated base model, rms {_rms(before):.2f}")
         axes.plot(at, after, "o", ms=3, color="C0", label=f"with the answer, rms {_rms(after):.2f}")
@@ -124,15 +155,15 @@ def _rms(values: np.ndarray) -> float:
 
 def diagnose(
     case: Case | str | PathLike[str],
-    predict: pd.DataFrame | None = None,
+    predict: Frame | None = None,
     *,
-    exclude: Sequence[str] = (),
+    exclude: str | Sequence[str] = (),
     level: float = 0.01,
 ) -> Answer:
     """Which physics the base model of a recorded case lacks, how sure that is, and what it predicts.
 
     The case is one that was read or made (`ml.case`), or its folder; ``predict`` are conditions in place of its own.
-    ``exclude`` are effects left out of the catalogue, ``level`` is that of the mismatch test.
+    ``exclude`` is an effect left out of the catalogue, or several; ``level`` is that of the mismatch test.
 
     >>> import mixedlub as ml, numpy as np, pandas as pd
     >>> speed = np.array([10.0, 20, 50, 100, 200, 300, 400, 500] * 4)
@@ -142,12 +173,40 @@ def diagnose(
     >>> ml.diagnose(ml.case.case_of(drive, rows)).verdict
     ['stribeck']
     """
-    found = case if isinstance(case, Case) else read_case(Path(case))
+    found = _case(case, "diagnose")
     asked = found.conditions if predict is None else conditions_for(found, predict)
-    return Answer(diagnosis_of(found, asked, exclude, level))
+    return Answer(diagnosis_of(found, asked, _ids(exclude), level))
 
 
-def simulate(case: Case | str | PathLike[str], at: pd.DataFrame | None = None) -> pd.DataFrame:
-    """The model of a case, with the effects and the calibration that it names, at its conditions or those ``at``."""
-    found = case if isinstance(case, Case) else read_case(Path(case))
-    return simulated(found, None if at is None else conditions_for(found, at))
+def simulate(case: Case | str | PathLike[str], at: Frame | None = None) -> pd.DataFrame:
+    """The model of a case, with the effects and the calibration that it names, at its conditions or those ``at``.
+
+    Conditions are a data frame, or lists by column. The attribute ``findings`` of the result has what a reader should
+    know of it; cautions and doubts are Python warnings.
+
+    >>> import mixedlub as ml
+    >>> drive = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm"}}
+    >>> rows = {"speed_rpm": [100.0, 200.0, 300.0], "friction_torque_Nm": [0.51, 0.62, 0.69]}
+    >>> ml.simulate(ml.case.case_of(drive, rows), at={"speed_rpm": [150.0, 250.0]}).columns.tolist()
+    ['run', 'friction_torque_Nm', 'speed_rpm']
+    """
+    found = _case(case, "simulate")
+    asked = None if at is None else conditions_for(found, at)
+    with collected() as notes:
+        readings = simulated(found, asked)
+    warn_of(notes)
+    readings.attrs["findings"] = as_texts(notes)
+    return readings
+
+
+def _case(case: Case | str | PathLike[str], where: str) -> Case:
+    """A case, read where it is given by its folder."""
+    return case if isinstance(case, Case) else read_case(as_path(case, where))
+
+
+def _ids(exclude: str | Sequence[str]) -> tuple[str, ...]:
+    """Effect ids, given as one or as several."""
+    ids = (exclude,) if isinstance(exclude, str) else tuple(exclude) if isinstance(exclude, Iterable) else (exclude,)
+    if not all(isinstance(one, str) for one in ids):
+        raise InputError("must be the id of an effect, or a list of effect ids", where="exclude", value=exclude)
+    return ids

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from mixedlub.chain.model import Model
 from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.schema.findings import as_texts, warn_of
 from mixedlub.schema.system_file import Gears, Lubricant, SurfaceSection
 from mixedlub.schema.toml_file import parse
 from mixedlub.study.friction_comparison import judged
@@ -17,11 +19,13 @@ from mixedlub.study.options import study_chain
 from mixedlub.study.plan import Study, read_study
 from mixedlub.study.results import run_study
 from mixedlub.study.schema import StudyFile
+from profiles.errors import InputError
 
 if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import ArrayLike
 
+Part = TypeVar("Part")
 Surfaces = SurfaceSection | Sequence[SurfaceSection]
 ALONG_PATH = {
     "path_weight": ("path_weight", 1.0),
@@ -57,7 +61,8 @@ def power_loss(
     """Power lost by a gear pair at every combination of torque, speed (both of the pinion) and oil temperature.
 
     ``surfaces`` are those of pinion and gear, or one for both. A condition given as a list becomes a dimension of the
-    result; ``options`` and ``effects`` are those of a study file. The variables are the columns of a study's table.
+    result; ``options`` and ``effects`` are those of a study file. The variables are the columns of a study's table; the
+    attribute ``findings`` has what a reader should know of them, and its cautions and doubts are Python warnings.
 
     >>> import mixedlub as ml
     >>> pair = ml.gear_pair(teeth=(17, 26), normal_module_mm=4.2333, pressure_angle_deg=22.5, face_width_mm=14.0)
@@ -69,8 +74,10 @@ def power_loss(
     (('torque_Nm',), 'W')
     """
     conditions = {"torque_Nm": torque_Nm, "speed_rpm": speed_rpm, "oil_temperature_C": oil_temperature_C}
-    study = _study(gears, oil, surfaces, conditions, boundary_friction, options, effects)
-    grid = run_study(study).to_xarray().isel(pairing=0, drop=True)
+    study = _study("power_loss", gears, oil, surfaces, conditions, boundary_friction, options, effects)
+    results = run_study(study)
+    warn_of(results.findings)
+    grid = results.to_xarray().isel(pairing=0, drop=True)
     single = {name: 0 for name, values in conditions.items() if np.ndim(values) == 0}
     return grid.isel(single)
 
@@ -102,7 +109,11 @@ def along_path(
     import xarray as xr
 
     conditions = {"torque_Nm": torque_Nm, "speed_rpm": speed_rpm, "oil_temperature_C": oil_temperature_C}
-    study = _study(gears, oil, surfaces, conditions, boundary_friction, options, effects)
+    for name, value in conditions.items():
+        if np.ndim(value) > 0:
+            rule = "takes one number; ml.power_loss takes lists, or call it for each"
+            raise InputError(rule, where=f"along_path: {name}", value=value)
+    study = _study("along_path", gears, oil, surfaces, conditions, boundary_friction, options, effects)
     checked = () if study.plan.friction is None else study.plan.friction.checked
     wanted = tuple(dict.fromkeys((*ALONG_PATH, *checked)))
     model = Model(study_chain(study.file.options), tuple(study.plan.inputs), wanted, study.effects)
@@ -128,11 +139,15 @@ def along_path(
             holds.reshape(shape),
             {"long_name": f"whether {law.name} holds at the point"},
         )
-    found = xr.Dataset(variables, {"roll_angle_deg": angle, "face_position_mm": face}, conditions)
+    findings = run_study(study).findings
+    warn_of(findings)
+    whole = {**conditions, "findings": as_texts(findings)}
+    found = xr.Dataset(variables, {"roll_angle_deg": angle, "face_position_mm": face}, whole)
     return found.isel(face_position_mm=0, drop=True) if points.slices == 1 else found
 
 
 def _study(
+    call: str,
     gears: Gears,
     oil: Lubricant,
     surfaces: Surfaces,
@@ -141,17 +156,55 @@ def _study(
     options: Mapping[str, Any] | None,
     effects: Mapping[str, Mapping[str, float | str]] | None,
 ) -> Study:
-    """A study of one pairing; traces are read from the current folder."""
-    pinion, gear = (surfaces, surfaces) if isinstance(surfaces, SurfaceSection) else surfaces
+    """A study of one pairing; traces are read from the current folder. ``call`` is the place that errors name."""
+    pinion, gear = _both(surfaces, f"{call}: surfaces")
     file = {
         "schema": "mixedlub-study/1",
         "boundary_friction": boundary_friction,
-        "gears": gears,
-        "lubricant": oil,
+        "gears": _made(gears, Gears, "gear_pair", f"{call}: gears"),
+        "lubricant": _made(oil, Lubricant, "oil", f"{call}: oil"),
         "surfaces": {"pinion": pinion, "gear": gear},
         "pairings": {"pinion": ["pinion"], "gear": ["gear"]},
-        "conditions": {name: np.atleast_1d(np.asarray(values)).tolist() for name, values in conditions.items()},
-        "options": dict(options or {}),
-        "effects": {name: dict(values) for name, values in (effects or {}).items()},
+        "conditions": {name: _levels(values, f"{call}: {name}") for name, values in conditions.items()},
+        "options": _plain(options or {}),
+        "effects": _plain(effects or {}),
     }
-    return read_study(Path("power_loss"), parse(StudyFile, file, "power_loss"))
+    return read_study(Path(call), parse(StudyFile, file, call))
+
+
+def _both(surfaces: Surfaces, where: str) -> tuple[SurfaceSection, SurfaceSection]:
+    """Surface of the pinion and of the gear."""
+    single = isinstance(surfaces, SurfaceSection | str | PathLike)
+    pair = (surfaces, surfaces) if single else surfaces
+    if not isinstance(pair, Sequence) or len(pair) != 2:
+        rule = "must be one surface for both, or two, of pinion and gear"
+        given = f"{len(pair)} of them" if isinstance(pair, Sequence) else type(pair).__name__
+        raise InputError(f"{rule}, not {given}", where=where)
+    pinion, gear = (_made(one, SurfaceSection, "surface", where) for one in pair)
+    return pinion, gear
+
+
+def _made(given: object, kind: type[Part], maker: str, where: str) -> Part:
+    """A part that a function of the package made; its name is not yet the part."""
+    if isinstance(given, kind):
+        return given
+    if isinstance(given, str | PathLike) and kind is not Gears:
+        raise InputError(f"is a name; write ml.{maker}({str(given)!r})", where=where)
+    raise InputError(f"must be made by ml.{maker}(...), not {type(given).__name__}", where=where)
+
+
+def _levels(values: ArrayLike, where: str) -> list[Any]:
+    """The levels of a condition, given as one number or a list of numbers."""
+    rule = "must be a number or a list of numbers"
+    try:
+        levels = np.atleast_1d(np.asarray(values))
+    except ValueError:
+        raise InputError(rule, where=where, value=values) from None
+    if levels.ndim > 1 or isinstance(values, Mapping):
+        raise InputError(rule, where=where, value=values)
+    return levels.tolist()
+
+
+def _plain(values: Any) -> Any:
+    """Mappings of any type as dictionaries, which is what a file has."""
+    return {key: _plain(value) for key, value in values.items()} if isinstance(values, Mapping) else values

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from os import PathLike
+from pathlib import Path
 from typing import Any
 
+from mixedlub.rig import build
+from mixedlub.schema.findings import collected, warn_of
 from mixedlub.schema.oil_file import STOCKS
 from mixedlub.schema.system_file import Gears, Lubricant, SurfaceSection
-from mixedlub.schema.toml_file import parse
+from mixedlub.schema.toml_file import named_file, parse
+from mixedlub.study.record import as_moments
+from profiles import SHIPPED_MARK, Profile, shipped
+from profiles.errors import InputError, as_path
 
 
 def gear_pair(**keys: Any) -> Gears:
@@ -45,15 +52,47 @@ def oil(named: str | None = None, /, **keys: Any) -> Lubricant:
     return parse(Lubricant, given | keys, "oil")
 
 
-def surface(profile: str | PathLike[str] | None = None, **keys: Any) -> SurfaceSection:
+def surface(profile: str | PathLike[str] | Profile | None = None, **keys: Any) -> SurfaceSection:
     """A surface, by the keys of a section ``[surfaces.NAME]``: a measured trace, or its three spectral moments.
 
-    A trace that comes with the package is named ``shipped:NAME``.
+    The trace is a file, which must exist, one that comes with the package (``shipped:NAME``), or a
+    ``profiles.Profile``, of which the moments are taken at once.
 
-    >>> import mixedlub as ml
+    >>> import mixedlub as ml, numpy as np
     >>> ml.surface(m0_um2=0.137, m2=0.0031, m4_per_um2=0.0021).m0_um2
     0.137
     >>> ml.surface("shipped:0258", cutoff_mm=0.8).profile
     'shipped:0258'
+    >>> wave = ml.profiles.Profile(1e-6 * np.sin(2 * np.pi * np.arange(8000) / 200), spacing=0.5e-6)
+    >>> round(ml.surface(wave, cutoff_mm=0.8, short_cutoff_um=2.5).m0_um2, 2)
+    0.5
     """
-    return parse(SurfaceSection, {"profile": None if profile is None else str(profile), **keys}, "surface")
+    if profile is None:
+        return parse(SurfaceSection, keys, "surface")
+    if isinstance(profile, Profile):
+        return _of_trace(profile, keys)
+    where = "surface: profile"
+    if not isinstance(profile, str | PathLike):
+        rule = (
+            "needs the path of a trace, or heights with their spacing, ml.surface(profiles.Profile(heights, spacing))"
+        )
+        raise InputError(f"{rule}, not {type(profile).__name__}", where=where)
+    name = str(as_path(profile, where))
+    if name.startswith(SHIPPED_MARK):
+        shipped(name, where)
+    else:
+        named_file(Path(), name, where)
+    return parse(SurfaceSection, {"profile": name, **keys}, "surface")
+
+
+def _of_trace(trace: Profile, keys: Mapping[str, Any]) -> SurfaceSection:
+    """A surface by the moments of a trace, filtered as a file of it would be."""
+    for key in ("unit", "spacing"):
+        if key in keys:
+            raise InputError("a Profile has its own; leave it out", where=f"surface: {key}", value=keys[key])
+    section = parse(SurfaceSection, {"profile": trace.name, **keys}, "surface")
+    with collected() as found:
+        filtered = build.flank_profile(trace.name, section, trace)
+        measured = build.surface(trace.name, section, (trace, filtered))
+    warn_of(found, stacklevel=4)
+    return parse(SurfaceSection, as_moments(measured, section), "surface")

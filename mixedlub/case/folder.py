@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -15,19 +15,44 @@ from mixedlub.kinds import Kind, kind
 from mixedlub.rig.rig import Rig
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, listed, report
-from mixedlub.schema.table import BOOKKEEPING, RUN, Column, Table, check_column, read_table, sd_column, table_of
+from mixedlub.schema.table import (
+    BOOKKEEPING,
+    RUN,
+    Column,
+    Table,
+    check_column,
+    frame_of,
+    read_table,
+    sd_column,
+    span,
+    table_of,
+)
 from profiles.errors import InputError, nearest
 
 if TYPE_CHECKING:
     import pandas as pd
+    from numpy.typing import ArrayLike
 
+    Frame: TypeAlias = pd.DataFrame | Mapping[str, ArrayLike]
+
+SUMMARY_WIDTH = 80
+"""Characters of the summary of a table."""
 RUNS_LISTED = 5
 """Largest number of runs that a note lists."""
 
 
 @dataclass(frozen=True)
 class Case:
-    """Everything in a case folder, checked."""
+    """Everything in a case folder, checked. It prints as a summary:
+
+    >>> import mixedlub as ml
+    >>> drive = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm"}}
+    >>> rows = {"speed_rpm": [100.0, 200.0, 300.0], "friction_torque_Nm": [0.51, 0.62, 0.69]}
+    >>> ml.case.case_of(drive, rows, name="joint")
+    Case 'joint': friction_map, recorded quantity friction_torque_Nm
+      recordings: 3 rows; speed_rpm 100 to 300; friction_torque_Nm 0.51 to 0.69
+      conditions: none
+    """
 
     name: str
     folder: Path
@@ -38,10 +63,28 @@ class Case:
     conditions: Table | None
     notes: tuple[Finding, ...]
 
+    def __repr__(self) -> str:
+        tables = {"recordings": self.recordings, "conditions": self.conditions}
+        lines = [f"Case {self.name!r}: {self.kind.name}, recorded quantity {self.quantity}"]
+        lines += [f"{name}: {'none' if table is None else _summary(table)}" for name, table in tables.items()]
+        lines += [f"notes: {listed([one.code for one in self.notes])}"] if self.notes else []
+        return "\n  ".join(lines)
+
     @property
     def quantity(self) -> str:
         """Name of the recorded column, with its unit."""
         return self.system.recording.quantity
+
+
+def _summary(table: Table) -> str:
+    """Rows and columns of a table in one line; the last columns are left out where they do not fit."""
+    spans = [span(name, values) for name, values in table.columns.items() if name != RUN.name]
+    text = f"{len(table)} rows"
+    for number, one in enumerate(spans):
+        if len(text) + len(one) > SUMMARY_WIDTH:
+            return f"{text} and {len(spans) - number} more columns"
+        text += f"; {one}"
+    return text
 
 
 def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
@@ -62,13 +105,13 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
 
 def case_of(
     system: Mapping[str, Any],
-    recordings: pd.DataFrame,
-    conditions: pd.DataFrame | None = None,
+    recordings: Frame,
+    conditions: Frame | None = None,
     *,
     name: str = "case",
     folder: str | Path = ".",
 ) -> Case:
-    """A case from the sections of its system and from data frames, checked like a case folder.
+    """A case from the sections of its system and from data frames (or lists by column), checked like a case folder.
 
     Files that the system names, such as traces, are read relative to ``folder``.
 
@@ -78,11 +121,14 @@ def case_of(
     >>> len(ml.case.case_of(drive, rows).recordings)
     3
     """
-    frames = {"recordings": recordings, "conditions": conditions}
+    if not isinstance(system, Mapping):
+        raise InputError("must be a table of keys", where=f"{name}: system", value=system)
+    frames = {"recordings": frame_of(recordings, "recordings")}
+    if conditions is not None:
+        frames["conditions"] = frame_of(conditions, "conditions")
 
     def table(which: str, columns: tuple[Column, ...]) -> Table | None:
-        frame = frames[which]
-        return None if frame is None else table_of(frame, columns, which)
+        return table_of(frames[which], columns, which) if which in frames else None
 
     parsed = toml_file.parse(system_file.System, {"schema": "mixedlub-case/1", **system}, name)
     return _checked(name, Path(folder), parsed, name, table)
@@ -123,8 +169,9 @@ def read_conditions(case: Case, path: Path) -> Table:
     return _with_filled_sds(read_table(path, _columns(case.kind, case.system, False)), f"{case.quantity}_sd")
 
 
-def conditions_for(case: Case, frame: pd.DataFrame) -> Table:
+def conditions_for(case: Case, at: Frame) -> Table:
     """Conditions to predict from a data frame, numbered after the recorded runs where it has no ``run``."""
+    frame = frame_of(at, "conditions")
     if RUN.name not in frame and case.recordings is not None:
         first = int(case.recordings["run"].max()) + 1
         frame = frame.assign(run=np.arange(first, first + len(frame)))

@@ -25,7 +25,7 @@ def command(
         list[str] | None, typer.Option(metavar="ID...", help="Leave effects out of the catalogue.")
     ] = None,
     level: Annotated[
-        float, typer.Option(metavar="CHANCE", min=1e-9, max=0.5, help="Level of the mismatch test.")
+        float, typer.Option(metavar="CHANCE", help="Level of the mismatch test, from 1e-9 to 0.5.")
     ] = 0.01,
 ) -> None:
     """Name the missing physics of a recording.

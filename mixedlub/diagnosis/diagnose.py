@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from numbers import Real
 from pathlib import Path
 
 import numpy as np
@@ -40,12 +41,13 @@ from mixedlub.diagnosis.explanation import DISCREPANCY, Explanation
 from mixedlub.diagnosis.labels import effect_words
 from mixedlub.diagnosis.search.noise_selection import search_under_noise
 from mixedlub.diagnosis.search.search import Progress, Search
-from mixedlub.diagnosis.settings.assessment import FALSE_ALARM_RATE
+from mixedlub.diagnosis.settings.assessment import FALSE_ALARM_RATE, LEVELS
 from mixedlub.diagnosis.settings.inference import LIKELY
 from mixedlub.effects import find
 from mixedlub.recording.readings import readings_of, rows_of
 from mixedlub.schema.findings import Finding, collected, finding
 from mixedlub.schema.table import Table
+from profiles.errors import InputError
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,6 +129,13 @@ def diagnose_case(
     return diagnosis_of(case, requested, exclude, level, progress)
 
 
+def _refuse_level(level: object) -> None:
+    """Refuse a level of the mismatch test that is no number or beyond those that make sense."""
+    low, high = LEVELS
+    if not isinstance(level, Real) or isinstance(level, bool) or not low <= float(level) <= high:
+        raise InputError(f"must be a number from {low:g} to {high:g}", where="level", value=level)
+
+
 def diagnosis_of(
     case: Case,
     requested: Table | None = None,
@@ -135,7 +144,8 @@ def diagnosis_of(
     progress: Progress = lambda text: None,
 ) -> Diagnosis:
     """Work out what the simulation of a case lacks, and predict the conditions ``asked`` for."""
-    find(list(exclude))
+    find(list(exclude), "exclude")
+    _refuse_level(level)
     rows = rows_of(case)
     with collected() as assumed:
         new_rows = None if requested is None else at_programme_end(case, requested)

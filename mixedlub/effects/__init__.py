@@ -33,11 +33,11 @@ def known_in(kind: str) -> Mapping[str, Effect]:
     )
 
 
-def find(ids: list[str] | tuple[str, ...], where: str = "effect") -> tuple[Effect, ...]:
-    """Effects by id; an unknown id raises an error that names the nearest known one and the place ``where``."""
-    known = catalogue()
+def find(ids: str | list[str] | tuple[str, ...], where: str = "effect") -> tuple[Effect, ...]:
+    """Effects by one id or several; an unknown id raises an error that names the nearest and the place ``where``."""
+    known, ids = catalogue(), (ids,) if isinstance(ids, str) else ids
     for name in ids:
-        if name not in known:
+        if not isinstance(name, str) or name not in known:
             raise InputError(f"no such effect; {nearest(name, known)}", where=where, value=name)
     return tuple(known[name] for name in ids)
 

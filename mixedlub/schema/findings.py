@@ -95,6 +95,25 @@ class FindingWarning(UserWarning):
         self.finding = found
 
 
+class CautionWarning(UserWarning):
+    """A caution or a doubt about the input or the result of a call from Python; its text begins with the severity."""
+
+
+def as_texts(found: Iterable[Finding]) -> list[str]:
+    """Findings as the commands print them: the severity, the place and the text, those of one kind as one.
+
+    >>> as_texts([finding("columns_unknown", "columns ignored: colour", "recordings.csv")])
+    ['note: recordings.csv: columns ignored: colour']
+    """
+    return [f"{one.severity}: {one}" for one in grouped(found)]
+
+
+def warn_of(found: Iterable[Finding], stacklevel: int = 3) -> None:
+    """Warn of cautions and doubts, each once; by default at the line that called the caller. Notes do not warn."""
+    for text in as_texts(of_severity(found, Severity.CAUTION, Severity.DOUBT)):
+        warnings.warn(text, CautionWarning, stacklevel=stacklevel)
+
+
 def report(found: Finding) -> None:
     """Report a finding to the active `collected` context; without one it is an ordinary Python warning."""
     warnings.warn(FindingWarning(found), stacklevel=3)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mixedlub.schema.findings import Finding, finding, report
+from mixedlub.schema.findings import Finding, finding, listed, report
 from mixedlub.schema.ranges import probable_unit
 from mixedlub.schema.units import fits, read_as, split, unit_of, words_of
 from profiles.errors import InputError, nearest, refuse_no_file
@@ -207,6 +207,38 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] 
         rule = f"columns are separated by commas, numbers have a decimal point; {_IMPORTED}"
         raise InputError(rule, where=where, value=separator)
     return _table(lines, columns, key, path.name, where)
+
+
+def span(name: str, values: np.ndarray) -> str:
+    """A column in a few words: its lowest and highest number, or its names.
+
+    >>> span("speed_rpm", np.array([500.0, 3000.0])), span("torque_Nm", np.array([50])), span("setup", np.array(["a"]))
+    ('speed_rpm 500 to 3000', 'torque_Nm 50', 'setup a')
+    """
+    if values.dtype.kind not in "fiu":
+        return f"{name} {listed(sorted(set(values.tolist())))}"
+    low, high = (f"{end:.4g}" for end in (np.nanmin(values), np.nanmax(values)))
+    return f"{name} {low}" if low == high else f"{name} {low} to {high}"
+
+
+def frame_of(given: object, where: str) -> pd.DataFrame:
+    """A data frame as it is, or one of columns by name; anything else is an error at the place ``where``.
+
+    >>> frame_of({"speed_rpm": [150.0, 250.0], "load_N": 40.0}, "conditions").shape
+    (2, 2)
+    """
+    import pandas as pd
+
+    if isinstance(given, pd.DataFrame):
+        return given
+    if not isinstance(given, Mapping):
+        rule = f"needs a pandas DataFrame, or lists by the name of their column, not {type(given).__name__}"
+        raise InputError(rule, where=where)
+    try:
+        alone = all(np.ndim(values) == 0 for values in given.values())
+        return pd.DataFrame(dict(given), index=[0] if alone else None)
+    except ValueError as error:
+        raise InputError(f"these columns make no DataFrame ({error})", where=where) from None
 
 
 def table_of(frame: pd.DataFrame, columns: tuple[Column, ...], source: str = "table") -> Table:

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from os import PathLike
-from pathlib import Path
 from typing import Any
 
+from mixedlub.schema.findings import warn_of
 from mixedlub.study.plan import Study, counted, factors, read_study
 from mixedlub.study.results import Results, run_study
+from profiles.errors import as_path
 
 
 def run(study: Study | str | PathLike[str], **how: Any) -> Results:
     """Run a study, given as a file or as a `Study`; ``how`` are the keywords of `run_study`.
+
+    Its cautions and doubts are Python warnings, ``mixedlub.CautionWarning``; the result has all findings.
 
     >>> import mixedlub as ml
     >>> ml.study.run("nowhere.toml")
@@ -19,7 +22,9 @@ def run(study: Study | str | PathLike[str], **how: Any) -> Results:
     ...
     profiles.errors.InputError: nowhere.toml: no such file
     """
-    return run_study(study if isinstance(study, Study) else read_study(Path(study)), **how)
+    results = run_study(study if isinstance(study, Study) else read_study(as_path(study, "study.run")), **how)
+    warn_of(results.findings)
+    return results
 
 
 __all__ = ["Results", "Study", "counted", "factors", "read_study", "run", "run_study"]

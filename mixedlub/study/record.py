@@ -46,7 +46,7 @@ def resolved(study: Study) -> dict[str, Any]:
     taken = {"model", *sharing.chosen.keys.model_fields}
     inputs["gears"]["load_sharing"] = sharing.model_dump(include=taken, exclude_none=True)
     inputs["lubricant"] = _oil(study.oil) | _base(study)
-    inputs["surfaces"] = {name: _moments(s, file.surfaces[name]) for name, s in study.surfaces.items()}
+    inputs["surfaces"] = {name: as_moments(s, file.surfaces[name]) for name, s in study.surfaces.items()}
     inputs.setdefault("pairings", {"every": list(study.surfaces)})
     law = friction.find(file.options.friction)
     inputs["options"]["friction_coefficients"] = law.values(file.options.friction_coefficients)
@@ -137,7 +137,7 @@ def _plain(value: float) -> float:
     return float(f"{value:.14g}")
 
 
-def _moments(surface: Surface, section: SurfaceSection) -> dict[str, Any]:
+def as_moments(surface: Surface, section: SurfaceSection) -> dict[str, Any]:
     """The keys of a surface given by its moments, whether stated or computed from a trace."""
     body = section.model_dump(
         include={"coating", "thermal_conductivity_W_mK", "density_kg_m3", "specific_heat_J_kgK"}, exclude_none=True

@@ -12,13 +12,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.schema.findings import Finding, as_texts, listed
 from mixedlub.schema.section import table as file_table
+from mixedlub.schema.table import span
 from mixedlub.schema.units import unit_of
 from mixedlub.study import batch, checkpoint
 from mixedlub.study.batch import CHECKS
-from mixedlub.study.plan import Study
+from mixedlub.study.plan import Study, counted, factors
 from mixedlub.study.range_flags import VALID, as_words, flags
 from mixedlub.study.schema import StudyFile
+from mixedlub.study.validity import out_of_range
 from mixedlub.version import installed_version
 from profiles.errors import InputError
 
@@ -80,12 +83,58 @@ _ROWS = 200_000
 _REPEATING = ["pinion_surface", "gear_surface", "torque_Nm", "speed_rpm", "oil_temperature_C", VALIDITY]
 
 
+SUMMARISED = ("power_loss", "mean_friction", "film_parameter")
+"""Outputs whose ranges the summary gives."""
+LONGEST_TITLE = 36
+"""Characters of a title in the summary, which is to fit a line."""
+
+
 @dataclass(frozen=True, eq=False)
 class Results:
-    """Outputs of a study in SI, each of shape (pairing, oil temperature, torque, speed)."""
+    """Outputs of a study in SI by name, each of shape (pairing, oil temperature, torque, speed).
+
+    `to_xarray` and `to_pandas` have them in the units of the table. It prints as a summary:
+
+    >>> import mixedlub as ml
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder) / "polished.toml"
+    ...     size = file.write_text('''schema = "mixedlub-study/1"
+    ... title = "Polished flanks"
+    ... gears = { teeth = [17, 26], normal_module_mm = 4.0, face_width_mm = 14.0 }
+    ... surfaces = { polished = { m0_um2 = 4e-4, m2 = 2e-4, m4_per_um2 = 4e-4 } }
+    ... conditions = { torque_Nm = [50, 150], speed_rpm = [3000], oil_temperature_C = [40] }
+    ... ''')
+    ...     results = ml.study.run(file)
+    >>> print(repr(results).partition("\\n")[0])
+    Results of 'Polished flanks': 1 pairing x 2 torques x 1 speed x 1 oil temperature = 2 rows
+    >>> results.to_pandas()["torque_Nm"].tolist(), results["power_loss"].shape
+    ([50.0, 150.0], (1, 1, 2, 1))
+    >>> [one.code for one in results.findings]
+    ['oil_typical']
+    """
 
     study: Study
     values: Mapping[str, np.ndarray]
+
+    def __repr__(self) -> str:
+        title = self.study.file.title
+        named = title if len(title) <= LONGEST_TITLE else f"{title[:LONGEST_TITLE]}…"
+        levels = self.study.file.conditions
+        conditions = (span(name, np.array(getattr(levels, name))) for name in ("torque_Nm", "speed_rpm", LEVELS[0]))
+        outputs = (span(COLUMNS[name][0], self[name] * COLUMNS[name][1]) for name in SUMMARISED)
+        count = int(self.outside.sum())
+        outside = f"{count} rows are outside the range of the model: {listed(list(self.flags))}"
+        return "\n  ".join(
+            (
+                f"Results of {named!r}: {' x '.join(factors(self.study))} = {counted(self.study.conditions, 'row')}",
+                "; ".join(conditions),
+                "; ".join(outputs),
+                outside if count else "all rows are within the range of the model",
+                f"{counted(len(self.findings), 'finding')}; to_xarray(), to_pandas() and write() give the table",
+            )
+        )
 
     @cached_property
     def flags(self) -> Mapping[str, np.ndarray]:
@@ -102,11 +151,20 @@ class Results:
         """The columns of the table that this study has."""
         return {name: column for name, column in COLUMNS.items() if name in self.values}
 
+    @cached_property
+    def findings(self) -> tuple[Finding, ...]:
+        """What a reader should know: conditions outside the range of the model, gravest first, then assumptions."""
+        return (*out_of_range(self), *self.study.notes)
+
     def __getitem__(self, name: str) -> np.ndarray:
+        """An output in SI by its name in ``values``."""
         return self.values[name]
 
     def to_xarray(self) -> xr.Dataset:
-        """The result as labelled arrays: the columns of the table over pairing and conditions, with meanings."""
+        """The result as labelled arrays: the columns of the table over pairing and conditions, with meanings.
+
+        The attribute ``findings`` has the notes, cautions and doubts as texts.
+        """
         import xarray as xr
 
         levels = self.study.file.conditions
@@ -126,7 +184,8 @@ class Results:
             np.array(texts)[index],
             {"units": "", "long_name": VALIDITY_MEANING},
         )
-        return xr.Dataset(variables, coordinates, {"title": self.study.file.title})
+        whole = {"title": self.study.file.title, "findings": as_texts(self.findings)}
+        return xr.Dataset(variables, coordinates, whole)
 
     def to_pandas(self) -> pd.DataFrame:
         """The rows of the table that `write` writes."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from typing import Protocol
 
 import numpy as np
 
@@ -10,9 +11,23 @@ from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.rig.plausibility import YIELD_RATIO
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.slots import SLOTS
-from mixedlub.study.plan import Plan
+from mixedlub.study.plan import Plan, Study
 from mixedlub.study.range_flags import EXTRAPOLATED
-from mixedlub.study.results import Results
+
+
+class Results(Protocol):
+    """What the findings read of the results of a study, which carry them."""
+
+    @property
+    def study(self) -> Study:
+        """The study that was run."""
+
+    @property
+    def flags(self) -> Mapping[str, np.ndarray]:
+        """Where conditions are out of range, by code."""
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """An output in SI."""
 
 
 def out_of_range(results: Results) -> tuple[Finding, ...]:

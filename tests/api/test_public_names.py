@@ -3,6 +3,7 @@
 import subprocess
 import sys
 import warnings
+from pathlib import Path
 
 import pytest
 
@@ -39,6 +40,15 @@ def test_every_name_that_a_room_offers_is_there_and_documented(room: str) -> Non
 def test_laws_need_no_further_import() -> None:
     code = "import mixedlub as ml; print(ml.laws.film.dowson_toyoda.__name__)"
     assert printed(code) == "dowson_toyoda"
+
+
+def test_a_folder_of_that_name_beside_a_script_does_not_hide_the_package(tmp_path: Path) -> None:
+    """A clone is such a folder: a script beside it finds the package that is installed, from the clone or not."""
+    (tmp_path / "mixedlub" / "docs").mkdir(parents=True)
+    script = tmp_path / "script.py"
+    script.write_text("import mixedlub as ml; print(ml.gear_pair.__name__)\n")
+    found = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert found.stdout.strip() == "gear_pair", found.stderr
 
 
 def test_an_unknown_name_is_an_attribute_error() -> None:

@@ -95,6 +95,19 @@ def test_generated_pages_have_every_effect_command_and_kind():
     assert {name for name in pages if name.startswith("kinds/")} == {f"kinds/{k}" for k in KINDS}
 
 
+def test_public_classes_are_documented_with_their_members():
+    import generated
+
+    import mixedlub as ml
+
+    text = generated.pieces()["api"]
+    assert ".. autoclass:: mixedlub.Answer\n   :members:" in text
+    assert ".. autoexception:: mixedlub.CautionWarning" in text
+    assert all(re.search(rf":: mixedlub\.{name}$", text, re.MULTILINE) for name in ml.PUBLIC)
+    members = [one for name, one in vars(ml.Answer).items() if not name.startswith("_") and name != "diagnosis"]
+    assert all(one.__doc__ for one in members)
+
+
 def test_every_setting_has_a_row_with_its_value():
     import generated
     import thresholds

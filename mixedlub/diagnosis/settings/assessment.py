@@ -7,6 +7,8 @@ import numpy as np
 # Test against nothing missing
 FALSE_ALARM_RATE = 0.01
 """Judgement. False-alarm rate of the test where the user states none: a usual convention."""
+LEVELS = (1e-9, 0.5)
+"""Judgement. Lowest and highest level that a user may state: at the highest, every other case would be called wrong."""
 TEST_SEED = 20240229
 """Definition. Seed of the simulated recordings of the test."""
 DRAWS = 2000
