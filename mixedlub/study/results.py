@@ -104,7 +104,7 @@ class Results:
     ... title = "Polished flanks"
     ... gears = { teeth = [17, 26], normal_module_mm = 4.0, face_width_mm = 14.0 }
     ... surfaces = { polished = { m0_um2 = 4e-4, m2 = 2e-4, m4_per_um2 = 4e-4 } }
-    ... conditions = { torque_Nm = [50, 150], speed_rpm = [3000], oil_temperature_C = [40] }
+    ... conditions = { torque_Nm = [50, 150], speed_rpm = [3000], oil_temperature_C = [80] }
     ... ''')
     ...     results = ml.study.run(file)
     >>> print(repr(results).partition("\\n")[0])

@@ -93,7 +93,7 @@ def test_killed_study_started_again_gives_the_same_table(write_study, tmp_path, 
     command = ["nice", "-n", "19", *command] if shutil.which("nice") else command
     run = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     parts = checkpoint.parts_folder(out, study.plan)
-    deadline = time.monotonic() + 60
+    deadline = time.monotonic() + 300
     while len(list(parts.glob("*.parquet"))) < 3 and run.poll() is None and time.monotonic() < deadline:
         time.sleep(0.005)
     os.kill(run.pid, signal.SIGKILL)
