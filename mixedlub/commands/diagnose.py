@@ -7,7 +7,15 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.console import busy, case_folder, echo, input_errors_from, output_folder, print_findings
+from mixedlub.commands.console import (
+    busy,
+    case_folder,
+    echo,
+    input_errors_from,
+    note,
+    output_folder,
+    print_findings,
+)
 
 NAME = "diagnose"
 EXAMPLE = "mixedlub new case --out my_case && mixedlub diagnose my_case"
@@ -27,14 +35,20 @@ def command(
     level: Annotated[
         float, typer.Option(metavar="CHANCE", min=1e-9, max=0.5, help="Level of the mismatch test.")
     ] = 0.01,
+    replace: Annotated[
+        bool, typer.Option("--replace", help="Replace the result of another case, or other files, in that folder.")
+    ] = False,
 ) -> None:
     """Name the missing physics of a recording.
 
     How sure, where it shows, what it is confused with, and what to test next.
     """
-    from mixedlub.diagnosis.report.files import diagnose
+    from mixedlub.diagnosis.report.files import WRITTEN, case_origin, diagnose
 
-    folder = output_folder(out, NAME, case_folder(case).resolve().name)
+    folder = output_folder(out, NAME, case_folder(case).resolve().name, knows_own=True)
+    earlier = "" if replace else case_origin(case).check_folder(folder, WRITTEN, "case")
+    if earlier:
+        note(earlier)
     with busy("reading") as progress, input_errors_from(str(case)):
         found = diagnose(case, folder, predict=predict, exclude=tuple(exclude or ()), level=level, progress=progress)
     print_findings(found.case.notes)
