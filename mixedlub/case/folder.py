@@ -119,14 +119,15 @@ def _checked(
 
 
 def read_conditions(case: Case, path: Path) -> Table:
-    """Another table of conditions for the case."""
-    return _with_filled_sds(read_table(path, _columns(case.kind, case.system, False)), f"{case.quantity}_sd")
+    """Another table of conditions for the case; rows are numbered after the recorded runs where it has no ``run``."""
+    columns = _columns(case.kind, case.system, False)
+    return _with_filled_sds(read_table(path, columns, first_run=_free_run(case)), f"{case.quantity}_sd")
 
 
 def conditions_for(case: Case, frame: pd.DataFrame) -> Table:
     """Conditions to predict from a data frame, numbered after the recorded runs where it has no ``run``."""
-    if RUN.name not in frame and case.recordings is not None:
-        first = int(case.recordings["run"].max()) + 1
+    if RUN.name not in frame:
+        first = _free_run(case)
         frame = frame.assign(run=np.arange(first, first + len(frame)))
     wanted = table_of(frame, _columns(case.kind, case.system, False), "conditions")
     refuse_used_runs(case, wanted, Path(wanted.source))
@@ -145,10 +146,14 @@ def unpredicted_runs(case: Case, wanted: Table | None) -> list[Finding]:
 def refuse_used_runs(case: Case, wanted: Table | None, path: Path) -> None:
     """Refuse conditions whose run number is that of a reading at other conditions."""
     used = _used_runs(case, wanted)
-    if used and case.recordings is not None:
-        free = int(case.recordings["run"].max()) + 1
-        rule = f"the run number is that of a reading at other conditions; number them from {free} on"
+    if used:
+        rule = f"the run number is that of a reading at other conditions; number them from {_free_run(case)} on"
         raise InputError(rule, where=f"{path}: run", value=used[0] if len(used) == 1 else used[:RUNS_LISTED])
+
+
+def _free_run(case: Case) -> int:
+    """The first number after those of the recorded runs."""
+    return 1 if case.recordings is None else int(case.recordings["run"].max()) + 1
 
 
 def _used_runs(case: Case, wanted: Table | None) -> list[int]:

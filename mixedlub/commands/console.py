@@ -17,6 +17,12 @@ from unicodedata import category
 from mixedlub.schema.findings import Finding, grouped
 from profiles.errors import InputError
 
+CONDITIONS = (
+    "Columns: those of recordings.csv without the reading (`mixedlub kinds KIND` lists them); "
+    "rows without run are numbered."
+)
+"""Help on a table of conditions."""
+
 _opened: list[Path] = []
 _made: list[Path] = []
 

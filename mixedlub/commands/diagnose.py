@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from mixedlub.commands.console import (
+    CONDITIONS,
     busy,
     case_folder,
     echo,
@@ -27,7 +28,8 @@ def command(
         Path | None, typer.Option(metavar="DIR", help="Folder for the report; default out/diagnose/NAME.")
     ] = None,
     predict: Annotated[
-        Path | None, typer.Option(metavar="conditions.csv", help="Conditions to predict; default the case's own.")
+        Path | None,
+        typer.Option(metavar="conditions.csv", help=f"Conditions to predict; default the case's own. {CONDITIONS}"),
     ] = None,
     exclude: Annotated[
         list[str] | None, typer.Option(metavar="ID...", help="Leave effects out of the catalogue.")

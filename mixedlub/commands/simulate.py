@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from mixedlub.atomic import writing
-from mixedlub.commands.console import case_folder, echo, input_errors_from, output_folder, print_findings
+from mixedlub.commands.console import CONDITIONS, case_folder, echo, input_errors_from, output_folder, print_findings
 
 NAME = "simulate"
 EXAMPLE = "mixedlub new case --out my_case && mixedlub simulate my_case"
@@ -19,7 +19,9 @@ def command(
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Folder for simulation.csv; default out/simulate/NAME.")
     ] = None,
-    at: Annotated[Path | None, typer.Option(metavar="conditions.csv", help="Other conditions than the case's.")] = None,
+    at: Annotated[
+        Path | None, typer.Option(metavar="conditions.csv", help=f"Other conditions than the case's. {CONDITIONS}")
+    ] = None,
 ) -> None:
     """Readings of the base model at the conditions of a case.
 

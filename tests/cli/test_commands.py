@@ -290,6 +290,22 @@ def test_simulate_at_other_conditions(shared, tmp_path):
         assert found == [row[0] for row in csv.reader(file)]
 
 
+def test_conditions_without_run_numbers_are_numbered_after_the_recorded_runs(tmp_path, capsys):
+    at = tmp_path / "at.csv"
+    at.write_text(
+        "torque_Nm,speed_rpm,oil_temperature_C,pinion_surface,gear_surface\n"
+        "50,1000,60,ground,ground\n60,1000,60,ground,ground\n"
+    )
+    case = ROOT / "examples" / "case"
+    assert main(["simulate", str(case), "--out", str(tmp_path / "o"), "--at", str(at)]) == 0
+    assert "at.csv: no column run: rows are numbered from 73 to 74" in capsys.readouterr().err
+    with (tmp_path / "o" / "simulation.csv").open() as file:
+        assert [row[0] for row in csv.reader(file)] == ["run", "73", "74"]
+    at.write_text(at.read_text().replace("torque_Nm,", "Run,torque_Nm,").replace("0,1000", "0,7,1000"))
+    assert main(["simulate", str(case), "--out", str(tmp_path / "o"), "--at", str(at)]) == 2
+    assert "column 'run' is missing; the file has 'Run'" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("case", [f"case_00{i}" for i in range(8)])
 def test_check_tells_kind_and_tables(case, shared, capsys):
     assert main(["check", str(shared / "cases" / case)]) == 0

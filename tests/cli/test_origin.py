@@ -10,7 +10,7 @@ from mixedlub.diagnosis.report import files
 from mixedlub.origin import NAME
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "case"
-ANSWER = {name: b"answer" for name in files.WRITTEN}
+ANSWER = dict.fromkeys(files.WRITTEN, b"answer")
 
 
 @pytest.fixture
