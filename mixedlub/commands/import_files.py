@@ -47,8 +47,9 @@ def command(
     """Turn instrument files into a case folder.
 
     The result is a case for simulate, check and diagnose. At a terminal, questions follow for what the
-    files lack (? explains one); elsewhere they are listed with the --set line for each answer. Units are never
-    guessed. An existing case that differs is kept unless --overwrite is given.
+    files lack (? explains one, =VALUE is one value for all rows); elsewhere they are listed with the --set line for
+    each answer. Units are never guessed. An existing case that differs is kept unless --overwrite is given.
+    Cut off a start-up and average raw readings before the import; --set import.every=10 keeps one reading of ten.
     """
     from mixedlub.importers.base import SHEET, Unanswered
     from mixedlub.importers.wizard import run
