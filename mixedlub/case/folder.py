@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from shlex import quote
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -53,11 +54,27 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
 
     def table(name: str, columns: tuple[Column, ...]) -> Table | None:
         path = folder / f"{name}.csv"
-        absent = not path.exists() and (name == "conditions" or not need_recordings)
-        return None if absent else read_table(path, columns)
+        if path.exists():
+            return read_table(path, columns)
+        if name == "conditions" or not need_recordings:
+            return None
+        raise InputError(f"no such file{other_recordings(folder)}", where=str(path))
 
     found = _checked(folder.resolve().name, folder, system, str(file), table)
     return replace(found, notes=(*read_import_file(folder), *found.notes))
+
+
+def other_recordings(folder: Path) -> str:
+    """A hint on a file of recordings in another format, and the command that makes the table of it; else empty.
+
+    The rest of the case is kept by that command.
+    """
+    others = [p for p in sorted(folder.glob("*")) if p.name.lower().startswith("recordings.") and p.is_file()]
+    if not others:
+        return ""
+    (file, *_), case = others, quote(str(folder))
+    command = f"mixedlub import {quote(str(file))} --out {case} --answers {case}/system.toml --overwrite"
+    return f"; {file.name} is there, and `{command}` makes recordings.csv of it"
 
 
 def case_of(

@@ -14,7 +14,9 @@ from textwrap import fill
 from typing import TextIO
 from unicodedata import category
 
-from mixedlub.schema.findings import Finding, grouped
+import typer
+
+from mixedlub.schema.findings import Finding, grouped, listed
 from profiles.errors import InputError
 
 CONDITIONS = (
@@ -22,6 +24,14 @@ CONDITIONS = (
     "rows without run are numbered."
 )
 """Help on a table of conditions."""
+
+
+def named_folder(text: str) -> Path:
+    """The folder that an option names; an empty text would mean the current one."""
+    if not text.strip():
+        raise typer.BadParameter("must name a folder; '.' is the current one")
+    return Path(text)
+
 
 _opened: list[Path] = []
 _made: list[Path] = []
@@ -85,6 +95,10 @@ def case_folder(case: Path) -> Path:
         raise InputError("is a file; name the case folder that holds it", where=str(case))
     if not case.is_dir():
         raise InputError("no such case folder", where=str(case))
+    if not (case / "system.toml").exists():
+        inside = sorted(path.parent.name for path in case.glob("*/system.toml"))
+        cases = f"; cases in it: {listed(inside)}" if inside else "; `mixedlub new case` writes one"
+        raise InputError(f"is a folder without system.toml, so no case{cases}", where=str(case))
     return case
 
 

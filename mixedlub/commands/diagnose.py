@@ -13,6 +13,7 @@ from mixedlub.commands.console import (
     case_folder,
     echo,
     input_errors_from,
+    named_folder,
     note,
     output_folder,
     print_findings,
@@ -25,7 +26,8 @@ EXAMPLE = "mixedlub new case --out my_case && mixedlub diagnose my_case"
 def command(
     case: Annotated[Path, typer.Argument(metavar="CASE", help="Case folder with system.toml and recordings.csv.")],
     out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Folder for the report; default out/diagnose/NAME.")
+        Path | None,
+        typer.Option(metavar="DIR", parser=named_folder, help="Folder for the report; default out/diagnose/NAME."),
     ] = None,
     predict: Annotated[
         Path | None,

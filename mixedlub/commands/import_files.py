@@ -10,6 +10,7 @@ from typing import Annotated
 
 import typer
 
+from mixedlub.commands.console import named_folder
 from profiles.errors import InputError
 
 NAME = "import"
@@ -24,7 +25,7 @@ def command(
         list[Path],
         typer.Argument(metavar="FILE...", help="Files as the instrument wrote them: text, CSV, .xlsx, each also .gz."),
     ],
-    out: Annotated[Path, typer.Option(metavar="CASE", help="Case folder to write.")],
+    out: Annotated[Path, typer.Option(metavar="CASE", parser=named_folder, help="Case folder to write.")],
     settings: Annotated[
         list[str], typer.Option("--set", metavar="KEY=VALUE", help="An answer, with its key in system.toml.")
     ] = [],  # noqa: B006  (typer reads the default, which is never changed)

@@ -240,6 +240,9 @@ def test_files_that_hold_nothing_are_refused_with_their_name(file, tmp_path, tex
 def test_a_binary_file_is_refused(tmp_path):
     path = tmp_path / "data.bin"
     path.write_bytes(b"PK\x03\x04\0\0\0")
+    with pytest.raises(InputError, match="damaged or unsupported zip archive"):
+        import_files([path], tmp_path / "case")
+    path.write_bytes(b"\x7fELF\0\0\0")
     with pytest.raises(InputError, match="not a text file"):
         import_files([path], tmp_path / "case")
 

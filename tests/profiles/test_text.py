@@ -123,7 +123,9 @@ def test_bad_text_gets_a_message_that_names_place_and_rule(tmp_path, text, messa
 @pytest.mark.parametrize("data", [b"hello world\n", bytes(range(1, 256))])
 def test_what_is_not_of_the_format_of_its_name_is_said_not_to_be(tmp_path, ending, data):
     (tmp_path / f"trace{ending}").write_bytes(data)
-    with pytest.raises(InputError, match=f"is no {ending.lower()} file although its name says so: no "):
+    with pytest.raises(
+        InputError, match=f"is no {ending.lower()} file although its name says so: damaged or of another format"
+    ):
         read(tmp_path / f"trace{ending}")
 
 
