@@ -12,11 +12,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from textwrap import fill
 from typing import TextIO
-from unicodedata import category
 
 import typer
 
 from mixedlub.schema.findings import Finding, grouped, listed
+from mixedlub.schema.messages import printable
 from profiles.errors import InputError
 
 CONDITIONS = (
@@ -129,9 +129,14 @@ def input_errors_from(where: str) -> Iterator[None]:
         raise InputError(f"has numbers too large or too small to compute with ({error})", where=where) from None
 
 
-def echo(text: str = "") -> None:
-    """Print a line to stdout."""
-    _print(text, sys.stdout)
+def echo(text: str = "", *, error: bool = False) -> None:
+    """Print a line to stdout, or to stderr."""
+    _print(text, sys.stderr if error else sys.stdout)
+
+
+def ask(text: str) -> str:
+    """The reply to a question at the terminal."""
+    return input(printable(text))
 
 
 def print_findings(found: Iterable[Finding]) -> None:
@@ -162,15 +167,6 @@ def _print(text: str, stream: TextIO) -> None:
 def _wrapped(line: str, width: int) -> str:
     hanging = " " * (len(line) - len(line.lstrip()) + 2)
     return fill(line, width, subsequent_indent=hanging, break_long_words=False, break_on_hyphens=False)
-
-
-def printable(text: str) -> str:
-    r"""Text without control characters, which a title or name could use to control the terminal.
-
-    >>> printable("red \x1b[31m, next\nline")
-    'red \\x1b[31m, next\nline'
-    """
-    return "".join(repr(c)[1:-1] if category(c) == "Cc" and c not in "\n\t" else c for c in text)
 
 
 LOG = "mixedlub-error.log"

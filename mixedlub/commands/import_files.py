@@ -10,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.console import named_folder
+from mixedlub.commands.console import ask, echo, named_folder
 from profiles.errors import InputError
 
 NAME = "import"
@@ -60,9 +60,11 @@ def command(
         settings = [*settings, f"{SHEET}={toml_value(sheet)}"]
     try:
         with _progress_bar() as step:
-            run(files, out, settings, answers, input if sys.stdin.isatty() else None, overwrite=overwrite, step=step)
+            replies = ask if sys.stdin.isatty() else None
+            run(files, out, settings, answers, replies, echo, overwrite=overwrite, step=step)
     except Unanswered as missing:
-        print(*missing.lines, sep="\n", file=sys.stderr)
+        for line in missing.lines:
+            echo(line, error=True)
         raise InputError(missing.summary, where="import") from None
 
 
