@@ -71,7 +71,7 @@ def test_a_slip_of_the_unit_is_refused_by_every_command(name, tmp_path, capsys):
 
 SHARES = {
     "twice": (lambda rows: [*rows, rows[4]], 2, "share.csv: line 63, torque_Nm and roll_angle_deg: (50.0, "),
-    "part": (lambda rows: rows[:3], 2, "share.csv: roll_angle_deg: the rows at 50 Nm"),
+    "part": (lambda rows: rows[:3], 2, "share.csv: roll_angle_deg: the rows at 50 N m"),
     "halved": (
         lambda rows: [(t, a, s / 2) for t, a, s in rows],
         0,
