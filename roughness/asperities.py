@@ -30,11 +30,6 @@ class Asperities:
     nayak: float
     model: str
 
-    @property
-    def packing(self) -> float:
-        """Density x radius x sigma (-), the one number by which the real area of contact scales."""
-        return self.density * self.radius * self.sigma
-
 
 def asperities(profile: Profile, *, model: str = "McCool") -> Asperities:
     """Asperities of one profile under one of ``MODELS``, so that a surface can be seen under all of them.

@@ -65,7 +65,7 @@ def test_headers_that_are_numbers_are_meant_themselves(file, tmp_path):
 
 
 def test_a_torque_alone_is_proposed_as_the_friction_torque():
-    """It was taken for the load of the drive, and the question for the friction torque knew no header."""
+    """It is the reading that a map needs, not the load of the drive."""
     found = draft(InputFile("t.csv", ROBOT), DRIVE)
     questions = {q.key: q for q in found.questions if q.needed}
     assert questions["import.columns.friction_torque_Nm"].example == '"torque (N m)"'
@@ -225,7 +225,7 @@ def test_nothing_is_written_where_the_summary_is_declined(file, tmp_path):
 
 
 def test_a_table_is_separated_into_cells_once_whatever_is_asked(file, tmp_path, monkeypatch):
-    """Every question cost a full pass over the file."""
+    """A question costs no pass over the file."""
     passes = []
     monkeypatch.setattr(input_file, "read_sheet", lambda *given: passes.append(given) or read_sheet(*given))
     answered(file(DISCS), tmp_path / "case", NAMED, BODIES)
