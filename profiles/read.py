@@ -11,12 +11,14 @@ from pathlib import Path, PurePath
 
 from profiles.errors import InputError, as_path, refuse_no_file
 from profiles.profile import Profile
+from profiles.readers.archive import refuse_broken, unpacked
 from profiles.readers.base import MAX_BYTES, Reader, Source
 from profiles.readers.container import ZipReader
 from profiles.readers.dektak import DektakReader
 from profiles.readers.hfm import HfmReader
 from profiles.readers.mitutoyo import MitutoyoReader
 from profiles.readers.nist_xml import NistXmlReader
+from profiles.readers.numbers import NO_NUMBERS
 from profiles.readers.opdx import OpdxReader
 from profiles.readers.prf import PrfReader
 from profiles.readers.sdf import SdfReader
@@ -50,12 +52,11 @@ def read_source(source: Source) -> Profile:
     if not source.data.strip(b"\x00 \t\r\n"):
         rule = "the file is empty" if b"\x00" not in source.data else "the file holds nothing but zero bytes"
         raise InputError(rule, where=source.where)
+    refuse_broken(source.data, source.where)
     for reader in readers():
         if reader.magic(source):
             with _as_named(source, reader):
                 return reader.read(source)
-    if source.data[:4] == b"PK\x03\x04":
-        raise InputError("damaged zip archive, which x3p and xlsx files are too: cut off?", where=source.where)
     formats = "; ".join(reader.format for reader in readers())
     with _as_named(source):
         raise InputError(f"no known profile format; known are {formats}", where=source.where)
@@ -77,22 +78,23 @@ def _as_named(source: Source, reader: Reader | None = None) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        ending = PurePath(source.where).suffix.lower()
+        ending = PurePath(source.bare).suffix.lower()
         if ending not in NO_TEXTS or not (reader is None or isinstance(reader, TextReader)):
             raise
-        rule = f"is no {ending} file although its name says so: {error.rule}"
+        why = "damaged or of another format" if error.rule == NO_NUMBERS else error.rule
+        rule = f"is no {ending} file although its name says so: {why}"
         raise InputError(rule, where=error.where, value=error.value) from None
 
 
 def open_source(path: Path, unit: tuple[str, str] | None, spacing: float | None) -> Source:
-    """The bytes of a file, refused when it is missing, a folder or larger than any trace."""
+    """The bytes of a file, of a .gz what it holds; refused when missing, a folder or larger than any trace."""
     where = str(path)
     refuse_no_file(path)
     size = path.stat().st_size
     if size > MAX_BYTES:
         raise InputError(f"larger than {MAX_BYTES} bytes, the largest file that is read", where=where, value=size)
     try:
-        return Source(where, path.read_bytes(), unit, spacing)
+        return Source(where, unpacked(path.read_bytes(), where, MAX_BYTES), unit, spacing)
     except OSError as error:
         raise InputError(f"cannot be opened ({error.strerror})", where=where) from None
 

@@ -31,11 +31,6 @@ class Asperities:
     nayak: float
     model: str
 
-    @property
-    def packing(self) -> float:
-        """Density x radius x sigma (-), the one number by which the real area of contact scales."""
-        return self.density * self.radius * self.sigma
-
 
 @of_profile
 def asperities(profile: Profile, *, model: str = "McCool") -> Asperities:

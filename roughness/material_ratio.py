@@ -54,16 +54,6 @@ def material_ratio(profile: Profile, height: float) -> float:
     return float(100.0 * np.mean(profile.heights[profile.valid] >= height))
 
 
-def height_at_ratio(profile: Profile, percent: float) -> float:
-    """Height (m) above which a percentage of the profile lies. The inverse of :func:`material_ratio`."""
-    return float(np.quantile(profile.heights[profile.valid], 1.0 - percent / 100.0))
-
-
-def section_height_difference(profile: Profile, upper_percent: float, lower_percent: float) -> float:
-    """Rdc: height between two material ratios (m). ISO 4287, 4.5.3."""
-    return height_at_ratio(profile, upper_percent) - height_at_ratio(profile, lower_percent)
-
-
 @of_profile
 def core_parameters(profile: Profile, *, method: str = "least squares") -> CoreParameters:
     """Rk Rpk Rvk Mr1 Mr2 by the line through the flattest 40 % of the curve. ISO 13565-2, 4.

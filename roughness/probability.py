@@ -339,7 +339,6 @@ def _words(
     if verdict == "plateau" and plateau is not None:
         return (
             f"plateau of sigma {plateau.plateau_sigma * 1e6:.3g} um on {plateau.material_percent:.0f} % of "
-            f"the surface above valleys of sigma {plateau.valley_sigma * 1e6:.3g} um: use the plateau's "
-            f"sigma and mean for contact; {area}."
+            f"the surface above valleys of sigma {plateau.valley_sigma * 1e6:.3g} um; {area}."
         )
     return f"not Gaussian: one line holds only from {low:.1f} to {high:.1f} %; {area}."

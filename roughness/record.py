@@ -70,7 +70,8 @@ def evaluation_profile(
     if short_cutoff == "auto":
         short = None if "short_cutoff" in trace.cutoffs or filtered else _short(limit)
         if short is not None and short < 2.0 * trace.spacing:
-            step = f"no short cut-off: {short * 1e6:g} um is below two points"
+            coarse = f"step {trace.spacing * 1e6:.3g} um is too coarse for {short * 1e6:g} um"
+            step = f"short cut-off not applied: {coarse}"
             profile, short = replace(profile, steps=(*profile.steps, step)), None
     else:
         short = _length(short_cutoff, "short cut-off")

@@ -92,6 +92,12 @@ def test_findings_that_differ_in_number_name_the_first_and_list_the_others() -> 
     assert str(one) == "run 1: reads 7.5; likewise run 2, run 3"
 
 
+def test_a_sentence_that_ends_is_joined_without_its_full_stop():
+    traces = [finding("file_read", f"real contact is {y} times the Gaussian one.", f"trace {y}") for y in (1.5, 2.5)]
+    (one,) = grouped(traces)
+    assert str(one) == "trace 1.5: real contact is 1.5 times the Gaussian one; likewise trace 2.5"
+
+
 def test_findings_that_differ_in_words_or_severity_stay_apart() -> None:
     near = [finding("column_near_known", f"nearest known: {name!r}", "t.csv") for name in ("load_N", "time_s")]
     lost = [finding("sign_lost", "no sign", "y", severity) for severity in (Severity.CAUTION, Severity.DOUBT)]

@@ -32,19 +32,19 @@ CHANGES: tuple[tuple[str, str, tuple[str, Place], tuple[str, Place]], ...] = (
     ("20 to 95 m/s, geometry B, ground", "-28 %", ("b", {"speed_rpm": 0}), ("b", {"speed_rpm": -1})),
     ("ground to superfinished, geometry B", "-30 %", ("b", {}), ("b", {"pairing": SMOOTH})),
     (
-        "geometry A to B, 1900 Nm, 100 °C, ground",
+        "geometry A to B, 1900 N m, 100 °C, ground",
         "-2 %",
         ("a", AT_100 | {"torque_Nm": 0}),
         ("b", AT_100 | {"torque_Nm": 0}),
     ),
     (
-        "1900 to 4000 Nm, geometry A, 100 °C, ground",
+        "1900 to 4000 N m, geometry A, 100 °C, ground",
         "-3 %",
         ("a", AT_100 | {"torque_Nm": 0}),
         ("a", AT_100 | {"torque_Nm": 1}),
     ),
     (
-        "oil 80 to 120 °C, geometry A, 1900 Nm, ground",
+        "oil 80 to 120 °C, geometry A, 1900 N m, ground",
         "+1 %",
         ("a", {"torque_Nm": 0, "oil_temperature_C": 0}),
         ("a", {"torque_Nm": 0, "oil_temperature_C": 2}),

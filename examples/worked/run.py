@@ -126,7 +126,7 @@ def left_out(d: Diagnosis) -> str:
 
 def calibration(d: Diagnosis) -> list[dict]:
     """Calibrated inputs under the verdict, in standard deviations from what was stated."""
-    refined = d.refined[NOTHING if d.posterior.verdict.discrepancy else d.posterior.verdict]
+    refined = d.refined[NOTHING if d.posterior.verdict.is_discrepancy else d.posterior.verdict]
     return [
         {"input": c.name, "z": float(z)} for c, z in zip(d.search.problem.forward.calibrations, refined.z, strict=False)
     ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from shlex import quote
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -96,11 +97,27 @@ def read_case(folder: Path, *, need_recordings: bool = True) -> Case:
 
     def table(name: str, columns: tuple[Column, ...]) -> Table | None:
         path = folder / f"{name}.csv"
-        absent = not path.exists() and (name == "conditions" or not need_recordings)
-        return None if absent else read_table(path, columns)
+        if path.exists():
+            return read_table(path, columns)
+        if name == "conditions" or not need_recordings:
+            return None
+        raise InputError(f"no such file{other_recordings(folder)}", where=str(path))
 
     found = _checked(folder.resolve().name, folder, system, str(file), table)
     return replace(found, notes=(*read_import_file(folder), *found.notes))
+
+
+def other_recordings(folder: Path) -> str:
+    """A hint on a file of recordings in another format, and the command that makes the table of it; else empty.
+
+    The rest of the case is kept by that command.
+    """
+    others = [p for p in sorted(folder.glob("*")) if p.name.lower().startswith("recordings.") and p.is_file()]
+    if not others:
+        return ""
+    (file, *_), case = others, quote(str(folder))
+    command = f"mixedlub import {quote(str(file))} --out {case} --answers {case}/system.toml --overwrite"
+    return f"; {file.name} is there, and `{command}` makes recordings.csv of it"
 
 
 def case_of(
@@ -165,15 +182,16 @@ def _checked(
 
 
 def read_conditions(case: Case, path: Path) -> Table:
-    """Another table of conditions for the case."""
-    return _with_filled_sds(read_table(path, _columns(case.kind, case.system, False)), f"{case.quantity}_sd")
+    """Another table of conditions for the case; rows are numbered after the recorded runs where it has no ``run``."""
+    columns = _columns(case.kind, case.system, False)
+    return _with_filled_sds(read_table(path, columns, first_run=_free_run(case)), f"{case.quantity}_sd")
 
 
 def conditions_for(case: Case, at: Frame) -> Table:
     """Conditions to predict from a data frame, numbered after the recorded runs where it has no ``run``."""
     frame = frame_of(at, "conditions")
-    if RUN.name not in frame and case.recordings is not None:
-        first = int(case.recordings["run"].max()) + 1
+    if RUN.name not in frame:
+        first = _free_run(case)
         frame = frame.assign(run=np.arange(first, first + len(frame)))
     wanted = table_of(frame, _columns(case.kind, case.system, False), "conditions")
     refuse_used_runs(case, wanted, Path(wanted.source))
@@ -192,10 +210,14 @@ def unpredicted_runs(case: Case, wanted: Table | None) -> list[Finding]:
 def refuse_used_runs(case: Case, wanted: Table | None, path: Path) -> None:
     """Refuse conditions whose run number is that of a reading at other conditions."""
     used = _used_runs(case, wanted)
-    if used and case.recordings is not None:
-        free = int(case.recordings["run"].max()) + 1
-        rule = f"the run number is that of a reading at other conditions; number them from {free} on"
+    if used:
+        rule = f"the run number is that of a reading at other conditions; number them from {_free_run(case)} on"
         raise InputError(rule, where=f"{path}: run", value=used[0] if len(used) == 1 else used[:RUNS_LISTED])
+
+
+def _free_run(case: Case) -> int:
+    """The first number after those of the recorded runs."""
+    return 1 if case.recordings is None else int(case.recordings["run"].max()) + 1
 
 
 def _used_runs(case: Case, wanted: Table | None) -> list[int]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from mixedlub.case.folder import Case, at_programme_end
+from mixedlub.case.folder import Case, at_programme_end, other_recordings
 from mixedlub.case.forward import Forward
 from mixedlub.schema.findings import report
 from mixedlub.schema.table import BOOKKEEPING, Table
@@ -35,9 +35,8 @@ def simulated_tables(case: Case, at: Table | None = None) -> list[Table]:
     """Recordings and conditions, or the table ``at``, with a place in the test programme where effects may need it."""
     tables = [table for table in ((case.recordings, case.conditions) if at is None else (at,)) if table is not None]
     if not tables:
-        raise InputError(
-            "has neither recordings.csv nor conditions.csv; name a table with --at", where=str(case.folder)
-        )
+        rule = "has neither recordings.csv nor conditions.csv; name a table with --at"
+        raise InputError(rule + other_recordings(case.folder), where=str(case.folder))
     return [at_programme_end(case, table) for table in tables] if case.system.effects else tables
 
 

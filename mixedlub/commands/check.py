@@ -121,13 +121,13 @@ def _named(values: Mapping[str, float]) -> str:
 
 
 def _tables(case: Case) -> Iterator[str]:
+    from mixedlub.case.folder import other_recordings
+
     for name, table in (("recordings.csv", case.recordings), ("conditions.csv", case.conditions)):
         if table is None:
-            yield f"{name}: missing; " + (
-                "nothing can be diagnosed without it."
-                if name == "recordings.csv"
-                else "only recorded rows are predicted."
-            )
+            without = f"nothing can be diagnosed without it{other_recordings(case.folder)}"
+            without = without if name == "recordings.csv" else "only recorded rows are predicted"
+            yield f"{name}: missing; {without}."
             continue
         yield f"{name}: {len(table)} {'row' if len(table) == 1 else 'rows'}."
         yield from (f"  {column}: {_levels(table, column)}" for column in table.columns if column != "run")

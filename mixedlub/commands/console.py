@@ -12,10 +12,26 @@ from contextlib import contextmanager
 from pathlib import Path
 from textwrap import fill
 from typing import TextIO
-from unicodedata import category
 
-from mixedlub.schema.findings import Finding, grouped
+import typer
+
+from mixedlub.schema.findings import Finding, grouped, listed
+from mixedlub.schema.messages import printable
 from profiles.errors import InputError
+
+CONDITIONS = (
+    "Columns: those of recordings.csv without the reading (`mixedlub kinds KIND` lists them); "
+    "rows without run are numbered."
+)
+"""Help on a table of conditions."""
+
+
+def named_folder(text: str) -> Path:
+    """The folder that an option names; an empty text would mean the current one."""
+    if not text.strip():
+        raise typer.BadParameter("must name a folder; '.' is the current one")
+    return Path(text)
+
 
 _opened: list[Path] = []
 _made: list[Path] = []
@@ -79,6 +95,10 @@ def case_folder(case: Path) -> Path:
         raise InputError("is a file; name the case folder that holds it", where=str(case))
     if not case.is_dir():
         raise InputError("no such case folder", where=str(case))
+    if not (case / "system.toml").exists():
+        inside = sorted(path.parent.name for path in case.glob("*/system.toml"))
+        cases = f"; cases in it: {listed(inside)}" if inside else "; `mixedlub new case` writes one"
+        raise InputError(f"is a folder without system.toml, so no case{cases}", where=str(case))
     return case
 
 
@@ -109,9 +129,14 @@ def input_errors_from(where: str) -> Iterator[None]:
         raise InputError(f"has numbers too large or too small to compute with ({error})", where=where) from None
 
 
-def echo(text: str = "") -> None:
-    """Print a line to stdout."""
-    _print(text, sys.stdout)
+def echo(text: str = "", *, error: bool = False) -> None:
+    """Print a line to stdout, or to stderr."""
+    _print(text, sys.stderr if error else sys.stdout)
+
+
+def ask(text: str) -> str:
+    """The reply to a question at the terminal."""
+    return input(printable(text))
 
 
 def print_findings(found: Iterable[Finding]) -> None:
@@ -142,15 +167,6 @@ def _print(text: str, stream: TextIO) -> None:
 def _wrapped(line: str, width: int) -> str:
     hanging = " " * (len(line) - len(line.lstrip()) + 2)
     return fill(line, width, subsequent_indent=hanging, break_long_words=False, break_on_hyphens=False)
-
-
-def printable(text: str) -> str:
-    r"""Text without control characters, which a title or name could use to control the terminal.
-
-    >>> printable("red \x1b[31m, next\nline")
-    'red \\x1b[31m, next\nline'
-    """
-    return "".join(repr(c)[1:-1] if category(c) == "Cc" and c not in "\n\t" else c for c in text)
 
 
 LOG = "mixedlub-error.log"

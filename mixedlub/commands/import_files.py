@@ -10,6 +10,7 @@ from typing import Annotated
 
 import typer
 
+from mixedlub.commands.console import ask, echo, named_folder
 from profiles.errors import InputError
 
 NAME = "import"
@@ -24,7 +25,7 @@ def command(
         list[Path],
         typer.Argument(metavar="FILE...", help="Files as the instrument wrote them: text, CSV, .xlsx, each also .gz."),
     ],
-    out: Annotated[Path, typer.Option(metavar="CASE", help="Case folder to write.")],
+    out: Annotated[Path, typer.Option(metavar="CASE", parser=named_folder, help="Case folder to write.")],
     settings: Annotated[
         list[str], typer.Option("--set", metavar="KEY=VALUE", help="An answer, with its key in system.toml.")
     ] = [],  # noqa: B006  (typer reads the default, which is never changed)
@@ -47,8 +48,9 @@ def command(
     """Turn instrument files into a case folder.
 
     The result is a case for simulate, check and diagnose. At a terminal, questions follow for what the
-    files lack (? explains one); elsewhere they are listed with the --set line for each answer. Units are never
-    guessed. An existing case that differs is kept unless --overwrite is given.
+    files lack (? explains one, =VALUE is one value for all rows); elsewhere they are listed with the --set line for
+    each answer. Units are never guessed. An existing case that differs is kept unless --overwrite is given.
+    Cut off a start-up and average raw readings before the import; --set import.every=10 keeps one reading of ten.
     """
     from mixedlub.importers.base import SHEET, Unanswered
     from mixedlub.importers.wizard import run
@@ -58,9 +60,11 @@ def command(
         settings = [*settings, f"{SHEET}={toml_value(sheet)}"]
     try:
         with _progress_bar() as step:
-            run(files, out, settings, answers, input if sys.stdin.isatty() else None, overwrite=overwrite, step=step)
+            replies = ask if sys.stdin.isatty() else None
+            run(files, out, settings, answers, replies, echo, overwrite=overwrite, step=step)
     except Unanswered as missing:
-        print(*missing.lines, sep="\n", file=sys.stderr)
+        for line in missing.lines:
+            echo(line, error=True)
         raise InputError(missing.summary, where="import") from None
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mixedlub.atomic import writing
-from mixedlub.commands.console import echo, output_folder
+from mixedlub.commands.console import echo, named_folder, output_folder
 from profiles.errors import InputError, nearest
 
 if TYPE_CHECKING:
@@ -39,7 +39,9 @@ def command(
     kind: Annotated[
         str | None, typer.Option(metavar="KIND", help=f"Kind of case; default {KIND}. `mixedlub kinds` lists them.")
     ] = None,
-    out: Annotated[Path | None, typer.Option(metavar="DIR", help="Folder to make; default out/new/WHAT.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", parser=named_folder, help="Folder to make; default out/new/WHAT.")
+    ] = None,
 ) -> None:
     """A study or a case to start from.
 

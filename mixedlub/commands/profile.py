@@ -12,7 +12,7 @@ import typer
 
 from mixedlub.atomic import writing
 from mixedlub.chain.effect import entry
-from mixedlub.commands.console import echo, note, output_folder
+from mixedlub.commands.console import echo, named_folder, note, output_folder
 from profiles.errors import InputError
 
 if TYPE_CHECKING:
@@ -26,10 +26,14 @@ Record = Mapping[str, Any]
 
 def command(
     files: Annotated[
-        list[Path], typer.Argument(metavar="FILE...", help="Traces in any known format, or shipped:NAME.")
+        list[Path],
+        typer.Argument(metavar="FILE...", help="Traces in any known format, each also .gz, or shipped:NAME."),
     ],
     out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Folder for profile.json and figures; default out/profile/NAME.")
+        Path | None,
+        typer.Option(
+            metavar="DIR", parser=named_folder, help="Folder for profile.json and figures; default out/profile/NAME."
+        ),
     ] = None,
     form: Annotated[
         str,
@@ -164,7 +168,8 @@ def named_options(file: Path | None = None, trace: Profile | None = None) -> Ite
 
 def _stem(file: Path) -> str:
     """Name of the results of a trace."""
-    return file.stem.rpartition(":")[2]
+    bare = file.with_suffix("") if file.suffix.lower() == ".gz" else file
+    return bare.stem.rpartition(":")[2]
 
 
 def summary(record: Record) -> Iterator[str]:

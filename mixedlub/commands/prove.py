@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.commands.console import echo, output_folder
+from mixedlub.commands.console import echo, named_folder, output_folder
 from profiles.errors import InputError
 
 NAME = "prove"
@@ -20,7 +20,8 @@ RIGS, RIGS_QUICK = 200, 25
 
 def command(
     out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Folder for the score table; default out/prove/battery.")
+        Path | None,
+        typer.Option(metavar="DIR", parser=named_folder, help="Folder for the score table; default out/prove/battery."),
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help=f"{QUICK} cases and no baselines instead of all.")] = False,
     rigs: Annotated[

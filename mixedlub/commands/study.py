@@ -11,7 +11,7 @@ from typing import Annotated
 import typer
 
 from mixedlub.atomic import writing
-from mixedlub.commands.console import busy, echo, input_errors_from, note, output_folder, print_findings
+from mixedlub.commands.console import busy, echo, input_errors_from, named_folder, note, output_folder, print_findings
 from profiles.errors import InputError, nearest
 
 NAME = "study"
@@ -21,7 +21,8 @@ EXAMPLE = "mixedlub new study --out my_study && mixedlub study my_study/study.to
 def command(
     file: Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study: gears, oil, surfaces, conditions.")],
     out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Folder for the results; default out/study/NAME.")
+        Path | None,
+        typer.Option(metavar="DIR", parser=named_folder, help="Folder for the results; default out/study/NAME."),
     ] = None,
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Figures and the HTML page, or not.")] = True,
     format_: Annotated[

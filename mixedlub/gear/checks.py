@@ -8,11 +8,11 @@ from profiles.errors import InputError
 
 
 def torques_above_zero(torque: object) -> np.ndarray:
-    """Torques (Nm) as an array of the shape given, each finite and above zero."""
+    """Torques (N m) as an array of the shape given, each finite and above zero."""
     try:
         torques = np.asarray(torque, dtype=float)
     except (TypeError, ValueError):
-        raise InputError("torques are numbers in Nm", where="torque_Nm", value=torque) from None
+        raise InputError("torques are numbers in N m", where="torque_Nm", value=torque) from None
     wrong = ~(np.isfinite(torques) & (torques > 0))
     if np.any(wrong):
         raise InputError("a torque is finite and above zero", where="torque_Nm", value=float(torques[wrong].flat[0]))

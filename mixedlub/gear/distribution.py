@@ -168,7 +168,7 @@ def transmission_error(
 ) -> LoadDistribution:
     """Static transmission error over one base pitch, with the load distribution it comes from.
 
-    ``torque`` in Nm, one or many; ``phases`` equidistant positions, half a step off A.
+    ``torque`` in N m, one or many; ``phases`` equidistant positions, half a step off A.
 
     >>> hong = GearPair((17, 26), 25.4e-3 / 6, math.radians(22.5), 14e-3)
     >>> print(transmission_error(hong, LdpSharing(), [50, 150]).peak_to_peak.round(7))
@@ -185,7 +185,7 @@ def transmission_error(
 def distribute(
     pair: GearPair, sharing: LdpSharing, torque: np.ndarray, phase: np.ndarray, slices: int
 ) -> LoadDistribution:
-    """Solve the contact problems of all torques (Nm) at all phases (m, within a base pitch from A)."""
+    """Solve the contact problems of all torques (N m) at all phases (m, within a base pitch from A)."""
     pairs = _pairs(pair)
     position = phase[:, None] + pair.base_pitch * np.arange(pairs)
     possible = np.repeat(position <= pair.path_end + 1e-8 * pair.base_pitch, slices, axis=1)

@@ -75,7 +75,7 @@ class Mesh:
         return self.face_fraction * self.pair.face_width
 
     def load_share(self, torque: object) -> np.ndarray:
-        """Share of T1/r_b1 that each point's slice carries, shape ``torque.shape + (M,)``; torque in Nm.
+        """Share of T1/r_b1 that each point's slice carries, shape ``torque.shape + (M,)``; torque in N m.
 
         Summed over its slices it is the share of the tooth pair at that position. It acts on `contact_width`, not on
         the whole face: `line_load` is the force per length.

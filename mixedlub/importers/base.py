@@ -25,7 +25,6 @@ Answers = Mapping[str, Any]
 
 SHEET = "import.sheet"
 """The sheet of a workbook that is read."""
-
 PART = re.compile(r'"[^"]*"|[^.]+')
 """A part of a dotted key; a name that contains a point is quoted."""
 
@@ -36,6 +35,7 @@ class Question:
 
     ``options`` are the possible answers, ``options_intro`` introduces them. ``placeholder`` replaces an example that is
     unlikely to be right in lines to copy. An ``offered`` example is likely enough for an empty reply to take it.
+    ``meaning`` says more on request. ``one_value`` is the key that answers instead where all rows have the same value.
     """
 
     key: str
@@ -46,6 +46,8 @@ class Question:
     options_intro: str = "one of"
     placeholder: str = ""
     offered: bool = False
+    meaning: str = ""
+    one_value: str = ""
 
     @property
     def choices(self) -> str:
@@ -74,6 +76,7 @@ def listed(questions: Sequence[Question]) -> Iterator[str]:
         words = q.text if not q.choices or q.choices in listed_choices else f"{q.text}: {q.choices}"
         listed_choices.add(q.choices)
         words += f", for example {q.example}" if q.placeholder and not q.choices else ""
+        words += f"; or {q.one_value}=... if all rows have the same" if q.one_value and not q.offered else ""
         yield f"  --set {shlex.quote(f'{q.key}={q.placeholder or q.example}')}  ({words})"
 
 

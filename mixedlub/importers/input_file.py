@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import gzip
-import io
-import zlib
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -13,11 +10,11 @@ from mixedlub.importers.text_table import Sheet, read_sheet
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.schema.table import with_hyphens
 from profiles.errors import InputError, nearest, refuse_no_file
+from profiles.readers.archive import refuse_broken, unpacked
 from profiles.readers.base import MAX_BYTES
 from profiles.readers.numbers import decoded
 from profiles.readers.workbook import Worksheet, is_workbook, longest, worksheets
 
-GZIP = b"\x1f\x8b"
 BYTE_ORDER_MARKS = (b"\xff\xfe", b"\xfe\xff")
 SAMPLE_LENGTH = 4096
 """Characters from the start of a text that show whether it is one."""
@@ -49,25 +46,14 @@ def open_file(path: Path, answers: Answers) -> InputFile:
         raise
     except OSError as error:
         raise InputError(f"cannot be read ({error.strerror})", where=str(path)) from None
-    if data[:2] == GZIP:
-        data = _unpacked(data, path.name)
+    data = unpacked(data, path.name, MAX_BYTES)
+    refuse_broken(data, path.name)
     if is_workbook(data):
         return _from_workbook(worksheets(data, path.name), path.name, answers)
     text = with_hyphens(decoded(_with_mark(data), path.name))
     if "\0" in text[:SAMPLE_LENGTH]:
         raise InputError("is not a text file or workbook; export it as text first", where=path.name)
     return InputFile(path.name, text)
-
-
-def _unpacked(data: bytes, name: str) -> bytes:
-    try:
-        with gzip.GzipFile(fileobj=io.BytesIO(data)) as file:
-            content = file.read(MAX_BYTES + 1)
-    except (OSError, EOFError, zlib.error) as error:
-        raise InputError(f"damaged gzip file ({error})", where=name) from None
-    if len(content) > MAX_BYTES:
-        raise InputError(f"unpacks to more than {MAX_BYTES} bytes, the largest file that is read", where=name)
-    return content
 
 
 def _with_mark(data: bytes) -> bytes:

@@ -7,6 +7,7 @@ import re
 import shlex
 from collections.abc import Iterable, Mapping, Sequence
 
+from mixedlub.importers.answer_keys import COLUMNS
 from mixedlub.importers.base import Question
 from mixedlub.importers.text_table import Cells, is_numeric
 from mixedlub.importers.time_base import TIME, counted
@@ -265,15 +266,15 @@ def spare_headers(columns: Iterable[Column], cells: Cells) -> dict[str, str]:
     return headers
 
 
-def spare_questions(spare: Mapping[str, str], key: str) -> list[Question]:
+def spare_questions(spare: Mapping[str, str]) -> list[Question]:
     """Optional questions: whether to take these headers."""
     text = "is used where it is recorded: header of its column"
-    return [Question(key + column, f"{column} {text}", toml_value(h), needed=False) for column, h in spare.items()]
+    return [Question(COLUMNS + column, f"{column} {text}", toml_value(h), needed=False) for column, h in spare.items()]
 
 
-def spare_notes(spare: Mapping[str, str], key: str) -> Sequence[str]:
+def spare_notes(spare: Mapping[str, str]) -> Sequence[str]:
     """Notes on headers left out, with the setting that takes each."""
     return [
-        f"{h!r} is not taken; if it is {column}: --set {shlex.quote(f'{key}{column}={toml_value(h)}')}"
+        f"{h!r} is not taken; if it is {column}: --set {shlex.quote(f'{COLUMNS}{column}={toml_value(h)}')}"
         for column, h in spare.items()
     ]

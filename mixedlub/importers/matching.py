@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping, Sequence, Set
+import shlex
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-import numpy as np
-
+from mixedlub.importers.answer_keys import COLUMNS, UNIT_KEYS, UNKNOWN_HEADER, VALUES
 from mixedlub.importers.base import Answers, Question
+from mixedlub.importers.column_units import (
+    header_unit_of,
+    is_named,
+    refuse_idle_units,
+    taken_units,
+    target_for,
+    unit_question,
+)
 from mixedlub.importers.likeness import (
     either,
     is_logarithm,
@@ -21,72 +28,24 @@ from mixedlub.importers.likeness import (
     spare_questions,
     transmitted,
 )
+from mixedlub.importers.one_value import without_value
 from mixedlub.importers.surface_speeds import FROM_BOTH_SPEEDS, other_surface
 from mixedlub.importers.text_table import Cells, is_numeric
 from mixedlub.importers.time_base import (
     PACE_KEYS,
-    PACES,
     TIME,
-    counted,
     header_of_count,
     headers_in_time,
     pace_questions,
     target_in,
-    unit_of_count,
 )
-from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, WEIGHED, Target, is_of_another, target_of, unknown_unit
+from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, is_of_another, target_of
 from mixedlub.kinds import Kind
 from mixedlub.schema.table import BOOKKEEPING, Column, check_column, is_missing, sd_column
 from mixedlub.schema.toml_file import toml_value
-from mixedlub.schema.units import change_to, fits, open_units, split, tidy, units_of, words_of
+from mixedlub.schema.units import fits, open_units, split, unit_of, words_of
 from profiles.errors import InputError, nearest
 
-VALUES = "import.values."
-"""Prefix of a column in the answer that gives all its rows one value."""
-
-
-def value_keys(kind: Kind) -> tuple[str, ...]:
-    """The answers that give a column of a kind one value."""
-    return tuple(VALUES + column.name for column in kind.columns)
-
-
-def without_value(columns: Sequence[Column], answers: Answers) -> tuple[Column, ...]:
-    """The columns that need a header, as no answer gives their value."""
-    return tuple(column for column in columns if VALUES + column.name not in answers)
-
-
-def constants(kind: Kind, answers: Answers, rows: int) -> dict[str, np.ndarray]:
-    """The columns of a kind that have one value by an answer, each checked by the rules of its column."""
-    columns = {}
-    for column in kind.columns:
-        key = VALUES + column.name
-        if key in answers:
-            if f"import.columns.{column.name}" in answers:
-                raise InputError("has a header too; give one of the two", where=key, value=answers[key])
-            columns[column.name] = np.full(rows, column.parse(str(answers[key]), key))
-    return columns
-
-
-def _or_one_value(column: str) -> str:
-    """How to answer for a column that has the same value in all rows."""
-    return f"; or {VALUES}{column}=... if all rows have the same"
-
-
-def has_header(header: str, column: str) -> bool:
-    """Whether a header is the name of a column, with blanks or hyphens for its underscores.
-
-    >>> has_header("Pinion surface", "pinion_surface"), has_header("pinion", "pinion_surface")
-    (True, False)
-    """
-    return header.strip().lower().replace(" ", "_").replace("-", "_") == column.lower()
-
-
-COLUMNS = "import.columns."
-UNIT_KEYS = "import.units."
-OF_READINGS = ("mean", "average", "avg", "median", "value", "measured", "nominal", "actual", "set")
-"""Last words of a header that are no unit."""
-COUNTS = ("fringe_order",)
-"""Columns without a unit."""
 AMBIGUOUS = 0.1
 """Difference of likeness up to which another header is listed as equally likely: judgement."""
 
@@ -122,13 +81,6 @@ def wanted(kind: Kind, quantity: str, answers: Answers) -> tuple[Column, ...]:
         *BOOKKEEPING,
         *([check_column(str(check))] if check else []),
     )
-
-
-def target_for(column: str) -> Target | None:
-    """Unit and words of a column; the standard deviation of a reading has the unit of the reading."""
-    reading = column.removesuffix("_sd")
-    target = BY_NAME.get(reading)
-    return target if target is None or reading == column else replace(target, name=column, spoken=())
 
 
 def import_keys(columns: Sequence[Column]) -> tuple[str, ...]:
@@ -169,21 +121,36 @@ def match(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> Match:
     matched.headers = {c: h for c, h in matched.headers.items() if c in certain or h not in similar.values()}
     matched.questions.extend(_missing(missing, similar, cells, matched.headers, answers))
     spare = {c: h for c, h in _spare(kind, quantity, filled, matched).items() if VALUES + c not in answers}
-    matched.questions.extend(spare_questions(spare, COLUMNS))
+    matched.questions.extend(spare_questions(spare))
     asked = {q.key.removeprefix(COLUMNS) for q in matched.questions}
-    _refuse_idle_units({*matched.headers, *asked}, answers)
-    units, questions, notes = _units(matched.headers, answers)
+    refuse_idle_units({*matched.headers, *asked}, answers)
+    units, questions, notes = taken_units(matched.headers, answers)
     ordered = {c.name: matched.headers[c.name] for c in columns if c.name in matched.headers}
     questions += pace_questions(matched.headers, units, answers)
-    warned = tuple(spare_notes(spare, COLUMNS))
-    return Match(ordered, units, (*matched.questions, *questions), (*matched.notes, *notes), warned)
+    warned = tuple(spare_notes(spare))
+    every = tuple(_explained(q, kind) for q in (*matched.questions, *questions))
+    return Match(ordered, units, every, (*matched.notes, *notes), warned)
+
+
+def _explained(question: Question, kind: Kind) -> Question:
+    """The question with the meaning of its column, and the key of one value for all rows, which the time never has."""
+    name = question.key.rpartition(".")[2]
+    column = next((c for c in (*kind.columns, *kind.instrument_channels, *kind.readings) if c.name == name), None)
+    if column is None:
+        return question
+    unit = unit_of(name)
+    meaning = f"{name}: {column.meaning}" + (f", in {unit}; other units are converted" if unit else "")
+    has_value = question.key == COLUMNS + name and column in kind.columns and name != TIME
+    return replace(question, meaning=meaning, one_value=VALUES + name if has_value else "")
 
 
 def _named_header(column: str, cells: Cells, answers: Answers) -> str:
     header = str(answers[COLUMNS + column])
     where = COLUMNS + column
     if header not in cells:
-        raise InputError(f"no such header; {nearest(header, cells)}", where=where, value=header)
+        one = f"; if all rows have it: --set {shlex.quote(f'{VALUES}{column}={header}')}"
+        rule = f"no such header; {nearest(header, cells)}" + (one if column in TEXT_COLUMNS else "")
+        raise InputError(rule, where=where, value=header)
     if is_logarithm(header):
         raise InputError("is a logarithm; add a column of the quantity itself", where=where, value=header)
     if column.startswith("viscosity_mPa_s") and "kinematic" in words_of(header).split():
@@ -194,7 +161,7 @@ def _named_header(column: str, cells: Cells, answers: Answers) -> str:
 
 def _find_header(column: Column, cells: Cells, matched: _Matched) -> None:
     """The header of a column, by name or by the words of instruments; an optional column takes the first of several."""
-    exact = [h for h in cells if _is_named(h, column.name)]
+    exact = [h for h in cells if is_named(h, column.name)]
     if exact:
         matched.headers[column.name] = exact[0]
         return
@@ -210,7 +177,8 @@ def _find_header(column: Column, cells: Cells, matched: _Matched) -> None:
     if differing and column.required:
         text = f"Header of the column that holds {column.name}, as more than one could"
         among = (spoken[0], *differing)
-        matched.questions.append(Question(COLUMNS + column.name, text, toml_value(spoken[0]), options=among))
+        question = Question(COLUMNS + column.name, text, toml_value(spoken[0]), options=among)
+        matched.questions.append(replace(question, placeholder=UNKNOWN_HEADER))
         return
     matched.headers[column.name] = spoken[0]
     if differing:
@@ -228,7 +196,8 @@ def _find_count(cells: Cells, matched: _Matched) -> None:
     times = headers_in_time({h: v for h, v in cells.items() if h not in matched.headers.values()})
     if times:
         text = f"Header of the column that holds {TIME}, or counts cycles or a distance instead"
-        matched.questions.append(Question(COLUMNS + TIME, text, toml_value(times[0]), options=(*times, header)))
+        question = Question(COLUMNS + TIME, text, toml_value(times[0]), options=(*times, header))
+        matched.questions.append(replace(question, placeholder=UNKNOWN_HEADER))
     else:
         matched.headers[TIME] = header
 
@@ -245,11 +214,6 @@ def _speaks_of(header: str, column: str) -> bool:
     if target is None or target.name != column:
         return False
     return unit is None or fits(unit, target_in(target, unit).unit) or not is_of_another(unit, target)
-
-
-def _is_named(header: str, column: str) -> bool:
-    """Whether a header is the column's own name; with a unit, capitals distinguish milli from mega."""
-    return header == column or (target_for(column) is None and has_header(header, column))
 
 
 def _one_of(group: tuple[str, ...], named: set[str], matched: _Matched) -> None:
@@ -291,24 +255,33 @@ def _missing(
     questions = []
     for column in missing:
         header = similar.get(column)
-        rivals = _equally_likely(column, header, free)
+        others = [c for c, h in similar.items() if h != header]
+        rivals = _equally_likely(column, header, {h: v for h, v in free.items() if not _is_of(others, column, h, v)})
         text = f"Header of the column that holds {column}{rivals}{_two_speeds(column, cells)}{refused}"
+        header = None if rivals else header
         text += "; one that counts cycles or a distance will do" if column == TIME else ""
-        others = [] if header else transmitted(column, free)
+        others = [] if header or rivals else transmitted(column, free)
         if others:
             text += f"; not proposed: {', '.join(others)}, as by its words none of these is one; where it is their "
             text += "difference, add a column of that to the file"
-        text += _or_one_value(column) if column in TEXT_COLUMNS else ""
-        example = toml_value(header or "HEADER")
-        question = Question(COLUMNS + column, text, example, options=tuple(cells), options_intro="the file has")
-        questions.append(replace(question, offered=header is not None and not rivals))
+        among = (
+            _of_names(cells, [h for h in free if h not in similar.values()]) if column in TEXT_COLUMNS else tuple(cells)
+        )
+        example = toml_value(header) if header else UNKNOWN_HEADER
+        question = Question(COLUMNS + column, text, example, options=among, options_intro="the file has")
+        questions.append(replace(question, offered=header is not None))
         target = target_for(column)
         if header is None or target is None or header == column or UNIT_KEYS + column in answers:
             continue
-        unit = _header_unit(column, header)
+        unit = header_unit_of(column, header)
         if unit is None or open_units(unit, target.unit):
-            questions.append(_unit_question(column, header, target))
+            questions.append(unit_question(column, header, target))
     return questions
+
+
+def _of_names(cells: Cells, free: Sequence[str]) -> tuple[str, ...]:
+    """Headers of columns of text, or else those that nothing was taken from: names may be numbers."""
+    return tuple(h for h, values in cells.items() if not is_numeric(values)) or tuple(free)
 
 
 def _offered(cells: Cells, headers: Mapping[str, str]) -> Cells:
@@ -339,80 +312,16 @@ def _spare(kind: Kind, quantity: str, cells: Cells, matched: _Matched) -> dict[s
     return near if spread is None else {**near, sd: spread}
 
 
+def _is_of(others: Sequence[str], column: str, header: str, cells: Sequence[str]) -> bool:
+    """Whether a header is clearly that of another column that has none yet."""
+    near = likeness(column, header, cells)
+    return any(likeness(other, header, cells) > near + AMBIGUOUS for other in others)
+
+
 def _equally_likely(column: str, header: str | None, free: Cells) -> str:
-    """Other headers as similar to a column as the one that is offered."""
+    """The headers that are as similar to a column as the most similar one, where there are several."""
     if header is None:
         return ""
     least = likeness(column, header, free[header]) - AMBIGUOUS
-    others = [h for h in free if h != header and likeness(column, h, free[h]) >= least]
-    return f"; equally likely: {', '.join(others)}" if others else ""
-
-
-def _refuse_idle_units(columns: Set[str], answers: Answers) -> None:
-    """An error about a unit that its column cannot have, or whose column is not taken."""
-    for key, unit in answers.items():
-        column = key.removeprefix(UNIT_KEYS)
-        target = target_for(column)
-        if not key.startswith(UNIT_KEYS) or target is None:
-            continue
-        target = target_in(target, str(unit))
-        if change_to(str(unit), target.unit) is None:
-            raise InputError(unknown_unit(str(unit), target), where=key, value=unit)
-        if "kind" in answers and column not in columns:
-            raise InputError(f"no column is taken as {column}; name its header by {COLUMNS}{column}", where=key)
-
-
-def _units(headers: Mapping[str, str], answers: Answers) -> tuple[dict[str, str], list[Question], list[str]]:
-    """Units by column, by answer or by header; a question where both lack it."""
-    units: dict[str, str] = {}
-    questions: list[Question] = []
-    notes: list[str] = []
-    for column, header in headers.items():
-        target = target_for(column)
-        if target is None or column in TEXT_COLUMNS:
-            continue
-        named = _is_named(header, column)
-        header_unit = None if named else _header_unit(column, header)
-        native = named or column in COUNTS
-        unit = answers.get(UNIT_KEYS + column)
-        if unit is not None:
-            units[column] = str(unit)
-            if (native and change_to(str(unit), target.unit) != (1.0, 0.0)) or header_unit not in (None, str(unit)):
-                notes.append(f"{header!r} is taken to be in {unit}, as answered, whatever its header names")
-        elif header_unit is not None and not open_units(header_unit, target.unit):
-            units[column] = header_unit
-        elif not native:
-            questions.append(_unit_question(column, header, target))
-        weight = WEIGHED.get(tidy(units.get(column, "")).lower())
-        if weight is not None:
-            notes.append(f"{header!r} is taken to be a load in {weight}")
-    return units, questions, notes
-
-
-def _header_unit(column: str, header: str) -> str | None:
-    return unit_of_count(header) if column == TIME else split(header)[1]
-
-
-def _unit_question(column: str, header: str, target: Target) -> Question:
-    """An example unit is given where the last word of the header is no unit; it may be an unknown one."""
-    text = f"Unit of the column {header!r}, taken as {column}"
-    candidates = open_units(split(header)[1] or "", target.unit)
-    if candidates:
-        return Question(
-            UNIT_KEYS + column, f"{text}, whose header is ambiguous", toml_value("UNIT"), options=candidates
-        )
-    units = units_of(target.unit)
-    if column == TIME:
-        first = counted(header)
-        units = tuple(u for f in sorted((target.unit, *PACES), key=lambda f: f != first) for u in units_of(f))
-    words = words_of(header).split()
-    spoken = {
-        w for form in (*BY_NAME[column.removesuffix("_sd")].spoken, column.replace("_", " ")) for w in form.split()
-    }
-    sure = (
-        len(words) == 1
-        or counted(header) is not None
-        or words[-1] in (*spoken, *OF_READINGS)
-        or bool(re.fullmatch(r"[#\d]+", words[-1]))
-    )
-    return Question(UNIT_KEYS + column, text, toml_value(units[0] if sure else "UNIT"), options=units)
+    likely = [h for h in free if h == header or likeness(column, h, free[h]) >= least]
+    return f"; equally likely: {', '.join(likely)}" if len(likely) > 1 else ""

@@ -74,7 +74,7 @@ def gaps(system: system_file.System, columns: Mapping[str, np.ndarray]) -> tuple
     stated = system.uncertainty.model_fields_set
     movable = {c.name for c in _movable(system) if set(c.needs) <= reads} - stated
     uncertainty_keys = _keys("uncertainty")
-    uncertain = {k: BROAD if k in broad else "known exactly" for k in uncertainty_keys if k in movable}
+    uncertain = {k: BROAD if k in broad else "treated as exact" for k in uncertainty_keys if k in movable}
     every.append(Gap("uncertainty", not stated, False, (), uncertain, uncertainty_keys))
     noise_given = {"noise"} if f"{system.recording.quantity}_sd" in columns else set()
     every.append(_gap("recording", "recording", system.recording, False, noise_given))

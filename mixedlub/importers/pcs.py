@@ -9,10 +9,11 @@ from datetime import datetime
 
 import numpy as np
 
+from mixedlub.importers.answer_keys import COLUMNS
 from mixedlub.importers.base import Answers, Draft, Question, answered_kind, questions_of, read_note, refuse_unknown
+from mixedlub.importers.column_units import target_for
 from mixedlub.importers.input_file import InputFile
 from mixedlub.importers.likeness import likely_spread, spare_notes, spare_questions
-from mixedlub.importers.matching import COLUMNS, target_for
 from mixedlub.importers.text_table import count, not_above_zero, places
 from mixedlub.importers.vocabulary import BY_NAME, convert, target_of
 from mixedlub.kinds import kind as kind_of
@@ -347,8 +348,8 @@ def _spread(
         }
         header = likely_spread(quantity, reading, scattered)
         spare = {} if header is None else {column: header}
-        notes = [finding("column_not_taken", text, name) for text in spare_notes(spare, COLUMNS)]
-        return {}, spare_questions(spare, COLUMNS), notes
+        notes = [finding("column_not_taken", text, name) for text in spare_notes(spare)]
+        return {}, spare_questions(spare), notes
     if named not in in_all_steps:
         raise InputError(f"no such header; {nearest(str(named), in_all_steps)}", where=COLUMNS + column, value=named)
     unit = split(str(named))[1] or ("-" if target.unit == "ratio" else "?")

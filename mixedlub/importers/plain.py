@@ -10,10 +10,12 @@ import numpy as np
 
 from mixedlub.data_checks.pooled_rows import grouping_columns, pooled_words
 from mixedlub.importers.base import Answers, Draft, Question, contact_form, questions_of, read_note, refuse_unknown
+from mixedlub.importers.column_units import target_for
 from mixedlub.importers.decimals import DECIMAL, MARKS
 from mixedlub.importers.input_file import InputFile
 from mixedlub.importers.likeness import likely_headers, likely_kind, likeness_of_reading
-from mixedlub.importers.matching import constants, import_keys, match, target_for, value_keys, wanted
+from mixedlub.importers.matching import import_keys, match, wanted
+from mixedlub.importers.one_value import constants, value_keys
 from mixedlub.importers.surface_speeds import refuse_one_surface
 from mixedlub.importers.text_table import (
     ONLY,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
@@ -23,19 +22,17 @@ from mixedlub.importers.base import (
     Question,
     Unanswered,
     flat,
-    is_list,
     listed,
     open_questions,
     read_note,
     refuse_wrong,
 )
 from mixedlub.importers.case_writer import findings_toml, write_case
+from mixedlub.importers.dialogue import Ask, Say, ask_for, parse_setting
 from mixedlub.importers.input_file import InputFile, open_file
-from mixedlub.importers.matching import VALUES
 from mixedlub.importers.missing_inputs import gap_lines, gaps, undescribed
 from mixedlub.importers.text_table import joined_runs
 from mixedlub.importers.time_base import TIME, joined_times
-from mixedlub.report.format_reference import about
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, Severity, finding, of_severity, report
 from profiles.errors import InputError, nearest
@@ -45,8 +42,6 @@ RAW_FROM = 2000
 NAMES_SHOWN = 4
 """Different names of a column that the summary lists at most."""
 
-Ask = Callable[[str], str]
-Say = Callable[[str], None]
 Step = Callable[[str], None]
 """Called with what is being done, and with nothing when it is done."""
 
@@ -182,25 +177,6 @@ def _opened(files: Sequence[Path], answers: Answers) -> tuple[list[InputFile], d
     return [file for path, file in opened if path not in shares], with_share(answers, shares)
 
 
-def parse_setting(text: str) -> tuple[str, Any]:
-    """``KEY=VALUE`` with a TOML value; a bare word is taken as text.
-
-    >>> parse_setting("contact.radius_mm=[9.525, inf]"), parse_setting("kind=film")
-    (('contact.radius_mm', [9.525, inf]), ('kind', 'film'))
-    """
-    key, equals, value = text.partition("=")
-    if not equals or not key.strip():
-        raise InputError("must read KEY=VALUE", where="--set", value=text)
-    return key.strip(), _value(value)
-
-
-def _value(text: str) -> Any:
-    try:
-        return tomllib.loads(f"value = {text.strip()}")["value"]
-    except ValueError:
-        return text.strip()
-
-
 def _with_replies(
     files: Sequence[InputFile], answers: dict[str, Any], draft: Draft, ask: Ask, say: Say
 ) -> tuple[dict[str, Any], Draft]:
@@ -219,7 +195,7 @@ def _answered(
     """The answers with one more, unless it is left open, and their draft; after a wrong answer the question repeats."""
     refused: dict[str, Mapping[str, Any]] = {}
     while True:
-        reply = _ask(question, ask, say)
+        reply = ask_for(question, ask, say)
         if reply is None:
             return answers, draft
         extended = {**answers, **reply}
@@ -235,62 +211,8 @@ def _answered(
                 raise
             refused[str(error)] = reply
             say(str(error))
-
-
-def _ask(question: Question, ask: Ask, say: Say) -> dict[str, Any] | None:
-    """One answer with its key; None where it is left open. A needed question repeats, with numbered choices.
-
-    A reply IMPORT.VALUES.NAME=VALUE, one value for all rows, has its own key.
-    """
-    words = f"{question.text}: {question.choices}" if question.choices else question.text
-    listing: tuple[str, ...] = ()
-    while True:
-        reply = ask(f"{words} ({_hint(question)}): ").strip()
-        if reply in ("?", "help"):
-            listing = _choices(question)
-            for line in _help(question, listing):
-                say(line)
-        elif reply.isdecimal() and 1 <= int(reply) <= len(listing):
-            return {question.key: listing[int(reply) - 1]}
-        elif reply.startswith(VALUES) and "=" not in reply:
-            say(f"one value for all rows is written as {VALUES}NAME=VALUE")
-        elif reply.startswith(VALUES):
-            return dict([parse_setting(reply)])
-        elif reply:
-            return {question.key: _value(f"[{reply}]" if is_list(question.example, reply) else reply)}
-        elif not question.needed:
-            return None
-        elif question.offered:
-            return {question.key: _value(question.example)}
-        else:
-            listing = _choices(question)
-            say("this is needed" + ("; a number will do:" if listing else ""))
-            for number, choice in enumerate(listing, start=1):
-                say(f"  {number}  {choice}")
-
-
-def _hint(question: Question) -> str:
-    """What an empty reply does, and an example."""
-    if question.offered:
-        return f"Enter takes {question.example}; ? explains"
-    return f"for example {question.example}; " + (
-        "? explains" if question.needed else "Enter leaves it open; ? explains"
-    )
-
-
-def _choices(question: Question) -> tuple[str, ...]:
-    """Choices that may be given by number; none where a choice is itself a number."""
-    return () if any(choice.isdecimal() for choice in question.options) else question.options
-
-
-def _help(question: Question, listing: Sequence[str]) -> Iterator[str]:
-    """The choices, kinds with what they record, and the setting that answers the question."""
-    for number, choice in enumerate(listing, start=1):
-        yield f"  {number}  {about(choice) if question.key == 'kind' else choice}"
-    if question.key == "kind":
-        yield "  (columns and keys of each: mixedlub kinds KIND)"
-    yield "the same answer on the command line:"
-    yield from listed([question])
+            if question.one_value and question.key in reply:
+                say(f"if all rows have the same value, reply ={reply[question.key]}")
 
 
 def _summary(draft: Draft, answers: Answers) -> Iterator[str]:
@@ -331,7 +253,7 @@ def _hints(draft: Draft, answers: Answers) -> list[str]:
         return []
     return [
         f"{rows} readings in time: --set {EVERY.key}=10 would keep one of ten; a start-up is cut off and readings are "
-        "averaged in the file before it is imported (README, Files of instruments)"
+        "averaged in the file before it is imported (see `mixedlub import --help`)"
     ]
 
 

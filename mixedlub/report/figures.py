@@ -66,7 +66,7 @@ def _over_temperature(results: Results) -> Drawn:
     return Drawn(
         f"power_loss_{key}_temperature",
         f"Power loss against oil temperature: {words} at a {whose} speed of {fastest} rpm. "
-        + _title_words(_some_of(levels.torque_Nm, MOST_LEVELS, "torques", "Nm"))
+        + _title_words(_some_of(levels.torque_Nm, MOST_LEVELS, "torques", "N m"))
         + _hollow(results.outside[chosen][..., int(np.argmax(levels.speed_rpm))]),
         over_temperature(results, chosen),
     )
@@ -78,7 +78,7 @@ def _at_temperature(results: Results, theta: int, several: bool) -> Iterator[Dra
     suffix, at = (f"_{oil:g}C", f", oil at {oil:g} °C") if several else ("", f" (oil at {oil:g} °C)")
     of_oil = _some_of(levels.oil_temperature_C, MOST_TEMPERATURES, "oil temperatures", "°C")
     whose = results.study.file.options.conditions_of
-    some_torques = _some_of(levels.torque_Nm, MOST_LEVELS, "torques", "Nm") + of_oil
+    some_torques = _some_of(levels.torque_Nm, MOST_LEVELS, "torques", "N m") + of_oil
     for quantity, title in OVER_SPEED.items():
         if quantity not in results.values:
             continue
@@ -89,7 +89,7 @@ def _at_temperature(results: Results, theta: int, several: bool) -> Iterator[Dra
                 if quantity == "area_ratio":
                     caption += _log_words(results["area_ratio"][chosen, theta])
                 yield Drawn(f"{quantity}_{key}{suffix}", caption, over_speed(results, quantity, chosen, theta))
-    drawn = _some_of(levels.torque_Nm, MOST_TORQUES, "torques", "Nm")
+    drawn = _some_of(levels.torque_Nm, MOST_TORQUES, "torques", "N m")
     drawn += _some_of(levels.speed_rpm, MOST_LEVELS, "speeds", "rpm")
     fitted = f"with a straight line fitted at each torque and speed{' drawn' if drawn else ''}"
     symbols, drawn = _symbols(results, theta), drawn + of_oil

@@ -118,7 +118,7 @@ def findings(results: Results) -> list[str]:
     def where(index: int) -> str:
         p, o, t, s = np.unravel_index(index, loss.shape)
         return (
-            f"{' / '.join(study.pairings[p])} at {levels.torque_Nm[t]:g} Nm, {levels.speed_rpm[s]:g} rpm, "
+            f"{' / '.join(study.pairings[p])} at {levels.torque_Nm[t]:g} N m, {levels.speed_rpm[s]:g} rpm, "
             f"oil at {levels.oil_temperature_C[o]:g} °C"
         )
 
@@ -134,7 +134,7 @@ def findings(results: Results) -> list[str]:
     ]
     if best != worst:
         sentences.append(
-            f"At {levels.torque_Nm[hardest[0]]:g} Nm, {levels.speed_rpm[hardest[1]]:g} rpm and oil at "
+            f"At {levels.torque_Nm[hardest[0]]:g} N m, {levels.speed_rpm[hardest[1]]:g} rpm and oil at "
             f"{levels.oil_temperature_C[0]:g} °C, "
             f"{' / '.join(study.pairings[best])} loses {100 * (1 - column[best] / column[worst]):.0f} % less than "
             f"{' / '.join(study.pairings[worst])}."

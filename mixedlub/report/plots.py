@@ -170,7 +170,7 @@ def is_wide(values: np.ndarray) -> bool:
 
 
 def _torque_labels(results: Results, places: Sequence[int] | np.ndarray) -> list[str]:
-    return [f"{text} Nm" for text in shown([results.study.file.conditions.torque_Nm[t] for t in places])]
+    return [f"{text} N m" for text in shown([results.study.file.conditions.torque_Nm[t] for t in places])]
 
 
 def loss_over(results: Results, quantity: str, theta: int, *, fitted: bool = False) -> Figure:

@@ -173,7 +173,7 @@ def _as_one(group: Sequence[Finding]) -> Finding:
         return first
     if all(one.text == first.text for one in others):
         return replace(first, place=listed(places))
-    return replace(first, text=f"{first.text}; likewise {listed(places[1:])}")
+    return replace(first, text=f"{first.text.removesuffix('.')}; likewise {listed(places[1:])}")
 
 
 def listed(items: Sequence[object], most: int = PLACES_LISTED) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from typing import Any
+from unicodedata import category
 
 from profiles.errors import nearest
 
@@ -91,3 +92,12 @@ def _one_of(value: object, expected: str) -> str:
     known = re.findall(r"'([^']*)'", expected)
     hint = nearest(str(value), known)
     return f"must be {expected}" + (f"; {hint}" if len(known) > 1 and hint.startswith("nearest") else "")
+
+
+def printable(text: str) -> str:
+    r"""Text without control characters, which a title or name could use to control the terminal.
+
+    >>> printable("red \x1b[31m, next\nline")
+    'red \\x1b[31m, next\nline'
+    """
+    return "".join(repr(c)[1:-1] if category(c) == "Cc" and c not in "\n\t" else c for c in text)

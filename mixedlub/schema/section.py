@@ -21,6 +21,7 @@ from pydantic import (
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
+from mixedlub.schema.messages import printable
 from mixedlub.schema.ranges import Range, range_of, range_violation, ranges
 from mixedlub.schema.units import unit_of
 
@@ -83,7 +84,10 @@ def key(
 
 
 class Section(BaseModel):
-    """A table of a file: unknown keys are errors; values are immutable and within the range of their field."""
+    """A table of a file: unknown keys are errors; values are immutable and within the range of their field.
+
+    Control characters in texts are replaced by their escapes, so that no title or name commands a terminal.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -94,7 +98,7 @@ class Section(BaseModel):
         rule = "" if within is None or value is None else range_violation(within, value)
         if rule:
             raise ValueError(rule)
-        return value
+        return printable(value) if isinstance(value, str) else value
 
 
 @dataclass(frozen=True)

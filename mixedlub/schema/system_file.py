@@ -6,8 +6,9 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
+from unicodedata import category
 
-from pydantic import AfterValidator, Field, ValidationInfo, create_model, model_validator
+from pydantic import AfterValidator, Field, ValidationInfo, create_model, field_validator, model_validator
 
 from mixedlub.discovery import declared
 from mixedlub.schema.oil_file import STOCKS, Base, oil_names, with_oil
@@ -266,6 +267,14 @@ class RigFile(Section):
     gears: Gears | None = key("two entries: pinion, gear", None)
     lubricant: Lubricant | None = key("what is left out is typical of the base stock, and a warning says so", None)
     surfaces: dict[str, SurfaceSection] = key("one table a surface, by the name that other tables use", {})
+
+    @field_validator("surfaces")
+    @classmethod
+    def _are_named(cls, surfaces: dict[str, SurfaceSection]) -> dict[str, SurfaceSection]:
+        for name in surfaces:
+            if not name or name != name.strip() or any(category(c) == "Cc" for c in name):
+                raise ValueError(f"{name!r} is no name: one line of text, no blank at either end")
+        return surfaces
 
 
 class System(RigFile):

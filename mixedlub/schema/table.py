@@ -6,7 +6,7 @@ import csv
 import difflib
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -184,8 +184,13 @@ def with_hyphens(text: str) -> str:
     return PRINTED_MINUS.sub("-", text)
 
 
-def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] = ("run",)) -> Table:
-    """Read a CSV with the given columns, unique in the columns of ``key``; others are ignored and reported."""
+def read_table(
+    path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] = ("run",), first_run: int | None = None
+) -> Table:
+    """Read a CSV with the given columns, unique in the columns of ``key``; others are ignored and reported.
+
+    Where there is no column ``run``, rows are numbered from ``first_run`` on, if that is given.
+    """
     where = str(path)
     try:
         refuse_no_file(path)
@@ -206,7 +211,13 @@ def read_table(path: Path, columns: tuple[Column, ...], *, key: tuple[str, ...] 
     if separator is not None:
         rule = f"columns are separated by commas, numbers have a decimal point; {_IMPORTED}"
         raise InputError(rule, where=where, value=separator)
-    return _table(lines, columns, key, path.name, where)
+    if first_run is None or RUN.name in map(str.lower, header):
+        return _table(lines, columns, key, path.name, where)
+    found = _table(lines, tuple(c for c in columns if c != RUN), (), path.name, where)
+    runs = np.arange(first_run, first_run + len(found))
+    text = f"no column {RUN.name}: rows are numbered from {runs[0]} to {runs[-1]}"
+    report(finding("runs_numbered", text, path.name))
+    return replace(found, columns={RUN.name: runs, **found.columns})
 
 
 def span(name: str, values: np.ndarray) -> str:

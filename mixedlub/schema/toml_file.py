@@ -39,6 +39,8 @@ def read_toml(path: Path) -> dict[str, Any]:
 def named_file(folder: Path, name: str, key: str) -> Path:
     """A file named in a case or study, relative to its folder."""
     path = folder / name
+    if path.is_dir():
+        raise InputError("is a folder; name a file in it", where=key, value=name)
     if not path.is_file():
         near = sorted(p.name for p in path.parent.glob("*") if p.is_file())
         hint = f"; {nearest(path.name, near)}" if near else "; the file that names it may say where it comes from"

@@ -307,7 +307,7 @@ def _check_finite(results: Results) -> None:
             raise InputError(
                 f"no finite {name.replace('_', ' ')}; look for a number far out of range",
                 where=f"{results.study.name}.toml: {' / '.join(results.study.pairings[p])} at "
-                f"{levels.torque_Nm[t]:g} Nm, {levels.speed_rpm[s]:g} rpm, {levels.oil_temperature_C[o]:g} C",
+                f"{levels.torque_Nm[t]:g} N m, {levels.speed_rpm[s]:g} rpm, {levels.oil_temperature_C[o]:g} C",
             )
 
 

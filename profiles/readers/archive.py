@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import io
 import lzma
 import zipfile
@@ -23,6 +24,31 @@ ZIP_FAULTS = (
     EOFError,
 )
 """What Python's zip module raises on a damaged or locked archive."""
+
+
+GZIP, ZIP = b"\x1f\x8b", (b"PK\x03\x04", b"PK\x05\x06", b"PK\x07\x08")
+"""First bytes of a file compressed by gzip, and of a zip archive: whole, empty, or part of several."""
+
+
+def unpacked(data: bytes, where: str, limit: int) -> bytes:
+    """The content of a file compressed by gzip; other content as it is."""
+    if data[:2] != GZIP:
+        return data
+    try:
+        with gzip.GzipFile(fileobj=io.BytesIO(data)) as file:
+            content = file.read(limit + 1)
+    except (OSError, EOFError, zlib.error) as error:
+        raise InputError(f"damaged gzip file ({error})", where=where) from None
+    if len(content) > limit:
+        raise InputError(f"unpacks to more than {limit} bytes, the largest file that is read", where=where)
+    return content
+
+
+def refuse_broken(data: bytes, where: str) -> None:
+    """An error about content that begins as a zip archive and cannot be listed."""
+    if data[:4] in ZIP and not members(data):
+        rule = "damaged or unsupported zip archive, which x3p and xlsx files are too: cut off?"
+        raise InputError(rule, where=where)
 
 
 def members(data: bytes) -> tuple[str, ...]:

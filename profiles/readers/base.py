@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -32,8 +33,13 @@ class Source:
     spacing: float | None = None
 
     @property
+    def bare(self) -> str:
+        """What messages call it, without the ending of a compressed file."""
+        return re.sub(r"(?i)(?<=.)\.gz\Z", "", self.where)
+
+    @property
     def name(self) -> str:
-        return PurePath(self.where).stem or self.where
+        return PurePath(self.bare).stem or self.where
 
 
 class Reader(Protocol):

@@ -16,6 +16,7 @@ from profiles.units import known_unit
 _NUMBER = re.compile(r"[-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d+)?\Z")
 _ABSENT = re.compile(r"[-+]?(?:nan|inf|infinity|n/a|na|null|none|-+|\*+|#n/a|bad)\Z", re.IGNORECASE)
 _SAMPLE = 200
+NO_NUMBERS = "no column of numbers found in the text"
 
 
 @dataclass(frozen=True)
@@ -118,7 +119,7 @@ def table(text: str, where: str) -> Table:
         lines.pop()
     start = next((i for i in range(min(len(lines), 2000)) if _starts_numbers(lines, i)), None)
     if start is None:
-        raise InputError("no column of numbers found in the text", where=where)
+        raise InputError(NO_NUMBERS, where=where)
     body = lines[start:]
     if len(body) > MAX_POINTS:
         raise InputError(f"at most {MAX_POINTS} points can be read", where=where, value=len(body))

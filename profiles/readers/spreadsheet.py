@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from profiles.errors import InputError
 from profiles.profile import Profile
 from profiles.readers.base import Source
 from profiles.readers.numbers import table
@@ -25,7 +26,11 @@ class SpreadsheetReader:
         sheets = worksheets(source.data, source.where)
         chosen = longest(sheets, source.where)
         notes = (f"sheet {chosen.name!r} of {len(sheets)} read",) if len(sheets) > 1 else ()
-        content = table(_without_empty_columns(chosen.text), source.where)
+        try:
+            content = table(_without_empty_columns(chosen.text), source.where)
+        except InputError:
+            rule = "is no trace: other cells than numbers stand below the heading; a trace has [position,] height"
+            raise InputError(rule, where=f"{source.where}: sheet {chosen.name!r}") from None
         return read_table(source, content, {"format": self.format, "sheet": chosen.name}, notes)
 
 

@@ -22,10 +22,10 @@ class SurfcomReader:
     format = "Accretech Surfcom text, .tx1 .tx2"
 
     def magic(self, source: Source) -> bool:
-        return source.where.lower().endswith((".tx1", ".tx2", ".tx3"))
+        return source.bare.lower().endswith((".tx1", ".tx2", ".tx3"))
 
     def read(self, source: Source) -> Profile:
-        kind = source.where.lower()[-4:]
+        kind = source.bare.lower()[-4:]
         if kind == ".tx3":
             raise InputError("a .tx3 file holds settings; the profiles are in .tx1 and .tx2", where=source.where)
         content = table(decoded(source.data, source.where), source.where)

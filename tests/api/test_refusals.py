@@ -109,7 +109,7 @@ def test_a_trace_that_is_not_there_is_refused_at_once(tmp_path, monkeypatch) -> 
     monkeypatch.chdir(tmp_path)
     (tmp_path / "flank_1.txt").write_text("0 0\n")
     refused(lambda: ml.surface("flank_2.txt"), "surface: profile: 'flank_2.txt'", "no such file", "'flank_1.txt'")
-    refused(lambda: ml.surface(tmp_path), "surface: profile", "no such file")
+    refused(lambda: ml.surface(tmp_path), "surface: profile", "is a folder")
     refused(lambda: ml.surface("shipped:0451"), "surface: profile: 'shipped:0451'", "nearest known: '0450'")
 
 

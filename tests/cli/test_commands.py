@@ -153,6 +153,29 @@ def test_a_title_cannot_command_the_terminal(study, capsys):
     assert "\x1b" not in out
 
 
+def test_a_title_cannot_command_a_terminal_that_shows_the_page(study, tmp_path):
+    study.write_text(STUDY.replace('"Trial"', r'"\u001b[31mred\u0007"'))
+    assert main(["study", str(study), "--out", "o"]) == 0
+    written = [path.read_bytes() for path in (tmp_path / "o").rglob("*") if path.suffix in (".html", ".json", ".svg")]
+    assert written
+    assert not any(b"\x1b" in content or b"\x07" in content for content in written)
+
+
+@pytest.mark.parametrize("name", ['""', '"a\\nb"', '" a"'])
+def test_a_surface_without_a_proper_name_is_refused(name, study, capsys):
+    study.write_text(STUDY.replace("fine =", f"{name} ="))
+    assert main(["study", str(study), "--no-figures"]) == 2
+    assert "is no name: one line of text" in capsys.readouterr().err
+
+
+def test_keys_keep_their_letters_in_the_notes_of_a_page(study, tmp_path):
+    study.write_text(STUDY.replace("density_15C_kg_m3 = 850.0\n", ""))
+    assert main(["study", str(study), "--out", "o"]) == 0
+    page = (tmp_path / "o" / "index.html").read_text(encoding="utf-8")
+    assert "lubricant: density_15C_kg_m3" in page
+    assert "text-transform" not in page
+
+
 def test_misspelt_command_names_the_nearest(capsys):
     assert main(["studdy"]) == 2
     assert "study" in capsys.readouterr().err
@@ -288,6 +311,22 @@ def test_simulate_at_other_conditions(shared, tmp_path):
         found = [row[0] for row in csv.reader(file)]
     with at.open() as file:
         assert found == [row[0] for row in csv.reader(file)]
+
+
+def test_conditions_without_run_numbers_are_numbered_after_the_recorded_runs(tmp_path, capsys):
+    at = tmp_path / "at.csv"
+    at.write_text(
+        "torque_Nm,speed_rpm,oil_temperature_C,pinion_surface,gear_surface\n"
+        "50,1000,60,ground,ground\n60,1000,60,ground,ground\n"
+    )
+    case = ROOT / "examples" / "case"
+    assert main(["simulate", str(case), "--out", str(tmp_path / "o"), "--at", str(at)]) == 0
+    assert "at.csv: no column run: rows are numbered from 73 to 74" in capsys.readouterr().err
+    with (tmp_path / "o" / "simulation.csv").open() as file:
+        assert [row[0] for row in csv.reader(file)] == ["run", "73", "74"]
+    at.write_text(at.read_text().replace("torque_Nm,", "Run,torque_Nm,").replace("0,1000", "0,7,1000"))
+    assert main(["simulate", str(case), "--out", str(tmp_path / "o"), "--at", str(at)]) == 2
+    assert "column 'run' is missing; the file has 'Run'" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("case", [f"case_00{i}" for i in range(8)])

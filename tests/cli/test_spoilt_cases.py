@@ -71,7 +71,7 @@ def test_a_slip_of_the_unit_is_refused_by_every_command(name, tmp_path, capsys):
 
 SHARES = {
     "twice": (lambda rows: [*rows, rows[4]], 2, "share.csv: line 63, torque_Nm and roll_angle_deg: (50.0, "),
-    "part": (lambda rows: rows[:3], 2, "share.csv: roll_angle_deg: the rows at 50 Nm"),
+    "part": (lambda rows: rows[:3], 2, "share.csv: roll_angle_deg: the rows at 50 N m"),
     "halved": (
         lambda rows: [(t, a, s / 2) for t, a, s in rows],
         0,
@@ -154,7 +154,7 @@ def test_every_error_in_a_study_names_the_whole_path_of_its_file(old, new, tmp_p
 @pytest.mark.parametrize("name", ["recordings.csv", "system.toml"])
 @pytest.mark.parametrize("special", ["pipe", "device"])
 def test_a_pipe_or_a_device_in_place_of_a_file_is_refused(name, special, tmp_path, capsys):
-    """A pipe was waited for without end, and a device read until the memory was full."""
+    """Reading a pipe never ends, and a device is read until the memory is full."""
     case = spoilt(tmp_path, "system.toml", "", "", 0)
     (case / name).unlink()
     os.mkfifo(case / name) if special == "pipe" else (case / name).symlink_to("/dev/zero")

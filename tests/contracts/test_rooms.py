@@ -15,6 +15,7 @@ ROOMS = {
         *(
             "version",
             "atomic",
+            "origin",
             "discovery",
             "parallel",
             "schema",

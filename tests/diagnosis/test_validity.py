@@ -53,7 +53,7 @@ def fitted(strength: float, spread: float) -> tuple[np.ndarray, np.ndarray]:
 
 
 def test_powers_that_no_cited_law_has_are_a_doubt() -> None:
-    """A jet that hits the wheel goes with the square of speed and not with viscosity; it was named with 1.00."""
+    """A jet that hits the wheel goes with the square of speed and not with viscosity."""
     (said,) = unpublished(find(["churning"]), *fitted(-0.66, 0.1))
     assert (said.code, said.place, said.severity) == ("parameter_unpublished", "churning", Severity.DOUBT)
     assert "is 0.00" in said.text

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
 import re
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -16,6 +18,7 @@ from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
 from mixedlub.diagnosis.report.files import diagnose, write
 from mixedlub.diagnosis.report.text.answer import as_json, predictions
 from mixedlub.effects import catalogue
+from mixedlub.schema.toml_file import read_toml
 
 
 def number(value: Any) -> bool:
@@ -166,8 +169,14 @@ def test_the_same_case_twice_gives_the_same_bytes(
 ) -> None:
     diagnose(offset_folder, tmp_path, exclude=excluded)
     written = {p.relative_to(tmp_path).as_posix(): p.read_bytes() for p in tmp_path.rglob("*.*")}
+    assert json.loads(written.pop("origin.json"))["source"] == Path(os.path.relpath(offset_folder, tmp_path)).as_posix()
     assert written == {name: text.encode() for name, text in offset_files.items()}
     assert set(written) >= {"diagnosis.json", "predictions.csv", "report.txt", "report.html"}
+
+
+def test_the_system_as_used_stands_beside_any_answer(unnamed: Diagnosis, unnamed_files: dict[str, str]) -> None:
+    given = read_toml(unnamed.given.folder / "system.toml")
+    assert tomllib.loads(unnamed_files["case/system.toml"]) == given
 
 
 def test_files_carry_no_date_and_no_path(offset: Diagnosis, offset_files: dict[str, str]) -> None:

@@ -184,7 +184,7 @@ class TestTable:
         half = TableSharing(full.torque, full.roll_angle, 0.5 * full.share)
         (note,) = mesh(TIPPED, half).notes
         assert (note.code, note.severity) == ("load_share_sum", Severity.DOUBT)
-        assert "at 50 Nm" in note.text
+        assert "at 50 N m" in note.text
         assert "0.48 to 0.53 of the load, 0.500 on average" in note.text
         assert mesh(TIPPED, full).notes == ()
 
@@ -192,7 +192,7 @@ class TestTable:
     def test_rows_that_leave_a_part_of_the_path_to_no_pair_are_refused(self, part):
         full = table((50.0,))
         rows = TableSharing(full.torque[part], full.roll_angle[part], full.share[part], source="share.csv")
-        with pytest.raises(InputError, match=r"^share\.csv: roll_angle_deg: the rows at 50 Nm \(.*% of a base pitch$"):
+        with pytest.raises(InputError, match=r"^share\.csv: roll_angle_deg: the rows at 50 N m \(.*% of a base pitch$"):
             mesh(TIPPED, rows)
 
     def test_one_torque_stands_for_the_others(self):

@@ -109,7 +109,7 @@ def test_another_answer_than_a_mark_is_refused(tmp_path):
 
 
 def test_thousands_that_other_numbers_prove_are_reported(file, tmp_path):
-    """'1,000' beside '0.10' was read as 1000 without a word."""
+    """'1,000' beside '0.10' is read as 1000, and the note says so."""
     text = "time (s)\tfriction_coefficient\n1\t0.10\n1,000\t0.11\n2,000\t0.12\n"
     (note,) = read_sheet(text, "t.txt").notes
     assert note.startswith("line 3: '1,000' is read as 1000")

@@ -149,7 +149,7 @@ def test_what_is_derived_is_told_with_its_value(tmp_path, monkeypatch, capsys):
     assert "gears.tip_diameter_mm ([80.4333, 118.533], standard addendum)" in rest
     assert "gears.load_sharing (rigid: the pairs in contact share equally)" in rest
     assert "lubricant.kinematic_viscosity_mm2_s ([100, 11.2])" in rest
-    assert "uncertainty.viscosity (known exactly)" in rest
+    assert "uncertainty.viscosity (treated as exact)" in rest
 
 
 def test_an_oil_of_which_nothing_is_said_is_fitted_and_not_known():

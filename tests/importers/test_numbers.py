@@ -107,7 +107,7 @@ def test_a_file_without_runs_beside_one_with_is_named(file, tmp_path):
 
 @pytest.mark.parametrize("decimal", [".", ","])
 def test_a_minus_as_it_is_printed_is_read(file, tmp_path, decimal):
-    """U+2212 before a number was refused as no number."""
+    """U+2212 before a number is a minus."""
     text = "time_s;friction_coefficient\n" + "".join(f"{i};\u22120.1{i}\n" for i in range(5)) + "5;1.2e\u22121\n"
     case = import_files([file(text.replace(".", decimal))], tmp_path / "case", **HISTORY)
     expected = [-0.1, -0.11, -0.12, -0.13, -0.14, 0.12]

@@ -245,7 +245,7 @@ GERMAN = """Test no.;T1 [Nm];n1 [1/min];Oil sump temp. [°C];Pv total [kW]
 
 
 def test_torque_speed_and_a_loss_in_kilowatts_are_a_gear_loss(tmp_path, monkeypatch, capsys):
-    """By the words of the oil's temperature alone it was proposed as a viscosity."""
+    """By the words of the oil's temperature alone it would be a viscosity."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "rig.csv").write_text(GERMAN, encoding="utf-8")
     assert main(["import", "rig.csv", "--out", "rig"]) == 2

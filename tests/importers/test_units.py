@@ -95,7 +95,7 @@ DRIVE = {"kind": "friction_map", "recording.quantity": "friction_torque_Nm"}
 @pytest.mark.parametrize("unit", ["1/s", "s^-1", "s⁻¹", "s-1"])
 @pytest.mark.parametrize("words", ["Speed", "Joint speed"])
 def test_one_over_a_second_is_asked_about(unit, words):
-    """It was read as revolutions a second; robots mean radians by it."""
+    """It may be revolutions a second; robots mean radians by it."""
     header = f"{words} ({unit})"
     questions = {q.key: q for q in draft(InputFile("t.csv", drive(header)), DRIVE).questions}
     question = questions["import.units.speed_rpm"]

@@ -36,8 +36,8 @@ def test_an_empty_line_lists_the_headers_and_a_number_is_one_of_them(file, tmp_p
     table = read_case(tmp_path / "case").recordings
     assert table["temperature_C"].tolist() == [41.0, 61.0, 99.0]
     assert table["viscosity_mPa_s"].tolist() == [30.0, 12.0, 5.0]
-    listed = ["this is needed; a number will do:", "  1  T1 (degC)", "  2  T2 (degC)", "  3  eta (mPa.s)"]
-    assert said[: len(listed)] == listed
+    assert said[:2] == [NEEDED, "temperature_C: temperature of the sample, in °C; other units are converted"]
+    assert said[2:6] == ["a number will do:", "  1  T1 (degC)", "  2  T2 (degC)", "  3  eta (mPa.s)"]
 
 
 def test_a_number_that_nothing_listed_is_no_choice(file, tmp_path):
@@ -59,12 +59,13 @@ def test_headers_that_are_numbers_are_meant_themselves(file, tmp_path):
     path = file("2 (degC);1;note\n40;30;x\n60;12;y\n")
     told = ["kind=viscosity", 'import.columns.temperature_C="2 (degC)"', "import.units.viscosity_mPa_s=cP"]
     said = answered(path, tmp_path / "case", told, {"viscosity_mPa_s": ["", '"1"']})
-    assert "this is needed" in said
+    assert NEEDED in said
+    assert "a number will do:" not in said
     assert read_case(tmp_path / "case").recordings["viscosity_mPa_s"].tolist() == [30.0, 12.0]
 
 
 def test_a_torque_alone_is_proposed_as_the_friction_torque():
-    """It was taken for the load of the drive, and the question for the friction torque knew no header."""
+    """It is the reading that a map needs, not the load of the drive."""
     found = draft(InputFile("t.csv", ROBOT), DRIVE)
     questions = {q.key: q for q in found.questions if q.needed}
     assert questions["import.columns.friction_torque_Nm"].example == '"torque (N m)"'
@@ -91,6 +92,7 @@ def test_a_torque_beside_the_friction_torque_is_the_load():
 
 
 DISCS = "load (N);speed (m/s);SRR;T (degC);mu\n20;1;0.1;40;0.05\n20;2;0.1;40;0.04\n40;2;0.1;40;0.045\n"
+NEEDED = "this is needed; Enter again leaves it open, and then no case is written"
 NAMED = [
     'kind="disc"',
     'import.columns.entrainment_speed_m_s="speed (m/s)"',
@@ -142,7 +144,7 @@ def test_a_kind_that_is_none_is_asked_again(file, tmp_path):
 def test_a_value_of_all_rows_without_its_sign_is_asked_again(file, tmp_path):
     replies = {**BODIES, "surface_1": ["import.values.surface_1", "import.values.surface_1=ground"]}
     said = answered(file(DISCS), tmp_path / "case", NAMED, replies)
-    assert "one value for all rows is written as import.values.NAME=VALUE" in said
+    assert "one value for all rows is written as =VALUE" in said
 
 
 def test_what_no_answer_mends_is_wrong_in_the_file(file, tmp_path):
@@ -176,7 +178,35 @@ def test_units_and_ambiguous_headers_are_never_taken_by_an_empty_line(file, tmp_
     path = file("temperature;T2 (degC);viscosity (cP)\n40;41;30\n60;62;12\n100;99;5\n")
     replies = {"Unit of the column 'temperature'": ["", "degC"]}
     said = answered(path, tmp_path / "case", ["kind=viscosity"], replies)
-    assert "this is needed; a number will do:" in said
+    assert NEEDED in said
+
+
+def test_one_value_for_all_rows_is_a_reply_to_any_question_for_a_column(file, tmp_path):
+    replies = {
+        **BODIES,
+        "surface_1": ["?", "ground", "=ground"],
+        "surface_2": ["= Ra 0.4"],
+        "oil_temperature_C": ["=900", "=40"],
+    }
+    said = answered(file(DISCS.replace("T (degC)", "T")), tmp_path / "case", NAMED[:2], replies)
+    assert "surface_1: a surface of system.toml" in said
+    assert any("--set import.values.surface_1=ground" in text for text in said)
+    assert "if all rows have the same value, reply =ground" in said
+    assert any("900.0: oil_temperature_C must lie between" in text for text in said)
+    rows = (tmp_path / "case" / "recordings.csv").read_text(encoding="utf-8").splitlines()
+    assert rows[0].endswith(",oil_temperature_C,surface_1,surface_2")
+    assert all(row.endswith(",40,ground,Ra 0.4") for row in rows[1:])
+
+
+def test_headers_of_numbers_are_not_listed_for_the_name_of_a_surface(file, tmp_path):
+    asked = [q for q in draft(InputFile("t.csv", LOSS), {"kind": "gear_pair"}).questions if "_surface" in q.key]
+    assert [q.options for q in asked] == [("Test no.",)] * 2
+
+
+def test_a_needed_question_is_left_open_by_a_second_empty_line(file, tmp_path):
+    with pytest.raises(InputError, match=r"(?s)1 answer is missing.*import\.columns\.temperature_C"):
+        answered(file(TWIN), tmp_path / "case", ["kind=viscosity"], {"temperature_C": ["", ""]})
+    assert not (tmp_path / "case").exists()
 
 
 def test_what_will_be_written_is_shown_first_with_what_was_left_open(file, tmp_path):
@@ -195,7 +225,7 @@ def test_nothing_is_written_where_the_summary_is_declined(file, tmp_path):
 
 
 def test_a_table_is_separated_into_cells_once_whatever_is_asked(file, tmp_path, monkeypatch):
-    """Every question cost a full pass over the file."""
+    """A question costs no pass over the file."""
     passes = []
     monkeypatch.setattr(input_file, "read_sheet", lambda *given: passes.append(given) or read_sheet(*given))
     answered(file(DISCS), tmp_path / "case", NAMED, BODIES)

@@ -227,7 +227,7 @@ def test_levels_left_out_are_those_of_the_condition_that_was_varied(make, scatte
 
 
 def test_a_film_that_rolls_is_not_swept_in_its_sliding(make):
-    """It is measured and jitters about zero; levels left out were those of it."""
+    """It is measured and jitters about zero, so its values are no levels to leave out."""
     rng = np.random.default_rng(2)
     speed = np.geomspace(0.1, 2.0, 10)
     columns = {

@@ -31,7 +31,7 @@ def gap(make):
 
 
 def test_a_place_between_readings_is_as_open_as_they_leave_it(gap):
-    """By its slope where it happened to be fitted it was known to 12 nm."""
+    """Its slope at the fit alone would put it within 12 nm."""
     assert gap.posterior.verdict == Explanation.of("fringe_order")
     (record,) = effect_records(gap)
     onset = record["parameters"][1]

@@ -170,7 +170,7 @@ def test_mean_sliding_of_equation_3(results):
 
 
 def test_mean_friction_of_the_papers_averages_is_its_plain_mean(results):
-    """An independent computation of eq. 4 has 0.0369 for 0258 / 0302 at 100 Nm and 1500 rpm."""
+    """An independent computation of eq. 4 has 0.0369 for 0258 / 0302 at 100 N m and 1500 rpm."""
     options = results.study.file.options.model_copy(update={"averaging": "paper"})
     file = results.study.file.model_copy(update={"options": options})
     found = run_study(read_study(EXAMPLE, file))["mean_friction"][place(results, "0258", "0302"), 0, 1, 2]

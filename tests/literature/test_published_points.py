@@ -43,7 +43,7 @@ def test_speed_lowers_friction_as_measured_when_the_oil_may_warm(rows):
     assert base < heat
 
 
-LOADED = "A: mean friction, 1900 to 4000 Nm, geometry A, 100 °C, ground"
+LOADED = "A: mean friction, 1900 to 4000 N m, geometry A, 100 °C, ground"
 
 
 @pytest.mark.literature(

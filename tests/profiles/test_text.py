@@ -123,7 +123,9 @@ def test_bad_text_gets_a_message_that_names_place_and_rule(tmp_path, text, messa
 @pytest.mark.parametrize("data", [b"hello world\n", bytes(range(1, 256))])
 def test_what_is_not_of_the_format_of_its_name_is_said_not_to_be(tmp_path, ending, data):
     (tmp_path / f"trace{ending}").write_bytes(data)
-    with pytest.raises(InputError, match=f"is no {ending.lower()} file although its name says so: no "):
+    with pytest.raises(
+        InputError, match=f"is no {ending.lower()} file although its name says so: damaged or of another format"
+    ):
         read(tmp_path / f"trace{ending}")
 
 
@@ -222,7 +224,7 @@ def table_of(x, z):
     ],
 )
 def test_a_unit_of_one_column_stands_and_the_other_is_inferred(tmp_path, heading, x, z, told):
-    """`x,z [nm]` was read as um throughout, `Channel A` as angstrom, `probe_in` as inches."""
+    """In `x,z [nm]` only the heights are in nm; `Channel A` is no angstrom, `probe_in` no inch."""
     profile = read(written(tmp_path, f"{heading}\n{table_of(ALONG * x, SURFACE * z)}"))
     assert profile.spacing == pytest.approx(0.5e-6)
     assert profile.heights == pytest.approx(SURFACE * 1e-6, rel=1e-6)
@@ -293,7 +295,7 @@ def test_bad_positions_are_replaced_by_the_step_that_is_told(tmp_path):
 
 
 def test_positions_that_fall_by_whole_numbers_are_refused_not_taken_for_a_decimal_comma(tmp_path):
-    """7999,142 was read as one column of 7999.142."""
+    """7999,142 is two columns, not the number 7999.142."""
     falling = "".join(f"{50 - i},{abs(round(1000 * z))}\n" for i, z in enumerate(HEIGHTS))
     for heading in ("x_um,z_nm\n", ""):
         with pytest.raises(InputError, match="positions must increase"):

@@ -30,7 +30,7 @@ def test_models_scale_as_their_units(gaussian_trace):
         a, b = asperities(p, model=model), asperities(bigger, model=model)
         assert b.density == pytest.approx(a.density / 9, rel=1e-6)
         assert b.radius == pytest.approx(a.radius * 3, rel=1e-6)
-        assert b.packing == pytest.approx(a.packing, rel=1e-6)
+        assert b.sigma == pytest.approx(a.sigma * 3, rel=1e-6)
 
 
 def test_the_offset_and_spread_of_summits_can_be_left_out():

@@ -64,7 +64,7 @@ def test_crown_is_no_edge(gaussian_trace):
 @pytest.mark.parametrize("at", [0.1e-3, 0.9e-3, 3.9e-3, 4.75e-3])
 @pytest.mark.parametrize("depth", [4e-6, -20e-6])
 def test_scratch_or_spike_near_an_end_is_no_edge(gaussian_trace, at, depth):
-    """A scratch of 4 um at 0.9 mm used to take the first millimetre of 4.8 mm with it."""
+    """The first millimetre of 4.8 mm stays, although a scratch of 4 um ends it."""
     p = gaussian_trace()
     notch = np.maximum(0.0, 1.0 - np.abs(p.positions - at) / 15e-6)
     assert mask_edges(Profile(p.heights - depth * notch, p.spacing)).valid.all()

@@ -169,7 +169,7 @@ def test_two_spikes_are_counted(gaussian_trace):
 
 
 def test_masked_spike_raises_no_alarm(gaussian_trace):
-    """Straight bridges under a filter made steps: m4 by differences was 0.38 of m4 by spectral integration."""
+    """Straight bridges under a filter make steps: m4 by differences is then 0.38 of m4 by spectral integration."""
     clean = trace_record(gaussian_trace())[1]
     profile, record = trace_record(spiked(gaussian_trace(), 20e-6), outliers=5.0)
     assert record["warnings"] == clean["warnings"]

@@ -80,7 +80,7 @@ def test_tip_limit_grows_with_the_tip(gaussian_trace, radius):
 
 
 def test_a_deep_fall_does_not_hide_the_height_step(gaussian_trace):
-    """Written to 0.1 nm, with 200 um of chamfer: the gap between far levels was taken for it."""
+    """Written to 0.1 nm, with 200 um of chamfer: the gap between far levels is no resolution."""
     p = gaussian_trace()
     fallen = 0.3 * p.heights - 0.5 * np.maximum(0.0, p.positions - 4.4e-3)
     written = Profile(np.round(fallen * 1e10) * 1e-10, p.spacing)

@@ -124,7 +124,7 @@ def test_short_trace_keeps_its_ends(gaussian_trace):
 
 def test_coarse_trace_says_why_it_has_no_short_cutoff(gaussian_trace):
     p = evaluation_profile(gaussian_trace(spacing=2e-6))
-    assert any("2.5 um is below two points" in s for s in p.steps)
+    assert "short cut-off not applied: step 2 um is too coarse for 2.5 um" in p.steps
 
 
 def test_plateau_is_in_the_row(plateau_trace):

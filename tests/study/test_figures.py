@@ -34,7 +34,7 @@ def test_captions_say_which_levels_are_drawn(many, write_study):
     drawn = {d.name: d.caption for d in figures(many)}
     torques, speeds = "Drawn are 6 of 9 torques: 10, ", "Drawn are 6 of 9 speeds: 10, "
     for name in ("loss_over_roughness", "loss_over_film_parameter", "loss_over_area_ratio"):
-        assert "Drawn are 3 of 9 torques: 10, 105 and 200 Nm." in drawn[f"{name}_40C"]
+        assert "Drawn are 3 of 9 torques: 10, 105 and 200 N m." in drawn[f"{name}_40C"]
         assert speeds in drawn[f"{name}_40C"]
     assert "fitted at each torque and speed drawn" in drawn["loss_over_roughness_40C"]
     for name in ("power_loss_equal", "film_and_friction"):
@@ -63,7 +63,7 @@ def test_levels_in_any_order_are_drawn_from_low_to_high(write_study):
                 assert list(line.get_xdata()) == [500, 1500, 3000], drawn.name
         if drawn.name.startswith("power_loss"):
             (legend,) = drawn.figure.legends
-            assert [text.get_text() for text in legend.get_texts()] == ["50 Nm", "150 Nm"]
+            assert [text.get_text() for text in legend.get_texts()] == ["50 N m", "150 N m"]
 
 
 def test_long_names_stay_within_their_panels(write_study):

@@ -62,7 +62,7 @@ def inputs_of(case):
 
 
 def _reference_points() -> Contact:
-    """The 17/26 pair at 100 Nm and 1500 rpm, at the pitch point, HPSTC and the end of the path."""
+    """The 17/26 pair at 100 N m and 1500 rpm, at the pitch point, HPSTC and the end of the path."""
     module = 25.4e-3 / 6
     tips = (0.5 * module * 19, 0.5 * module * 28)
     path = path_of_contact(Gears((17, 26), module, np.radians(22.5), tips, 14e-3))

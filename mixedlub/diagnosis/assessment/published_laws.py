@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from mixedlub.diagnosis.explanation import Explanation
@@ -20,15 +21,29 @@ class Contained:
 
     @property
     def text(self) -> str:
-        """What the readings say of the law."""
-        odds = f"(log odds {self.log_odds:+.1f})"
-        if self.log_odds > 0.0:
-            return f"The law of {self.law}, which it contains, does as well {odds}."
-        if self.log_odds > LAW_OPEN:
-            return f"The law of {self.law}, which it contains, cannot be excluded {odds}."
-        if self.log_odds > LAW_REJECTED:
-            return f"The law of {self.law}, which it contains, does less well {odds}."
-        return f"The law of {self.law}, which it contains, is rejected {odds}."
+        """What the readings say of the law.
+
+        >>> print(Contained("inlet_shear_heating", "Gupta", -0.9).text)
+        The formula of Gupta is a special case and fits about as well (odds 1 : 2.5).
+        """
+        if self.log_odds > -LAW_OPEN:
+            how = "and fits better"
+        elif self.log_odds > LAW_OPEN:
+            how = "and fits about as well"
+        elif self.log_odds > LAW_REJECTED:
+            how = "that fits less well"
+        else:
+            how = "that is rejected"
+        name = f"{self.law}," if "," in self.law else self.law
+        return f"The formula of {name} is a special case {how} (odds {self._odds})."
+
+    @property
+    def _odds(self) -> str:
+        ratio = math.exp(abs(self.log_odds))
+        shown = (
+            f"{ratio:.2g}" if ratio < 100.0 else f"{ratio:.0f}" if ratio < 1e4 else f"{ratio:.0e}".replace("e+", "e")
+        )
+        return f"{shown} : 1" if self.log_odds > 0.0 else f"1 : {shown}"
 
 
 def contained(search: Search, verdict: Explanation) -> tuple[Contained, ...]:

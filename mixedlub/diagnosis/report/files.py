@@ -16,9 +16,17 @@ from mixedlub.diagnosis.report.text import words
 from mixedlub.diagnosis.report.text.answer import as_json, predictions
 from mixedlub.diagnosis.search.search import Progress
 from mixedlub.diagnosis.settings.assessment import FALSE_ALARM_RATE
+from mixedlub.origin import NAME as ORIGIN
+from mixedlub.origin import Origin, origin_of
 from mixedlub.parallel import shared_out
+from mixedlub.schema.toml_file import to_toml
 
 XML = '<?xml version="1.0" encoding="utf-8" standalone="no"?>\n'
+WRITTEN = ("diagnosis.json", "predictions.csv", "report.txt", "report.html")
+"""Files that every answer has."""
+FIGURES = "figures"
+AS_USED = "case/system.toml"
+"""The file of the answer that keeps the system as it was used."""
 
 
 def diagnose(
@@ -31,13 +39,22 @@ def diagnose(
 ) -> Diagnosis:
     """Work out what the simulation of a case lacks and write the answer into ``out``.
 
-    The files are diagnosis.json, predictions.csv, report.txt, report.html, figures/ and the case of the improved model,
-    improved/. They replace those of an earlier answer once all are written. The same case gives the same bytes.
+    The files are diagnosis.json, predictions.csv, report.txt, report.html, figures/, the system as used in case/, the
+    case of the improved model in improved/, and origin.json, which names the case. They replace those of an earlier
+    answer once all are written. The same case gives the same bytes.
     """
+    origin = case_origin(case_folder)
     diagnosis = diagnose_case(case_folder, predict, exclude, level, progress)
     progress("drawing")
-    write(files(diagnosis), out)
+    contents = {name: _bytes(text) for name, text in files(diagnosis).items()}
+    marked = {name: content for name, content in contents.items() if not name.startswith(f"{FIGURES}/")}
+    write({**contents, ORIGIN: origin.record(out, marked)}, out)
     return diagnosis
+
+
+def case_origin(folder: Path) -> Origin:
+    """A case as the origin of an answer."""
+    return origin_of(folder, ("system.toml", "recordings.csv"))
 
 
 def files(d: Diagnosis) -> dict[str, str | bytes]:
@@ -55,7 +72,8 @@ def files(d: Diagnosis) -> dict[str, str | bytes]:
         "predictions.csv": predictions(d).to_csv(index=False, float_format="%.9g", lineterminator="\n"),
         "report.txt": _text(d, parts),
         "report.html": html.render(d, parts, drawings),
-        **{f"figures/{name}.svg": XML + drawing for name, drawing in drawings.items()},
+        **{f"{FIGURES}/{name}.svg": XML + drawing for name, drawing in drawings.items()},
+        AS_USED: to_toml(d.given.system.model_dump(by_alias=True, exclude_unset=True)),
         **improved_files(d),
     }
 
@@ -106,8 +124,12 @@ def write(contents: Mapping[str, str | bytes], out: Path) -> None:
         for name, text in contents.items():
             path = aside / name
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(text.encode() if isinstance(text, str) else text)
+            path.write_bytes(_bytes(text))
     _drop_earlier(contents, out / FOLDER)
+
+
+def _bytes(text: str | bytes) -> bytes:
+    return text.encode() if isinstance(text, str) else text
 
 
 def _drop_earlier(contents: Mapping[str, str | bytes], folder: Path) -> None:

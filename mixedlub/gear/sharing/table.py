@@ -49,7 +49,7 @@ def _pairs_in_contact(pair: GearPair) -> tuple[np.ndarray, np.ndarray]:
 class TableSharing:
     """A tabulated share, from an outside gear program or a measurement, for spur gears.
 
-    One row an entry of the three arrays: pinion ``torque`` (Nm), pinion ``roll_angle`` (rad) and the
+    One row an entry of the three arrays: pinion ``torque`` (N m), pinion ``roll_angle`` (rad) and the
     ``share`` of the base-tangent force T1/r_b1 that one tooth pair carries there. Used as it stands: linear
     in roll angle between the rows of a torque; beyond the first and last row their value is held for one row
     spacing and the share is zero further out. A torque without rows takes the nearest that has some, and
@@ -131,7 +131,7 @@ class TableSharing:
         start, end = np.degrees(np.array([pair.path_start, pair.path_end]) / pair.base_radius[0])
         first, last = np.degrees(angle[[0, -1]])
         raise InputError(
-            f"the rows at {value:g} Nm ({first:.4g} to {last:.4g} deg) leave out a part of the path of contact "
+            f"the rows at {value:g} N m ({first:.4g} to {last:.4g} deg) leave out a part of the path of contact "
             f"({start:.4g} to {end:.4g} deg) where no other carries the load, {np.mean(~told):.0%} of a base pitch",
             where=self._at_column("roll_angle_deg"),
         )
@@ -144,7 +144,7 @@ class TableSharing:
         worst = min(curves, key=lambda curve: covered[curve])
         if covered[worst] < COVERED:
             text = (
-                f"the rows at {self._curves[worst][0]:g} Nm cover only {covered[worst]:.0%} of the path of contact "
+                f"the rows at {self._curves[worst][0]:g} N m cover only {covered[worst]:.0%} of the path of contact "
                 f"({np.degrees(start):.4g} to {np.degrees(end):.4g} deg); beyond them the share is taken as 0"
                 f"{_others([share < COVERED for share in covered])}"
             )
@@ -158,7 +158,7 @@ class TableSharing:
         if off[worst] > 1.0:
             low, high, mean = sums[worst].min(), sums[worst].max(), sums[worst].mean()
             text = (
-                f"at {self._curves[worst][0]:g} Nm the pairs in contact carry together {low:.2f} to {high:.2f} of the "
+                f"at {self._curves[worst][0]:g} N m the pairs in contact carry together {low:.2f} to {high:.2f} of the "
                 f"load, {mean:.3f} on average, where it should be 1{_others([o > 1.0 for o in off])}"
             )
             grave = self._imbalance(pair) > GRAVE_IMBALANCE
@@ -201,7 +201,7 @@ class TableSharing:
         if np.any(missing):
             asked, used = np.asarray(torque)[missing].flat[0], tabulated[chosen][missing].flat[0]
             more = f" (and {int(missing.sum()) - 1} more torques)" if missing.sum() > 1 else ""
-            text = f"no rows at {asked:g} Nm, nearest torque {used:g} Nm used{more}"
+            text = f"no rows at {asked:g} N m, nearest torque {used:g} N m used{more}"
             report(finding("torque_not_tabulated", text, PLACE))
         curves = np.stack([self._at(i, mesh.roll_angle) for i in range(len(self._curves))])
         return curves[chosen] * mesh.face_fraction

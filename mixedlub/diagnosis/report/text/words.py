@@ -31,7 +31,7 @@ from mixedlub.diagnosis.report.text.tables import calibration, parameters
 from mixedlub.diagnosis.settings.inference import STRONG_EVIDENCE
 from mixedlub.diagnosis.settings.report import MOST_SIMILAR, NOT_BETTER
 
-WIDTH = 88
+WIDTH = 80
 REFITTED = "Parameters were refitted without each level; the answer itself was selected with all levels."
 ANSWER = "Answer"
 MISMATCH = "Is there a mismatch beyond noise and calibration?"
@@ -99,12 +99,29 @@ def as_text(title: str, parts: Iterable[Section]) -> str:
         for item in part.items:
             lines += _wrapped(item, "  - ")
         if part.table:
-            widths = [max(len(row[i]) for row in part.table) for i in range(len(part.table[0]))]
-            lines += [
-                "    " + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
-                for row in part.table
-            ]
+            lines += _aligned(part.table)
     return "\n".join(lines) + "\n"
+
+
+def _aligned(table: Sequence[Sequence[str]]) -> list[str]:
+    """The rows of a table in columns; the last column is wrapped, or stands below where that takes fewer lines.
+
+    >>> _aligned([("input", "meaning"), ("roughness", "factor on Rq")])
+    ['    input      meaning', '    roughness  factor on Rq']
+    """
+    widths = [max(map(len, cells)) for cells in zip(*table, strict=True)][:-1]
+    margin = 4 + sum(width + 2 for width in widths)
+    starts = ["    " + "".join(cell.ljust(width + 2) for cell, width in zip(row, widths)) for row in table]
+    below = [starts[0].rstrip()]
+    for start, row in zip(starts[1:], table[1:], strict=True):
+        below += [start.rstrip(), *_wrapped(row[-1], 8 * " ")]
+    if WIDTH - margin < max(len(word) for row in table for word in row[-1].split() or [""]):
+        return below
+    beside = []
+    for start, row in zip(starts, table, strict=True):
+        first, *rest = _wrapped(row[-1], margin * " ") or [""]
+        beside += [(start + first[margin:]).rstrip(), *rest]
+    return min(beside, below, key=len)
 
 
 def _wrapped(text: str, start: str) -> list[str]:
