@@ -6,14 +6,14 @@ import numpy as np
 
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
+from mixedlub.data_checks.misread import NEGATIVE_SIGMAS, misread, sds
 from mixedlub.data_checks.mixed_units import of_odd_units, teeth_too_hard_pressed
-from mixedlub.data_checks.sign_checks import AS_LARGE, both_signs, of_other_sign
+from mixedlub.data_checks.sign_checks import both_signs, of_other_sign
 from mixedlub.kinds.kind import gears_out
 from mixedlub.recording.conditions import PASSING, raw_coordinates
 from mixedlub.recording.noise import (
     is_stated,
     nearly_repeated,
-    noise,
     noise_from_repeats,
     pooled_sd,
     setups_differ,
@@ -49,15 +49,6 @@ STUCK_STEPS, STUCK_SPAN = 3.0, 0.05
 """Judgement. Change of the base model over these rows that shows a stuck channel: in steps of the reading, and
 relative."""
 
-
-TOO_LARGE, ALONE = 50.0, 10.0
-"""Judgement. Ratio of a reading to its expected value, and to the largest other reading, from which it is
-implausible."""
-NEGATIVE_SHARE, NEGATIVE_SIGMAS = 0.02, 5.0
-"""Judgement. Largest share of negative readings that counts as sign errors, and the sds below zero that each must
-be."""
-UNSTATED = 0.05
-"""Judgement. Standard deviation assumed where none is stated, as a share of the median reading."""
 ORDER = ("run", "sequence", "time_s")
 """Columns in which a row that is entered twice differs from its copy."""
 TWICE_ROWS, TWICE_SHARE = 3, 0.1
@@ -80,7 +71,7 @@ def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> 
         where = str(case.folder / "recordings.csv")
         raise InputError("all readings were taken at the same conditions; vary at least one", where=where)
     base = forward.base_prediction()
-    other_sign = of_other_sign(case, rows, y, NEGATIVE_SIGMAS * _sds(case, rows, y))
+    other_sign = of_other_sign(case, rows, y, NEGATIVE_SIGMAS * sds(case, rows, y))
     return [
         *_entered_twice(case, rows, y),
         *_parts(case, rows),
@@ -96,7 +87,7 @@ def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> 
         *_beyond_the_oil(case, rows),
         *_backwards(rows),
         *_stuck(case, rows, y, base),
-        *_misread(case, rows, y, base, other_sign),
+        *misread(case, rows, y, forward, other_sign),
         *both_signs(case, rows, y, other_sign),
         *_contradicting(case, rows, y, base),
     ]
@@ -273,36 +264,6 @@ def _stuck(case: Case, rows: Table, y: np.ndarray, base: np.ndarray) -> list[Fin
     statement = f"{counts[most]} of {y.size} readings are exactly {values[most]:g} though {', '.join(varied)} vary"
     text = f"{statement}: check for a channel that was stuck or filled in (runs {runs})"
     return [finding("channel_stuck", text)]
-
-
-def _misread(case: Case, rows: Table, y: np.ndarray, base: np.ndarray, reported: np.ndarray) -> list[Finding]:
-    """Single readings of implausible size or sign, compared with the base model scaled to the others.
-
-    Readings whose wrong sign is ``reported`` already are left out.
-    """
-    used = np.abs(base) > 0
-    if used.sum() < FEWEST:
-        return []
-    expected = np.abs(base) * float(np.median(np.abs(y[used] / base[used])))
-    used &= expected > 0
-    large = used & (np.abs(y) > TOO_LARGE * expected)
-    large &= np.abs(y) > ALONE * np.max(np.abs(y[~large]), initial=0.0)
-    suspects = [("reading_too_large", large, "check unit and decimal point")]
-    if case.kind.is_unsigned(case.quantity):
-        least, most = (share * expected for share in AS_LARGE)
-        wrong = used & (y < -NEGATIVE_SIGMAS * _sds(case, rows, y)) & (-y > least) & (-y < most)
-        if wrong.sum() <= max(1.0, NEGATIVE_SHARE * y.size):
-            suspects.append(("reading_negative", wrong & ~reported, "check the sign"))
-    return [
-        finding(code, f"reads {y[i]:g} where the others suggest {expected[i]:.3g}: {advice}", f"run {rows['run'][i]}")
-        for code, which, advice in suspects
-        for i in np.flatnonzero(which)
-    ]
-
-
-def _sds(case: Case, rows: Table, y: np.ndarray) -> np.ndarray:
-    """Stated standard deviation of each reading; else a twentieth of the median reading."""
-    return noise(case, rows, y)[0] if is_stated(case) else np.full(y.size, UNSTATED * float(np.median(np.abs(y))))
 
 
 def _warm(rows: Table) -> list[Finding]:

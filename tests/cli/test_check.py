@@ -157,3 +157,24 @@ def test_things_that_an_unread_column_tells_apart_are_told(header, things, told,
     )
     assert (line in said) == told
     assert ("pooled" in said) == told
+
+
+@pytest.mark.parametrize(("factor", "advice"), [(-2.5, "cannot be below zero"), (10.0, "check unit and decimal")])
+@pytest.mark.parametrize("run", [1, 3, 70])
+def test_a_reading_that_cannot_be_is_doubted(tmp_path, capsys, factor, advice, run):
+    folder = spoilt(tmp_path, lambda y: [factor * v if i == run else v for i, v in enumerate(y, start=1)])
+    assert main(["check", str(folder)]) == 0
+    (said,) = [line for line in capsys.readouterr().out.splitlines() if "others suggest" in line]
+    assert said.startswith(f"  run {run}: reads ")
+    assert advice in said
+
+
+def test_the_shipped_example_has_no_doubtful_reading(capsys):
+    assert main(["check", str(EXAMPLE)]) == 0
+    assert "others suggest" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("case", [f"case_00{i}" for i in range(8)])
+def test_no_reading_of_the_practice_cases_is_doubted(case, shared, capsys):
+    assert main(["check", str(shared / "cases" / case)]) == 0
+    assert "others suggest" not in capsys.readouterr().out
