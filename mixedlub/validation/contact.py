@@ -97,7 +97,8 @@ class Inputs:
     """What the chain is given, readings by points: everything in SI units but temperatures in C.
 
     ``share_force`` is the force on the tooth (or disc) at each point, ``step`` the length of path that a point
-    represents over the base pitch (1 without a path), ``conditions`` the columns of the case file by name.
+    represents over the base pitch (1 without a path), ``conditions`` the columns of the case file by name. ``shares``
+    is what each of both surfaces has of the three composite moments (readings, 2, 3); left out, both are alike.
     """
 
     oil: Oil
@@ -116,6 +117,7 @@ class Inputs:
     coated: np.ndarray | None = None
     coating_resistance: float = 0.0
     extras: Mapping[str, float] = field(default_factory=dict)
+    shares: np.ndarray = field(default_factory=lambda: np.full((1, 2, 3), 0.5))
 
     @property
     def is_mesh(self) -> bool:
@@ -306,14 +308,16 @@ def solid_of(table: Mapping[str, Any]) -> Solid:
 
 
 def surfaces_of(case: Case, first: str, second: str) -> dict[str, Any]:
-    """Composite moments (readings by 3, SI), number of coated surfaces of each reading, and the coating."""
+    """Moments of both surfaces together (readings by 3, SI) and shares of each, coated surfaces, and the coating."""
     units = np.array([1e-12, 1.0, 1e12])
     table = case.settings["surfaces"]
     moments = {name: np.array([s["m0_um2"], s["m2"], s["m4_per_um2"]]) * units for name, s in table.items()}
     pairs = list(zip(case.columns[first], case.columns[second]))
+    both = np.array([(moments[a], moments[b]) for a, b in pairs])
     layers = [surface["coating"] for surface in table.values() if "coating" in surface]
     return {
-        "moments": np.array([moments[a] + moments[b] for a, b in pairs]),
+        "moments": both.sum(axis=1),
+        "shares": both / both.sum(axis=1, keepdims=True),
         "coated": np.array([[float("coating" in table[a]) + float("coating" in table[b])] for a, b in pairs]),
         "coating_resistance": 1e-6 * layers[0]["thickness_um"] / layers[0]["thermal_conductivity_W_mK"]
         if layers

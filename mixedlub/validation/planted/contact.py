@@ -91,14 +91,22 @@ def asperity_elastoplasticity(c: Contact, strength: float) -> Contact:
 
 
 def micro_ehl(c: Contact, strength: float) -> Contact:
-    """Long waves are pressed flat: amplitude 1/(1 + 0.125 q + 0.04 q^2), q = strength (60 um/b) p0^1.5, GPa.
+    """Waves of each surface are pressed flat as Venner and Lubrecht computed for a line contact.
 
-    Slow rolling flattens more: q falls with the square root of the speed. Slopes keep half of the change in
-    logarithm, curvatures none, since short waves stay.
+    Amplitude 1/(1 + 0.17 q + 0.03 q^2) with q = (wave/b) M^(3/4)/L^(1/2); the wave of a surface is ``strength`` times
+    2 pi Rq/Rdq. Slopes keep half of the change in logarithm, curvatures none, since short waves stay.
     """
-    group = strength * 60e-6 / c.half_width * (c.pressure / 1e9) ** 1.5 / np.sqrt(c.entrainment)
-    amplitude = 1 / (1 + 0.125 * group + 0.04 * group**2)
-    return replace(c, m0=c.m0 * amplitude**2, m2=c.m2 * amplitude)
+    size = c.rig.solid.reduced * c.rig.radius
+    speed = 2 * c.viscosity * c.entrainment / size
+    load, material = c.line_load / size / np.sqrt(speed), c.pressure_viscosity * c.rig.solid.reduced * speed**0.25
+    heights, slopes = 0.0, 0.0
+    for share in np.moveaxis(c.rig.shares, 1, 0):
+        own_heights, own_slopes = share[:, 0:1], share[:, 1:2]
+        wave = strength * 2 * np.pi * np.sqrt(own_heights * c.m0 / (own_slopes * c.m2))
+        group = wave / c.half_width * load**0.75 / np.sqrt(material)
+        amplitude = 1 / (1 + 0.17 * group + 0.03 * group**2)
+        heights, slopes = heights + own_heights * amplitude**2, slopes + own_slopes * amplitude
+    return replace(c, m0=c.m0 * heights, m2=c.m2 * slopes)
 
 
 def running_in(c: Contact, strength: float, pace: float) -> Contact:
@@ -163,7 +171,7 @@ EFFECTS = (
         "surface",
         micro_ehl,
         (strength(0.0, 12.0, (0.8, 3.0)),),
-        "amplitude reduction after Hooke and Venner 2000",
+        "amplitude reduction of Venner and Lubrecht 1994, slopes apart",
     ),
     Form(
         "running_in",
