@@ -148,9 +148,15 @@ def test_friction_of_an_eyring_oil_is_near_its_plateau():
 def test_a_limiting_stress_limits_the_friction():
     oil, cases = case("T1")
     limited = partial(shear.limiting, limiting_stress=1e6, limiting_growth=0.04)
-    oil = replace(oil, shear=limited, stress_scale=lambda p: 1e6 + 0.04 * p, stress_limit=lambda p: 1.25e6 + 0.05 * p)
+    oil = replace(
+        oil,
+        shear=limited,
+        newtonian=False,
+        stress_scale=lambda p: 1e6 + 0.04 * p,
+        stress_limit=lambda p: 1.25e6 + 0.05 * p,
+    )
     own = found(oil, cases)
-    assert 0.035 < own["friction_coefficient"][0] < 0.045
+    assert 0.03 < own["friction_coefficient"][0] < 0.045
 
 
 def test_a_batch_gives_what_each_contact_gives_alone():

@@ -11,8 +11,9 @@ from mixedlub.ehl.oil.oil import Slopes
 
 LARGEST_RATIO = 200.0
 """Stress over Eyring stress above which the law goes on as a straight line: rates beyond any contact."""
-CAP, PASSED = 0.005, 1.25
-"""Width of the smooth cap at a limiting stress, and the stress that no search passes, both over the limit."""
+CAP, CAP_END, PASSED = 0.01, 20.0, 1.25
+"""Width of the smooth cap over the limiting stress; its widths after which it is straight; the stress, over the limit,
+that no search passes."""
 
 
 def newton(stress: np.ndarray, pressure: np.ndarray) -> Slopes:
@@ -100,17 +101,17 @@ def limiting(stress: np.ndarray, pressure: np.ndarray, limiting_stress: float, l
     r"""Newtonian oil with a limiting stress that grows with pressure, as a smooth cap.
 
     .. math:: \eta\dot\gamma = \tau + \sigma\,e^{(|\tau| - \tau_L)/\sigma}\operatorname{sign}\tau,\quad
-              \tau_L = \tau_{L0} + \Lambda p,\quad \sigma = 0.005\,\tau_L
+              \tau_L = \tau_{L0} + \Lambda p,\quad \sigma = 0.01\,\tau_L
 
-    The stress passes the limit by 6 % where the Newtonian one is a thousand times the limit. Source: limiting stress by
+    The stress passes the limit by 12 % where the Newtonian one is a thousand times it. Source: limiting stress by
     S. Bair, W. O. Winer, J. Lubr. Technol. 101 (1979) 258; the cap is a smooth form of a kink.
 
     >>> round(float(limiting(np.array(41e6), 1e9, 1e6, 0.04)[0]) / 1e6, 2)
-    41.2
+    41.41
     """
     limit = limiting_stress + limiting_growth * pressure
     over = np.abs(stress) / limit - 1.0
-    inside = np.minimum(over / CAP, LARGEST_RATIO)
+    inside = np.minimum(over / CAP, CAP_END)
     beyond = np.exp(inside)
     capped = CAP * beyond * (1.0 + over / CAP - inside)
     by_limit = capped - beyond * np.abs(stress) / limit
