@@ -34,7 +34,10 @@ class Column:
 
 @dataclass(frozen=True)
 class Sheared:
-    """Shear of columns: mean stress, shear rate across with its slopes, and stress across."""
+    """Shear of columns: mean stress, shear rate across with its slopes, and stress across.
+
+    ``miss`` is the relative change of the mean stress in the last step of its search.
+    """
 
     mean_stress: np.ndarray
     stress: np.ndarray
@@ -42,6 +45,7 @@ class Sheared:
     by_stress: np.ndarray
     by_pressure: np.ndarray
     by_temperature: np.ndarray
+    miss: np.ndarray
 
 
 def sheared(column: Column, start: np.ndarray) -> Sheared:
@@ -67,11 +71,12 @@ def sheared(column: Column, start: np.ndarray) -> Sheared:
         off = np.arcsinh(slid / least) - wanted
         change = off * np.hypot(least, slid) / (column.gap * (soft @ WEIGHTS))
         mean_stress = np.clip(mean_stress - change, -most, most)
-        if np.all(np.abs(change) <= STRESS_TOLERANCE * (np.abs(mean_stress) + LEAST_STRESS)):
+        miss = np.abs(change) / (np.max(np.abs(stress), axis=-1) + LEAST_STRESS)
+        if np.all(miss <= STRESS_TOLERANCE):
             break
     stress = mean_stress[..., None] + slope
     rate, soft, hard = (value * fluidity for value in column.oil.shear(stress, pressure))
-    return Sheared(mean_stress, stress, rate, soft, hard - rate * by_p, -rate * by_t)
+    return Sheared(mean_stress, stress, rate, soft, hard - rate * by_p, -rate * by_t, miss)
 
 
 @dataclass(frozen=True)

@@ -29,8 +29,8 @@ def film_step(oil: Oil, contacts: Contacts, grid: Grid, state: State) -> tuple[S
     """
     gap = state.gap(grid)
     now = flow(oil, contacts, grid, state, gap)
-    matrix, rest = _balance(grid, now)
-    _break_film(matrix, rest, state.pressure)
+    matrix, rest = balance(grid, now)
+    hold(matrix, rest, broken(matrix, rest, state.pressure), state.pressure)
     matrix[:, -1, :-1], rest[:, -1] = grid.weights, np.sum(grid.weights * state.pressure, axis=1) - LOAD
     change = -solved(matrix, rest)
     wanted, approach = change[:, :-1], change[:, -1]
@@ -44,7 +44,7 @@ def film_step(oil: Oil, contacts: Contacts, grid: Grid, state: State) -> tuple[S
     return new, np.where(step < 1.0, np.inf, largest)
 
 
-def _balance(grid: Grid, now: Flow) -> tuple[np.ndarray, np.ndarray]:
+def balance(grid: Grid, now: Flow) -> tuple[np.ndarray, np.ndarray]:
     """Jacobian and residual of the balance of mass at each node; the last unknown is the approach."""
     cases, nodes = grid.x.shape
     matrix, rest = np.zeros((cases, nodes + 1, nodes + 1)), np.zeros((cases, nodes + 1))
@@ -62,21 +62,20 @@ def _balance(grid: Grid, now: Flow) -> tuple[np.ndarray, np.ndarray]:
     return matrix, rest
 
 
-def broken(pressure: np.ndarray, trial: np.ndarray) -> np.ndarray:
-    """Nodes where the film is broken: a trial pressure below zero behind the largest one, and both ends."""
-    behind = np.arange(pressure.shape[1]) > np.argmax(pressure, axis=1)[:, None]
-    found = (trial < 0.0) & behind
-    found[:, [0, -1]] = True
-    return found
-
-
-def _break_film(matrix: np.ndarray, rest: np.ndarray, pressure: np.ndarray) -> None:
-    """Replace the balance by zero pressure where the film is broken, in place."""
+def broken(matrix: np.ndarray, rest: np.ndarray, pressure: np.ndarray) -> np.ndarray:
+    """Nodes where the film is broken, and both ends: those behind the largest pressure that would fall below zero."""
     nodes = pressure.shape[1]
     diagonal = np.abs(np.einsum("kii->ki", matrix)[:, :nodes])
     with np.errstate(divide="ignore", invalid="ignore"):
         trial = pressure - rest[:, :nodes] / diagonal
-    case, node = np.nonzero(broken(pressure, trial))
+    found = (trial < 0.0) & (np.arange(nodes) > np.argmax(pressure, axis=1)[:, None])
+    found[:, [0, -1]] = True
+    return found
+
+
+def hold(matrix: np.ndarray, rest: np.ndarray, held: np.ndarray, pressure: np.ndarray | float) -> None:
+    """Replace the balance of nodes by a step of their pressure to zero, in place."""
+    case, node = np.nonzero(held)
     matrix[case, node] = 0.0
     matrix[case, node, node] = 1.0
-    rest[case, node] = pressure[case, node]
+    rest[case, node] = np.broadcast_to(pressure, held.shape)[case, node]

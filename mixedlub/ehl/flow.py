@@ -35,8 +35,11 @@ def sides(nodes: np.ndarray) -> np.ndarray:
     return np.stack([nodes[:, :-1], nodes[:, 1:]], axis=1)
 
 
-def flow(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.ndarray) -> Flow:
-    """Mass flow of a state. Pressure drives the mean of what its gradient drives at the two sides of the cell."""
+def flow(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.ndarray, *, central: float = 0.0) -> Flow:
+    """Mass flow of a state. Pressure drives the mean of what its gradient drives at the two sides of the cell.
+
+    ``central`` is the share of central differences in what the walls carry; the rest is upwind.
+    """
     hertz = contacts.pressure[:, None]
     density, squeezed, _ = oil.density_ratio(state.pressure * hertz, across.mean(state.temperature))
     squeezed = squeezed * hertz
@@ -53,7 +56,7 @@ def flow(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.ndarray
     by_h = density2 * moved.by_gap * contacts.gap_unit[:, None, None]
     by_push = np.sum(density2 * moved.by_gradient, axis=1) * (contacts.pressure / contacts.half_width)[:, None]
     by_push = by_push / grid.steps
-    carried, (p0, p1, p2), (h0, h1, h2) = _carried(grid, density, squeezed, gap)
+    carried, (p0, p1, p2), (h0, h1, h2) = _carried(grid, density, squeezed, gap, central)
     return Flow(
         carried - np.sum(back, axis=1),
         (p0, p1 - by_p[:, 0] + by_push, p2 - by_p[:, 1] - by_push),
@@ -75,11 +78,13 @@ def _columns(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.nda
     )
 
 
-def _carried(grid: Grid, density: np.ndarray, squeezed: np.ndarray, gap: np.ndarray) -> tuple[np.ndarray, Three, Three]:
+def _carried(
+    grid: Grid, density: np.ndarray, squeezed: np.ndarray, gap: np.ndarray, central: float
+) -> tuple[np.ndarray, Three, Three]:
     """What the walls carry: density times gap, upwind of second order, central in the first cell."""
-    lean = np.pad(0.5 * grid.steps[:, 1:] / grid.steps[:, :-1], ((0, 0), (1, 0)))
-    before, start, end = -lean, 1.0 + lean, np.zeros_like(lean)
-    start[:, 0] = end[:, 0] = 0.5
+    lean = np.pad((1.0 - central) * 0.5 * grid.steps[:, 1:] / grid.steps[:, :-1], ((0, 0), (1, 0)))
+    before, start, end = -lean, 1.0 - 0.5 * central + lean, np.full_like(lean, 0.5 * central)
+    before[:, 0], start[:, 0], end[:, 0] = 0.0, 0.5, 0.5
     shares = (before, start, end)
 
     def weighted(values: np.ndarray) -> Three:

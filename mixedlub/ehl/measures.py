@@ -47,6 +47,7 @@ QUANTITIES: Mapping[str, Quantity] = {
 CHECKS: Mapping[str, Quantity] = {
     "load_imbalance": Quantity("1", "integral of the pressure over the load, less one"),
     "mass_imbalance": Quantity("1", "largest change of the mass flow over the unbroken film, by the flow"),
+    "stress_imbalance": Quantity("1", "last change of the shear stress in its search, by the stress"),
     "heat_imbalance": Quantity("1", "heat that neither walls nor oil take, by the heat of shear"),
 }
 """How well a solution keeps what must be kept."""
@@ -92,6 +93,7 @@ def measures(oil: Oil, contacts: Contacts, level: Level, *, thermal: bool) -> di
         "rolling_power": power - friction * contacts.sliding,
         "load_imbalance": np.sum(mesh.weights * state.pressure, axis=1) / LOAD - 1.0,
         "mass_imbalance": _spread(mass, full),
+        "stress_imbalance": np.max(shear.miss * full, axis=1),
         "position": mesh.x * contacts.half_width[:, None],
         "pressure": pressure,
         "film": film,

@@ -10,7 +10,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from mixedlub.ehl.contacts import Contacts, Solids
-from mixedlub.ehl.levels import Solved, solve_levels
+from mixedlub.ehl.levels import NODES, Solved, solve_levels
 from mixedlub.ehl.measures import CHECKS, PROFILES, QUANTITIES, measures
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.laws.contact import reduced_modulus
@@ -26,6 +26,8 @@ CONVERGED, DIVERGED = "converged", "no solution"
 """Words of the status."""
 STEEL = {"conductivity": 46.0, "density": 7850.0, "heat_capacity": 470.0}
 """Thermal conductivity (W/(m K)), density (kg/m^3) and specific heat (J/(kg K)) of steel."""
+LARGEST_STRESS_IMBALANCE = 1e-6
+"""Change of the shear stress in its last step above which a contact has no solution."""
 Each = float | Sequence[float] | np.ndarray
 Pair = tuple[Each, Each]
 
@@ -153,6 +155,8 @@ def _rows(oil: Oil, contacts: Contacts, *, thermal: bool) -> dict[str, np.ndarra
         kept = contacts.take(found.index)
         fine = measures(oil, kept, found.fine, thermal=thermal)
         coarse = measures(oil, kept, found.coarse, thermal=thermal)
+    sheared = fine["stress_imbalance"] < LARGEST_STRESS_IMBALANCE
+    found.stopped_at[found.index[~sheared]] = NODES[-1]
     rows = {name: _filled(found, values) for name, values in fine.items() if name in {**QUANTITIES, **CHECKS}}
     for name in QUANTITIES:
         rows[f"{name}_error"] = _filled(found, _error(name, fine[name], coarse[name], kept.oil_temperature))
@@ -165,6 +169,7 @@ def _filled(found: Solved, values: np.ndarray) -> np.ndarray:
     """Values of the contacts that converged; NaN for the others."""
     filled = np.full((len(found.stopped_at), *values.shape[1:]), np.nan)
     filled[found.index] = values
+    filled[found.stopped_at > 0] = np.nan
     return filled
 
 

@@ -11,7 +11,7 @@ from mixedlub.ehl.oil.oil import Slopes
 
 LARGEST_RATIO = 200.0
 """Stress over Eyring stress above which the law goes on as a straight line: rates beyond any contact."""
-CAP, CAP_END, PASSED = 0.01, 20.0, 1.25
+CAP, CAP_END, PASSED = 0.01, 26.0, 1.2
 """Width of the smooth cap over the limiting stress; its widths after which it is straight; the stress, over the limit,
 that no search passes."""
 
