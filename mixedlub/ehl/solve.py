@@ -74,12 +74,12 @@ def solve(
         own = flat[f"{wall}_bulk_temperature"]
         flat[f"{wall}_bulk_temperature"] = np.where(np.isnan(own), flat["oil_temperature"], own)
     solids = {"conductivity": conductivity, "density": density, "heat_capacity": heat_capacity}
-    contacts = _contacts(flat, reduced_modulus(youngs_modulus, poisson_ratio), solids)
+    contacts = build_contacts(flat, reduced_modulus(youngs_modulus, poisson_ratio), solids)
     check(oil, contacts, thermal=thermal)
     return solved(oil, contacts, thermal=thermal)
 
 
-def _contacts(flat: dict[str, np.ndarray], modulus: float, solids: dict[str, tuple[float, float]]) -> Contacts:
+def build_contacts(flat: dict[str, np.ndarray], modulus: float, solids: dict[str, tuple[float, float]]) -> Contacts:
     """Contacts of arrays of one length."""
     one = np.ones_like(flat["radius"])
     walls = [
@@ -93,11 +93,14 @@ def _contacts(flat: dict[str, np.ndarray], modulus: float, solids: dict[str, tup
     contacts = Contacts(
         flat["radius"], one * modulus, flat["line_load"], flat["oil_temperature"], flat["inlet"], walls[0], walls[1]
     )
-    return replace(contacts, inlet=-flat["inlet"] / contacts.half_width)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return replace(contacts, inlet=-flat["inlet"] / contacts.half_width)
 
 
 def check(oil: Oil, contacts: Contacts, *, thermal: bool) -> None:
     """Refuse contacts without a solution, or outside the range of the oil's file, by the first wrong number."""
+    with np.errstate(invalid="ignore"):
+        pressure = contacts.pressure
     rules: list[tuple[str, np.ndarray, np.ndarray, str]] = [
         ("radius", contacts.radius, contacts.radius > 0.0, "must be above zero"),
         ("line_load", contacts.line_load, contacts.line_load > 0.0, "must be above zero"),
@@ -118,7 +121,7 @@ def check(oil: Oil, contacts: Contacts, *, thermal: bool) -> None:
         moving = "must be above zero: heat enters moving surfaces only; slide less, or solve isothermally"
         rules += [(f"{name} surface: speed", wall.speed, wall.speed > 0.0, moving)] if thermal else []
     most = f"Pa: must be up to {oil.largest_pressure / 1e9:g} GPa, the range of the oil's file"
-    rules += [("Hertz pressure", contacts.pressure, contacts.pressure <= oil.largest_pressure, most)]
+    rules += [("Hertz pressure", pressure, pressure <= oil.largest_pressure, most)]
     for name, value, fine, text in rules:
         if not np.all(fine & ~np.isinf(value)):
             wrong = int(np.argmin(fine & ~np.isinf(value)))
