@@ -5,9 +5,9 @@ from pathlib import Path
 from mixedlub.ehl.oil.file import read_oil
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.ehl.rough import wave_amplitudes
-from mixedlub.ehl.solve import solve
+from mixedlub.ehl.solve import contacts, solve
 
-__all__ = ["Oil", "example_oil", "read_oil", "solve", "wave_amplitudes"]
+__all__ = ["Oil", "contacts", "example_oil", "read_oil", "solve", "wave_amplitudes"]
 
 EXAMPLE = Path(__file__).parent / "oil" / "example.toml"
 """File of the oil that examples use."""

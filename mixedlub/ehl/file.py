@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
-from mixedlub.ehl.contacts import Contacts
+from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.oil.file import read_oil
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.ehl.solve import STEEL, build_contacts, check

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from mixedlub.ehl.contacts import Contacts
 from mixedlub.ehl.flow import Flow, flow
 from mixedlub.ehl.grid import Grid
+from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.linear import solved, times
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.ehl.state import State

@@ -8,8 +8,8 @@ import numpy as np
 
 from mixedlub.ehl import across
 from mixedlub.ehl.columns import Column, driven, newtonian, sheared
-from mixedlub.ehl.contacts import Contacts
 from mixedlub.ehl.grid import Grid
+from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.ehl.state import State
 

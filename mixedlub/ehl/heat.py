@@ -8,8 +8,8 @@ import numpy as np
 
 from mixedlub.ehl.across import COUNT, DERIVATIVE, NODES, RUNNING, SECOND, WEIGHTS
 from mixedlub.ehl.columns import Column, Sheared, sheared
-from mixedlub.ehl.contacts import Contacts
 from mixedlub.ehl.grid import Grid
+from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.linear import times
 from mixedlub.ehl.march import Energy, march
 from mixedlub.ehl.oil.oil import Oil

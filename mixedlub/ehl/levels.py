@@ -9,9 +9,9 @@ from scipy.interpolate import PchipInterpolator
 
 from mixedlub.ehl.across import COUNT
 from mixedlub.ehl.batch import Batch
-from mixedlub.ehl.contacts import Contacts
 from mixedlub.ehl.film import LOAD
 from mixedlub.ehl.grid import Grid, flooded_inlet, grid
+from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.linear import times
 from mixedlub.ehl.newton import converge
 from mixedlub.ehl.oil.oil import Oil

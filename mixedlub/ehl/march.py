@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mixedlub.ehl.across import COUNT, DERIVATIVE
-from mixedlub.ehl.contacts import Contacts, Solids
 from mixedlub.ehl.grid import Grid
+from mixedlub.ehl.line_contacts import Contacts, Solids
 from mixedlub.ehl.linear import inverted, times
 from mixedlub.ehl.oil.oil import Oil
 

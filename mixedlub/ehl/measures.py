@@ -9,11 +9,11 @@ import numpy as np
 
 from mixedlub.ehl.across import COUNT, WEIGHTS
 from mixedlub.ehl.columns import sheared
-from mixedlub.ehl.contacts import Contacts
 from mixedlub.ehl.film import LOAD
 from mixedlub.ehl.flow import flow
 from mixedlub.ehl.heat import Heat, full_film, heat_step, node_columns
 from mixedlub.ehl.levels import Level
+from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.oil.oil import Oil
 
 MIDDLE = COUNT // 2

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mixedlub.ehl.batch import Batch
-from mixedlub.ehl.contacts import Contacts
 from mixedlub.ehl.film import film_step
 from mixedlub.ehl.grid import Grid
 from mixedlub.ehl.heat import heat_step
+from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.ehl.state import State
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.ehl import across
-from mixedlub.ehl.contacts import Contacts
 from mixedlub.ehl.film import balance, hold
 from mixedlub.ehl.flow import flow
 from mixedlub.ehl.heat import full_film
 from mixedlub.ehl.levels import Level, solve_levels
+from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.linear import solved, times
 from mixedlub.ehl.oil.oil import Oil
 
@@ -32,7 +32,7 @@ def wave_amplitudes(
     entrainment. The isothermal balance of mass with its storage is linearised about the smooth solution,
 
     .. math:: h' = a\,e^{i\omega(x - vt)} + \delta'(p') + h_0',\qquad
-              \partial_x q' - i\omega v\,(\rho h)' = 0,\qquad \textstyle\int p'\,dx = 0
+              \partial_x q' - i\omega v\,(\rho h)' = 0,\qquad \int p'\,dx = 0
 
     and the amplitude is its mean over the inner four fifths of the contact. NaN where there is no smooth solution, and
     where the wave has fewer than 12 cells of the grid, below about a tenth of the half width.

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from mixedlub.ehl.contacts import Contacts, Solids
 from mixedlub.ehl.levels import NODES, Solved, solve_levels
+from mixedlub.ehl.line_contacts import Contacts, Solids
 from mixedlub.ehl.measures import CHECKS, PROFILES, QUANTITIES, measures
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.laws.contact import reduced_modulus
@@ -32,8 +32,26 @@ Each = float | Sequence[float] | np.ndarray
 Pair = tuple[Each, Each]
 
 
-def solve(
-    oil: Oil,
+def solve(oil: Oil, *, thermal: bool = True, **given: Any) -> xarray.Dataset:
+    """Film, friction and temperatures of smooth line contacts in SI, by the full equations.
+
+    Arguments are those of `contacts`. Isothermal where not ``thermal``: then friction leaves out all heat. The result
+    has one row a contact, NaN with the status ``no solution`` where the steps did not converge; ``NAME_error``
+    estimates the relative error of NAME (of a rise, for temperatures) from grids of 121 and 241 nodes.
+
+    >>> import mixedlub as ml
+    >>> oil = ml.ehl.example_oil()
+    >>> where = {"radius": 8.69e-3, "line_load": 215e3, "oil_temperature": 333.15}
+    >>> found = ml.ehl.solve(oil, **where, speed=2.24, sliding_speed=0.75)
+    >>> round(float(found.central_film[0]) * 1e6, 2), round(float(found.friction_coefficient[0]), 4)
+    (0.19, 0.0197)
+    """
+    every = contacts(**given)
+    check(oil, every, thermal=thermal)
+    return solved(oil, every, thermal=thermal)
+
+
+def contacts(
     *,
     radius: Each,
     line_load: Each,
@@ -42,27 +60,18 @@ def solve(
     sliding_speed: Each = 0.0,
     bulk_temperature: Pair | None = None,
     inlet: Each = np.nan,
-    thermal: bool = True,
     youngs_modulus: tuple[float, float] = (206e9, 206e9),
     poisson_ratio: tuple[float, float] = (0.3, 0.3),
     conductivity: tuple[float, float] = (STEEL["conductivity"],) * 2,
     density: tuple[float, float] = (STEEL["density"],) * 2,
     heat_capacity: tuple[float, float] = (STEEL["heat_capacity"],) * 2,
-) -> xarray.Dataset:
-    """Film, friction and temperatures of smooth line contacts in SI, by the full equations.
+) -> Contacts:
+    """Line contacts from numbers or arrays in SI that broadcast.
 
-    Numbers or arrays that broadcast: reduced radius (m), load per width (N/m), mean speed and speed of the second
-    surface over the first (m/s), temperature of the oil and of both bodies (K; bodies as the oil where left out), place
-    of the inlet meniscus (m before the centre; NaN is flooded). Isothermal where not ``thermal``: then friction leaves
-    out all heat. Result: one row a contact, NaN with the status ``no solution`` where the steps did not converge;
-    ``NAME_error`` estimates the relative error of NAME (of a rise, for temperatures) from grids of 121 and 241 nodes.
-
-    >>> import mixedlub as ml
-    >>> oil = ml.ehl.example_oil()
-    >>> where = {"radius": 8.69e-3, "line_load": 215e3, "oil_temperature": 333.15}
-    >>> found = ml.ehl.solve(oil, **where, speed=2.24, sliding_speed=0.75)
-    >>> round(float(found.central_film[0]) * 1e6, 2), round(float(found.friction_coefficient[0]), 4)
-    (0.19, 0.0197)
+    Reduced radius (m), load per width (N/m), mean speed and speed of the second surface over the first (m/s),
+    temperature of the oil and of both bodies (K; bodies as the oil where left out), place of the inlet meniscus (m
+    before the centre; NaN is flooded); of both bodies: moduli (Pa), thermal conductivity (W/(m K)), density (kg/m^3)
+    and specific heat (J/(kg K)), of steel where left out.
     """
     given = {"radius": radius, "line_load": line_load, "speed": speed, "oil_temperature": oil_temperature}
     given |= {"sliding_speed": sliding_speed, "inlet": inlet}
@@ -74,9 +83,7 @@ def solve(
         own = flat[f"{wall}_bulk_temperature"]
         flat[f"{wall}_bulk_temperature"] = np.where(np.isnan(own), flat["oil_temperature"], own)
     solids = {"conductivity": conductivity, "density": density, "heat_capacity": heat_capacity}
-    contacts = build_contacts(flat, reduced_modulus(youngs_modulus, poisson_ratio), solids)
-    check(oil, contacts, thermal=thermal)
-    return solved(oil, contacts, thermal=thermal)
+    return build_contacts(flat, reduced_modulus(youngs_modulus, poisson_ratio), solids)
 
 
 def build_contacts(flat: dict[str, np.ndarray], modulus: float, solids: dict[str, tuple[float, float]]) -> Contacts:
@@ -90,15 +97,17 @@ def build_contacts(flat: dict[str, np.ndarray], modulus: float, solids: dict[str
         )
         for number, (wall, side) in enumerate((("first", -1.0), ("second", 1.0)))
     ]
-    contacts = Contacts(
+    found = Contacts(
         flat["radius"], one * modulus, flat["line_load"], flat["oil_temperature"], flat["inlet"], walls[0], walls[1]
     )
     with np.errstate(invalid="ignore", divide="ignore"):
-        return replace(contacts, inlet=-flat["inlet"] / contacts.half_width)
+        return replace(found, inlet=-flat["inlet"] / found.half_width)
 
 
 def check(oil: Oil, contacts: Contacts, *, thermal: bool) -> None:
     """Refuse contacts without a solution, or outside the range of the oil's file, by the first wrong number."""
+    if not len(contacts.radius):
+        raise InputError("at least one is needed", where="contacts")
     with np.errstate(invalid="ignore"):
         pressure = contacts.pressure
     rules: list[tuple[str, np.ndarray, np.ndarray, str]] = [

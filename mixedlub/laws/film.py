@@ -160,7 +160,7 @@ def nijenbanning(
 
 
 def moes_line(moes_load: np.ndarray, moes_material: np.ndarray) -> np.ndarray:
-    r"""Film of a line contact in all regimes, in Moes' units of R sqrt(2U).
+    r"""Film of a line contact in all regimes, over R sqrt(2U) (-).
 
     .. math:: H = \left[\left(H_{RI}^{7/3} + H_{EI}^{7/3}\right)^{3s/7} +
               \left(H_{RP}^{-7/2} + H_{EP}^{-7/2}\right)^{-2s/7}\right]^{1/s},\quad

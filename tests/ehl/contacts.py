@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from mixedlub.ehl.contacts import Contacts, Solids
+from mixedlub.ehl.line_contacts import Contacts, Solids
 from mixedlub.ehl.oil import density, shear, viscosity
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.laws.contact import reduced_modulus

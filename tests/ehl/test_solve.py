@@ -104,9 +104,9 @@ def test_places_along_the_path_of_a_gear_pair(folder):
     assert table["friction_coefficient"].iloc[0] > 0.0 > table["friction_coefficient"].iloc[-1]
     base = 4.5 * 16 / 2 * np.cos(np.radians(20.0))
     alone = table["line_load_N_mm"].max()
-    assert alone == pytest.approx(100e3 / base / 14.0, rel=1e-6)
+    assert alone == pytest.approx(100e3 / base / 14.0, rel=1e-5)
     speeds = table["entrainment_speed_m_s"] * (1.0 - table["slide_roll_ratio"] / 2.0)
-    assert speeds.to_numpy() == pytest.approx(1500 * np.pi / 30 * table["position_mm"] * 1e-3, rel=1e-6)
+    assert speeds.to_numpy() == pytest.approx(1500 * np.pi / 30 * table["position_mm"] * 1e-3, rel=1e-4)
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import partial
+from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
 
@@ -158,9 +159,9 @@ class OilFile(Section):
     range: Range | None = key("where the numbers hold; conditions beyond it are refused", None)
 
 
-def read_oil(path: Path) -> Oil:
+def read_oil(path: str | PathLike[str]) -> Oil:
     """The oil of a file."""
-    return build(parse(OilFile, read_toml(path), str(path)))
+    return build(parse(OilFile, read_toml(Path(path)), str(path)))
 
 
 def build(file: OilFile) -> Oil:
