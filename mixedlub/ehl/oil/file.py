@@ -149,7 +149,7 @@ class Range(Section):
 class OilFile(Section):
     """A file of one oil."""
 
-    schema_: Literal["mixedlub-oil/1"] = key("format of the file", example="mixedlub-oil/1", alias="schema")
+    schema_: Literal["mixedlub-ehl-oil/1"] = key("format of the file", example="mixedlub-ehl-oil/1", alias="schema")
     name: str = key("name of the oil", example="gear oil")
     source: str = key("where the numbers are from", "", example="high-pressure rheometer, 60 degC")
     viscosity: Viscosity = key("viscosity against pressure and temperature")
