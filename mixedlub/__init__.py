@@ -25,7 +25,7 @@ PUBLIC = {
     "CautionWarning": "mixedlub.schema.findings",
 }
 """Functions and types that notebooks and other packages may rely on, with the module that defines each."""
-ROOMS = ("case", "effects", "friction", "gear", "laws", "study")
+ROOMS = ("case", "effects", "ehl", "friction", "gear", "laws", "study")
 """Rooms whose own ``__all__`` is public as well."""
 BESIDE = ("profiles", "roughness")
 """Packages of this distribution that are offered under this name too."""

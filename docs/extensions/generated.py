@@ -55,6 +55,8 @@ def pieces() -> dict[str, str]:
         "friction_laws": _friction_laws(),
         "oils": _oils(),
         "oil_keys": _oil_keys(),
+        "ehl_keys": _file_keys("mixedlub.ehl.file", "EhlFile"),
+        "ehl_oil_keys": _file_keys("mixedlub.ehl.oil.file", "OilFile"),
         "api": _api(),
         "rooms": _rooms(),
         "ranges": _ranges(),
@@ -182,6 +184,16 @@ def _study_keys() -> str:
     from mixedlub.study.schema import StudyFile
 
     return "\n\n".join(part for table in tables(StudyFile) for part in _keys(table))
+
+
+def _file_keys(module: str, name: str) -> str:
+    """The tables of a file but those of a gear pair, which are with the cases."""
+    from importlib import import_module
+
+    from mixedlub.schema.section import tables
+
+    file = getattr(import_module(module), name)
+    return "\n\n".join(part for table in tables(file) if not table.title.startswith("gears") for part in _keys(table))
 
 
 def _keys(table: Any, use: str = "") -> Iterator[str]:

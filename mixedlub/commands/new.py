@@ -1,4 +1,4 @@
-"""`mixedlub new`: a template of a study file or a case folder, which runs unchanged."""
+"""`mixedlub new`: a template of a study file, a case folder or a file of contacts, which runs unchanged."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 NAME = "new"
 EXAMPLE = "mixedlub new study --out out/my_study"
 
-STUDY, CASE = "study", "case"
+STUDY, CASE, EHL = "study", "case", "ehl"
 KIND = "gear_pair"
 """Default kind of a case."""
 ROWS = 40
@@ -35,7 +35,7 @@ Given = Mapping[str, Any]
 
 
 def command(
-    what: Annotated[str, typer.Argument(metavar="study|case", help="What to start.")],
+    what: Annotated[str, typer.Argument(metavar="study|case|ehl", help="What to start.")],
     kind: Annotated[
         str | None, typer.Option(metavar="KIND", help=f"Kind of case; default {KIND}. `mixedlub kinds` lists them.")
     ] = None,
@@ -43,16 +43,16 @@ def command(
         Path | None, typer.Option(metavar="DIR", parser=named_folder, help="Folder to make; default out/new/WHAT.")
     ] = None,
 ) -> None:
-    """A study or a case to start from.
+    """A study, a case or contacts to start from.
 
     A template with the values of an example rig: optional keys are comments with their meaning. It runs unchanged; the
     readings of a case are synthetic, from the base model.
     """
-    if what not in (STUDY, CASE):
-        raise InputError(f"no such template; {nearest(what, (STUDY, CASE))}", where="what", value=what)
-    if what == STUDY and kind is not None:
-        raise InputError("a study has no kind; it is of a gear pair", where="--kind", value=kind)
-    files = {"study.toml": study_text()} if what == STUDY else case_files(kind or KIND)
+    if what not in (STUDY, CASE, EHL):
+        raise InputError(f"no such template; {nearest(what, (STUDY, CASE, EHL))}", where="what", value=what)
+    if what != CASE and kind is not None:
+        raise InputError("only a case has a kind", where="--kind", value=kind)
+    files = {STUDY: study_files, EHL: ehl_files}[what]() if what != CASE else case_files(kind or KIND)
     for name in files:
         if out is not None and (out / name).exists():
             raise InputError("exists, and a template would replace it; name another --out", where=str(out / name))
@@ -60,10 +60,29 @@ def command(
     with writing(folder) as aside:
         for name, text in files.items():
             (aside / name).write_text(text, encoding="utf-8")
-    place, commands = (folder / "study.toml", ("study",)) if what == STUDY else (folder, ("check", "diagnose"))
+    place, commands = {
+        STUDY: (folder / "study.toml", ("study",)),
+        EHL: (folder / "contacts.toml", ("ehl",)),
+        CASE: (folder, ("check", "diagnose")),
+    }[what]
     echo(f"{' and '.join(files)} in {folder}, with the numbers of an example: put your own in their place, then")
     for name in commands:
         echo(f"  mixedlub {name} {place}")
+
+
+def study_files() -> dict[str, str]:
+    """The file of a study."""
+    return {"study.toml": study_text()}
+
+
+def ehl_files() -> dict[str, str]:
+    """A file of contacts and the file of their oil."""
+    from mixedlub.ehl import EXAMPLE as OIL
+    from mixedlub.ehl.file import EhlFile, examples_of_contacts
+
+    given = {"schema": "mixedlub-ehl/1", "title": "Twin discs", "oil": "oil.toml", "contacts": examples_of_contacts()}
+    text = "\n".join(_lines(EhlFile, given, ("", "bodies", "contacts"))) + "\n"
+    return {"contacts.toml": text, "oil.toml": OIL.read_text(encoding="utf-8")}
 
 
 def study_text() -> str:

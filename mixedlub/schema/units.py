@@ -78,6 +78,8 @@ per_K    | 1/K      |                                                           
 W_mK     | W/(m K)  |                                                             | mW/(m.K)
 J_kgK    | J/(kg K) |                                                             | kJ/(kg.K)
 Pa_s     | Pa s
+N_mm     | N/mm
+W_mm     | W/mm
 mm_s     | mm/s
 rad_s    | rad/s
 deg_s    | °/s

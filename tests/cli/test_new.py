@@ -97,7 +97,7 @@ def test_nothing_that_is_there_is_replaced(tmp_path, capsys):
     [
         (["studi"], "what: 'studi': no such template; nearest known: 'study'"),
         (["case", "--kind", "disk"], "--kind: 'disk': no such kind; nearest known: 'disc'"),
-        (["study", "--kind", "disc"], "--kind: 'disc': a study has no kind"),
+        (["study", "--kind", "disc"], "--kind: 'disc': only a case has a kind"),
     ],
 )
 def test_what_is_not_there_is_named(tmp_path, capsys, words, said):

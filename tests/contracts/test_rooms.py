@@ -26,6 +26,7 @@ ROOMS = {
             "friction",
             "gear",
             "rig",
+            "ehl",
             "kinds",
         ),
         *("case", "recording", "data_checks", "study", "report", "diagnosis", "importers", "api", "validation"),

@@ -1,0 +1,36 @@
+"""Arrays of many contacts that are solved together: the first axis of every array counts the contacts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import fields, replace
+from typing import Any, TypeVar
+
+import numpy as np
+
+Own = TypeVar("Own", bound="Batch")
+
+
+class Batch:
+    """Base of dataclasses whose fields are arrays over contacts, or such dataclasses."""
+
+    def take(self: Own, index: np.ndarray) -> Own:
+        """The contacts of an index or mask."""
+        return self.mapped(lambda value: value[index])
+
+    def put(self: Own, index: np.ndarray, values: Own) -> None:
+        """Overwrite the contacts of an index, in place."""
+        for field in fields(self):  # type: ignore[arg-type]
+            own, new = getattr(self, field.name), getattr(values, field.name)
+            if isinstance(own, Batch):
+                own.put(index, new)
+            else:
+                own[index] = new
+
+    def mapped(self: Own, change: Callable[[np.ndarray], np.ndarray]) -> Own:
+        """The same with every array changed."""
+        changed: dict[str, Any] = {}
+        for field in fields(self):  # type: ignore[arg-type]
+            value = getattr(self, field.name)
+            changed[field.name] = value.mapped(change) if isinstance(value, Batch) else change(value)
+        return replace(self, **changed)  # type: ignore[type-var]

@@ -1,0 +1,115 @@
+"""Shear across the film: the stress that keeps the sliding speed, and the flow that pressure drives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mixedlub.ehl import across
+from mixedlub.ehl.across import NODES, WEIGHTS
+from mixedlub.ehl.oil.oil import Oil
+
+MOMENTS = WEIGHTS[:, None] * NODES[:, None] ** np.arange(3)
+"""Weights of the integrals of a function times s^0, s^1 and s^2."""
+STRESS_TOLERANCE, LEAST_STRESS = 1e-9, 1.0
+"""Relative tolerance of the stress, and the stress (Pa) that it is relative to at least."""
+STRESS_STEPS = 60
+
+
+@dataclass(frozen=True)
+class Column:
+    """Columns of film: oil at their pressure (Pa), temperature (K) across, gap (m), pressure gradient (Pa/m).
+
+    All but the temperature have the shape of the columns; the temperature has nodes across as its last axis.
+    """
+
+    oil: Oil
+    pressure: np.ndarray
+    temperature: np.ndarray
+    gap: np.ndarray
+    gradient: np.ndarray
+    sliding: np.ndarray
+
+
+@dataclass(frozen=True)
+class Sheared:
+    """Shear of columns: mean stress, shear rate across with its slopes, and stress across.
+
+    ``miss`` is the relative change of the mean stress in the last step of its search.
+    """
+
+    mean_stress: np.ndarray
+    stress: np.ndarray
+    rate: np.ndarray
+    by_stress: np.ndarray
+    by_pressure: np.ndarray
+    by_temperature: np.ndarray
+    miss: np.ndarray
+
+
+def sheared(column: Column, start: np.ndarray) -> Sheared:
+    r"""Shear of columns whose walls slide: the mean stress by Newton's method from a start.
+
+    .. math:: h \int_{-1/2}^{1/2} \dot\gamma(\tau_m + s h p_x)\,ds = u_2 - u_1
+
+    The search is in asinh of the sliding speed over that at the scale of the oil's stress, nearly straight.
+    """
+    pressure = column.pressure[..., None]
+    log, by_p, by_t = column.oil.log_viscosity(pressure, column.temperature)
+    fluidity = np.exp(-log)
+    slope = NODES * (column.gap * column.gradient)[..., None]
+    least = column.gap * column.oil.stress_scale(column.pressure) * across.mean(fluidity)
+    wanted = np.arcsinh(column.sliding / least)
+    most = column.oil.stress_limit(column.pressure)
+    mean_stress = start
+    for _ in range(STRESS_STEPS):
+        stress = mean_stress[..., None] + slope
+        rate, soft, _ = column.oil.shear(stress, pressure)
+        rate, soft = rate * fluidity, soft * fluidity
+        slid = column.gap * (rate @ WEIGHTS)
+        off = np.arcsinh(slid / least) - wanted
+        change = off * np.hypot(least, slid) / (column.gap * (soft @ WEIGHTS))
+        mean_stress = np.clip(mean_stress - change, -most, most)
+        miss = np.abs(change) / (np.max(np.abs(stress), axis=-1) + LEAST_STRESS)
+        if np.all(miss <= STRESS_TOLERANCE):
+            break
+    stress = mean_stress[..., None] + slope
+    rate, soft, hard = (value * fluidity for value in column.oil.shear(stress, pressure))
+    return Sheared(mean_stress, stress, rate, soft, hard - rate * by_p, -rate * by_t, miss)
+
+
+@dataclass(frozen=True)
+class Driven:
+    """Volume flow that pressure drives, forward where pressure falls (m^2/s), with its slopes."""
+
+    flow: np.ndarray
+    by_pressure: np.ndarray
+    by_gradient: np.ndarray
+    by_gap: np.ndarray
+
+
+def driven(column: Column, shear: Sheared) -> Driven:
+    r"""Flow against the pressure gradient, :math:`h^2\int s\,\dot\gamma\,ds`, at the sliding speed of the walls."""
+    gap, gradient = column.gap, column.gradient
+    zeroth, first, second = np.moveaxis(shear.by_stress @ MOMENTS, -1, 0)
+    pressed0, pressed1, _ = np.moveaxis(shear.by_pressure @ MOMENTS, -1, 0)
+    whole, lever, _ = np.moveaxis(shear.rate @ MOMENTS, -1, 0)
+    flow = gap**2 * lever
+    by_gradient = -gap * first / zeroth
+    by_gap = -(whole / gap + gradient * first) / zeroth
+    by_pressure = -pressed0 / zeroth
+    return Driven(
+        flow,
+        gap**2 * (first * by_pressure + pressed1),
+        gap**2 * (first * by_gradient + gap * second),
+        2.0 * flow / gap + gap**2 * (first * by_gap + gradient * second),
+    )
+
+
+def newtonian(column: Column) -> Driven:
+    r"""Flow of a Newtonian oil of one temperature across, :math:`h^3 p_x/(12\eta)`, without the shear of the walls."""
+    log, by_p, _ = column.oil.log_viscosity(column.pressure, column.temperature[..., 0])
+    mobility = column.gap**3 * np.exp(-log) / 12.0
+    flow = mobility * column.gradient
+    return Driven(flow, -flow * by_p, mobility, 3.0 * flow / column.gap)

@@ -1,0 +1,199 @@
+"""A file of contacts to solve: an oil, the bodies, and either contacts or a gear pair's path of contact."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import BeforeValidator, Field, model_validator
+
+from mixedlub.ehl.line_contacts import Contacts
+from mixedlub.ehl.oil.file import read_oil
+from mixedlub.ehl.oil.oil import Oil
+from mixedlub.ehl.solve import STEEL, build_contacts, check
+from mixedlub.gear import mesh
+from mixedlub.laws.contact import reduced_modulus
+from mixedlub.laws.load import gear_line_load
+from mixedlub.laws.oil import ZERO_CELSIUS
+from mixedlub.rig.build import gear_pair, sharing
+from mixedlub.schema.section import Number, Section, Whole, examples, key
+from mixedlub.schema.system_file import Gears
+from mixedlub.schema.toml_file import named_file, parse, read_toml
+from profiles.errors import InputError
+
+EXAMPLE_KEYS = ("radius_mm", "line_load_N_mm", "entrainment_speed_m_s", "slide_roll_ratio", "oil_temperature_C")
+"""Keys of a contact in the template."""
+STEEL_MODULUS, STEEL_RATIO = (206.0, 206.0), (0.3, 0.3)
+"""Young's moduli (GPa) and Poisson's ratios of two steel bodies."""
+Positive = Annotated[Number, Field(gt=0.0)]
+Pair = tuple[Positive, Positive]
+
+
+def _listed(value: Any) -> Any:
+    return value if isinstance(value, list | tuple) else [value]
+
+
+Each = Annotated[tuple[Number, ...], Field(min_length=1), BeforeValidator(_listed)]
+"""A number for all contacts, or a list with one for each."""
+EachPositive = Annotated[tuple[Positive, ...], Field(min_length=1), BeforeValidator(_listed)]
+
+
+class Bodies(Section):
+    youngs_modulus_GPa: Pair | None = key(
+        "Young's moduli; left out: steel, or those of [gears]", None, example=[206.0, 206.0]
+    )
+    poisson_ratio: tuple[Number, Number] | None = key(
+        "Poisson's ratios; left out: steel, or those of [gears]", None, example=[0.3, 0.3]
+    )
+    thermal_conductivity_W_mK: Pair = key("thermal conductivities", (STEEL["conductivity"],) * 2)
+    density_kg_m3: Pair = key("densities", (STEEL["density"],) * 2)
+    specific_heat_J_kgK: Pair = key("specific heats", (STEEL["heat_capacity"],) * 2)
+
+
+class ContactList(Section):
+    """Each key a number for all contacts, or a list with one number for each."""
+
+    radius_mm: EachPositive = key("reduced radius of the two bodies", example=8.69)
+    line_load_N_mm: EachPositive | None = key("load per width; or hertz_pressure_GPa", None, example=[100.0, 215.0])
+    hertz_pressure_GPa: EachPositive | None = key("largest Hertz pressure", None, example=0.9, alternative=True)
+    entrainment_speed_m_s: EachPositive = key("mean speed of the two surfaces", example=2.24)
+    slide_roll_ratio: Each = key("speed of the second surface over the first, by the mean", (0.0,), example=0.34)
+    oil_temperature_C: Each = key("temperature of the oil where it enters", example=60.0)
+    body_temperature_C: tuple[Number, Number] | None = key(
+        "bulk temperatures; left out: that of the oil", None, example=[60.0, 60.0]
+    )
+    inlet_mm: EachPositive | None = key(
+        "where the film starts, before the centre; left out: flooded", None, example=0.3
+    )
+
+    @model_validator(mode="after")
+    def _one_load(self) -> ContactList:
+        if (self.line_load_N_mm is None) == (self.hertz_pressure_GPa is None):
+            raise ValueError("needs either line_load_N_mm or hertz_pressure_GPa")
+        lengths = {name: len(value) for name, value in self if name != "body_temperature_C" and value is not None}
+        most = max(lengths.values())
+        for name, length in lengths.items():
+            if length not in (1, most):
+                raise ValueError(f"{name} has {length} numbers, and another key {most}: give one, or one for each")
+        return self
+
+
+class GearPath(Section):
+    """Places along the path of contact of `[gears]`, at one torque and speed."""
+
+    torque_Nm: Positive = key("torque on the pinion", example=100.0)
+    speed_rpm: Positive = key("speed of the pinion", example=1500.0)
+    oil_temperature_C: Number = key("temperature of the oil where it enters", example=60.0)
+    body_temperature_C: tuple[Number, Number] | None = key(
+        "temperatures of the teeth; left out: that of the oil", None, example=[60.0, 60.0]
+    )
+    points: Whole = key("places along the path, about", 24, ge=1, le=1000)
+
+
+class EhlFile(Section):
+    """A file of contacts to solve."""
+
+    schema_: Literal["mixedlub-ehl/1"] = key("format of the file", example="mixedlub-ehl/1", alias="schema")
+    title: str = key("title of the figures", "Line contacts", example="Twin discs")
+    oil: str = key("file of the oil, relative to this one", example="oil.toml")
+    thermal: bool = key("solve for temperatures; false: all is at the oil's temperature", True)
+    bodies: Bodies = key("the two bodies; left out: steel", Bodies())
+    contacts: ContactList | None = key("contacts; or [gears] and [path]", None)
+    gears: Gears | None = key("a gear pair, as in a study", None)
+    path: GearPath | None = key("where and how the gear pair runs", None)
+
+    @model_validator(mode="after")
+    def _contacts_or_path(self) -> EhlFile:
+        given = [name for name in ("contacts", "gears", "path") if getattr(self, name) is not None]
+        if given not in (["contacts"], ["gears", "path"]):
+            raise ValueError("needs either [contacts], or [gears] and [path]; not both")
+        if self.gears is not None:
+            for name in ("youngs_modulus_GPa", "poisson_ratio"):
+                if getattr(self.bodies, name) is not None:
+                    raise ValueError(f"bodies.{name}: a gear pair has its own; give it in [gears]")
+        return self
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Contacts of a file with their oil; ``position`` is the place on a path of contact (m), NaN of others."""
+
+    file: EhlFile
+    oil: Oil
+    contacts: Contacts
+    position: np.ndarray
+
+
+def read_problem(path: Path) -> Problem:
+    """The contacts of a file, checked."""
+    file = parse(EhlFile, read_toml(path), str(path))
+    oil = read_oil(named_file(path.parent, file.oil, f"{path}: oil"))
+    flat, modulus, position = _listed_contacts(file) if file.contacts is not None else _along_path(file, path)
+    bodies = file.bodies
+    solids = {
+        "conductivity": bodies.thermal_conductivity_W_mK,
+        "density": bodies.density_kg_m3,
+        "heat_capacity": bodies.specific_heat_J_kgK,
+    }
+    contacts = build_contacts(flat, modulus, solids)
+    try:
+        check(oil, contacts, thermal=file.thermal)
+    except InputError as error:
+        raise InputError(error.rule, where=f"{path}: {error.where}", value=error.value) from None
+    return Problem(file, oil, contacts, position)
+
+
+def _listed_contacts(file: EhlFile) -> tuple[dict[str, np.ndarray], float, np.ndarray]:
+    """Arrays in SI, E' and no position."""
+    given, bodies = file.contacts, file.bodies
+    assert given is not None
+    young = bodies.youngs_modulus_GPa or STEEL_MODULUS
+    modulus = reduced_modulus((young[0] * 1e9, young[1] * 1e9), bodies.poisson_ratio or STEEL_RATIO)
+    radius = np.array(given.radius_mm) * 1e-3
+    if given.line_load_N_mm is not None:
+        load = np.array(given.line_load_N_mm) * 1e3
+    else:
+        load = 2.0 * np.pi * radius * (np.array(given.hertz_pressure_GPa) * 1e9) ** 2 / modulus
+    speed = np.array(given.entrainment_speed_m_s)
+    temperature = np.array(given.oil_temperature_C) + ZERO_CELSIUS
+    inlet = np.nan if given.inlet_mm is None else np.array(given.inlet_mm) * 1e-3
+    sliding = speed * np.array(given.slide_roll_ratio)
+    flat = _flat(radius, load, speed, sliding, temperature, inlet, _walls(temperature, given.body_temperature_C))
+    return flat, modulus, np.full(len(flat["radius"]), np.nan)
+
+
+def _along_path(file: EhlFile, path: Path) -> tuple[dict[str, np.ndarray], float, np.ndarray]:
+    """Arrays in SI of the places along the path of contact, E' and their positions; the pinion is the first body."""
+    assert file.gears is not None
+    assert file.path is not None
+    pair, run = gear_pair(file.gears), file.path
+    points = mesh(pair, sharing(file.gears.load_sharing, path.parent), points=run.points, slices=1)
+    force = run.torque_Nm / pair.base_radius[0]
+    load = gear_line_load(points.load_share(run.torque_Nm), np.array(force), points.contact_width)
+    turning = run.speed_rpm * np.pi / 30.0
+    speed, sliding = turning * points.entrainment_per_speed, -turning * points.sliding_per_speed
+    temperature = np.array([run.oil_temperature_C + ZERO_CELSIUS])
+    walls = _walls(temperature, run.body_temperature_C)
+    flat = _flat(points.radius, load, speed, sliding, temperature, np.nan, walls)
+    return flat, reduced_modulus(pair.youngs_modulus, pair.poisson_ratio), points.position
+
+
+def _walls(oil: np.ndarray, given: tuple[float, float] | None) -> tuple[Any, Any]:
+    """Bulk temperatures of both bodies (K)."""
+    return (oil, oil) if given is None else (given[0] + ZERO_CELSIUS, given[1] + ZERO_CELSIUS)
+
+
+def _flat(*values: Any) -> dict[str, np.ndarray]:
+    """Arrays of one length by name; both bulk temperatures come last, as a pair."""
+    names = ("radius", "line_load", "speed", "sliding_speed", "oil_temperature", "inlet")
+    walls = ("first_bulk_temperature", "second_bulk_temperature")
+    arrays = np.broadcast_arrays(*np.atleast_1d(*values[:-1], *values[-1]))
+    return {name: np.array(array, dtype=float) for name, array in zip((*names, *walls), arrays, strict=True)}
+
+
+def examples_of_contacts() -> dict[str, Any]:
+    """Keys of `[contacts]` with values that belong together."""
+    found = examples(ContactList)
+    return {name: found[name] for name in found if name in EXAMPLE_KEYS}

@@ -1,0 +1,125 @@
+"""Energy of the film: one step of Newton's method on its temperature, at a pressure and gap."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mixedlub.ehl.across import COUNT, DERIVATIVE, NODES, RUNNING, SECOND, WEIGHTS
+from mixedlub.ehl.columns import Column, Sheared, sheared
+from mixedlub.ehl.grid import Grid
+from mixedlub.ehl.line_contacts import Contacts
+from mixedlub.ehl.linear import times
+from mixedlub.ehl.march import Energy, march
+from mixedlub.ehl.oil.oil import Oil
+from mixedlub.ehl.state import State
+
+RESOLVED = 0.5 / (COUNT - 1)
+
+
+@dataclass(frozen=True)
+class Heat:
+    """Temperature (K) that the step gives, and what the film was like before it.
+
+    Per area of the film (W/m^2) at nodes: heat of shear, of compression, and flux into the first and second wall in the
+    cell before the node; ``carried`` is what the oil carries along per width (W/m), over that at its inlet temperature.
+    """
+
+    temperature: np.ndarray
+    shear_heat: np.ndarray
+    compression_heat: np.ndarray
+    walls: np.ndarray
+    carried: np.ndarray
+    sheared: Sheared
+
+
+def full_film(pressure: np.ndarray) -> np.ndarray:
+    """Nodes of unbroken film: all but those without pressure behind the largest one.
+
+    >>> full_film(np.array([[0.0, 0.2, 1.0, 0.1, 0.0, 0.0]])).astype(int)
+    array([[1, 1, 1, 1, 0, 0]])
+    """
+    behind = np.arange(pressure.shape[1]) > np.argmax(pressure, axis=1)[:, None]
+    return ~(behind & (pressure <= 0.0))
+
+
+def heat_step(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.ndarray, damping: np.ndarray) -> Heat:
+    r"""Temperatures after one step.
+
+    .. math:: \rho c\left(u\,\partial_x T + \frac{w}{h}\,\partial_s T\right) - \frac{k}{h^2}\,\partial_s^2 T
+              = \tau\dot\gamma + \beta_\rho T u\,p_x,\quad \rho w = -\int_{-1/2}^{s} \partial_x(\rho h u)\,ds'
+
+    at constant s, the place across over the thickness. Heat of shear is linear in the temperatures of its column, with
+    the mean stress eliminated. A ``damping`` of one leaves out what makes a layer that is warm warmer still: then the
+    step is safe, and small.
+    """
+    column = node_columns(oil, contacts, grid, state, gap)
+    shear = sheared(column, _at_nodes(state.stress))
+    full = full_film(state.pressure)
+    thickness = column.gap[..., None]
+    velocity = contacts.first.speed[:, None, None] + thickness * (shear.rate @ RUNNING.T)
+    density = oil.density * oil.density_ratio(column.pressure[..., None], column.temperature)[0]
+    capacity = oil.heat_capacity * density * velocity
+    made, by_temperature = _shear_heat(shear, full)
+    compression = oil.expansion * velocity * (column.gradient * full)[..., None]
+    place = np.arange(COUNT)
+    held = damping[:, None, None] * np.max(np.maximum(by_temperature[..., place, place], 0.0), axis=2, keepdims=True)
+    matrix = -by_temperature - oil.conductivity / thickness[..., None] ** 2 * SECOND
+    matrix[..., place, place] += held - compression
+    matrix += _crossing(capacity * thickness, grid.steps * contacts.half_width[:, None], thickness, oil.conductivity)
+    known = made + held * column.temperature - times(by_temperature, column.temperature)
+    energy = Energy(matrix, known, capacity, column.gap, state.temperature)
+    temperature, walls = march(oil, contacts, grid, energy)
+    rise = temperature - contacts.oil_temperature[:, None, None]
+    return Heat(
+        temperature,
+        column.gap * (made @ WEIGHTS),
+        column.gap * ((compression * temperature) @ WEIGHTS),
+        walls,
+        column.gap * ((capacity * rise) @ WEIGHTS),
+        shear,
+    )
+
+
+def _at_nodes(stress: np.ndarray) -> np.ndarray:
+    """Mean of the stresses of the cells on both sides of each node; a start for the search."""
+    after = np.concatenate([stress[:, 0], stress[:, 0, -1:]], axis=1)
+    before = np.concatenate([stress[:, 1, :1], stress[:, 1]], axis=1)
+    return 0.5 * (before + after)
+
+
+def node_columns(oil: Oil, contacts: Contacts, grid: Grid, state: State, gap: np.ndarray) -> Column:
+    """Columns of film at the nodes, under the mean gradient of the cells on both sides."""
+    cells = np.pad(np.diff(state.pressure, axis=1) / grid.steps, ((0, 0), (1, 1)), mode="edge")
+    gradient = 0.5 * (cells[:, :-1] + cells[:, 1:])
+    return Column(
+        oil,
+        state.pressure * contacts.pressure[:, None],
+        state.temperature,
+        gap * contacts.gap_unit[:, None],
+        gradient * (contacts.pressure / contacts.half_width)[:, None],
+        contacts.sliding[:, None],
+    )
+
+
+def _shear_heat(shear: Sheared, full: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Heat of shear (W/m^3), none where the film is broken, and its slopes in the temperatures of its column."""
+    stress_falls = -WEIGHTS * shear.by_temperature / (shear.by_stress @ WEIGHTS)[..., None]
+    by_stress = shear.rate + shear.stress * shear.by_stress
+    slopes = by_stress[..., :, None] * stress_falls[..., None, :]
+    place = np.arange(COUNT)
+    slopes[..., place, place] += shear.stress * shear.by_temperature
+    return shear.stress * shear.rate * full[..., None], slopes * full[..., None, None]
+
+
+def _crossing(flow: np.ndarray, steps: np.ndarray, thickness: np.ndarray, conductivity: float) -> np.ndarray:
+    """Heat that oil carries across the film as its layers become thinner and thicker; none through the walls.
+
+    What a film without pressure loses or gains in flow, since it is broken, is spread over its thickness.
+    """
+    growth = np.pad(np.diff(flow, axis=1) / steps[..., None], ((0, 0), (1, 1), (0, 0)))
+    crossing = -np.where(flow < 0.0, growth[:, 1:], growth[:, :-1]) @ RUNNING.T
+    crossing -= crossing[..., -1:] * (NODES + 0.5)
+    spread = np.maximum(RESOLVED * np.abs(crossing) / thickness - conductivity / thickness**2, 0.0)
+    return (crossing / thickness)[..., None] * DERIVATIVE - DERIVATIVE @ (spread[..., None] * DERIVATIVE)

@@ -1,0 +1,101 @@
+"""Solution on nested grids: a guess on the coarse one, and each finer one from the one before."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from mixedlub.ehl.across import COUNT
+from mixedlub.ehl.batch import Batch
+from mixedlub.ehl.film import LOAD
+from mixedlub.ehl.grid import Grid, flooded_inlet, grid
+from mixedlub.ehl.line_contacts import Contacts
+from mixedlub.ehl.linear import times
+from mixedlub.ehl.newton import converge
+from mixedlub.ehl.oil.oil import Oil
+from mixedlub.ehl.state import State
+from mixedlub.laws.film import moes_line
+
+NODES = (61, 121, 241)
+"""Nodes along the film on each grid; the last two make the Richardson pair."""
+
+
+@dataclass(frozen=True)
+class Level(Batch):
+    """Solution on one grid."""
+
+    mesh: Grid
+    state: State
+
+
+@dataclass(frozen=True)
+class Solved:
+    """Solutions on the two finest grids, of the contacts that converged on every grid.
+
+    ``index`` numbers these contacts; ``stopped_at`` has, for every contact, the nodes of the grid on which it did not
+    converge, or zero.
+    """
+
+    index: np.ndarray
+    coarse: Level
+    fine: Level
+    stopped_at: np.ndarray
+
+
+def solve_levels(oil: Oil, contacts: Contacts, *, thermal: bool, nodes: tuple[int, ...] = NODES) -> Solved:
+    """Solutions on grids of so many nodes, with the energy of film and walls or at the oil temperature.
+
+    The first grid only gives a start to the second: it need not converge.
+    """
+    film = central_film(oil, contacts)
+    inlet = np.where(np.isnan(contacts.inlet), flooded_inlet(film), contacts.inlet)
+    index, stopped_at = np.arange(len(film)), np.zeros(len(film), dtype=int)
+    levels: list[Level] = []
+    found = np.zeros(len(film), dtype=bool)
+    for count in nodes:
+        mesh = grid(inlet[index], film[index], count)
+        here = contacts.take(index)
+        guess = _guess(here, mesh, film[index], COUNT if thermal else 1)
+        if levels:
+            usable = ~np.isnan(levels[-1].state.approach)
+            guess.put(usable, _refined(levels[-1].take(usable), mesh.take(usable)))
+        state, converged = converge(oil, here, mesh, guess, thermal=thermal, far=~found)
+        kept = converged if levels else np.ones_like(converged)
+        stopped_at[index[~kept]] = count
+        index, found = index[kept], converged[kept]
+        levels = [*(level.take(kept) for level in levels[-1:]), Level(mesh, state).take(kept)]
+    return Solved(index, levels[-2], levels[-1], stopped_at)
+
+
+def central_film(oil: Oil, contacts: Contacts) -> np.ndarray:
+    """Film of an incompressible oil by Moes, in units of the gap (b^2/R)."""
+    load, material = contacts.moes(*oil.at_ambient(contacts.oil_temperature))
+    return np.pi * moes_line(load, material) / (8.0 * load)
+
+
+def _guess(contacts: Contacts, mesh: Grid, film: np.ndarray, across: int) -> State:
+    """Pressure of Hertz, with the film by Moes in the middle."""
+    cases, nodes = mesh.x.shape
+    pressure = np.sqrt(np.maximum(1.0 - mesh.x**2, 0.0))
+    pressure *= (LOAD / np.sum(mesh.weights * pressure, axis=1))[:, None]
+    middle = np.arange(cases), np.argmin(np.abs(mesh.x), axis=1)
+    temperature = np.broadcast_to(contacts.oil_temperature[:, None, None], (cases, nodes, across)).copy()
+    stress = np.zeros((cases, 2, nodes - 1))
+    return State(pressure, film - times(mesh.kernel, pressure)[middle], temperature, stress)
+
+
+def _refined(coarse: Level, mesh: Grid) -> State:
+    """The solution of a coarser grid on this one, under its load."""
+    old, state = coarse.mesh.x, coarse.state
+
+    def on_new(values: np.ndarray) -> np.ndarray:
+        new = np.empty((*mesh.x.shape, *values.shape[2:]))
+        for case, (at, x, y) in enumerate(zip(mesh.x, old, values, strict=True)):
+            new[case] = PchipInterpolator(x, y)(np.clip(at, x[0], x[-1]))
+        return new
+
+    pressure = on_new(state.pressure)
+    pressure *= (LOAD / np.sum(mesh.weights * pressure, axis=1))[:, None]
+    return State(pressure, state.approach, on_new(state.temperature), np.repeat(state.stress, 2, axis=2))

@@ -1,0 +1,98 @@
+"""Steps of film and temperatures in turn, until each contact has converged."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mixedlub.ehl.batch import Batch
+from mixedlub.ehl.film import film_step
+from mixedlub.ehl.grid import Grid
+from mixedlub.ehl.heat import heat_step
+from mixedlub.ehl.line_contacts import Contacts
+from mixedlub.ehl.oil.oil import Oil
+from mixedlub.ehl.state import State
+
+STEPS = 80
+"""Most steps on a grid; most contacts need five to ten."""
+PRESSURE_TOLERANCE, HOT_PRESSURE_TOLERANCE = 1e-8, 1e-6
+"""Change of pressure that ends the steps (Hertz pressures), without and with temperature."""
+TEMPERATURE_TOLERANCE = 0.01
+"""Change of temperature that ends the steps (K)."""
+WARM_START = 0.3
+"""Change of pressure below which temperatures follow the film (Hertz pressures)."""
+LARGEST_HEATING = 30.0
+"""Largest change of a temperature in one step (K)."""
+DAMPED_ABOVE = 12.0
+"""Change of temperature above which a step is damped (K)."""
+GROWN, LESS, LEAST, MORE = 0.9, 0.5, 0.25, 1.4
+"""A change larger than this share of the one before it makes the share of a step that is taken less, else more."""
+
+
+@dataclass(frozen=True)
+class _Run(Batch):
+    """Contacts that have not converged, and how their steps went: last changes, and share of the heat step taken."""
+
+    contacts: Contacts
+    mesh: Grid
+    state: State
+    pressure_change: np.ndarray
+    temperature_change: np.ndarray
+    share: np.ndarray
+    far: np.ndarray
+
+
+def converge(
+    oil: Oil, contacts: Contacts, mesh: Grid, start: State, *, thermal: bool, far: np.ndarray
+) -> tuple[State, np.ndarray]:
+    """The state of each contact after its last step, and whether it converged, from a start that is ``far`` or near."""
+    cases = len(contacts.radius)
+    state, converged = start.mapped(np.copy), np.zeros(cases, dtype=bool)
+    unknown = np.full(cases, np.inf)
+    run, active = _Run(contacts, mesh, start, unknown, unknown, np.ones(cases), far), np.arange(cases)
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        for _ in range(STEPS):
+            if not len(active):
+                break
+            new, change = film_step(oil, run.contacts, run.mesh, run.state)
+            run = replace(run, state=new, pressure_change=change)
+            run = _warmed(oil, run) if thermal else run
+            failed = ~np.isfinite(run.state.approach + np.sum(run.state.temperature, axis=(1, 2)))
+            tolerance = HOT_PRESSURE_TOLERANCE if thermal else PRESSURE_TOLERANCE
+            warm = (run.temperature_change < TEMPERATURE_TOLERANCE) | (not thermal)
+            done = (run.pressure_change < tolerance) & warm & ~failed
+            stop = done | failed
+            state.put(active, run.state)
+            state.approach[active[failed]] = np.nan
+            converged[active[done]] = True
+            if np.any(stop):
+                run, active = run.take(~stop), active[~stop]
+    return state, converged
+
+
+def _warmed(oil: Oil, run: _Run) -> _Run:
+    """After one step of the temperatures, where the film is near its own solution.
+
+    A large step is taken damped: at once where the last one was large and the start is far, else after a look.
+    """
+    gap = run.state.gap(run.mesh)
+    damped = (run.temperature_change > DAMPED_ABOVE) & run.far
+    wanted = _wanted(oil, run, gap, damped)
+    again = ~damped & ~(np.max(np.abs(wanted), axis=(1, 2)) < DAMPED_ABOVE)
+    if np.any(again):
+        wanted[again] = _wanted(oil, run.take(again), gap[again], again[again])
+    change = np.max(np.abs(wanted), axis=(1, 2))
+    ready = run.pressure_change < WARM_START
+    change = np.where(ready, change, np.inf)
+    grown = ~damped & ~again & (change > GROWN * run.temperature_change)
+    share = np.where(grown, np.maximum(LESS * run.share, LEAST), np.minimum(MORE * run.share, 1.0))
+    step = np.clip(share[:, None, None] * wanted, -LARGEST_HEATING, LARGEST_HEATING) * ready[:, None, None]
+    state = replace(run.state, temperature=run.state.temperature + step)
+    return replace(run, state=state, temperature_change=change, share=share)
+
+
+def _wanted(oil: Oil, run: _Run, gap: np.ndarray, damped: np.ndarray) -> np.ndarray:
+    """Change of the temperatures that a step wants (K)."""
+    found = heat_step(oil, run.contacts, run.mesh, run.state, gap, damped.astype(float))
+    return found.temperature - run.state.temperature

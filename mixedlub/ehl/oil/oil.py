@@ -1,0 +1,40 @@
+"""An oil as the solver uses it: its laws with their slopes, as functions of pressure (Pa) and temperature (K)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+Slopes = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""A quantity and its derivatives with respect to the two arguments of its law."""
+
+
+@dataclass(frozen=True)
+class Oil:
+    """Laws and constants of one oil.
+
+    ``log_viscosity`` and ``density_ratio`` take pressure and temperature; ``shear`` takes stress and pressure and gives
+    viscosity times shear rate; ``stress_scale`` and ``stress_limit`` by pressure are where it leaves Newton's law, and
+    what it never reaches (Pa). Densities are relative to ``density``.
+    """
+
+    name: str
+    log_viscosity: Callable[[np.ndarray, np.ndarray], Slopes]
+    density_ratio: Callable[[np.ndarray, np.ndarray], Slopes]
+    shear: Callable[[np.ndarray, np.ndarray], Slopes]
+    stress_scale: Callable[[np.ndarray], np.ndarray]
+    newtonian: bool
+    stress_limit: Callable[[np.ndarray], np.ndarray]
+    density: float
+    expansion: float
+    conductivity: float
+    heat_capacity: float
+    temperatures: tuple[float, float] = (0.0, np.inf)
+    largest_pressure: float = np.inf
+
+    def at_ambient(self, temperature: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Viscosity (Pa s) and pressure-viscosity coefficient (1/Pa) at ambient pressure."""
+        log, slope, _ = self.log_viscosity(np.zeros_like(temperature), temperature)
+        return np.exp(log), slope

@@ -1,0 +1,118 @@
+"""Shear: viscosity times shear rate that a stress drives, with its slopes in stress and pressure.
+
+Every law is odd in the stress, and Newtonian where the stress is small.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mixedlub.ehl.oil.oil import Slopes
+
+LARGEST_RATIO = 200.0
+"""Stress over Eyring stress above which the law goes on as a straight line: rates beyond any contact."""
+CAP, CAP_END, PASSED = 0.01, 26.0, 1.2
+"""Width of the smooth cap over the limiting stress; its widths after which it is straight; the stress, over the limit,
+that no search passes."""
+
+
+def newton(stress: np.ndarray, pressure: np.ndarray) -> Slopes:
+    r"""Newtonian oil: :math:`\eta\dot\gamma = \tau`. Source: definition.
+
+    >>> float(newton(np.array(2e6), 0.0)[0])
+    2000000.0
+    """
+    return stress, np.ones_like(stress), np.zeros_like(stress)
+
+
+def ree_eyring(stress: np.ndarray, pressure: np.ndarray, eyring_stress: float) -> Slopes:
+    r"""One-term Ree-Eyring oil: :math:`\eta\dot\gamma = \tau_0 \sinh(\tau/\tau_0)`.
+
+    Source: K. L. Johnson, J. L. Tevaarwerk, Proc. R. Soc. A 356 (1977) 215.
+
+    >>> round(float(ree_eyring(np.array(22.58e6), 0.0, 5e6)[0]) / 1e6)   # inverse of asinh
+    229
+    """
+    rate, slope, _ = _sinh(stress, np.asarray(eyring_stress))
+    return rate, slope, np.zeros_like(stress)
+
+
+def growing_eyring(
+    stress: np.ndarray,
+    pressure: np.ndarray,
+    eyring_stress: float,
+    eyring_growth: float,
+    growth_start: float,
+    growth_end: float,
+) -> Slopes:
+    r"""One-term Ree-Eyring oil whose stress grows with pressure between two levels.
+
+    .. math:: \tau_0(p) = \tau_a + \frac{\tau_e}{2}\left\{1 + \tanh\left[\Theta\left(\frac{2p}{p_s + p_e} - 1\right)
+              \right]\right\},\quad \tau_e = \tau_a + \kappa(p_e - p_s),\quad \Theta = \frac{\kappa(p_e - p_s)}{\tau_e}
+
+    Source: S. Li, A. Kahraman, Tribol. Int. 59 (2013), for 75W90: 5 MPa, 0.035, 0.5 and 3.5 GPa.
+
+    >>> args = (5e6, 0.035, 0.5e9, 3.5e9)
+    >>> [round(float(eyring_stress_at(p, *args)[0]) / 1e6, 1) for p in (0.5e9, 1e9, 1.5e9, 2e9)]
+    [26.2, 35.6, 47.1, 60.0]
+    """
+    own, growth = eyring_stress_at(pressure, eyring_stress, eyring_growth, growth_start, growth_end)
+    rate, slope, by_own = _sinh(stress, own)
+    return rate, slope, by_own * growth
+
+
+def eyring_stress_at(
+    pressure: np.ndarray, eyring_stress: float, eyring_growth: float, growth_start: float, growth_end: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Eyring stress of `growing_eyring` (Pa) and its slope in pressure. Source: as there."""
+    added = eyring_growth * (growth_end - growth_start)
+    span = eyring_stress + added
+    scale, middle = added / span, 0.5 * (growth_start + growth_end)
+    tanh = np.tanh(scale * (pressure / middle - 1.0))
+    return eyring_stress + 0.5 * span * (1.0 + tanh), 0.5 * span * (1.0 - tanh**2) * scale / middle
+
+
+def _sinh(stress: np.ndarray, own: np.ndarray) -> Slopes:
+    """Own stress times sinh of the ratio, with slopes in the stress and in the own stress."""
+    ratio = stress / own
+    inside = np.clip(ratio, -LARGEST_RATIO, LARGEST_RATIO)
+    sinh, cosh = np.sinh(inside), np.cosh(inside)
+    sinh = sinh + cosh * (ratio - inside)
+    return own * sinh, cosh, sinh - ratio * cosh
+
+
+def carreau(stress: np.ndarray, pressure: np.ndarray, shear_modulus: float, power: float) -> Slopes:
+    r"""Carreau oil in Bair's stress form.
+
+    .. math:: \eta\dot\gamma = \tau\left[1 + (\tau/G)^2\right]^{(1/n - 1)/2}
+
+    Source: S. Bair, High-Pressure Rheology for Quantitative Elastohydrodynamics (2007).
+
+    >>> round(float(carreau(np.array(3e6), 0.0, 3e6, 0.5)[0]) / 1e6, 3)
+    4.243
+    """
+    square = (stress / shear_modulus) ** 2
+    exponent = 0.5 * (1.0 / power - 1.0)
+    factor = (1.0 + square) ** exponent
+    return stress * factor, factor * (1.0 + 2.0 * exponent * square / (1.0 + square)), np.zeros_like(stress)
+
+
+def limiting(stress: np.ndarray, pressure: np.ndarray, limiting_stress: float, limiting_growth: float) -> Slopes:
+    r"""Newtonian oil with a limiting stress that grows with pressure, as a smooth cap.
+
+    .. math:: \eta\dot\gamma = \tau + \sigma\,e^{(|\tau| - \tau_L)/\sigma}\operatorname{sign}\tau,\quad
+              \tau_L = \tau_{L0} + \Lambda p,\quad \sigma = 0.01\,\tau_L
+
+    The stress passes the limit by 12 % where the Newtonian one is a thousand times it. Source: limiting stress by
+    S. Bair, W. O. Winer, J. Lubr. Technol. 101 (1979) 258; the cap is a smooth form of a kink.
+
+    >>> round(float(limiting(np.array(41e6), 1e9, 1e6, 0.04)[0]) / 1e6, 2)
+    41.41
+    """
+    limit = limiting_stress + limiting_growth * pressure
+    over = np.abs(stress) / limit - 1.0
+    inside = np.minimum(over / CAP, CAP_END)
+    beyond = np.exp(inside)
+    capped = CAP * beyond * (1.0 + over / CAP - inside)
+    by_limit = capped - beyond * np.abs(stress) / limit
+    return stress + np.sign(stress) * limit * capped, 1.0 + beyond, np.sign(stress) * limiting_growth * by_limit

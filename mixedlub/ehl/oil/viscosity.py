@@ -1,0 +1,98 @@
+"""Viscosity against pressure and temperature: logarithm, and its slopes in both."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mixedlub.ehl.oil.oil import Slopes
+from mixedlub.laws import oil
+from mixedlub.laws.oil import ROELANDS_LOG, ROELANDS_PRESSURE
+
+ROELANDS_KELVIN = 138.0
+"""Temperature of Roelands' law (K)."""
+
+
+def roelands(
+    pressure: np.ndarray,
+    temperature: np.ndarray,
+    known_temperature: float,
+    viscosity: float,
+    pressure_viscosity: float,
+    temperature_viscosity: float,
+) -> Slopes:
+    r"""Logarithm of the viscosity (Pa s) by Roelands in Houpert's form, with slopes per Pa and per K.
+
+    .. math:: \ln\eta = \ln\eta_0 + (\ln\eta_0 + 9.67)\left[(1 + p/p_r)^Z
+              \left(\frac{T - 138}{T_0 - 138}\right)^{-S_0} - 1\right]
+
+    with Z = alpha p_r/(ln eta_0 + 9.67) and S_0 = beta (T_0 - 138)/(ln eta_0 + 9.67); viscosity, alpha and beta are
+    those of the known temperature. Good to about 1 GPa; an extrapolation above.
+    Source: L. Houpert, J. Tribol. 107 (1985) 241.
+
+    >>> log, slope, fall = roelands(np.array([0.0, 0.9642e9]), 333.15, 333.15, 0.01489, 14.81e-9, 0.030)
+    >>> [round(float(v), 2) for v in np.exp(log)], round(float(slope[0]) * 1e9, 2), round(float(fall[0]), 3)
+    ([0.01, 80.1], 14.81, -0.03)
+    """
+    size = np.log(viscosity) + ROELANDS_LOG
+    exponent = pressure_viscosity * ROELANDS_PRESSURE / size
+    fall = temperature_viscosity * (known_temperature - ROELANDS_KELVIN) / size
+    squeezed = 1.0 + pressure / ROELANDS_PRESSURE
+    warm = temperature - ROELANDS_KELVIN
+    rise = size * squeezed**exponent * (warm / (known_temperature - ROELANDS_KELVIN)) ** -fall
+    return rise - ROELANDS_LOG, rise * exponent / (squeezed * ROELANDS_PRESSURE), -rise * fall / warm
+
+
+def barus(
+    pressure: np.ndarray,
+    temperature: np.ndarray,
+    known_temperature: float,
+    viscosity: float,
+    pressure_viscosity: float,
+    temperature_viscosity: float,
+) -> Slopes:
+    r"""Logarithm of the viscosity (Pa s) by Barus with an exponential fall in temperature.
+
+    .. math:: \ln\eta = \ln\eta_0 + \alpha p - \beta (T - T_0)
+
+    For films; far too high in the contact above 0.3 GPa. Source: C. Barus, Am. J. Sci. 45 (1893) 87; O. Reynolds,
+    Phil. Trans. R. Soc. 177 (1886) 157.
+
+    >>> round(float(np.exp(barus(0.1e9, 313.15, 313.15, 0.01, 20e-9, 0.03)[0])), 5)
+    0.07389
+    """
+    log = np.log(viscosity) + pressure_viscosity * pressure - temperature_viscosity * (temperature - known_temperature)
+    return log, pressure_viscosity + 0.0 * log, -temperature_viscosity + 0.0 * log
+
+
+def modulus(
+    pressure: np.ndarray,
+    temperature: np.ndarray,
+    known_temperature: tuple[float, float],
+    known_viscosity: tuple[float, float],
+    density: float,
+    modulus: tuple[float, float],
+    stiffening: tuple[float, float],
+) -> Slopes:
+    r"""Logarithm of the viscosity (Pa s) by ASTM D341 and the modulus equation, with slopes per Pa and per K.
+
+    .. math:: \ln\eta = \ln[\rho\,\nu(T)] + \frac{p}{A + Bp},\quad A = a_1 + a_2 T,\quad B = b_1 + b_2 T
+
+    with T in K and the kinematic viscosity (m^2/s) at two known temperatures. Where B is not above zero, the rise is
+    Barus'. Source: B. Bode, Tribologie + Schmierungstechnik 36 (1989) 182; constants of oils in A. Arana et al.,
+    Tribol. Int. 120 (2018).
+
+    >>> args = ((313.15, 373.15), (94.1e-6, 14.0e-6), 840.0, (-5.73e7, 3.90e5), (-39.5e-3, 23.54e-5))
+    >>> round(float(modulus(0.0, 333.15, *args)[1]) * 1e9, 2)   # a polyalphaolefin at 60 degC
+    13.77
+    """
+    nu = oil.kinematic_viscosity(temperature, known_temperature, known_viscosity)
+    fall = oil.temperature_viscosity(temperature, known_temperature, known_viscosity)
+    base, stiff = modulus[0] + modulus[1] * temperature, stiffening[0] + stiffening[1] * temperature
+    stiff_by_t = np.where(stiff > 0.0, stiffening[1], 0.0)
+    stiff = np.maximum(stiff, 0.0)
+    whole = base + stiff * pressure
+    return (
+        np.log(density * nu) + pressure / whole,
+        base / whole**2,
+        -fall - pressure * (modulus[1] + stiff_by_t * pressure) / whole**2,
+    )

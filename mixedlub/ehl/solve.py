@@ -1,0 +1,191 @@
+"""Line contacts solved many at once, as a data set in SI with a status and an error for each."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from mixedlub.ehl.levels import NODES, Solved, solve_levels
+from mixedlub.ehl.line_contacts import Contacts, Solids
+from mixedlub.ehl.measures import CHECKS, PROFILES, QUANTITIES, measures
+from mixedlub.ehl.oil.oil import Oil
+from mixedlub.laws.contact import reduced_modulus
+from mixedlub.parallel import shared_out
+from profiles.errors import InputError
+
+if TYPE_CHECKING:
+    import xarray
+
+BATCH = 16
+"""Contacts that are solved together: more of them fill no processor better, and their matrices leave its cache."""
+CONVERGED, DIVERGED = "converged", "no solution"
+"""Words of the status."""
+STEEL = {"conductivity": 46.0, "density": 7850.0, "heat_capacity": 470.0}
+"""Thermal conductivity (W/(m K)), density (kg/m^3) and specific heat (J/(kg K)) of steel."""
+LARGEST_STRESS_IMBALANCE = 1e-6
+"""Change of the shear stress in its last step above which a contact has no solution."""
+Each = float | Sequence[float] | np.ndarray
+Pair = tuple[Each, Each]
+
+
+def solve(oil: Oil, *, thermal: bool = True, **given: Any) -> xarray.Dataset:
+    """Film, friction and temperatures of smooth line contacts in SI, by the full equations.
+
+    Arguments are those of `contacts`. Isothermal where not ``thermal``: then friction leaves out all heat. The result
+    has one row a contact, NaN with the status ``no solution`` where the steps did not converge; ``NAME_error``
+    estimates the relative error of NAME (of a rise, for temperatures) from grids of 121 and 241 nodes.
+
+    >>> import mixedlub as ml
+    >>> oil = ml.ehl.example_oil()
+    >>> where = {"radius": 8.69e-3, "line_load": 215e3, "oil_temperature": 333.15}
+    >>> found = ml.ehl.solve(oil, **where, speed=2.24, sliding_speed=0.75)
+    >>> round(float(found.central_film[0]) * 1e6, 2), round(float(found.friction_coefficient[0]), 4)
+    (0.19, 0.0197)
+    """
+    every = contacts(**given)
+    check(oil, every, thermal=thermal)
+    return solved(oil, every, thermal=thermal)
+
+
+def contacts(
+    *,
+    radius: Each,
+    line_load: Each,
+    speed: Each,
+    oil_temperature: Each,
+    sliding_speed: Each = 0.0,
+    bulk_temperature: Pair | None = None,
+    inlet: Each = np.nan,
+    youngs_modulus: tuple[float, float] = (206e9, 206e9),
+    poisson_ratio: tuple[float, float] = (0.3, 0.3),
+    conductivity: tuple[float, float] = (STEEL["conductivity"],) * 2,
+    density: tuple[float, float] = (STEEL["density"],) * 2,
+    heat_capacity: tuple[float, float] = (STEEL["heat_capacity"],) * 2,
+) -> Contacts:
+    """Line contacts from numbers or arrays in SI that broadcast.
+
+    Reduced radius (m), load per width (N/m), mean speed and speed of the second surface over the first (m/s),
+    temperature of the oil and of both bodies (K; bodies as the oil where left out), place of the inlet meniscus (m
+    before the centre; NaN is flooded); of both bodies: moduli (Pa), thermal conductivity (W/(m K)), density (kg/m^3)
+    and specific heat (J/(kg K)), of steel where left out.
+    """
+    given = {"radius": radius, "line_load": line_load, "speed": speed, "oil_temperature": oil_temperature}
+    given |= {"sliding_speed": sliding_speed, "inlet": inlet}
+    first_bulk, second_bulk = (np.nan, np.nan) if bulk_temperature is None else bulk_temperature
+    given |= {"first_bulk_temperature": first_bulk, "second_bulk_temperature": second_bulk}
+    arrays = np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in given.values()))
+    flat = {name: value.ravel() for name, value in zip(given, arrays, strict=True)}
+    for wall in ("first", "second"):
+        own = flat[f"{wall}_bulk_temperature"]
+        flat[f"{wall}_bulk_temperature"] = np.where(np.isnan(own), flat["oil_temperature"], own)
+    solids = {"conductivity": conductivity, "density": density, "heat_capacity": heat_capacity}
+    return build_contacts(flat, reduced_modulus(youngs_modulus, poisson_ratio), solids)
+
+
+def build_contacts(flat: dict[str, np.ndarray], modulus: float, solids: dict[str, tuple[float, float]]) -> Contacts:
+    """Contacts of arrays of one length."""
+    one = np.ones_like(flat["radius"])
+    walls = [
+        Solids(
+            flat["speed"] + side * 0.5 * flat["sliding_speed"],
+            flat[f"{wall}_bulk_temperature"],
+            *(one * solids[name][number] for name in ("conductivity", "density", "heat_capacity")),
+        )
+        for number, (wall, side) in enumerate((("first", -1.0), ("second", 1.0)))
+    ]
+    found = Contacts(
+        flat["radius"], one * modulus, flat["line_load"], flat["oil_temperature"], flat["inlet"], walls[0], walls[1]
+    )
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return replace(found, inlet=-flat["inlet"] / found.half_width)
+
+
+def check(oil: Oil, contacts: Contacts, *, thermal: bool) -> None:
+    """Refuse contacts without a solution, or outside the range of the oil's file, by the first wrong number."""
+    if not len(contacts.radius):
+        raise InputError("at least one is needed", where="contacts")
+    with np.errstate(invalid="ignore"):
+        pressure = contacts.pressure
+    rules: list[tuple[str, np.ndarray, np.ndarray, str]] = [
+        ("radius", contacts.radius, contacts.radius > 0.0, "must be above zero"),
+        ("line_load", contacts.line_load, contacts.line_load > 0.0, "must be above zero"),
+        ("speed", contacts.speed, contacts.speed > 0.0, "must be above zero: without it no film forms"),
+        (
+            "inlet",
+            -contacts.inlet,
+            ~(contacts.inlet > -1.0),
+            "(half widths) must be above 1: the oil starts inside the contact",
+        ),
+    ]
+    low, high = oil.temperatures
+    rule = f"must be from {low:g} to {high:g} K, the range of the oil's file"
+    rules += [("oil_temperature", contacts.oil_temperature, _within(contacts.oil_temperature, low, high), rule)]
+    for name, wall in (("first", contacts.first), ("second", contacts.second)):
+        own = f"{name} surface: bulk_temperature"
+        rules += [(own, wall.temperature, _within(wall.temperature, low, high), rule)] if thermal else []
+        moving = "must be above zero: heat enters moving surfaces only; slide less, or solve isothermally"
+        rules += [(f"{name} surface: speed", wall.speed, wall.speed > 0.0, moving)] if thermal else []
+    most = f"Pa: must be up to {oil.largest_pressure / 1e9:g} GPa, the range of the oil's file"
+    rules += [("Hertz pressure", pressure, pressure <= oil.largest_pressure, most)]
+    for name, value, fine, text in rules:
+        if not np.all(fine & ~np.isinf(value)):
+            wrong = int(np.argmin(fine & ~np.isinf(value)))
+            raise InputError(text, where=f"contact {wrong + 1}: {name}", value=float(f"{value[wrong]:.6g}"))
+
+
+def _within(value: np.ndarray, low: float, high: float) -> np.ndarray:
+    return (value >= low) & (value <= high)
+
+
+def solved(oil: Oil, contacts: Contacts, *, thermal: bool) -> xarray.Dataset:
+    """Solutions of contacts that are checked, in batches shared between the processors."""
+    import xarray
+
+    count = len(contacts.radius)
+    parts = [np.arange(start, min(start + BATCH, count)) for start in range(0, count, BATCH)]
+    with threadpool_limits(1):
+        rows = shared_out(lambda part: _rows(oil, contacts.take(part), thermal=thermal), parts)
+    columns: dict[str, Any] = {name: np.concatenate([row[name] for row in rows]) for name in rows[0]}
+    every = {**QUANTITIES, **CHECKS, **PROFILES}
+    data = xarray.Dataset()
+    for name, values in columns.items():
+        dims = ("contact", "node") if values.ndim == 2 else ("contact",)
+        known = every.get(name)
+        attributes = {"units": "1"} if known is None else {"units": known.unit, "long_name": known.meaning}
+        data[name] = (dims, values, {} if name == "status" else attributes)
+    return data
+
+
+def _rows(oil: Oil, contacts: Contacts, *, thermal: bool) -> dict[str, np.ndarray]:
+    """Results of one batch."""
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        found = solve_levels(oil, contacts, thermal=thermal)
+        kept = contacts.take(found.index)
+        fine = measures(oil, kept, found.fine, thermal=thermal)
+        coarse = measures(oil, kept, found.coarse, thermal=thermal)
+    sheared = fine["stress_imbalance"] < LARGEST_STRESS_IMBALANCE
+    found.stopped_at[found.index[~sheared]] = NODES[-1]
+    rows = {name: _filled(found, values) for name, values in fine.items() if name in {**QUANTITIES, **CHECKS}}
+    for name in QUANTITIES:
+        rows[f"{name}_error"] = _filled(found, _error(name, fine[name], coarse[name], kept.oil_temperature))
+    rows["status"] = np.where(found.stopped_at == 0, CONVERGED, DIVERGED)
+    rows["stopped_at_nodes"] = found.stopped_at
+    return rows | {name: _filled(found, fine[name]) for name in PROFILES}
+
+
+def _filled(found: Solved, values: np.ndarray) -> np.ndarray:
+    """Values of the contacts that converged; NaN for the others."""
+    filled = np.full((len(found.stopped_at), *values.shape[1:]), np.nan)
+    filled[found.index] = values
+    filled[found.stopped_at > 0] = np.nan
+    return filled
+
+
+def _error(name: str, fine: np.ndarray, coarse: np.ndarray, oil_temperature: np.ndarray) -> np.ndarray:
+    """Relative error of the finer of two grids by Richardson, for a method of second order."""
+    size = np.abs(fine - oil_temperature if name.endswith("_temperature") else fine)
+    return np.abs(fine - coarse) / (3.0 * np.where(size > 0.0, size, np.nan))

@@ -1,0 +1,87 @@
+"""The file of an oil: every law's slopes, what a law needs, and what it would ignore."""
+
+import numpy as np
+import pytest
+
+from mixedlub.ehl import EXAMPLE, example_oil, read_oil
+from mixedlub.laws.oil import roelands_viscosity
+from profiles.errors import InputError
+
+TEXT = EXAMPLE.read_text(encoding="utf-8")
+ROELANDS = TEXT[TEXT.index("[viscosity]") : TEXT.index("[shear]")]
+SHEAR = TEXT[TEXT.index("[shear]") : TEXT.index("[density]")]
+MODULUS = """[viscosity]
+law = "modulus"
+known_temperature_C = [40.0, 100.0]
+kinematic_viscosity_mm2_s = [94.1, 14.0]
+modulus_GPa = -0.0573
+modulus_per_kelvin_MPa = 0.390
+stiffening = -39.5e-3
+stiffening_per_K = 23.54e-5
+
+"""
+SHEARS = {
+    "newton": 'law = "newton"',
+    "growing_eyring": 'law = "growing_eyring"\neyring_stress_MPa = 5\neyring_growth = 0.035\n'
+    "growth_start_GPa = 0.5\ngrowth_end_GPa = 3.5",
+    "carreau": 'law = "carreau"\nshear_modulus_MPa = 3\npower = 0.5',
+    "limiting": 'law = "limiting"\nlimiting_stress_MPa = 1\nlimiting_growth = 0.04',
+}
+
+
+def written(folder, *changes):
+    text = TEXT
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    path = folder / "oil.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("viscosity", [ROELANDS, ROELANDS.replace('"roelands"', '"barus"'), MODULUS])
+def test_slopes_of_the_viscosity_are_those_of_small_changes(viscosity, tmp_path):
+    oil = read_oil(written(tmp_path, (ROELANDS, viscosity)))
+    p, t = 0.7e9, 350.0
+    _, by_p, by_t = oil.log_viscosity(np.array(p), np.array(t))
+    more, less = (oil.log_viscosity(p * (1 + s), t)[0] for s in (1e-5, -1e-5))
+    warm, cold = (oil.log_viscosity(p, t + s)[0] for s in (1e-3, -1e-3))
+    assert by_p == pytest.approx((more - less) / (2e-5 * p), rel=1e-6)
+    assert by_t == pytest.approx((warm - cold) / 2e-3, rel=1e-5)
+
+
+@pytest.mark.parametrize("law", SHEARS)
+@pytest.mark.parametrize("stress", [-42e6, 0.3e6, 20e6])
+def test_slopes_of_the_shear_are_those_of_small_changes(law, stress, tmp_path):
+    oil = read_oil(written(tmp_path, (SHEAR, f"[shear]\n{SHEARS[law]}\n\n")))
+    p, tau = np.array(1e9), np.array(stress)
+    _, by_stress, by_p = oil.shear(tau, p)
+    more, less = (oil.shear(tau + s, p)[0] for s in (10.0, -10.0))
+    denser, thinner = (oil.shear(tau, p * (1 + s))[0] for s in (1e-6, -1e-6))
+    assert by_stress == pytest.approx((more - less) / 20.0, rel=1e-4)
+    assert by_p == pytest.approx((denser - thinner) / (2e-6 * p), rel=1e-4, abs=1e-6 * abs(by_stress))
+
+
+def test_roelands_is_that_of_the_other_chains():
+    pressure = np.array([0.0, 0.5e9, 1.2e9])
+    own = np.exp(example_oil().log_viscosity(pressure, 333.15)[0])
+    assert own == pytest.approx(roelands_viscosity(0.01489, 14.81e-9, pressure), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("eyring_stress_MPa = 5.0\n", "", 'law = "ree_eyring" needs eyring_stress_MPa'),
+        ("eyring_stress_MPa = 5.0", "eyring_stress_MPa = 5.0\npower = 0.5", "power acts only with law"),
+        ("eyring_stress_MPa = 5.0", "eyring_stress_MPa = -5.0", "-5.0: must be above 0"),
+        ("eyring_stress_MPa", "eyring_stres_MPa", "nearest known: 'eyring_stress_MPa'"),
+        ("temperature_viscosity_per_K = 0.030\n", "", 'law = "roelands" needs temperature_viscosity_per_K'),
+        ('law = "dowson_higginson"', 'law = "incompressible"', "expansion_per_K acts only with"),
+        ('"ree_eyring"', '"eyring"', "eyring"),
+    ],
+)
+def test_a_file_that_is_wrong_is_refused(old, new, said, tmp_path):
+    with pytest.raises(InputError) as error:
+        read_oil(written(tmp_path, (old, new)))
+    assert said in str(error.value)
+    assert "oil.toml" in str(error.value)
