@@ -83,7 +83,7 @@ class Mesh:
         return self.sharing.load_share(self, torques_above_zero(torque))
 
     def line_load(self, torque: object) -> np.ndarray:
-        """Normal force per length (N/m) at each point, shape ``torque.shape + (M,)``; torque on the pinion in Nm.
+        """Normal force per length (N/m) at each point, shape ``torque.shape + (M,)``; torque on the pinion in N m.
 
         The share of each slice acts on the width of that slice, so the number of slices does not change the result.
 

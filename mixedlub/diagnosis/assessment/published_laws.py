@@ -27,7 +27,7 @@ class Contained:
         The formula of Gupta is a special case and fits about as well (odds 1 : 2.5).
         """
         if self.log_odds > -LAW_OPEN:
-            how = "and fits better"
+            how = "and fits as well with fewer parameters"
         elif self.log_odds > LAW_OPEN:
             how = "and fits about as well"
         elif self.log_odds > LAW_REJECTED:
@@ -40,9 +40,7 @@ class Contained:
     @property
     def _odds(self) -> str:
         ratio = math.exp(abs(self.log_odds))
-        shown = (
-            f"{ratio:.2g}" if ratio < 100.0 else f"{ratio:.0f}" if ratio < 1e4 else f"{ratio:.0e}".replace("e+", "e")
-        )
+        shown = f"{ratio:.2g}" if ratio < 100.0 else f"{ratio:.0f}" if ratio < 1e4 else f"1e{math.log10(ratio):.0f}"
         return f"{shown} : 1" if self.log_odds > 0.0 else f"1 : {shown}"
 
 
