@@ -14,21 +14,6 @@ OIL = ml.oil("mineral")
 ROUGH = ml.surface(m0_um2=0.137, m2=0.0031, m4_per_um2=0.0021)
 FINE = ml.surface(m0_um2=4e-4, m2=2e-4, m4_per_um2=4e-4)
 CONDITION = {"torque_Nm": 100.0, "speed_rpm": 3000.0, "oil_temperature_C": 40.0}
-STUDY = """
-schema = "mixedlub-study/1"
-[gears]
-teeth = [17, 26]
-normal_module_mm = 4.0
-face_width_mm = 14.0
-[surfaces.rough]
-m0_um2 = 0.137
-m2 = 0.0031
-m4_per_um2 = 0.0021
-[conditions]
-torque_Nm = [50, 100]
-speed_rpm = [500]
-oil_temperature_C = [60]
-"""
 DRIVE = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm"}}
 ROWS = {"speed_rpm": [100.0, 200.0, 300.0], "friction_torque_Nm": [0.51, 0.62, 0.69]}
 
@@ -43,10 +28,8 @@ def warned(call) -> tuple[object, list[str]]:
 
 
 @pytest.fixture
-def file(tmp_path):
-    path = tmp_path / "own.toml"
-    path.write_text(STUDY, encoding="utf-8")
-    return path
+def file(two_flanks):
+    return two_flanks(torque_Nm="[50, 100]", speed_rpm="[500]", oil_temperature_C="[60]")
 
 
 @pytest.mark.parametrize("call", [ml.power_loss, ml.along_path])

@@ -7,40 +7,10 @@ import pytest
 import mixedlub as ml
 from profiles.errors import InputError
 
-STUDY = """
-schema = "mixedlub-study/1"
-[gears]
-teeth = [17, 26]
-normal_module_mm = 4.0
-face_width_mm = 14.0
-[surfaces.ground]
-m0_um2 = 0.137
-m2 = 0.0031
-m4_per_um2 = 0.0021
-[surfaces.polished]
-m0_um2 = 4e-4
-m2 = 2e-4
-m4_per_um2 = 4e-4
-[conditions]
-torque_Nm = [50, 100]
-speed_rpm = [3000, 500, 1500]
-oil_temperature_C = [90, 40]
-"""
-SPEED = np.array([10.0, 20, 50, 100, 200, 300, 400, 500] * 4)
-TORQUE = (0.5 + 2e-3 * SPEED + 0.6 * np.exp(-SPEED / 40)) * (1 + 0.01 * np.cos(7.0 * np.arange(32)))
-DRIVE = {"kind": "friction_map", "recording": {"quantity": "friction_torque_Nm", "noise": {"relative": 0.01}}}
-
 
 @pytest.fixture(scope="module")
-def results(tmp_path_factory):
-    path = tmp_path_factory.mktemp("study") / "own.toml"
-    path.write_text(STUDY, encoding="utf-8")
-    return ml.study.run(path)
-
-
-@pytest.fixture(scope="module")
-def answer():
-    return ml.diagnose(ml.case.case_of(DRIVE, {"speed_rpm": SPEED, "friction_torque_Nm": TORQUE}))
+def results(two_flanks):
+    return ml.study.run(two_flanks(torque_Nm="[50, 100]", speed_rpm="[3000, 500, 1500]", oil_temperature_C="[90, 40]"))
 
 
 @pytest.fixture(autouse=True)
