@@ -139,10 +139,17 @@ def test_every_row_of_a_score_is_read(file):
 def test_missed_goals_are_listed():
     import scores
 
-    rows = scores.scores((scores.FOLDER / "score.txt").read_text(encoding="utf-8"))[scores.TOOL]
-    said = scores.missed(rows)
-    assert said.startswith("Goals missed: 4.")
-    assert "both effects of a pair named (0.839, goal ≥ 0.85)" in said
+    table = (
+        "mixedlub diagnose\n"
+        "figure                      value        90 %    n  goal\n"
+        "both effects of a pair      0.839  [0.7, 0.9]   31  >= 0.85      NOT met\n"
+        "good readings flagged           0     [0, 1]  200  <= 0.005     met\n"
+        "seconds a case, worst        53.0             240  <= 30        NOT met\n"
+    )
+    said = scores.missed(scores.scores(table)[scores.TOOL])
+    assert (
+        said == "Goals missed: 2. both effects of a pair (0.839, goal ≥ 0.85); seconds a case, worst (53.0, goal ≤ 30)."
+    )
 
 
 def test_a_command_may_go_over_several_lines(built):
