@@ -105,7 +105,7 @@ asperity_load_share     | L          | -       | share of the load that asperiti
 full_load_film          | h_0        | m       | film thickness if the film carried the whole load
 sharing_exponent        | k          | -       | power of whole over film load in the growth of a film that carries less
 film_load_share         | L_h        | -       | share of the load that the film carries
-least_film_share        | L_i        | -       | share of the load below which the film's own contact is isoviscous
+least_film_share        | L_i        | -       | share of the load below which the film's own contact leaves its regime
 flash_per_friction      | theta_mu   | K       | rise of the surfaces by sliding per unit of friction coefficient
 contact_viscosity       | eta_p      | Pa s    | viscosity of the film in the contact, of a sample under pressure
 shear_stress            | tau        | Pa      | shear stress of the film

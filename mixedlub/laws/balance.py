@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.laws.film import ELASTIC
+
 
 def full_load_film(film_thickness: np.ndarray) -> np.ndarray:
     """Film thickness if the film carried the whole load (m): that of the film law and of the effects on it.
@@ -31,27 +33,28 @@ def film_load_share(film_thickness: np.ndarray, full_load_film: np.ndarray, shar
 
 
 def least_film_share(
+    moes_load: np.ndarray,
     radius: np.ndarray,
     entrainment_speed: np.ndarray,
-    line_load: np.ndarray,
     viscosity: np.ndarray,
     pressure_viscosity: np.ndarray,
     reduced_modulus: np.ndarray,
 ) -> np.ndarray:
-    r"""Share of the load below which an isoviscous film in the film's own contact is thicker (-): its law ends there.
+    r"""Share of the load below which the film's own contact leaves the regime that film laws are for (-).
 
-    .. math:: \frac{1}{\gamma} = \left(\frac{2.05}{1.65}\,M^{-3/40} L^{-3/4}\right)^{5/3}
+    .. math:: \max\left[\left(\frac{2.05}{1.65}\,M^{-3/40} L^{-3/4}\right)^{5/3},\ \left(\frac{M_0}{M}\right)^2\right]
 
     of Moes' groups :math:`M = W(2U)^{-1/2}` and :math:`L = G(2U)^{1/4}` at the whole load, which become
-    :math:`\gamma^{-1/2} M` and :math:`\gamma^{-3/4} L`; the elastic films are :math:`2.05\,M^{-1/5}` (isoviscous) and
-    :math:`1.65\,M^{-1/8} L^{3/4}` (piezoviscous). Above 1 the contact is isoviscous at its whole load.
+    :math:`\gamma^{-1/2} M` and :math:`\gamma^{-3/4} L`. Below the first share the isoviscous elastic film
+    :math:`2.05\,M^{-1/5}` is thicker than the piezoviscous one, :math:`1.65\,M^{-1/8} L^{3/4}`; below the second the
+    film flattens nothing, with the limit :math:`M_0` of the film laws. Above 1 this holds at the whole load.
     Source: H. Moes, Wear 159 (1992) 57, the elastic asymptotes.
 
-    >>> here = (8.3262e-3, 2.1630, 214.86e3, 0.01489, 14.81e-9, 226.374e9)
-    >>> round(float(least_film_share(*here)), 4)
-    0.0724
+    >>> gear = (8.3262e-3, 2.1630, 0.01489, 14.81e-9, 226.374e9)
+    >>> [round(float(least_film_share(load, *gear)), 4) for load in (19.5, 4.0)]
+    [0.0724, 0.25]
     """
-    speed = 2.0 * viscosity * entrainment_speed / (reduced_modulus * radius)
-    load = line_load / (reduced_modulus * radius) * speed**-0.5
-    material = pressure_viscosity * reduced_modulus * speed**0.25
-    return (2.05 / 1.65 * load**-0.075 * material**-0.75) ** (5.0 / 3.0)
+    material = pressure_viscosity * reduced_modulus
+    material = material * (2.0 * viscosity * entrainment_speed / (reduced_modulus * radius)) ** 0.25
+    isoviscous = (2.05 / 1.65 * moes_load**-0.075 * material**-0.75) ** (5.0 / 3.0)
+    return np.maximum(isoviscous, (ELASTIC["moes_load"][0] / moes_load) ** 2)

@@ -22,6 +22,8 @@ from mixedlub.study.results import Results, run_study
 from mixedlub.study.schema import Conditions, Options, Pairings
 from profiles.errors import InputError, nearest
 
+FILM_ALONE = {"balance": "none"}
+"""Option of the laws other than the base model's: they are fitted to the film that carries the whole load."""
 POINTS = 201
 """Points along the path of contact, and over the slide-to-roll ratio."""
 LARGEST_RATIO = 2.0
@@ -83,17 +85,17 @@ class Comparison:
             return mesh, condition_inputs(self.study.file, self.study.pair, mesh, self.study.oil)
 
     def _inputs(self, inputs: Mapping[str, Any]) -> dict[str, Any]:
-        file = self.study.file
         surfaces = surface_inputs([(self.study.surfaces[a], self.study.surfaces[b]) for a, b in self.study.pairings])
-        return {**inputs, **surfaces, "boundary_friction": file.boundary_friction}
+        return {**inputs, **surfaces}
 
     def _table(self, name: str, place: np.ndarray, inputs: Mapping[str, Any]) -> pd.DataFrame:
         """One row a law and place: the conditions there, friction, and whether the law holds."""
-        given, chain = self._inputs(inputs), study_chain(_base_options(self.study))
+        given, options = self._inputs(inputs), _base_options(self.study)
+        chain, film_alone = study_chain(options), study_chain(options.model_copy(update=FILM_ALONE))
         parts = []
         for law in self.laws:
             own = law.with_coefficients(self.coefficients.get(law.name, {}))
-            steps = chain if law.name == BASE else with_friction(chain, own)
+            steps = chain if law.name == BASE else with_friction(film_alone, own)
             model = Model(steps, tuple(given), tuple(dict.fromkeys((*law.checked, *COLUMNS))))
             with np.errstate(all="ignore"):
                 state = model(given)
@@ -176,6 +178,7 @@ def of_mesh(study: Study, coefficients: Coefficients) -> Iterator[tuple[Friction
     values = {name: getattr(study.file.options, name) for name in type(study.file.options).model_fields}
     for law in complete(coefficients):
         own = {"friction": law.name, "friction_coefficients": dict(coefficients.get(law.name, {}))}
+        own |= {} if law.name == BASE else FILM_ALONE
         # Of the options none counts as given, so that a law may ignore those that another one reads.
         options = Options.model_construct({"friction", "friction_coefficients"}, **values | own)
         altered = _altered(study, study.file.model_copy(update={"options": options, "effects": {}}))

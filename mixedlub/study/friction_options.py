@@ -71,6 +71,9 @@ def check_friction(file: StudyFile, model: Model) -> None:
             raise InputError(rule, where=f"options.{option}", value=getattr(options, option))
     if options.friction == friction.BASE:
         return
+    if options.balance != "none":
+        rule = f"goes with the base model's friction; friction = {options.friction!r} is fitted to films without it"
+        raise InputError(f"{rule}; leave one of them out", where="options.balance", value=options.balance)
     law = friction.find(options.friction)
     read = {name for step in model.steps for name in step.reads}
     if "boundary_friction" in file.model_fields_set and "boundary_friction" not in read:

@@ -212,8 +212,6 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     inputs = {
         **condition_inputs(file, pair, points, oil),
         **surface_inputs([(surfaces[a], surfaces[b]) for a, b in chosen]),
-        "boundary_friction": file.boundary_friction,
-        **({} if options.hardness_GPa is None else {"hardness": options.hardness_GPa * 1e9}),
     }
     effects, parameters = _effects(file, inputs)
     levels = file.conditions
@@ -243,6 +241,8 @@ def condition_inputs(file: StudyFile, pair: GearPair, points: Mesh, oil: Lubrica
         "mean_sliding_speed": pair.end_mean_sliding * pair.base_radius[0] * speed,
         "working_pressure_angle": pair.working_pressure_angle,
         "base_helix_angle": pair.base_helix_angle,
+        "boundary_friction": file.boundary_friction,
+        **({} if options.hardness_GPa is None else {"hardness": options.hardness_GPa * 1e9}),
     }
 
 

@@ -68,8 +68,8 @@ _TEXTS: Mapping[str, Callable[[Results, str], str]] = {
         f"{results['balance_error'].max():.2g} of it"
     ),
     "film_carries_too_little": lambda results, count: (
-        f"in {count} the film carries so little of the load that its own contact is isoviscous, for which its law is "
-        "not made; asperities carry the rest, so the loss hangs on their friction and area"
+        f"in {count} the film carries so little of the load that its own contact is isoviscous or hardly flattened, "
+        "for which its law is not made; asperities carry the rest, so the loss hangs on their friction and area"
     ),
     "area_ratio_limited": lambda results, count: f"in {count} the boundary area ratio was limited to 1",
     "bandwidth_limited": lambda results, count: (

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from mixedlub.chain.balance import balanced_film, sharing_exponent
+from mixedlub.friction import BASE
 from mixedlub.laws import contact, yielding
 from mixedlub.laws.balance import least_film_share
 from mixedlub.laws.film import dowson_toyoda
@@ -15,6 +16,7 @@ from mixedlub.schema.findings import codes
 from mixedlub.slots import ASPERITY_AREA, ASPERITY_LOAD, FILM
 from mixedlub.study import read_study, run_study
 from mixedlub.study.batch import SHARED
+from mixedlub.study.friction_comparison import compared, mesh_table
 from mixedlub.study.validity import out_of_range
 from profiles.errors import InputError
 from roughness.mccool import plane_offset, summit_density, summit_radius, summit_sigma
@@ -227,22 +229,37 @@ def test_a_film_below_its_share_is_told(write_study):
     assert not thick.flags
 
 
+HERE = {
+    "radius": 8.3262e-3,
+    "entrainment_speed": 2.163,
+    "viscosity": 0.01489,
+    "pressure_viscosity": 14.81e-9,
+    "reduced_modulus": 226.374e9,
+}
+
+
 def test_least_share_is_where_both_elastic_films_are_equal():
     """2.05 M^(-1/5) and 1.65 M^(-1/8) L^(3/4) of the contact that the film carries."""
-    here = {
-        "radius": 8.3262e-3,
-        "entrainment_speed": 2.163,
-        "line_load": 214.86e3,
-        "viscosity": 0.01489,
-        "pressure_viscosity": 14.81e-9,
-        "reduced_modulus": 226.374e9,
-    }
-    share = least_film_share(**here)
-    own = here | {"line_load": here["line_load"] * share, "reduced_modulus": here["reduced_modulus"] * share}
-    speed = 2.0 * own["viscosity"] * own["entrainment_speed"] / (own["reduced_modulus"] * own["radius"])
-    load = own["line_load"] / (own["reduced_modulus"] * own["radius"]) / np.sqrt(speed)
-    material = own["pressure_viscosity"] * own["reduced_modulus"] * speed**0.25
+    line_load = 214.86e3
+    size = HERE["reduced_modulus"] * HERE["radius"]
+    whole = line_load / size / np.sqrt(2.0 * HERE["viscosity"] * HERE["entrainment_speed"] / size)
+    share = least_film_share(whole, **HERE)
+    modulus = HERE["reduced_modulus"] * share
+    speed = 2.0 * HERE["viscosity"] * HERE["entrainment_speed"] / (modulus * HERE["radius"])
+    load = line_load * share / (modulus * HERE["radius"]) / np.sqrt(speed)
+    material = HERE["pressure_viscosity"] * modulus * speed**0.25
+    assert load > 2.0
     assert 2.05 * load**-0.2 == pytest.approx(1.65 * load**-0.125 * material**0.75, rel=1e-12)
+
+
+def test_least_share_of_a_light_load_is_where_the_film_flattens_nothing():
+    """M of the film's own contact falls with the root of its share, to 2."""
+    assert 5.0 * np.sqrt(least_film_share(np.array(5.0), **HERE)) == pytest.approx(2.0)
+
+
+def test_a_balance_with_another_law_of_friction_is_refused(write_study):
+    with pytest.raises(InputError, match=r"options\.balance: .*goes with the base model's friction"):
+        read_study(write_study(options={**BALANCE, "friction": "benedict_kelley"}))
 
 
 def test_a_balance_that_is_not_found_is_told(write_study, monkeypatch):
@@ -305,3 +322,20 @@ def test_page_tells_the_shares_and_draws_them(write_study):
     assert "mean_asperity_load_share_equal" in [drawn.name for drawn in figures(shown)]
     plain = results(write_study, {}, conditions__oil_temperature_C=[60])
     assert not any("asperities carry between" in sentence for sentence in content(plain)["findings"])
+
+
+def test_laws_of_friction_are_compared_at_the_film_that_they_are_fitted_to(write_study):
+    """Only the base model's friction is that of the balanced film, with asperities that yield."""
+    options = {**BALANCE, "asperities": "kogut_etsion", "hardness_GPa": 6.0, "mixture": "load_weighted"}
+    one = {"surfaces": ROUGH, "conditions__oil_temperature_C": [60]}
+    shared, alone = (
+        compared(read_study(write_study(options=given, **one)), {})
+        for given in (options, {"asperities": "kogut_etsion", "hardness_GPa": 6.0})
+    )
+    tables = [(c.along_path(), c.over_ratio(), mesh_table(c.every, {})) for c in (shared, alone)]
+    for with_balance, without in zip(*tables):
+        base = with_balance["law"] == BASE
+        column = "friction" if "friction" in with_balance else "mean_friction"
+        same = with_balance[column] == without[column]
+        assert (same | with_balance[column].isna())[~base].all()
+        assert (with_balance[column] > 1.5 * without[column])[base].any()
