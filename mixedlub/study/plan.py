@@ -27,7 +27,7 @@ from mixedlub.rig.rig import Rig
 from mixedlub.rig.surface import Surface, paired
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, report
-from mixedlub.slots import SLOTS
+from mixedlub.slots import ASPERITY_LOAD, SLOTS
 from mixedlub.study.friction_options import check_coefficients, check_effects, check_friction, check_viscosity
 from mixedlub.study.options import at_hardness, ignored, study_chain
 from mixedlub.study.schema import Options, Pairings, StudyFile
@@ -101,9 +101,9 @@ class Plan:
     def asperities(self) -> Law:
         """Law of the pressure that asperities would carry: yielding ones where plasticity is on."""
         plastic = self.parameters.get("asperity_plasticity")
-        return at_hardness(**plastic) if plastic else self.options.laws["asperity_pressure"]
+        return at_hardness(**plastic) if plastic else ASPERITY_LOAD.choices[self.options.asperities].law
 
-    @property
+    @cached_property
     def asperities_read(self) -> tuple[str, ...]:
         """The quantities that this law reads."""
         return tuple(signature(self.asperities).parameters)
