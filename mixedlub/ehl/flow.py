@@ -93,4 +93,5 @@ def _carried(
         one, two, three = (share * value for share, value in zip(shares, near, strict=True))
         return one, two, three
 
-    return sum(weighted(density * gap)), weighted(squeezed * gap), weighted(density)  # type: ignore[return-value]
+    one, two, three = weighted(density * gap)
+    return one + two + three, weighted(squeezed * gap), weighted(density)
