@@ -17,7 +17,7 @@ from profiles.errors import nearest
 
 WIDTH, INDENT = 80, 16
 """Characters of a line of a page, and of the names before its texts."""
-STAGES = ("film", "shear", "contact", "boundary", "load", "loss", "property", "measurement")
+STAGES = ("film", "shear", "contact", "boundary", "load", "loss", "property", "law", "measurement")
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,7 @@ STAGE_WORDS = {
     "load": "load and its sharing",
     "loss": "losses beside the sliding contact",
     "property": "properties of the oil",
+    "law": "a law of the base model, in place of which another fits",
     "measurement": "the instrument",
 }
 

@@ -51,6 +51,7 @@ REFERENCE_PRESSURE = 1e9
     "F. W. Carter, Proc. R. Soc. A 112 (1926) 151, m = 2; K. L. Johnson, J. L. Tevaarwerk, Proc. R. Soc. A 356 (1977) "
     "215, film and bodies yielding under the film's traction alone (a = 0)",
     fingerprint={"slide_roll_ratio": "+"},
+    applied_after=("mixture_law",),
     special_cases={"bodies alone": {"elastic": 1.0}, "one slip": {"elastic": 0.0}},
     separated_by="a sweep of slip below one per cent at constant speed: the rise is proportional to slip and does "
     "not depend on viscosity or speed as a fluid film does",

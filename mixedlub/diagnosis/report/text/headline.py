@@ -101,13 +101,17 @@ def _verdict(d: Diagnosis) -> str:
         return f"Something is missing that no one effect {which}, nor any two tried together (probability {p})."
     effects = effects_of(posterior.verdict.effects)
     free = [effect_words(e.id) for e in effects if e.descriptive]
-    physics = [effect_words(e.id) for e in effects if e.stage != "measurement" and not e.descriptive]
+    physics = [effect_words(e.id) for e in effects if e.stage not in ("measurement", "law") and not e.descriptive]
+    laws = [effect_words(e.id) for e in effects if e.stage == "law"]
     faults = [effect_words(e.id) for e in effects if e.stage == "measurement"]
-    if not physics and not free:
+    if not physics and not free and not laws:
         return f"No physics is missing; the instrument is at fault: {' and '.join(faults)} (probability {p})."
     parts = [f"Missing physics: {' and '.join(physics)}"] if physics else []
     if free:
         parts.append(f"{'a' if parts else 'A'} change of free form, its cause not named: {' and '.join(free)}")
+    if laws:
+        start = "another published law" if parts else "No physics is missing, but another published law"
+        parts.append(f"{start} fits in place of that of the base model: {' and '.join(laws)}")
     if faults:
         parts.append(f"a fault of the instrument: {' and '.join(faults)}")
     return f"{'; and '.join(parts)} (probability {p})."
