@@ -14,6 +14,10 @@ from profiles.errors import InputError
 
 SCHEMA = "mixedlub-origin/1"
 NAME = "origin.json"
+FIGURES = "figures"
+"""Folder of drawings, which say themselves that they were made here (`mixedlub.atomic`)."""
+ENDS = 1 << 20
+"""Bytes at either end of a file that identify it, so that a large table need not be read completely."""
 
 
 @dataclass(frozen=True)
@@ -23,20 +27,25 @@ class Origin:
     source: Path
     fingerprint: str
 
-    def record(self, folder: Path, contents: Mapping[str, bytes]) -> str:
-        """The text of `origin.json` in a folder, for a result of these files."""
-        marks = {name: hashlib.sha256(content).hexdigest() for name, content in sorted(contents.items())}
-        record = {"schema": SCHEMA, **self._identity(folder), "files": marks}
-        return json.dumps(record, indent=1, ensure_ascii=False) + "\n"
+    def write_record(self, aside: Path, folder: Path, earlier: Mapping[str, str] | None = None) -> None:
+        """Write `origin.json` beside the files of a result for ``folder``; ``earlier`` has marks of those that stay."""
+        new = (path for path in aside.rglob("*") if path.is_file())
+        names = (path.relative_to(aside).as_posix() for path in new)
+        marks = {name: _mark(aside / name) for name in names if not name.startswith(f"{FIGURES}/")}
+        files = dict(sorted({**(earlier or {}), **marks}.items()))
+        record = {"schema": SCHEMA, **self._identity(folder), "files": files}
+        text = json.dumps(record, indent=1, ensure_ascii=False) + "\n"
+        (aside / NAME).write_text(text, encoding="utf-8", newline="\n")
 
     def check_folder(self, folder: Path, names: Collection[str], what: str) -> str:
         """Refuse a folder with files of other origin; returns a note where they are of an earlier state of this input.
 
-        ``names`` are the files that every result has, ``what`` is the kind of input in words.
+        ``names`` are the files that a result has, ``what`` is the kind of input in words.
         """
         found = _read(folder)
         marks = found.get("files", {})
-        there = [name for name in {**dict.fromkeys(names), **marks} if (folder / name).exists()]
+        paths = {name: folder / name for name in (*names, *marks)}
+        there = [name for name, path in paths.items() if path.exists() and not is_same(path, self.source)]
         if not there:
             return ""
         way_out = "name another folder with --out, or say --replace"
@@ -45,10 +54,10 @@ class Origin:
             rule = f"holds {' and '.join(foreign)}, not as a run left it; {way_out}"
             raise InputError(rule, where="--out", value=str(folder))
         own = self._identity(folder)
-        if found["fingerprint"] == own["fingerprint"]:
+        if found.get("fingerprint") == own["fingerprint"]:
             return ""
-        if found["source"] != own["source"]:
-            rule = f"holds the result of another {what}, {found['source']}; {way_out}"
+        if found.get("source") != own["source"]:
+            rule = f"holds the result of another {what}, {found.get('source')}; {way_out}"
             raise InputError(rule, where="--out", value=str(folder))
         return f"the result in {folder} is of an earlier state of {self.source} and is replaced"
 
@@ -71,6 +80,16 @@ def origin_of(source: Path, names: Collection[str]) -> Origin:
     return Origin(source, digest.hexdigest())
 
 
+def as_left(folder: Path) -> dict[str, str]:
+    """The marks of files in a folder that are as a run left them."""
+    return {name: mark for name, mark in _read(folder).get("files", {}).items() if _mark(folder / name) == mark}
+
+
+def is_same(path: Path, other: Path) -> bool:
+    """Whether two paths lead to one file that exists."""
+    return path.exists() and other.exists() and path.samefile(other)
+
+
 def _read(folder: Path) -> dict[str, Any]:
     """The record in a folder; empty where no run wrote one."""
     try:
@@ -81,7 +100,14 @@ def _read(folder: Path) -> dict[str, Any]:
 
 
 def _mark(path: Path) -> str:
+    """Identity of a file: its size and its two ends; empty where there is none."""
     try:
-        return hashlib.sha256(path.read_bytes()).hexdigest()
+        with path.open("rb") as file:
+            size = file.seek(0, os.SEEK_END)
+            digest = hashlib.sha256(str(size).encode())
+            for start in (0, max(0, size - ENDS)):
+                file.seek(start)
+                digest.update(file.read(ENDS))
     except OSError:
         return ""
+    return digest.hexdigest()

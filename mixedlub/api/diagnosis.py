@@ -14,7 +14,7 @@ import numpy as np
 from mixedlub.case.folder import Case, conditions_for, read_case
 from mixedlub.case.simulation import simulate as simulated
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnosis_of
-from mixedlub.diagnosis.report.files import files, write
+from mixedlub.diagnosis.report.files import case_origin, files, write
 from mixedlub.diagnosis.report.improved import improved_case
 from mixedlub.diagnosis.report.text.answer import as_json, predictions
 from mixedlub.diagnosis.report.text.headline import chance
@@ -145,8 +145,9 @@ class Answer:
 
     def write(self, out: str | PathLike[str]) -> Path:
         """Write what `mixedlub diagnose` writes, and return the folder."""
-        write(files(self.diagnosis), Path(out))
-        return Path(out)
+        folder, case = as_path(out, "write"), self.diagnosis.given
+        write(files(self.diagnosis), folder, case_origin(case.folder) if case.is_filed else None)
+        return folder
 
 
 def _rms(values: np.ndarray) -> float:

@@ -76,6 +76,11 @@ class Case:
         """Name of the recorded column, with its unit."""
         return self.system.recording.quantity
 
+    @property
+    def is_filed(self) -> bool:
+        """Whether it was read from its folder, and not made of tables in memory."""
+        return self.recordings is not None and self.recordings.source == "recordings.csv"
+
 
 def _summary(table: Table) -> str:
     """Rows and columns of a table in one line; the last columns are left out where they do not fit."""

@@ -43,7 +43,7 @@ def command(
     An interrupted run resumes when it is started again with the same inputs.
     """
     from mixedlub.study import checkpoint, counted, factors, read_study, run_study
-    from mixedlub.study.record import check_folder, running, write_record
+    from mixedlub.study.record import WRITTEN, running, study_origin, write_record
     from mixedlub.study.validity import out_of_range
 
     formats = chosen_formats(format_)
@@ -52,7 +52,7 @@ def command(
         given = file.read_bytes()
     folder = output_folder(out, NAME, study.name, knows_own=True)
     with running(folder, study):
-        earlier = "" if replace else check_folder(folder, study, file)
+        earlier = "" if replace else study_origin(study, file).check_folder(folder, WRITTEN, "study")
         if earlier:
             note(earlier)
         print_findings(study.notes)

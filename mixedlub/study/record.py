@@ -1,11 +1,10 @@
-"""The record of a result: the study file as given, every input as used, and the files that the run wrote."""
+"""The record of a result: the study file as given and every input as used."""
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -14,6 +13,7 @@ import numpy as np
 
 from mixedlub import friction
 from mixedlub.atomic import is_alive
+from mixedlub.origin import Origin, as_left, is_same
 from mixedlub.rig.build import DEFAULT_BASE, ZERO_CELSIUS
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.surface import Surface
@@ -30,8 +30,6 @@ SCHEMA = "mixedlub-study-result/1"
 GIVEN, RESOLVED = "study.toml", "resolved.json"
 WRITTEN = ("results.csv", "results.parquet", "index.html", GIVEN, RESOLVED)
 """Files of a result outside the folder of figures."""
-ENDS = 1 << 20
-"""Bytes at either end of a file that identify it, so that a large table need not be read completely."""
 
 
 def resolved(study: Study) -> dict[str, Any]:
@@ -163,82 +161,23 @@ def asperities(surface: Surface) -> dict[str, float]:
 
 def write_record(aside: Path, folder: Path, study: Study, file: Path, given: bytes) -> None:
     """Write the study file as given and the record of the result; ``aside`` already holds the other files."""
-    if not _is_same(folder / GIVEN, file):
+    if not is_same(folder / GIVEN, file):
         (aside / GIVEN).write_bytes(given)
-    before = {name: mark for name, mark in _files_of(_record(folder)).items() if _mark(folder / name) == mark}
-    written = {path.name: _mark(path) for path in aside.iterdir() if path.is_file()}
     record = {
         "schema": SCHEMA,
         "title": study.file.title,
-        "file": _relative(file, folder),
-        "input_fingerprint": input_fingerprint(study.plan),
         "fingerprint": fingerprint(study.plan),
         "versions": versions(),
         **resolved(study),
-        "files": dict(sorted((before | written).items())),
     }
     text = json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False)
     (aside / RESOLVED).write_text(text + "\n", encoding="utf-8")
+    study_origin(study, file).write_record(aside, folder, as_left(folder))
 
 
-def check_folder(folder: Path, study: Study, file: Path) -> str:
-    """Refuse a folder with files of other origin; returns a note where they are of an earlier state of this study."""
-    names = [name for name in WRITTEN if (folder / name).exists() and not _is_same(folder / name, file)]
-    if not names:
-        return ""
-    way_out = "name another folder with --out, or say --replace"
-    record = _record(folder)
-    marks = _files_of(record)
-    foreign = [name for name in names if name != RESOLVED and marks.get(name) != _mark(folder / name)]
-    if foreign or not record:
-        which = " and ".join(foreign or names)
-        raise InputError(f"holds {which}, not as a run of a study left it; {way_out}", where="--out", value=str(folder))
-    if record.get("input_fingerprint") == input_fingerprint(study.plan):
-        return ""
-    if record.get("file") != _relative(file, folder):
-        whose = f"{record.get('title')} ({record.get('file')})"
-        raise InputError(f"holds the result of another study, {whose}; {way_out}", where="--out", value=str(folder))
-    return f"the result in {folder} is of an earlier state of {file} and is replaced"
-
-
-def _record(folder: Path) -> dict[str, Any]:
-    """The record in a folder; empty where no study wrote one."""
-    try:
-        found = json.loads((folder / RESOLVED).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return {}
-    return found if isinstance(found, dict) and found.get("schema") == SCHEMA else {}
-
-
-def _files_of(record: Mapping[str, Any]) -> dict[str, str]:
-    files = record.get("files")
-    return files if isinstance(files, dict) else {}
-
-
-def _mark(path: Path) -> str:
-    """Identity of a file: its size and its two ends."""
-    try:
-        with path.open("rb") as file:
-            size = file.seek(0, os.SEEK_END)
-            digest = hashlib.sha256(str(size).encode())
-            for start in (0, max(0, size - ENDS)):
-                file.seek(start)
-                digest.update(file.read(ENDS))
-    except OSError:
-        return ""
-    return digest.hexdigest()
-
-
-def _is_same(path: Path, other: Path) -> bool:
-    return path.exists() and other.exists() and path.samefile(other)
-
-
-def _relative(file: Path, folder: Path) -> str:
-    """Path of the study file relative to the result, so that both may be moved together."""
-    try:
-        return Path(os.path.relpath(file.resolve(), folder.resolve())).as_posix()
-    except ValueError:  # on another drive
-        return file.resolve().as_posix()
+def study_origin(study: Study, file: Path) -> Origin:
+    """A study as the origin of a result."""
+    return Origin(file, input_fingerprint(study.plan))
 
 
 @contextmanager

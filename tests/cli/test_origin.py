@@ -7,7 +7,6 @@ import pytest
 
 from mixedlub.cli import main
 from mixedlub.diagnosis.report import files
-from mixedlub.origin import NAME
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "case"
 ANSWER = dict.fromkeys(files.WRITTEN, b"answer")
@@ -18,7 +17,7 @@ def answered(tmp_path, monkeypatch):
     """A copy of the example with an answer in the folder `o`; diagnosing itself is left out."""
     monkeypatch.chdir(tmp_path)
     shutil.copytree(EXAMPLE, "rigs/case")
-    files.write({**ANSWER, NAME: files.case_origin(Path("rigs/case")).record(Path("o"), ANSWER)}, Path("o"))
+    files.write(ANSWER, Path("o"), files.case_origin(Path("rigs/case")))
 
     def diagnosed(case, out, **options):
         raise RuntimeError("diagnosed")
@@ -72,8 +71,7 @@ def test_a_file_that_no_run_wrote_is_refused(name, answered, capsys):
 def test_two_cases_of_one_name_share_no_default_folder(answered, capsys):
     Path("o").rename("answer")
     Path("out/diagnose").mkdir(parents=True)
-    origin = files.case_origin(answered).record(Path("out/diagnose/case"), ANSWER)
-    files.write({**ANSWER, NAME: origin}, Path("out/diagnose/case"))
+    files.write(ANSWER, Path("out/diagnose/case"), files.case_origin(answered))
     shutil.copytree(answered, "other/case")
     Path("other/case/system.toml").write_text((answered / "system.toml").read_text() + "# other\n")
     assert main(["diagnose", "other/case"]) == 2

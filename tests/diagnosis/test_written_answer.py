@@ -7,15 +7,17 @@ import os
 import re
 import tomllib
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from mixedlub.api.diagnosis import Answer
 from mixedlub.chain.effect import STAGES
 from mixedlub.diagnosis.diagnose import Diagnosis, diagnose_case
-from mixedlub.diagnosis.report.files import diagnose, write
+from mixedlub.diagnosis.report.files import WRITTEN, case_origin, diagnose, write
 from mixedlub.diagnosis.report.text.answer import as_json, predictions
 from mixedlub.effects import catalogue
 from mixedlub.schema.toml_file import read_toml
@@ -172,6 +174,29 @@ def test_the_same_case_twice_gives_the_same_bytes(
     assert json.loads(written.pop("origin.json"))["source"] == Path(os.path.relpath(offset_folder, tmp_path)).as_posix()
     assert written == {name: text.encode() for name, text in offset_files.items()}
     assert set(written) >= {"diagnosis.json", "predictions.csv", "report.txt", "report.html"}
+
+
+def test_an_answer_from_python_leaves_the_record_of_the_command(
+    offset: Diagnosis,
+    offset_folder: Path,
+    offset_files: dict[str, str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("mixedlub.api.diagnosis.files", lambda d: offset_files)
+    Answer(offset).write(tmp_path / "python")
+    assert case_origin(offset_folder).check_folder(tmp_path / "python", WRITTEN, "case") == ""
+    write(offset_files, tmp_path / "command", case_origin(offset_folder))
+    assert (tmp_path / "python" / "origin.json").read_bytes() == (tmp_path / "command" / "origin.json").read_bytes()
+
+
+def test_the_answer_to_tables_in_memory_names_no_case(
+    offset: Diagnosis, offset_files: dict[str, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("mixedlub.api.diagnosis.files", lambda d: offset_files)
+    recordings = replace(offset.given.recordings, source="recordings")
+    Answer(replace(offset, given=replace(offset.given, recordings=recordings))).write(tmp_path)
+    assert not (tmp_path / "origin.json").exists()
 
 
 def test_the_system_as_used_stands_beside_any_answer(unnamed: Diagnosis, unnamed_files: dict[str, str]) -> None:

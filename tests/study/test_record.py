@@ -76,12 +76,12 @@ def test_an_edited_study_replaces_its_earlier_result_and_says_so(write_study, tm
 
 
 def test_another_study_is_refused_with_the_way_out_and_replaces_when_asked(write_study, tmp_path, capsys):
-    run(write_study("first", title="The first"), tmp_path / "o")
+    run(write_study("first"), tmp_path / "o")
     before = state(tmp_path / "o")
     other = write_study("other", gears__face_width_mm=20.0)
     run(other, tmp_path / "o", status=2)
     err = capsys.readouterr().err
-    assert "another study, The first" in err
+    assert "another study, ../first.toml" in err
     assert "--replace" in err
     assert state(tmp_path / "o") == before
     run(other, tmp_path / "o", "--replace")

@@ -16,15 +16,13 @@ from mixedlub.diagnosis.report.text import words
 from mixedlub.diagnosis.report.text.answer import as_json, predictions
 from mixedlub.diagnosis.search.search import Progress
 from mixedlub.diagnosis.settings.assessment import FALSE_ALARM_RATE
-from mixedlub.origin import NAME as ORIGIN
-from mixedlub.origin import Origin, origin_of
+from mixedlub.origin import FIGURES, Origin, origin_of
 from mixedlub.parallel import shared_out
 from mixedlub.schema.toml_file import to_toml
 
 XML = '<?xml version="1.0" encoding="utf-8" standalone="no"?>\n'
 WRITTEN = ("diagnosis.json", "predictions.csv", "report.txt", "report.html")
 """Files that every answer has."""
-FIGURES = "figures"
 AS_USED = "case/system.toml"
 """The file of the answer that keeps the system as it was used."""
 
@@ -46,9 +44,7 @@ def diagnose(
     origin = case_origin(case_folder)
     diagnosis = diagnose_case(case_folder, predict, exclude, level, progress)
     progress("drawing")
-    contents = {name: _bytes(text) for name, text in files(diagnosis).items()}
-    marked = {name: content for name, content in contents.items() if not name.startswith(f"{FIGURES}/")}
-    write({**contents, ORIGIN: origin.record(out, marked)}, out)
+    write(files(diagnosis), out, origin)
     return diagnosis
 
 
@@ -117,19 +113,17 @@ def _discrepancy_record(extra: DescribedDiscrepancy | None) -> dict[str, Any]:
     }
 
 
-def write(contents: Mapping[str, str | bytes], out: Path) -> None:
-    """Write all files of an answer in place of those of an earlier one."""
+def write(contents: Mapping[str, str | bytes], out: Path, origin: Origin | None = None) -> None:
+    """Write all files of an answer, and where it has an origin its record, in place of those of an earlier one."""
     out.mkdir(parents=True, exist_ok=True)
     with writing(out) as aside:
         for name, text in contents.items():
             path = aside / name
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(_bytes(text))
+            path.write_bytes(text.encode() if isinstance(text, str) else text)
+        if origin is not None:
+            origin.write_record(aside, out)
     _drop_earlier(contents, out / FOLDER)
-
-
-def _bytes(text: str | bytes) -> bytes:
-    return text.encode() if isinstance(text, str) else text
 
 
 def _drop_earlier(contents: Mapping[str, str | bytes], folder: Path) -> None:
