@@ -37,6 +37,18 @@ def as_path(given: object, where: str) -> Path:
     return Path(named)
 
 
+def refuse_other(given: object, kind: type, made: str, where: str) -> None:
+    """An error at the place ``where`` if an argument is of another kind; ``made`` is how one of that kind is had.
+
+    >>> refuse_other("study.toml", int, "a whole number", "mesh: points")
+    Traceback (most recent call last):
+    ...
+    profiles.errors.InputError: mesh: points: needs a whole number, not str
+    """
+    if not isinstance(given, kind):
+        raise InputError(f"needs {made}, not {type(given).__name__}", where=where)
+
+
 def refuse_no_file(path: Path) -> None:
     """An error where a path leads to no file of data: reading a pipe never ends, nor does a device."""
     if not path.exists():

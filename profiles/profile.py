@@ -12,7 +12,7 @@ from typing import Any, TypeVar, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from profiles.errors import InputError
+from profiles.errors import InputError, refuse_other
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -106,9 +106,8 @@ def of_profile(function: Function) -> Function:
     @wraps(function)
     def checked(*args: Any, **keys: Any) -> Any:
         given = args[:1] or ((keys[name],) if name in keys else ())
-        if given and not isinstance(given[0], Profile):
-            kind = type(given[0]).__name__
-            raise InputError(f"needs profiles.Profile(heights, spacing), not {kind}", where=f"{place}: {name}")
+        if given:
+            refuse_other(given[0], Profile, "profiles.Profile(heights, spacing)", f"{place}: {name}")
         return function(*args, **keys)
 
     return cast(Function, checked)

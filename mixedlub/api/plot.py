@@ -11,7 +11,7 @@ from mixedlub.report.figures import equal_pairings
 from mixedlub.report.plots import loss_over, over_speed, over_temperature
 from mixedlub.report.style import styled
 from mixedlub.study.results import COLUMNS, LEVELS, Results
-from profiles.errors import InputError, nearest
+from profiles.errors import InputError, nearest, refuse_other
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -39,8 +39,7 @@ def plot(
     study; left out, the lowest. Hollow marks and triangles are outside the range of the model. A notebook shows the
     figure; ``figure.axes`` are its panels.
     """
-    if not isinstance(results, Results):
-        raise InputError(f"needs the results of ml.study.run(...), not {type(results).__name__}", where="plot: results")
+    refuse_other(results, Results, "the results of ml.study.run(...)", "plot: results")
     _refuse_unknown("quantity", quantity, [name for name in NAMES if name != ROUGHNESS])
     _refuse_unknown("over", over, [SPEED, OIL, *(name for name in NAMES if name != LOSS)])
     if quantity != LOSS and over != SPEED:

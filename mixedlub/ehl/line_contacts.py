@@ -3,11 +3,30 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from mixedlub.ehl.batch import Batch
 from mixedlub.laws import contact
+from profiles.errors import InputError
+
+
+def numbers(where: str, value: object) -> np.ndarray:
+    """A number or an array of numbers; anything else is an error at the place ``where``."""
+    try:
+        return np.asarray(value, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError("must be a number or an array of numbers", where=where, value=value) from None
+
+
+def of_both(where: str, value: Any) -> tuple[np.ndarray, np.ndarray]:
+    """What is given for both bodies; anything but two of it is an error at the place ``where``."""
+    try:
+        first, second = value
+    except (TypeError, ValueError):
+        raise InputError("must be two, one for each body", where=where, value=value) from None
+    return numbers(where, first), numbers(where, second)
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,10 @@ from mixedlub.ehl.film import balance, hold
 from mixedlub.ehl.flow import flow
 from mixedlub.ehl.heat import full_film
 from mixedlub.ehl.levels import Level, solve_levels
-from mixedlub.ehl.line_contacts import Contacts
+from mixedlub.ehl.line_contacts import Contacts, numbers
 from mixedlub.ehl.linear import solved, times
 from mixedlub.ehl.oil.oil import Oil
+from profiles.errors import refuse_other
 
 WAVE_NODES = (61, 121, 241, 481, 961)
 """Nodes of the grids: the finest has 16 cells on a wave of an eighth of the half width."""
@@ -39,11 +40,15 @@ def wave_amplitudes(
     Source: the equations of C. H. Venner, F. Couhier, A. A. Lubrecht,
     J. A. Greenwood, Tribology Series 32 (1997) 103, at low amplitudes.
     """
+    refuse_other(oil, Oil, "ml.ehl.read_oil(...)", "ehl.wave_amplitudes: oil")
+    refuse_other(contacts, Contacts, "ml.ehl.contacts(...)", "ehl.wave_amplitudes: contacts")
+    lengths = np.atleast_1d(numbers("ehl.wave_amplitudes: wavelengths", wavelengths))
+    speed = contacts.speed if wave_speed is None else numbers("ehl.wave_amplitudes: wave_speed", wave_speed)
     found = solve_levels(oil, contacts, thermal=False, nodes=WAVE_NODES)
-    ratios = np.full((len(contacts.radius), len(wavelengths)), np.nan)
+    ratios = np.full((len(contacts.radius), len(lengths)), np.nan)
     kept = contacts.take(found.index)
-    speeds = (kept.speed if wave_speed is None else np.asarray(wave_speed)[found.index]) / kept.speed
-    for column, wavelength in enumerate(wavelengths):
+    speeds = np.broadcast_to(speed, contacts.speed.shape)[found.index] / kept.speed
+    for column, wavelength in enumerate(lengths):
         wave = 2.0 * np.pi * kept.half_width / wavelength
         ratios[found.index, column] = _amplitude(oil, kept, found.fine, wave, speeds)
     return ratios

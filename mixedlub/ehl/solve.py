@@ -10,12 +10,12 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from mixedlub.ehl.levels import NODES, Solved, solve_levels
-from mixedlub.ehl.line_contacts import Contacts, Solids
+from mixedlub.ehl.line_contacts import Contacts, Solids, numbers, of_both
 from mixedlub.ehl.measures import CHECKS, PROFILES, QUANTITIES, measures
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.laws.contact import reduced_modulus
 from mixedlub.parallel import shared_out
-from profiles.errors import InputError
+from profiles.errors import InputError, refuse_other
 
 if TYPE_CHECKING:
     import xarray
@@ -46,6 +46,7 @@ def solve(oil: Oil, *, thermal: bool = True, **given: Any) -> xarray.Dataset:
     >>> round(float(found.central_film[0]) * 1e6, 2), round(float(found.friction_coefficient[0]), 4)
     (0.19, 0.0197)
     """
+    refuse_other(oil, Oil, "ml.ehl.read_oil(...)", "ehl.solve: oil")
     every = contacts(**given)
     check(oil, every, thermal=thermal)
     return solved(oil, every, thermal=thermal)
@@ -75,14 +76,18 @@ def contacts(
     """
     given = {"radius": radius, "line_load": line_load, "speed": speed, "oil_temperature": oil_temperature}
     given |= {"sliding_speed": sliding_speed, "inlet": inlet}
-    first_bulk, second_bulk = (np.nan, np.nan) if bulk_temperature is None else bulk_temperature
+    place = "ehl.contacts: "
+    bulk = (np.nan, np.nan) if bulk_temperature is None else bulk_temperature
+    first_bulk, second_bulk = of_both(f"{place}bulk_temperature", bulk)
     given |= {"first_bulk_temperature": first_bulk, "second_bulk_temperature": second_bulk}
-    arrays = np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in given.values()))
+    arrays = np.broadcast_arrays(*(numbers(place + name, value) for name, value in given.items()))
     flat = {name: value.ravel() for name, value in zip(given, arrays, strict=True)}
     for wall in ("first", "second"):
         own = flat[f"{wall}_bulk_temperature"]
         flat[f"{wall}_bulk_temperature"] = np.where(np.isnan(own), flat["oil_temperature"], own)
     solids = {"conductivity": conductivity, "density": density, "heat_capacity": heat_capacity}
+    for name, pair in {"youngs_modulus": youngs_modulus, "poisson_ratio": poisson_ratio, **solids}.items():
+        of_both(place + name, pair)
     return build_contacts(flat, reduced_modulus(youngs_modulus, poisson_ratio), solids)
 
 

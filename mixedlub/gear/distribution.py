@@ -30,7 +30,7 @@ from mixedlub.gear.modifications import Modifications
 from mixedlub.gear.plate import Plate, tapered_plate
 from mixedlub.gear.tooth import tooth
 from mixedlub.schema.findings import Finding, finding
-from profiles.errors import InputError, nearest
+from profiles.errors import InputError, nearest, refuse_other
 
 if TYPE_CHECKING:
     from mixedlub.gear.mesh import Mesh
@@ -174,6 +174,8 @@ def transmission_error(
     >>> print(transmission_error(hong, LdpSharing(), [50, 150]).peak_to_peak.round(7))
     [2.9e-06 8.3e-06]
     """
+    refuse_other(pair, GearPair, "ml.gear.GearPair(...)", "gear.transmission_error: pair")
+    refuse_other(sharing, LdpSharing, "ml.gear.LdpSharing(...)", "gear.transmission_error: sharing")
     sharing.check(pair)
     torques = np.atleast_1d(torques_above_zero(torque)).ravel()
     phases = whole("phases", phases, 1, 100_000)

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -19,12 +19,13 @@ from mixedlub.gear.checks import column, torques_above_zero
 from mixedlub.gear.geometry import GearPair, whole
 from mixedlub.laws.load import gear_line_load
 from mixedlub.schema.findings import Finding
-from profiles.errors import InputError
+from profiles.errors import InputError, refuse_other
 
 ROUNDED = 0.005
 """How far beyond the path of contact, over its length, a recorded roll angle may lie: ends are rounded."""
 
 
+@runtime_checkable
 class Sharing(Protocol):
     """What a mesh needs of a way to share the load."""
 
@@ -116,6 +117,7 @@ def mesh(pair: GearPair, sharing: Sharing, *, points: int = 48, slices: int | No
     >>> print(round((points.weight * points.load_share(100.0) * sliding).sum(), 4))
     0.195
     """
+    _check_parts(pair, sharing, "gear.mesh")
     points = whole("points", points, 1, 100_000)
     slices = sharing.default_slices(pair) if slices is None else whole("slices", slices, 1, 1000)
     notes = sharing.check(pair)
@@ -130,6 +132,7 @@ def at_roll_angle(pair: GearPair, sharing: Sharing, roll_angle: object, *, slice
     the path of contact by up to 0.5 % of its length are moved to its end (rounded recordings); others are
     refused.
     """
+    _check_parts(pair, sharing, "gear.at_roll_angle")
     angles = column("roll_angle_deg", np.atleast_1d(np.asarray(roll_angle)))
     slices = sharing.default_slices(pair) if slices is None else whole("slices", slices, 1, 1000)
     notes = sharing.check(pair)
@@ -144,6 +147,11 @@ def at_roll_angle(pair: GearPair, sharing: Sharing, roll_angle: object, *, slice
         )
     position = np.clip(angles * pair.base_radius[0], pair.path_start, pair.path_end)
     return _lay_out(pair, sharing, position, np.zeros_like(position), slices, notes)
+
+
+def _check_parts(pair: object, sharing: object, call: str) -> None:
+    refuse_other(pair, GearPair, "ml.gear.GearPair(...)", f"{call}: pair")
+    refuse_other(sharing, Sharing, "a sharing, as ml.gear.RigidSharing() makes it", f"{call}: sharing")
 
 
 def panel_rule(pair: GearPair, breakpoints: np.ndarray, points: int) -> tuple[np.ndarray, np.ndarray]:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from inspect import signature
-from pathlib import Path
+from os import PathLike
 from typing import Any
 
 import numpy as np
@@ -31,7 +31,7 @@ from mixedlub.slots import ASPERITY_LOAD, SLOTS
 from mixedlub.study.friction_options import check_coefficients, check_effects, check_friction, check_viscosity
 from mixedlub.study.options import at_hardness, ignored, study_chain
 from mixedlub.study.schema import Options, Pairings, StudyFile
-from profiles.errors import InputError, nearest
+from profiles.errors import InputError, as_path, nearest, refuse_other
 
 WANTED = (
     "power_loss",
@@ -131,11 +131,14 @@ class Study:
         return int(np.prod(self.plan.shape))
 
 
-def read_study(path: Path, file: StudyFile | None = None) -> Study:
+def read_study(path: str | PathLike[str], file: StudyFile | None = None) -> Study:
     """Read a study file and prepare it; traces are read relative to its folder.
 
     ``file`` replaces the content of the file: a study altered in Python.
     """
+    path = as_path(path, "study.read_study")
+    if file is not None:
+        refuse_other(file, StudyFile, "the file of another study, altered", "study.read_study: file")
     if path.is_dir():
         raise InputError("is a folder; a study is one TOML file", where=str(path))
     if file is None:
@@ -176,6 +179,7 @@ def counted(count: int, thing: str) -> str:
 
 def factors(study: Study) -> tuple[str, ...]:
     """The factors of a study, each with its number of levels."""
+    refuse_other(study, Study, "ml.study.read_study(...)", "study.factors: study")
     things = ("pairing", "oil temperature", "torque", "speed")
     pairings, oil, torque, speed = map(counted, study.plan.shape, things)
     return (pairings, torque, speed, oil)

@@ -23,7 +23,7 @@ from mixedlub.study.range_flags import VALID, as_words, flags
 from mixedlub.study.schema import StudyFile
 from mixedlub.study.validity import out_of_range
 from mixedlub.version import installed_version
-from profiles.errors import InputError
+from profiles.errors import InputError, refuse_other
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -274,6 +274,7 @@ def run_study(
     progress: Callable[[int, int], None] = lambda done, of: None,
 ) -> Results:
     """Run a study; with a folder for parts, finished blocks are saved and those of an earlier run are reused."""
+    refuse_other(study, Study, "ml.study.read_study(...)", "study.run_study: study")
     values = {name: np.empty(study.plan.shape) for name in batch.names(study.plan)}
     todo = batch.blocks(study.plan)
     waiting = {checkpoint.block_name(b): b for b in todo}

@@ -1,5 +1,6 @@
 """Wrong arguments from Python end in one plain sentence: the place, the value, the rule, and how to write it."""
 
+import contextlib
 import inspect
 import re
 from pathlib import Path
@@ -86,6 +87,7 @@ def test_options_and_effects_are_tables(key, value) -> None:
     [
         (profiles.read, "profiles.read"),
         (ml.study.run, "study.run"),
+        (ml.study.read_study, "study.read_study"),
         (ml.case.read, "case.read"),
         (ml.diagnose, "diagnose"),
         (ml.simulate, "simulate"),
@@ -93,6 +95,58 @@ def test_options_and_effects_are_tables(key, value) -> None:
 )
 def test_a_path_is_text(call, where: str, given) -> None:
     refused(lambda: call(given), where, "path", f"not {given!r}")
+
+
+GEAR, SHARING = ml.gear.GearPair((17, 26), 4e-3, 0.4, 14e-3), ml.gear.LdpSharing()
+OIL_OF_CONTACTS = ml.ehl.example_oil()
+CONTACT = {"radius": 8.7e-3, "line_load": 2e5, "oil_temperature": 333.0, "speed": 2.0}
+BOTH = {"bulk_temperature": (333.0, 333.0), "youngs_modulus": (2e11, 2e11), "density": (7800.0, 7800.0)}
+WAVES = {"oil": OIL_OF_CONTACTS, "contacts": ml.ehl.contacts(**CONTACT), "wavelengths": [1e-4], "wave_speed": [2.0]}
+TORQUE = {"pair": GEAR, "sharing": SHARING, "torque": 50.0, "phases": 4, "slices": 1}
+CALLS = [
+    (ml.gear_pair, {"teeth": (17, 26), "normal_module_mm": 4.0, "face_width_mm": 14.0}),
+    (ml.surface, {"m0_um2": 4e-4, "m2": 2e-4, "m4_per_um2": 4e-4}),
+    (ml.power_loss, {"gears": PAIR, "oil": OIL, "surfaces": FINE, **CONDITION, "options": {}, "effects": {}}),
+    (ml.along_path, {"gears": PAIR, "oil": OIL, "surfaces": FINE, **CONDITION, "options": {}, "effects": {}}),
+    (ml.plot, {"results": None, "quantity": "power_loss_W", "over": "speed_rpm"}),
+    (ml.case.case_of, {"system": {}, "recordings": {}}),
+    (ml.case.read, {"folder": "nowhere"}),
+    (ml.simulate, {"case": "nowhere"}),
+    (ml.diagnose, {"case": "nowhere"}),
+    (ml.effects.find, {"ids": "starvation"}),
+    (ml.effects.page, {"effect_id": "starvation"}),
+    (ml.ehl.contacts, {**CONTACT, **BOTH}),
+    (ml.ehl.solve, {"oil": OIL_OF_CONTACTS, "thermal": False, **CONTACT}),
+    (ml.ehl.wave_amplitudes, WAVES),
+    (ml.ehl.read_oil, {"path": "nowhere.toml"}),
+    (ml.friction.find, {"name": "schlenk"}),
+    (ml.gear.mesh, {"pair": GEAR, "sharing": SHARING, "points": 8, "slices": 1}),
+    (ml.gear.at_roll_angle, {"pair": GEAR, "sharing": SHARING, "roll_angle": 0.4, "slices": 1}),
+    (ml.gear.transmission_error, TORQUE),
+    (ml.study.read_study, {"path": "nowhere.toml"}),
+    (ml.study.run, {"study": "nowhere.toml"}),
+    (ml.study.run_study, {"study": None}),
+    (ml.study.factors, {"study": None}),
+]
+
+
+@pytest.mark.parametrize(("call", "keys", "wrong"), [(c, k, w) for c, k in CALLS for w in k])
+@pytest.mark.parametrize("value", ["nowhere.toml", None, 1, [1], {"a": 1}, object()])
+def test_a_wrong_argument_is_named_or_serves(call, keys, wrong, value, tmp_path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    with contextlib.suppress(InputError, TypeError):
+        call(**{**keys, wrong: value})
+
+
+def test_parts_of_other_kinds_say_what_is_needed(tmp_path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    refused(lambda: ml.gear.mesh(1, 2), "gear.mesh: pair", "ml.gear.GearPair(...)", "not int")
+    refused(lambda: ml.gear.mesh(GEAR, 2), "gear.mesh: sharing", "ml.gear.RigidSharing()", "not int")
+    refused(lambda: ml.study.read_study("x"), "x: no such file")
+    refused(lambda: ml.study.read_study(None), "study.read_study", "needs a path")
+    refused(lambda: ml.study.run_study("x"), "study.run_study: study", "ml.study.read_study(...)", "not str")
+    refused(lambda: ml.ehl.solve("oil.toml", **CONTACT), "ehl.solve: oil", "ml.ehl.read_oil(...)")
+    refused(lambda: ml.ehl.contacts(**{**CONTACT, "density": (1.0,)}), "ehl.contacts: density", "one for each body")
 
 
 @pytest.mark.parametrize("given", [b"flank.txt", 5, {"heights": HEIGHTS}])
