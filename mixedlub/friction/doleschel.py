@@ -3,6 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.friction_law import Coefficient, friction_law
+from mixedlub.powers import power
 
 
 @friction_law(
@@ -46,6 +47,6 @@ def doleschel(
     [0.0547, 0.0295, 0.0143, 0.0093]
     """
     share = np.maximum(1.0 - 0.5 * pitch_film / mean_roughness, 0.0) ** 2
-    speed = (2.0 * pitch_entrainment_speed / 8.3) ** speed_exponent * (viscosity / 0.020) ** viscosity_exponent
-    film = film_friction * (pitch_pressure / 1e9) ** pressure_exponent * speed
+    speed = power(2.0 * pitch_entrainment_speed / 8.3, speed_exponent) * power(viscosity / 0.020, viscosity_exponent)
+    film = film_friction * power(pitch_pressure / 1e9, pressure_exponent) * speed
     return film + (boundary_friction - film) * share

@@ -3,6 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.friction_law import Coefficient, friction_law
+from mixedlub.powers import power
 
 
 @friction_law(
@@ -44,4 +45,4 @@ def fernandes(
     force = transmitted_force / np.cos(base_helix_angle)
     speed = 2.0 * pitch_entrainment_speed * viscosity * np.sqrt(pressure_viscosity / force)
     finish = mean_roughness**2 / (contact_ratio * face_width * pitch_radius)
-    return 0.014 * speed**-0.25 * finish**0.125 * lubricant_factor
+    return 0.014 * power(speed, -0.25) * power(finish, 0.125) * lubricant_factor

@@ -3,6 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.friction_law import friction_law
+from mixedlub.powers import power
 
 
 @friction_law(
@@ -31,4 +32,4 @@ def iso_tc60(
     0.0633
     """
     load = line_load * composite_roughness * 1e3 / (radius * 1e3)
-    return 0.12 * (load / (2.0 * entrainment_speed * viscosity * 1e3)) ** 0.25
+    return 0.12 * power(load / (2.0 * entrainment_speed * viscosity * 1e3), 0.25)

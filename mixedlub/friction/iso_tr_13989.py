@@ -4,6 +4,7 @@ import numpy as np
 
 from mixedlub.chain.friction_law import Coefficient, friction_law
 from mixedlub.friction.schlenk import pitch_load
+from mixedlub.powers import power
 
 
 @friction_law(
@@ -36,4 +37,4 @@ def iso_tr_13989(
     0.05321
     """
     load = pitch_load(mesh_line_load, pitch_entrainment_speed, pitch_radius)
-    return 0.060 * lubricant_factor * load * (viscosity * 1e3) ** -0.05 * (mean_roughness * 1e6) ** 0.25
+    return 0.060 * lubricant_factor * load * power(viscosity * 1e3, -0.05) * power(mean_roughness * 1e6, 0.25)

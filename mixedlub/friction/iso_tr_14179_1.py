@@ -3,6 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.friction_law import Coefficient, friction_law
+from mixedlub.powers import power
 
 
 @friction_law(
@@ -42,5 +43,6 @@ def iso_tr_14179_1(
     >>> float(iso_tr_14179_1(16e-6, 4e6, 10.0, divisor=2.0, **exponents))   # (1/4) 2/(2 * 10)
     0.025
     """
-    load = (load_intensity * 1e-6) ** load_exponent
-    return (kinematic_viscosity * 1e6) ** viscosity_exponent * load / (divisor * pitch_line_speed**speed_exponent)
+    load = power(load_intensity * 1e-6, load_exponent)
+    thickness = power(kinematic_viscosity * 1e6, viscosity_exponent)
+    return thickness * load / (divisor * power(pitch_line_speed, speed_exponent))

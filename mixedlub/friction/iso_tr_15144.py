@@ -4,6 +4,7 @@ import numpy as np
 
 from mixedlub.chain.friction_law import Coefficient, friction_law
 from mixedlub.friction.schlenk import pitch_load
+from mixedlub.powers import power
 
 
 @friction_law(
@@ -40,6 +41,6 @@ def iso_tr_15144(
     >>> round(float(iso_tr_15144(*fzg, lubricant_factor=1.0, load_factor=1.0)), 4)
     0.0516
     """
-    finish = 2.2 * (mean_roughness * 1e3 / pitch_radius) ** 0.25 * lubricant_factor
+    finish = 2.2 * power(mean_roughness * 1e3 / pitch_radius, 0.25) * lubricant_factor
     load = pitch_load(mesh_line_load * load_factor, pitch_entrainment_speed, pitch_radius)
-    return 0.045 * load * (viscosity * 1e3) ** -0.05 * finish
+    return 0.045 * load * power(viscosity * 1e3, -0.05) * finish

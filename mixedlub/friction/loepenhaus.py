@@ -3,6 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.friction_law import Coefficient, friction_law
+from mixedlub.powers import power
 
 _C = {
     1: "factor",
@@ -68,7 +69,7 @@ def loepenhaus(
     (1, 0.00625)
     """
     nu, ratio = kinematic_viscosity * 1e6, np.abs(slide_roll_ratio)
-    speed = (2.0 * entrainment_speed) ** c2 * np.exp(c3 * hertz_pressure * 1e-6)
+    speed = power(2.0 * entrainment_speed, c2) * np.exp(c3 * hertz_pressure * 1e-6)
     oil = (c4 * nu**2 + c5 * nu + c6) * lubricant_factor * surface_factor
-    finish = (mean_roughness * 1e6) ** c7 * (radius * 1e3) ** 0.2
+    finish = power(mean_roughness * 1e6, c7) * power(radius * 1e3, 0.2)
     return c1 * speed * oil * finish * ratio / ((ratio + c8) ** 2 + c9)

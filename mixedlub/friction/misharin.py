@@ -3,6 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.friction_law import friction_law
+from mixedlub.powers import power
 
 
 @friction_law(
@@ -31,4 +32,4 @@ def misharin(sliding_speed: np.ndarray, entrainment_speed: np.ndarray, kinematic
     >>> round(float(misharin(2.5, 5.0, 13e-6)), 4)
     0.0765
     """
-    return 0.325 * (sliding_speed * 2.0 * entrainment_speed * kinematic_viscosity * 1e6) ** -0.25
+    return 0.325 * power(sliding_speed * 2.0 * entrainment_speed * kinematic_viscosity * 1e6, -0.25)

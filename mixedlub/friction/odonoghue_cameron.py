@@ -3,6 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.friction_law import friction_law
+from mixedlub.powers import power
 
 INCH = 0.0254
 
@@ -35,5 +36,5 @@ def odonoghue_cameron(
     0.0574
     """
     finish = np.sqrt(2.0 / np.pi) * composite_roughness / (1e-6 * INCH)
-    speeds = (sliding_speed / INCH) ** (1 / 3) * (2.0 * entrainment_speed / INCH) ** (1 / 6)
-    return 0.6 * (finish + 22.0) / 35.0 / ((viscosity * 1e3) ** 0.125 * speeds * np.sqrt(radius / INCH))
+    speeds = power(sliding_speed / INCH, 1 / 3) * power(2.0 * entrainment_speed / INCH, 1 / 6)
+    return 0.6 * (finish + 22.0) / 35.0 / (power(viscosity * 1e3, 0.125) * speeds * np.sqrt(radius / INCH))

@@ -3,6 +3,7 @@
 import numpy as np
 
 from mixedlub.chain.friction_law import Coefficient, friction_law
+from mixedlub.powers import power
 
 
 @friction_law(
@@ -41,7 +42,7 @@ def schlenk(
     0.04257
     """
     load = pitch_load(mesh_line_load, pitch_entrainment_speed, pitch_radius)
-    return 0.048 * load * (viscosity * 1e3) ** -0.05 * (mean_roughness * 1e6) ** 0.25 * lubricant_factor
+    return 0.048 * load * power(viscosity * 1e3, -0.05) * power(mean_roughness * 1e6, 0.25) * lubricant_factor
 
 
 def pitch_load(mesh_line_load: np.ndarray, pitch_entrainment_speed: np.ndarray, pitch_radius: float) -> np.ndarray:
@@ -52,4 +53,4 @@ def pitch_load(mesh_line_load: np.ndarray, pitch_entrainment_speed: np.ndarray, 
     >>> round(float(pitch_load(387.24e3, 6.3362 / 2, 8.3820e-3)), 4)
     1.4879
     """
-    return (1e-3 * mesh_line_load / (2.0 * pitch_entrainment_speed * 1e3 * pitch_radius)) ** 0.2
+    return power(1e-3 * mesh_line_load / (2.0 * pitch_entrainment_speed * 1e3 * pitch_radius), 0.2)

@@ -1,8 +1,11 @@
 """Friction after Xu and Kahraman: a regression of EHL solutions."""
 
+import math
+
 import numpy as np
 
 from mixedlub.chain.friction_law import friction_law
+from mixedlub.powers import power
 
 B = (-8.916465, 1.03303, 1.036077, -0.354068, 2.812084, -0.100601, 0.752755, -0.390958, 0.620305)
 
@@ -37,5 +40,5 @@ def xu_kahraman(
     pressure, eta = hertz_pressure * 1e-9, viscosity * 1e3
     x = slide_roll_ratio * pressure * np.log10(eta)
     f = B[0] + B[3] * x + B[4] * np.exp(-x) + B[8] * np.exp(composite_roughness * 1e6)
-    powers = pressure ** B[1] * slide_roll_ratio ** B[2] * entrainment_speed ** B[5] * eta ** B[6] * radius ** B[7]
-    return np.exp(f) * powers
+    factors = zip((pressure, slide_roll_ratio, entrainment_speed, eta, radius), (1, 2, 5, 6, 7), strict=True)
+    return np.exp(f) * math.prod(power(quantity, B[number]) for quantity, number in factors)

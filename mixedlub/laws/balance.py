@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.laws.film import ELASTIC
+from mixedlub.powers import power
 
 
 def full_load_film(film_thickness: np.ndarray) -> np.ndarray:
@@ -55,6 +56,6 @@ def least_film_share(
     [0.0724, 0.25]
     """
     material = pressure_viscosity * reduced_modulus
-    material = material * (2.0 * viscosity * entrainment_speed / (reduced_modulus * radius)) ** 0.25
-    isoviscous = (2.05 / 1.65 * moes_load**-0.075 * material**-0.75) ** (5.0 / 3.0)
+    material = material * power(2.0 * viscosity * entrainment_speed / (reduced_modulus * radius), 0.25)
+    isoviscous = power(2.05 / 1.65 * power(moes_load, -0.075) * power(material, -0.75), 5.0 / 3.0)
     return np.maximum(isoviscous, (ELASTIC["moes_load"][0] / moes_load) ** 2)

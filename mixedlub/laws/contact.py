@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.powers import power
 from mixedlub.slots import ASPERITY_AREA, ASPERITY_LOAD
 from roughness.integrals import area_integral, load_integral
 
@@ -152,7 +153,7 @@ def pressure_per_overlap(
     >>> round(float(pressure_per_overlap(4.4106e10, 7.8332e-6, 0.48970e-6, 226.374e9)) / 1e9, 3)
     6.384
     """
-    return 2.0 / 3.0 * reduced_modulus * summit_density * np.sqrt(summit_radius) * summit_sigma**1.5
+    return 2.0 / 3.0 * reduced_modulus * summit_density * np.sqrt(summit_radius) * power(summit_sigma, 1.5)
 
 
 @ASPERITY_AREA.offers("greenwood_williamson", GREENWOOD_WILLIAMSON)

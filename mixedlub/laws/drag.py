@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.powers import power
+
 AIR_DENSITY = 1.2
 AIR_VISCOSITY = 1.8e-5
 GRAVITY = 9.81
@@ -26,8 +28,8 @@ def windage_diab(
     110.0
     """
     reynolds = AIR_DENSITY * wheel_speed * wheel_radius**2 / AIR_VISCOSITY
-    shape = (face_width / wheel_radius) ** 0.8 * wheel_teeth**-0.4 * 2.0 * 0.5**0.56
-    return 30.0 * reynolds**-0.25 * shape * AIR_DENSITY * wheel_speed**3 * wheel_radius**5
+    shape = power(face_width / wheel_radius, 0.8) * power(wheel_teeth, -0.4) * 2.0 * 0.5**0.56
+    return 30.0 * power(reynolds, -0.25) * shape * AIR_DENSITY * wheel_speed**3 * wheel_radius**5
 
 
 def churning_changenet_velex(
@@ -62,8 +64,8 @@ def churning_changenet_velex(
     sides = wheel_radius**2 * (2.0 * wetted - np.sin(2.0 * wetted))
     rim = 2.0 * wheel_radius * face_width * wetted
     teeth = 2.0 * wheel_teeth * face_width * 2.25 * gear_module * wetted / (np.pi * np.cos(np.radians(20.0)))
-    drag = 1.366 * 0.25**0.45 * 1.5**0.1 * froude**-0.60 * reynolds**-0.21
-    drag = drag * (froude / 70.0) ** (0.60 - gravity_exponent) * (reynolds / 16e3) ** (0.21 - viscosity_exponent)
+    drag = 1.366 * 0.25**0.45 * 1.5**0.1 * power(froude, -0.60) * power(reynolds, -0.21)
+    drag = drag * power(froude / 70.0, 0.60 - gravity_exponent) * power(reynolds / 16e3, 0.21 - viscosity_exponent)
     return 0.5 * oil_density * wheel_speed**3 * wheel_radius**3 * (sides + rim + teeth) * drag
 
 
@@ -77,7 +79,7 @@ def bath_acceleration(
     >>> round(float(bath_acceleration(3000 * np.pi / 30, 0.05, 0.02, 4e-3)))   # 100 mm: the upper law
     1567
     """
-    return gear_speed**2 * (gear_radius * face_width * gear_module) ** (1.0 / 3.0)
+    return gear_speed**2 * power(gear_radius * face_width * gear_module, 1.0 / 3.0)
 
 
 def _oil_motion(viscosity: np.ndarray, oil_density: np.ndarray, wheel_speed: np.ndarray) -> np.ndarray:

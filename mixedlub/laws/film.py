@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.powers import power
 from mixedlub.slots import FILM
 
 LINE_EXPONENT, POINT_EXPONENT = 0.69, 0.67
@@ -67,8 +68,8 @@ def dowson_toyoda(
     0.2214
     """
     speed, load = _line_groups(radius, entrainment_speed, line_load, viscosity, reduced_modulus)
-    modulus = (pressure_viscosity * reduced_modulus) ** 0.56
-    return 3.06 * modulus * radius * speed**LINE_EXPONENT * load**LINE_LOAD_EXPONENT
+    modulus = power(pressure_viscosity * reduced_modulus, 0.56)
+    return 3.06 * modulus * radius * power(speed, LINE_EXPONENT) * power(load, LINE_LOAD_EXPONENT)
 
 
 @FILM.offers("dowson_higginson_minimum", "minimum film of Dowson and Higginson", ELASTIC)
@@ -90,7 +91,8 @@ def dowson_higginson(
     0.1671
     """
     speed, load = _line_groups(radius, entrainment_speed, line_load, viscosity, reduced_modulus)
-    return 2.65 * (pressure_viscosity * reduced_modulus) ** 0.54 * radius * speed**0.70 * load**-0.13
+    modulus = power(pressure_viscosity * reduced_modulus, 0.54)
+    return 2.65 * modulus * radius * power(speed, 0.70) * power(load, -0.13)
 
 
 def hamrock_dowson(
@@ -115,10 +117,10 @@ def hamrock_dowson(
     """
     speed = viscosity * entrainment_speed / (reduced_modulus * radius)
     group = load / (reduced_modulus * radius**2)
-    ellipticity = 1.03 * (transverse_radius / radius) ** 0.64
+    ellipticity = 1.03 * power(transverse_radius / radius, 0.64)
     shape = 1.0 - 0.61 * np.exp(-0.73 * ellipticity)
-    modulus = (pressure_viscosity * reduced_modulus) ** 0.53
-    return 2.69 * radius * speed**POINT_EXPONENT * modulus * group**-0.067 * shape
+    modulus = power(pressure_viscosity * reduced_modulus, 0.53)
+    return 2.69 * radius * power(speed, POINT_EXPONENT) * modulus * power(group, -0.067) * shape
 
 
 def nijenbanning(
@@ -146,14 +148,14 @@ def nijenbanning(
     420
     """
     group = 2.0 * viscosity * entrainment_speed / (reduced_modulus * radius)
-    m = load / (reduced_modulus * radius**2) * group**-0.75
-    ell = pressure_viscosity * reduced_modulus * group**0.25
+    m = load / (reduced_modulus * radius**2) * power(group, -0.75)
+    ell = pressure_viscosity * reduced_modulus * power(group, 0.25)
     d = np.asarray(radius / transverse_radius)
     k = 1.0 + 0.006 * np.log(d) + 0.63 * d ** (4 / 7)
     rigid = 145.0 * (1.0 + 0.796 * d ** (14 / 15)) ** (-15 / 7) / (d * m**2)
     soft = 3.18 * k ** (-14 / 25) * d ** (-1 / 15) * m ** (-2 / 15)
-    rigid_thick = 1.29 * (1.0 + 0.691 * d) ** (-2 / 3) * ell ** (2 / 3)
-    soft_thick = 1.48 * k ** (-7 / 20) * d ** (-1 / 24) * m ** (-1 / 12) * ell**0.75
+    rigid_thick = 1.29 * (1.0 + 0.691 * d) ** (-2 / 3) * power(ell, 2 / 3)
+    soft_thick = 1.48 * k ** (-7 / 20) * d ** (-1 / 24) * m ** (-1 / 12) * power(ell, 0.75)
     s = 1.5 * (1.0 + np.exp(-1.2 * soft / soft_thick))
     isoviscous = (rigid**1.5 + (soft**-4 + (1.8 / d) ** -4) ** (-3 / 8)) ** (2 * s / 3)
     return radius * np.sqrt(group) * (isoviscous + (rigid_thick**-8 + soft_thick**-8) ** (-s / 8)) ** (1 / s)
@@ -173,10 +175,10 @@ def moes_line(moes_load: np.ndarray, moes_material: np.ndarray) -> np.ndarray:
     >>> round(float(moes_line(0.3, 1.0)), 2)
     10.36
     """
-    rigid, viscous = 3.0 / moes_load, 1.287 * moes_material ** (2.0 / 3.0)
-    elastic, piezo = 2.621 * moes_load**-0.2, 1.311 * moes_load**-0.125 * moes_material**0.75
+    rigid, viscous = 3.0 / moes_load, 1.287 * power(moes_material, 2.0 / 3.0)
+    elastic, piezo = 2.621 * power(moes_load, -0.2), 1.311 * power(moes_load, -0.125) * power(moes_material, 0.75)
     s = (7.0 + 8.0 * np.exp(-2.0 * elastic / rigid)) / 5.0
-    isoviscous = (rigid ** (7.0 / 3.0) + elastic ** (7.0 / 3.0)) ** (3.0 * s / 7.0)
+    isoviscous = (power(rigid, 7.0 / 3.0) + elastic ** (7.0 / 3.0)) ** (3.0 * s / 7.0)
     return (isoviscous + (viscous**-3.5 + piezo**-3.5) ** (-2.0 * s / 7.0)) ** (1.0 / s)
 
 
@@ -186,7 +188,7 @@ def between_laws(regression_film: np.ndarray, regime_film: np.ndarray, film_regi
     >>> round(float(between_laws(400e-9, 500e-9, 0.5)) * 1e9)
     447
     """
-    return regression_film * (regime_film / regression_film) ** film_regime
+    return regression_film * power(regime_film / regression_film, film_regime)
 
 
 def with_other_exponents(
@@ -211,8 +213,8 @@ def with_other_exponents(
     >>> round(float(h) * 1e9)   # ten times the middle
     209
     """
-    flow = (viscosity * entrainment_speed / middle_flow) ** speed_exponent_change
-    return law_film * flow * (load / middle_load) ** load_exponent_change
+    flow = power(viscosity * entrainment_speed / middle_flow, speed_exponent_change)
+    return law_film * flow * power(load / middle_load, load_exponent_change)
 
 
 def wave_amplitude(wavelength: np.ndarray, moes_load: np.ndarray, moes_material: np.ndarray) -> np.ndarray:
@@ -228,5 +230,5 @@ def wave_amplitude(wavelength: np.ndarray, moes_load: np.ndarray, moes_material:
     >>> round(float(wave_amplitude(1.0, 100.0, 11.0)), 3)   # solution of Venner and others, 1997: 0.183
     0.187
     """
-    nabla = wavelength * moes_load**0.75 * moes_material**-0.5
+    nabla = wavelength * power(moes_load, 0.75) * power(moes_material, -0.5)
     return 1.0 / (1.0 + 0.17 * nabla + 0.03 * nabla**2)

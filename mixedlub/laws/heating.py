@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mixedlub.laws.oil import ROELANDS_LOG
+from mixedlub.powers import power
 
 _ITERATIONS = 4
 
@@ -115,8 +116,8 @@ def tooth_rise(power_loss: np.ndarray, pinion_radius: float, gear_radius: float,
     with P in kW, a and b in mm; X_S = 1.2 is that of oil sprayed on, X_Ca = 1.95 of teeth relieved enough at a
     contact ratio of 1. The constant makes this form belong to SI. Source: ISO/TR 15144-1.
 
-    >>> round(tooth_rise(500.0, 0.0366, 0.0549, 0.014), 1)
+    >>> round(float(tooth_rise(500.0, 0.0366, 0.0549, 0.014)), 1)
     13.3
     """
     load = power_loss * 1e-3 / ((pinion_radius + gear_radius) * face_width * 1e6)
-    return 7400.0 * load**0.72 / 1.95
+    return 7400.0 * power(load, 0.72) / 1.95

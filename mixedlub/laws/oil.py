@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from mixedlub.powers import power
 from mixedlub.slots import VISCOSITY
 
 ROELANDS_PRESSURE = 1.96e8
@@ -201,4 +202,4 @@ def gold_pressure_viscosity(kinematic_viscosity: np.ndarray, scale: float, expon
     >>> [round(float(alpha) * 1e9, 1) for alpha in gold_pressure_viscosity(np.array([460e-6, 45e-6]), 7.382, 0.1335)]
     [16.7, 12.3]
     """
-    return scale * (kinematic_viscosity * 1e6) ** exponent * 1e-9
+    return scale * power(kinematic_viscosity * 1e6, exponent) * 1e-9

@@ -17,6 +17,7 @@ ROOMS = {
             "atomic",
             "origin",
             "discovery",
+            "powers",
             "parallel",
             "schema",
             "slots",
