@@ -14,6 +14,7 @@ from mixedlub.chain.effect import entry
 from mixedlub.chain.model import Law
 from mixedlub.chain.plain_text import plain_equation
 from mixedlub.chain.quantities import GLOSSARY
+from mixedlub.chain.ranges import beyond
 from profiles.errors import nearest
 
 Place = Literal["contact", "mesh"]
@@ -106,10 +107,7 @@ class FrictionLaw:
     def outside(self, state: Mapping[str, Any]) -> np.ndarray:
         """Where quantities are outside the range of the source, or friction is no finite positive number."""
         friction = np.asarray(state["friction"])
-        beyond = ~(np.isfinite(friction) & (friction >= 0.0))
-        for name, (low, high) in self.valid.items():
-            beyond = beyond | (state[name] < low * (1 - SLACK)) | (state[name] > high * (1 + SLACK))
-        return beyond
+        return beyond(state, self.valid) | ~(np.isfinite(friction) & (friction >= 0.0))
 
     def divergent(self, state: Mapping[str, Any]) -> np.ndarray:
         """Where sliding is too slow for a law that diverges without it."""
@@ -151,10 +149,6 @@ class FrictionLaw:
         return "\n".join([head, "", *facts, *(["", "coefficients", *numbers] if numbers else [])])
 
     __repr__ = page
-
-
-SLACK = 1e-9
-"""Rounding that a quantity may have beyond the range of a law."""
 
 
 def shown_unit(quantity: str) -> str:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import copy
 import ctypes
-import functools
 import itertools
 import os
 import platform
@@ -20,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from mixedlub.chain.model import Model, Step
+from mixedlub.chain.ranges import beyond
 from mixedlub.laws.contact import mean_hertz_pressure
 from mixedlub.laws.loss import over_path
 from mixedlub.study.cluster import on_cluster
@@ -46,9 +46,6 @@ SHARED_CHECKS = ("balance_error", "film_below_its_share")
 """Further checks where film and asperities share the load."""
 BEYOND = "beyond_"
 """Before the name of an effect or law: the check that is 1 where it is used outside the range in which it holds."""
-
-SLACK = 1e-6
-"""Rounding that a quantity may have beyond the range of a law."""
 PIECE_POINTS = 80_000
 PIECE_PAIRINGS = 64
 BLOCK_POINTS = 4_000_000
@@ -194,8 +191,7 @@ def _reduced(state: Inputs, plan: Plan) -> Found:
         **(_shared(state, loaded, mean_pressure) if plan.balanced else {}),
     }
     for name, valid in plan.ranges.items():
-        within = [(state[n] >= low) & (state[n] <= high * (1 + SLACK)) for n, (low, high) in valid.items()]
-        found[BEYOND + name] = np.any(loaded & ~functools.reduce(np.logical_and, within), axis=-1, keepdims=True)
+        found[BEYOND + name] = np.any(loaded & beyond(state, valid), axis=-1, keepdims=True)
     if plan.friction is not None:
         found[BEYOND + plan.friction.name] = np.any(loaded & plan.friction.outside(state), axis=-1, keepdims=True)
     return found
