@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import isfinite
 from types import NoneType, UnionType
@@ -99,6 +99,20 @@ class Section(BaseModel):
         if rule:
             raise ValueError(rule)
         return printable(value) if isinstance(value, str) else value
+
+
+def check_keys_of(section: Section, option: str, takes: Mapping[str, Sequence[str]]) -> None:
+    """Ask for the keys that the chosen value of an option takes, and refuse those that act only with another value."""
+    chosen = getattr(section, option)
+    for name in takes[chosen]:
+        if getattr(section, name) is None:
+            raise ValueError(f'{option} = "{chosen}" needs {name}')
+    for name in sorted(section.model_fields_set):
+        takers = [f'"{value}"' for value, names in takes.items() if name in names]
+        unset = getattr(section, name) == type(section).model_fields[name].default
+        if takers and name not in takes[chosen] and not unset:
+            rule = f"{name} acts only with {option} = {' or '.join(takers)}"
+            raise ValueError(f'{rule}; with {option} = "{chosen}" leave it out')
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import BeforeValidator, Field, create_model, model_validator
 
 from mixedlub.friction import BASE, PLACES, catalogue
-from mixedlub.schema.section import Number, NumberOrName, Section, Whole, key, table, with_ranges
+from mixedlub.schema.section import Number, NumberOrName, Section, Whole, check_keys_of, key, table, with_ranges
 from mixedlub.schema.system_file import Gears, RigFile, SurfaceSection
 from mixedlub.slots import ASPERITY_LOAD, SLOTS
 
@@ -152,12 +152,8 @@ class Options(_Laws):
 
     @model_validator(mode="after")
     def _hardness_where_it_acts(self) -> Options:
-        law = ASPERITY_LOAD.choices[self.asperities].law
-        if reads_hardness(law) and self.hardness_GPa is None:
-            raise ValueError(f'asperities = "{self.asperities}" needs hardness_GPa, that of the softer flank')
-        if self.hardness_GPa is not None and not reads_hardness(law):
-            takers = " or ".join(f'"{c.name}"' for c in ASPERITY_LOAD.choices.values() if reads_hardness(c.law))
-            raise ValueError(f"hardness_GPa acts only with asperities = {takers}; leave it out")
+        laws = ASPERITY_LOAD.choices.values()
+        check_keys_of(self, "asperities", {c.name: ("hardness_GPa",) if reads_hardness(c.law) else () for c in laws})
         return self
 
 

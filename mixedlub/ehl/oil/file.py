@@ -14,7 +14,7 @@ from pydantic import model_validator
 from mixedlub.ehl.oil import density, shear, viscosity
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.laws.oil import ZERO_CELSIUS
-from mixedlub.schema.section import Number, Section, key
+from mixedlub.schema.section import Number, Section, check_keys_of, key
 from mixedlub.schema.toml_file import parse, read_toml
 
 GIGA, MEGA, MILLI, MICRO = 1e9, 1e6, 1e-3, 1e-6
@@ -35,14 +35,7 @@ class LawSection(Section):
 
     @model_validator(mode="after")
     def _keys_of_the_law(self) -> LawSection:
-        law, takes = str(self.law), self.takes()
-        for name in takes[law]:
-            if getattr(self, name) is None:
-                raise ValueError(f'law = "{law}" needs {name}')
-        for name in sorted(self.model_fields_set.intersection(*[{n for names in takes.values() for n in names}])):
-            if name not in takes[law]:
-                takers = " or ".join(f'"{other}"' for other, names in takes.items() if name in names)
-                raise ValueError(f'{name} acts only with law = {takers}; with law = "{law}" leave it out')
+        check_keys_of(self, "law", self.takes())
         return self
 
 
@@ -116,7 +109,7 @@ class Shear(LawSection):
         return self
 
 
-class Density(Section):
+class Density(LawSection):
     law: Literal["dowson_higginson", "incompressible"] = key(
         "how the density rises with pressure",
         "dowson_higginson",
@@ -129,11 +122,9 @@ class Density(Section):
     temperature_C: Number = key("temperature of that density", 60.0, gt=-ZERO_CELSIUS)
     expansion_per_K: Number = key("thermal expansion", 0.0, example=6.5e-4, ge=0.0, lt=0.01)
 
-    @model_validator(mode="after")
-    def _expands_or_not(self) -> Density:
-        if self.law == "incompressible" and self.expansion_per_K > 0.0:
-            raise ValueError('expansion_per_K acts only with law = "dowson_higginson"; leave it out or give 0')
-        return self
+    @classmethod
+    def takes(cls) -> Mapping[str, tuple[str, ...]]:
+        return {"dowson_higginson": ("expansion_per_K",), "incompressible": ()}
 
 
 class Thermal(Section):
