@@ -129,10 +129,31 @@ def roelands_viscosity(viscosity: np.ndarray, pressure_viscosity: np.ndarray, he
     >>> round(float(roelands_viscosity(0.01489, 14.81e-9, 0.9642e9)), 1)
     80.1
     """
-    log = np.log(viscosity) + ROELANDS_LOG
-    exponent = pressure_viscosity * ROELANDS_PRESSURE / log
-    rise = log * ((1.0 + hertz_pressure / ROELANDS_PRESSURE) ** exponent - 1.0)
+    growth = roelands_growth(roelands_exponent(viscosity, pressure_viscosity), hertz_pressure)
+    rise = (np.log(viscosity) + ROELANDS_LOG) * (growth - 1.0)
     return viscosity * np.exp(np.minimum(rise, LARGEST_LOG))
+
+
+def roelands_growth(exponent: np.ndarray, pressure: np.ndarray) -> np.ndarray:
+    r"""Growth of Roelands' logarithm :math:`\ln\eta + 9.67` under pressure (-), :math:`(1 + p/p_r)^Z`.
+
+    p_r makes the form belong to Pa. Source: as `roelands_viscosity`.
+
+    >>> round(float(roelands_growth(0.5, 3 * ROELANDS_PRESSURE)), 9)
+    2.0
+    """
+    return power(1.0 + pressure / ROELANDS_PRESSURE, exponent)
+
+
+def roelands_exponent(viscosity: np.ndarray | float, pressure_viscosity: np.ndarray | float) -> np.ndarray:
+    r"""Exponent of Roelands that a pressure-viscosity coefficient means (-), :math:`Z = \alpha p_r/(\ln\eta_0 + 9.67)`.
+
+    The 9.67 and p_r make the form belong to Pa s and Pa. Source: as `roelands_viscosity`.
+
+    >>> round(float(roelands_exponent(0.01489, 14.81e-9)), 4)
+    0.5314
+    """
+    return pressure_viscosity * ROELANDS_PRESSURE / (np.log(viscosity) + ROELANDS_LOG)
 
 
 def roelands_coefficient(viscosity: np.ndarray, exponent: float) -> np.ndarray:
@@ -164,9 +185,19 @@ def modulus_viscosity(
     >>> rise.round(2).tolist()
     [23.51, 13.07, 8.96]
     """
-    stiffness = pressure_modulus + modulus_slope * hertz_pressure
-    rise = np.where(stiffness > hertz_pressure / LARGEST_LOG, hertz_pressure / np.maximum(stiffness, 1.0), LARGEST_LOG)
-    return viscosity * np.exp(rise)
+    return viscosity * np.exp(modulus_rise(pressure_modulus, modulus_slope, hertz_pressure))
+
+
+def modulus_rise(pressure_modulus: np.ndarray, modulus_slope: np.ndarray, pressure: np.ndarray) -> np.ndarray:
+    r"""Logarithm of the viscosity over that at no pressure (-), :math:`p/(A + B p)`, at most 500.
+
+    Source: as `modulus_viscosity`.
+
+    >>> round(float(modulus_rise(72.629e6, 38.924e-3, 1e9)), 2)   # PAO100 at 60 degC
+    8.96
+    """
+    stiffness = pressure_modulus + modulus_slope * pressure
+    return np.where(stiffness > pressure / LARGEST_LOG, pressure / np.maximum(stiffness, 1.0), LARGEST_LOG)
 
 
 @VISCOSITY.offers("barus", "viscosity in the contact by Barus (far too high above 0.3 GPa)")

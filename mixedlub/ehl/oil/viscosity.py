@@ -33,13 +33,12 @@ def roelands(
     >>> [round(float(v), 2) for v in np.exp(log)], round(float(slope[0]) * 1e9, 2), round(float(fall[0]), 3)
     ([0.01, 80.1], 14.81, -0.03)
     """
-    size = np.log(viscosity) + ROELANDS_LOG
-    exponent = pressure_viscosity * ROELANDS_PRESSURE / size
+    size, exponent = np.log(viscosity) + ROELANDS_LOG, oil.roelands_exponent(viscosity, pressure_viscosity)
     fall = temperature_viscosity * (known_temperature - ROELANDS_KELVIN) / size
-    squeezed = 1.0 + pressure / ROELANDS_PRESSURE
     warm = temperature - ROELANDS_KELVIN
-    rise = size * squeezed**exponent * (warm / (known_temperature - ROELANDS_KELVIN)) ** -fall
-    return rise - ROELANDS_LOG, rise * exponent / (squeezed * ROELANDS_PRESSURE), -rise * fall / warm
+    thinned = (warm / (known_temperature - ROELANDS_KELVIN)) ** -fall
+    rise = size * oil.roelands_growth(exponent, pressure) * thinned
+    return rise - ROELANDS_LOG, rise * exponent / (ROELANDS_PRESSURE + pressure), -rise * fall / warm
 
 
 def barus(
@@ -92,7 +91,7 @@ def modulus(
     stiff = np.maximum(stiff, 0.0)
     whole = base + stiff * pressure
     return (
-        np.log(density * nu) + pressure / whole,
+        np.log(density * nu) + oil.modulus_rise(base, stiff, pressure),
         base / whole**2,
         -fall - pressure * (modulus[1] + stiff_by_t * pressure) / whole**2,
     )
