@@ -9,15 +9,13 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from mixedlub.chain.model import Model
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.schema.findings import as_texts, warn_of
 from mixedlub.schema.system_file import Gears, Lubricant, SurfaceSection
 from mixedlub.schema.toml_file import parse
 from mixedlub.study.friction_comparison import judged
-from mixedlub.study.options import study_chain
 from mixedlub.study.plan import Study, read_study
-from mixedlub.study.results import run_study
+from mixedlub.study.results import results_of, run_study
 from mixedlub.study.schema import StudyFile
 from profiles.errors import InputError
 
@@ -114,11 +112,9 @@ def along_path(
             rule = "takes one number; ml.power_loss takes lists, or call it for each"
             raise InputError(rule, where=f"along_path: {name}", value=value)
     study = _study("along_path", gears, oil, surfaces, conditions, boundary_friction, options, effects)
-    checked = () if study.plan.friction is None else study.plan.friction.checked
-    wanted = tuple(dict.fromkeys((*ALONG_PATH, *checked)))
-    model = Model(study_chain(study.file.options), tuple(study.plan.inputs), wanted, study.effects)
     with np.errstate(all="ignore"):
-        state = model(study.plan.inputs, study.plan.parameters)
+        state = study.plan.model(ALONG_PATH)(study.plan.inputs, study.plan.parameters)
+        findings = results_of(study, state).findings
     points = study.mesh
     shape = (points.position.size // points.slices, points.slices)
     angle = np.degrees(points.roll_angle).reshape(shape)[:, 0]
@@ -139,7 +135,6 @@ def along_path(
             holds.reshape(shape),
             {"long_name": f"whether {law.name} holds at the point"},
         )
-    findings = run_study(study).findings
     warn_of(findings)
     whole = {**conditions, "findings": as_texts(findings)}
     found = xr.Dataset(variables, {"roll_angle_deg": angle, "face_position_mm": face}, whole)

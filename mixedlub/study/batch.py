@@ -121,7 +121,7 @@ def _fill(plan: Plan, block: Block, found: Found) -> None:
             pairings = slice(start, min(start + size[0], shape[0]))
             piece = _taken(shared, (pairings,))
             piece.update(own(piece, plan.parameters))
-            for name, values in _reduced(piece, plan).items():
+            for name, values in reduced(piece, plan).items():
                 found[name][(pairings, *conditions[1:])] = values[..., 0]
 
 
@@ -159,7 +159,7 @@ def _taken(inputs: Inputs, ranges: Sequence[slice]) -> dict[str, Any]:
     return {name: part(value) for name, value in inputs.items()}
 
 
-def _reduced(state: Inputs, plan: Plan) -> Found:
+def reduced(state: Inputs, plan: Plan) -> Found:
     """Results of a piece with the mesh axis reduced to one; what is not loaded is in no mean and no check."""
     film, area, pressure, weight = (state[n] for n in ("film_thickness", "area_ratio", "hertz_pressure", "mean_weight"))
     loaded = weight > 0

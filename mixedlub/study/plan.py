@@ -69,9 +69,9 @@ class Plan:
         """The active effects."""
         return find(sorted(self.parameters)) if self.parameters else ()
 
-    def model(self) -> Model:
-        """The chain of the chosen options with the active effects."""
-        return self._model(name for valid in self.ranges.values() for name in valid)
+    def model(self, also: Iterable[str] = ()) -> Model:
+        """The chain of the chosen options with the active effects; ``also`` names quantities wanted beside its own."""
+        return self._model((*also, *(name for valid in self.ranges.values() for name in valid)))
 
     def _model(self, checked: Iterable[str]) -> Model:
         of_friction = () if self.friction is None else self.friction.checked

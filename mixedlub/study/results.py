@@ -298,6 +298,14 @@ def run_study(
     return results
 
 
+def results_of(study: Study, state: Mapping[str, Any]) -> Results:
+    """The results of a study all of whose contact points are computed, as `Plan.model` has them."""
+    found = batch.reduced({**study.plan.inputs, **state}, study.plan)
+    results = Results(study, {n: np.broadcast_to(values[..., 0], study.plan.shape) for n, values in found.items()})
+    _check_finite(results)
+    return results
+
+
 def _check_finite(results: Results) -> None:
     """Refuse inputs at which a law leaves its domain."""
     for name in results.columns:
