@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mixedlub.atomic import writing
-from mixedlub.commands.console import busy, echo, input_errors_from, note, output_folder
+from mixedlub.commands.console import busy, echo, input_errors_from, note, output_folder, print_findings
 from mixedlub.commands.study import chosen_formats
 
 if TYPE_CHECKING:
@@ -43,6 +43,7 @@ def command(
     formats = chosen_formats(format_)
     with input_errors_from(str(file)):
         problem = read_problem(file)
+    print_findings(problem.notes)
     folder = output_folder(out, NAME, file.stem)
     start = time.perf_counter()
     with busy("solving"):

@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
 from mixedlub.ehl.line_contacts import Contacts
-from mixedlub.ehl.oil.file import read_oil
+from mixedlub.ehl.oil.file import oil_of
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.ehl.solve import STEEL, build_contacts, check
 from mixedlub.gear import mesh
@@ -18,9 +18,10 @@ from mixedlub.laws.contact import reduced_modulus
 from mixedlub.laws.load import gear_line_load
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.build import gear_pair, sharing
+from mixedlub.schema.findings import Finding, collected
 from mixedlub.schema.section import Number, Section, Whole, examples, key
 from mixedlub.schema.system_file import Gears
-from mixedlub.schema.toml_file import named_file, parse, read_toml
+from mixedlub.schema.toml_file import parse, read_toml
 from profiles.errors import InputError
 
 EXAMPLE_KEYS = ("radius_mm", "line_load_N_mm", "entrainment_speed_m_s", "slide_roll_ratio", "oil_temperature_C")
@@ -97,7 +98,7 @@ class EhlFile(Section):
 
     schema_: Literal["mixedlub-ehl/1"] = key("format of the file", example="mixedlub-ehl/1", alias="schema")
     title: str = key("title of the figures", "Line contacts", example="Twin discs")
-    oil: str = key("file of the oil, relative to this one", example="oil.toml")
+    oil: str = key("file of the oil, relative to this one, or an oil by name, as in [lubricant]", example="oil.toml")
     thermal: bool = key("solve for temperatures; false: all is at the oil's temperature", True)
     bodies: Bodies = key("the two bodies; left out: steel", Bodies())
     contacts: ContactList | None = key("contacts; or [gears] and [path]", None)
@@ -118,18 +119,23 @@ class EhlFile(Section):
 
 @dataclass(frozen=True)
 class Problem:
-    """Contacts of a file with their oil; ``position`` is the place on a path of contact (m), NaN of others."""
+    """Contacts of a file with their oil; ``position`` is the place on a path of contact (m), NaN of others.
+
+    ``notes`` are what was assumed of the oil.
+    """
 
     file: EhlFile
     oil: Oil
     contacts: Contacts
     position: np.ndarray
+    notes: tuple[Finding, ...] = ()
 
 
 def read_problem(path: Path) -> Problem:
     """The contacts of a file, checked."""
     file = parse(EhlFile, read_toml(path), str(path))
-    oil = read_oil(named_file(path.parent, file.oil, f"{path}: oil"))
+    with collected() as notes:
+        oil = oil_of(file.oil, path.parent, f"{path}: oil")
     flat, modulus, position = _listed_contacts(file) if file.contacts is not None else _along_path(file, path)
     bodies = file.bodies
     solids = {
@@ -142,7 +148,7 @@ def read_problem(path: Path) -> Problem:
         check(oil, contacts, thermal=file.thermal)
     except InputError as error:
         raise InputError(error.rule, where=f"{path}: {error.where}", value=error.value) from None
-    return Problem(file, oil, contacts, position)
+    return Problem(file, oil, contacts, position, tuple(notes))
 
 
 def _listed_contacts(file: EhlFile) -> tuple[dict[str, np.ndarray], float, np.ndarray]:

@@ -15,7 +15,7 @@ from mixedlub.schema.section import Section, key
 from mixedlub.schema.toml_file import parse, read_toml
 from profiles.errors import InputError, nearest
 
-SUFFIX = ".toml"
+SUFFIX, SCHEMA = ".toml", "mixedlub-oil/1"
 Status = Literal["stated", "derived", "typical"]
 STATUSES: Mapping[str, str] = {
     "stated": "printed by the source",

@@ -1,10 +1,21 @@
 """The file of an oil: every law's slopes, what a law needs, and what it would ignore."""
 
+from importlib.resources import files
+from inspect import signature
+
 import numpy as np
 import pytest
 
-from mixedlub.ehl import EXAMPLE, example_oil, read_oil
+from mixedlub.cli import main
+from mixedlub.ehl import EXAMPLE, example_oil, read_oil, solve
+from mixedlub.ehl.file import read_problem
 from mixedlub.laws.oil import roelands_viscosity
+from mixedlub.rig.build import lubricant
+from mixedlub.schema.findings import collected
+from mixedlub.schema.oil_file import oil_names
+from mixedlub.schema.system_file import Lubricant
+from mixedlub.schema.toml_file import parse
+from mixedlub.slots import VISCOSITY
 from profiles.errors import InputError
 
 TEXT = EXAMPLE.read_text(encoding="utf-8")
@@ -48,6 +59,60 @@ def test_slopes_of_the_viscosity_are_those_of_small_changes(viscosity, tmp_path)
     warm, cold = (oil.log_viscosity(p, t + s)[0] for s in (1e-3, -1e-3))
     assert by_p == pytest.approx((more - less) / (2e-5 * p), rel=1e-6)
     assert by_t == pytest.approx((warm - cold) / 2e-3, rel=1e-5)
+
+
+@pytest.mark.parametrize("name", oil_names())
+@pytest.mark.parametrize("kelvin", [323.0, 370.0])
+def test_an_oil_by_name_has_the_viscosity_that_studies_take(name, kelvin):
+    with collected():
+        own, of = read_oil(name), lubricant(parse(Lubricant, {"oil": name}, "oil"))
+    p, t = np.array(0.7e9), np.array(kelvin)
+    state = {**of.inputs(t), "hertz_pressure": p}
+    law = VISCOSITY.choices["modulus" if "pressure_modulus" in state else "roelands"].law
+    log, by_p, by_t = own.log_viscosity(p, t)
+    assert np.exp(log) == pytest.approx(law(*(state[n] for n in signature(law).parameters)), rel=1e-9)
+    more, less = (own.log_viscosity(p * (1 + s), t)[0] for s in (1e-5, -1e-5))
+    warm, cold = (own.log_viscosity(p, t + s)[0] for s in (1e-3, -1e-3))
+    assert by_p == pytest.approx((more - less) / (2e-5 * p), rel=1e-6)
+    assert by_t == pytest.approx((warm - cold) / 2e-3, rel=1e-5)
+
+
+CONTACTS = """schema = "mixedlub-ehl/1"
+oil = "{oil}"
+[contacts]
+radius_mm = 8.69
+line_load_N_mm = 100.0
+entrainment_speed_m_s = 2.24
+slide_roll_ratio = 0.1
+oil_temperature_C = 60.0
+"""
+
+
+def test_contacts_take_an_oil_by_name_and_say_what_it_lacks(tmp_path, capsys):
+    file = tmp_path / "contacts.toml"
+    file.write_text(CONTACTS.format(oil="mil_prf_23699"), encoding="utf-8")
+    assert main(["ehl", str(file), "--no-figures", "--out", str(tmp_path / "o")]) == 0
+    said = capsys.readouterr()
+    assert "1 of 1 contacts solved" in said.out
+    assert "taken as typical of base ester" in said.err
+    contact = {"radius": 8.69e-3, "line_load": 1e5, "speed": 2.24, "sliding_speed": 0.224, "oil_temperature": 333.15}
+    assert f"friction {float(solve(read_oil('mil_prf_23699'), **contact).friction_coefficient[0]):.4f}" in said.out
+
+
+def test_contacts_take_the_oil_file_of_a_study(tmp_path):
+    file, oil = tmp_path / "contacts.toml", tmp_path / "own.toml"
+    oil.write_bytes(files("mixedlub").joinpath("rig", "oils", "m100.toml").read_bytes())
+    file.write_text(CONTACTS.format(oil="own.toml"), encoding="utf-8")
+    assert read_problem(file).oil.name == read_oil("m100").name
+
+
+@pytest.mark.parametrize(("oil", "said"), [("pao44", "nearest known: 'pao4'"), ("none.toml", "no such file")])
+def test_an_oil_that_is_not_there_is_refused(oil, said, tmp_path):
+    file = tmp_path / "contacts.toml"
+    file.write_text(CONTACTS.format(oil=oil), encoding="utf-8")
+    with pytest.raises(InputError, match=said) as error:
+        read_problem(file)
+    assert f"{file}: oil" in str(error.value)
 
 
 @pytest.mark.parametrize("law", SHEARS)

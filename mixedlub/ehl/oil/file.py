@@ -12,10 +12,16 @@ import numpy as np
 from pydantic import model_validator
 
 from mixedlub.ehl.oil import density, shear, viscosity
-from mixedlub.ehl.oil.oil import Oil
+from mixedlub.ehl.oil.lubricant import from_lubricant
+from mixedlub.ehl.oil.oil import Oil, constant
 from mixedlub.laws.oil import ZERO_CELSIUS
+from mixedlub.rig.build import lubricant
+from mixedlub.schema.findings import collected, warn_of
+from mixedlub.schema.oil_file import SCHEMA, SUFFIX
 from mixedlub.schema.section import Number, Section, check_keys_of, key
-from mixedlub.schema.toml_file import parse, read_toml
+from mixedlub.schema.system_file import Lubricant
+from mixedlub.schema.toml_file import named_file, parse, read_toml
+from profiles.errors import as_path
 
 GIGA, MEGA, MILLI, MICRO = 1e9, 1e6, 1e-3, 1e-6
 NEWTON_SCALE = 1e9
@@ -151,8 +157,25 @@ class OilFile(Section):
 
 
 def read_oil(path: str | PathLike[str]) -> Oil:
-    """The oil of a file."""
-    return build(parse(OilFile, read_toml(Path(path)), str(path)))
+    """The oil of a file, or one of the package by its name; what that lacks is typical of its base stock.
+
+    >>> read_oil("pao_vg100").name
+    'PAO100, polyalphaolefin ISO VG 100'
+    """
+    with collected() as notes:
+        found = oil_of(str(as_path(path, "ehl.read_oil")), Path(), "ehl.read_oil")
+    warn_of(notes)
+    return found
+
+
+def oil_of(named: str, folder: Path, where: str) -> Oil:
+    """An oil by name, or by its file relative to a folder: one of the solver's laws, or one of cases and studies."""
+    if named.endswith(SUFFIX):
+        path = named_file(folder, named, where)
+        content = read_toml(path)
+        if content.get("schema") != SCHEMA:
+            return build(parse(OilFile, content, str(path)))
+    return from_lubricant(lubricant(parse(Lubricant, {"oil": named}, where), folder=folder))
 
 
 def build(file: OilFile) -> Oil:
@@ -204,10 +227,10 @@ def _viscosity(section: Viscosity, oil_density: float) -> Any:
 
 def _shear(section: Shear) -> tuple[Any, Any, Any]:
     """The law of shear, and by pressure the stress (Pa) at which it leaves Newton and the one that it never reaches."""
-    never = _constant(np.inf)
+    never = constant(np.inf)
     own = _of(section.eyring_stress_MPa) * MEGA
     if section.law == "ree_eyring":
-        return partial(shear.ree_eyring, eyring_stress=own), _constant(own), never
+        return partial(shear.ree_eyring, eyring_stress=own), constant(own), never
     if section.law == "growing_eyring":
         grown: dict[str, Any] = {
             "eyring_stress": own,
@@ -218,16 +241,12 @@ def _shear(section: Shear) -> tuple[Any, Any, Any]:
         return partial(shear.growing_eyring, **grown), lambda p: shear.eyring_stress_at(p, **grown)[0], never
     if section.law == "carreau":
         modulus = _of(section.shear_modulus_MPa) * MEGA
-        return partial(shear.carreau, shear_modulus=modulus, power=_of(section.power)), _constant(modulus), never
+        return partial(shear.carreau, shear_modulus=modulus, power=_of(section.power)), constant(modulus), never
     if section.law == "limiting":
         start, growth = _of(section.limiting_stress_MPa) * MEGA, _of(section.limiting_growth)
         capped = partial(shear.limiting, limiting_stress=start, limiting_growth=growth)
         return capped, lambda p: start + growth * p, lambda p: shear.PASSED * (start + growth * p)
-    return shear.newton, _constant(NEWTON_SCALE), never
-
-
-def _constant(value: float) -> Any:
-    return lambda pressure: np.full_like(pressure, value)
+    return shear.newton, constant(NEWTON_SCALE), never
 
 
 def _of(value: float | None) -> float:

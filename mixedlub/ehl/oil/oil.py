@@ -11,6 +11,11 @@ Slopes = tuple[np.ndarray, np.ndarray, np.ndarray]
 """A quantity and its derivatives with respect to the two arguments of its law."""
 
 
+def constant(value: float) -> Callable[[np.ndarray], np.ndarray]:
+    """A quantity that does not change with pressure."""
+    return lambda pressure: np.full_like(pressure, value)
+
+
 @dataclass(frozen=True)
 class Oil:
     """Laws and constants of one oil.

@@ -1,0 +1,80 @@
+"""The oil of a case or study as the solver uses it: the same laws, with the slopes of its viscosity."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+
+from mixedlub.ehl.oil import density, shear
+from mixedlub.ehl.oil.oil import Oil, Slopes, constant
+from mixedlub.laws import oil
+from mixedlub.laws.oil import ROELANDS_LOG, ROELANDS_PRESSURE
+from mixedlub.rig.lubricant import Lubricant
+
+
+def from_lubricant(of: Lubricant) -> Oil:
+    """A Ree-Eyring oil; its viscosity is by the modulus equation where it has the constants, else by Roelands."""
+    return Oil(
+        name=of.name,
+        log_viscosity=partial(roelands if of.pressure_modulus is None else modulus, of=of),
+        density_ratio=partial(
+            density.dowson_higginson, known_temperature=oil.ZERO_CELSIUS + 15.0, expansion=of.density_change
+        ),
+        shear=partial(shear.ree_eyring, eyring_stress=of.eyring_stress),
+        stress_scale=constant(of.eyring_stress),
+        stress_limit=constant(np.inf),
+        newtonian=False,
+        density=of.density_15,
+        expansion=of.density_change,
+        conductivity=of.conductivity,
+        heat_capacity=of.heat_capacity,
+    )
+
+
+def roelands(pressure: np.ndarray, temperature: np.ndarray, of: Lubricant) -> Slopes:
+    r"""Logarithm of the viscosity (Pa s) by ASTM D341 and Roelands, with slopes per Pa and per K.
+
+    .. math:: \ln\eta + 9.67 = s\,(1 + p/p_r)^Z,\quad s = \ln\eta_0(T) + 9.67,\quad Z = \alpha(T)\,p_r/s
+
+    Source: as `mixedlub.laws.oil.roelands_viscosity`.
+    """
+    ambient, alpha = of.viscosity(temperature), of.pressure_coefficient(temperature)
+    size, exponent, fall = np.log(ambient) + ROELANDS_LOG, oil.roelands_exponent(ambient, alpha), _fall(temperature, of)
+    growth, squeezed = oil.roelands_growth(exponent, pressure), np.log1p(pressure / ROELANDS_PRESSURE)
+    by_alpha = squeezed * _change(of.pressure_viscosity, of) * ROELANDS_PRESSURE
+    return (
+        size * growth - ROELANDS_LOG,
+        size * growth * exponent / (ROELANDS_PRESSURE + pressure),
+        growth * (by_alpha - fall * (1.0 - exponent * squeezed)),
+    )
+
+
+def modulus(pressure: np.ndarray, temperature: np.ndarray, of: Lubricant) -> Slopes:
+    r"""Logarithm of the viscosity (Pa s) by ASTM D341 and the modulus equation, with slopes per Pa and per K.
+
+    .. math:: \ln\eta = \ln\eta_0(T) + p/(A + B p)
+
+    with A and B linear in temperature. Source: as `mixedlub.laws.oil.modulus_viscosity`.
+    """
+    known = of.inputs(temperature)
+    base, slope = np.asarray(known["pressure_modulus"]), np.asarray(known["modulus_slope"])
+    whole = base + slope * pressure
+    stiffer = _change(of.pressure_modulus, of) + _change(of.modulus_slope, of) * pressure
+    return (
+        np.log(known["viscosity"]) + oil.modulus_rise(base, slope, pressure),
+        base / whole**2,
+        -_fall(temperature, of) - pressure * stiffer / whole**2,
+    )
+
+
+def _fall(temperature: np.ndarray, of: Lubricant) -> np.ndarray:
+    """Relative fall of the viscosity at ambient pressure (1/K)."""
+    thinner = of.density_change * of.density_15 / of.density(temperature)
+    return oil.temperature_viscosity(temperature, of.temperature, of.kinematic_viscosity) + thinner
+
+
+def _change(values: tuple[float, float] | None, of: Lubricant) -> float:
+    """Change per kelvin of a property that is linear in temperature; none of one that the oil lacks."""
+    first, second = values or (0.0, 0.0)
+    return (second - first) / (of.temperature[1] - of.temperature[0])
