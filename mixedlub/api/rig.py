@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from mixedlub.rig import build
+from mixedlub.rig.measured import Measured
 from mixedlub.schema.findings import collected, warn_of
 from mixedlub.schema.oil_file import STOCKS
 from mixedlub.schema.system_file import Gears, Lubricant, SurfaceSection
@@ -92,7 +93,6 @@ def _of_trace(trace: Profile, keys: Mapping[str, Any]) -> SurfaceSection:
             raise InputError("a Profile has its own; leave it out", where=f"surface: {key}", value=keys[key])
     section = parse(SurfaceSection, {"profile": trace.name, **keys}, "surface")
     with collected() as found:
-        filtered = build.flank_profile(trace.name, section, trace)
-        measured = build.surface(trace.name, section, (trace, filtered))
+        measured = build.surface(trace.name, section, Measured(build.filtered(trace.name, section, (trace,))))
     warn_of(found, stacklevel=4)
     return parse(SurfaceSection, as_moments(measured, section), "surface")

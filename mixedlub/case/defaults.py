@@ -95,7 +95,7 @@ def _surfaces(system: system_file.System) -> Iterator[str]:
     for name, section in system.surfaces.items():
         values = {key: getattr(section, key) for key in _open(section)}
         left = [f"{key} = {_shown(value)}" for key, value in values.items() if isinstance(value, float)]
-        left += ['form = "line"'] if section.profile is not None and section.form is None else []
+        left += ['form = "line"'] if section.is_measured and section.form is None else []
         equal.setdefault(tuple(left), []).append(name)
     for defaults, names in equal.items():
         if defaults:

@@ -6,6 +6,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from mixedlub.case.folder import Case
+from mixedlub.schema.system_file import SURFACE_FILES
 from mixedlub.schema.table import Table
 from mixedlub.schema.toml_file import named_file, to_toml
 from profiles import SHIPPED_MARK
@@ -29,9 +30,16 @@ def case_files(case: Case) -> dict[str, str | bytes]:
     if sharing.get("table"):
         sharing["table"] = _carry(carried, case.folder, sharing["table"], "gears.load_sharing.table")
     for name, surface in system.get("surfaces", {}).items():
-        trace = surface.get("profile")
-        if trace and not trace.startswith(SHIPPED_MARK):
-            surface["profile"] = _carry(carried, case.folder, trace, f"surfaces.{name}.profile")
+        for key in SURFACE_FILES:
+            given = surface.get(key)
+            if given is None:
+                continue
+            place = f"surfaces.{name}.{key}"
+            files = [
+                one if one.startswith(SHIPPED_MARK) else _carry(carried, case.folder, one, place)
+                for one in ([given] if isinstance(given, str) else given)
+            ]
+            surface[key] = files[0] if isinstance(given, str) else files
     tables = {f"{name}.csv": _csv(getattr(case, name)) for name in TABLES if getattr(case, name) is not None}
     return {"system.toml": to_toml(system), **tables, **carried}
 

@@ -100,7 +100,9 @@ def _bodies(case: Case) -> Iterator[str]:
         yield f"Oil: {oil.name}, {eta[0]:.3g} mPa s at {low:g} C and {eta[1]:.3g} mPa s at {high:g} C."
     for name, section in system.surfaces.items():
         surface = case.rig.surface(name)
-        origin = "its moments" if section.profile is None else f"the trace {section.profile}"
+        named = section.map or ", ".join(section.files)
+        kind = "map" if section.map else "trace" if len(section.files) == 1 else "traces"
+        origin = f"the {kind} {named}" if named else "its moments"
         coated = f", coated with {section.coating.name}" if section.coating else ""
         yield (
             f"Surface {name}: Rq {np.sqrt(surface.m0) * 1e6:.3g} um, Nayak bandwidth "

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from copy import deepcopy
 from dataclasses import dataclass
 from pathlib import Path, PurePath
 from typing import Any
 
 from mixedlub.case.import_file import NAME
 from mixedlub.importers.base import nested
+from mixedlub.schema.system_file import SURFACE_FILES
 from profiles import SHIPPED_MARK
 from profiles.errors import InputError, nearest
 
@@ -21,7 +23,7 @@ SHARE = "gears.load_sharing"
 class NamedFile:
     """A file that an answer names: path of keys, name as given, folder in the case for a file from elsewhere."""
 
-    keys: tuple[str, ...]
+    keys: tuple[str | int, ...]
     name: str
     home: str
 
@@ -58,7 +60,7 @@ def with_attachments(answers: Mapping[str, Any], folders: Sequence[Path]) -> tup
 
     A file is searched in each folder in turn; a file outside the case is copied into it.
     """
-    system = nested(answers)
+    system = deepcopy(nested(answers))
     files: dict[str, bytes] = {}
     for named in _named_files(system):
         source = _located(named, folders)
@@ -71,9 +73,9 @@ def with_attachments(answers: Mapping[str, Any], folders: Sequence[Path]) -> tup
             raise InputError(f"cannot be read ({error.strerror})", where=str(source)) from None
         if name_in_case in RESERVED_NAMES or files.get(name_in_case, content) != content:
             rule = "is a name that the case needs for another file; rename it"
-            raise InputError(rule, where=".".join(named.keys), value=named.name)
+            raise InputError(rule, where=".".join(map(str, named.keys)), value=named.name)
         files[name_in_case] = content
-        table = system
+        table: Any = system
         for key in named.keys[:-1]:
             table = table[key]
         table[named.keys[-1]] = name_in_case
@@ -87,9 +89,12 @@ def _named_files(system: Mapping[str, Any]) -> Iterator[NamedFile]:
         yield NamedFile(("gears", "load_sharing", "table"), share["table"], "")
     surfaces = system.get("surfaces", {})
     for name, surface in surfaces.items() if isinstance(surfaces, Mapping) else ():
-        trace = surface.get("profile") if isinstance(surface, Mapping) else None
-        if isinstance(trace, str) and not trace.startswith(SHIPPED_MARK):
-            yield NamedFile(("surfaces", name, "profile"), trace, "profiles")
+        for key in SURFACE_FILES if isinstance(surface, Mapping) else ():
+            given = surface.get(key)
+            for place, one in enumerate(given) if isinstance(given, list) else [(None, given)]:
+                if isinstance(one, str) and not one.startswith(SHIPPED_MARK):
+                    keys = ("surfaces", name, key) if place is None else ("surfaces", name, key, place)
+                    yield NamedFile(keys, one, "profiles")
 
 
 def _located(named: NamedFile, folders: Sequence[Path]) -> Path:
@@ -99,4 +104,4 @@ def _located(named: NamedFile, folders: Sequence[Path]) -> Path:
     beside = sorted({p.name for f in folders for p in (f / named.name).parent.glob("*") if p.is_file()})
     hint = f"; {nearest(PurePath(named.name).name, beside)}" if beside else ""
     looked = " or ".join(dict.fromkeys(str(folder) for folder in folders))
-    raise InputError(f"no such file in {looked}{hint}", where=".".join(named.keys), value=named.name)
+    raise InputError(f"no such file in {looked}{hint}", where=".".join(map(str, named.keys)), value=named.name)

@@ -46,7 +46,7 @@ def cutoff_rows(results: Results) -> list[tuple[str, str, str, str]]:
 
 
 def _traced(study: Study) -> list[str]:
-    return [name for name in study.surfaces if study.file.surfaces[name].profile is not None]
+    return [name for name in study.surfaces if study.file.surfaces[name].files]
 
 
 def _at(study: Study, cutoffs: dict[str, float]) -> Results:

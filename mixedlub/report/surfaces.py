@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -10,7 +10,9 @@ import numpy as np
 
 from mixedlub.report.figures import Drawn
 from mixedlub.report.style import styled
+from mixedlub.rig.surface import Surface
 from mixedlub.schema.findings import Finding, collected, finding
+from mixedlub.schema.system_file import SurfaceSection
 from mixedlub.study.plan import Study
 from profiles import Profile
 from roughness.mccool import nayak_parameter, summit_density, summit_radius
@@ -31,6 +33,8 @@ def surface_rows(study: Study) -> list[tuple[str, ...]]:
     """Name, Rq (um), rms slope, rms curvature (1/mm), Nayak bandwidth, summits per mm2 and their radius (um)."""
     surfaces = list(study.surfaces.values())[: 4 * MOST_CURVES]
     m0, m2, m4 = (np.array([getattr(s, name) for s in surfaces]) for name in ("m0", "m2", "m4"))
+    # the isotropic surface that stands for one with a lay has geometric means of both directions
+    m2, m4 = (np.sqrt(across * np.array(along)) for across, along in zip((m2, m4), _along(surfaces)))
     columns = (
         (np.sqrt(m0) * 1e6, ".3f"),
         (np.sqrt(m2), ".4f"),
@@ -43,9 +47,14 @@ def surface_rows(study: Study) -> list[tuple[str, ...]]:
     return [(s.name, *row) for s, row in zip(surfaces, zip(*cells, strict=True), strict=True)]
 
 
+def _along(surfaces: Sequence[Surface]) -> tuple[list[float], list[float]]:
+    """m2 and m4 along the lay of surfaces that have one, else in the one direction that is known."""
+    return [s.m2_along or s.m2 for s in surfaces], [s.m4_along or s.m4 for s in surfaces]
+
+
 def traced(study: Study) -> dict[str, Profile]:
     """The filtered profiles of the surfaces given as traces, at most as many as one figure holds."""
-    named = [name for name in study.surfaces if study.file.surfaces[name].profile is not None][:MOST_CURVES]
+    named = [name for name in study.surfaces if study.file.surfaces[name].files][:MOST_CURVES]
     with collected():
         profiles = {name: study.rig.profile(name) for name in named}
     return {name: replace(profile, name=name) for name, profile in profiles.items()}
@@ -57,7 +66,7 @@ def surface_figures(study: Study, profiles: Mapping[str, Profile], judged: Judge
         return
     from roughness.plots import probability_figure, trace_figure
 
-    count = sum(study.file.surfaces[name].profile is not None for name in study.surfaces)
+    count = sum(bool(study.file.surfaces[name].files) for name in study.surfaces)
     first = "" if len(profiles) == count else f" (the first {len(profiles)} of {count})"
     heights = [float(np.ptp(profile.heights)) for profile in profiles.values()]
     separate_scales = max(heights) > SCALE_RATIO * min(heights)
@@ -113,7 +122,14 @@ def not_gaussian(judged: Judged) -> list[Finding]:
 def provenance(study: Study) -> list[tuple[str, str]]:
     """The source of each surface: moments as given, or a trace with its processing steps."""
     sections = study.file.surfaces
-    return [
-        (name, f"{sections[name].profile}: {'; '.join(s.steps)}" if sections[name].profile else "moments as given")
-        for name, s in list(study.surfaces.items())[: 4 * MOST_CURVES]
-    ]
+    return [(name, _origin(sections[name], s.steps)) for name, s in list(study.surfaces.items())[: 4 * MOST_CURVES]]
+
+
+def _origin(section: SurfaceSection, steps: Sequence[str]) -> str:
+    """Files of a surface, and what was done to the first."""
+    if section.map is not None:
+        return f"map {section.map}"
+    if not section.files:
+        return "moments as given"
+    along = f"; along the lay {', '.join(section.traces_along)}" if section.traces_along else ""
+    return f"{', '.join(section.files)}{along}: {'; '.join(steps)}"

@@ -15,9 +15,10 @@ import numpy as np
 from mixedlub.gear import GearPair, Sharing
 from mixedlub.laws.oil import ZERO_CELSIUS, gold_pressure_viscosity
 from mixedlub.rig.lubricant import Lubricant
+from mixedlub.rig.measured import Measured, Traces
 from mixedlub.rig.surface import Surface
 from mixedlub.schema import system_file
-from mixedlub.schema.findings import finding, report
+from mixedlub.schema.findings import collected, finding, report
 from mixedlub.schema.oil_file import oil_of, overridden
 from mixedlub.schema.toml_file import named_file
 from profiles import SHIPPED_MARK, shipped
@@ -25,7 +26,12 @@ from profiles.errors import InputError
 from profiles.profile import Profile
 
 if TYPE_CHECKING:
-    from roughness import Moments
+    from profiles.image import HeightMap
+
+LEAST_NAYAK = 1.5
+"""Least m0 m4 / m2^2 of an isotropic Gaussian surface; Nayak 1971."""
+LONG_CUTOFF, SHORT_CUTOFF = 0.8e-3, 2.5e-6
+"""Cut-offs (m) of a map that states none; the middle row of ISO 3274."""
 
 
 def gear_pair(section: system_file.Gears) -> GearPair:
@@ -129,19 +135,26 @@ def _report_oil(section: system_file.Lubricant, folder: Path) -> None:
         report(finding("oil_typical", text, "lubricant"))
 
 
-def trace(name: str, section: system_file.SurfaceSection, folder: Path) -> Profile:
-    """The trace that a surface names; what is wrong with it is said with the surface's name."""
+def traces(name: str, section: system_file.SurfaceSection, folder: Path, key: str = "") -> tuple[Profile, ...]:
+    """The traces that a key of a surface names, by default those across its lay."""
+    of_key = key or ("traces" if section.traces else "profile")
+    named = getattr(section, key) if key else section.files
+    return tuple(trace(name, section, one, folder, of_key) for one in named)
+
+
+def trace(name: str, section: system_file.SurfaceSection, named: str, folder: Path, key: str = "profile") -> Profile:
+    """A trace that a surface names; what is wrong with it is said with the surface's name."""
     from profiles.read import read
 
-    named, place = section.profile or "", f"surfaces.{name}"
+    place = f"surfaces.{name}"
     with _of_surface(name):
         if not named.startswith(SHIPPED_MARK):
-            return read(named_file(folder, named, f"{place}.profile"), unit=section.unit, spacing=section.spacing)
-        for key in ("unit", "spacing"):
-            if getattr(section, key) is not None:
+            return read(named_file(folder, named, f"{place}.{key}"), unit=section.unit, spacing=section.spacing)
+        for own in ("unit", "spacing"):
+            if getattr(section, own) is not None:
                 rule = "a shipped trace has its own; leave it out"
-                raise InputError(rule, where=f"{place}.{key}", value=getattr(section, key))
-        found = shipped(named, f"{place}.profile")
+                raise InputError(rule, where=f"{place}.{own}", value=getattr(section, own))
+        found = shipped(named, f"{place}.{key}")
     text = "a synthetic trace: only Ra, Rq and Rz are of a measured flank, its slopes and curvatures were chosen"
     report(finding("trace_synthetic", text, place))
     return found
@@ -196,39 +209,114 @@ def flank_profile(name: str, section: system_file.SurfaceSection, trace: Profile
     return profile
 
 
-def _moments(name: str, trace: Profile, profile: Profile) -> Moments:
-    """Moments of a profile, with what is doubtful about its trace."""
+def filtered(name: str, section: system_file.SurfaceSection, raw: tuple[Profile, ...]) -> Traces:
+    """Traces with their roughness profiles; all have the cut-offs of the first, unless their files state their own."""
+    first = flank_profile(name, section, raw[0])
+    of_all = _with_cutoffs(section, first)
+    with collected() as found:
+        others = [flank_profile(name, section if one.cutoffs else of_all, one) for one in raw[1:]]
+    for one in dict.fromkeys(found):
+        report(one)
+    return Traces(raw, (first, *others))
+
+
+def _with_cutoffs(section: system_file.SurfaceSection, profile: Profile) -> system_file.SurfaceSection:
+    """The section with the cut-offs that a profile has."""
+    used = {"cutoff_mm": ("cutoff", 1e3), "short_cutoff_um": ("short_cutoff", 1e6)}
+    known = {key: profile.cutoffs[name] * scale for key, (name, scale) in used.items() if name in profile.cutoffs}
+    return section.model_copy(update=known)
+
+
+def measured(name: str, section: system_file.SurfaceSection, folder: Path, across: Traces | None) -> Measured:
+    """What was measured of a surface: its traces, of which those across the lay are given, or its map."""
+    if across is None:
+        return Measured(area=flank_map(name, section, folder), isotropic=section.lay == "isotropic")
+    if section.traces_along is None:
+        return Measured(across)
+    raw = traces(name, section, folder, "traces_along")
+    along = filtered(name, _with_cutoffs(section, across.filtered[0]), raw)
+    return Measured(across, along)
+
+
+def flank_map(name: str, section: system_file.SurfaceSection, folder: Path) -> HeightMap:
+    """The roughness of a height map; cut-offs that the section leaves out are 0.8 mm and 2.5 um as far as they fit."""
+    from profiles.image import read_map
+    from roughness.areal import areal_roughness
+
+    with _of_surface(name):
+        area = read_map(named_file(folder, section.map or "", f"surfaces.{name}.map"))
+        long, short = LONG_CUTOFF, SHORT_CUTOFF
+        if section.cutoff_mm is not None:
+            long = section.cutoff_mm * 1e-3
+        if section.short_cutoff_um is not None:
+            short = section.short_cutoff_um * 1e-6
+        fits = section.cutoff_mm is not None or long <= min(area.size)
+        resolved = short >= 2.0 * max(area.spacing_x, area.spacing_y)
+        rough = areal_roughness(
+            area,
+            form=section.form or "line",
+            cutoff=long if fits else None,
+            short_cutoff=short if resolved else None,
+        )
+    said = f"cutoff_mm = {long * 1e3:g}" if fits else "no cut-off, as the map is shorter than 0.8 mm"
+    said += f", short_cutoff_um = {short * 1e6:g}" if resolved else ""
+    if section.cutoff_mm is None or section.short_cutoff_um is None:
+        report(finding("cutoff_assumed", f"{said} assumed for the map", f"surfaces.{name}"))
+    if not resolved:
+        coarse = max(area.spacing_x, area.spacing_y) * 1e6
+        text = f"short cut-off not applied: the spacing of the map, {coarse:.3g} um, is too coarse"
+        report(finding("short_cutoff_skipped", text, f"surfaces.{name}"))
+    return rough
+
+
+def _check(name: str, across: Traces) -> None:
+    """Report what is doubtful about traces."""
     from roughness import moments
     from roughness.guards import trace_warnings
 
     with _of_surface(name):
-        found = moments(profile)
-        for text in trace_warnings(profile, found, raw=trace):
-            report(finding("trace_quality", text, f"surfaces.{name}"))
-    return found
+        texts = [t for raw, one in zip(across.raw, across.filtered) for t in trace_warnings(one, moments(one), raw=raw)]
+    for text in dict.fromkeys(texts):
+        report(finding("trace_quality", text, f"surfaces.{name}"))
 
 
-def surface(name: str, section: system_file.SurfaceSection, measured: tuple[Profile, Profile] | None = None) -> Surface:
-    """One surface, from its moments or from what was ``measured``: its trace and the profile filtered from it."""
-    if measured is None:
+def surface(name: str, section: system_file.SurfaceSection, found: Measured | None = None) -> Surface:
+    """One surface, from its moments or from what was measured."""
+    values: dict[str, float]
+    if found is None:
         m0, m2, m4 = section.m0_um2 or 0.0, section.m2 or 0.0, section.m4_per_um2 or 0.0
-        m0, m4 = m0 * 1e-12, m4 * 1e12
+        values = {"m0": m0 * 1e-12, "m2": m2, "m4": m4 * 1e12}
+        if section.m2_along is not None and section.m4_along_per_um2 is not None:
+            values |= {"m2_along": section.m2_along, "m4_along": section.m4_along_per_um2 * 1e12}
     else:
-        found = _moments(name, *measured)
-        m0, m2, m4 = found.m0, found.m2, found.m4
-    if m0 * m4 < 1.5 * m2**2:
-        text = f"Nayak alpha is {m0 * m4 / m2**2:.2f}, below the 1.5 of any isotropic Gaussian surface"
-        report(finding("nayak_below_limit", text, f"surfaces.{name}"))
+        with _of_surface(name):
+            values = dict(found.values())
+        if found.across is not None:
+            _check(name, found.across)
     coating = section.coating
-    return Surface(
+    made = Surface(
         name=name,
-        m0=m0,
-        m2=m2,
-        m4=m4,
+        **values,
+        lay=section.lay or ("transverse" if section.has_two_directions else None),
+        peklenik=None if found is None else found.peklenik,
         coating_thickness=0.0 if coating is None else coating.thickness_um * 1e-6,
         coating_conductivity=2.0 if coating is None else coating.thermal_conductivity_W_mK,
         conductivity=section.thermal_conductivity_W_mK,
         density=section.density_kg_m3,
         heat_capacity=section.specific_heat_J_kgK,
-        steps=() if measured is None else measured[1].steps,
+        steps=() if found is None else found.steps,
     )
+    if made.bandwidth < LEAST_NAYAK:
+        text = f"Nayak alpha is {made.bandwidth:.2f}, below the 1.5 of any isotropic Gaussian surface"
+        report(finding("nayak_below_limit", text, f"surfaces.{name}"))
+    return made
+
+
+def check_bandwidth(surface: Surface, section: system_file.SurfaceSection) -> None:
+    """Refuse stated moments that no surface has; measured ones are flagged, as a trace may be coarsely sampled."""
+    if not section.is_measured and surface.bandwidth < LEAST_NAYAK:
+        rule = (
+            f"Nayak's m0 m4 / m2^2 is {surface.bandwidth:.3g}, and no isotropic Gaussian surface has less than 1.5; "
+            "check the units of m0_um2 and m4_per_um2, and that all three are of one short cut-off"
+        )
+        raise InputError(rule, where=f"surfaces.{surface.name}")

@@ -66,10 +66,10 @@ def _surface(rig: Rig, name: str) -> Surface | None:
 
 def _roughness(surface: Surface, place: str, section: system_file.SurfaceSection) -> Iterator[Finding]:
     """What is implausible in the moments of a trace, and in the three moments together."""
-    if section.profile is not None:
+    if section.is_measured:
         moments = (("m0_um2", surface.m0 * 1e12), ("m2", surface.m2), ("m4_per_um2", surface.m4 * 1e-12))
         for key, value in moments:
-            yield from ranges.atypical(f"surfaces.{key}", value, f"{place}, {key} of its trace")
+            yield from ranges.atypical(f"surfaces.{key}", value, f"{place}, {key} as measured")
     bandwidth = surface.m0 * surface.m4 / surface.m2**2
     if not BANDWIDTH[0] <= bandwidth <= BANDWIDTH[1]:
         text = (

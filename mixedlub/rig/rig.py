@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 from mixedlub.gear import GearPair, Mesh, Sharing, mesh
 from mixedlub.rig import build
 from mixedlub.rig.lubricant import Lubricant
+from mixedlub.rig.measured import Measured, Traces
 from mixedlub.rig.surface import Surface
 from mixedlub.schema.findings import Finding, collected, report
 from mixedlub.schema.system_file import RigFile
@@ -54,22 +55,34 @@ class Rig:
         return self._once(("oil", *unread), lambda: build.lubricant(self.file.lubricant, unread, self.folder))
 
     def trace(self, name: str) -> Profile:
-        """The measured trace of a surface, as its file has it."""
-        return self._once(("trace", name), lambda: build.trace(name, self.file.surfaces[name], self.folder))
+        """The measured trace of a surface, the first of several, as its file has it."""
+        return self._traces(name)[0]
+
+    def _traces(self, name: str) -> tuple[Profile, ...]:
+        """The measured traces of a surface, those across its lay where it has one."""
+        return self._once(("traces", name), lambda: build.traces(name, self.file.surfaces[name], self.folder))
+
+    def _filtered(self, name: str) -> Traces:
+        """The traces of a surface with their roughness profiles."""
+        section = self.file.surfaces[name]
+        return self._once(("filtered", name), lambda: build.filtered(name, section, self._traces(name)))
 
     def profile(self, name: str) -> Profile:
-        """The roughness profile of a surface that names a trace, filtered."""
+        """The filtered roughness profile of a surface that names traces, the first of several."""
+        return self._filtered(name).filtered[0]
+
+    def measured(self, name: str) -> Measured:
+        """What was measured of a surface that names traces or a map, filtered."""
         section = self.file.surfaces[name]
-        return self._once(("profile", name), lambda: build.flank_profile(name, section, self.trace(name)))
+        across = self._filtered(name) if section.files else None
+        return self._once(("measured", name), lambda: build.measured(name, section, self.folder, across))
 
     def surface(self, name: str) -> Surface:
-        """A surface, from its moments or from its trace."""
+        """A surface, from its moments, or from its traces or map."""
         section = self.file.surfaces[name]
 
         def built() -> Surface:
-            if section.profile is None:
-                return build.surface(name, section)
-            return build.surface(name, section, (self.trace(name), self.profile(name)))
+            return build.surface(name, section, self.measured(name) if section.is_measured else None)
 
         return self._once(("surface", name), built)
 

@@ -1,4 +1,4 @@
-"""A flank as the chain sees it: spectral moments, coating, and the body beneath."""
+"""A flank as the chain sees it: spectral moments in one or two directions, coating, and the body beneath."""
 
 from __future__ import annotations
 
@@ -7,11 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from profiles.errors import InputError
+
 
 @dataclass(frozen=True)
 class Surface:
     """One surface in SI: profile moments, optional coating, thermal properties of the body (steel unless given).
 
+    ``m2`` and ``m4`` are across the ``lay`` where it is known, those along it are ``m2_along`` and ``m4_along``; a
+    surface without a lay has none of these. ``peklenik`` is the correlation length across the lay over that along it.
     ``steps`` is what was done to the trace that the moments are of.
     """
 
@@ -25,21 +29,71 @@ class Surface:
     density: float
     heat_capacity: float
     steps: tuple[str, ...] = ()
+    lay: str | None = None
+    m2_along: float | None = None
+    m4_along: float | None = None
+    peklenik: float | None = None
+
+    @property
+    def bandwidth(self) -> float:
+        """Nayak's m0 m4/m2^2 of the isotropic surface that stands for this one."""
+        along = self._along
+        return self.m0 * (self.m4 * along[1]) ** 0.5 / (self.m2 * along[0])
+
+    @property
+    def in_motion(self) -> tuple[float, float]:
+        """m2 and m4 in the direction of motion."""
+        return self._along if self.lay == "longitudinal" else (self.m2, self.m4)
+
+    @property
+    def across_motion(self) -> tuple[float, float]:
+        """m2 and m4 across the direction of motion."""
+        return (self.m2, self.m4) if self.lay == "longitudinal" else self._along
+
+    @property
+    def _along(self) -> tuple[float, float]:
+        across = (self.m2, self.m4)
+        return across if self.m2_along is None or self.m4_along is None else (self.m2_along, self.m4_along)
+
+    @property
+    def orientation(self) -> float:
+        """Correlation length in the direction of motion over that across it: below 1 for transverse ridges.
+
+        >>> one = Surface("a", 1e-14, 4e-3, 1e9, 0, 0, 46, 7800, 470, lay="transverse", m2_along=1e-3, m4_along=1e8)
+        >>> one.orientation
+        0.5
+        """
+        ratio = self.peklenik
+        if ratio is None:
+            ratio = (self._along[0] / self.m2) ** 0.5
+        return 1.0 / ratio if self.lay == "longitudinal" else ratio
+
+
+def check_lays(first: Surface, second: Surface) -> None:
+    """Refuse a contact of which the lay of one surface is known and that of the other is not."""
+    if (first.lay is None) != (second.lay is None):
+        known, unknown = (first, second) if first.lay else (second, first)
+        rule = (
+            f"its lay is unknown, and that of {known.name}, against which it runs, is known; give traces_along, or "
+            'm2_along and m4_along_per_um2, or a map, or lay = "isotropic", for both or for neither'
+        )
+        raise InputError(rule, where=f"surfaces.{unknown.name}")
 
 
 def paired(first: Sequence[Surface], second: Sequence[Surface], coated: bool = False) -> dict[str, np.ndarray]:
     """Chain inputs of surfaces taken in pairs: moments add, thermal properties average; one entry a pair.
 
-    Independent surfaces add their spectra (Nayak 1971), so moments are summed before anything else is formed.
-    Where no pair has a coating there are no inputs of one, unless others than these pairs are ``coated``.
+    Independent surfaces add their spectra (Nayak 1971), so moments are summed, direction by direction, before anything
+    else is formed. An isotropic surface stands for one with a lay: its m2 and m4 are geometric means of both
+    directions. Where no pair has a coating there are no inputs of one, unless others than these pairs are ``coated``.
     """
 
     def each(attribute: str, side: Sequence[Surface]) -> np.ndarray:
         return np.array([getattr(s, attribute) for s in side], dtype=float)
 
-    both = {name: each(name, first) + each(name, second) for name in ("m0", "m2", "m4")}
-    for moment, share in (("m0", "height_share"), ("m2", "slope_share"), ("m4", "curvature_share")):
-        both[share] = each(moment, first) / both[moment]
+    for a, b in zip(first, second, strict=True):
+        check_lays(a, b)
+    both = _moments(first, second)
     for name, attribute in (
         ("solid_conductivity", "conductivity"),
         ("solid_density", "density"),
@@ -54,3 +108,22 @@ def paired(first: Sequence[Surface], second: Sequence[Surface], coated: bool = F
         )
         both["coating_conductivity"] = np.where(thickness > 0, thickness / np.maximum(resistance, 1e-30), 1.0)
     return both
+
+
+def _moments(first: Sequence[Surface], second: Sequence[Surface]) -> dict[str, np.ndarray]:
+    """Summed moments, with the share of the first surface in each."""
+    m0 = [np.array([s.m0 for s in side], dtype=float) for side in (first, second)]
+    motion, across = (
+        [np.array([getattr(s, name) for s in side], dtype=float) for side in (first, second)]
+        for name in ("in_motion", "across_motion")
+    )
+    found = {"m0": m0[0] + m0[1]}
+    shares = {"height_share": m0[0] / found["m0"]}
+    for order, (moment, share) in enumerate((("m2", "slope_share"), ("m4", "curvature_share"))):
+        x, y = ([of[:, order] for of in direction] for direction in (motion, across))
+        alike = all((one == other).all() for one, other in zip(x, y))
+        # without a lay the sums stay as they are, to the last bit
+        own = x if alike else [np.sqrt(a * b) for a, b in zip(x, y)]
+        found[moment] = x[0] + x[1] if alike else np.sqrt((x[0] + x[1]) * (y[0] + y[1]))
+        shares[share] = own[0] / (own[0] + own[1])
+    return found | shares

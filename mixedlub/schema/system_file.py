@@ -27,6 +27,7 @@ def _known_quantity(name: str) -> str:
 KINDS = ("mixedlub.kinds", "mixedlub.kinds", "KIND")
 """Module that declares the kinds of recording; imported only when a file is read, since it imports this one."""
 Pair = tuple[Number, Number]
+Files = Annotated[tuple[str, ...], Field(min_length=1)]
 
 SHARING: tuple[Any, ...] = declared("mixedlub.gear.sharing", "mixedlub.load_sharing", "MODEL")
 """Load-sharing models, each with its name, meaning and keys."""
@@ -175,6 +176,39 @@ class SurfaceSection(Section):
         example="profiles/ground.csv",
         alternative=True,
     )
+    traces: Files | None = key(
+        "instead of one trace: files of several, all across the lay; their moments are averaged",
+        None,
+        example=["profiles/ground_1.csv", "profiles/ground_2.csv", "profiles/ground_3.csv"],
+        alternative=True,
+    )
+    traces_along: Files | None = key(
+        "files of traces along the lay, beside those across it", None, example=["profiles/along.csv"], alternative=True
+    )
+    map: str | None = key(
+        "instead of traces: file of an areal height map without holes, x3p or SDF",
+        None,
+        example="profiles/ground.x3p",
+        alternative=True,
+    )
+    m2_along: Number | None = key(
+        "variance of the slopes along the lay; m2 is then across it", None, example=0.0002, alternative=True
+    )
+    m4_along_per_um2: Number | None = key(
+        "variance of the curvatures along the lay; m4_per_um2 is then across it", None, example=1e-5, alternative=True
+    )
+    lay: Literal["transverse", "longitudinal", "isotropic"] | None = key(
+        "direction of the lay, given for both surfaces of a contact or for neither; left out: transverse where the "
+        "surface is known in two directions, else unknown",
+        None,
+        example="isotropic",
+        alternative=True,
+        values={
+            "transverse": "ridges across the direction of motion, as flanks ground along the face",
+            "longitudinal": "ridges along the direction of motion",
+            "isotropic": "no lay: the moments hold in every direction",
+        },
+    )
     unit: str | None = key(
         "unit of a trace of plain numbers, as um or 'mm, um' (place, height); left out: as its file says",
         None,
@@ -200,16 +234,50 @@ class SurfaceSection(Section):
     density_kg_m3: Number = key("density of the body", 7800.0)
     specific_heat_J_kgK: Number = key("specific heat of the body", 470.0)
 
+    @property
+    def files(self) -> tuple[str, ...]:
+        """Its traces across the lay, or in the one direction that is known."""
+        return self.traces or (() if self.profile is None else (self.profile,))
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether its moments come from traces or a map."""
+        return bool(self.files) or self.map is not None
+
+    @property
+    def has_two_directions(self) -> bool:
+        """Whether it is known across and along its lay."""
+        return self.map is not None or self.traces_along is not None or self.m2_along is not None
+
     @model_validator(mode="after")
     def _moments_or_profile(self) -> SurfaceSection:
         moments = (self.m0_um2, self.m2, self.m4_per_um2)
-        if self.profile is None and None in moments:
+        measured = [name for name in ("profile", "traces", "map") if getattr(self, name) is not None]
+        if not measured and None in moments:
             raise ValueError("needs m0_um2, m2 and m4_per_um2, or a profile")
-        if self.profile is not None and any(m is not None for m in moments):
-            raise ValueError("has both moments and a profile; give one of them")
-        if self.profile is None and (self.unit or self.spacing) is not None:
-            raise ValueError("unit and spacing belong to a profile, which is not given")
+        if measured and any(m is not None for m in (*moments, self.m2_along, self.m4_along_per_um2)):
+            raise ValueError(f"has both moments and a {measured[0].removesuffix('s')}; give one of them")
+        if len(measured) > 1:
+            raise ValueError(f"has both {measured[0]} and {measured[1]}; give one of them")
+        if not self.files and (self.unit or self.spacing or self.traces_along) is not None:
+            raise ValueError("unit, spacing and traces_along belong to a profile or traces, which are not given")
+        if self.map is not None and self.model_fields_set & {"edges", "outliers"}:
+            raise ValueError("edges and outliers belong to a profile or traces; a map takes neither")
         return self
+
+    @model_validator(mode="after")
+    def _lay_of_its_directions(self) -> SurfaceSection:
+        if (self.m2_along is None) != (self.m4_along_per_um2 is None):
+            raise ValueError("moments along the lay are both m2_along and m4_along_per_um2")
+        if self.lay == "isotropic" and (self.traces_along or self.m2_along) is not None:
+            raise ValueError('lay = "isotropic" has one direction; leave out what is along the lay')
+        if self.lay not in (None, "isotropic") and not self.has_two_directions:
+            raise ValueError(f'lay = "{self.lay}" needs traces_along, or m2_along and m4_along_per_um2, or a map')
+        return self
+
+
+SURFACE_FILES = ("profile", "traces", "traces_along", "map")
+"""Keys of a surface that name files."""
 
 
 class Uncertainty(Section):

@@ -21,6 +21,7 @@ from mixedlub.gear import GearPair, Mesh
 from mixedlub.gear.inputs import motion_inputs
 from mixedlub.laws.load import LEAST_SHARE
 from mixedlub.laws.oil import ZERO_CELSIUS
+from mixedlub.rig.build import check_bandwidth
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.plausibility import implausible
 from mixedlub.rig.rig import Rig
@@ -213,6 +214,8 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     oil = rig.oil()
     check_viscosity(options, oil)
     surfaces = {s: rig.surface(s) for s in used}
+    for s, one in surfaces.items():
+        check_bandwidth(one, file.surfaces[s])
     inputs = {
         **condition_inputs(file, pair, points, oil),
         **surface_inputs([(surfaces[a], surfaces[b]) for a, b in chosen]),

@@ -18,7 +18,7 @@ from mixedlub.rig.build import DEFAULT_BASE, ZERO_CELSIUS
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.surface import Surface
 from mixedlub.schema.section import Section
-from mixedlub.schema.system_file import Gears, SurfaceSection
+from mixedlub.schema.system_file import SURFACE_FILES, Gears, SurfaceSection
 from mixedlub.study.checkpoint import fingerprint, input_fingerprint
 from mixedlub.study.options import ignored
 from mixedlub.study.plan import Study
@@ -56,9 +56,10 @@ def resolved(study: Study) -> dict[str, Any]:
         "assumed": list(assumed(study)),
         "derived": {"gears": _geometry(study), "surfaces": {n: asperities(s) for n, s in study.surfaces.items()}},
         "traces": {
-            name: {"profile": file.surfaces[name].profile, "steps": list(s.steps)}
+            name: file.surfaces[name].model_dump(include=set(SURFACE_FILES), exclude_none=True)
+            | {"steps": list(s.steps)}
             for name, s in study.surfaces.items()
-            if file.surfaces[name].profile is not None
+            if file.surfaces[name].is_measured
         },
     }
 
@@ -141,22 +142,33 @@ def as_moments(surface: Surface, section: SurfaceSection) -> dict[str, Any]:
         include={"coating", "thermal_conductivity_W_mK", "density_kg_m3", "specific_heat_J_kgK"}, exclude_none=True
     )
     moments = {"m0_um2": surface.m0 * 1e12, "m2": surface.m2, "m4_per_um2": surface.m4 * 1e-12}
-    return {name: _plain(value) for name, value in moments.items()} | body
+    if surface.m2_along is not None and surface.m4_along is not None:
+        moments |= {"m2_along": surface.m2_along, "m4_along_per_um2": surface.m4_along * 1e-12}
+    lay = {} if surface.lay is None else {"lay": surface.lay}
+    return {name: _plain(value) for name, value in moments.items()} | lay | body
 
 
 def asperities(surface: Surface) -> dict[str, float]:
-    """Roughness and asperities of one surface, from its moments."""
-    moments = (np.array(surface.m0), np.array(surface.m2), np.array(surface.m4))
+    """Roughness and asperities of one surface, from its moments; of one with a lay, those of its isotropic stand-in."""
+    m2, m4 = ((across * (along or across)) ** 0.5 for across, along in _directions(surface))
+    moments = (np.array(surface.m0), np.array(m2), np.array(m4))
     with np.errstate(divide="ignore"):
         found = {
             "Rq_um": np.sqrt(surface.m0) * 1e6,
-            "rms_slope": np.sqrt(surface.m2),
-            "rms_curvature_per_mm": np.sqrt(surface.m4) * 1e-3,
+            "rms_slope": np.sqrt(m2),
+            "rms_curvature_per_mm": np.sqrt(m4) * 1e-3,
             "nayak": nayak_parameter(*moments),
             "density_per_mm2": summit_density(*moments[1:]) * 1e-6,
             "radius_um": summit_radius(moments[2]) * 1e6,
         }
+    if surface.lay is not None:
+        found |= {"rms_slope_across_lay": surface.m2**0.5, "peklenik_number": np.array(surface.orientation)}
     return {name: float(value) for name, value in found.items() if np.isfinite(value)}
+
+
+def _directions(surface: Surface) -> tuple[tuple[float, float | None], tuple[float, float | None]]:
+    """m2 and m4, each across and along the lay."""
+    return (surface.m2, surface.m2_along), (surface.m4, surface.m4_along)
 
 
 def write_record(aside: Path, folder: Path, study: Study, file: Path, given: bytes) -> None:

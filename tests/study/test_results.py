@@ -112,9 +112,12 @@ def test_thick_films_are_not_flagged(write_study):
     assert out_of_range(run_study(study)) == ()
 
 
-def test_low_bandwidth_is_flagged(write_study):
-    low = {"a": {"m0_um2": 0.001, "m2": 0.0025, "m4_per_um2": 0.0036}}
-    assert "bandwidth_limited" in codes(out_of_range(run_study(read_study(write_study(surfaces=low)))))
+def test_low_bandwidth_of_a_trace_is_flagged(write_study, tmp_path):
+    """A wave has one summit a period, a bandwidth of 1."""
+    x = np.arange(16_000) * 0.5e-6
+    np.savetxt(tmp_path / "wave.txt", 0.1 * np.sin(2 * np.pi * x / 100e-6))
+    wave = {"profile": "wave.txt", "unit": "um", "spacing": "0.5 um", "cutoff_mm": 0.8}
+    assert "bandwidth_limited" in codes(out_of_range(run_study(read_study(write_study(surfaces={"a": wave})))))
 
 
 def test_area_ratio_held_at_one_is_flagged(write_study):

@@ -1,0 +1,190 @@
+r"""Areal height maps: levelled, filtered, and their spectral moments in every direction.
+
+Moments of a homogeneous surface :math:`z(x, y)` are :math:`m_{pq} = \int\!\!\int S(k_x, k_y)\,k_x^p k_y^q`, so that
+:math:`m_{20} = \langle z_x^2\rangle`, :math:`m_{11} = \langle z_x z_y\rangle`,
+:math:`m_{40} = \langle z_{xx}^2\rangle`, :math:`m_{22} = \langle z_{xy}^2\rangle`. P. R. Nayak, J. Lubr. Technol. 93 (1971) 398.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from profiles import InputError
+from profiles.image import HeightMap
+from roughness.moments import Moments
+
+SIGMA = math.sqrt(math.log(2.0) / math.pi) / math.sqrt(2.0 * math.pi)
+"""Standard deviation of the Gaussian filter over its cut-off; ISO 16610-61."""
+FEWEST = 16
+"""Fewest rows and columns of a map whose moments mean anything."""
+
+
+@dataclass(frozen=True)
+class ArealMoments:
+    """Moments of a surface (SI); the first index counts powers of the wavenumber along x, the second along y.
+
+    >>> isotropic = ArealMoments(1e-14, 1e-3, 0.0, 1e-3, 3e9, 0.0, 1e9, 0.0, 3e9)
+    >>> round(isotropic.profile(0.7).m4 / 1e9, 12), isotropic.anisotropy
+    (3.0, 1.0)
+    """
+
+    m00: float
+    m20: float
+    m11: float
+    m02: float
+    m40: float
+    m31: float
+    m22: float
+    m13: float
+    m04: float
+
+    def profile(self, angle: float) -> Moments:
+        r"""Moments of a trace at an angle (rad) from the x axis.
+
+        .. math:: m_2 = m_{20}c^2 + 2m_{11}cs + m_{02}s^2,\quad
+                  m_4 = m_{40}c^4 + 4m_{31}c^3s + 6m_{22}c^2s^2 + 4m_{13}cs^3 + m_{04}s^4
+
+        with the cosine c and sine s of the angle. Source: M. S. Longuet-Higgins, Phil. Trans. R. Soc. A 249 (1957) 321.
+        """
+        c, s = math.cos(angle), math.sin(angle)
+        second = self.m20 * c**2 + 2.0 * self.m11 * c * s + self.m02 * s**2
+        fourth = self.m40 * c**4 + 4.0 * self.m31 * c**3 * s + 6.0 * self.m22 * c**2 * s**2
+        fourth += 4.0 * self.m13 * c * s**3 + self.m04 * s**4
+        return Moments(self.m00, second, fourth, estimator="areal")
+
+    @property
+    def across_lay(self) -> float:
+        """Angle (rad) from the x axis of the direction with the largest slope variance, across the lay."""
+        return 0.5 * math.atan2(2.0 * self.m11, self.m20 - self.m02)
+
+    @property
+    def anisotropy(self) -> float:
+        """Rms slope along the lay over that across it: 1 without a lay, 0 for a surface of parallel ridges."""
+        across = self.across_lay
+        return math.sqrt(self.profile(across + 0.5 * math.pi).m2 / self.profile(across).m2)
+
+
+def areal_moments(area: HeightMap) -> ArealMoments:
+    """Moments of a levelled map by differences between neighbours; the heights are about their mean.
+
+    On a wave of N points the differences lose as much as those of a trace do (`roughness.moments`).
+
+    >>> y, x = np.mgrid[0:400, 0:400]
+    >>> wave = HeightMap(1e-6 * np.cos(2 * np.pi * (x * 0.6 + y * 0.8) / 100), 1e-6, 1e-6)
+    >>> m = areal_moments(wave)
+    >>> round(math.degrees(m.across_lay), 2), round(m.profile(m.across_lay).m2 / (2 * np.pi * 1e-2) ** 2, 2)
+    (53.13, 0.5)
+    """
+    z, dx, dy = _without_holes(area), area.spacing_x, area.spacing_y
+    z = z - z.mean()
+    xx, yy = np.diff(z, 2, axis=1) / dx**2, np.diff(z, 2, axis=0) / dy**2
+    twist = (z[2:, 2:] - z[2:, :-2] - z[:-2, 2:] + z[:-2, :-2]) / (4.0 * dx * dy)
+    rising, falling = z[1:, 1:] - z[:-1, :-1], z[:-1, 1:] - z[1:, :-1]
+    cells = (z[1:, 1:] - z[1:, :-1] - z[:-1, 1:] + z[:-1, :-1]) / (dx * dy)
+    found = ArealMoments(
+        m00=_mean_square(z),
+        m20=_mean_square(np.diff(z, axis=1)) / dx**2,
+        m11=(_mean_square(rising) - _mean_square(falling)) / (4.0 * dx * dy),
+        m02=_mean_square(np.diff(z, axis=0)) / dy**2,
+        m40=_mean_square(xx),
+        m31=float(np.mean(xx[1:-1] * twist)),
+        m22=_mean_square(cells),
+        m13=float(np.mean(yy[:, 1:-1] * twist)),
+        m04=_mean_square(yy),
+    )
+    if min(found.m20, found.m02) <= 0.0:
+        raise InputError("is flat: it has no roughness", where=f"map {area.name!r}")
+    return found
+
+
+def areal_roughness(
+    area: HeightMap, *, form: str = "line", cutoff: float | None = None, short_cutoff: float | None = None
+) -> HeightMap:
+    """The roughness of a map: form off, then waves shorter than one and longer than the other cut-off (m) off.
+
+    ``form``: none, mean, line (a plane) or polynomial-N of total degree N. Gaussian filters of ISO 16610-61; towards
+    the edges the weights of the points that are there count.
+
+    >>> y, x = np.mgrid[0:64, 0:64]
+    >>> tilted = HeightMap(1e-7 * x + 2e-7 * y + 1e-7 * ((x + y) % 2), 1e-6, 1e-6)
+    >>> round(float(areal_roughness(tilted).heights.std() * 1e9), 1)
+    50.0
+    """
+    heights = _levelled(_without_holes(area), form)
+    if short_cutoff is not None:
+        heights = _smoothed(heights, area, short_cutoff)
+    if cutoff is not None:
+        if short_cutoff is not None and not short_cutoff < cutoff:
+            rule = f"short cut-off must be below the cut-off of {cutoff * 1e6:g} um"
+            raise InputError(rule, where=f"map {area.name!r}: short cut-off (um)", value=short_cutoff * 1e6)
+        if cutoff > min(area.size):
+            rule = f"the map of {min(area.size) * 1e3:.3g} mm is shorter than the cut-off"
+            raise InputError(rule, where=f"map {area.name!r}: cut-off (mm)", value=cutoff * 1e3)
+        heights = heights - _smoothed(heights, area, cutoff)
+    return replace(area, heights=heights)
+
+
+def tiles(area: HeightMap, a_side: int = 3) -> list[HeightMap]:
+    """The map cut into as many rows as columns of parts.
+
+    >>> [part.heights.shape for part in tiles(HeightMap(np.zeros((40, 60)), 1e-6, 1e-6), 2)]
+    [(20, 30), (20, 30), (20, 30), (20, 30)]
+    """
+    rows = np.array_split(area.heights, a_side, axis=0)
+    return [replace(area, heights=part) for row in rows for part in np.array_split(row, a_side, axis=1)]
+
+
+def _mean_square(values: np.ndarray) -> float:
+    return float(np.mean(np.square(values)))
+
+
+def _without_holes(area: HeightMap) -> np.ndarray:
+    missing = int(np.count_nonzero(~np.isfinite(area.heights)))
+    if missing:
+        rule = (
+            f"has holes: {missing} of {area.heights.size} points have no height; slope and curvature there would be "
+            "made up. Fill them in the instrument's software, cut the map to a part without, or give traces"
+        )
+        raise InputError(rule, where=f"map {area.name!r}")
+    if min(area.heights.shape) < FEWEST:
+        rule = f"a map needs at least {FEWEST} rows and columns"
+        raise InputError(rule, where=f"map {area.name!r}", value=area.heights.shape)
+    return area.heights
+
+
+def _levelled(heights: np.ndarray, form: str) -> np.ndarray:
+    degree = _degree(form)
+    if degree is None:
+        return heights
+    y, x = (np.linspace(-1.0, 1.0, n) for n in heights.shape)
+    across = np.polynomial.legendre.legvander(x, degree)
+    down = np.polynomial.legendre.legvander(y, degree)
+    terms = [np.outer(down[:, i], across[:, j]) for i in range(degree + 1) for j in range(degree + 1 - i)]
+    basis = np.array([term.ravel() for term in terms])
+    fitted = np.linalg.solve(basis @ basis.T, basis @ heights.ravel()) @ basis
+    return heights - fitted.reshape(heights.shape)
+
+
+def _degree(form: str) -> int | None:
+    if form in ("none", "mean", "line"):
+        return {"none": None, "mean": 0, "line": 1}[form]
+    head, _, tail = form.partition("-")
+    if head == "polynomial" and tail.isdigit() and int(tail) <= 8:
+        return int(tail)
+    raise InputError("of a map is none, mean, line or polynomial-0 to polynomial-8", where="form", value=form)
+
+
+def _smoothed(heights: np.ndarray, area: HeightMap, cutoff: float) -> np.ndarray:
+    """Heights after the Gaussian low-pass of a cut-off (m)."""
+    from skimage.filters import gaussian
+
+    sigma = (SIGMA * cutoff / area.spacing_y, SIGMA * cutoff / area.spacing_x)
+
+    def low(values: np.ndarray) -> np.ndarray:
+        passed: np.ndarray = gaussian(values, sigma=sigma, mode="constant", preserve_range=True)
+        return passed
+
+    return low(heights) / low(np.ones_like(heights))

@@ -1,0 +1,179 @@
+"""Surfaces of a study from several traces, across and along the lay, and from height maps."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mixedlub.rig.surface import Surface, paired
+from mixedlub.schema.findings import collected
+from mixedlub.study import read_study, run_study
+from mixedlub.study.record import resolved
+from profiles import finishes
+from profiles.errors import InputError
+from roughness import evaluation_profile, moments
+from roughness.areal import areal_moments, areal_roughness
+
+STEP = 0.5e-6
+KNOWN = {"m0_um2": 0.1, "m2": 0.0025, "m4_per_um2": 0.0036}
+RIDGED = KNOWN | {"m2_along": 0.0001, "m4_along_per_um2": 9e-6}
+
+
+@pytest.fixture
+def traces(tmp_path):
+    """Files of ground traces of 0.3 um, and of smoother ones along the lay, with their heights."""
+
+    def write(name, rms, rolloff, seed):
+        made = finishes.ground(rms, points=9600, spacing=STEP, rolloff=rolloff, seed=seed).profile
+        lines = "".join(f"{x * 1e3:.7f} {z * 1e6:.9f}\n" for x, z in zip(made.positions, made.heights))
+        (tmp_path / name).write_text(f"# x mm, z um\n{lines}")
+        return name
+
+    across = [write(f"across_{k}.txt", 0.3e-6, 60e-6, k) for k in range(4)]
+    return across, [write(f"along_{k}.txt", 0.2e-6, 300e-6, 10 + k) for k in range(3)]
+
+
+def test_moments_of_several_traces_are_the_means(traces, write_study, tmp_path):
+    from profiles.read import read
+
+    study = read_study(write_study(surfaces={"a": {"traces": traces[0], "cutoff_mm": 0.8}}))
+    each = [moments(evaluation_profile(read(tmp_path / name), cutoff=0.8e-3)) for name in traces[0]]
+    for name in ("m0", "m2", "m4"):
+        assert getattr(study.surfaces["a"], name) == pytest.approx(np.mean([getattr(m, name) for m in each]))
+
+
+def test_one_trace_in_a_list_is_that_trace(traces, write_study):
+    one = {"profile": traces[0][0], "cutoff_mm": 0.8}
+    several = {"traces": traces[0][:1], "cutoff_mm": 0.8}
+    first, second = (run_study(read_study(write_study(surfaces={"a": s}))) for s in (one, several))
+    assert np.array_equal(first["power_loss"], second["power_loss"])
+
+
+def test_traces_along_the_lay_have_the_cutoffs_of_those_across(traces, write_study):
+    study = read_study(write_study(surfaces={"a": {"traces": traces[0], "traces_along": traces[1]}}))
+    with collected():
+        measured, found = study.rig.measured("a"), study.surfaces["a"]
+    assert measured.along.filtered[0].cutoffs == pytest.approx(dict(measured.across.filtered[0].cutoffs))
+    assert found.lay == "transverse"
+    assert found.m2_along < found.m2
+    assert found.m4_along < found.m4
+    assert 0 < found.orientation < 1
+
+
+def surface(name="a", **more):
+    return Surface(name, 1e-14, 4e-3, 1.6e9, 0.0, 2.0, 46.0, 7800.0, 470.0, **more)
+
+
+def test_a_lay_gives_geometric_means_of_moments_summed_by_direction():
+    ridged = surface(lay="transverse", m2_along=1e-3, m4_along=1e8)
+    plain = surface("b", lay="isotropic")
+    both = paired([ridged], [plain])
+    assert both["m2"] == pytest.approx(np.sqrt(8e-3 * 5e-3))
+    assert both["m4"] == pytest.approx(np.sqrt(3.2e9 * 1.7e9))
+    assert both["slope_share"] == pytest.approx(2.0 / (2.0 + 4.0))
+
+
+def test_crossed_lays_add_ridges_to_plains():
+    alike = paired(*[[surface(lay="transverse", m2_along=1e-3, m4_along=1e8)]] * 2)
+    crossed = paired(
+        [surface(lay="transverse", m2_along=1e-3, m4_along=1e8)],
+        [surface(lay="longitudinal", m2_along=1e-3, m4_along=1e8)],
+    )
+    assert alike["m2"] == pytest.approx(4e-3)
+    assert crossed["m2"] == pytest.approx(5e-3)
+
+
+def test_an_isotropic_surface_is_as_one_without_a_stated_lay(write_study):
+    plain, stated = (
+        run_study(read_study(write_study(surfaces={"a": s}))) for s in (KNOWN, KNOWN | {"lay": "isotropic"})
+    )
+    assert np.array_equal(plain["power_loss"], stated["power_loss"])
+
+
+def test_a_lay_lowers_the_summits_that_touch(write_study):
+    plain, ridged = (run_study(read_study(write_study(surfaces={"a": s}))) for s in (KNOWN, RIDGED))
+    assert (plain["area_ratio"] != ridged["area_ratio"]).all()
+
+
+def test_a_result_computed_from_its_record_is_the_same(traces, write_study):
+    study = read_study(write_study(surfaces={"a": {"traces": traces[0], "traces_along": traces[1]}}))
+    recorded = json.loads(json.dumps(resolved(study)))
+    again = read_study(write_study(name="again", surfaces=recorded["inputs"]["surfaces"]))
+    assert run_study(again)["power_loss"] == pytest.approx(run_study(study)["power_loss"], rel=1e-10)
+    assert recorded["traces"]["a"]["traces_along"] == traces[1]
+
+
+@pytest.fixture
+def area_file(tmp_path) -> Path:
+    """An x3p map of ridges along y, 0.25 um rms."""
+    import x3pio
+
+    q = np.fft.fftfreq(500)
+    radius = np.hypot(4.0 * q[:, None], q[None, :])
+    power = np.where((radius > 1 / 80) & (radius < 1 / 12), np.maximum(radius, 1e-9) ** -2.5, 0.0)
+    z = np.fft.ifft2(np.sqrt(power) * np.fft.fft2(np.random.default_rng(3).standard_normal(power.shape))).real
+    x3pio.write(tmp_path / "ground.x3p", 0.25e-6 * z / z.std(), x_scale=STEP, y_scale=STEP)
+    return tmp_path / "ground.x3p"
+
+
+def test_a_map_gives_the_moments_across_and_along_its_lay(area_file, write_study):
+    from profiles.image import read_map
+
+    study = read_study(write_study(surfaces={"a": {"map": area_file.name, "short_cutoff_um": 2.5}}))
+    found = study.surfaces["a"]
+    known = areal_moments(areal_roughness(read_map(area_file), short_cutoff=2.5e-6))
+    assert found.m2 == pytest.approx(known.profile(known.across_lay).m2)
+    assert found.m2_along == pytest.approx(known.profile(known.across_lay + np.pi / 2).m2)
+    assert found.orientation == pytest.approx(0.25, rel=0.1)
+    assert "cutoff_assumed" in {note.code for note in study.notes}
+    assert np.isfinite(run_study(study)["power_loss"]).all()
+
+
+def test_a_map_with_holes_is_refused(area_file, write_study, tmp_path):
+    import x3pio
+
+    from profiles.image import read_map
+
+    holed = np.array(read_map(area_file).heights)
+    holed[10:12, 30] = np.nan
+    x3pio.write(tmp_path / "holed.x3p", holed, x_scale=STEP, y_scale=STEP)
+    with pytest.raises(InputError, match=r"surfaces\.a.*2 of 250000 points have no height"):
+        read_study(write_study(surfaces={"a": {"map": "holed.x3p"}}))
+
+
+def test_a_lay_of_one_surface_of_two_is_refused(write_study):
+    with pytest.raises(InputError, match=r"surfaces\.plain: its lay is unknown.*ridged"):
+        read_study(write_study(surfaces={"ridged": RIDGED, "plain": KNOWN}))
+    read_study(write_study(surfaces={"ridged": RIDGED, "plain": KNOWN}, pairings={"every": ["plain"]}))
+
+
+def test_stated_moments_below_any_surface_are_refused(write_study):
+    with pytest.raises(InputError, match=r"surfaces\.a: Nayak's m0 m4 / m2\^2 is 0\.576"):
+        read_study(write_study(surfaces={"a": {"m0_um2": 0.001, "m2": 0.0025, "m4_per_um2": 0.0036}}))
+
+
+@pytest.mark.parametrize(
+    ("given", "named"),
+    [
+        (KNOWN | {"m2_along": 1e-4}, "both m2_along and m4_along_per_um2"),
+        (KNOWN | {"lay": "transverse"}, "needs traces_along"),
+        (RIDGED | {"lay": "isotropic"}, "has one direction"),
+        (KNOWN | {"traces": ["a.txt"]}, "has both moments and a trace"),
+        ({"profile": "a.txt", "traces": ["b.txt"]}, "has both profile and traces"),
+        (KNOWN | {"traces_along": ["a.txt"]}, "belong to a profile or traces"),
+        ({"traces": []}, "traces"),
+        ({"map": "a.x3p", "outliers": 5.0}, "outliers"),
+        ({"traces": ["nowhere.txt"]}, r"surfaces\.a\.traces: .*nowhere\.txt"),
+    ],
+)
+def test_a_surface_that_contradicts_itself_is_refused(given, named, write_study):
+    with pytest.raises(InputError, match=named):
+        read_study(write_study(surfaces={"a": given}))
+
+
+def test_traces_without_units_are_refused_with_the_key_that_helps(write_study, tmp_path):
+    for name in ("a.txt", "b.txt"):
+        np.savetxt(tmp_path / name, np.random.default_rng(0).standard_normal(4000))
+    with pytest.raises(InputError, match=r"surfaces\.flank.* unit = '"):
+        read_study(write_study(surfaces={"flank": {"traces": ["a.txt", "b.txt"], "spacing": "0.5 um"}}))
