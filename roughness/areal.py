@@ -2,7 +2,8 @@ r"""Areal height maps: levelled, filtered, and their spectral moments in every d
 
 Moments of a homogeneous surface :math:`z(x, y)` are :math:`m_{pq} = \int\!\!\int S(k_x, k_y)\,k_x^p k_y^q`, so that
 :math:`m_{20} = \langle z_x^2\rangle`, :math:`m_{11} = \langle z_x z_y\rangle`,
-:math:`m_{40} = \langle z_{xx}^2\rangle`, :math:`m_{22} = \langle z_{xy}^2\rangle`. P. R. Nayak, J. Lubr. Technol. 93 (1971) 398.
+:math:`m_{40} = \langle z_{xx}^2\rangle`, :math:`m_{22} = \langle z_{xy}^2\rangle`.
+P. R. Nayak, J. Lubr. Technol. 93 (1971) 398.
 """
 
 from __future__ import annotations

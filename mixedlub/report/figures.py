@@ -14,6 +14,7 @@ from mixedlub.report.plots import (
     MOST_PAIRINGS,
     MOST_TORQUES,
     film_and_friction,
+    has_bands,
     has_own_scales,
     is_wide,
     loss_over,
@@ -67,7 +68,8 @@ def _over_temperature(results: Results) -> Drawn:
         f"power_loss_{key}_temperature",
         f"Power loss against oil temperature: {words} at a {whose} speed of {fastest} rpm. "
         + _title_words(_some_of(levels.torque_Nm, MOST_LEVELS, "torques", "N m"))
-        + _hollow(results.outside[chosen][..., int(np.argmax(levels.speed_rpm))]),
+        + _hollow(results.outside[chosen][..., int(np.argmax(levels.speed_rpm))])
+        + _shaded(results),
         over_temperature(results, chosen),
     )
 
@@ -85,7 +87,7 @@ def _at_temperature(results: Results, theta: int, several: bool) -> Iterator[Dra
         for key, words, chosen in _groups(results):
             if len(chosen):
                 caption = f"{title} against {whose} speed: {words}{at}. {_title_words(some_torques)}"
-                caption += _hollow(results.outside[chosen, theta])
+                caption += _hollow(results.outside[chosen, theta]) + _shaded(results)
                 if quantity == "area_ratio":
                     caption += _log_words(results["area_ratio"][chosen, theta])
                 yield Drawn(f"{quantity}_{key}{suffix}", caption, over_speed(results, quantity, chosen, theta))
@@ -107,13 +109,27 @@ def _at_temperature(results: Results, theta: int, several: bool) -> Iterator[Dra
         f"film_and_friction{suffix}",
         f"Mean film thickness, {whose_film}, and mean friction of the smoothest and the roughest pairing{at}."
         + some_torques
-        + _hollow(results.outside[:, theta]),
+        + _hollow(results.outside[:, theta])
+        + _shaded(results),
         film_and_friction(results, theta),
     )
 
 
 def _hollow(outside: np.ndarray) -> str:
     return " Hollow marks: outside the model's range, as the table says." if outside.any() else ""
+
+
+def _shaded(results: Results) -> str:
+    """Meaning of the shaded bands; empty where there are none."""
+    return f" Shaded: {BANDS[results.study.plan.options.bands]}." if has_bands(results) else ""
+
+
+BANDS = {
+    "traces": "in 90 of 100 surfaces the true value, by the scatter of the traces",
+    "short_cutoff": "from the lowest to the highest value at half, one and two short cut-offs",
+    "both": "from the lowest to the highest end of the 90 % bands of the traces at half, one and two short cut-offs",
+}
+"""What a band spans, by the option of the study."""
 
 
 def _title_words(more: str) -> str:

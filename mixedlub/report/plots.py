@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mixedlub.report.style import SMALL, WIDTH, legend_above, normalised_axis, panels, shades
-from mixedlub.study.results import Results
+from mixedlub.study.bands import HIGH, LOW
+from mixedlub.study.results import COLUMNS, Results
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -90,6 +91,21 @@ def _curve(panel: Axes, x: np.ndarray, y: np.ndarray, outside: np.ndarray, colou
         panel.scatter(x[hollow], y[hollow], 13.0, facecolor="white", edgecolor=[colour], linewidth=0.8, zorder=3)
 
 
+def _shade(
+    panel: Axes, results: Results, quantity: str, x: np.ndarray, at: Callable[[np.ndarray], np.ndarray], colour: Any
+) -> None:
+    """The band of a curve, where the study has one; ``at`` takes the values of the curve out of an output."""
+    if has_bands(results):
+        factor = COLUMNS[quantity][1] if quantity == "film_thickness" else 1.0
+        low, high = (factor * at(results[end + quantity]) for end in (LOW, HIGH))
+        panel.fill_between(x, low, high, color=colour, alpha=0.2, linewidth=0.0)
+
+
+def has_bands(results: Results) -> bool:
+    """Whether a study has low and high columns."""
+    return bool(results.study.plan.bands)
+
+
 def _marked(count: int) -> np.ndarray:
     return np.isin(np.arange(count), some(count, MOST_MARKED))
 
@@ -142,6 +158,7 @@ def _over(
         for colour, t, label in zip(shades(len(torques)), torques, labels):
             outside = values(results.outside, pairing, t)
             _curve(panel, x, values(results[quantity], pairing, t), outside, colour, label)
+            _shade(panel, results, quantity, x, lambda a, p=pairing, t=t: values(a, p, t), colour)  # type: ignore[misc]
         sigma = results["composite_roughness"][pairing, 0, 0, 0] * 1e6
         panel.set_title(paired_title(results, pairing, f"Rq {sigma:.3f} µm"), loc="left")
     for number, panel in enumerate(axes):
@@ -267,6 +284,7 @@ def film_and_friction(results: Results, theta: int) -> Figure:
         outside = results.outside[i, theta] & (quantity != "film_thickness")
         for colour, t, text in zip(shades(len(torques)), torques, _torque_labels(results, torques)):
             _curve(panel, rpm, values[t, order], outside[t, order], colour, text)
+            _shade(panel, results, quantity, rpm, lambda a, i=i, t=t: a[i, theta, t, order], colour)  # type: ignore[misc]
         panel.set_title(title, loc="left", fontsize=SMALL)
         panel.set_ylabel(label)
         panel.set_xlabel(f"{_whose(results)} speed (rpm)")

@@ -238,6 +238,30 @@ def measured(name: str, section: system_file.SurfaceSection, folder: Path, acros
     return Measured(across, along)
 
 
+def at_short_cutoff(
+    name: str, section: system_file.SurfaceSection, folder: Path, across: Traces | None, factor: float
+) -> Measured | None:
+    """What was measured, at a multiple of its short cut-off; None where that is not resolved, or there is none."""
+    if across is None:
+        short = SHORT_CUTOFF * 1e6 if section.short_cutoff_um is None else section.short_cutoff_um
+        other = section.model_copy(update={"short_cutoff_um": factor * short})
+        with collected() as found:
+            area = flank_map(name, other, folder)
+        resolved = all(one.code != "short_cutoff_skipped" for one in found)
+        return Measured(area=area, isotropic=section.lay == "isotropic") if resolved else None
+    first, raw = across.filtered[0], across.raw[0]
+    own = first.cutoffs.get("short_cutoff")
+    long = first.cutoffs.get("cutoff", np.inf)
+    if (
+        own is None
+        or "short_cutoff" in raw.cutoffs
+        or not 2.0 * raw.spacing <= factor * own < min(long, raw.length / 2)
+    ):
+        return None
+    other = _with_cutoffs(section, first).model_copy(update={"short_cutoff_um": factor * own * 1e6})
+    return measured(name, other, folder, filtered(name, other, across.raw))
+
+
 def flank_map(name: str, section: system_file.SurfaceSection, folder: Path) -> HeightMap:
     """The roughness of a height map; cut-offs that the section leaves out are 0.8 mm and 2.5 um as far as they fit."""
     from profiles.image import read_map

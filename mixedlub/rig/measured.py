@@ -121,6 +121,11 @@ class Measured:
             return {"m0": across.m0, "m2": 0.5 * (across.m2 + along.m2), "m4": 0.5 * (across.m4 + along.m4)}
         return {"m0": across.m0, "m2": across.m2, "m4": across.m4, "m2_along": along.m2, "m4_along": along.m4}
 
+    @property
+    def by_lengths(self) -> bool:
+        """Whether the scatter is that of sampling lengths, as there are too few traces."""
+        return any(one is not None and len(one.filtered) < FEWEST for one in (self.across, self.along))
+
     def profile(self) -> Profile:
         """All filtered heights across the lay as one profile; of a map, its longest trace across the lay."""
         if self.area is not None:

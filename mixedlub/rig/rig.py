@@ -86,6 +86,24 @@ class Rig:
 
         return self._once(("surface", name), built)
 
+    def at_short_cutoff(self, name: str, factor: float) -> Surface:
+        """A measured surface at a multiple of its short cut-off; as it is where it has none or cannot show such waves.
+
+        What there is to report of the surface is reported with the surface itself.
+        """
+        own = self.surface(name)
+        section = self.file.surfaces[name]
+        if not section.is_measured:
+            return own
+
+        def built() -> Surface:
+            across = self._filtered(name) if section.files else None
+            other = build.at_short_cutoff(name, section, self.folder, across, factor)
+            return own if other is None else build.surface(name, section, other)
+
+        with collected():
+            return self._once(("short_cutoff", name, factor), built)
+
     def parts(self) -> Iterator[GearPair | Sharing | Lubricant | Surface]:
         """Every part that the file describes: an error names the first one that cannot be built."""
         if self.file.gears is not None:

@@ -13,6 +13,7 @@ import os
 import platform
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -22,6 +23,7 @@ from mixedlub.chain.model import Model, Step
 from mixedlub.chain.ranges import beyond
 from mixedlub.laws.contact import mean_hertz_pressure
 from mixedlub.laws.loss import over_path
+from mixedlub.study.bands import HIGH, LOW, band
 from mixedlub.study.cluster import on_cluster
 from mixedlub.study.plan import Plan
 
@@ -94,16 +96,41 @@ def blocks(plan: Plan) -> list[Block]:
 
 
 def names(plan: Plan) -> tuple[str, ...]:
-    """Names of the outputs and checks of a plan."""
+    """Names of the outputs, checks and ends of bands of a plan."""
+    ends = (end + name for name in _outputs(plan) for end in (LOW, HIGH)) if plan.bands else ()
+    return (*_own_names(plan), *ends)
+
+
+def _outputs(plan: Plan) -> tuple[str, ...]:
+    return (*OUTPUTS, *(SHARED if plan.balanced else ()))
+
+
+def _own_names(plan: Plan) -> tuple[str, ...]:
+    """Names without the ends of bands."""
     shared = (*SHARED, *SHARED_CHECKS) if plan.balanced else ()
     law = () if plan.friction is None else (BEYOND + plan.friction.name,)
     return (*OUTPUTS, *CHECKS, *shared, *(BEYOND + name for name in plan.ranges), *law)
 
 
 def compute(plan: Plan, block: Block) -> Found:
-    """Outputs and checks of one block in SI, each of the block's shape."""
+    """Outputs, checks and ends of bands of one block in SI, each of the block's shape."""
+    found = _computed(plan, block)
+    if not plan.bands:
+        return found
+
+    def at(inputs: Inputs) -> Found:
+        return _computed(replace(plan, inputs={**plan.inputs, **inputs}), block)
+
+    spread = []
+    for group in plan.bands:
+        own = found if group is plan.bands[0] else at(group.own)
+        spread.append((own, [(at(low), at(high)) for low, high in group.axes]))
+    return found | band(spread, _outputs(plan))
+
+
+def _computed(plan: Plan, block: Block) -> Found:
     shape = tuple(s.stop - s.start for s in block)
-    found = {name: np.empty(shape) for name in names(plan)}
+    found = {name: np.empty(shape) for name in _own_names(plan)}
     with np.errstate(all="ignore"):
         _fill(plan, block, found)
     return found

@@ -7,6 +7,7 @@ study's fingerprint: blocks of another study, or of other code, are never reused
 from __future__ import annotations
 
 import hashlib
+import itertools
 import json
 import os
 import shutil
@@ -34,10 +35,12 @@ def fingerprint(plan: Plan) -> str:
 def input_fingerprint(plan: Plan) -> str:
     """A hash of every number the results depend on."""
     digest = hashlib.sha256()
-    for name in sorted(plan.inputs):
-        value = np.ascontiguousarray(plan.inputs[name], dtype=float)
-        digest.update(f"{name}{value.shape}".encode())
-        digest.update(value.tobytes())
+    moved = (inputs for group in plan.bands for inputs in (group.own, *itertools.chain(*group.axes)))
+    for inputs in (plan.inputs, *moved):
+        for name in sorted(inputs):
+            value = np.ascontiguousarray(inputs[name], dtype=float)
+            digest.update(f"{name}{value.shape}".encode())
+            digest.update(value.tobytes())
     chosen = [plan.options.model_dump(), {k: dict(v) for k, v in plan.parameters.items()}, plan.shape]
     digest.update(json.dumps(chosen, sort_keys=True).encode())
     return digest.hexdigest()

@@ -29,6 +29,7 @@ from mixedlub.rig.surface import Surface, paired
 from mixedlub.schema import system_file, toml_file
 from mixedlub.schema.findings import Finding, collected, finding, report
 from mixedlub.slots import ASPERITY_LOAD, SLOTS
+from mixedlub.study.bands import Group, groups
 from mixedlub.study.friction_options import check_coefficients, check_effects, check_friction, check_viscosity
 from mixedlub.study.options import at_hardness, ignored, study_chain
 from mixedlub.study.schema import Options, Pairings, StudyFile
@@ -56,7 +57,7 @@ class Plan:
 
     ``inputs`` hold SI arrays of up to five axes (pairing, oil temperature, torque, speed, mesh), length one
     on each axis they do not depend on; ``shape`` is the number of levels of the first four, ``points`` of
-    the last.
+    the last. ``bands`` has the inputs of the surfaces from which the bands of the results are computed.
     """
 
     inputs: Mapping[str, Any]
@@ -64,6 +65,7 @@ class Plan:
     parameters: Parameters
     shape: tuple[int, int, int, int]
     points: int
+    bands: tuple[Group, ...] = ()
 
     @property
     def effects(self) -> tuple[Effect, ...]:
@@ -223,7 +225,8 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     effects, parameters = _effects(file, inputs)
     levels = file.conditions
     shape = (len(chosen), len(levels.oil_temperature_C), len(levels.torque_Nm), len(levels.speed_rpm))
-    plan = Plan(inputs, options, parameters, shape, points.position.size)
+    moved = groups(options.bands, rig, surfaces, chosen, surface_inputs)
+    plan = Plan(inputs, options, parameters, shape, points.position.size, moved)
     check_friction(file, plan.model())
     return Study(name, file, rig, pair, points, oil, surfaces, chosen, effects, plan)
 

@@ -17,6 +17,8 @@ from mixedlub.schema.section import table as file_table
 from mixedlub.schema.table import span
 from mixedlub.schema.units import unit_of
 from mixedlub.study import batch, checkpoint
+from mixedlub.study.bands import HIGH, LOW
+from mixedlub.study.bands import column as band_column
 from mixedlub.study.batch import CHECKS
 from mixedlub.study.plan import Study, counted, factors
 from mixedlub.study.range_flags import VALID, as_words, flags
@@ -74,6 +76,16 @@ DEFINITIONS = {
 }
 """Meaning of each output."""
 
+_ENDS = {
+    end + name: (band_column(own, word), scale)
+    for name, (own, scale) in COLUMNS.items()
+    for end, word in ((LOW, "low"), (HIGH, "high"))
+}
+DEFINITIONS |= {
+    name: f"{'lower' if name.startswith(LOW) else 'upper'} end of the band of {COLUMNS[name.split('_', 1)[1]][0]}"
+    for name in _ENDS
+}
+COLUMNS |= _ENDS
 VALIDITY = "validity"
 """Column that says of a condition where it is outside the range of the model."""
 VALIDITY_MEANING = f"'{VALID}', or the kinds of findings that say why the condition is outside the model's range"

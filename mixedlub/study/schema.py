@@ -134,6 +134,17 @@ class Options(_Laws):
         {},
         example={},
     )
+    bands: Literal["none", "traces", "short_cutoff", "both"] = key(
+        "low and high columns of every result",
+        "none",
+        values={
+            "none": "no bands",
+            "traces": "the true value in 90 of 100 surfaces, by the scatter between three or more traces of each, "
+            "else between the sampling lengths",
+            "short_cutoff": "lowest and highest at half, one and two short cut-offs of all traces",
+            "both": "lowest and highest end of the bands of the traces at half, one and two short cut-offs",
+        },
+    )
     conditions_of: Literal["pinion", "gear"] = key(
         "the wheel of the conditions",
         "pinion",
