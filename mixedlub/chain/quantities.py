@@ -80,6 +80,7 @@ m4                      | m_4        | 1/m^2   | variance of the profile curvatu
 height_share            | s_0        | -       | share of the first surface in the variance of the heights
 slope_share             | s_2        | -       | share of the first surface in the variance of the slopes
 curvature_share         | s_4        | -       | share of the first surface in the variance of the curvatures
+height_row              | j          | -       | row of the pairing in the contact integrals, -1 for normal heights
 composite_roughness     | sigma      | m       | root of the summed height variances
 mean_roughness          | Ra         | m       | arithmetic mean roughness, mean of both surfaces
 summit_density          | D          | 1/m^2   | summits per area

@@ -41,6 +41,8 @@ def input_fingerprint(plan: Plan) -> str:
             value = np.ascontiguousarray(inputs[name], dtype=float)
             digest.update(f"{name}{value.shape}".encode())
             digest.update(value.tobytes())
+    for table in () if plan.heights is None else (plan.heights.area, plan.heights.load):
+        digest.update(table.tobytes())
     chosen = [plan.options.model_dump(), {k: dict(v) for k, v in plan.parameters.items()}, plan.shape]
     digest.update(json.dumps(chosen, sort_keys=True).encode())
     return digest.hexdigest()

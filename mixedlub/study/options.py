@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import inspect
+from collections.abc import Mapping
 from functools import wraps
+from types import MappingProxyType
 from typing import Any
 
 from mixedlub import friction
@@ -57,13 +59,13 @@ def at_hardness(strength: float, hardness: float) -> Law:
     return law
 
 
-def study_chain(options: Options) -> Chain:
-    """The gear chain with the laws that the options ask for.
+def study_chain(options: Options, asperities: Mapping[str, Law] = MappingProxyType({})) -> Chain:
+    """The gear chain with the laws that the options ask for, and with those for ``asperities`` of other heights.
 
     >>> dict(study_chain(Options(effective_viscosity="secant")))["shear_stress"].__name__
     'ree_eyring_secant'
     """
-    chosen = options.laws
+    chosen = {**options.laws, **asperities}
     if options.viscosity_pressure == "mean":
         chosen[VISCOSITY.quantity] = at_mean_pressure(chosen[VISCOSITY.quantity])
     chain = tuple((name, chosen.get(name, law)) for name, law in GEAR_LOSS)

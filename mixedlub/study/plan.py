@@ -31,6 +31,7 @@ from mixedlub.schema.findings import Finding, collected, finding, report
 from mixedlub.slots import ASPERITY_LOAD, SLOTS
 from mixedlub.study.bands import Group, groups
 from mixedlub.study.friction_options import check_coefficients, check_effects, check_friction, check_viscosity
+from mixedlub.study.heights import HeightTables, height_tables
 from mixedlub.study.options import at_hardness, ignored, study_chain
 from mixedlub.study.schema import Options, Pairings, StudyFile
 from profiles.errors import InputError, as_path, nearest, refuse_other
@@ -47,7 +48,7 @@ WANTED = (
 )
 BALANCED = ("asperity_pressure", "full_load_film", "film_load_share", "least_film_share")
 """What is wanted as well where film and asperities share the load."""
-AREA_ALONE = ("balance", "asperities", "mixture")
+AREA_ALONE = ("balance", "asperities", "mixture", "heights")
 """Options at whose defaults an effect on the contact area needs no other change."""
 
 
@@ -57,7 +58,8 @@ class Plan:
 
     ``inputs`` hold SI arrays of up to five axes (pairing, oil temperature, torque, speed, mesh), length one
     on each axis they do not depend on; ``shape`` is the number of levels of the first four, ``points`` of
-    the last. ``bands`` has the inputs of the surfaces from which the bands of the results are computed.
+    the last. ``bands`` has the inputs of the surfaces from which the bands of the results are computed,
+    ``heights`` the contact integrals of other than normal heights.
     """
 
     inputs: Mapping[str, Any]
@@ -66,6 +68,7 @@ class Plan:
     shape: tuple[int, int, int, int]
     points: int
     bands: tuple[Group, ...] = ()
+    heights: HeightTables | None = None
 
     @property
     def effects(self) -> tuple[Effect, ...]:
@@ -80,7 +83,7 @@ class Plan:
         of_friction = () if self.friction is None else self.friction.checked
         of_balance = BALANCED if self.balanced else ()
         wanted = dict.fromkeys((*WANTED, *of_balance, *self.asperities_read, *of_friction, *checked))
-        return Model(study_chain(self.options), tuple(self.inputs), tuple(wanted), self.effects)
+        return Model(study_chain(self.options, self._of_heights), tuple(self.inputs), tuple(wanted), self.effects)
 
     @cached_property
     def ranges(self) -> Mapping[str, Mapping[str, tuple[float, float]]]:
@@ -89,6 +92,11 @@ class Plan:
         chosen = [slot.choices[getattr(self.options, slot.option)] for slot in SLOTS if slot.option not in unread]
         known = {e.id: e.valid for e in self.effects} | {c.law.__name__: c.valid for c in chosen}
         return {name: valid for name, valid in known.items() if valid}
+
+    @property
+    def _of_heights(self) -> Mapping[str, Law]:
+        """The laws of asperities with other than normal heights, by the quantity that they give."""
+        return {} if self.heights is None else self.heights.laws()
 
     @property
     def friction(self) -> FrictionLaw | None:
@@ -104,6 +112,8 @@ class Plan:
     def asperities(self) -> Law:
         """Law of the pressure that asperities would carry: yielding ones where plasticity is on."""
         plastic = self.parameters.get("asperity_plasticity")
+        if self.heights is not None:
+            return self._of_heights[ASPERITY_LOAD.quantity]
         return at_hardness(**plastic) if plastic else ASPERITY_LOAD.choices[self.options.asperities].law
 
     @cached_property
@@ -225,8 +235,11 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     effects, parameters = _effects(file, inputs)
     levels = file.conditions
     shape = (len(chosen), len(levels.oil_temperature_C), len(levels.torque_Nm), len(levels.speed_rpm))
+    heights = height_tables(options.heights, rig, surfaces, chosen)
+    if heights is not None:
+        inputs["height_row"] = heights.rows.reshape(-1, 1, 1, 1, 1)
     moved = groups(options.bands, rig, surfaces, chosen, surface_inputs)
-    plan = Plan(inputs, options, parameters, shape, points.position.size, moved)
+    plan = Plan(inputs, options, parameters, shape, points.position.size, moved, heights)
     check_friction(file, plan.model())
     return Study(name, file, rig, pair, points, oil, surfaces, chosen, effects, plan)
 

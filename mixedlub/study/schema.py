@@ -134,6 +134,17 @@ class Options(_Laws):
         {},
         example={},
     )
+    heights: Literal["gaussian", "measured", "plateau", "auto"] = key(
+        "distribution of the heights in the contact of the asperities",
+        "gaussian",
+        values={
+            "gaussian": "normal heights",
+            "measured": "the heights of the traces or map of each surface",
+            "plateau": "two normal processes fitted to each surface, the lower one that of the valleys",
+            "auto": "by the normal probability plot of each surface: Gaussian where its bulk is, a plateau where two "
+            "lines describe it, else the measured heights",
+        },
+    )
     bands: Literal["none", "traces", "short_cutoff", "both"] = key(
         "low and high columns of every result",
         "none",
@@ -160,6 +171,12 @@ class Options(_Laws):
     def laws(self) -> dict[str, Callable[..., Any]]:
         """The chosen laws by the quantity that they give."""
         return {slot.quantity: slot.choices[getattr(self, slot.option)].law for slot in SLOTS}
+
+    @model_validator(mode="after")
+    def _heights_where_they_act(self) -> Options:
+        if self.heights != "gaussian" and self.asperities != ASPERITY_LOAD.default:
+            raise ValueError(f'heights = "{self.heights}" acts only with asperities = "{ASPERITY_LOAD.default}"')
+        return self
 
     @model_validator(mode="after")
     def _hardness_where_it_acts(self) -> Options:
