@@ -81,6 +81,9 @@ height_share            | s_0        | -       | share of the first surface in t
 slope_share             | s_2        | -       | share of the first surface in the variance of the slopes
 curvature_share         | s_4        | -       | share of the first surface in the variance of the curvatures
 height_row              | j          | -       | row of the pairing in the contact integrals, -1 for normal heights
+peklenik_number         | gamma      | -       | correlation length of heights along the motion over that across it
+smooth_film             | h_0        | m       | film thickness if the surfaces were smooth
+film_over_roughness     | Lambda     | -       | film thickness over composite roughness at a point of the path
 composite_roughness     | sigma      | m       | root of the summed height variances
 mean_roughness          | Ra         | m       | arithmetic mean roughness, mean of both surfaces
 summit_density          | D          | 1/m^2   | summits per area

@@ -94,6 +94,8 @@ def paired(first: Sequence[Surface], second: Sequence[Surface], coated: bool = F
     for a, b in zip(first, second, strict=True):
         check_lays(a, b)
     both = _moments(first, second)
+    if all(s.lay is not None for s in (*first, *second)):
+        both["peklenik_number"] = _peklenik(first, second)
     for name, attribute in (
         ("solid_conductivity", "conductivity"),
         ("solid_density", "density"),
@@ -108,6 +110,18 @@ def paired(first: Sequence[Surface], second: Sequence[Surface], coated: bool = F
         )
         both["coating_conductivity"] = np.where(thickness > 0, thickness / np.maximum(resistance, 1e-30), 1.0)
     return both
+
+
+def _peklenik(first: Sequence[Surface], second: Sequence[Surface]) -> np.ndarray:
+    """Peklenik number of two surfaces together, in the direction of motion.
+
+    The first order of the flow factor has each surface by its variance times 1/(1 + gamma), so that these add up.
+    Source: J. H. Tripp, J. Lubr. Technol. 105 (1983) 458.
+    """
+    m0, gamma = (
+        np.array([[getattr(s, name) for s in side] for side in (first, second)]) for name in ("m0", "orientation")
+    )
+    return np.asarray(m0.sum(axis=0) / (m0 / (1.0 + gamma)).sum(axis=0) - 1.0)
 
 
 def _moments(first: Sequence[Surface], second: Sequence[Surface]) -> dict[str, np.ndarray]:

@@ -15,6 +15,7 @@ from mixedlub.chain.model import Chain, Law, Model
 from mixedlub.laws import contact, oil, pitch_point
 from mixedlub.laws.contact import asperity_pressure, mean_hertz_pressure
 from mixedlub.laws.film import dowson_higginson
+from mixedlub.laws.rough_film import film_over_roughness, rough_film
 from mixedlub.laws.yielding import chang_etsion_bogy_pressure
 from mixedlub.slots import FILM, SLOTS, VISCOSITY
 from mixedlub.study.schema import Options
@@ -72,7 +73,26 @@ def study_chain(options: Options, asperities: Mapping[str, Law] = MappingProxyTy
     if options.friction != friction.BASE:
         own = friction.find(options.friction).with_coefficients(options.friction_coefficients)
         chain = with_friction(chain, own)
-    return chain if options.balance == "none" else balanced(chain)
+    chain = chain if options.balance == "none" else balanced(chain)
+    return chain if options.film_roughness == "none" else with_rough_film(chain)
+
+
+def with_rough_film(base: Chain) -> Chain:
+    """A chain whose film is that of surfaces with a lay; under a balance, the film that carries the whole load.
+
+    >>> names = [name for name, _ in with_rough_film(GEAR_LOSS)]
+    >>> names[names.index("smooth_film") :][:3]
+    ['smooth_film', 'film_thickness', 'film_over_roughness']
+    """
+    film = FILM.quantity
+    after = (("film_over_roughness", film_over_roughness),)
+    if "full_load_film" in dict(base):
+        law = renamed(rough_film, {"smooth_film": film})
+        chain = tuple((name, law if name == "full_load_film" else own) for name, own in base)
+        return (*chain, *after)
+    place = [name for name, _ in base].index(film)
+    smooth = (("smooth_film", dict(base)[film]), (film, rough_film))
+    return (*base[:place], *smooth, *after, *base[place + 1 :])
 
 
 def with_friction(base: Chain, law: Law) -> Chain:
@@ -93,16 +113,25 @@ def at_pitch_point(law: Law) -> Law:
     >>> tuple(inspect.signature(at_pitch_point(contact.line_hertz_pressure)).parameters)
     ('mesh_line_load', 'pitch_radius', 'reduced_modulus')
     """
+    return renamed(law, _AT_PITCH_POINT)
+
+
+def renamed(law: Law, names: Mapping[str, str]) -> Law:
+    """A law that reads other quantities in place of some of its own.
+
+    >>> tuple(inspect.signature(renamed(rough_film, {"smooth_film": "film_thickness"})).parameters)
+    ('film_thickness', 'm0', 'peklenik_number')
+    """
 
     @wraps(law)
-    def at_point(*values: Any) -> Any:
+    def same(*values: Any) -> Any:
         return law(*values)
 
     own = inspect.signature(law)
-    at_point.__signature__ = own.replace(  # type: ignore[attr-defined]
-        parameters=[a.replace(name=_AT_PITCH_POINT.get(name, name)) for name, a in own.parameters.items()]
+    same.__signature__ = own.replace(  # type: ignore[attr-defined]
+        parameters=[a.replace(name=names.get(name, name)) for name, a in own.parameters.items()]
     )
-    return at_point
+    return same
 
 
 _AT_PITCH_POINT = {

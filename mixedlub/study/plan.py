@@ -21,6 +21,7 @@ from mixedlub.gear import GearPair, Mesh
 from mixedlub.gear.inputs import motion_inputs
 from mixedlub.laws.load import LEAST_SHARE
 from mixedlub.laws.oil import ZERO_CELSIUS
+from mixedlub.laws.rough_film import THINNEST
 from mixedlub.rig.build import check_bandwidth
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.plausibility import implausible
@@ -91,6 +92,8 @@ class Plan:
         unread = ignored(self.options, self._model(()))
         chosen = [slot.choices[getattr(self.options, slot.option)] for slot in SLOTS if slot.option not in unread]
         known = {e.id: e.valid for e in self.effects} | {c.law.__name__: c.valid for c in chosen}
+        if self.options.film_roughness != "none":
+            known["rough_film"] = {"film_over_roughness": (THINNEST, np.inf)}
         return {name: valid for name, valid in known.items() if valid}
 
     @property
@@ -232,6 +235,7 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
         **condition_inputs(file, pair, points, oil),
         **surface_inputs([(surfaces[a], surfaces[b]) for a, b in chosen]),
     }
+    _check_film_roughness(file, surfaces)
     effects, parameters = _effects(file, inputs)
     levels = file.conditions
     shape = (len(chosen), len(levels.oil_temperature_C), len(levels.torque_Nm), len(levels.speed_rpm))
@@ -242,6 +246,24 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     plan = Plan(inputs, options, parameters, shape, points.position.size, moved, heights)
     check_friction(file, plan.model())
     return Study(name, file, rig, pair, points, oil, surfaces, chosen, effects, plan)
+
+
+def _check_film_roughness(file: StudyFile, surfaces: Mapping[str, Surface]) -> None:
+    """Refuse a lay in the film where that of a surface is unknown, or where another law has it."""
+    chosen, where = file.options.film_roughness, "options.film_roughness"
+    if chosen == "none":
+        return
+    unknown = [name for name, one in surfaces.items() if one.lay is None]
+    if unknown:
+        rule = f"needs the lay of every surface; unknown is that of {', '.join(unknown)}"
+        raise InputError(rule, where=where, value=chosen)
+    if "roughness_lay" in file.effects:
+        raise InputError(
+            "is the lay's effect on the film; leave it or film_roughness out", where="effects.roughness_lay"
+        )
+    if file.options.friction != friction.BASE:
+        rule = f"goes with the base model's friction; friction = {file.options.friction!r} is fitted to smooth films"
+        raise InputError(rule, where=where, value=chosen)
 
 
 def condition_inputs(file: StudyFile, pair: GearPair, points: Mesh, oil: Lubricant) -> dict[str, Any]:

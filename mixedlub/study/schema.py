@@ -134,6 +134,14 @@ class Options(_Laws):
         {},
         example={},
     )
+    film_roughness: Literal["none", "patir_cheng"] = key(
+        "whether the lay changes the film; needs the lay of every surface",
+        "none",
+        values={
+            "none": "the film of smooth surfaces",
+            "patir_cheng": "the inlet of the contact with the flow factors of Patir and Cheng",
+        },
+    )
     heights: Literal["gaussian", "measured", "plateau", "auto"] = key(
         "distribution of the heights in the contact of the asperities",
         "gaussian",

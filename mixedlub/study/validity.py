@@ -102,6 +102,8 @@ def _place(results: Results, code: str) -> str:
     name, options = code.removeprefix(EXTRAPOLATED), results.study.file.options
     if name in {e.id for e in results.study.effects}:
         return f"effects.{name}"
+    if name == "rough_film":
+        return "options.film_roughness"
     slots = (s.option for s in SLOTS if s.choices[getattr(options, s.option)].law.__name__ == name)
     return f"options.{next(slots, 'friction')}"
 

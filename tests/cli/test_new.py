@@ -58,8 +58,11 @@ def test_the_readings_of_a_case_are_those_of_its_base_model(tmp_path, capsys):
     assert read != pytest.approx(computed, rel=1e-4)
 
 
-OF_A_TRACE = ("profile", "unit", "spacing")
-"""Keys that go without moments of the surface."""
+OF_A_TRACE = (
+    *("profile", "traces", "traces_along", "map", "unit", "spacing"),
+    *("m2_along", "m4_along_per_um2", "lay"),
+)
+"""Keys of a surface that go with files in place of its moments, or with a known lay."""
 OF_YIELDING = "hardness_GPa"
 """Key that goes with asperities that yield, which are not the default."""
 

@@ -177,3 +177,41 @@ def test_traces_without_units_are_refused_with_the_key_that_helps(write_study, t
         np.savetxt(tmp_path / name, np.random.default_rng(0).standard_normal(4000))
     with pytest.raises(InputError, match=r"surfaces\.flank.* unit = '"):
         read_study(write_study(surfaces={"flank": {"traces": ["a.txt", "b.txt"], "spacing": "0.5 um"}}))
+
+
+def test_a_lay_across_the_motion_thickens_the_film_and_one_along_it_thins_it(write_study):
+    levels = {"conditions__torque_Nm": [50], "conditions__speed_rpm": [3000], "lubricant__temperature_C": [90.0, 130.0]}
+    film = {}
+    for lay in ("transverse", "longitudinal"):
+        for chosen in ("none", "patir_cheng"):
+            surface = RIDGED | {"m0_um2": 0.02, "m2": 2e-4, "m4_per_um2": 4e-4, "lay": lay, "m2_along": 8e-6}
+            path = write_study(surfaces={"a": surface}, options__film_roughness=chosen, **levels)
+            film[lay, chosen] = run_study(read_study(path))["film_thickness"].ravel()
+    assert (film["transverse", "patir_cheng"] > 1.01 * film["transverse", "none"]).all()
+    assert (film["longitudinal", "patir_cheng"] < film["longitudinal", "none"]).all()
+    assert (film["longitudinal", "patir_cheng"] > 0.9 * film["longitudinal", "none"]).all()
+
+
+def test_the_lay_in_the_film_goes_with_a_balance_and_is_flagged_in_thin_films(write_study):
+    options = {"film_roughness": "patir_cheng", "balance": "johnson_greenwood_poon"}
+    plain = run_study(read_study(write_study(surfaces={"a": RIDGED}, options={"balance": options["balance"]})))
+    rough = run_study(read_study(write_study(surfaces={"a": RIDGED}, options=options)))
+    assert rough["balance_error"].max() < 1e-8
+    assert (rough["mean_asperity_load_share"] < plain["mean_asperity_load_share"]).all()
+    path = write_study(surfaces={"a": RIDGED}, options={"film_roughness": "patir_cheng"}, conditions__speed_rpm=[50])
+    flagged = run_study(read_study(path))
+    assert "law_extrapolated:rough_film" in flagged.flags
+    assert "options.film_roughness" in {one.place for one in flagged.findings}
+
+
+@pytest.mark.parametrize(
+    ("changes", "named"),
+    [
+        ({"surfaces": {"a": KNOWN}}, "needs the lay of every surface; unknown is that of a"),
+        ({"surfaces": {"a": RIDGED}, "effects__roughness_lay": {"lay": 0.2}}, "roughness_lay"),
+        ({"surfaces": {"a": RIDGED}, "options__friction": "schlenk"}, "goes with the base model's friction"),
+    ],
+)
+def test_a_lay_in_the_film_that_is_unknown_or_twice_is_refused(changes, named, write_study):
+    with pytest.raises(InputError, match=named):
+        read_study(write_study(options__film_roughness="patir_cheng", **changes))
