@@ -42,7 +42,7 @@ def height_warnings(
         *_lengths(profile, heights),
         *_alike(heights, found),
         *_resolution(profile, found),
-        *_shape(gaussian),
+        *shape_warnings(gaussian),
     ]
 
 
@@ -222,7 +222,8 @@ def _stated(raw: Profile) -> Iterator[str]:
             )
 
 
-def _shape(gaussian: NormalProbability | None) -> Iterator[str]:
+def shape_warnings(gaussian: NormalProbability | None) -> Iterator[str]:
+    """What is doubtful about the heights being Gaussian."""
     if gaussian is None:
         yield "too few differing heights for a probability plot"
         return

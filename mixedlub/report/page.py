@@ -62,10 +62,8 @@ def write_page(
     shown = [{"name": one.name, "caption": one.caption, "svg": svg} for one, svg in zip(drawn, svgs, strict=True)]
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(files("mixedlub.report").joinpath("template.html").read_text(encoding="utf-8"))
-    of_heights = [
-        *(not_gaussian(judged) if study.plan.options.heights == "gaussian" else []),
-        *height_notes(profiles, judged),
-    ]
+    normal = study.plan.options.heights == "gaussian"
+    of_heights = [*(not_gaussian(judged) if normal else []), *height_notes(profiles, judged, normal)]
     texts = {"notes": grouped([*notes, *of_heights]), "provenance": provenance(study), "given": given}
     page = template.render(**content(results), **texts, figures=shown)
     (folder / "index.html").write_text(page, encoding="utf-8")

@@ -94,16 +94,20 @@ def judgement(profiles: Mapping[str, Profile]) -> Judged:
     return {name: normal_probability(profile) for name, profile in profiles.items()}
 
 
-def height_notes(profiles: Mapping[str, Profile], judged: Judged) -> list[Finding]:
-    """The warnings of `mixedlub profile` on the roughness parameters and the height distribution of each trace."""
-    from roughness import height_parameters, moments
-    from roughness.guards import height_warnings
+def height_notes(profiles: Mapping[str, Profile], judged: Judged, gaussian: bool = True) -> list[Finding]:
+    """The warnings of `mixedlub profile` on the roughness parameters of each trace.
 
-    return [
-        finding("trace_quality", text, f"surfaces.{name}")
-        for name, profile in profiles.items()
-        for text in height_warnings(profile, height_parameters(profile), moments(profile), judged[name])
-    ]
+    Those on its height distribution are among them where ``gaussian`` heights are assumed.
+    """
+    from roughness import height_parameters, moments
+    from roughness.guards import height_warnings, shape_warnings
+
+    found = []
+    for name, profile in profiles.items():
+        texts = height_warnings(profile, height_parameters(profile), moments(profile), judged[name])
+        of_shape = () if gaussian else tuple(shape_warnings(judged[name]))
+        found += [finding("trace_quality", text, f"surfaces.{name}") for text in texts if text not in of_shape]
+    return found
 
 
 def not_gaussian(judged: Judged) -> list[Finding]:
