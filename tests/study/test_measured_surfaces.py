@@ -215,3 +215,26 @@ def test_the_lay_in_the_film_goes_with_a_balance_and_is_flagged_in_thin_films(wr
 def test_a_lay_in_the_film_that_is_unknown_or_twice_is_refused(changes, named, write_study):
     with pytest.raises(InputError, match=named):
         read_study(write_study(options__film_roughness="patir_cheng", **changes))
+
+
+def test_files_of_a_surface_go_with_a_case(traces, tmp_path):
+    """Into a folder of an import and out of a case: every trace, under its own key."""
+    from mixedlub.importers.attachments import with_attachments
+
+    surface = {"traces": [*traces[0], "shipped:0258"], "traces_along": traces[1]}
+    answers = {"surfaces.a.traces": surface["traces"], "surfaces.a.traces_along": surface["traces_along"]}
+    system, files = with_attachments(answers, [tmp_path])
+    assert system["surfaces"]["a"] == surface
+    assert set(files) == {*traces[0], *traces[1]}
+
+
+def test_python_takes_surfaces_with_a_lay():
+    """And so does the call from Python, with the same rule."""
+    import mixedlub as ml
+
+    pair = ml.gear_pair(teeth=(17, 26), normal_module_mm=4.2333, face_width_mm=14.0)
+    ridged, plain = ml.surface(**RIDGED), ml.surface(**KNOWN)
+    keys = {"torque_Nm": 100, "speed_rpm": 1500, "oil_temperature_C": 80}
+    assert ml.power_loss(pair, ml.oil("mineral"), ridged, **keys)["power_loss_W"].size == 1
+    with pytest.raises(InputError, match="its lay is unknown"):
+        ml.power_loss(pair, ml.oil("mineral"), (ridged, plain), **keys)
