@@ -21,7 +21,7 @@ THINNEST = 1.0
 _THICKEST, _STEPS = 300.0, 240
 
 
-def pressure_flow_factor(film_ratio: np.ndarray, peklenik_number: float) -> np.ndarray:
+def pressure_flow_factor(film_over_roughness: np.ndarray, peklenik_number: float) -> np.ndarray:
     r"""Flow between rough surfaces over that between smooth ones under a pressure gradient (-).
 
     .. math:: \phi_x = 1 - C e^{-rH}\ (\gamma \le 1),\quad 1 + C H^{-r}\ (\gamma > 1)
@@ -37,7 +37,9 @@ def pressure_flow_factor(film_ratio: np.ndarray, peklenik_number: float) -> np.n
     factors = []
     for gamma in known.tolist():
         c, r = FLOW_FACTORS[gamma]
-        factors.append(1.0 - c * np.exp(-r * film_ratio) if gamma <= 1.0 else 1.0 + c * film_ratio**-r)
+        factors.append(
+            1.0 - c * np.exp(-r * film_over_roughness) if gamma <= 1.0 else 1.0 + c * film_over_roughness**-r
+        )
     place = float(np.interp(np.log(peklenik_number), np.log(known), np.arange(known.size)))
     lower = min(int(place), known.size - 2)
     return np.asarray((1.0 - place + lower) * factors[lower] + (place - lower) * factors[lower + 1])
