@@ -16,14 +16,14 @@ from mixedlub.friction import BASE, catalogue, find
 from mixedlub.gear.mesh import Mesh, at_roll_angle
 from mixedlub.schema.toml_file import parse
 from mixedlub.study.friction_options import check_coefficients
-from mixedlub.study.options import study_chain, with_friction
+from mixedlub.study.options import with_friction
 from mixedlub.study.plan import Study, condition_inputs, read_study, surface_inputs
 from mixedlub.study.results import Results, run_study
 from mixedlub.study.schema import Conditions, Options, Pairings
 from profiles.errors import InputError, nearest
 
-FILM_ALONE = {"balance": "none"}
-"""Option of the laws other than the base model's: they are fitted to the film that carries the whole load."""
+FILM_ALONE = {"balance": "none", "film_roughness": "none"}
+"""Options of the laws other than the base model's: they are fitted to smooth films that carry the whole load."""
 POINTS = 201
 """Points along the path of contact, and over the slide-to-roll ratio."""
 LARGEST_RATIO = 2.0
@@ -86,12 +86,13 @@ class Comparison:
 
     def _inputs(self, inputs: Mapping[str, Any]) -> dict[str, Any]:
         surfaces = surface_inputs([(self.study.surfaces[a], self.study.surfaces[b]) for a, b in self.study.pairings])
-        return {**inputs, **surfaces}
+        own = {name: value for name, value in self.study.plan.inputs.items() if name == "height_row"}
+        return {**inputs, **surfaces, **own}
 
     def _table(self, name: str, place: np.ndarray, inputs: Mapping[str, Any]) -> pd.DataFrame:
         """One row a law and place: the conditions there, friction, and whether the law holds."""
         given, options = self._inputs(inputs), _base_options(self.study)
-        chain, film_alone = study_chain(options), study_chain(options.model_copy(update=FILM_ALONE))
+        chain, film_alone = map(self.study.plan.chain, (options, options.model_copy(update=FILM_ALONE)))
         parts = []
         for law in self.laws:
             own = law.with_coefficients(self.coefficients.get(law.name, {}))

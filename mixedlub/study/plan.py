@@ -14,7 +14,7 @@ import numpy as np
 
 from mixedlub import friction
 from mixedlub.chain.effect import Effect
-from mixedlub.chain.model import Law, Model, Parameters
+from mixedlub.chain.model import Chain, Law, Model, Parameters
 from mixedlub.effects import LAW, find, known_effects
 from mixedlub.friction import FrictionLaw
 from mixedlub.gear import GearPair, Mesh
@@ -84,7 +84,7 @@ class Plan:
         of_friction = () if self.friction is None else self.friction.checked
         of_balance = BALANCED if self.balanced else ()
         wanted = dict.fromkeys((*WANTED, *of_balance, *self.asperities_read, *of_friction, *checked))
-        return Model(study_chain(self.options, self._of_heights), tuple(self.inputs), tuple(wanted), self.effects)
+        return Model(self.chain(self.options), tuple(self.inputs), tuple(wanted), self.effects)
 
     @cached_property
     def ranges(self) -> Mapping[str, Mapping[str, tuple[float, float]]]:
@@ -100,6 +100,10 @@ class Plan:
     def _of_heights(self) -> Mapping[str, Law]:
         """The laws of asperities with other than normal heights, by the quantity that they give."""
         return {} if self.heights is None else self.heights.laws()
+
+    def chain(self, options: Options) -> Chain:
+        """The chain of some options with the heights of this study."""
+        return study_chain(options, self._of_heights)
 
     @property
     def friction(self) -> FrictionLaw | None:

@@ -107,3 +107,25 @@ def test_heights_that_nothing_measures_or_reads_are_refused(honed, study_of, wri
     path = write_study(surfaces=trace, options__heights="measured", effects__skewed_heights=skewed)
     with pytest.raises(InputError, match=r"skewed_heights.*heights"):
         read_study(path)
+
+
+def test_the_contact_along_the_path_has_the_same_heights(tmp_path, monkeypatch):
+    """The plain mean of the local area ratio is the one of the table."""
+    import mixedlub as ml
+
+    monkeypatch.chdir(tmp_path)
+    long = finishes.honed(6e-8, 6e-7, plateau_share=0.8, points=9600, spacing=STEP, seed=3).profile
+    np.savetxt("honed.txt", np.column_stack((1e3 * long.positions, 1e6 * long.heights)), fmt="%.7f")
+    pair = ml.gear_pair(teeth=(17, 26), normal_module_mm=4.2333, face_width_mm=14.0)
+    honed = ml.surface("honed.txt", unit="mm, um", cutoff_mm=0.8)
+    keys = {"torque_Nm": 100, "speed_rpm": 1500, "oil_temperature_C": 80}
+    at = {
+        heights: ml.along_path(pair, ml.oil("mineral"), honed, **keys, options={"heights": heights})[
+            "boundary_area_ratio"
+        ]
+        for heights in ("gaussian", "measured")
+    }
+    assert (at["measured"] != at["gaussian"]).any()
+    table = ml.power_loss(pair, ml.oil("mineral"), honed, **keys, options={"heights": "measured"})
+    low, high = float(at["measured"].min()), float(at["measured"].max())
+    assert low < float(table["boundary_area_ratio"].squeeze()) < high
