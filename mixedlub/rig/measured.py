@@ -139,6 +139,13 @@ class Measured:
         heights = np.concatenate([one.heights - one.heights[one.valid].mean() for one in self.across.filtered])
         return replace(first, heights=heights, valid=np.concatenate([one.valid for one in self.across.filtered]))
 
+    def heights(self) -> np.ndarray:
+        """All filtered heights: of the map, or of the traces across the lay (m)."""
+        if self.area is not None:
+            return self.area.heights.ravel()
+        profile = self.profile()
+        return profile.heights[profile.valid]
+
     @property
     def steps(self) -> tuple[str, ...]:
         """What was done to the first trace, or to the map."""

@@ -130,7 +130,8 @@ def _shape(name: str, rig: Rig, option: str) -> HeightShape | None:
     from roughness import normal_probability
     from roughness.probability import two_lines
 
-    profile = rig.measured(name).profile()
+    measured = rig.measured(name)
+    profile = measured.profile()
     if option == AUTO:
         judged = normal_probability(profile)
         option = OF_VERDICT[judged.verdict]
@@ -138,9 +139,9 @@ def _shape(name: str, rig: Rig, option: str) -> HeightShape | None:
         report(finding("heights_chosen", text, f"surfaces.{name}"))
     if option == GAUSSIAN:
         return None
-    heights = profile.heights[profile.valid]
     if option == MEASURED:
-        return measured_shape(heights)
+        return measured_shape(measured.heights())
+    heights = profile.heights[profile.valid]
     try:
         return plateau_shape(two_lines(profile), float(heights.mean()), float(heights.std()))
     except InputError as error:

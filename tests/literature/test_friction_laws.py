@@ -115,7 +115,7 @@ def test_loss_of_a_measured_gear_with_the_friction_of_xu() -> None:
                 "density_15C_kg_m3": 799.3,
                 "density_change_per_K": 0.0,
             },
-            "surfaces": {"flank": {"m0_um2": 0.07**2 / 2, "m2": 0.002, "m4_per_um2": 0.002}},
+            "surfaces": {"flank": {"m0_um2": 0.07**2 / 2, "m2": 0.0015, "m4_per_um2": 0.002}},
             "conditions": {"torque_Nm": [413], "speed_rpm": [2000, 4000, 6000, 8000], "oil_temperature_C": [100]},
             "options": {"friction": "xu_kahraman"},
         }
@@ -143,7 +143,7 @@ def test_loss_of_the_gear_c14_with_the_friction_of_schlenk() -> None:
                 "kinematic_viscosity_mm2_s": [320.0, 24.0],
                 "density_15C_kg_m3": 900.0,
             },
-            "surfaces": {"flank": {"m0_um2": heights, "m2": 0.002, "m4_per_um2": 0.002}},
+            "surfaces": {"flank": {"m0_um2": heights, "m2": 0.0015, "m4_per_um2": 0.002}},
             "conditions": {"torque_Nm": [200], "speed_rpm": [1500], "oil_temperature_C": [75]},
             "options": {"friction": "schlenk", "friction_coefficients": {"lubricant_factor": 0.85}},
         }

@@ -105,7 +105,7 @@ def odd(tmp_path_factory):
     """Six speeds that are no whole numbers, torques from small to large, surfaces from smooth to rough."""
     from tests.study.conftest import BASE, toml
 
-    surfaces = {f"surface{i}": {"m0_um2": 0.001 * 8**i, "m2": 0.0025, "m4_per_um2": 0.0036} for i in range(5)}
+    surfaces = {f"surface{i}": {"m0_um2": 0.001 * 8**i, "m2": 0.0015, "m4_per_um2": 0.0036} for i in range(5)}
     conditions = {
         "torque_Nm": {"from": 10, "to": 300, "count": 80},
         "speed_rpm": [0.96071, 0.987142, 961.25, 133.3333, 2987.12, 1500.5],

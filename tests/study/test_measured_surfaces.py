@@ -130,6 +130,21 @@ def test_a_map_gives_the_moments_across_and_along_its_lay(area_file, write_study
     assert np.isfinite(run_study(study)["power_loss"]).all()
 
 
+def test_heights_and_bands_of_a_map_are_those_of_the_whole(area_file, write_study):
+    """A Gaussian map touches as its moments say; its scatter is that of its parts."""
+    surfaces = {"a": {"map": area_file.name, "short_cutoff_um": 2.5}}
+    found = {
+        heights: run_study(read_study(write_study(surfaces=surfaces, options={"heights": heights, "bands": "both"})))
+        for heights in ("gaussian", "measured", "auto")
+    }
+    normal, own = found["gaussian"], found["measured"]
+    assert own["area_ratio"] == pytest.approx(normal["area_ratio"], rel=0.1)
+    assert not np.array_equal(own["area_ratio"], normal["area_ratio"])
+    assert np.array_equal(found["auto"]["area_ratio"], normal["area_ratio"])
+    assert (own["lowest_power_loss"] < own["power_loss"]).all()
+    assert (own["power_loss"] < own["highest_power_loss"]).all()
+
+
 def test_a_map_with_holes_is_refused(area_file, write_study, tmp_path):
     import x3pio
 
