@@ -104,7 +104,7 @@ def at_gap(table: np.ndarray, row: np.ndarray | int, gap: np.ndarray) -> np.ndar
     """Values of a table with a row for each pairing, at rows and gaps that broadcast; linear between its points."""
     last = table.shape[-1] - 2
     place = np.clip((gap - LEAST_GAP) / STEP, 0.0, last + 1.0)
-    lower = np.minimum(place.astype(int), last)
+    lower = np.minimum(np.nan_to_num(place).astype(int), last)
     part = place - lower
     start = np.asarray(row) * table.shape[-1] + lower
     flat = table.reshape(-1)

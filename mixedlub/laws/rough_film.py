@@ -33,14 +33,14 @@ def pressure_flow_factor(film_over_roughness: np.ndarray, peklenik_number: float
     >>> round(float(pressure_flow_factor(3.0, 1.0)), 3), round(1 - 1.5 / 3**2, 3)   # and Tripp's first order
     (0.832, 0.833)
     """
-    known = np.array(sorted(FLOW_FACTORS))
+    known, ratio = np.array(sorted(FLOW_FACTORS)), np.asarray(film_over_roughness, dtype=float)
     factors = []
     for gamma in known.tolist():
         c, r = FLOW_FACTORS[gamma]
-        factors.append(
-            1.0 - c * np.exp(-r * film_over_roughness) if gamma <= 1.0 else 1.0 + c * film_over_roughness**-r
-        )
-    place = float(np.interp(np.log(peklenik_number), np.log(known), np.arange(known.size)))
+        factors.append(1.0 - c * np.exp(-r * ratio) if gamma <= 1.0 else 1.0 + c * ratio**-r)
+    place = np.interp(np.log(peklenik_number), np.log(known), np.arange(known.size))
+    if np.isnan(place):
+        return np.full_like(ratio, np.nan)
     lower = min(int(place), known.size - 2)
     return np.asarray((1.0 - place + lower) * factors[lower] + (place - lower) * factors[lower + 1])
 
@@ -87,11 +87,13 @@ def rough_film(smooth_film: np.ndarray, m0: np.ndarray, peklenik_number: np.ndar
     start = _smooth()[0]
     column = np.clip((ratio - start) / (_smooth()[1] - start), 0.0, _STEPS - 1.0)
     row = np.interp(gamma, known, np.arange(known.size))
+    unknown = np.isnan(row + column)
+    row, column = np.where(unknown, 0.0, row), np.where(unknown, 0.0, column)
     i, j = np.minimum(row.astype(int), known.size - 2), np.minimum(column.astype(int), _STEPS - 2)
     u, v = row - i, column - j
     low = table[i, j] * (1 - v) + table[i, j + 1] * v
     high = table[i + 1, j] * (1 - v) + table[i + 1, j + 1] * v
-    return np.asarray(smooth_film * np.exp(low * (1 - u) + high * u))
+    return np.where(unknown, np.nan, smooth_film * np.exp(low * (1 - u) + high * u))
 
 
 def film_over_roughness(film_thickness: np.ndarray, m0: np.ndarray) -> np.ndarray:
