@@ -173,7 +173,8 @@ def weighed(sample: Sample, label: str) -> tuple[dict[str, float], float]:
     truth = rig.records(z, sample.acts)
     target = Target(rig, visible, truth[visible], sample.sd(truth)[visible])
     rank = 2 if label == "unknown" else max((form.rank for form in forms), default=0)
-    others = rivals(target, forms, knobs, z, rank)
+    # Balances of load are slow, and no figure of their batteries asks whether a pair can be told from another.
+    others = rivals(target, forms, knobs, z, rank, exchanged=not sample.world)
     if label == "none":
         return others, others["none"]
     if rig.planted is not None:

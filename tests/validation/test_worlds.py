@@ -158,7 +158,7 @@ def test_area_and_pressure_of_greenwood_and_williamson_are_those_of_the_referenc
     assert asperities.area(contact.film) == pytest.approx(touch(contact).area, rel=1e-4)
 
 
-@pytest.mark.literature("Greenwood and Tripp (1970), Proc. Instn Mech. Engrs 185, 625")
+@pytest.mark.literature("Greenwood and Tripp (1970)")
 def test_like_surfaces_meet_as_the_paper_has_it(contact):
     """pi^2 (D R s)^2 F_2(h/s) and (16 sqrt(2) pi/15) (D R s)^2 (s/R)^1/2 E* F_5/2(h/s) with D, R of one surface."""
     m0, m2, m4 = contact.rig.moments[0]
@@ -196,13 +196,13 @@ def test_unlike_spheres_off_their_axes_sum_to_greenwood_and_tripp(contact):
     assert found.pressure(film)[0, 0] / over[1] == pytest.approx(force * (height / w) ** 2.5, rel=1e-6)
 
 
-@pytest.mark.literature("Nayak (1971), J. Lubr. Technol. 93, 398; Bush, Gibson and Thomas (1975), Wear 35, 87")
+@pytest.mark.literature("Nayak (1971)")
 def test_summits_are_as_many_as_nayak_counts():
     """m4/(6 pi sqrt(3) m2), which is 1/(3 sqrt(3)) units of m4/(2 pi m2)."""
     assert random_surface.summits()[2].sum() == pytest.approx(1 / (3 * np.sqrt(3)), rel=1e-9)
 
 
-@pytest.mark.literature("Bush, Gibson and Thomas (1975), Wear 35, 87")
+@pytest.mark.literature("Bush, Gibson and Thomas (1975)")
 def test_area_over_pressure_of_bush_gibson_and_thomas_at_light_load():
     """A E* g/p goes to sqrt(2 pi) = 2.507 with the rms slope g = sqrt(2 m2), and is near it from below."""
     area, pressure = random_surface.tables()
@@ -229,7 +229,7 @@ def test_summits_drawn_from_a_random_surface_have_the_area_of_the_tables():
     assert table == pytest.approx(area, rel=0.01)
 
 
-@pytest.mark.literature("Persson (2001), J. Chem. Phys. 115, 3840")
+@pytest.mark.literature("Persson (2001)")
 def test_persson_begins_with_the_root_of_eight_over_pi(contact):
     light = replace(contact, film=contact.film + 3 * contact.roughness)
     steep = 0.5 * contact.rig.solid.reduced * np.sqrt(2 * contact.m2)
@@ -244,7 +244,7 @@ def test_theories_of_one_surface_lie_within_a_factor(contact):
     assert (persson(contact).area(contact.film) > area).all()
 
 
-@pytest.mark.literature("Johnson, Greenwood and Poon (1972), Wear 19, 91")
+@pytest.mark.literature("Johnson, Greenwood and Poon (1972)")
 @pytest.mark.parametrize(("lighter", "power"), [(half_load, 0.10), (half_load_and_modulus, 0.13)])
 def test_the_film_grows_by_the_power_of_its_law(contact, lighter, power):
     """W^-0.10 of the base law; with the modulus too, U^0.69 G^0.56 at constant W give 0.69 - 0.56."""

@@ -18,7 +18,7 @@ from mixedlub.validation.worlds.asperities import (
     persson,
 )
 
-HALVINGS, SEPARATED = 32, 9.0
+HALVINGS, SEPARATED = 16, 9.0
 """Bisections of a balance, and rms heights above which asperities carry nothing."""
 Lighter = Callable[[Contact], Contact]
 """The contact of which the film has to carry half the load."""
@@ -61,14 +61,21 @@ def balanced(c: Contact, asperities: Asperities, lighter: Lighter) -> tuple[np.n
     share rises, so that there is one solution.
     """
     power, load = growth(c, lighter), mean_pressure(c)
+
+    def excess(rise: np.ndarray) -> np.ndarray:
+        """Pressure of the asperities above their share, at the logarithm of the film over h_0."""
+        return np.asarray(asperities.pressure(c.film * np.exp(rise)) + np.expm1(-rise / power) * load)
+
     low = np.zeros_like(c.film)
     high = np.maximum(np.log(SEPARATED * c.roughness / c.film), 1e-12) + low
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
-        above = asperities.pressure(c.film * np.exp(middle)) > -np.expm1(-middle / power) * load
+        above = excess(middle) > 0
         low, high = np.where(above, middle, low), np.where(above, high, middle)
-    middle = 0.5 * (low + high)
-    return c.film * np.exp(middle), -np.expm1(-middle / power)
+    # The chord of what is left: smooth in the inputs, as the fits of rivals need it.
+    first, last = np.maximum(excess(low), 0.0), np.minimum(excess(high), 0.0)
+    rise = low + (high - low) * first / np.maximum(first - last, 1e-300)
+    return c.film * np.exp(rise), -np.expm1(-rise / power)
 
 
 def meet(c: Contact) -> Contact:
