@@ -18,6 +18,7 @@ from mixedlub.validation.worlds.asperities import (
     persson,
 )
 from mixedlub.validation.worlds.films import (
+    LINE,
     chittenden,
     dowson_higginson_1966,
     dowson_higginson_1968,
@@ -28,6 +29,7 @@ from mixedlub.validation.worlds.films import (
 )
 from mixedlub.validation.worlds.gaussian import excess
 from mixedlub.validation.worlds.mixed import (
+    BALANCES,
     balanced,
     by_doleschel,
     by_error_function,
@@ -249,6 +251,15 @@ def test_theories_of_one_surface_lie_within_a_factor(contact):
 def test_the_film_grows_by_the_power_of_its_law(contact, lighter, power):
     """W^-0.10 of the base law; with the modulus too, U^0.69 G^0.56 at constant W give 0.69 - 0.56."""
     assert growth(contact, lighter) == pytest.approx(power, rel=1e-9)
+
+
+def test_no_balance_is_dealt_whose_film_cannot_grow(contact):
+    """Speed and material have one power in Grubin's law, so that load and modulus together leave his film as it is."""
+    law = next(one for one in LINE if one.name == "Grubin")
+    assert growth(law.enter(contact), half_load_and_modulus) == pytest.approx(0.0, abs=1e-9)
+    fixed = next(one for one in BALANCES if one.name == "Gelinck and Schipper")
+    assert fixed.fits({"load_balance"})
+    assert not fixed.fits({"load_balance", "film_law"})
 
 
 @pytest.mark.parametrize("theory", [greenwood_williamson, greenwood_tripp, bush_gibson_thomas])

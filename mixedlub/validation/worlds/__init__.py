@@ -7,7 +7,7 @@ happens, so that planted effects act in the world that they make.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -32,7 +32,8 @@ LAWS = frozenset({FILM, ASPERITIES, BALANCE, MIXTURE, SHEAR, SHARING, PRESSURE, 
 class Law:
     """A published law of the step ``id``; ``enter`` puts it in the place of the base law of a state.
 
-    ``needs`` are steps that must follow another law too. An ``average`` of traction over the contact is marked as one.
+    ``needs`` are steps that must follow another law too, ``bars`` those that must not. An ``average`` of traction over
+    the contact is marked as one.
     """
 
     id: str
@@ -41,7 +42,12 @@ class Law:
     enter: Callable[..., Any]
     knobs: tuple[Knob, ...] = ()
     needs: frozenset[str] = frozenset()
+    bars: frozenset[str] = frozenset()
     average: bool = False
+
+    def fits(self, steps: Collection[str]) -> bool:
+        """Whether the law can be followed where these steps follow another law."""
+        return self.needs <= set(steps) and not self.bars & set(steps)
 
     def act(self, values: Mapping[str, float]) -> Act:
         return Act("oil", lambda state: self.enter(state, **values))

@@ -102,7 +102,7 @@ def drawn(rng: np.random.Generator, rig: Rig, ids: Sequence[str]) -> World | Non
     together = set(TOGETHER) <= set(ids)
     world = []
     for name in ids:
-        some = [law for law in pool[name] if law.needs <= set(ids)]
+        some = [law for law in pool[name] if law.fits(ids)]
         some = [law for law in some if law.average] if together and name == SHEAR else some
         if not some:
             return None

@@ -43,13 +43,15 @@ class Seen:
 
     def exchanged(self, world: World, one: Followed) -> dict[str, float]:
         """What is missed with a law of another step in the place of one, the others known, by the id of the other."""
-        followed = {other.law.id for other in world}
-        others = without(world, one)
-        return {
-            name: min(self.misfit(world, [*others, Followed(law, law.middle)]) for law in laws if not law.needs)
-            for name, laws in laws_on(self.rig).items()
-            if name not in followed
-        }
+        followed, others = {other.law.id for other in world}, without(world, one)
+        kept = {other.law.id for other in others}
+        found: dict[str, float] = {}
+        for name, laws in laws_on(self.rig).items():
+            for law in laws if name not in followed else ():
+                if law.fits(kept) and all(other.law.fits(kept | {name}) for other in others):
+                    tried = self.misfit(world, [*others, Followed(law, law.middle)])
+                    found[name] = min(tried, found.get(name, np.inf))
+        return found
 
 
 def without(world: World, one: Followed) -> list[Followed]:

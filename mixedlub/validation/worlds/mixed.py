@@ -9,7 +9,7 @@ import numpy as np
 
 from mixedlub.validation.contact import Contact, dowson_toyoda
 from mixedlub.validation.rigs.ball import hamrock_dowson
-from mixedlub.validation.worlds import ASPERITIES, BALANCE, MIXTURE, Law, follow
+from mixedlub.validation.worlds import ASPERITIES, BALANCE, FILM, MIXTURE, Law, follow
 from mixedlub.validation.worlds.asperities import (
     Asperities,
     bush_gibson_thomas,
@@ -34,7 +34,8 @@ def half_load(c: Contact) -> Contact:
 def half_load_and_modulus(c: Contact) -> Contact:
     """Half the load on bodies of half the modulus, so that the film keeps its shape: Gelinck and Schipper 2000.
 
-    With gamma = 1/(1 - L) load and modulus go by 1/gamma in the film law; Tribol. Int. 33 (2000) 175.
+    With gamma = 1/(1 - L) load and modulus go by 1/gamma in the film law; Tribol. Int. 33 (2000) 175. By laws with like
+    powers of speed and material (Grubin's, one limit of Moes') no film grows then, and there is no balance.
     """
     solid = replace(c.rig.solid, modulus=(0.5 * c.rig.solid.modulus[0], 0.5 * c.rig.solid.modulus[1]))
     return replace(half_load(c), rig=replace(c.rig, solid=solid))
@@ -119,11 +120,19 @@ def by_doleschel(c: Contact, carried: np.ndarray) -> np.ndarray:
     return np.asarray(np.maximum(1 - 0.5 * c.film / mean, 0.0) ** 2)
 
 
-def _met(id: str, step: str, name: str, source: str, law: Callable[..., object], *needs: str) -> Law:
+def _met(
+    id: str,
+    step: str,
+    name: str,
+    source: str,
+    law: Callable[..., object],
+    needs: frozenset[str] = frozenset(),
+    bars: frozenset[str] = frozenset(),
+) -> Law:
     def enter(c: Contact) -> Contact:
         return follow(follow(c, step, law), "contact", meet)
 
-    return Law(id, name, source, enter, needs=frozenset(needs))
+    return Law(id, name, source, enter, needs=needs, bars=bars)
 
 
 THEORIES = (
@@ -133,10 +142,17 @@ THEORIES = (
 )
 BALANCES = (
     _met(BALANCE, "balance", "Johnson, Greenwood and Poon", "Johnson, Greenwood and Poon 1972", half_load),
-    _met(BALANCE, "balance", "Gelinck and Schipper", "Gelinck and Schipper 2000", half_load_and_modulus),
+    _met(
+        BALANCE,
+        "balance",
+        "Gelinck and Schipper",
+        "Gelinck and Schipper 2000",
+        half_load_and_modulus,
+        bars=frozenset({FILM}),
+    ),
 )
 MIXTURES = (
-    _met(MIXTURE, "weight", "share of the load", "Gelinck and Schipper 2000", by_load, BALANCE),
+    _met(MIXTURE, "weight", "share of the load", "Gelinck and Schipper 2000", by_load, needs=frozenset({BALANCE})),
     _met(
         MIXTURE,
         "weight",
