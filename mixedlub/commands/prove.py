@@ -30,6 +30,10 @@ def command(
             "--rigs", help="Films, histories, maps, viscosities and tooth contacts instead of gear pairs and discs."
         ),
     ] = False,
+    worlds: Annotated[
+        bool,
+        typer.Option("--worlds", help="Rigs of all kinds that follow other published laws than the base model's."),
+    ] = False,
     kinds: Annotated[
         str | None, typer.Option(metavar="KIND,...", help="Kinds of rig to deal, such as gear_pair,film.")
     ] = None,
@@ -38,7 +42,7 @@ def command(
     ] = 969710,
     cases: Annotated[
         int | None,
-        typer.Option(metavar="N", min=5, help=f"How many cases to deal; default {FULL}, of other kinds {RIGS}."),
+        typer.Option(metavar="N", min=5, help=f"How many cases to deal; default {FULL}, with --rigs {RIGS}."),
     ] = None,
     jobs: Annotated[int, typer.Option(metavar="N", min=1, help="Cases at a time.")] = 2,
 ) -> None:
@@ -52,14 +56,16 @@ def command(
 
     from mixedlub.diagnosis.report.files import diagnose
     from mixedlub.validation import run
-    from mixedlub.validation.battery import fewest
+    from mixedlub.validation.battery import fewest, plan
     from mixedlub.validation.rigs import CONTACTS, OTHERS
+    from mixedlub.validation.worlds.deal import plan_worlds, worlds_of
 
-    chosen = _chosen(kinds) if kinds else OTHERS if rigs else CONTACTS
-    contacts = set(chosen) <= set(CONTACTS)
-    default = (QUICK if contacts else RIGS_QUICK) if quick else (FULL if contacts else RIGS)
-    prefix = "" if chosen == CONTACTS else "rigs_" if chosen == OTHERS else f"{'_'.join(chosen)}_"
-    folder = output_folder(out, NAME, prefix + ("quick" if quick else "battery"))
+    every = worlds_of((*CONTACTS, *OTHERS)) if worlds and not rigs else worlds_of(OTHERS) if worlds else ()
+    chosen = _chosen(kinds) if kinds else every or (OTHERS if rigs else CONTACTS)
+    contacts = set(chosen) <= set(CONTACTS) and not worlds
+    default = (QUICK if contacts else RIGS_QUICK) if quick else (FULL if contacts or worlds else RIGS)
+    prefix = "" if chosen in (CONTACTS, every) else "rigs_" if chosen == OTHERS else f"{'_'.join(chosen)}_"
+    folder = output_folder(out, NAME, ("worlds_" if worlds else "") + prefix + ("quick" if quick else "battery"))
     with Progress(console=Console(stderr=True)) as bar:
         tasks = {}
 
@@ -77,6 +83,7 @@ def command(
             jobs=jobs,
             baselines=contacts and not quick,
             progress=show,
+            dealt=plan_worlds if worlds else plan,
         )
     echo((folder / "score.txt").read_text(encoding="utf-8"))
     echo(f"written to {folder}")

@@ -11,6 +11,7 @@ import numpy as np
 
 from mixedlub.validation.case_folder import read_columns
 from mixedlub.validation.planted import MEASUREMENT
+from mixedlub.validation.worlds.misfit import CLEAR
 from profiles.errors import InputError
 
 IDENTIFIABLE = 9.0
@@ -20,7 +21,9 @@ IDENTIFIABLE = 9.0
 class Truth:
     """The truth of a case; arrays run over all its readings, visible and withheld.
 
-    ``within`` is whether the catalogue's laws can become the planted ones; None where nothing is planted.
+    ``within`` is whether the catalogue's laws can become the planted ones; None where nothing is planted. ``laws`` are
+    the steps at which the rig follows another law; recalibration cannot hide those that are ``clear``, alone or beside
+    the others, and no law of another step comes near those that are ``sole``.
     """
 
     case: str
@@ -42,6 +45,9 @@ class Truth:
     within: bool | None = None
     no_data_sheet: bool = False
     rivals: frozenset[str] = frozenset()
+    laws: frozenset[str] = frozenset()
+    clear_laws: frozenset[str] = frozenset()
+    sole_laws: frozenset[str] = frozenset()
 
     @property
     def candidates(self) -> frozenset[str]:
@@ -86,6 +92,13 @@ def _names(label: Any) -> frozenset[str]:
     return frozenset([label] if isinstance(label, str) else label)
 
 
+def _clear_laws(truth: dict[str, Any]) -> tuple[frozenset[str], frozenset[str]]:
+    """Laws that can be identified, and those of them that no law of another step could be taken for."""
+    clear = frozenset(n for n, found in truth.get("law_misfit", {}).items() if min(found.values()) > CLEAR)
+    nearest = {name: min(found.values(), default=np.inf) for name, found in truth.get("law_alternatives", {}).items()}
+    return clear, frozenset(name for name in clear if nearest[name] > IDENTIFIABLE)
+
+
 def read_truth(folder: Path) -> Truth:
     """The truth of a case; classes and identifiability are worked out where the file lacks them."""
     truth = json.loads((folder / "truth.json").read_text(encoding="utf-8"))
@@ -97,6 +110,7 @@ def read_truth(folder: Path) -> Truth:
         group = "none" if label == {"none"} else "unknown" if label == {"unknown"} else single
         group = "pair" if len(label) > 1 else group
     forms = [one["within"] for one in truth.get("info", ()) if "within" in one]
+    clear, sole = _clear_laws(truth)
     least = min(truth["alternatives"].values(), default=np.inf) - truth.get("own", 0.0)
     return Truth(
         case=folder.name,
@@ -118,6 +132,9 @@ def read_truth(folder: Path) -> Truth:
         within=all(forms) if forms else None,
         no_data_sheet=bool(truth.get("unnamed_oil", False)),
         rivals=frozenset(truth["alternatives"]) - {"none"},
+        laws=frozenset(truth.get("laws", ())),
+        clear_laws=clear,
+        sole_laws=sole,
     )
 
 

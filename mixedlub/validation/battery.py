@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import signal
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from dataclasses import replace
@@ -16,10 +16,11 @@ import numpy as np
 from mixedlub.validation.answers import IDENTIFIABLE
 from mixedlub.validation.case_folder import plain, rows, write
 from mixedlub.validation.planted import MEASUREMENT, MIMICS
-from mixedlub.validation.rig import Case
-from mixedlub.validation.rigs import CLASSES, CONTACTS, FAMILIES, KINDS, Family, family_of
+from mixedlub.validation.rig import Case, Rig
+from mixedlub.validation.rigs import CLASSES, CONTACTS, FAMILIES, KINDS, Family, Partners, family_of
 from mixedlub.validation.rivals import Target, best, rivals
 from mixedlub.validation.sample_case import Order, Sample, sample_case
+from mixedlub.validation.worlds.misfit import told
 from profiles.errors import InputError
 
 RIGS_SURVEYED = 60
@@ -38,10 +39,18 @@ def deck(rng: np.random.Generator, cards: Sequence[Card], weights: Sequence[floa
     return [dealt[i] for i in rng.permutation(len(dealt))]
 
 
-def _surveyed(kind: str, seed: int) -> tuple[dict[str, float], dict[str, float]]:
-    """Effects that can be planted on rigs of a kind, of the catalogue and outside it, with their weights."""
+Survey = tuple[dict[str, float], dict[str, float]]
+"""Effects that can be planted on rigs of a kind, of the catalogue and outside it, with their weights."""
+
+
+def drawn_rigs(kind: str, seed: int) -> list[Rig]:
+    """Rigs of a kind, to find what can be planted on them."""
     rng = np.random.default_rng([seed, 21])
-    drawn = [KINDS[kind].draw(rng) for _ in range(RIGS_SURVEYED)]
+    return [KINDS[kind].draw(rng) for _ in range(RIGS_SURVEYED)]
+
+
+def surveyed(drawn: Sequence[Rig]) -> Survey:
+    """What can be planted on some rigs."""
     named = {form.id: form.rarity for rig in drawn for form in rig.forms if form.rarity > 0}
     outside = {form.id: form.rarity for rig in drawn for form in rig.outside}
     return dict(sorted(named.items())), dict(sorted(outside.items()))
@@ -51,13 +60,19 @@ Content = tuple[str, str, tuple[str, ...]]
 """Class, kind and planted effects of a case."""
 
 
-def _contents(rng: np.random.Generator, family: Family, seed: int, cases: int) -> list[Content]:
+def contents(
+    rng: np.random.Generator,
+    family: Family,
+    cases: int,
+    surveys: Mapping[str, Survey],
+    partners_of: Mapping[str, Sequence[Partners]],
+) -> list[Content]:
     """What the cases of a family hold, class by class."""
     counts = {label: max(1, int(share * cases)) for label, share in family.classes.items()}
     counts["single"] += cases - sum(counts.values())
     pools: dict[str, dict[tuple[str, str], float]] = {"single": {}, "measurement": {}, "unknown": {}}
     for kind in family.kinds:
-        named, outside = _surveyed(kind, seed)
+        named, outside = surveys[kind]
         for name, weight in named.items():
             pools["measurement" if name in MEASUREMENT else "single"][kind, name] = weight
         pools["unknown"] |= {(kind, name): weight for name, weight in outside.items()}
@@ -65,16 +80,17 @@ def _contents(rng: np.random.Generator, family: Family, seed: int, cases: int) -
     for label, pool in pools.items():
         dealt = deck(rng, list(pool), list(pool.values()), counts[label])
         contents += [(label, kind, (name,)) for kind, name in dealt]
-    pairs = [(kind, first, partners) for kind in family.kinds for first, partners, _ in KINDS[kind].pairs]
-    weights = [weight for kind in family.kinds for *_, weight in KINDS[kind].pairs]
+    pairs = [(kind, first, partners) for kind in family.kinds for first, partners, _ in partners_of[kind]]
+    weights = [weight for kind in family.kinds for *_, weight in partners_of[kind]]
     for kind, first, partners in deck(rng, pairs, weights, counts["pair"]):
         contents.append(("pair", kind, (first, partners[int(rng.integers(len(partners)))])))
     return contents
 
 
-def _orders(rng: np.random.Generator, family: Family, seed: int, cases: int) -> list[Order]:
+def ordered(rng: np.random.Generator, family: Family, dealt: Sequence[Content]) -> list[Order]:
+    """Orders of cases with the dealt contents, some small, some with outliers, some without a data sheet."""
     orders = []
-    for index, (label, kind, effects) in enumerate(_contents(rng, family, seed, cases)):
+    for index, (label, kind, effects) in enumerate(dealt):
         small = label in ("none", "single") and rng.random() < family.small
         clear = small or index % 2 == 0 or label == "pair"
         # Every third case of a kind whose oil may have no data sheet, unless its effects could then not be seen.
@@ -94,7 +110,13 @@ def _orders(rng: np.random.Generator, family: Family, seed: int, cases: int) -> 
     return orders
 
 
-def _families(kinds: Sequence[str]) -> list[Family]:
+def _orders(rng: np.random.Generator, family: Family, seed: int, cases: int) -> list[Order]:
+    surveys = {kind: surveyed(drawn_rigs(kind, seed)) for kind in family.kinds}
+    partners = {kind: KINDS[kind].pairs for kind in family.kinds}
+    return ordered(rng, family, contents(rng, family, cases, surveys, partners))
+
+
+def families(kinds: Sequence[str]) -> list[Family]:
     """Families of the chosen kinds, without the others."""
     chosen = [replace(family, kinds=tuple(k for k in family.kinds if k in kinds)) for family in FAMILIES]
     return [family for family in chosen if family.kinds]
@@ -102,17 +124,22 @@ def _families(kinds: Sequence[str]) -> list[Family]:
 
 def fewest(kinds: Sequence[str]) -> int:
     """Cases of the smallest battery of some kinds: one of each class a family."""
-    return len(CLASSES) * len(_families(kinds))
+    return len(CLASSES) * len(families(kinds))
 
 
 def plan(seed: int, cases: int, kinds: Sequence[str] = CONTACTS) -> list[Order]:
     """The orders of a battery: every family as often, classes in fixed shares, in random order under neutral names."""
     if cases < fewest(kinds):
         raise InputError(f"a battery of these kinds has at least {fewest(kinds)} cases", where="cases", value=cases)
-    families = _families(kinds)
+    chosen = families(kinds)
     rng = np.random.default_rng([seed, 1])
-    each = [cases // len(families) + (index < cases % len(families)) for index in range(len(families))]
-    orders = [order for family, count in zip(families, each) for order in _orders(rng, family, seed, count)]
+    each = [cases // len(chosen) + (index < cases % len(chosen)) for index in range(len(chosen))]
+    orders = [order for family, count in zip(chosen, each) for order in _orders(rng, family, seed, count)]
+    return shuffled(rng, orders)
+
+
+def shuffled(rng: np.random.Generator, orders: Sequence[Order]) -> list[Order]:
+    """Orders in random order under neutral names."""
     return [replace(orders[i], name=f"case_{n:03d}") for n, i in enumerate(rng.permutation(len(orders)))]
 
 
@@ -141,12 +168,13 @@ def noise_stated(
 
 def weighed(sample: Sample, label: str) -> tuple[dict[str, float], float]:
     """Least chi-square of every rival explanation, and of the truth itself."""
-    rig, forms, knobs, z = sample.rig, sample.forms, sample.knobs, sample.z
+    rig, forms, knobs, z = sample.rig.nature, sample.forms, sample.knobs, sample.z
     visible = np.flatnonzero(~sample.hidden)
     truth = rig.records(z, sample.acts)
     target = Target(rig, visible, truth[visible], sample.sd(truth)[visible])
     rank = 2 if label == "unknown" else max((form.rank for form in forms), default=0)
-    others = rivals(target, forms, knobs, z, rank)
+    # Balances of load are slow, and no figure of their batteries asks whether a pair can be told from another.
+    others = rivals(target, forms, knobs, z, rank, exchanged=not sample.world)
     if label == "none":
         return others, others["none"]
     if rig.planted is not None:
@@ -197,6 +225,7 @@ def truth_of(order: Order, sample: Sample, outliers: Sequence[int]) -> dict[str,
         "alternatives": others,
         "own": round(planted, 4),
         "identifiable": identifiable(sample, others, planted),
+        **(told(sample.seen, sample.world) if sample.world else {}),
         "rows": rows(
             rig.columns["run"],
             sample.hidden,
@@ -251,11 +280,13 @@ def generate(
     kinds: Sequence[str] = CONTACTS,
     jobs: int = 1,
     progress: Callable[[int, int], None] | None = None,
+    dealt: Callable[[int, int, Sequence[str]], list[Order]] = plan,
 ) -> list[Path]:
     """Write a battery of cases into a folder, or what is missing of it; returns the case folders."""
-    orders = plan(seed, cases, kinds)
+    orders = dealt(seed, cases, kinds)
     folder.mkdir(parents=True, exist_ok=True)
     mark, file = {"kinds": list(kinds), "seed": seed, "cases": cases}, folder / "battery.json"
+    mark |= {} if dealt is plan else {"dealt_by": dealt.__name__}
     if file.exists() and json.loads(file.read_text(encoding="utf-8")) != mark:
         raise InputError("the folder holds a battery of other kinds, seed or size", where=str(folder), value=mark)
     file.write_text(json.dumps(mark), encoding="utf-8")

@@ -99,6 +99,7 @@ class Inputs:
     ``share_force`` is the force on the tooth (or disc) at each point, ``step`` the length of path that a point
     represents over the base pitch (1 without a path), ``conditions`` the columns of the case file by name. ``shares``
     is what each of both surfaces has of the three composite moments (readings, 2, 3); left out, both are alike.
+    ``laws`` are those that the rig follows in place of the base model's, by the step that they replace.
     """
 
     oil: Oil
@@ -118,6 +119,8 @@ class Inputs:
     coating_resistance: float = 0.0
     extras: Mapping[str, float] = field(default_factory=dict)
     shares: np.ndarray = field(default_factory=lambda: np.full((1, 2, 3), 0.5))
+    is_point: bool = False
+    laws: Mapping[str, Callable[..., Any]] = field(default_factory=dict)
 
     @property
     def is_mesh(self) -> bool:
@@ -160,6 +163,9 @@ class Contact:
         return self.stress / self.pressure
 
 
+Stage = Callable[[Contact], Contact]
+
+
 def start(rig: Inputs, calibration: Calibration) -> Contact:
     """Oil, surfaces and kinematics at the recorded conditions."""
     temperature = rig.temperature[:, None]
@@ -187,13 +193,21 @@ def press(c: Contact) -> Contact:
     return replace(c, pressure=pressure, half_width=2 * c.line_load / (np.pi * pressure))
 
 
-def lubricate(c: Contact) -> Contact:
+def followed(step: str, base: Stage) -> Stage:
+    """A stage by the law that the rig follows at this step, the base model's unless it has another."""
+    return lambda c: c.rig.laws.get(step, base)(c)
+
+
+def dowson_toyoda(c: Contact) -> Contact:
     """Dowson-Toyoda central film h = 3.06 R G^0.56 U^0.69 W^-0.10 at the mean speed."""
     modulus, radius = c.rig.solid.reduced, c.rig.radius
     speed = c.viscosity * c.entrainment / (modulus * radius)
     load = c.line_load / (modulus * radius)
     logarithm = 0.56 * np.log(c.pressure_viscosity * modulus) + 0.69 * np.log(speed) - 0.10 * np.log(load)
     return replace(c, film=3.06 * radius * np.exp(logarithm))
+
+
+lubricate = followed("film", dowson_toyoda)
 
 
 @dataclass(frozen=True)
@@ -228,15 +242,23 @@ def overlap(t: np.ndarray) -> np.ndarray:
     return np.exp(-0.5 * t**2) / np.sqrt(2 * np.pi) - 0.5 * t * erfc(t / np.sqrt(2.0))
 
 
-def touch(c: Contact) -> Contact:
+def greenwood_williamson(c: Contact) -> Contact:
     """Real over nominal area pi D R sigma F_1((h - z)/sigma), within 0 and 1."""
     s = summits(c)
     share = np.pi * s.density * s.radius * s.spread * overlap((c.film - s.offset) / s.spread)
     return replace(c, area=np.clip(share, 0.0, 1.0))
 
 
+touch = followed("contact", greenwood_williamson)
+
+
 def thick(c: Contact, warmer: np.ndarray | float = 0.0) -> np.ndarray:
-    """Roelands viscosity (Pa s) at the maximum pressure, ``warmer`` kelvin above the oil temperature."""
+    """Roelands viscosity (Pa s) at the maximum pressure, ``warmer`` kelvin above the oil temperature.
+
+    A rig may follow another law of viscosity under pressure.
+    """
+    if "thick" in c.rig.laws:
+        return np.asarray(c.rig.laws["thick"](c, warmer))
     level = np.log(c.viscosity) + 9.67
     exponent = c.pressure_viscosity * ROELANDS_PRESSURE / level
     rise = (1 + c.pressure / ROELANDS_PRESSURE) ** exponent
@@ -252,8 +274,14 @@ def sheared(c: Contact, viscosity: np.ndarray) -> np.ndarray:
     return c.eyring_stress * np.arcsinh(viscosity * c.sliding / (c.film * c.eyring_stress))
 
 
+def film_stress(c: Contact, warmer: np.ndarray | float = 0.0) -> np.ndarray:
+    """Shear stress of the film (Pa), ``warmer`` kelvin above the oil temperature, by the law that the rig follows."""
+    law = c.rig.laws.get("shear")
+    return sheared(c, thick(c, warmer)) if law is None else np.asarray(law(c, warmer))
+
+
 def shear(c: Contact) -> Contact:
-    return replace(c, stress=sheared(c, thick(c)))
+    return replace(c, stress=film_stress(c))
 
 
 def mix(c: Contact) -> Contact:
@@ -268,9 +296,6 @@ def record_power(c: Contact) -> Contact:
 
 def record_friction(c: Contact) -> Contact:
     return replace(c, recorded=c.friction[:, 0])
-
-
-Stage = Callable[[Contact], Contact]
 
 
 def friction_chain(press: Stage = press, lubricate: Stage = lubricate, record: Stage = record_friction) -> Chain:

@@ -8,6 +8,7 @@ import numpy as np
 
 from mixedlub.validation.answers import Answer, Truth
 from mixedlub.validation.planted import MEASUREMENT
+from mixedlub.validation.worlds import LAWS
 from profiles.errors import InputError
 
 Pair = tuple[Truth, Answer]
@@ -73,19 +74,48 @@ def coverage(truth: Truth, answer: Answer) -> float:
     return float(np.mean(ndtr((high - target) / sd) - ndtr((low - target) / sd)))
 
 
+def physics(label: frozenset[str], truth: Truth) -> frozenset[str]:
+    """What an explanation says is missing: all of it but the laws, where the rig follows other laws."""
+    if not truth.laws:
+        return label
+    return label - LAWS or frozenset({"none"})
+
+
 def right(truth: Truth, answer: Answer) -> bool:
-    """The verdict is the truth."""
-    return answer.verdict == truth.label
+    """The verdict is the truth, beside whatever laws."""
+    return physics(answer.verdict, truth) == truth.label
 
 
 def tied(truth: Truth, answer: Answer) -> bool:
-    """The verdict is the truth, or the truth is among the explanations tied with it."""
-    return answer.verdict == truth.label or truth.label in answer.tied
+    """The verdict is the truth, or the truth is among the explanations tied with it, beside whatever laws."""
+    return right(truth, answer) or truth.label in [physics(one, truth) for one in answer.tied]
+
+
+def laws_named(laws: frozenset[str], truth: Truth, answer: Answer) -> float:
+    """Share of some laws that the verdict or a tied explanation has, without one that the rig does not follow."""
+    honest = [one & LAWS for one in (answer.verdict, *answer.tied) if one & LAWS <= truth.laws]
+    return len(laws & frozenset().union(*honest)) / len(laws)
+
+
+def false_law(truth: Truth, answer: Answer) -> bool:
+    """The verdict has a law that the rig does not follow."""
+    return bool(answer.verdict & LAWS - truth.laws)
+
+
+def false_physics(truth: Truth, answer: Answer) -> bool:
+    """An effect that is not there has a probability of 0.9 or more."""
+    so = truth.label | LAWS | ANSWERS_WITHOUT_EFFECT
+    return any(p >= 0.9 for name, p in answer.probabilities.items() if name not in so)
+
+
+def unknown_suspected(truth: Truth, answer: Answer) -> bool:
+    """Something unknown is more probable than not."""
+    return answer.probabilities.get("unknown", 0.0) > 0.5
 
 
 def crossed(truth: Truth, answer: Answer) -> bool:
     """An instrument fault called physics, or physics called an instrument fault."""
-    named = answer.verdict - ANSWERS_WITHOUT_EFFECT
+    named = physics(answer.verdict, truth) - ANSWERS_WITHOUT_EFFECT
     if truth.label <= MEASUREMENT:
         return bool(named - MEASUREMENT)
     return bool(named & MEASUREMENT)

@@ -84,6 +84,7 @@ class Rig(Case):
     where nature follows another base law than the model's, which no calibration quite becomes. ``settle`` completes
     columns that depend on the readings, such as the fringe order an instrument counts. ``floor`` are the bounds
     of the absolute part of the noise over its relative part at the ``quantile`` of the readings.
+    Where nature follows other published laws than the model's, ``followed`` puts them in place.
     A ``signed`` quantity may be negative. No reading falls below the share ``least`` of the true value, if it has one.
     """
 
@@ -94,6 +95,7 @@ class Rig(Case):
     outside: tuple[Form, ...]
     fine: Model | None = None
     planted: Callable[[Sequence[Act]], np.ndarray] | None = None
+    followed: tuple[Act, ...] = ()
     settle: Callable[[np.ndarray], dict[str, np.ndarray]] = field(default=lambda values: {})
     quantile: float = 0.5
     floor: tuple[float, float] = (0.1, 1.0)
@@ -110,9 +112,17 @@ class Rig(Case):
         """The same rig on its finer grid."""
         return self if self.fine is None else replace(self, model=self.fine)
 
+    @property
+    def nature(self) -> Rig:
+        """The same rig with a model that follows the laws that nature follows."""
+        if not self.followed:
+            return self
+        model, laws = self.model, self.followed
+        return replace(self, model=lambda z, acts: model(z, [*laws, *acts]), followed=())
+
     def records(self, z: np.ndarray, acts: Sequence[Act]) -> np.ndarray:
         """What the rig reads without noise."""
-        return self.model(z, acts) if self.planted is None else self.planted(acts)
+        return self.model(z, [*self.followed, *acts]) if self.planted is None else self.planted(acts)
 
 
 Chain = Sequence[tuple[str, Callable[[Any], Any] | None]]

@@ -146,12 +146,17 @@ def nearest(rig: Rig) -> np.ndarray:
 
 
 def rivals(
-    target: Target, hidden: Sequence[Form], knobs: Sequence[dict[str, float]], z: np.ndarray, rank: int
+    target: Target,
+    hidden: Sequence[Form],
+    knobs: Sequence[dict[str, float]],
+    z: np.ndarray,
+    rank: int,
+    exchanged: bool = True,
 ) -> dict[str, float]:
     """Least chi-square of none, of every single effect but the truth, and of a pair with one of the two exchanged.
 
     Each effect is tried in all its forms. Forms more general than the truth, beyond ``rank``, contain it as a
-    special case and are no rivals.
+    special case and are no rivals. Unless ``exchanged``, a pair has single effects alone as rivals.
     """
     none = best(target, (), z)
     chi_squares = {"none": none.chi_square}
@@ -164,7 +169,7 @@ def rivals(
     for form in special:
         if truth != {form.id}:
             tried(form.id, best(target, (form,), none.z).chi_square)
-    for kept, values in zip(hidden, knobs) if len(hidden) == 2 else ():
+    for kept, values in zip(hidden, knobs) if len(hidden) == 2 and exchanged else ():
         for form in special:
             if form.id not in truth:
                 tried("+".join(sorted((kept.id, form.id))), best(target, (kept, form), z, (values,)).chi_square)

@@ -13,12 +13,14 @@ from pathlib import Path
 
 from mixedlub.validation.answers import Truth, read_answer, read_truth, silent
 from mixedlub.validation.baselines import BASELINES, RIGS, refuse_without_learners
-from mixedlub.validation.battery import generate, workers
+from mixedlub.validation.battery import generate, plan, workers
 from mixedlub.validation.measures import Pair
 from mixedlub.validation.oracle import oracle
 from mixedlub.validation.rigs import CONTACTS, KINDS
-from mixedlub.validation.score import Score, score
+from mixedlub.validation.sample_case import Order
+from mixedlub.validation.score import FIGURES, Score, score
 from mixedlub.validation.tables import by_kind, wrong
+from mixedlub.validation.worlds.figures import WORLD_FIGURES
 from profiles.errors import InputError
 
 Diagnose = Callable[[Path, Path], object]
@@ -98,8 +100,11 @@ def validate(
     jobs: int = 2,
     baselines: bool = False,
     progress: Progress = quiet,
+    dealt: Callable[[int, int, Sequence[str]], list[Order]] = plan,
 ) -> dict[str, Score]:
     """Deal, diagnose, score and draw into ``out``; an interrupted run is resumed.
+
+    ``dealt`` gives the orders of the cases: the base model's rigs, or those of other laws.
 
     Returns the scores that ``judge`` writes. ``baselines`` are answered too, and last the oracle that knows the
     planted laws, on kinds of rig that their case folder describes completely.
@@ -108,7 +113,11 @@ def validate(
         if not set(kinds) <= set(RIGS):
             raise InputError(f"baselines have models of {' and '.join(RIGS)} alone", where="kinds", value=list(kinds))
         refuse_without_learners()
-    sealed = generate(out / "sealed", seed, cases, kinds, jobs, lambda done, total: progress("deal", done, total))
+
+    def deal(done: int, total: int) -> None:
+        progress("deal", done, total)
+
+    sealed = generate(out / "sealed", seed, cases, kinds, jobs, deal, dealt)
     (out / "cases").mkdir(exist_ok=True)
     open_cases = [unsealed(case, out / "cases") for case in sealed]
     answer_all(Steady(diagnose), open_cases, out / "answers", jobs, "diagnose", progress)
@@ -144,11 +153,12 @@ def judge(out: Path, sealed: Sequence[Path], rivals: dict[str, Path] | None = No
     """
     truths = [read_truth(case) for case in sealed]
     ids = sorted({name for truth in truths for name in truth.candidates})
+    figures = WORLD_FIGURES if any(truth.laws for truth in truths) else FIGURES
     pairs, failed = _collected(out, truths)
     every_pair = [pair for some in pairs.values() for pair in some]
     unnamed = {f"{kind}, unnamed": [pair for pair in some if pair[0].no_data_sheet] for kind, some in pairs.items()}
-    scores = {"all": score(every_pair, TOOL, ids)}
-    scores |= {kind: score(some, f"{TOOL}, {kind}", ids) for kind, some in pairs.items() if some}
+    scores = {"all": score(every_pair, TOOL, ids, figures)}
+    scores |= {kind: score(some, f"{TOOL}, {kind}", ids, figures) for kind, some in pairs.items() if some}
     others = {
         name: score([(truth, read_answer(answers / truth.case)) for truth in truths], name, ids)
         for name, answers in (rivals or {}).items()

@@ -11,6 +11,8 @@ import numpy as np
 from mixedlub.validation.rig import Act, Form, Rig
 from mixedlub.validation.rigs import KINDS, Family, family_of
 from mixedlub.validation.rivals import nearest, sensitivity, visibility
+from mixedlub.validation.worlds.catalogue import World, drawn, following
+from mixedlub.validation.worlds.misfit import CLEAR, Seen
 from profiles.errors import InputError
 
 VISIBLE = {"clear": (16.0, 30.0), "faint": (7.0, 11.0), "pair": (10.0, 24.0)}
@@ -19,6 +21,8 @@ CLOSE_ENOUGH = 0.25
 """Logarithm of a visibility over the one ordered below which a sample is taken."""
 TRIES = 12
 """Samples among which the nearest to the order is taken."""
+TRIES_FOR_LAW = 40
+"""Samples among which one whose first law is off the base model is looked for."""
 MOST_RIGS = 400
 """Rigs that are drawn at most to find one."""
 SMALL_CASE_SIZES = (20, 41)
@@ -27,7 +31,11 @@ SMALL_CASE_SIZES = (20, 41)
 
 @dataclass(frozen=True)
 class Order:
-    """What one case is to be: kind, class, planted effects, and how visible they are."""
+    """What one case is to be: kind, class, planted effects, and how visible they are.
+
+    ``laws`` are the steps at which the rig follows another law; a ``strong`` first one is none that recalibration of
+    the base model could hide.
+    """
 
     name: str
     kind: str
@@ -37,11 +45,13 @@ class Order:
     outliers: bool = False
     no_data_sheet: bool = False
     small: bool = False
+    laws: tuple[str, ...] = ()
+    strong: bool = False
 
 
 @dataclass(frozen=True)
 class Sample:
-    """One case as drawn: rig, withheld readings, calibration, forms with their knobs, noise, visibility."""
+    """One case as drawn: rig, withheld readings, calibration, forms with their knobs, noise, visibility, laws."""
 
     rig: Rig
     hidden: np.ndarray
@@ -51,6 +61,14 @@ class Sample:
     relative: float
     absolute: float
     visibility: float
+    world: World = ()
+
+    @property
+    def seen(self) -> Seen:
+        """The readings handed over, as the laws are compared on them."""
+        sd = self.sd(self.rig.records(self.z, self.acts))
+        rows = np.flatnonzero(~self.hidden)
+        return Seen(self.rig, rows, self.z, sd[rows])
 
     @property
     def acts(self) -> list[Act]:
@@ -78,6 +96,8 @@ def sample_case(rng: np.random.Generator, order: Order) -> Sample:
         sample = _sample(rng, order, goal)
         if not sample.possible:
             continue
+        if order.strong and place < TRIES_FOR_LAW and not sample.seen.alone(sample.world, sample.world[0]) > CLEAR:
+            continue
         if nearest_yet is None or far(sample) < far(nearest_yet):
             nearest_yet = sample
         if far(nearest_yet) < CLOSE_ENOUGH or place + 1 >= TRIES:
@@ -85,16 +105,22 @@ def sample_case(rng: np.random.Generator, order: Order) -> Sample:
     raise InputError("no rig with these effects can be read", where=order.kind, value=order.effects)
 
 
-def _rig_for(rng: np.random.Generator, order: Order) -> tuple[Rig, tuple[Form, ...]]:
-    """A rig on which the ordered effects can be at work, and one form of each."""
+def _rig_for(rng: np.random.Generator, order: Order) -> tuple[Rig, World, tuple[Form, ...]]:
+    """A rig on which the ordered effects can be at work, the laws that it follows, and one form of each effect."""
     kind = KINDS[order.kind]
     draw = kind.draw_without_data_sheet if order.no_data_sheet and kind.draw_without_data_sheet else kind.draw
     for _ in range(MOST_RIGS):
         rig = draw(rng)
+        world: World = ()
+        if order.laws:
+            followed = drawn(rng, rig, order.laws)
+            if followed is None:
+                continue
+            rig, world = following(rig, followed), followed
         pool = rig.outside if order.label == "unknown" else rig.forms
         options = [[form for form in pool if form.id == name and form.rarity > 0] for name in order.effects]
         if all(options):
-            return rig, tuple(forms[int(rng.integers(len(forms)))] for forms in options)
+            return rig, world, tuple(forms[int(rng.integers(len(forms)))] for forms in options)
     raise InputError("no rig is open to these effects", where=order.kind, value=order.effects)
 
 
@@ -140,7 +166,7 @@ def withhold(rng: np.random.Generator, rig: Rig, family: Family, small: bool = F
 
 def _sample(rng: np.random.Generator, order: Order, goal: float) -> Sample:
     """A rig with its noise, and strengths scaled, so that the effects are as visible as can be near the goal."""
-    rig, forms = _rig_for(rng, order)
+    rig, world, forms = _rig_for(rng, order)
     family = family_of(order.kind)
     hidden = withhold(rng, rig, family, order.small)
     z = rng.standard_normal(len(rig.names))
@@ -148,14 +174,14 @@ def _sample(rng: np.random.Generator, order: Order, goal: float) -> Sample:
         z = np.sign(z) * rng.uniform(1.0, 2.0, len(z))
     z = z if rig.planted is None else nearest(rig)
     knobs = tuple(_knobs(rng, form) for form in forms)
-    slopes = sensitivity(rig, z)[~hidden]
+    slopes = sensitivity(rig.nature, z)[~hidden]
     typical = float(np.quantile(np.abs(rig.records(z, ())), rig.quantile))
     share = float(np.exp(rng.uniform(*np.log(rig.floor))))
 
     def sample(level: float, factors: Sequence[float]) -> Sample:
         now = tuple(_scaled(f, k, factor) for f, k, factor in zip(forms, knobs, factors))
         absolute = float(f"{0.01 * level * share * typical:.4g}")
-        return Sample(rig, hidden, z, forms, now, round(0.01 * level, 6), absolute, 0.0)
+        return Sample(rig, hidden, z, forms, now, round(0.01 * level, 6), absolute, 0.0, world)
 
     def each(level: float, factors: Sequence[float]) -> list[float]:
         """Visibility of every effect in the presence of the others."""

@@ -57,6 +57,9 @@ def wrong(pairs: Mapping[str, Sequence[Pair]]) -> str:
             shares = ", ".join(f"{name} {p:.2f}" for name, p in ranked)
             lines.append(
                 f"{truth.case} {kind:16s} {truth.group:11s}{mark} vis {truth.visibility:5.1f}  {_named(truth.label)}"
-                f" -> {_named(answer.verdict)}" + (f"  tied: {more}" if more else "") + f"  [{shares}]"
+                f" -> {_named(answer.verdict)}"
+                + (f"  tied: {more}" if more else "")
+                + f"  [{shares}]"
+                + (f"  follows {_named(truth.laws)}" if truth.laws else "")
             )
     return "\n".join(lines) + "\n"

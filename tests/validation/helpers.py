@@ -1,15 +1,17 @@
 """What the tests of the validation share: chains of gears and discs, orders of cases, an answer without a diagnosis."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from mixedlub.validation.contact import Calibration
+from mixedlub.validation.contact import Calibration, Contact, Inputs, Oil, Solid, press
 from mixedlub.validation.contact import start as started
 from mixedlub.validation.rig import play
 from mixedlub.validation.rigs import discs, gears
+from mixedlub.validation.rigs.gears import Gears, path_of_contact
 from mixedlub.validation.sample_case import Order
 
 ORDERS = {
@@ -51,6 +53,30 @@ def run(inputs, calibration=None, acts=()):
 
 def readings(inputs, calibration=None, acts=()):
     return run(inputs, calibration, acts).recorded
+
+
+def reference_points() -> Contact:
+    """The 17/26 pair at 100 N m and 1500 rpm, at the pitch point, HPSTC and the end of the path."""
+    module = 25.4e-3 / 6
+    tips = (0.5 * module * 19, 0.5 * module * 28)
+    path = path_of_contact(Gears((17, 26), module, np.radians(22.5), tips, 14e-3))
+    x = np.array([path.pitch, path.high_single, path.end])
+    pinion = 1500 * np.pi / 30
+    inputs = Inputs(
+        oil=Oil((40.0, 100.0), (30e-6, 6e-6), (18e-9, 13e-9)),
+        solid=Solid(),
+        radius=(x * (path.tangent_length - x) / path.tangent_length)[None, :],
+        speed_1=(pinion * x)[None, :],
+        speed_2=(pinion * 17 / 26 * (path.tangent_length - x))[None, :],
+        share_force=np.array([[1.0, 1.0, 0.5]]) * 100 / path.base_radius[0],
+        width=14e-3,
+        temperature=np.array([60.0]),
+        moments=np.array([[(0.321**2 + 0.374**2) * 1e-12, 0.005, 7.2e9]]),
+        sequence=np.zeros(1),
+        conditions={},
+    )
+    oil = {"viscosity": np.array([[0.01489]]), "pressure_viscosity": np.array([[14.81e-9]])}
+    return press(replace(started(inputs, Calibration()), **oil))
 
 
 def truth_of(folder):

@@ -1,7 +1,6 @@
 """The validation's own base models against numbers from outside them."""
 
 import json
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,17 +8,11 @@ import pytest
 from mixedlub.validation.case_folder import read_case
 from mixedlub.validation.contact import (
     Calibration,
-    Contact,
-    Inputs,
-    Oil,
-    Solid,
     lubricate,
     mix,
     oil_of,
     overlap,
-    press,
     shear,
-    start,
     summits,
     touch,
 )
@@ -28,7 +21,7 @@ from mixedlub.validation.rigs import discs, films, gears, tooth_contacts, viscos
 from mixedlub.validation.rigs.drives import Drive, gaussian
 from mixedlub.validation.rigs.gears import Gears, path_of_contact, share_at
 
-from .helpers import readings
+from .helpers import readings, reference_points
 
 CASES = [f"case_{number:03d}" for number in range(8)]
 
@@ -61,30 +54,6 @@ def inputs_of(case):
     return (gears if case.kind == "gear_pair" else discs).inputs_of(case)
 
 
-def _reference_points() -> Contact:
-    """The 17/26 pair at 100 N m and 1500 rpm, at the pitch point, HPSTC and the end of the path."""
-    module = 25.4e-3 / 6
-    tips = (0.5 * module * 19, 0.5 * module * 28)
-    path = path_of_contact(Gears((17, 26), module, np.radians(22.5), tips, 14e-3))
-    x = np.array([path.pitch, path.high_single, path.end])
-    pinion = 1500 * np.pi / 30
-    inputs = Inputs(
-        oil=Oil((40.0, 100.0), (30e-6, 6e-6), (18e-9, 13e-9)),
-        solid=Solid(),
-        radius=(x * (path.tangent_length - x) / path.tangent_length)[None, :],
-        speed_1=(pinion * x)[None, :],
-        speed_2=(pinion * 17 / 26 * (path.tangent_length - x))[None, :],
-        share_force=np.array([[1.0, 1.0, 0.5]]) * 100 / path.base_radius[0],
-        width=14e-3,
-        temperature=np.array([60.0]),
-        moments=np.array([[(0.321**2 + 0.374**2) * 1e-12, 0.005, 7.2e9]]),
-        sequence=np.zeros(1),
-        conditions={},
-    )
-    oil = {"viscosity": np.array([[0.01489]]), "pressure_viscosity": np.array([[14.81e-9]])}
-    return press(replace(start(inputs, Calibration()), **oil))
-
-
 @pytest.mark.parametrize(
     ("quantity", "expected"),
     [
@@ -98,14 +67,14 @@ def _reference_points() -> Contact:
 )
 def test_literature_local_reference_values(quantity, expected):
     """Values computed by another program, stated to hold within 0.5 %."""
-    contact = mix(shear(touch(lubricate(_reference_points()))))
+    contact = mix(shear(touch(lubricate(reference_points()))))
     found = contact.rig.radius if quantity == "radius" else getattr(contact, quantity)
     np.testing.assert_allclose(found[0], expected, rtol=5e-3)
 
 
 def test_literature_summits_of_the_reference_surface():
     """Density 4.4106e10 per m2, radius 7.8332 um, spread 0.48970 um, offset 0.13298 um."""
-    s = summits(_reference_points())
+    s = summits(reference_points())
     found = [s.density[0, 0], s.radius[0, 0], s.spread[0, 0], s.offset[0, 0]]
     np.testing.assert_allclose(found, [4.4106e10, 7.8332e-6, 0.48970e-6, 0.13298e-6], rtol=1e-4)
 

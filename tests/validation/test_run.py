@@ -20,6 +20,7 @@ from profiles.errors import InputError
 from .helpers import says_none
 
 CALLS: list[str] = []
+WORLDS = ("gear_pair", "disc", "film", "friction_history", "viscosity", "mesh_friction")
 
 
 def counted(case: Path, out: Path) -> None:
@@ -134,21 +135,38 @@ def test_counts_by_kind_wrong_answers_and_break_downs(others, tmp_path):
         (["--rigs", "--quick"], {"cases": 25, "kinds": OTHERS, "baselines": False}),
         (["--kinds", "film,disc", "--quick"], {"cases": 25, "kinds": ("disc", "film"), "baselines": False}),
         (["--kinds", "gear_pair", "--cases", "7"], {"cases": 7, "kinds": ("gear_pair",), "baselines": True}),
+        (["--worlds"], {"cases": 240, "kinds": WORLDS, "baselines": False, "dealt": "plan_worlds"}),
+        (["--worlds", "--quick"], {"cases": 25, "kinds": WORLDS, "baselines": False, "dealt": "plan_worlds"}),
+        (
+            ["--worlds", "--kinds", "disc"],
+            {"cases": 240, "kinds": ("disc",), "baselines": False, "dealt": "plan_worlds"},
+        ),
+        (
+            ["--worlds", "--rigs", "--cases", "40"],
+            {"cases": 40, "kinds": WORLDS[2:], "baselines": False, "dealt": "plan_worlds"},
+        ),
     ],
     ids=" ".join,
 )
 def test_the_command_deals_the_chosen_kinds(tmp_path, monkeypatch, words, asked):
     said = {}
 
-    def noted(folder, diagnose, cases, seed, kinds, *, jobs, baselines, progress):
-        said.update(cases=cases, seed=seed, kinds=kinds, baselines=baselines)
+    def noted(folder, diagnose, cases, seed, kinds, *, jobs, baselines, progress, dealt):
+        said.update(cases=cases, seed=seed, kinds=kinds, baselines=baselines, dealt=dealt.__name__)
         (folder / "score.txt").write_text("scored")
 
     monkeypatch.setattr("mixedlub.validation.run.validate", noted)
     done = CliRunner().invoke(app, ["prove", *words, "--seed", "3", "--out", str(tmp_path / "out")])
     assert done.exit_code == 0
-    assert said == {**asked, "seed": 3}
+    assert said == {"dealt": "plan", **asked, "seed": 3}
     assert "scored" in done.stdout
+
+
+def test_a_kind_without_other_laws_is_refused(tmp_path, capsys):
+    assert main(["prove", "--worlds", "--kinds", "friction_map", "--out", str(tmp_path / "out")]) == 2
+    said = capsys.readouterr().err
+    assert "friction_map" in said
+    assert "no other law" in said
 
 
 def test_a_kind_that_no_battery_has_is_named_with_those_that_there_are(tmp_path, capsys):

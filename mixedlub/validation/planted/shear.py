@@ -6,10 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from mixedlub.validation.contact import KELVIN, ROELANDS_PRESSURE, Contact
+from mixedlub.validation.contact import KELVIN, ROELANDS_PRESSURE, Contact, film_stress
 from mixedlub.validation.rig import Form, Knob, strength
 
 SWEEPS = 9
+WARMEST, HALVINGS = 250.0, 28
 
 
 def flash(c: Contact, friction: np.ndarray | float) -> np.ndarray:
@@ -21,11 +22,24 @@ def flash(c: Contact, friction: np.ndarray | float) -> np.ndarray:
     return np.asarray(heat / (effusivity * spread * np.sqrt(c.half_width)))
 
 
+def _bisected(c: Contact, at_rest: np.ndarray | float, per_stress: np.ndarray) -> np.ndarray:
+    """Stress by any law in balance with the rise it causes, 250 K at most: the stress falls as the rise grows."""
+    low, high = np.zeros_like(c.stress), np.full_like(c.stress, WARMEST)
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        below = at_rest + per_stress * film_stress(c, middle) > middle
+        low, high = np.where(below, middle, low), np.where(below, high, middle)
+    return film_stress(c, 0.5 * (low + high))
+
+
 def _heated(c: Contact, at_rest: np.ndarray | float, per_stress: np.ndarray) -> Contact:
     """The Eyring stress in balance with the rise it causes, at_rest + per_stress tau, by Newton from below.
 
-    The stress falls with the rise along a convex curve, so the steps never overshoot.
+    The stress falls with the rise along a convex curve, so the steps never overshoot. Where the rig follows other laws
+    of viscosity or shear than the base model's, their stress is balanced by bisection instead.
     """
+    if c.rig.laws.keys() & {"thick", "shear"}:
+        return replace(c, stress=_bisected(c, at_rest, per_stress))
     level = np.log(c.viscosity) + 9.67
     absolute = c.temperature + KELVIN - 138.0
     slope = c.rig.oil.thinning_at(c.temperature) * absolute / level

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mixedlub.validation.contact import Contact, Inputs, friction_chain, oil_of, solid_of
+from mixedlub.validation.contact import Contact, Inputs, followed, friction_chain, oil_of, solid_of
 from mixedlub.validation.rig import Chain
 
 CIRCULAR, SPEED_EXPONENT = 1.03, 0.67
@@ -32,6 +32,7 @@ def inputs_of(settings: Mapping[str, Any], columns: Mapping[str, np.ndarray], mo
         moments=np.broadcast_to(moments, (len(speed), 3)),
         sequence=columns["sequence"].astype(float),
         conditions=dict(columns),
+        is_point=True,
     )
 
 
@@ -42,7 +43,7 @@ def press_ball(c: Contact) -> Contact:
     return replace(c, pressure=pressure, half_width=size, line_load=c.force / (2 * size))
 
 
-def lubricate_ball(c: Contact) -> Contact:
+def hamrock_dowson(c: Contact) -> Contact:
     """Hamrock-Dowson central film of a circle: 2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 e^(-0.73 k)) R."""
     modulus, radius = c.rig.solid.reduced, c.rig.radius
     speed = c.viscosity * c.entrainment / (modulus * radius)
@@ -54,7 +55,7 @@ def lubricate_ball(c: Contact) -> Contact:
 
 def ball_film_between(c: Contact, way: float, change: float, middle: float) -> Contact:
     """On the way to the law of all regimes, with another exponent of speed about a viscosity times speed (Pa m)."""
-    regression, regimes = lubricate_ball(c).film, lubricate_ball_in_any_regime(c).film
+    regression, regimes = hamrock_dowson(c).film, lubricate_ball_in_any_regime(c).film
     turned = (c.viscosity * c.entrainment / middle) ** change
     return replace(c, film=regression ** (1 - way) * regimes**way * turned)
 
@@ -88,11 +89,11 @@ def film_chain(law: Callable[[Contact], Contact]) -> Chain:
     return (
         ("oil", None),
         ("surface", press_ball),
-        ("film", law),
+        ("film", followed("film", law)),
         ("boundary", None),
         ("loss", _film_nm),
         ("sensor", None),
     )
 
 
-FRICTION = friction_chain(press_ball, lubricate_ball)
+FRICTION = friction_chain(press_ball, followed("film", hamrock_dowson))

@@ -1,0 +1,111 @@
+"""Which laws a rig can follow, and the world that is drawn of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mixedlub.validation.rig import Act, Rig
+from mixedlub.validation.worlds import (
+    ASPERITIES,
+    BALANCE,
+    FILM,
+    LAWS,
+    MIXTURE,
+    PRESSURE,
+    SHEAR,
+    TEMPERATURE,
+    Law,
+    films,
+    mixed,
+    oils,
+    sharing,
+    traction,
+)
+
+TOGETHER = (FILM, SHEAR, PRESSURE, ASPERITIES)
+"""A rig of full physics: film, traction averaged over the contact, viscosity and asperities all follow other laws."""
+SPOILT = {name: frozenset({ASPERITIES, BALANCE, MIXTURE}) for name in ("skewed_heights", "asperity_plasticity")}
+"""Effects whose own law of the real area takes the place of the base model's, and the laws that they would overrule."""
+SHOWN = 2e-3
+"""Relative change of some reading from which a law counts as another one than the base model's."""
+
+_CONTACT = (*mixed.THEORIES, *mixed.BALANCES, *mixed.MIXTURES, *traction.EVERY, *oils.OF_CONTACTS, *oils.COOLING)
+OF_KIND: dict[str, tuple[Law, ...]] = {
+    "gear_pair": (*films.LINE, *_CONTACT, *sharing.EVERY),
+    "disc": (*films.LINE, *_CONTACT),
+    "mesh_friction": (*films.LINE, *_CONTACT, *sharing.EVERY),
+    "friction_history": (*films.POINT, *_CONTACT),
+    "film": (*films.POINT, *oils.COOLING),
+    "viscosity": (*oils.OF_SAMPLES, *oils.COOLING),
+}
+"""Laws by kind; a friction map has no law of the base chain."""
+
+
+@dataclass(frozen=True)
+class Followed:
+    """A law as a rig follows it, with the knobs that were drawn."""
+
+    law: Law
+    values: dict[str, float]
+
+    @property
+    def act(self) -> Act:
+        return self.law.act(self.values)
+
+
+World = tuple[Followed, ...]
+
+
+def in_order(world: Sequence[Followed]) -> World:
+    """The law of temperature first: the others read the viscosity at rest."""
+    return tuple(sorted(world, key=lambda one: one.law.id != TEMPERATURE))
+
+
+def following(rig: Rig, world: Sequence[Followed]) -> Rig:
+    """The rig in a world: its model stays the base model, and effects that its laws take the place of are left out."""
+    ids = {one.law.id for one in world}
+    forms = tuple(form for form in rig.forms if form.id not in LAWS and not SPOILT.get(form.id, frozenset()) & ids)
+    return replace(rig, followed=tuple(one.act for one in in_order(world)), forms=forms)
+
+
+def has_contact(rig: Rig) -> bool:
+    """Whether the case describes what the laws are laws of."""
+    return rig.kind == "viscosity" or "lubricant" in rig.settings
+
+
+def shows(rig: Rig, law: Law) -> bool:
+    """Whether the readings of a rig tell the law from the base model's; those with needs are taken to."""
+    if law.needs:
+        return True
+    z = np.zeros(len(rig.names))
+    base = rig.model(z, ())
+    return bool(np.max(np.abs(rig.model(z, [law.act(law.middle)]) / base - 1)) > SHOWN)
+
+
+def laws_on(rig: Rig) -> dict[str, tuple[Law, ...]]:
+    """The laws that a rig can follow and that show in its readings, by id."""
+    if not has_contact(rig):
+        return {}
+    every = [law for law in OF_KIND.get(rig.kind, ()) if shows(rig, law)]
+    found = {name: tuple(law for law in every if law.id == name) for name in sorted(LAWS)}
+    return {name: some for name, some in found.items() if some}
+
+
+def drawn(rng: np.random.Generator, rig: Rig, ids: Sequence[str]) -> World | None:
+    """A law of each id with its knobs, or None where the rig has not all of them."""
+    pool = laws_on(rig)
+    if not set(ids) <= set(pool):
+        return None
+    together = set(TOGETHER) <= set(ids)
+    world = []
+    for name in ids:
+        some = [law for law in pool[name] if law.fits(ids)]
+        some = [law for law in some if law.average] if together and name == SHEAR else some
+        if not some:
+            return None
+        law = some[int(rng.integers(len(some)))]
+        world.append(Followed(law, {knob.name: float(rng.uniform(*knob.typical)) for knob in law.knobs}))
+    return tuple(world)

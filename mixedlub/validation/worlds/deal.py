@@ -1,0 +1,110 @@
+"""A battery of rigs that follow other laws: what its cases hold, and which steps follow another law in each."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from mixedlub.validation.battery import (
+    Survey,
+    contents,
+    deck,
+    drawn_rigs,
+    families,
+    fewest,
+    ordered,
+    shuffled,
+    surveyed,
+)
+from mixedlub.validation.rig import Rig
+from mixedlub.validation.rigs import CLASSES, CONTACTS, KINDS, Family, Partners
+from mixedlub.validation.sample_case import Order
+from mixedlub.validation.worlds import ASPERITIES, BALANCE, LAWS, MIXTURE
+from mixedlub.validation.worlds.catalogue import OF_KIND, SPOILT, TOGETHER, has_contact, laws_on
+from profiles.errors import InputError
+
+SHARES = dict(zip(CLASSES, (0.28, 0.36, 0.06, 0.05, 0.25)))
+"""Of the classes: 60 cases and more in each group that has a goal, of 240."""
+HOW_MANY = (0.5, 0.3, 0.2)
+"""Shares of cases with one, two and three laws."""
+FULL_PHYSICS, ANY_SIZE = 4, 4
+"""Every fourth case with one effect or none has all of ``TOGETHER``; in every fourth the law may be ever so near."""
+
+
+def worlds_of(kinds: Sequence[str]) -> tuple[str, ...]:
+    """Those of some kinds whose base chain has other laws."""
+    return tuple(kind for kind in kinds if kind in OF_KIND)
+
+
+def _named(survey: Survey) -> Survey:
+    """Effects without the laws, which are followed and not planted."""
+    named, outside = survey
+    return {name: weight for name, weight in named.items() if name not in LAWS}, outside
+
+
+def _pairs(kind: str, named: Sequence[str]) -> tuple[Partners, ...]:
+    """Pairs of effects that can be planted on rigs of a kind that follow laws."""
+    kept = [
+        (first, tuple(one for one in partners if one in named), weight)
+        for first, partners, weight in KINDS[kind].pairs
+        if first in named
+    ]
+    return tuple(one for one in kept if one[1])
+
+
+def _steps(rng: np.random.Generator, order: Order, ids: Sequence[str], lead: str) -> tuple[str, ...]:
+    """Steps that follow another law, the dealt one first; none that an effect of the case would overrule."""
+    barred = {name for effect in order.effects for name in SPOILT.get(effect, ())}
+    free = [name for name in ids if name not in barred]
+    lead = lead if lead in free else free[int(rng.integers(len(free)))]
+    rest = [name for name in free if name != lead]
+    count = min(int(rng.choice(len(HOW_MANY), p=HOW_MANY)), len(rest))
+    laws = (lead, *(rest[i] for i in rng.permutation(len(rest))[:count]))
+    if {ASPERITIES, MIXTURE} <= set(laws) and BALANCE not in laws:
+        # Weights by the film parameter leave asperities nothing to do.
+        laws = tuple(name for name in laws if name != ASPERITIES) if lead == MIXTURE else (*laws, BALANCE)
+    return laws
+
+
+def _together(rng: np.random.Generator, order: Order, ids: Sequence[str]) -> bool:
+    """Whether a case can have the laws of full physics."""
+    barred = {name for effect in order.effects for name in SPOILT.get(effect, ())}
+    return order.label in ("none", "single") and set(TOGETHER) <= set(ids) - barred
+
+
+def _orders(rng: np.random.Generator, family: Family, seed: int, cases: int) -> list[Order]:
+    rigs: dict[str, list[Rig]] = {kind: [r for r in drawn_rigs(kind, seed) if has_contact(r)] for kind in family.kinds}
+    surveys = {kind: _named(surveyed(some)) for kind, some in rigs.items()}
+    partners = {kind: _pairs(kind, list(surveys[kind][0])) for kind in family.kinds}
+    ids = {kind: sorted({name for rig in some for name in laws_on(rig)}) for kind, some in rigs.items()}
+    family = replace(family, classes=SHARES)
+    orders = ordered(rng, family, contents(rng, family, cases, surveys, partners))
+    leads = {kind: iter(deck(rng, some, [1.0] * len(some), len(orders))) for kind, some in ids.items()}
+    full, made = 0, []
+    for place, order in enumerate(orders):
+        laws = _steps(rng, order, ids[order.kind], next(leads[order.kind]))
+        if _together(rng, order, ids[order.kind]):
+            full += 1
+            if full % FULL_PHYSICS == 0:
+                laws = tuple(TOGETHER[i] for i in rng.permutation(len(TOGETHER)))
+        made.append(replace(order, laws=laws, strong=place % ANY_SIZE != 0, no_data_sheet=False))
+    return made
+
+
+def plan_worlds(seed: int, cases: int, kinds: Sequence[str] = tuple(OF_KIND)) -> list[Order]:
+    """The orders of a battery in which every rig follows other laws: half of it gears and discs, if both are dealt."""
+    if lawless := [kind for kind in kinds if kind not in OF_KIND]:
+        raise InputError("no other law is published of the base model of this kind", where="kinds", value=lawless)
+    if cases < fewest(kinds):
+        raise InputError(f"a battery of these kinds has at least {fewest(kinds)} cases", where="cases", value=cases)
+    chosen = families(kinds)
+    weights = [max(len(chosen) - 1.0, 1.0) if set(family.kinds) & set(CONTACTS) else 1.0 for family in chosen]
+    least = len(CLASSES)
+    each = np.full(len(chosen), least)
+    for index in deck(np.random.default_rng([seed, 31]), range(len(chosen)), weights, cases - least * len(chosen)):
+        each[index] += 1
+    rng = np.random.default_rng([seed, 3])
+    orders = [order for family, count in zip(chosen, each) for order in _orders(rng, family, seed, int(count))]
+    return shuffled(rng, orders)

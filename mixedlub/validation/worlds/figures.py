@@ -1,0 +1,85 @@
+"""Figures of a battery whose rigs follow other laws: what is missing and which laws, each for itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from mixedlub.validation.answers import Answer, Truth
+from mixedlub.validation.measures import (
+    false_law,
+    false_physics,
+    laws_named,
+    right,
+    tied,
+    unknown_suspected,
+)
+from mixedlub.validation.score import FIGURES, Figure, at_least, at_most
+from mixedlub.validation.worlds.catalogue import TOGETHER
+
+Counts = Callable[[Truth, Answer], bool]
+Goal = tuple[float, float] | None
+AS_EVER = ("pair_both", "unknown", "outliers_found", "outliers_false", "crossed", "held_out", "coverage")
+TIMES = ("seconds", "slowest")
+
+
+def _in(*groups: str) -> Counts:
+    return lambda truth, answer: truth.group in groups
+
+
+def _clear(*groups: str) -> Counts:
+    return lambda truth, answer: truth.group in groups and truth.identifiable
+
+
+def _together(group: str) -> Counts:
+    return lambda truth, answer: truth.group == group and set(TOGETHER) <= truth.laws
+
+
+def _any(truth: Truth, answer: Answer) -> bool:
+    return True
+
+
+def _share(key: str, text: str, counts: Counts, measure: Callable[[Truth, Answer], float], goal: Goal = None) -> Figure:
+    return Figure(key, text, counts, measure, goal, "share")
+
+
+def _by_law(key: str, text: str, laws: Callable[[Truth], frozenset[str]], goal: Goal) -> Figure:
+    """Laws of a case count one by one."""
+    return Figure(
+        key,
+        text,
+        lambda truth, answer: bool(laws(truth)),
+        lambda truth, answer: laws_named(laws(truth), truth, answer),
+        goal,
+        "share",
+        lambda truth: len(laws(truth)),
+    )
+
+
+def _every_law(truth: Truth, answer: Answer) -> float:
+    return float(laws_named(truth.clear_laws, truth, answer) == 1.0)
+
+
+_NOTHING = _in("none")
+_LAWS = (
+    _share("false_physics", "nothing missing: a false effect at 0.9 or more", _NOTHING, false_physics, at_most(0.03)),
+    _share("none", "  none, or laws alone", _NOTHING, right),
+    _share("unknown_false", "  unknown above 0.5", _NOTHING, unknown_suspected, at_most(0.05)),
+    _share("none_together", "  four laws at once: none, or laws alone", _together("none"), right, at_least(0.90)),
+    _share("unknown_together", "  four laws at once: unknown above 0.5", _together("none"), unknown_suspected,
+           at_most(0.05)),
+    _by_law("law", "law named or tied, where it leaves over 100", lambda truth: truth.clear_laws, at_least(0.70)),
+    _by_law("law_sole", "  of these, no law of another step comes near", lambda truth: truth.sole_laws, None),
+    _share("laws_all", "  all such laws of a rig", lambda truth, answer: bool(truth.clear_laws), _every_law),
+    _share("law_false", "a law named that the rig does not follow", _any, false_law),
+    _share("tied", "one effect: right or tied, beside any laws", _in("single"), tied, at_least(0.95)),
+    _share("right", "  right, where identifiable", _clear("single"), right),
+    _share("tied_together", "  four laws at once: right or tied", _together("single"), tied, at_least(0.85)),
+    _share("fault", "an instrument fault: right or tied, beside any laws", _in("measurement"), tied),
+)  # fmt: skip
+
+
+def _as_ever(keys: tuple[str, ...]) -> tuple[Figure, ...]:
+    return tuple(figure for key in keys for figure in FIGURES if figure.key == key)
+
+
+WORLD_FIGURES: tuple[Figure, ...] = (*_LAWS, *_as_ever(AS_EVER), *_as_ever(TIMES))

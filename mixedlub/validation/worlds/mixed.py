@@ -1,0 +1,164 @@
+"""How film and asperities share the load, and how friction is weighted between them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from mixedlub.validation.contact import Contact, dowson_toyoda
+from mixedlub.validation.rigs.ball import hamrock_dowson
+from mixedlub.validation.worlds import ASPERITIES, BALANCE, FILM, MIXTURE, Law, follow
+from mixedlub.validation.worlds.asperities import (
+    Asperities,
+    bush_gibson_thomas,
+    greenwood_tripp,
+    greenwood_williamson,
+    persson,
+)
+
+HALVINGS, SEPARATED = 16, 9.0
+"""Bisections of a balance, and rms heights above which asperities carry nothing."""
+Lighter = Callable[[Contact], Contact]
+"""The contact of which the film has to carry half the load."""
+Weight = Callable[[Contact, np.ndarray], np.ndarray]
+"""Share of boundary friction, from a contact at its film and the share of the load on its asperities."""
+
+
+def half_load(c: Contact) -> Contact:
+    """Half the load on the same bodies: Johnson, Greenwood and Poon, Wear 19 (1972) 91."""
+    return replace(c, force=0.5 * c.force, line_load=0.5 * c.line_load)
+
+
+def half_load_and_modulus(c: Contact) -> Contact:
+    """Half the load on bodies of half the modulus, so that the film keeps its shape: Gelinck and Schipper 2000.
+
+    With gamma = 1/(1 - L) load and modulus go by 1/gamma in the film law; Tribol. Int. 33 (2000) 175. By laws with like
+    powers of speed and material (Grubin's, one limit of Moes') no film grows then, and there is no balance.
+    """
+    solid = replace(c.rig.solid, modulus=(0.5 * c.rig.solid.modulus[0], 0.5 * c.rig.solid.modulus[1]))
+    return replace(half_load(c), rig=replace(c.rig, solid=solid))
+
+
+def growth(c: Contact, lighter: Lighter) -> np.ndarray:
+    """Power with which the film grows as its load falls, from the film law of the rig: 0.1 or 0.13 of the base law's.
+
+    Exact for power laws of the load.
+    """
+    law = c.rig.laws.get("film", hamrock_dowson if c.rig.is_point else dowson_toyoda)
+    return np.asarray(np.log2(law(lighter(c)).film / law(c).film))
+
+
+def mean_pressure(c: Contact) -> np.ndarray:
+    """Mean pressure of the whole contact (Pa): 2/3 of the largest of a point, pi/4 of a line."""
+    return c.pressure * (2 / 3 if c.rig.is_point else np.pi / 4)
+
+
+def balanced(c: Contact, asperities: Asperities, lighter: Lighter) -> tuple[np.ndarray, np.ndarray]:
+    """Film (m) and the share L of the load that asperities carry: p_a(h) = L p with h = h_0 (1 - L)^-s, by bisection.
+
+    h_0 is the film that carries all, p the mean Hertz pressure. The asperities' pressure falls with the film and the
+    share rises, so that there is one solution.
+    """
+    power, load = growth(c, lighter), mean_pressure(c)
+
+    def excess(rise: np.ndarray) -> np.ndarray:
+        """Pressure of the asperities above their share, at the logarithm of the film over h_0."""
+        return np.asarray(asperities.pressure(c.film * np.exp(rise)) + np.expm1(-rise / power) * load)
+
+    low = np.zeros_like(c.film)
+    high = np.maximum(np.log(SEPARATED * c.roughness / c.film), 1e-12) + low
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        above = excess(middle) > 0
+        low, high = np.where(above, middle, low), np.where(above, high, middle)
+    # The chord of what is left: smooth in the inputs, as the fits of rivals need it.
+    first, last = np.maximum(excess(low), 0.0), np.minimum(excess(high), 0.0)
+    rise = low + (high - low) * first / np.maximum(first - last, 1e-300)
+    return c.film * np.exp(rise), -np.expm1(-rise / power)
+
+
+def meet(c: Contact) -> Contact:
+    """Film and share of boundary friction by the laws of asperities, of balance and of weighting.
+
+    Unless they share it, film and asperities both carry the whole load, as in the base model.
+    """
+    laws = c.rig.laws
+    asperities = laws.get("asperities", greenwood_williamson)(c)
+    carried = np.zeros_like(c.film)
+    if "balance" in laws:
+        film, carried = balanced(c, asperities, laws["balance"])
+        c = replace(c, film=film)
+    weight = laws["weight"](c, carried) if "weight" in laws else asperities.area(c.film)
+    return replace(c, area=np.clip(weight, 0.0, 1.0))
+
+
+def by_load(c: Contact, carried: np.ndarray) -> np.ndarray:
+    """The share of the load that asperities carry (Gelinck and Schipper 2000): Coulomb friction on it."""
+    return carried
+
+
+def by_error_function(c: Contact, carried: np.ndarray) -> np.ndarray:
+    """1 - erf(h/Rq), after tests of contact resistance (Arana, Larranaga and Ulacia 2018), for VG 220 and thinner oils.
+
+    >>> from scipy.special import erfc
+    >>> [round(float(erfc(x)), 4) for x in (0.5, 1.0, 1.5)]
+    [0.4795, 0.1573, 0.0339]
+    """
+    from scipy.special import erfc
+
+    return np.asarray(erfc(c.film / c.roughness))
+
+
+def by_doleschel(c: Contact, carried: np.ndarray) -> np.ndarray:
+    """(1 - h/(2 Ra))^2 below h = 2 Ra, none above, Ra the mean of both surfaces (Doleschel 2003).
+
+    Ra is sqrt(2/pi) Rq of normal heights.
+    """
+    mean = 0.5 * np.sqrt(2 / np.pi) * np.sqrt(c.rig.shares[:, :, 0]).sum(axis=1)[:, None] * c.roughness
+    return np.asarray(np.maximum(1 - 0.5 * c.film / mean, 0.0) ** 2)
+
+
+def _met(
+    id: str,
+    step: str,
+    name: str,
+    source: str,
+    law: Callable[..., object],
+    needs: frozenset[str] = frozenset(),
+    bars: frozenset[str] = frozenset(),
+) -> Law:
+    def enter(c: Contact) -> Contact:
+        return follow(follow(c, step, law), "contact", meet)
+
+    return Law(id, name, source, enter, needs=needs, bars=bars)
+
+
+THEORIES = (
+    _met(ASPERITIES, "asperities", "Greenwood and Tripp", "Greenwood and Tripp 1970", greenwood_tripp),
+    _met(ASPERITIES, "asperities", "Bush, Gibson and Thomas", "Bush, Gibson and Thomas 1975", bush_gibson_thomas),
+    _met(ASPERITIES, "asperities", "Persson", "Persson 2001", persson),
+)
+BALANCES = (
+    _met(BALANCE, "balance", "Johnson, Greenwood and Poon", "Johnson, Greenwood and Poon 1972", half_load),
+    _met(
+        BALANCE,
+        "balance",
+        "Gelinck and Schipper",
+        "Gelinck and Schipper 2000",
+        half_load_and_modulus,
+        bars=frozenset({FILM}),
+    ),
+)
+MIXTURES = (
+    _met(MIXTURE, "weight", "share of the load", "Gelinck and Schipper 2000", by_load, needs=frozenset({BALANCE})),
+    _met(
+        MIXTURE,
+        "weight",
+        "error function of the film parameter",
+        "Arana, Larranaga and Ulacia 2018",
+        by_error_function,
+    ),
+    _met(MIXTURE, "weight", "square of the film parameter", "Doleschel 2003", by_doleschel),
+)
