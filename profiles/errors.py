@@ -49,6 +49,21 @@ def refuse_other(given: object, kind: type, made: str, where: str) -> None:
         raise InputError(f"needs {made}, not {type(given).__name__}", where=where)
 
 
+def refuse_masked(given: object, where: str) -> None:
+    """An error where entries of an array are masked: as plain numbers they would count.
+
+    >>> refuse_masked(np.ma.array([1.0, 9.0], mask=[False, True]), "torque_Nm")
+    Traceback (most recent call last):
+    ...
+    profiles.errors.InputError: torque_Nm: has 1 masked entry; leave masked entries out
+    """
+    mask = getattr(given, "mask", None)
+    count = int(mask.sum()) if hasattr(mask, "sum") else 0
+    if count:
+        entries = "entry" if count == 1 else "entries"
+        raise InputError(f"has {count} masked {entries}; leave masked entries out", where=where)
+
+
 def refuse_no_file(path: Path) -> None:
     """An error where a path leads to no file of data: reading a pipe never ends, nor does a device."""
     if not path.exists():

@@ -12,7 +12,7 @@ from typing import Any, TypeVar, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from profiles.errors import InputError, refuse_other
+from profiles.errors import InputError, refuse_masked, refuse_other
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -60,6 +60,7 @@ class Profile:
 
     def __post_init__(self) -> None:
         where = f"profile {self.name!r}"
+        refuse_masked(self.heights, where)
         try:
             heights, spacing = frozen(self.heights, float), float(self.spacing)
         except (TypeError, ValueError):

@@ -17,7 +17,7 @@ from mixedlub.study.friction_comparison import judged
 from mixedlub.study.plan import Study, read_study
 from mixedlub.study.results import results_of, run_study
 from mixedlub.study.schema import StudyFile
-from profiles.errors import InputError
+from profiles.errors import InputError, refuse_masked
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -191,6 +191,7 @@ def _made(given: object, kind: type[Part], maker: str, where: str) -> Part:
 def _levels(values: ArrayLike, where: str) -> list[Any]:
     """The levels of a condition, given as one number or a list of numbers."""
     rule = "must be a number or a list of numbers"
+    refuse_masked(values, where)
     try:
         levels = np.atleast_1d(np.asarray(values))
     except ValueError:

@@ -260,3 +260,10 @@ def test_the_command_says_its_levels() -> None:
 
     source = inspect.getsource(__import__("mixedlub.commands.diagnose", fromlist=["command"]).command)
     assert [float(x) for x in re.search(r"from (\S+) to (\S+)\.", source).groups()] == list(LEVELS)
+
+
+def test_masked_numbers_are_refused() -> None:
+    """Taken as plain numbers, masked ones would count."""
+    masked = np.ma.array([50.0, 1e6, 50.0], mask=[False, True, False])
+    refused(loss(torque_Nm=masked), "torque_Nm", "1 masked entry")
+    refused(lambda: profiles.Profile(1e-9 * masked, 1e-6), "profile", "1 masked entry")
