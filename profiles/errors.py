@@ -52,6 +52,7 @@ def refuse_other(given: object, kind: type, made: str, where: str) -> None:
 def refuse_masked(given: object, where: str) -> None:
     """An error where entries of an array are masked: as plain numbers they would count.
 
+    >>> import numpy as np
     >>> refuse_masked(np.ma.array([1.0, 9.0], mask=[False, True]), "torque_Nm")
     Traceback (most recent call last):
     ...
