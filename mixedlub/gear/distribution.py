@@ -17,7 +17,7 @@ import numpy as np
 
 from mixedlub.gear.checks import torques_above_zero
 from mixedlub.gear.compliance import SAINSOT_ANGLES
-from mixedlub.gear.contact_lines import contact_limits
+from mixedlub.gear.contact_lines import contact_limits, rise
 from mixedlub.gear.contact_solver import share_out, stiffness_of
 from mixedlub.gear.corner_contact import REACH, corner_gap
 from mixedlub.gear.geometry import GearPair, Pair, number, two, whole
@@ -79,6 +79,8 @@ class LdpSharing:
                 rule = f"a {key.partition('_')[0]} diameter is above zero"
                 entries = tuple(number(key, value, 0, 100, rule, 2e3) for value in two(key, getattr(self, name)))
                 object.__setattr__(self, name, entries)
+        if self.foundation != "sainsot" and self.bore_radius is not None:
+            raise InputError('acts only with foundation = "sainsot"', where="bore_diameter_mm")
         if self.body_radius is not None and ends == ("none", "none"):
             raise InputError("acts only with torque_end", where="body_diameter_mm")
 
@@ -306,20 +308,15 @@ def distribute(
     )
 
 
-def _rise(pair: GearPair) -> float:
-    """How much further on the path the back of a contact line is than its front, m."""
-    return pair.face_width * math.tan(abs(pair.base_helix_angle))
-
-
 def _first_front(pair: GearPair, edge_contact: bool = False) -> float:
     """Position on the front face of a pair whose back end comes into contact, m."""
-    return pair.path_start - _rise(pair) - (REACH * pair.base_pitch if edge_contact else 0.0)
+    return pair.path_start - rise(pair) - (REACH * pair.base_pitch if edge_contact else 0.0)
 
 
 def _pairs(pair: GearPair, edge_contact: bool = False) -> int:
     """The largest number of tooth pairs in contact at once."""
     beyond = 2 * REACH if edge_contact else 0.0
-    return math.ceil(pair.contact_ratio + _rise(pair) / pair.base_pitch + beyond - 1e-9)
+    return math.ceil(pair.contact_ratio + rise(pair) / pair.base_pitch + beyond - 1e-9)
 
 
 REGULAR_NODES = 32
@@ -329,7 +326,7 @@ REGULAR_NODES = 32
 def _nodes(pair: GearPair, slices: int) -> np.ndarray:
     """Phases (m) over one base pitch: equidistant ones, and both sides of where each slice comes and goes."""
     first, pitch = _first_front(pair), pair.base_pitch
-    lag = (np.arange(slices) + 0.5) / slices * _rise(pair)
+    lag = (np.arange(slices) + 0.5) / slices * rise(pair)
     enters, leaves = pair.path_start - lag, pair.path_end - lag
     aside = 1e-6 * pitch
     marks = np.concatenate([enters, enters - aside, leaves, leaves + aside])

@@ -17,8 +17,7 @@ from tests.gear.pairs import FZG_C, HELICAL, HONG
 def rigid_gap(pair, lacking):
     """Turn of the pinion, as an arc of its base circle, from the path until its flank meets the gear's tip edge.
 
-    Independent of the law: the flank is sampled as an involute in polar form, and its angle at the radius of the edge is
-    compared with that of the edge, both as triangles of the wheel centres give them.
+    Independent of the law: involutes in polar angles from the line of centres; the turn is found by root finding.
     """
     base, other = pair.base_radius
     centre, angle = pair.working_centre_distance, pair.working_pressure_angle
