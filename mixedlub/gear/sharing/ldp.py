@@ -39,10 +39,10 @@ class Keys(Section):
         'model "ldp": gap over the face at equal steps from front to back, as of bent shafts', (), example=[0, 8, 0]
     )
     torque_end: tuple[End, End] = key(
-        'model "ldp": end of the face at which torque enters pinion and gear, so that they twist',
+        'model "ldp": end of the face at which torque enters pinion and gear, so that they twist: "front" (where face '
+        'positions begin) or "back"; "none": a body that does not twist',
         ("none", "none"),
         example=["front", "none"],
-        values={"none": "a body that does not twist", "front": "where face positions begin", "back": "the other end"},
     )
     body_diameter_mm: Pair | None = key(
         'model "ldp": diameters of the solid bodies that twist; left out: midway from reference to root circle',
