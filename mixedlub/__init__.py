@@ -18,7 +18,7 @@ PUBLIC = {
     "surface": "mixedlub.api.rig",
     "power_loss": "mixedlub.api.loss",
     "along_path": "mixedlub.api.loss",
-    "tooth_contact": "mixedlub.api.gear",
+    "load_distribution": "mixedlub.api.gear",
     "plot": "mixedlub.api.plot",
     "diagnose": "mixedlub.api.diagnosis",
     "simulate": "mixedlub.api.diagnosis",

@@ -12,8 +12,7 @@ from mixedlub.gear.checks import torques_above_zero
 from mixedlub.rig.build import gear_pair, sharing
 from mixedlub.schema.findings import collected, warn_of
 from mixedlub.schema.system_file import Gears
-from mixedlub.tooth_contact import MeshConditions
-from mixedlub.tooth_contact import tooth_contact as solve
+from mixedlub.tooth_contact import MeshConditions, tooth_contact
 from profiles.errors import InputError
 
 if TYPE_CHECKING:
@@ -21,7 +20,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 
-def tooth_contact(
+def load_distribution(
     gears: Gears,
     torque_Nm: ArrayLike,
     *,
@@ -38,19 +37,19 @@ def tooth_contact(
 
     >>> import mixedlub as ml
     >>> pair = ml.gear_pair(preset="fzg_c", load_sharing={"model": "ldp"})
-    >>> found = ml.tooth_contact(pair, [100, 300])
+    >>> found = ml.load_distribution(pair, [100, 300])
     >>> found["line_load_N_mm"].dims, found["local_loss_factor"].round(3).values.tolist()
-    (('torque_Nm', 'roll_angle_deg', 'face_position_mm'), [0.189, 0.188])
+    (('torque_Nm', 'roll_angle_deg', 'face_position_mm'), [0.192, 0.191])
     """
     import xarray as xr
 
     if not isinstance(gears, Gears):
         rule = f"must be made by ml.gear_pair(...), not {type(gears).__name__}"
-        raise InputError(rule, where="tooth_contact: gears")
+        raise InputError(rule, where="load_distribution: gears")
     torque = np.unique(torques_above_zero(torque_Nm))
     conditions = MeshConditions(positions, slices, edge_contact, tuple(1e-6 * float(d) for d in pitch_deviation_um))
     with collected() as findings:
-        found = solve(gear_pair(gears), sharing(gears.load_sharing, Path()), torque, conditions)
+        found = tooth_contact(gear_pair(gears), sharing(gears.load_sharing, Path()), torque, conditions)
     warn_of(findings)
     variables: dict[str, Any] = {
         "load_share": (("torque_Nm", "roll_angle_deg"), found.load_share),

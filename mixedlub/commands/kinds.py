@@ -19,7 +19,7 @@ def command(
 ) -> None:
     """The format of a case, kind by kind, of a study or of gears.
 
-    Columns of recordings.csv and keys of system.toml, or of a study or gear file, with unit, default, allowed values and meaning.
+    Columns of recordings.csv and keys of the file, with unit, default, allowed values and meaning.
     """
     from mixedlub.report.format_reference import kinds_text
 

@@ -116,5 +116,7 @@ def loss_factors(pair: GearPair) -> tuple[LossFactor, ...]:
     for name, (law, (low, high)) in CLOSED.items():
         inside = low <= pair.contact_ratio <= high
         text = "" if inside else f"holds for contact ratios from {low:g} to {high:g}, not {pair.contact_ratio:.4g}"
+        if law is buckingham and pair.helix_angle != 0:
+            text = "holds for spur gears"
         found.append(LossFactor(name, law(pair), text))
     return tuple(found)

@@ -24,6 +24,10 @@ from mixedlub.laws.contact import line_hertz_pressure
 from profiles.errors import InputError
 
 
+FINE = 64
+"""Slices of oblique lines that no contact problem makes costly: each is on the path as a whole or not at all."""
+
+
 @dataclass(frozen=True)
 class MeshConditions:
     """How finely a mesh is resolved, and what of it leaves the ideal; lengths in m.
@@ -189,7 +193,7 @@ def _elastic(pair: GearPair, sharing: LdpSharing, torque: np.ndarray, conditions
 
 def _shared(pair: GearPair, sharing: Sharing, torque: np.ndarray, conditions: MeshConditions) -> ToothContact:
     """Of a table or rigid teeth: the share of each slice where it is as the pair passes."""
-    slices = conditions.slices or sharing.default_slices(pair)
+    slices = conditions.slices or (sharing.default_slices(pair) if pair.helix_angle == 0 else FINE)
     start, end = mid_face_path(pair)
     step = pair.base_pitch / conditions.positions
     middle = start + step * (np.arange(math.ceil((end - start) / step - 1e-9)) + 0.5)
