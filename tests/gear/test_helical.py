@@ -122,9 +122,9 @@ class TestLimits:
 
 
 def test_sixty_four_positions_of_fifty_slices_take_less_than_a_second():
-    start = time.perf_counter()
+    start = time.process_time()
     transmission_error(replace(HELICAL, face_width=99e-3), LdpSharing(), 9000.0, phases=64, slices=50)
-    assert time.perf_counter() - start < 1.0
+    assert time.process_time() - start < 1.0
 
 
 def test_high_speed_gears_of_five_degrees_lose_like_their_spur_equivalents():
