@@ -145,22 +145,16 @@ class LdpSharing:
             phase, problem = np.unique(
                 np.round((position - past * pair.base_pitch) / pair.base_pitch, 9), return_inverse=True
             )
-            force = self._force(pair, torques, phase * pair.base_pitch, mesh.slices)
+            force = distribute(pair, self, torques, phase * pair.base_pitch, mesh.slices).force
             force = force[:, problem, past.astype(int)].reshape(torques.size, -1)
         else:
             phase = _nodes(pair, mesh.slices)
             front = mesh.position - mesh.face_position * math.tan(abs(pair.base_helix_angle))
-            force = _between(pair, phase, self._force(pair, torques, phase, mesh.slices), front)
+            force = _between(pair, phase, distribute(pair, self, torques, phase, mesh.slices).force, front)
         share = force * (pair.base_radius[0] / torques)[:, None]
         if pair.helix_angle != 0 and mesh.weight.any():
             share /= (share @ mesh.weight)[:, None] * math.cos(pair.base_helix_angle)
         return share[which].reshape((*np.shape(torque), -1))
-
-    def _force(self, pair: GearPair, torques: np.ndarray, phase: np.ndarray, slices: int) -> np.ndarray:
-        # Blocks of torques keep the influence matrices of one call within about 100 MB.
-        block = max(1, int(4e6 / (phase.size * (_pairs(pair) * slices) ** 2)))
-        starts = range(0, torques.size, block)
-        return np.concatenate([distribute(pair, self, torques[i : i + block], phase, slices).force for i in starts])
 
 
 def _refuse_undercut(pair: GearPair) -> None:
@@ -257,6 +251,38 @@ def distribute(
     ``stand_back`` (m), shape (phases, pairs): how far whole tooth pairs stand back, by their pitch.
     """
     pairs = _pairs(pair, edge_contact)
+    stand_back = np.broadcast_to(stand_back, (phase.size, pairs))
+    # Blocks keep the influence matrices of one call within about 100 MB.
+    most = max(1, int(MOST_ENTRIES / (pairs * slices) ** 2))
+    torques = max(1, most // phase.size)
+    rows = []
+    for first in range(0, torque.size, torques):
+        some = torque[first : first + torques]
+        parts = [slice(start, start + most) for start in range(0, phase.size, most)]
+        rows.append([_solved(pair, sharing, some, phase[p], slices, edge_contact, stand_back[p]) for p in parts])
+    joined = {
+        name: np.concatenate([np.concatenate([getattr(one, name) for one in row], axis=1) for row in rows])
+        for name in ("force", "separation", "approach", "stiffness")
+    }
+    position = np.concatenate([one.position for one in rows[0]])
+    return LoadDistribution(phase=phase, position=position, face=rows[0][0].face, **joined)
+
+
+MOST_ENTRIES = 4e6
+"""Most entries of the matrices of a block of contact problems."""
+
+
+def _solved(
+    pair: GearPair,
+    sharing: LdpSharing,
+    torque: np.ndarray,
+    phase: np.ndarray,
+    slices: int,
+    edge_contact: bool,
+    stand_back: np.ndarray,
+) -> LoadDistribution:
+    """The contact problems of all these torques at all these phases."""
+    pairs = _pairs(pair, edge_contact)
     width = pair.face_width / slices
     face = (np.arange(slices) + 0.5) * width
     front = phase[:, None] + pair.base_pitch * np.arange(pairs)
@@ -264,7 +290,7 @@ def distribute(
     beyond = pair.base_pitch * (REACH if edge_contact else 1e-8)
     possible = (position >= pair.path_start - beyond) & (position <= pair.path_end + beyond)
     inside = np.clip(position, pair.path_start, pair.path_end)
-    gap = sharing.modifications.gap(pair, inside, face) + np.atleast_2d(stand_back)[..., None]
+    gap = sharing.modifications.gap(pair, inside, face) + stand_back[..., None]
     if edge_contact:
         gap = gap + corner_gap(pair, position)
     bore = sharing.bore_radius if sharing.foundation == "sainsot" else None

@@ -23,7 +23,6 @@ from mixedlub.gear.corner_contact import REACH
 from mixedlub.laws.contact import line_hertz_pressure
 from profiles.errors import InputError
 
-
 FINE = 64
 """Slices of oblique lines that no contact problem makes costly: each is on the path as a whole or not at all."""
 
@@ -105,8 +104,11 @@ class ToothContact:
     @property
     def sliding(self) -> np.ndarray:
         """Sliding speed over the speed of the base circle (M, N), positive where the pinion's flank is faster."""
-        other = self.pair.line_of_action_length - self.position
-        return (self.position - other / self.pair.gear_ratio) / self.pair.base_radius[0]
+        return self._sliding_at(self.position)
+
+    def _sliding_at(self, position: np.ndarray) -> np.ndarray:
+        other = self.pair.line_of_action_length - position
+        return (position - other / self.pair.gear_ratio) / self.pair.base_radius[0]
 
     @cached_property
     def face_load(self) -> np.ndarray:
@@ -126,8 +128,7 @@ class ToothContact:
         """Loss factor of the local load, H_VL (T,); with edge contact or pitch deviations, of the solved positions."""
         if self.conditions.ideal or self.distribution is None:
             return local_loss_factor(mesh(self.pair, self.sharing, slices=self.conditions.slices), self.torque)
-        other = self.pair.line_of_action_length - self.distribution.position
-        sliding = np.abs(self.distribution.position - other / self.pair.gear_ratio) / self.pair.base_radius[0]
+        sliding = np.abs(self._sliding_at(self.distribution.position))
         carried = (self.distribution.force * sliding).sum(axis=(2, 3)).mean(axis=1) / self.base_force
         return carried / math.cos(self.pair.base_helix_angle)
 

@@ -133,3 +133,13 @@ def test_high_speed_gears_of_five_degrees_lose_like_their_spur_equivalents():
     )
     spur, oblique = (loss_factor(pair, LdpSharing(), 1000.0) for pair in (HIGH_SPEED_A, helical))
     assert oblique == pytest.approx(spur, rel=0.02)
+
+
+def test_blocks_of_contact_problems_change_nothing(monkeypatch):
+    torques = np.array([100.0, 3000.0, 5000.0])
+    whole = transmission_error(HELICAL, EVERYTHING, torques, phases=12, slices=9)
+    monkeypatch.setattr("mixedlub.gear.distribution.MOST_ENTRIES", 5 * 27**2)
+    parts = transmission_error(HELICAL, EVERYTHING, torques, phases=12, slices=9)
+    assert parts.position == pytest.approx(whole.position)
+    for name in ("force", "approach", "stiffness"):
+        assert getattr(parts, name) == pytest.approx(getattr(whole, name), rel=1e-9, abs=1e-6)
