@@ -18,6 +18,7 @@ PUBLIC = {
     "surface": "mixedlub.api.rig",
     "power_loss": "mixedlub.api.loss",
     "along_path": "mixedlub.api.loss",
+    "load_distribution": "mixedlub.api.gear",
     "plot": "mixedlub.api.plot",
     "diagnose": "mixedlub.api.diagnosis",
     "simulate": "mixedlub.api.diagnosis",

@@ -19,6 +19,7 @@ from mixedlub.commands import (
     effects,
     ehl,
     friction_laws,
+    gear,
     import_files,
     kinds,
     new,
@@ -44,7 +45,21 @@ from mixedlub.schema.findings import FindingWarning
 from mixedlub.schema.messages import of_option
 from profiles.errors import InputError, RunError, nearest
 
-COMMANDS = (profile, study, simulate, ehl, diagnose, check, import_files, new, kinds, effects, friction_laws, prove)
+COMMANDS = (
+    profile,
+    study,
+    simulate,
+    gear,
+    ehl,
+    diagnose,
+    check,
+    import_files,
+    new,
+    kinds,
+    effects,
+    friction_laws,
+    prove,
+)
 
 PARTIAL = {study.NAME: ".parts-*/*.parquet", prove.NAME: "**/*"}
 """Commands that keep what they did when they are stopped, with the pattern of those files."""

@@ -55,6 +55,8 @@ def pieces() -> dict[str, str]:
         "friction_laws": _friction_laws(),
         "oils": _oils(),
         "oil_keys": _oil_keys(),
+        "gear_keys": _file_keys("mixedlub.tooth_contact.file", "GearAnalysisFile"),
+        "presets": _presets(),
         "ehl_keys": _file_keys("mixedlub.ehl.file", "EhlFile"),
         "ehl_oil_keys": _file_keys("mixedlub.ehl.oil.file", "OilFile"),
         "api": _api(),
@@ -164,6 +166,19 @@ def _oils() -> str:
                 for key, one in oil.further.items()
             ]
             parts += ["Further laws:", _table(("law", "equation and numbers", "status", "source"), further)]
+    return "\n\n".join(parts)
+
+
+def _presets() -> str:
+    """Every gear pair that comes with the package: its numbers with status and source."""
+    from mixedlub.schema.gear_file import gear_names, shipped_gears
+
+    parts = []
+    for name in gear_names():
+        gears = shipped_gears(name)
+        parts += [f"## {name}", f"{gears.name}. {gears.about} Source: {gears.source}."]
+        rows = [(key, _numbers(one.value), one.status, one.note) for key, one in gears.properties.items()]
+        parts.append(_table(("key", "value", "status", "note"), rows))
     return "\n\n".join(parts)
 
 

@@ -37,7 +37,8 @@ def gears_taken(section: system_file.Gears) -> dict[str, str]:
         "centre_distance_mm": f"{_shown(1e3 * pair.working_centre_distance)}, from the profile shift",
         "load_sharing": SHARING,
     }
-    return {key: made[key] if key in made else _shown(getattr(section, key)) for key in _open(section)}
+    left = [key for key in _open(section) if key in made or getattr(section, key) is not None]
+    return {key: made[key] if key in made else _shown(getattr(section, key)) for key in left}
 
 
 def oil_taken(section: system_file.Lubricant | None) -> dict[str, str]:

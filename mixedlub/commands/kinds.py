@@ -14,12 +14,12 @@ EXAMPLE = "mixedlub kinds disc"
 
 def command(
     kind: Annotated[
-        str | None, typer.Argument(metavar="KIND", help="One kind, or `study`; all kinds when left out.")
+        str | None, typer.Argument(metavar="KIND", help="One kind, `study` or `gear`; all kinds when left out.")
     ] = None,
 ) -> None:
-    """The format of a case, kind by kind, or of a study file.
+    """The format of a case, kind by kind, of a study or of gears.
 
-    Columns of recordings.csv and keys of system.toml, or of a study, with unit, default, allowed values and meaning.
+    Columns of recordings.csv and keys of the file, with unit, default, allowed values and meaning.
     """
     from mixedlub.report.format_reference import kinds_text
 

@@ -1,4 +1,4 @@
-"""`mixedlub new`: a template of a study file, a case folder or a file of contacts, which runs unchanged."""
+"""`mixedlub new`: a template of a study file, a case folder, a file of contacts or of gears, which runs unchanged."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 NAME = "new"
 EXAMPLE = "mixedlub new study --out out/my_study"
 
-STUDY, CASE, EHL = "study", "case", "ehl"
+STUDY, CASE, EHL, GEAR = "study", "case", "ehl", "gear"
 KIND = "gear_pair"
 """Default kind of a case."""
 ROWS = 40
@@ -30,12 +30,15 @@ NOISE = 0.01
 SURFACES = ("ground", "superfinished")
 """Surfaces of the reference rig that a template describes."""
 
+ELASTIC = {"model": "ldp", "tip_relief_um": [15, 15], "relief_length_mm": [2, 2], "lead_crown_um": 3}
+"""Load sharing of the template of gears."""
+
 Given = Mapping[str, Any]
 """Values by key; tables within tables."""
 
 
 def command(
-    what: Annotated[str, typer.Argument(metavar="study|case|ehl", help="What to start.")],
+    what: Annotated[str, typer.Argument(metavar="study|case|ehl|gear", help="What to start.")],
     kind: Annotated[
         str | None, typer.Option(metavar="KIND", help=f"Kind of case; default {KIND}. `mixedlub kinds` lists them.")
     ] = None,
@@ -43,16 +46,16 @@ def command(
         Path | None, typer.Option(metavar="DIR", parser=named_folder, help="Folder to make; default out/new/WHAT.")
     ] = None,
 ) -> None:
-    """A study, a case or contacts to start from.
+    """A study, a case, contacts or gears to start from.
 
     A template with the values of an example rig: optional keys are comments with their meaning. It runs unchanged; the
     readings of a case are synthetic, from the base model.
     """
-    if what not in (STUDY, CASE, EHL):
-        raise InputError(f"no such template; {nearest(what, (STUDY, CASE, EHL))}", where="what", value=what)
+    if what not in (known := (STUDY, CASE, EHL, GEAR)):
+        raise InputError(f"no such template; {nearest(what, known)}", where="what", value=what)
     if what != CASE and kind is not None:
         raise InputError("only a case has a kind", where="--kind", value=kind)
-    files = {STUDY: study_files, EHL: ehl_files}[what]() if what != CASE else case_files(kind or KIND)
+    files = {STUDY: study_files, EHL: ehl_files, GEAR: gear_files}[what]() if what != CASE else case_files(kind or KIND)
     for name in files:
         if out is not None and (out / name).exists():
             raise InputError("exists, and a template would replace it; name another --out", where=str(out / name))
@@ -63,6 +66,7 @@ def command(
     place, commands = {
         STUDY: (folder / "study.toml", ("study",)),
         EHL: (folder / "contacts.toml", ("ehl",)),
+        GEAR: (folder / "gear.toml", ("gear",)),
         CASE: (folder, ("check", "diagnose")),
     }[what]
     echo(f"{' and '.join(files)} in {folder}, with the numbers of an example: put your own in their place, then")
@@ -83,6 +87,20 @@ def ehl_files() -> dict[str, str]:
     given = {"schema": "mixedlub-ehl/1", "title": "Twin discs", "oil": "oil.toml", "contacts": examples_of_contacts()}
     text = "\n".join(_lines(EhlFile, given, ("", "bodies", "contacts"))) + "\n"
     return {"contacts.toml": text, "oil.toml": OIL.read_text(encoding="utf-8")}
+
+
+def gear_files() -> dict[str, str]:
+    """A file of gears, with a relieved pair of elastic teeth."""
+    from mixedlub.schema.section import examples
+    from mixedlub.tooth_contact.file import GearAnalysisFile, Load
+
+    given = {
+        "schema": "mixedlub-gear/1",
+        "title": "Gears of the example",
+        "gears": _reference("gear_pair")["gears"] | {"load_sharing": ELASTIC},
+        "load": examples(Load),
+    }
+    return {"gear.toml": "\n".join(_lines(GearAnalysisFile, given, ("", "gears", "load", "mesh", "iso_6336"))) + "\n"}
 
 
 def study_text() -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from mixedlub.gear.geometry import GearPair
@@ -14,6 +16,16 @@ def contact_limits(pair: GearPair) -> np.ndarray:
     return limits[(limits >= pair.path_start) & (limits <= pair.path_end)]
 
 
+def rise(pair: GearPair) -> float:
+    """How much further on the path the back of a contact line is than its front, m; 0 for spur gears."""
+    return pair.face_width * math.tan(abs(pair.base_helix_angle))
+
+
+def mid_face_path(pair: GearPair) -> tuple[float, float]:
+    """Positions (m) between which a tooth pair is in contact anywhere, told at the middle of the face."""
+    return pair.path_start - rise(pair) / 2, pair.path_end + rise(pair) / 2
+
+
 def contact_line_length(pair: GearPair, position: np.ndarray) -> np.ndarray:
     """Total length (m) of the contact lines when one of them passes ``position`` (m) on the front face.
 
@@ -24,14 +36,13 @@ def contact_line_length(pair: GearPair, position: np.ndarray) -> np.ndarray:
     >>> contact_line_length(spur, np.array([spur.path_start + 1e-4, spur.pitch_point])) / spur.face_width
     array([2., 1.])
     """
-    tangent = np.tan(abs(pair.base_helix_angle))
-    rise = pair.face_width * tangent
+    further = rise(pair)
     phase = (np.asarray(position, dtype=float) - pair.path_start) % pair.base_pitch
-    reach = int(np.ceil((pair.path_end - pair.path_start + rise) / pair.base_pitch)) + 1
+    reach = int(np.ceil((pair.path_end - pair.path_start + further) / pair.base_pitch)) + 1
     front = phase[..., None] + pair.base_pitch * np.arange(-reach, reach + 1)
     length = pair.path_end - pair.path_start
-    if rise < 1e-9 * pair.base_pitch:
+    if further < 1e-9 * pair.base_pitch:
         inside = (front >= -1e-9 * length) & (front <= length * (1 + 1e-9))
         return pair.face_width * inside.sum(axis=-1)
-    overlap = np.minimum(front + rise, length) - np.maximum(front, 0)
+    overlap = np.minimum(front + further, length) - np.maximum(front, 0)
     return np.clip(overlap, 0, None).sum(axis=-1) / np.sin(abs(pair.base_helix_angle))

@@ -78,6 +78,16 @@ def _equalise(
     return answer[:, :size] * total[:, None] * touching, answer[:, size] * scale * total
 
 
+def stiffness_of(compliance: np.ndarray, touching: np.ndarray) -> np.ndarray:
+    """Slope (S,) of the total force over the approach while the given points touch.
+
+    >>> stiffness_of(np.diag([0.5, 0.25, 1.0])[None], np.array([[True, True, False]]))
+    array([6.])
+    """
+    _, slope = _equalise(compliance, np.zeros(touching.shape), np.ones(len(touching)), touching)
+    return 1 / slope
+
+
 def _separation(compliance: np.ndarray, gap: np.ndarray, force: np.ndarray, approach: np.ndarray) -> np.ndarray:
     return np.einsum("sij,sj->si", compliance, force) + gap - approach[:, None]
 

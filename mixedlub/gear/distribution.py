@@ -1,33 +1,28 @@
-"""Elastic load distribution of spur gears over tooth pairs and face width, in the manner of LDP.
+"""Elastic load distribution of spur and helical gears over tooth pairs and face width, in the manner of LDP.
 
-Every slice of every pair in contact is a point of one contact problem: teeth bend and shear as plates on
-elastic roots, flanks flatten, modifications stand back, and one rigid approach closes all gaps. Contact is kept
-to the theoretical path (no corner contact beyond A and E) and teeth couple through the approach only.
+Every slice of every pair in contact is a point of one contact problem: teeth bend and shear as plates on elastic roots,
+flanks flatten, modifications stand back, bodies twist where asked, and one rigid approach closes all gaps. A slice of a
+helical pair at face position y touches at x + y tan(beta_b), x the position of the pair on the front face. Teeth couple
+through the approach and the twist of the bodies only.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from mixedlub.gear.checks import torques_above_zero
-from mixedlub.gear.compliance import (
-    SAINSOT_ANGLES,
-    bending_compliance,
-    foundation_compliance,
-    hertz_approach,
-    sainsot_foundation,
-    weber_foundation,
-)
-from mixedlub.gear.contact_lines import contact_limits
-from mixedlub.gear.contact_solver import share_out
+from mixedlub.gear.compliance import SAINSOT_ANGLES
+from mixedlub.gear.contact_lines import contact_limits, rise
+from mixedlub.gear.contact_solver import share_out, stiffness_of
+from mixedlub.gear.corner_contact import REACH, corner_gap
 from mixedlub.gear.geometry import GearPair, Pair, number, two, whole
+from mixedlub.gear.influence import body_torsion, flattening, tooth_influence
 from mixedlub.gear.modifications import Modifications
-from mixedlub.gear.plate import Plate, tapered_plate
 from mixedlub.gear.tooth import tooth
 from mixedlub.schema.findings import Finding, finding
 from profiles.errors import InputError, nearest, refuse_other
@@ -36,14 +31,18 @@ if TYPE_CHECKING:
     from mixedlub.gear.mesh import Mesh
 
 FOUNDATIONS = ("weber", "sainsot")
+ENDS = ("none", "front", "back")
+WHEELS = ("pinion", "gear")
 
 
 @dataclass(frozen=True)
 class LdpSharing:
-    """Elastic sharing of spur gears; modifications as in ``Modifications``, lengths in m.
+    """Elastic sharing; modifications as in ``Modifications``, lengths in m.
 
     ``foundation``: "weber" (half plane) or "sainsot" (ring, needs ``bore_radius``, m, pinion first; about a
-    fifth softer).
+    fifth softer). ``torque_end``: the end of the face at which torque enters each body, "front" (y = 0) or "back", so
+    that it twists; "none" is a body that does not. ``body_radius`` of the twist: by default the middle of the
+    reference circle and the root, r - 0.625 m_n.
     """
 
     tip_relief: Pair = (0.0, 0.0)
@@ -55,6 +54,12 @@ class LdpSharing:
     misalignment: float = 0.0
     foundation: str = "weber"
     bore_radius: Pair | None = None
+    end_relief: Pair = (0.0, 0.0)
+    end_relief_length: Pair = (0.0, 0.0)
+    profile_slope_deviation: Pair = (0.0, 0.0)
+    lead_deviation: tuple[float, ...] = ()
+    torque_end: tuple[str, str] = ("none", "none")
+    body_radius: Pair | None = None
 
     def __post_init__(self) -> None:
         checked = self.modifications
@@ -64,37 +69,34 @@ class LdpSharing:
             raise InputError(nearest(str(self.foundation), FOUNDATIONS), where="foundation", value=self.foundation)
         if self.foundation == "sainsot" and self.bore_radius is None:
             raise InputError("the ring foundation needs the bores", where="bore_diameter_mm")
-        if self.bore_radius is not None:
-            bores = two("bore_diameter_mm", self.bore_radius)
-            rule = "a bore is above zero"
-            first, second = (number("bore_diameter_mm", bore, 0, 100, rule, 2e3) for bore in bores)
-            object.__setattr__(self, "bore_radius", (first, second))
+        ends = two("torque_end", self.torque_end)
+        for end in ends:
+            if end not in ENDS:
+                raise InputError(nearest(str(end), ENDS), where="torque_end", value=end)
+        object.__setattr__(self, "torque_end", ends)
+        for name, key in (("bore_radius", "bore_diameter_mm"), ("body_radius", "body_diameter_mm")):
+            if getattr(self, name) is not None:
+                rule = f"a {key.partition('_')[0]} diameter is above zero"
+                entries = tuple(number(key, value, 0, 100, rule, 2e3) for value in two(key, getattr(self, name)))
+                object.__setattr__(self, name, entries)
+        if self.foundation != "sainsot" and self.bore_radius is not None:
+            raise InputError('acts only with foundation = "sainsot"', where="bore_diameter_mm")
+        if self.body_radius is not None and ends == ("none", "none"):
+            raise InputError("acts only with torque_end", where="body_diameter_mm")
 
     @property
     def modifications(self) -> Modifications:
         """The micro-geometry alone."""
-        return Modifications(
-            self.tip_relief,
-            self.relief_length,
-            self.root_relief,
-            self.root_relief_length,
-            self.relief_form,
-            self.lead_crown,
-            self.misalignment,
-        )
+        return Modifications(**{field.name: getattr(self, field.name) for field in fields(Modifications)})
 
     def default_slices(self, pair: GearPair) -> int:
-        """Eleven resolve crown and misalignment of usual size."""
-        return 11
+        """Eleven resolve crown and misalignment of usual size; oblique contact lines need some more."""
+        return 11 if pair.helix_angle == 0 else 17
 
     def check(self, pair: GearPair) -> tuple[Finding, ...]:
-        """Refuse helical pairs, reliefs longer than the path, bores outside the range of the ring law."""
-        if pair.helix_angle != 0:
-            raise InputError(
-                'the elastic load distribution serves spur gears only; use { model = "rigid" }',
-                where="load_sharing",
-            )
+        """Refuse undercut flanks, reliefs longer than the path, bores outside the range of the ring law."""
         self.modifications.check(pair)
+        _refuse_undercut(pair)
         if self.foundation != "sainsot" or self.bore_radius is None:
             return ()
         found = []
@@ -110,8 +112,15 @@ class LdpSharing:
             if not SAINSOT_ANGLES[0] <= angle <= SAINSOT_ANGLES[1]:
                 low, high = SAINSOT_ANGLES
                 text = f"the ring foundation holds for half root angles of {low:g} to {high:g} rad, here {angle:.3g}"
-                found.append(finding("law_extrapolated", text, ("pinion", "gear")[wheel]))
+                found.append(finding("law_extrapolated", text, WHEELS[wheel]))
         return tuple(found)
+
+    def body_radii(self, pair: GearPair) -> Pair:
+        """Radii (m) of the cylinders that twist."""
+        if self.body_radius is not None:
+            return self.body_radius
+        first, second = pair.reference_radius
+        return first - 0.625 * pair.normal_module, second - 0.625 * pair.normal_module
 
     def breakpoints(self, pair: GearPair) -> np.ndarray:
         """Ends of contact and starts of relief of this pair and, whole base pitches away, of its neighbours."""
@@ -122,40 +131,67 @@ class LdpSharing:
         return np.concatenate([contact_limits(pair), marks[inside]])
 
     def load_share(self, mesh: Mesh, torque: np.ndarray) -> np.ndarray:
-        """Share of each slice at each position, from one contact problem a mesh phase and torque."""
+        """Share of each slice at each position.
+
+        Spur: from one contact problem a mesh phase and torque. Helical: linear between the phases of `_nodes`; over a
+        whole path the quadrature misses the steps where slices enter by some 0.3 %, and is scaled to the load.
+        """
         pair = mesh.pair
-        position = mesh.position[:: mesh.slices]
-        past = np.floor((position - pair.path_start) / pair.base_pitch + 1e-9)
-        past = np.minimum(past, _pairs(pair) - 1)
-        phase, problem = np.unique(
-            np.round((position - past * pair.base_pitch) / pair.base_pitch, 9), return_inverse=True
-        )
         torques, which = np.unique(torque, return_inverse=True)
-        # Blocks of torques keep the influence matrices of one call within about 100 MB.
-        block = max(1, int(4e6 / (phase.size * (_pairs(pair) * mesh.slices) ** 2)))
-        solved = [
-            distribute(pair, self, torques[i : i + block], phase * pair.base_pitch, mesh.slices).force
-            for i in range(0, torques.size, block)
-        ]
-        force = np.concatenate(solved)[:, problem, past.astype(int)]
-        share = force * (pair.base_radius[0] / torques)[:, None, None]
-        return share.reshape(torques.size, -1)[which].reshape((*np.shape(torque), -1))
+        if pair.helix_angle == 0:
+            position = mesh.position[:: mesh.slices]
+            past = np.floor((position - pair.path_start) / pair.base_pitch + 1e-9)
+            past = np.minimum(past, _pairs(pair) - 1)
+            phase, problem = np.unique(
+                np.round((position - past * pair.base_pitch) / pair.base_pitch, 9), return_inverse=True
+            )
+            force = distribute(pair, self, torques, phase * pair.base_pitch, mesh.slices).force
+            force = force[:, problem, past.astype(int)].reshape(torques.size, -1)
+        else:
+            phase = _nodes(pair, mesh.slices)
+            front = mesh.position - mesh.face_position * math.tan(abs(pair.base_helix_angle))
+            force = _between(pair, phase, distribute(pair, self, torques, phase, mesh.slices).force, front)
+        share = force * (pair.base_radius[0] / torques)[:, None]
+        if pair.helix_angle != 0 and mesh.weight.any():
+            share /= (share @ mesh.weight)[:, None] * math.cos(pair.base_helix_angle)
+        return share[which].reshape((*np.shape(torque), -1))
+
+
+def _refuse_undercut(pair: GearPair) -> None:
+    """Refuse a pair whose contact starts below the involute that a standard rack leaves."""
+    cosine = math.cos(pair.base_helix_angle)
+    first = pair.path_start, pair.line_of_action_length - pair.path_end
+    for wheel, name in enumerate(WHEELS):
+        body = tooth(pair, wheel)
+        begins = body.involute_start * cosine
+        if body.undercut and begins > first[wheel] + 1e-9:
+            raise InputError(
+                f"undercut: the involute of the {name} begins {begins * 1e3:.4g} mm from the base tangent point, and "
+                f"contact already at {first[wheel] * 1e3:.4g} mm",
+                where="profile_shift",
+                value=pair.profile_shift[wheel],
+            )
 
 
 @dataclass(frozen=True, eq=False)
 class LoadDistribution:
     """Solved contact problems of T torques at H mesh phases, for P tooth pairs of N slices.
 
-    - ``phase`` (H,): position x (m) of the rearmost pair; pair p is ``p`` base pitches further on
+    - ``phase`` (H,): position x (m) on the front face of the rearmost pair; pair p is ``p`` base pitches further on
+    - ``position`` (H, P, N): where on the path each slice touches, m; ``face`` (N,): its middle, m from the front
     - ``force`` (T, H, P, N): N, zero where a slice does not touch; sums to T1/r_b1 over pairs and slices
-    - ``separation`` (T, H, P, N): what remains of the gap, m; infinite where a pair has left the path
+    - ``separation`` (T, H, P, N): what remains of the gap, m; infinite where a slice has left the path
     - ``approach`` (T, H): along the line of action, m; it is the static transmission error
+    - ``stiffness`` (T, H): slope of the total force over the approach, N/m
     """
 
     phase: np.ndarray
+    position: np.ndarray
+    face: np.ndarray
     force: np.ndarray
     separation: np.ndarray
     approach: np.ndarray
+    stiffness: np.ndarray
 
     @property
     def peak_to_peak(self) -> np.ndarray:
@@ -164,11 +200,20 @@ class LoadDistribution:
 
 
 def transmission_error(
-    pair: GearPair, sharing: LdpSharing, torque: Any, *, phases: int = 40, slices: int | None = None
+    pair: GearPair,
+    sharing: LdpSharing,
+    torque: Any,
+    *,
+    phases: int = 40,
+    slices: int | None = None,
+    edge_contact: bool = False,
+    pitch_deviation: Sequence[float] = (0.0,),
 ) -> LoadDistribution:
     """Static transmission error over one base pitch, with the load distribution it comes from.
 
-    ``torque`` in N m, one or many; ``phases`` equidistant positions, half a step off A.
+    ``torque`` in N m, one or many; ``phases`` equidistant positions a base pitch, half a step off its start.
+    ``edge_contact`` lets tips touch beyond the path, with the compliance and curvature of its end. ``pitch_deviation``
+    (m): how far each of some successive tooth pairs stands back; over as many base pitches the error then repeats.
 
     >>> hong = GearPair((17, 26), 25.4e-3 / 6, math.radians(22.5), 14e-3)
     >>> print(transmission_error(hong, LdpSharing(), [50, 150]).peak_to_peak.round(7))
@@ -180,109 +225,148 @@ def transmission_error(
     torques = np.atleast_1d(torques_above_zero(torque)).ravel()
     phases = whole("phases", phases, 1, 100_000)
     slices = sharing.default_slices(pair) if slices is None else whole("slices", slices, 1, 1000)
-    start = pair.path_start + pair.base_pitch * (np.arange(phases) + 0.5) / phases
-    return distribute(pair, sharing, torques, start, slices)
+    deviation = np.atleast_1d(np.asarray(pitch_deviation, dtype=float))
+    if deviation.ndim != 1 or not np.all(np.isfinite(deviation)):
+        raise InputError("finite lengths, one a tooth pair", where="pitch_deviation_um", value=pitch_deviation)
+    start = _first_front(pair, edge_contact) + pair.base_pitch * (np.arange(phases) + 0.5) / phases
+    # In each further base pitch every tooth pair is one place further on.
+    number_of = np.arange(deviation.size)[:, None] - np.arange(_pairs(pair, edge_contact))
+    stand_back = np.repeat(deviation[number_of % deviation.size], phases, axis=0)
+    phase = np.tile(start, deviation.size)
+    return distribute(pair, sharing, torques, phase, slices, edge_contact=edge_contact, stand_back=stand_back)
 
 
 def distribute(
-    pair: GearPair, sharing: LdpSharing, torque: np.ndarray, phase: np.ndarray, slices: int
+    pair: GearPair,
+    sharing: LdpSharing,
+    torque: np.ndarray,
+    phase: np.ndarray,
+    slices: int,
+    *,
+    edge_contact: bool = False,
+    stand_back: np.ndarray | float = 0.0,
 ) -> LoadDistribution:
-    """Solve the contact problems of all torques (N m) at all phases (m, within a base pitch from A)."""
-    pairs = _pairs(pair)
-    position = phase[:, None] + pair.base_pitch * np.arange(pairs)
-    possible = np.repeat(position <= pair.path_end + 1e-8 * pair.base_pitch, slices, axis=1)
+    """Solve the contact problems of all torques (N m) at all phases (m, from the front position of the first contact).
+
+    ``stand_back`` (m), shape (phases, pairs): how far whole tooth pairs stand back, by their pitch.
+    """
+    pairs = _pairs(pair, edge_contact)
+    stand_back = np.broadcast_to(stand_back, (phase.size, pairs))
+    # Blocks keep the influence matrices of one call within about 100 MB.
+    most = max(1, int(MOST_ENTRIES / (pairs * slices) ** 2))
+    torques = max(1, most // phase.size)
+    rows = []
+    for first in range(0, torque.size, torques):
+        some = torque[first : first + torques]
+        parts = [slice(start, start + most) for start in range(0, phase.size, most)]
+        rows.append([_solved(pair, sharing, some, phase[p], slices, edge_contact, stand_back[p]) for p in parts])
+    joined = {
+        name: np.concatenate([np.concatenate([getattr(one, name) for one in row], axis=1) for row in rows])
+        for name in ("force", "separation", "approach", "stiffness")
+    }
+    position = np.concatenate([one.position for one in rows[0]])
+    return LoadDistribution(phase=phase, position=position, face=rows[0][0].face, **joined)
+
+
+MOST_ENTRIES = 4e6
+"""Most entries of the matrices of a block of contact problems."""
+
+
+def _solved(
+    pair: GearPair,
+    sharing: LdpSharing,
+    torque: np.ndarray,
+    phase: np.ndarray,
+    slices: int,
+    edge_contact: bool,
+    stand_back: np.ndarray,
+) -> LoadDistribution:
+    """The contact problems of all these torques at all these phases."""
+    pairs = _pairs(pair, edge_contact)
     width = pair.face_width / slices
     face = (np.arange(slices) + 0.5) * width
-    gap = sharing.modifications.gap(pair, position[..., None], face).reshape(phase.size, -1)
-    inside = np.minimum(position, pair.path_end)
-    bending = _bending(pair, sharing, inside, slices)
-    contact = _flattening(pair, np.repeat(inside, slices, axis=1), width)
+    front = phase[:, None] + pair.base_pitch * np.arange(pairs)
+    position = front[..., None] + face * math.tan(abs(pair.base_helix_angle))
+    beyond = pair.base_pitch * (REACH if edge_contact else 1e-8)
+    possible = (position >= pair.path_start - beyond) & (position <= pair.path_end + beyond)
+    inside = np.clip(position, pair.path_start, pair.path_end)
+    gap = sharing.modifications.gap(pair, inside, face) + stand_back[..., None]
+    if edge_contact:
+        gap = gap + corner_gap(pair, position)
+    bore = sharing.bore_radius if sharing.foundation == "sainsot" else None
+    influence = tooth_influence(pair, bore, inside)
+    influence += body_torsion(pair, sharing.torque_end, sharing.body_radii(pair), face, pairs)
+    size = pairs * slices
+    contact = flattening(pair, inside.reshape(phase.size, size), width)
 
-    shape = (torque.size, phase.size, pairs * slices)
-    problems = (torque.size * phase.size, pairs * slices)
+    shape = (torque.size, phase.size, size)
+    problems = (torque.size * phase.size, size)
     total = np.repeat(torque / pair.base_radius[0], phase.size)
-    allowed = np.broadcast_to(possible, shape).reshape(problems)
-    stand_back = np.broadcast_to(gap, shape).reshape(problems)
-    coupled = np.broadcast_to(bending, shape + shape[2:]).reshape(problems + problems[1:])
-    diagonal = np.arange(problems[1])
+    allowed = np.broadcast_to(possible.reshape(phase.size, size), shape).reshape(problems)
+    initial = np.broadcast_to(gap.reshape(phase.size, size), shape).reshape(problems)
+    coupled = np.broadcast_to(influence, shape + shape[2:]).reshape(problems + problems[1:])
+    diagonal = np.arange(size)
     force = np.where(allowed, (total / allowed.sum(axis=1))[:, None], 0)
     touching = allowed
     for _ in range(30):
         # Flattening is nearly linear: tangent at the last force, kept off zero where the slope is infinite.
         last = np.maximum(force, 1e-9 * total[:, None])
-        flattening, slope = (array.reshape(problems) for array in contact(last.reshape(shape)))
+        flattened, slope = (array.reshape(problems) for array in contact(last.reshape(shape)))
         tangent = coupled.copy()
         tangent[:, diagonal, diagonal] += slope
         before = force
-        linear = stand_back + flattening - slope * last
+        linear = initial + flattened - slope * last
         force, approach, touching = share_out(tangent, linear, total, allowed, touching)
         if np.abs((force - before) / total[:, None]).max() <= 1e-12:
             break
-    flattening = contact(np.maximum(force, 1e-9 * total[:, None]).reshape(shape))[0].reshape(problems)
-    separation = np.einsum("sij,sj->si", coupled, force) + stand_back - approach[:, None]
-    separation = np.where(allowed, separation + flattening * (force > 0), np.inf)
+    flattened = contact(np.maximum(force, 1e-9 * total[:, None]).reshape(shape))[0].reshape(problems)
+    separation = np.einsum("sij,sj->si", coupled, force) + initial - approach[:, None]
+    separation = np.where(allowed, separation + flattened * (force > 0), np.inf)
     points = (torque.size, phase.size, pairs, slices)
     return LoadDistribution(
         phase=phase,
+        position=position,
+        face=face,
         force=force.reshape(points),
         separation=separation.reshape(points),
         approach=approach.reshape(points[:2]),
+        stiffness=stiffness_of(tangent, touching).reshape(points[:2]),
     )
 
 
-def _pairs(pair: GearPair) -> int:
+def _first_front(pair: GearPair, edge_contact: bool = False) -> float:
+    """Position on the front face of a pair whose back end comes into contact, m."""
+    return pair.path_start - rise(pair) - (REACH * pair.base_pitch if edge_contact else 0.0)
+
+
+def _pairs(pair: GearPair, edge_contact: bool = False) -> int:
     """The largest number of tooth pairs in contact at once."""
-    return math.ceil(pair.contact_ratio - 1e-9)
+    beyond = 2 * REACH if edge_contact else 0.0
+    return math.ceil(pair.contact_ratio + rise(pair) / pair.base_pitch + beyond - 1e-9)
 
 
-@lru_cache(maxsize=32)
-def _bodies(pair: GearPair, foundation: str, bore: Pair | None, slices: int) -> tuple[tuple[Any, Plate], ...]:
-    """Foundation coefficients and solved plate of both wheels; they depend on no load."""
-    bodies = []
-    for wheel in (0, 1):
-        body = tooth(pair, wheel)
-        poisson = pair.poisson_ratio[wheel]
-        if foundation == "sainsot" and bore is not None:
-            ratio = body.root_radius / bore[wheel]
-            coefficients = sainsot_foundation(ratio, body.half_root_angle)
-        else:
-            coefficients = weber_foundation(poisson)
-        young = pair.youngs_modulus[wheel]
-        bodies.append((coefficients, tapered_plate(body, pair.face_width, slices, young, poisson, coefficients)))
-    return tuple(bodies)
+REGULAR_NODES = 32
+"""Equidistant phases between which the share of helical slices is interpolated, beside those where slices enter."""
 
 
-def _bending(pair: GearPair, sharing: LdpSharing, position: np.ndarray, slices: int) -> np.ndarray:
-    """Influence matrices of teeth and roots, shape (H, P N, P N): block diagonal over the pairs.
-
-    The plate gives the coupling across the face; its scale is set so that a uniform load deflects by the
-    beam and foundation laws.
-    """
-    phases, pairs = position.shape
-    matrix = np.zeros((phases, pairs, slices, pairs, slices))
-    for wheel, (coefficients, plate) in enumerate(_bodies(pair, sharing.foundation, sharing.bore_radius, slices)):
-        body = tooth(pair, wheel)
-        distance = position if wheel == 0 else pair.line_of_action_length - position
-        young, poisson = pair.youngs_modulus[wheel], pair.poisson_ratio[wheel]
-        uniform = bending_compliance(body, distance, young, poisson)
-        uniform = uniform + foundation_compliance(body, distance, young, coefficients)
-        for index in range(pairs):
-            block = plate.compliance(body.load_height(distance[:, index]))
-            mean = block.sum(axis=(1, 2)) * pair.face_width / slices**2
-            matrix[:, index, :, index] += block * (uniform[:, index] / mean)[:, None, None]
-    return matrix.reshape(phases, pairs * slices, pairs * slices)
+def _nodes(pair: GearPair, slices: int) -> np.ndarray:
+    """Phases (m) over one base pitch: equidistant ones, and both sides of where each slice comes and goes."""
+    first, pitch = _first_front(pair), pair.base_pitch
+    lag = (np.arange(slices) + 0.5) / slices * rise(pair)
+    enters, leaves = pair.path_start - lag, pair.path_end - lag
+    aside = 1e-6 * pitch
+    marks = np.concatenate([enters, enters - aside, leaves, leaves + aside])
+    regular = np.arange(REGULAR_NODES) / REGULAR_NODES
+    return first + pitch * np.unique(np.round(np.concatenate([regular, (marks - first) / pitch % 1.0]), 9) % 1.0)
 
 
-def _flattening(pair: GearPair, position: np.ndarray, width: float) -> Any:
-    """Hertzian approach (m) and its slope (m/N) as a function of the slice forces (T, H, P N)."""
-    other = pair.line_of_action_length - position
-    radius = position * other / pair.line_of_action_length
-    depths = tooth(pair, 0).depth(position), tooth(pair, 1).depth(other)
-
-    def contact(force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        approach, slope = hertz_approach(
-            force / width, radius, pair.reduced_modulus, depths, pair.youngs_modulus, pair.poisson_ratio
-        )
-        return approach, slope / width
-
-    return contact
+def _between(pair: GearPair, phase: np.ndarray, force: np.ndarray, front: np.ndarray) -> np.ndarray:
+    """Slice forces (T, M) at given front positions (M, slices fastest), linear between the solved phases."""
+    torques, _, pairs, slices = force.shape
+    known = (phase + pair.base_pitch * np.arange(pairs)[:, None]).ravel()
+    wanted = front.reshape(-1, slices)
+    found = np.empty((torques, *wanted.shape))
+    for one in range(torques):
+        for index in range(slices):
+            found[one, :, index] = np.interp(wanted[:, index], known, force[one, :, :, index].T.ravel())
+    return found.reshape(torques, -1)

@@ -195,6 +195,7 @@ class GearPair:
         standard = "" if self.tip_radius is not None else " (tips of the standard addendum, as none are given)"
         shown = tuple(round(2e3 * radius, 6) for radius in self.tip_radii)
         start, length, end = self.path_start, self.line_of_action_length, self.path_end
+        total = self.contact_ratio + self.overlap_ratio
         for broken, rule in (
             (min(self.tip_thickness) <= 0, "pointed teeth: the flanks cross below the tip circle"),
             (start < -1e-9 * length, "interference: the gear's tips pass the pinion's base tangent point (x_A < 0)"),
@@ -202,7 +203,7 @@ class GearPair:
                 end > length * (1 + 1e-9),
                 "interference: the pinion's tips pass the gear's base tangent point (x_E > T1T2)",
             ),
-            (not self.contact_ratio >= 1, f"the contact ratio is {self.contact_ratio:.4g}; it must be at least 1"),
+            (not total >= 1, f"the contact ratio is {total:.4g}; it must be at least 1"),
             (not start < self.pitch_point < end, "the pitch point must lie inside the path of contact"),
         ):
             if broken:

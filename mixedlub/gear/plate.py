@@ -32,14 +32,25 @@ class Plate:
     influence: np.ndarray
 
     def compliance(self, height: np.ndarray) -> np.ndarray:
-        """Influence matrices between the slices for loads at the given heights y (m).
+        """Influence matrices between the slices for loads at the given heights y (m), one a slice.
 
-        Shape ``(len(height), slices, slices)`` in m/N: mean deflection of slice j, normal to the centreline,
-        for one newton spread evenly over slice k. Symmetric (Maxwell) and positive.
+        ``height`` (..., slices) gives (..., slices, slices) in m/N: mean deflection of slice j, normal to the
+        centreline, for one newton spread evenly over slice k. Symmetric (Maxwell) and positive.
         """
+        mode = self._modes(height).reshape(-1, self.influence.shape[2], HEIGHT_DEGREE + 1)
+        # First over the mode of the loaded slice k, slice by slice; then over that of the slice j that gives way.
+        loaded = np.einsum("mnjk->kmjn", self.influence).reshape(mode.shape[1], -1, HEIGHT_DEGREE + 1)
+        moved = (loaded @ mode.transpose(1, 2, 0)).reshape(mode.shape[1], HEIGHT_DEGREE + 1, mode.shape[1], -1)
+        return np.einsum("ijm,kmji->ijk", mode, moved).reshape(*np.shape(height), mode.shape[1])
+
+    def mean_compliance(self, height: np.ndarray) -> np.ndarray:
+        """Mean deflection (m) of the face for one newton spread evenly over it at the heights y; any shape."""
+        mode = self._modes(height)
+        return np.einsum("...m,mn,...n->...", mode, self.influence.mean(axis=(2, 3)), mode)
+
+    def _modes(self, height: np.ndarray) -> np.ndarray:
         scaled = np.clip(2 * (np.asarray(height) - self.root) / self.length - 1, -1, 1)
-        mode = legendre.legvander(scaled, HEIGHT_DEGREE)
-        return np.einsum("im,in,mnjk->ijk", mode, mode, self.influence, optimize=True)
+        return legendre.legvander(scaled, HEIGHT_DEGREE)
 
 
 def tapered_plate(

@@ -1,7 +1,8 @@
 """The shape of a tooth as an elastic body: half thickness over height, from its root section to its tip.
 
 Above the fillet the flank is the involute of the gear pair; below, it is the trochoid that the rounded corner
-of a generating rack leaves. Coordinates: y along the tooth centreline from the wheel's axis.
+of a generating rack leaves. Coordinates: y along the tooth centreline from the wheel's axis. Helical teeth are seen
+in their normal section, as the spur gear that replaces them there.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from mixedlub.gear.geometry import GearPair
+from mixedlub.gear.geometry import GearPair, involute
 from profiles.errors import InputError
 
 DEDENDUM, CORNER = 1.25, 0.38  # standard rack of ISO 53 A, in modules
@@ -20,12 +21,64 @@ ROOT_TANGENT = math.radians(30)  # root section where the fillet's tangent is th
 LEAST_CLEARANCE = 0.2  # of the mate's tip in the root of a deeper cut tooth, in modules
 
 
+@dataclass(frozen=True)
+class NormalSection:
+    """The spur gear that replaces a wheel in its normal section; radii in m. A spur wheel is its own.
+
+    z_n = z/(cos^2 beta_b cos beta) teeth of the normal module and pressure angle. What is ``x`` from the base tangent
+    point in the transverse plane is x/cos(beta_b) from it here, as the radius of curvature is.
+
+    Source: ISO 21771 (virtual number of teeth); ISO 6336-3, virtual gears.
+
+    >>> print(round(normal_section(GearPair((17, 103), 8e-3, math.radians(20), 0.1, math.radians(15.8)), 0).teeth, 3))
+    18.905
+    """
+
+    teeth: float
+    module: float
+    pressure_angle: float
+    profile_shift: float
+    reference_radius: float
+    base_radius: float
+    tip_radius: float
+    root_radius: float
+
+    @property
+    def half_angle(self) -> float:
+        """Half the angle of a tooth at its base circle."""
+        shift = 2 * self.profile_shift * math.tan(self.pressure_angle)
+        return (math.pi / 2 + shift) / self.teeth + involute(self.pressure_angle)
+
+
+def normal_section(pair: GearPair, wheel: int) -> NormalSection:
+    """The spur gear that replaces wheel 0 or 1."""
+    square = math.cos(pair.base_helix_angle) ** 2
+    reference = pair.reference_radius[wheel] / square
+    if pair.helix_angle == 0:
+        base, tip = pair.base_radius[wheel], pair.tip_radii[wheel]
+    else:
+        base = reference * math.cos(pair.pressure_angle)
+        roll_distance = math.sqrt(pair.tip_radii[wheel] ** 2 - pair.base_radius[wheel] ** 2)
+        tip = math.hypot(base, roll_distance / math.sqrt(square))
+    return NormalSection(
+        teeth=pair.teeth[wheel] / (square * math.cos(pair.helix_angle)),
+        module=pair.normal_module,
+        pressure_angle=pair.pressure_angle,
+        profile_shift=pair.profile_shift[wheel],
+        reference_radius=reference,
+        base_radius=base,
+        tip_radius=tip,
+        root_radius=reference - (pair.reference_radius[wheel] - root_circle(pair, wheel)),
+    )
+
+
 @dataclass(frozen=True, eq=False)
 class Tooth:
     """Half thickness of a tooth over its height, root section first, and what belongs to the root.
 
     ``height`` is y (m) from the wheel's axis, ``half_thickness`` in m; ``root_radius`` is that of the root
-    circle. All per wheel, in the transverse plane.
+    circle; the involute begins ``involute_start`` (m) from the base tangent point. All per wheel, in the normal
+    section, where roll distances are those of the transverse plane over cos(beta_b).
     """
 
     base_radius: float
@@ -33,6 +86,8 @@ class Tooth:
     root_radius: float
     height: np.ndarray
     half_thickness: np.ndarray
+    involute_start: float = 0.0
+    undercut: bool = False
 
     @property
     def root_chord(self) -> float:
@@ -77,11 +132,12 @@ def tooth(pair: GearPair, wheel: int, points: int = 400) -> Tooth:
     >>> round(pinion.root_chord * 1e3, 2)
     1.89
     """
-    fillet_height, fillet_half, form = _fillet(pair, wheel)
-    base, tip = pair.base_radius[wheel], pair.tip_radii[wheel]
+    section = normal_section(pair, wheel)
+    fillet_height, fillet_half, form = _fillet(section)
+    base, tip = section.base_radius, section.tip_radius
     radius = form + (tip - form) * np.linspace(0, 1, points) ** 2
     angle = np.arccos(np.minimum(base / radius, 1))
-    half = pair.half_tooth_angle(wheel) - (np.tan(angle) - angle)
+    half = section.half_angle - (np.tan(angle) - angle)
     flank_height, flank_half = radius * np.cos(half), radius * np.sin(half)
     height = np.linspace(fillet_height[0], flank_height[-1], points)
     on_flank = np.interp(height, flank_height, flank_half, left=np.inf)
@@ -91,16 +147,19 @@ def tooth(pair: GearPair, wheel: int, points: int = 400) -> Tooth:
     thickness = np.minimum(on_flank, on_fillet) if undercut else np.where(height < flank_height[0], on_fillet, on_flank)
     if not np.all(np.isfinite(thickness)) or thickness.min() <= 0:
         raise InputError("undercut leaves no tooth to carry load", where="profile_shift", value=pair.profile_shift)
+    cut = int(np.flatnonzero(on_fillet <= on_flank).max(initial=0))
+    begin = math.hypot(height[cut], thickness[cut]) if undercut else form
     for array in (height, thickness):
         array.flags.writeable = False
-    return Tooth(base, pair.half_tooth_angle(wheel), root_circle(pair, wheel), height, thickness)
+    start = math.sqrt(max(begin**2 - base**2, 0.0))
+    return Tooth(base, section.half_angle, section.root_radius, height, thickness, start, undercut)
 
 
-def _fillet(pair: GearPair, wheel: int) -> tuple[np.ndarray, np.ndarray, float]:
+def _fillet(section: NormalSection) -> tuple[np.ndarray, np.ndarray, float]:
     """Trochoid of the rack's corner from the root section outwards: heights, half thicknesses; form radius (m)."""
-    module, alpha = pair.normal_module, pair.pressure_angle
-    pitch, root = pair.reference_radius[wheel], root_circle(pair, wheel)
-    shift = pair.profile_shift[wheel] * module
+    module, alpha = section.module, section.pressure_angle
+    pitch, root = section.reference_radius, section.root_radius
+    shift = section.profile_shift * module
     depth = pitch - root + shift
     below = pitch - root
     flat = math.pi / 4 * module - depth * math.tan(alpha)
@@ -109,7 +168,7 @@ def _fillet(pair: GearPair, wheel: int) -> tuple[np.ndarray, np.ndarray, float]:
         raise InputError(
             "no standard rack cuts this tooth: root too near or too far for the elastic load distribution",
             where="profile_shift",
-            value=pair.profile_shift,
+            value=section.profile_shift,
         )
     centre = below - corner
     side = flat - corner * (1 - math.sin(alpha)) / math.cos(alpha)
@@ -117,11 +176,11 @@ def _fillet(pair: GearPair, wheel: int) -> tuple[np.ndarray, np.ndarray, float]:
     slide = centre / math.tan(alpha) * np.linspace(0, 1.5, 600) ** 2
     stretch = 1 + corner / np.hypot(slide, centre)
     across, up = slide * stretch, pitch - centre * stretch
-    half = math.pi / pair.teeth[wheel] - (np.arctan2(across, up) - (slide - side) / pitch)
+    half = math.pi / section.teeth - (np.arctan2(across, up) - (slide - side) / pitch)
     radius = np.hypot(across, up)
     height, thickness = radius * np.cos(half), radius * np.sin(half)
     steep = -np.diff(thickness) > math.tan(ROOT_TANGENT) * np.diff(height)
     first = int(np.argmin(steep))
     reach = pitch * math.sin(alpha) - (centre + corner * math.sin(alpha)) / math.sin(alpha)
-    form = math.hypot(pair.base_radius[wheel], max(reach, 0.0))
+    form = math.hypot(section.base_radius, max(reach, 0.0))
     return height[first:], thickness[first:], form

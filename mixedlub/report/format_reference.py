@@ -19,13 +19,14 @@ from mixedlub.schema.table import BOOKKEEPING, RUN, Column, check_column, sd_col
 from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import unit_of
 from mixedlub.study.schema import StudyFile
+from mixedlub.tooth_contact.file import GearAnalysisFile
 from profiles.errors import InputError, nearest
 
 WIDTH = 80
 """Columns of a terminal."""
 LEAST_MEANING_WIDTH = 22
 """Columns that a meaning needs to the right of its key: about three words."""
-STUDY = "study"
+STUDY, GEAR = "study", "gear"
 EVERY_CASE = ("", "uncertainty", "recording")
 """Tables of `system.toml` that do not depend on its kind."""
 _GAP = "  "
@@ -35,16 +36,16 @@ Row = tuple[str, ...]
 
 
 def kinds_text(name: str | None = None) -> str:
-    """The format of one kind of case, of all of them, or of a study file."""
-    if name == STUDY:
-        return "\n".join(_study())
+    """The format of one kind of case, of all of them, of a study file, or of a file of `mixedlub gear`."""
+    if name in (STUDY, GEAR):
+        return "\n".join(_study() if name == STUDY else _gear())
     if name is not None and name not in KINDS:
-        known = (*KINDS, STUDY)
+        known = (*KINDS, STUDY, GEAR)
         raise InputError(f"no such kind; {nearest(name, known)}", where="KIND", value=name)
     chosen = [kind(n) for n in (KINDS if name is None else (name,))]
     taken = {*EVERY_CASE, *(section for k in chosen for section in (*k.sections, *k.uses))}
     lines = [] if name else [f"{len(KINDS)} kinds of case. `mixedlub kinds KIND` shows one, with the keys it takes;"]
-    lines += [] if name else ["`mixedlub kinds study` shows the keys of a study file."]
+    lines += [] if name else ["`mixedlub kinds study` or `gear` shows the keys of such a file."]
     for k in chosen:
         lines += ["", *_kind(k)]
     lines += ["", "columns of every kind (conditions.csv has all but the reading)", *aligned(common_rows())]
@@ -58,6 +59,12 @@ def kinds_text(name: str | None = None) -> str:
 def _study() -> Iterator[str]:
     yield "keys of a study file: unit, default, what is allowed, meaning"
     for table in tables(StudyFile):
+        yield from ("", *_title(table), *_keys(table))
+
+
+def _gear() -> Iterator[str]:
+    yield "keys of a file of `mixedlub gear`: unit, default, what is allowed, meaning"
+    for table in tables(GearAnalysisFile):
         yield from ("", *_title(table), *_keys(table))
 
 

@@ -56,14 +56,16 @@ def shades(count: int) -> np.ndarray:
     return matplotlib.colormaps["viridis_r"](np.linspace(0.12, 0.95, max(count, 2)))[:count]
 
 
-def panels(count: int, columns: int, *, height: float = 2.2, sharey: bool = True) -> tuple[Figure, list[Axes], int]:
-    """A figure of equal panels with a common x axis and, with ``sharey``, y axis; and the number of columns."""
+def panels(
+    count: int, columns: int, *, height: float = 2.2, sharex: bool = True, sharey: bool = True
+) -> tuple[Figure, list[Axes], int]:
+    """A figure of equal panels with, where shared, common axes; and the number of columns."""
     from matplotlib.figure import Figure
 
     columns = 2 if count == 4 else min(columns, count)
     rows = -(-count // columns)
     figure = Figure(figsize=(WIDTH, height * rows + 0.5), layout="constrained")
-    axes = figure.subplots(rows, columns, sharex=True, sharey=sharey, squeeze=False)
+    axes = figure.subplots(rows, columns, sharex=sharex, sharey=sharey, squeeze=False)
     for panel in axes.flat:
         panel.tick_params(labelbottom=True)
     for empty in axes.flat[count:]:

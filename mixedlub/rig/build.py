@@ -19,6 +19,7 @@ from mixedlub.rig.measured import Measured, Traces
 from mixedlub.rig.surface import Surface
 from mixedlub.schema import system_file
 from mixedlub.schema.findings import collected, finding, report
+from mixedlub.schema.gear_file import stated_otherwise
 from mixedlub.schema.oil_file import oil_of, overridden
 from mixedlub.schema.toml_file import named_file
 from profiles import SHIPPED_MARK, shipped
@@ -37,6 +38,10 @@ LONG_CUTOFF, SHORT_CUTOFF = 0.8e-3, 2.5e-6
 def gear_pair(section: system_file.Gears) -> GearPair:
     """The gear pair of a ``[gears]`` section."""
     tips = section.tip_diameter_mm
+    other = {} if section.preset is None else stated_otherwise(section.model_dump())
+    if other:
+        text = ", ".join(f"{name} in place of {value}" for name, value in other.items())
+        report(finding("gears_overridden", f"{text} of the gears {section.preset}", "gears"))
     return GearPair(
         teeth=section.teeth,
         normal_module=section.normal_module_mm * 1e-3,

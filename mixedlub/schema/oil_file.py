@@ -31,7 +31,8 @@ STOCKS: Mapping[str, str] = {
 }
 
 
-def _numbers(value: Any) -> Any:
+def one_or_two_numbers(value: Any) -> Any:
+    """A number, or two as a tuple; else an error."""
     entries = value if isinstance(value, (list, tuple)) else [value]
     if len(entries) not in (1, 2) or any(isinstance(x, bool) or not isinstance(x, (int, float)) for x in entries):
         raise ValueError("is a number, or a list of two")
@@ -41,7 +42,9 @@ def _numbers(value: Any) -> Any:
 class Property(Section):
     """A number of an oil, or two at its two temperatures."""
 
-    value: Annotated[Any, AfterValidator(_numbers)] = key("the number, or two at temperature_C", example=[97.9, 8.61])
+    value: Annotated[Any, AfterValidator(one_or_two_numbers)] = key(
+        "the number, or two at temperature_C", example=[97.9, 8.61]
+    )
     status: Status = key("where it comes from", example="stated", values=STATUSES)
     source: str = key("its source", example="data sheet")
 

@@ -11,6 +11,7 @@ from unicodedata import category
 from pydantic import AfterValidator, Field, ValidationInfo, create_model, field_validator, model_validator
 
 from mixedlub.discovery import declared
+from mixedlub.schema.gear_file import gear_names, with_preset
 from mixedlub.schema.oil_file import STOCKS, Base, oil_names, with_oil
 from mixedlub.schema.section import Float, Number, NumberOrName, Section, Whole, key, one_of, tables, with_ranges
 from profiles.errors import InputError
@@ -79,6 +80,12 @@ class LoadSharing(_SharingKeys):
 
 
 class Gears(Section):
+    preset: str | None = key(
+        f"gears by name ({', '.join(gear_names())}); what this section states itself wins",
+        None,
+        example="fzg_c",
+        alternative=True,
+    )
     teeth: tuple[Whole, Whole] = key("numbers of teeth, pinion (driving) and gear", example=[17, 26])
     normal_module_mm: Number = key("normal module", example=4.2333333)
     pressure_angle_deg: Number = key("normal pressure angle", 20.0, example=22.5)
@@ -96,6 +103,13 @@ class Gears(Section):
         LoadSharing(model="rigid"),
         example={"model": "ldp", "tip_relief_um": [15, 15], "relief_length_mm": [2, 2]},
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_its_preset(cls, given: Any) -> Any:
+        """Complete the section by what its preset says."""
+        named = given.get("preset") if isinstance(given, Mapping) else None
+        return with_preset(given) if isinstance(named, str) else given
 
 
 class Contact(Section):

@@ -108,7 +108,7 @@ def test_every_key_of_a_study_is_told(capsys):
             "gear_pair",
             r"conductivity_W_mK +W/\(m K\) +required +0.01 to 10000\s+thermal conductivity of the c",
         ),
-        ("gear_pair", r'model +- +one of these [^"]*"ldp" +elastic teeth\s+"rigid" '),
+        ("gear_pair", r'model +- +one of these\s[^"]*"ldp" +elastic teeth\s+"rigid" '),
         ("viscosity", r"pressure_MPa +MPa +optional +0 to 5000 "),
     ],
 )

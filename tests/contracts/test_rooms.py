@@ -28,6 +28,7 @@ ROOMS = {
             "gear",
             "rig",
             "ehl",
+            "tooth_contact",
             "kinds",
         ),
         *("case", "recording", "data_checks", "study", "report", "diagnosis", "importers", "api", "validation"),

@@ -20,6 +20,9 @@ FZG_C = GearPair(
     tip_radius=(41.23e-3, 59.18e-3),
     centre_distance=91.5e-3,
 )
+HELICAL = GearPair(
+    (17, 103), 8e-3, math.radians(20), 100e-3, math.radians(15.8), (0.145, 0.0), (79.83e-3, 436.175e-3), 500e-3
+)
 EVERYTHING = LdpSharing(
     tip_relief=(15e-6, 10e-6),
     relief_length=(3e-3, 2e-3),

@@ -117,7 +117,7 @@ class TestLiterature:
         plate = tapered_plate(
             Tooth(1.0, 0.1, 0.0, height, np.full(50, thickness / 2)), 4.0, slices, 1.0, 0.3, (1e-6, 0.0, 1e-6, 0.0)
         )
-        middle = plate.compliance(np.array([1.0]))[0, slices // 2, slices // 2]
+        middle = plate.compliance(np.full((1, slices), 1.0))[0, slices // 2, slices // 2]
         return middle * thickness**3 / (12 * (1 - 0.3**2))
 
 
@@ -202,30 +202,32 @@ class TestPlate:
         beam = bending_compliance(body, distance, *STEEL) / upright - along
         beam += foundation_compliance(body, distance, 206e9, coefficients) / upright
         plate = tapered_plate(body, pair.face_width, 11, *STEEL, coefficients)
-        mean = plate.compliance(reach).sum(axis=(1, 2)) * pair.face_width / 11**2
+        mean = plate.compliance(np.repeat(reach[:, None], 11, axis=1)).sum(axis=(1, 2)) * pair.face_width / 11**2
         assert mean == pytest.approx(beam, rel=0.03)
 
     @pytest.mark.parametrize("wheel", [0, 1])
     def test_maxwell_reciprocity(self, wheel):
         body = tooth(HONG, wheel)
         plate = tapered_plate(body, HONG.face_width, 11, *STEEL, weber_foundation(0.3))
-        matrix = plate.compliance(np.linspace(body.height[0], body.height[-1], 7))
+        height = np.linspace(body.height[0], body.height[-1], 7)[:, None]
+        oblique = np.clip(height + np.linspace(-2e-3, 2e-3, 11), body.height[0], body.height[-1])
+        matrix = plate.compliance(np.concatenate([np.repeat(height, 11, axis=1), oblique]))
         asymmetry = np.abs(matrix - matrix.transpose(0, 2, 1)).max()
         assert 0 <= asymmetry < 1e-11 * np.abs(matrix).max()
 
     def test_influence_is_positive_definite_and_falls_with_distance(self):
         body = tooth(HONG, 0)
-        matrix = tapered_plate(body, HONG.face_width, 11, *STEEL, weber_foundation(0.3)).compliance(
-            np.array([body.height[-1]])
-        )[0]
+        plate = tapered_plate(body, HONG.face_width, 11, *STEEL, weber_foundation(0.3))
+        matrix = plate.compliance(np.full(11, body.height[-1]))
         assert np.linalg.eigvalsh(matrix).min() > 0
         assert np.all(np.diff(matrix[0]) < 0)
         assert matrix.min() > 0
 
     def test_mirrored_face_gives_the_mirrored_influence(self):
         body = tooth(HONG, 1)
-        matrix = tapered_plate(body, HONG.face_width, 8, *STEEL, weber_foundation(0.3)).compliance(body.height[200:201])
-        assert matrix[0, ::-1, ::-1] == pytest.approx(matrix[0], rel=1e-10)
+        plate = tapered_plate(body, HONG.face_width, 8, *STEEL, weber_foundation(0.3))
+        matrix = plate.compliance(np.full(8, body.height[200]))
+        assert matrix[::-1, ::-1] == pytest.approx(matrix, rel=1e-10)
 
 
 def random_problem(seed, size):

@@ -1,14 +1,13 @@
 """What the elastic load distribution cannot compute is refused by its key."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mixedlub.gear import LdpSharing, mesh, transmission_error
+from mixedlub.gear import GearPair, LdpSharing, mesh, transmission_error
 from profiles.errors import InputError
 from tests.gear.pairs import HONG, NASA
 
@@ -21,6 +20,13 @@ REFUSED = [
     ("relief_form", {"relief_form": "round"}),
     ("lead_crown_um", {"lead_crown": -1e-6}),
     ("misalignment_um", {"misalignment": math.inf}),
+    ("end_relief_length_mm", {"end_relief": (1e-6, 0.0)}),
+    ("profile_slope_deviation_um", {"profile_slope_deviation": (math.nan, 0.0)}),
+    ("lead_deviation_um", {"lead_deviation": (1e-6,)}),
+    ("lead_deviation_um", {"lead_deviation": "flat"}),
+    ("torque_end", {"torque_end": ("left", "none")}),
+    ("body_diameter_mm", {"body_radius": (0.02, 0.03)}),
+    ("body_diameter_mm", {"body_radius": (0.0, 0.03), "torque_end": ("front", "front")}),
     ("foundation", {"foundation": "weberr"}),
     ("bore_diameter_mm", {"foundation": "sainsot"}),
     ("bore_diameter_mm", {"foundation": "sainsot", "bore_radius": (0.0, 1.0)}),
@@ -47,9 +53,11 @@ class TestRefusals:
         with pytest.raises(InputError, match=r"^bore_diameter_mm: .*1\.4 to 7"):
             mesh(HONG, LdpSharing(foundation="sainsot", bore_radius=(28e-3, 25e-3)))
 
-    def test_helical_pairs_are_refused(self):
-        with pytest.raises(InputError, match=r"^load_sharing: .*spur gears only"):
-            mesh(replace(HONG, helix_angle=0.1), LdpSharing())
+    def test_contact_on_undercut_flanks_is_refused(self):
+        # 12 teeth without profile shift at 20 degrees; 17 are the least that a standard rack does not undercut.
+        pair = GearPair((12, 40), 3e-3, math.radians(20), 20e-3, tip_radius=(21e-3, 62.3e-3))
+        with pytest.raises(InputError, match=r"^profile_shift: 0\.0: undercut: the involute of the pinion begins"):
+            mesh(pair, LdpSharing())
 
     @pytest.mark.parametrize("torque", [0.0, -1.0, math.nan, "x"])
     def test_torque_must_be_above_zero(self, torque):

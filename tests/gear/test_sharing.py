@@ -222,9 +222,25 @@ class TestTable:
         with pytest.raises(InputError, match=r"^share\.csv: load_share: 50"):
             TableSharing([50, 50], [0.2, 0.3], [0.5, 50], source="share.csv")
 
-    def test_helical_pairs_are_refused(self):
-        with pytest.raises(InputError, match=r"load_sharing: .*spur"):
-            mesh(replace(HONG, helix_angle=0.2), table())
+    def test_the_share_of_a_helical_pair_spreads_over_its_contact_line(self):
+        """An even share over the whole passage of a pair gives every slice in contact the same."""
+        pair = replace(HONG, helix_angle=0.2)
+        half = pair.face_width * math.tan(pair.base_helix_angle) / 2
+        angle = np.linspace(pair.path_start - half, pair.path_end + half, 41) / pair.base_radius[0]
+        even = pair.base_pitch / (pair.path_end - pair.path_start + 2 * half)
+        sharing = TableSharing(np.full(41, 50.0), angle, np.full(41, even))
+        points = mesh(pair, sharing, points=200, slices=40)
+        total = (points.weight * points.load_share(50.0)).sum() * math.cos(pair.base_helix_angle)
+        assert total == pytest.approx(1, rel=1e-2)
+        front = points.position - points.face_position * math.tan(pair.base_helix_angle)
+        whole = (front > pair.path_start) & (front + 2 * half < pair.path_end)
+        assert points.load_share(50.0)[whole] == pytest.approx(even / 40, rel=1e-9)
+
+    def test_a_table_of_a_part_of_a_helical_passage_is_refused(self):
+        pair = replace(HONG, helix_angle=0.2)
+        angle = pair.pitch_point / pair.base_radius[0] + np.array([0.0, 0.02])
+        with pytest.raises(InputError, match=r"roll_angle_deg: .*leave out a part"):
+            mesh(pair, TableSharing([50, 50], angle, [0.5, 0.5]))
 
     def test_table_of_another_gear_is_refused(self):
         far = TableSharing([50, 50], [1.0, 1.2], [0.5, 0.5])

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from mixedlub.gear.checks import column
+from mixedlub.gear.contact_lines import contact_limits, mid_face_path
 from mixedlub.gear.geometry import GearPair
 from mixedlub.gear.mesh import Mesh
 from mixedlub.gear.sharing.model import SharingModel
@@ -40,17 +41,25 @@ class Keys(Section):
 
 def _pairs_in_contact(pair: GearPair) -> tuple[np.ndarray, np.ndarray]:
     """Positions (m) of the tooth pairs at 64 phases inside one base pitch, and which are in contact."""
-    phase = pair.path_start + pair.base_pitch * (np.arange(64) + 0.5) / 64
-    position = phase[:, None] + pair.base_pitch * np.arange(int(pair.contact_ratio) + 1)
-    return position, position <= pair.path_end
+    start, end = mid_face_path(pair)
+    phase = start + pair.base_pitch * (np.arange(64) + 0.5) / 64
+    position = phase[:, None] + pair.base_pitch * np.arange(int((end - start) / pair.base_pitch) + 1)
+    return position, position <= end
+
+
+def _roll_angles(pair: GearPair) -> tuple[float, float]:
+    """Roll angles (rad) between which a tooth pair is in contact."""
+    start, end = mid_face_path(pair)
+    return start / pair.base_radius[0], end / pair.base_radius[0]
 
 
 @dataclass(frozen=True, eq=False)
 class TableSharing:
-    """A tabulated share, from an outside gear program or a measurement, for spur gears.
+    """A tabulated share, from an outside gear program or a measurement.
 
     One row an entry of the three arrays: pinion ``torque`` (N m), pinion ``roll_angle`` (rad) and the
-    ``share`` of the base-tangent force T1/r_b1 that one tooth pair carries there. Used as it stands: linear
+    ``share`` of the base-tangent force T1/r_b1 that one tooth pair carries there; of a helical pair, the angle is
+    that at the middle of the face, and the share spreads evenly over the contact line. Used as it stands: linear
     in roll angle between the rows of a torque; beyond the first and last row their value is held for one row
     spacing and the share is zero further out. A torque without rows takes the nearest that has some, and
     reports it (`torque_not_tabulated`). ``source`` is the file that messages name.
@@ -99,16 +108,11 @@ class TableSharing:
         return [(float(value), angle, share) for value, angle, share in blocks]
 
     def default_slices(self, pair: GearPair) -> int:
-        """The table says nothing about the face: one."""
-        return 1
+        """The table says nothing about the face: one; the oblique lines of helical gears need several."""
+        return 1 if pair.helix_angle == 0 else 17
 
     def check(self, pair: GearPair) -> tuple[Finding, ...]:
-        """Refuse helical pairs and tables of another gear or of a part; note ends left out and sums that are not 1."""
-        if pair.helix_angle != 0:
-            raise InputError(
-                'a share table along one path serves spur gears only; use { model = "rigid" }',
-                where="load_sharing",
-            )
+        """Refuse tables of another gear or of a part; note ends left out and sums that are not 1."""
         curves = range(len(self._curves))
         for curve in curves:
             self._refuse_gap(pair, curve)
@@ -128,7 +132,7 @@ class TableSharing:
         told = (inside & self._told(curve, position / pair.base_radius[0])).any(axis=1)
         if told.all():
             return
-        start, end = np.degrees(np.array([pair.path_start, pair.path_end]) / pair.base_radius[0])
+        start, end = np.degrees(_roll_angles(pair))
         first, last = np.degrees(angle[[0, -1]])
         raise InputError(
             f"the rows at {value:g} N m ({first:.4g} to {last:.4g} deg) leave out a part of the path of contact "
@@ -138,7 +142,7 @@ class TableSharing:
 
     def _short(self, pair: GearPair, curves: range) -> Iterator[Finding]:
         """Rows that end before the path of contact does, of the torque where they are shortest."""
-        start, end = pair.path_start / pair.base_radius[0], pair.path_end / pair.base_radius[0]
+        start, end = _roll_angles(pair)
         angles = [angle for _, angle, _ in self._curves]
         covered = [(min(angle[-1], end) - max(angle[0], start)) / (end - start) for angle in angles]
         worst = min(curves, key=lambda curve: covered[curve])
@@ -180,7 +184,9 @@ class TableSharing:
         return np.where(self._told(curve, roll_angle), np.interp(roll_angle, angle, share), 0.0)
 
     def breakpoints(self, pair: GearPair) -> np.ndarray:
-        """The rows where the slope changes enough to matter, at any torque."""
+        """The rows where the slope changes enough to matter, at any torque; slices of helical pairs pass them apart."""
+        if pair.helix_angle != 0:
+            return contact_limits(pair)
         kinks = []
         for _, angle, share in self._curves:
             slope = np.diff(share) / np.diff(angle)
@@ -194,7 +200,7 @@ class TableSharing:
         return np.abs(np.asarray(torque)[..., None] - tabulated).argmin(axis=-1)
 
     def load_share(self, mesh: Mesh, torque: np.ndarray) -> np.ndarray:
-        """The table at the roll angles of the mesh, spread evenly over the slices."""
+        """The table at the roll angles of the mesh, spread evenly over the slices in contact."""
         chosen = self.nearest(torque)
         tabulated = np.array([value for value, _, _ in self._curves])
         missing = np.abs(tabulated[chosen] - torque) > 1e-6 * tabulated[chosen]
@@ -203,8 +209,22 @@ class TableSharing:
             more = f" (and {int(missing.sum()) - 1} more torques)" if missing.sum() > 1 else ""
             text = f"no rows at {asked:g} N m, nearest torque {used:g} N m used{more}"
             report(finding("torque_not_tabulated", text, PLACE))
-        curves = np.stack([self._at(i, mesh.roll_angle) for i in range(len(self._curves))])
-        return curves[chosen] * mesh.face_fraction
+        angle, part = mesh.roll_angle, mesh.face_fraction
+        if mesh.pair.helix_angle != 0:
+            angle, part = _along_line(mesh)
+        curves = np.stack([self._at(i, angle) for i in range(len(self._curves))])
+        return curves[chosen] * part
+
+
+def _along_line(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Roll angle at the middle of the face while each point touches, and what it is of the slices then in contact."""
+    pair = mesh.pair
+    tangent = np.tan(abs(pair.base_helix_angle))
+    middle = mesh.position - (mesh.face_position - pair.face_width / 2) * tangent
+    across = ((np.arange(mesh.slices) + 0.5) / mesh.slices - 0.5) * pair.face_width
+    lines, rounding = middle[:, None] + across * tangent, 1e-9 * pair.base_pitch
+    touching = (lines >= pair.path_start - rounding) & (lines <= pair.path_end + rounding)
+    return middle / pair.base_radius[0], 1 / np.maximum(touching.sum(axis=1), 1)
 
 
 def _others(affected: Sequence[bool]) -> str:
