@@ -10,16 +10,18 @@ import numpy as np
 from mixedlub.report.figures import equal_pairings
 from mixedlub.report.plots import loss_over, over_speed, over_temperature
 from mixedlub.report.style import styled
-from mixedlub.study.results import COLUMNS, LEVELS, Results
+from mixedlub.study.columns import FIRST
+from mixedlub.study.results import LEVELS, Results
 from profiles.errors import InputError, nearest, refuse_other
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 OIL, TORQUE, SPEED = LEVELS
-NAMES = {COLUMNS[name][0]: name for name in ("power_loss", "area_ratio", "film_parameter", "composite_roughness")}
+DRAWN = ("power_loss", "area_ratio", "film_parameter", "composite_roughness")
+NAMES = {c.name: c.output for c in FIRST if c.output in DRAWN}
 """Columns that figures draw, each with its name inside the model."""
-LOSS, ROUGHNESS = COLUMNS["power_loss"][0], COLUMNS["composite_roughness"][0]
+LOSS, ROUGHNESS = "power_loss_W", "composite_roughness_um"
 
 
 def plot(

@@ -111,6 +111,7 @@ sharing_exponent        | k          | -       | power of whole over film load i
 film_load_share         | L_h        | -       | share of the load that the film carries
 least_film_share        | L_i        | -       | share of the load below which the film's own contact leaves its regime
 flash_per_friction      | theta_mu   | K       | rise of the surfaces by sliding per unit of friction coefficient
+flash_temperature       | theta_fl   | K       | largest rise of the surfaces above their bulk in the contact by sliding
 contact_viscosity       | eta_p      | Pa s    | viscosity of the film in the contact, of a sample under pressure
 shear_stress            | tau        | Pa      | shear stress of the film
 fluid_friction          | mu_E       | -       | friction coefficient of the film
@@ -123,6 +124,8 @@ rolling_force           | f_r        | N/m     | tangential force per length on 
 rolling_loss            | P_r        | W       | rolling power lost in the mesh, mean over a mesh cycle
 tangential_friction     | mu_t       | -       | tangential force on a body over the load, rolling included
 sliding_power           | F v_s      | W       | load times sliding speed at a point of the path, times its weight
+sliding_integral        | F v_s      | W       | load times sliding speed, mean over a mesh cycle
+load_loss_factor        | H_VL       | -       | load times sliding speed, mean over a mesh cycle, over input power
 mesh_loss               | P_m        | W       | sliding power lost in the mesh, mean over a mesh cycle
 mean_friction           | mu_m       | -       | mesh loss over load times sliding speed along the path
 friction_torque         | T_f        | N m     | friction torque of a drive, or its friction coefficient

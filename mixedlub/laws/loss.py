@@ -65,6 +65,51 @@ def mean_friction(mesh_loss: np.ndarray, sliding_power: np.ndarray) -> np.ndarra
     return mesh_loss / sliding_power.sum(axis=-1, keepdims=True)
 
 
+def sliding_integral(
+    load_share: np.ndarray, transmitted_force: np.ndarray, sliding_speed: np.ndarray, path_weight: np.ndarray
+) -> np.ndarray:
+    r"""Load times sliding speed, mean over a mesh cycle (W), :math:`\sum F |v_s|\, dx / p_{bt}`.
+
+    The last axis, the path, shrinks to one.
+
+    >>> float(sliding_integral(np.ones(3), 1000.0, 2.0, np.array([0.25, 0.5, 0.25]))[0])
+    2000.0
+    """
+    return sliding_power(load_share, transmitted_force, sliding_speed, path_weight).sum(axis=-1, keepdims=True)
+
+
+def friction_of_path(
+    friction: np.ndarray,
+    load_share: np.ndarray,
+    transmitted_force: np.ndarray,
+    sliding_speed: np.ndarray,
+    path_weight: np.ndarray,
+) -> np.ndarray:
+    r"""Friction coefficient of the mesh (-), whatever averages the power loss follows.
+
+    .. math:: \hat\mu = \frac{\sum \mu\, F |v_s|\, dx}{\sum F |v_s|\, dx}
+
+    >>> path = (np.ones(3), 1000.0, np.array([2.0, 0.0, 1.0]), np.array([0.25, 0.5, 0.25]))
+    >>> round(float(friction_of_path(np.array([0.06, 0.01, 0.03]), *path)[0]), 3)
+    0.05
+    """
+    power = sliding_power(load_share, transmitted_force, sliding_speed, path_weight)
+    return mean_friction(mesh_loss(friction, power), power)
+
+
+def load_loss_factor(sliding_integral: np.ndarray, torque: np.ndarray, pinion_speed: np.ndarray) -> np.ndarray:
+    r"""Tooth loss factor of the load sharing at hand (-), :math:`H_{VL} = \sum F |v_s|\, dx / (p_{bt}\, T_1 \omega_1)`.
+
+    With it the loss of the mesh is input power times mean friction times this factor. The divisor is the base pitch,
+    so that rigid teeth which share the load equally have Ohlendorf's factor.
+    Source: A. Wimmer, thesis, TU Munich, 2006, the local loss factor.
+
+    >>> round(float(load_loss_factor(3063.0, 100.0, 157.1)), 3)
+    0.195
+    """
+    return sliding_integral / (torque * pinion_speed)
+
+
 def over_path(value: np.ndarray, weight: np.ndarray) -> np.ndarray:
     """Sum of value times weight over the last axis, kept with length one; the product is never formed.
 

@@ -27,10 +27,11 @@ from mixedlub.schema.findings import Finding, grouped
 from mixedlub.schema.section import FileTable, Key, table
 from mixedlub.study import counted, factors
 from mixedlub.study.checkpoint import fingerprint
+from mixedlub.study.columns import OF_VALIDITY
 from mixedlub.study.options import ignored
 from mixedlub.study.plan import Study
 from mixedlub.study.record import assumed, resolved
-from mixedlub.study.results import DEFINITIONS, VALIDITY, VALIDITY_MEANING, Results, versions
+from mixedlub.study.results import Results, versions
 from mixedlub.study.schema import Options, StudyFile
 
 MOST_SURFACES = 12
@@ -103,8 +104,7 @@ def content(results: Results) -> dict[str, Any]:
         "options": option_rows(file.options, ignored(file.options, study.plan.model())),
         "effects": [(e, study.plan.parameters[e.id]) for e in study.effects],
         "laws": list(laws_used(study.plan.model())),
-        "definitions": [(column, DEFINITIONS[name]) for name, (column, _) in results.columns.items()]
-        + [(VALIDITY, VALIDITY_MEANING)],
+        "definitions": [(c.name, c.unit, c.meaning) for c in (*results.columns, OF_VALIDITY)],
         "fingerprint": fingerprint(study.plan),
         "versions": ", ".join(f"{name} {version}" for name, version in versions().items()),
     }

@@ -9,7 +9,8 @@ import numpy as np
 
 from mixedlub.report.style import SMALL, WIDTH, legend_above, normalised_axis, panels, shades
 from mixedlub.study.bands import HIGH, LOW
-from mixedlub.study.results import COLUMNS, Results
+from mixedlub.study.columns import COLUMNS
+from mixedlub.study.results import Results
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -96,7 +97,7 @@ def _shade(
 ) -> None:
     """The band of a curve, where the study has one; ``at`` takes the values of the curve out of an output."""
     if has_bands(results):
-        factor = COLUMNS[quantity][1] if quantity == "film_thickness" else 1.0
+        factor = COLUMNS[quantity].factor if quantity == "film_thickness" else 1.0
         low, high = (factor * at(results[end + quantity]) for end in (LOW, HIGH))
         panel.fill_between(x, low, high, color=colour, alpha=0.2, linewidth=0.0)
 

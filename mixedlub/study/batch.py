@@ -25,6 +25,7 @@ from mixedlub.laws.contact import mean_hertz_pressure
 from mixedlub.laws.loss import over_path
 from mixedlub.study.bands import HIGH, LOW, band
 from mixedlub.study.cluster import on_cluster
+from mixedlub.study.columns import loss_of
 from mixedlub.study.plan import Plan
 
 OUTPUTS = (
@@ -40,7 +41,12 @@ OUTPUTS = (
     "hertz_pressure",
     "asperity_load_ratio",
     "asperity_real_pressure",
+    "plain_mean_friction",
+    "least_film",
+    "flash_temperature",
 )
+SPUR = ("load_loss_factor",)
+"""Further outputs of spur gears."""
 SHARED = ("mean_asperity_load_share", "film_over_unbalanced")
 """Further outputs where film and asperities share the load."""
 CHECKS = ("largest_area_ratio",)
@@ -109,7 +115,16 @@ def _own_names(plan: Plan) -> tuple[str, ...]:
     """Names without the ends of bands."""
     shared = (*SHARED, *SHARED_CHECKS) if plan.balanced else ()
     law = () if plan.friction is None else (BEYOND + plan.friction.name,)
-    return (*OUTPUTS, *CHECKS, *shared, *(BEYOND + name for name in plan.ranges), *law)
+    losses = map(loss_of, plan.losing)
+    return (
+        *OUTPUTS,
+        *(SPUR if plan.spur else ()),
+        *losses,
+        *CHECKS,
+        *shared,
+        *(BEYOND + name for name in plan.ranges),
+        *law,
+    )
 
 
 def compute(plan: Plan, block: Block) -> Found:
@@ -190,12 +205,18 @@ def reduced(state: Inputs, plan: Plan) -> Found:
     """Results of a piece with the mesh axis reduced to one; what is not loaded is in no mean and no check."""
     film, area, pressure, weight = (state[n] for n in ("film_thickness", "area_ratio", "hertz_pressure", "mean_weight"))
     loaded = weight > 0
+    everywhere = bool(loaded.all())
     mean_pressure = mean_hertz_pressure(pressure)
     # The largest ratio of pressures is sought where that of area to pressure is: that costs no integral a point.
     hardest = (area * (loaded / mean_pressure)).argmax(axis=-1, keepdims=True)
 
     def there(value: np.ndarray) -> np.ndarray:
         return value if np.ndim(value) == 0 or value.shape[-1] == 1 else np.take_along_axis(value, hardest, axis=-1)
+
+    def largest(value: np.ndarray) -> np.ndarray:
+        if everywhere:
+            return value.max(axis=-1, keepdims=True)
+        return np.max(value, axis=-1, keepdims=True, where=loaded, initial=0.0)
 
     carried = plan.asperities(*(there(state[name]) for name in plan.asperities_read))
     touching = there(area)
@@ -211,10 +232,14 @@ def reduced(state: Inputs, plan: Plan) -> Found:
         "mesh_loss": state["mesh_loss"],
         "rolling_loss": state["rolling_loss"],
         "other_loss": state["power_loss"] - in_mesh,
-        "hertz_pressure": np.max(pressure, axis=-1, keepdims=True, where=loaded, initial=0.0),
+        "hertz_pressure": largest(pressure),
         "asperity_load_ratio": carried / there(mean_pressure),
         "asperity_real_pressure": np.divide(carried, touching, out=np.zeros_like(carried), where=touching > 0.0),
         "largest_area_ratio": touching,
+        "plain_mean_friction": over_path(state["friction"], weight),
+        "least_film": np.min(film, axis=-1, keepdims=True, where=everywhere or loaded, initial=np.inf),
+        "flash_temperature": largest(state["flash_temperature"]),
+        **{name: state[name] for name in (*(SPUR if plan.spur else ()), *map(loss_of, plan.losing))},
         **(_shared(state, loaded, mean_pressure) if plan.balanced else {}),
     }
     for name, valid in plan.ranges.items():

@@ -12,12 +12,12 @@ from mixedlub import friction
 from mixedlub.chain.balance import balanced
 from mixedlub.chain.base_models import GEAR_LOSS
 from mixedlub.chain.model import Chain, Law, Model
-from mixedlub.laws import contact, oil, pitch_point
+from mixedlub.laws import contact, heating, loss, oil, pitch_point
 from mixedlub.laws.contact import asperity_pressure, mean_hertz_pressure
 from mixedlub.laws.film import dowson_higginson
 from mixedlub.laws.rough_film import film_over_roughness, rough_film
 from mixedlub.laws.yielding import chang_etsion_bogy_pressure
-from mixedlub.slots import FILM, SLOTS, VISCOSITY
+from mixedlub.slots import FILM, SLIDING_POWER, SLOTS, VISCOSITY
 from mixedlub.study.schema import Options
 
 
@@ -69,6 +69,8 @@ def study_chain(options: Options, asperities: Mapping[str, Law] = MappingProxyTy
     chosen = {**options.laws, **asperities}
     if options.viscosity_pressure == "mean":
         chosen[VISCOSITY.quantity] = at_mean_pressure(chosen[VISCOSITY.quantity])
+    if options.averaging != SLIDING_POWER.default:
+        chosen["mean_friction"] = loss.friction_of_path
     chain = tuple((name, chosen.get(name, law)) for name, law in GEAR_LOSS)
     if options.friction != friction.BASE:
         own = friction.find(options.friction).with_coefficients(options.friction_coefficients)
@@ -93,6 +95,14 @@ def with_rough_film(base: Chain) -> Chain:
     place = [name for name, _ in base].index(film)
     smooth = (("smooth_film", dict(base)[film]), (film, rough_film))
     return (*base[:place], *smooth, *after, *base[place + 1 :])
+
+
+FURTHER: Chain = (
+    ("flash_temperature", heating.largest_flash_temperature),
+    ("sliding_integral", loss.sliding_integral),
+    ("load_loss_factor", loss.load_loss_factor),
+)
+"""Quantities that a study gives beyond those of the base model."""
 
 
 def with_friction(base: Chain, law: Law) -> Chain:

@@ -33,7 +33,8 @@ from mixedlub.slots import ASPERITY_LOAD, SLOTS
 from mixedlub.study.bands import Group, groups
 from mixedlub.study.friction_options import check_coefficients, check_effects, check_friction, check_viscosity
 from mixedlub.study.heights import HeightTables, height_tables
-from mixedlub.study.options import at_hardness, ignored, study_chain
+from mixedlub.study.options import FURTHER, at_hardness, ignored, study_chain
+from mixedlub.study.origins import by_origin, losing
 from mixedlub.study.schema import Options, Pairings, StudyFile
 from profiles.errors import InputError, as_path, nearest, refuse_other
 
@@ -46,9 +47,14 @@ WANTED = (
     "film_thickness",
     "composite_roughness",
     "hertz_pressure",
+    "friction",
+    "flash_temperature",
+    "load_loss_factor",
 )
 BALANCED = ("asperity_pressure", "full_load_film", "film_load_share", "least_film_share")
 """What is wanted as well where film and asperities share the load."""
+SOLIDS = ("solid_conductivity", "solid_density", "solid_heat_capacity")
+"""Inputs of the surfaces that most studies have alike for all pairings: then what follows is computed once."""
 AREA_ALONE = ("balance", "asperities", "mixture", "heights")
 """Options at whose defaults an effect on the contact area needs no other change."""
 
@@ -77,14 +83,17 @@ class Plan:
         return find(sorted(self.parameters)) if self.parameters else ()
 
     def model(self, also: Iterable[str] = ()) -> Model:
-        """The chain of the chosen options with the active effects; ``also`` names quantities wanted beside its own."""
-        return self._model((*also, *(name for valid in self.ranges.values() for name in valid)))
+        """The chain of the chosen options with the active effects, and the loss of each.
+
+        ``also`` names quantities wanted beside its own.
+        """
+        return by_origin(self._model((*also, *(name for valid in self.ranges.values() for name in valid))))
 
     def _model(self, checked: Iterable[str]) -> Model:
         of_friction = () if self.friction is None else self.friction.checked
         of_balance = BALANCED if self.balanced else ()
         wanted = dict.fromkeys((*WANTED, *of_balance, *self.asperities_read, *of_friction, *checked))
-        return Model(self.chain(self.options), tuple(self.inputs), tuple(wanted), self.effects)
+        return Model((*self.chain(self.options), *FURTHER), tuple(self.inputs), tuple(wanted), self.effects)
 
     @cached_property
     def ranges(self) -> Mapping[str, Mapping[str, tuple[float, float]]]:
@@ -109,6 +118,16 @@ class Plan:
     def friction(self) -> FrictionLaw | None:
         """The friction law that takes the place of the base model's."""
         return None if self.options.friction == friction.BASE else friction.find(self.options.friction)
+
+    @property
+    def spur(self) -> bool:
+        """Whether the teeth are straight."""
+        return float(self.inputs["base_helix_angle"]) == 0.0
+
+    @property
+    def losing(self) -> tuple[str, ...]:
+        """The active effects that add a loss outside the mesh."""
+        return losing(self.effects)
 
     @property
     def balanced(self) -> bool:
@@ -298,7 +317,8 @@ def condition_inputs(file: StudyFile, pair: GearPair, points: Mesh, oil: Lubrica
 def surface_inputs(pairs: list[tuple[Surface, Surface]]) -> dict[str, np.ndarray]:
     """Inputs of the surfaces, pairing by pairing."""
     both = paired([a for a, _ in pairs], [b for _, b in pairs])
-    return {name: values.reshape(-1, 1, 1, 1, 1) for name, values in both.items()}
+    alike = {name for name in SOLIDS if np.ptp(both[name]) == 0.0}
+    return {name: (v[:1] if name in alike else v).reshape(-1, 1, 1, 1, 1) for name, v in both.items()}
 
 
 def _effects(file: StudyFile, inputs: Mapping[str, Any]) -> tuple[tuple[Effect, ...], Parameters]:

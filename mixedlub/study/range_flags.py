@@ -9,11 +9,10 @@ import numpy as np
 from mixedlub.chain.balance import EXACT
 from mixedlub.rig.plausibility import yields
 from mixedlub.study.batch import BEYOND
+from mixedlub.study.columns import VALID
 from mixedlub.study.plan import Plan
 from roughness.mccool import nayak_parameter
 
-VALID = "valid"
-"""What the table says of a condition with no flag."""
 EXTRAPOLATED = "law_extrapolated:"
 """Before the name of an effect or law that is used outside the range in which it holds."""
 

@@ -11,18 +11,24 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.schema.findings import Finding, as_texts, listed
-from mixedlub.schema.section import table as file_table
 from mixedlub.schema.table import span
 from mixedlub.schema.units import unit_of
 from mixedlub.study import batch, checkpoint
-from mixedlub.study.bands import HIGH, LOW
-from mixedlub.study.bands import column as band_column
-from mixedlub.study.batch import CHECKS
+from mixedlub.study.columns import (
+    CHECKS,
+    COLUMNS,
+    FIRST,
+    FURTHER,
+    OF_VALIDITY,
+    VALIDITY,
+    Column,
+    every_column,
+    loss_columns,
+)
+from mixedlub.study.derived import derived
 from mixedlub.study.plan import Study, counted, factors
-from mixedlub.study.range_flags import VALID, as_words, flags
-from mixedlub.study.schema import StudyFile
+from mixedlub.study.range_flags import as_words, flags
 from mixedlub.study.validity import out_of_range
 from mixedlub.version import installed_version
 from profiles.errors import InputError, refuse_other
@@ -32,63 +38,6 @@ if TYPE_CHECKING:
     import pyarrow as pa
     import xarray as xr
 
-COLUMNS = {
-    "power_loss": ("power_loss_W", 1.0),
-    "mean_friction": ("mean_friction", 1.0),
-    "area_ratio": ("boundary_area_ratio", 1.0),
-    "film_thickness": ("film_thickness_um", 1e6),
-    "film_parameter": ("film_parameter", 1.0),
-    "composite_roughness": ("composite_roughness_um", 1e6),
-    "mesh_loss": ("mesh_loss_W", 1.0),
-    "rolling_loss": ("rolling_loss_W", 1.0),
-    "other_loss": ("other_loss_W", 1.0),
-    "hertz_pressure": ("hertz_pressure_MPa", 1e-6),
-    "asperity_load_ratio": ("asperity_load_ratio", 1.0),
-    "asperity_real_pressure": ("asperity_real_pressure_MPa", 1e-6),
-    "mean_asperity_load_share": ("mean_asperity_load_share", 1.0),
-    "film_over_unbalanced": ("film_over_unbalanced_film", 1.0),
-}
-"""Column of each output, and the factor from SI to its unit; some outputs need an option."""
-
-DEFINITIONS = {
-    "power_loss": "total power loss, mean over a mesh cycle: the mesh and every loss that is switched on as an effect",
-    "mean_friction": "sliding loss of the mesh over the path integral of load times sliding speed; with "
-    'averaging = "paper", the plain mean of friction over the path',
-    "area_ratio": "boundary area ratio, plain mean over the path of contact as far as it carries load",
-    "film_thickness": "film thickness, plain mean over the path of contact as far as it carries load",
-    "film_parameter": "mean film thickness over composite roughness",
-    "composite_roughness": GLOSSARY["composite_roughness"].meaning,
-    "mesh_loss": GLOSSARY["mesh_loss"].meaning,
-    "rolling_loss": GLOSSARY["rolling_loss"].meaning,
-    "other_loss": "power lost outside the mesh by effects that are switched on: bearings, seals, churning, windage",
-    "hertz_pressure": "largest Hertz pressure of the path of contact",
-    "asperity_load_ratio": "pressure that asperities would carry over mean Hertz pressure, the largest of the path; "
-    'above 1 the film would have to give way, which it does with balance = "johnson_greenwood_poon"',
-    "asperity_real_pressure": "pressure of the asperities over their real contact area, at the place of the path where "
-    "they carry most; 0 where none touch",
-    "mean_asperity_load_share": "share of the load that asperities carry, plain mean over the path of contact as far "
-    "as it carries load",
-    "film_over_unbalanced": "film thickness over that of a film which carries the whole load, plain mean over the "
-    "path of contact as far as it carries load",
-    "balance_error": "part of the load by which film and asperities together miss it, the largest of the path",
-    "film_below_its_share": "1 where the film carries less than its law is for, anywhere on the path",
-    "largest_area_ratio": "boundary area ratio where asperities carry most",
-}
-"""Meaning of each output."""
-
-_ENDS = {
-    end + name: (band_column(own, word), scale)
-    for name, (own, scale) in COLUMNS.items()
-    for end, word in ((LOW, "low"), (HIGH, "high"))
-}
-DEFINITIONS |= {
-    name: f"{'lower' if name.startswith(LOW) else 'upper'} end of the band of {COLUMNS[name.split('_', 1)[1]][0]}"
-    for name in _ENDS
-}
-COLUMNS |= _ENDS
-VALIDITY = "validity"
-"""Column that says of a condition where it is outside the range of the model."""
-VALIDITY_MEANING = f"'{VALID}', or the kinds of findings that say why the condition is outside the model's range"
 LEVELS = ("oil_temperature_C", "torque_Nm", "speed_rpm")
 """Conditions of a study in the order of the axes of its arrays."""
 _ROWS = 200_000
@@ -135,7 +84,7 @@ class Results:
         named = title if len(title) <= LONGEST_TITLE else f"{title[:LONGEST_TITLE]}…"
         levels = self.study.file.conditions
         conditions = (span(name, np.array(getattr(levels, name))) for name in ("torque_Nm", "speed_rpm", LEVELS[0]))
-        outputs = (span(COLUMNS[name][0], self[name] * COLUMNS[name][1]) for name in SUMMARISED)
+        outputs = (span(c.name, c.of(self[c.output])) for c in FIRST if c.output in SUMMARISED)
         count = int(self.outside.sum())
         outside = f"{count} rows are outside the range of the model: {listed(list(self.flags))}"
         return "\n  ".join(
@@ -159,9 +108,10 @@ class Results:
         return np.logical_or.reduce([np.zeros(self.study.plan.shape, bool), *self.flags.values()])
 
     @property
-    def columns(self) -> Mapping[str, tuple[str, float]]:
-        """The columns of the table that this study has."""
-        return {name: column for name, column in COLUMNS.items() if name in self.values}
+    def columns(self) -> tuple[Column, ...]:
+        """The columns of outputs that the table of this study has; that of the validity is behind ``FIRST``."""
+        known = (*COLUMNS.values(), *loss_columns(self.study.plan.losing))
+        return tuple(column for column in known if column.output in self.values)
 
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
@@ -186,15 +136,16 @@ class Results:
             "gear_surface": ("pairing", [b for _, b in self.study.pairings]),
             **{name: (name, list(getattr(levels, name)), {"units": unit_of(name)}) for name in LEVELS},
         }
+        checks = [Column(name, name, CHECKS[name]) for name in batch.CHECKS]
         variables = {
-            column: (("pairing", *LEVELS), self.values[name] * scale, _described(name, column))
-            for name, (column, scale) in {**self.columns, **{name: (name, 1.0) for name in CHECKS}}.items()
+            c.name: (("pairing", *LEVELS), c.of(self.values[c.output]), {"units": c.unit, "long_name": c.meaning})
+            for c in (*self.columns, *checks)
         }
         index, texts = as_words(self.flags, self.study.plan.shape)
         variables[VALIDITY] = (
             ("pairing", *LEVELS),
             np.array(texts)[index],
-            {"units": "", "long_name": VALIDITY_MEANING},
+            {"units": "", "long_name": OF_VALIDITY.meaning},
         )
         whole = {"title": self.study.file.title, "findings": as_texts(self.findings)}
         return xr.Dataset(variables, coordinates, whole)
@@ -222,17 +173,18 @@ class Results:
             }
             for name, level in (("torque_Nm", torque), ("speed_rpm", speed), ("oil_temperature_C", theta)):
                 columns[name] = checkpoint.floats(np.tile(level, len(pairings)))
-            for name, (column, scale) in self.columns.items():
-                columns[column] = checkpoint.floats(self.values[name][start : start + step] * scale)
-            columns[VALIDITY] = checkpoint.words(texts, index[start : start + step].ravel())
+            for c in self.columns:
+                if c.output == FURTHER[0].output:
+                    columns[VALIDITY] = checkpoint.words(texts, index[start : start + step].ravel())
+                columns[c.name] = checkpoint.floats(c.of(self.values[c.output][start : start + step]))
             yield pa.table(columns)
 
     def _described_schema(self, schema: pa.Schema) -> pa.Schema:
         """The columns with unit and meaning, and the metadata of the table."""
         import pyarrow as pa
 
-        meant = meanings()
-        fields = [f.with_metadata({"unit": unit_of(f.name) or "-", "meaning": meant[f.name]}) for f in schema]
+        known = {c.name: c for c in every_column(self.study.plan.losing)}
+        fields = [f.with_metadata({"unit": known[f.name].unit, "meaning": known[f.name].meaning}) for f in schema]
         whole = {"title": self.study.file.title, "fingerprint": checkpoint.fingerprint(self.study.plan), **versions()}
         return pa.schema(fields, metadata=whole)
 
@@ -259,22 +211,9 @@ class Results:
                     writer.close()
 
 
-def meanings() -> dict[str, str]:
-    """Meaning of each column of the table."""
-    levels = {key.name: key.meaning for key in file_table(StudyFile, "conditions").fields}
-    sides = {f"{side}_surface": f"surface of the {side}" for side in ("pinion", "gear")}
-    outputs = {column: DEFINITIONS[name] for name, (column, _) in COLUMNS.items()}
-    return sides | levels | outputs | {VALIDITY: VALIDITY_MEANING}
-
-
 def versions() -> dict[str, str]:
     """Versions of the packages that a result depends on."""
     return {"mixedlub": installed_version(), "NumPy": np.__version__, "Python": sys.version.split()[0]}
-
-
-def _described(name: str, column: str) -> dict[str, str]:
-    """Unit and meaning of a variable."""
-    return {"units": unit_of(column) or "-", "long_name": DEFINITIONS[name]}
 
 
 def run_study(
@@ -305,7 +244,7 @@ def run_study(
         _fill(values, block, found)
         done += 1
         progress(done, total)
-    results = Results(study, values)
+    results = Results(study, values | derived(study.plan, study.pair, values))
     _check_finite(results)
     return results
 
@@ -320,13 +259,13 @@ def results_of(study: Study, state: Mapping[str, Any]) -> Results:
 
 def _check_finite(results: Results) -> None:
     """Refuse inputs at which a law leaves its domain."""
-    for name in results.columns:
-        wrong = ~np.isfinite(results[name])
+    for column in results.columns:
+        wrong = ~np.isfinite(results[column.output])
         if wrong.any():
             p, o, t, s = np.argwhere(wrong)[0]
             levels = results.study.file.conditions
             raise InputError(
-                f"no finite {name.replace('_', ' ')}; look for a number far out of range",
+                f"no finite {column.output.replace('_', ' ')}; look for a number far out of range",
                 where=f"{results.study.name}.toml: {' / '.join(results.study.pairings[p])} at "
                 f"{levels.torque_Nm[t]:g} N m, {levels.speed_rpm[s]:g} rpm, {levels.oil_temperature_C[o]:g} C",
             )

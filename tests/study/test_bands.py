@@ -5,7 +5,7 @@ import pytest
 
 from mixedlub.schema.findings import codes
 from mixedlub.study import read_study, run_study
-from mixedlub.study.results import COLUMNS
+from mixedlub.study.columns import COLUMNS
 from profiles import Profile
 from profiles.errors import InputError
 from profiles.synthesise import from_spectrum
@@ -76,11 +76,11 @@ def test_columns_stand_behind_the_others_with_units(pool, of_profiles):
     table = found.to_pandas()
     own = list(table)
     assert own.index("power_loss_low_W") > own.index("asperity_real_pressure_MPa")
-    for name, (column, _) in COLUMNS.items():
-        if name in found.values and not name.startswith(("lowest_", "highest_")):
-            low, high = COLUMNS["lowest_" + name][0], COLUMNS["highest_" + name][0]
-            assert (table[low] <= table[column]).all()
-            assert (table[column] <= table[high]).all()
+    for name, column in COLUMNS.items():
+        if "lowest_" + name in found.values:
+            low, high = COLUMNS["lowest_" + name].name, COLUMNS["highest_" + name].name
+            assert (table[low] <= table[column.name]).all()
+            assert (table[column.name] <= table[high]).all()
     assert (table["power_loss_low_W"] < table["power_loss_high_W"]).all()
     assert (table["hertz_pressure_low_MPa"] == table["hertz_pressure_MPa"]).all()
 

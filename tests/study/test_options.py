@@ -52,7 +52,7 @@ def test_averages_of_the_paper_are_its_equation(write_study):
     pair, torque, speed = study.pair, 150.0, 3000.0 * np.pi / 30.0
     mean = 0.25 * (pair.path_end - pair.path_start) * speed * (1 + 1 / pair.gear_ratio)
     friction = found["power_loss"][0, 0, 1, 2] / (mean * torque / pair.base_radius[0])
-    assert friction == pytest.approx(found["mean_friction"][0, 0, 1, 2], rel=1e-12)
+    assert friction == pytest.approx(found["plain_mean_friction"][0, 0, 1, 2], rel=1e-12)
     half = run_study(read_study(write_study(options={"averaging": "paper"}, boundary_friction=0.05)))
     less = half["power_loss"][0, 0, 1, 2] / (mean * torque / pair.base_radius[0])
     assert friction - less == pytest.approx(0.05 * found["area_ratio"][0, 0, 1, 2], rel=1e-9)

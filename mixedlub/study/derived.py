@@ -1,0 +1,35 @@
+"""Outputs of a study that follow from others once all conditions are computed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from mixedlub.gear import GearPair
+from mixedlub.study.plan import Plan
+
+MOST_CONTACT_RATIO = 2.0
+"""Largest contact ratio for which Ohlendorf's loss factor is made."""
+
+
+def derived(plan: Plan, pair: GearPair, values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Power taken in, efficiencies, Ohlendorf's loss factor, normalised loss and the like, in the shape of the study."""
+    total, power = values["power_loss"], _input_power(plan)
+    found = {
+        "normalised_loss": total / total.max(),
+        "input_power": np.broadcast_to(power, plan.shape),
+        "efficiency": 1.0 - total / power,
+        "tooth_efficiency": 1.0 - (values["mesh_loss"] + values["rolling_loss"]) / power,
+        "least_film_parameter": values["least_film"] / values["composite_roughness"],
+        "asperity_load_share": np.minimum(values["asperity_load_ratio"], 1.0),
+        "contact_temperature": values["flash_temperature"] + np.asarray(plan.inputs["oil_temperature"])[..., 0],
+    }
+    if plan.spur and pair.contact_ratio <= MOST_CONTACT_RATIO:
+        found["loss_factor"] = np.full(plan.shape, pair.loss_factor)
+    return found
+
+
+def _input_power(plan: Plan) -> np.ndarray:
+    """Torque times angular speed of the pinion (W)."""
+    return np.asarray(plan.inputs["torque"] * plan.inputs["pinion_speed"])[..., 0]
