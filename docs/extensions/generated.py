@@ -52,6 +52,7 @@ def pieces() -> dict[str, str]:
         "missed_rigs": scores.missed(others[scores.TOOL]),
         "by_kind": scores.by_kind(rigs),
         "study_keys": _study_keys(),
+        "study_columns": _study_columns(),
         "friction_laws": _friction_laws(),
         "oils": _oils(),
         "oil_keys": _oil_keys(),
@@ -199,6 +200,23 @@ def _study_keys() -> str:
     from mixedlub.study.schema import StudyFile
 
     return "\n\n".join(part for table in tables(StudyFile) for part in _keys(table))
+
+
+def _study_columns() -> str:
+    """The columns of every table of a study."""
+    from mixedlub.study.columns import every_column
+    from mixedlub.study.curves import curve_columns
+    from mixedlub.study.fits import fit_columns
+
+    tables = {
+        "results.csv, results.parquet": every_column(["EFFECT"]),
+        "fits.csv": fit_columns(),
+        "curves.csv, curves.parquet": curve_columns(),
+    }
+    return "\n\n".join(
+        f"### {title}\n\n{_table(('column', 'unit', 'meaning'), [(c.name, c.unit, c.meaning) for c in columns])}"
+        for title, columns in tables.items()
+    )
 
 
 def _file_keys(module: str, name: str) -> str:

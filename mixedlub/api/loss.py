@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.schema.findings import as_texts, warn_of
 from mixedlub.schema.system_file import Gears, Lubricant, SurfaceSection
 from mixedlub.schema.toml_file import parse
+from mixedlub.study.curves import ALONG_PATH, OF_POINTS
 from mixedlub.study.friction_comparison import judged
 from mixedlub.study.plan import Study, read_study
 from mixedlub.study.results import results_of, run_study
@@ -25,23 +25,6 @@ if TYPE_CHECKING:
 
 Part = TypeVar("Part")
 Surfaces = SurfaceSection | Sequence[SurfaceSection]
-ALONG_PATH = {
-    "path_weight": ("path_weight", 1.0),
-    "load_share": ("load_share", 1.0),
-    "line_load": ("line_load_N_mm", 1e-3),
-    "radius": ("radius_mm", 1e3),
-    "entrainment_speed": ("entrainment_speed_m_s", 1.0),
-    "sliding_speed": ("sliding_speed_m_s", 1.0),
-    "hertz_pressure": ("hertz_pressure_MPa", 1e-6),
-    "film_thickness": ("film_thickness_um", 1e6),
-    "composite_roughness": ("composite_roughness_um", 1e6),
-    "area_ratio": ("boundary_area_ratio", 1.0),
-    "asperity_pressure": ("asperity_pressure_MPa", 1e-6),
-    "shear_stress": ("shear_stress_MPa", 1e-6),
-    "fluid_friction": ("fluid_friction", 1.0),
-    "friction": ("friction", 1.0),
-}
-"""Quantities of a contact point, each with the name that carries its unit and the factor from SI to it."""
 
 
 def power_loss(
@@ -113,19 +96,19 @@ def along_path(
             raise InputError(rule, where=f"along_path: {name}", value=value)
     study = _study("along_path", gears, oil, surfaces, conditions, boundary_friction, options, effects)
     with np.errstate(all="ignore"):
-        state = study.plan.model(ALONG_PATH)(study.plan.inputs, study.plan.parameters)
+        state = study.plan.model(OF_POINTS)(study.plan.inputs, study.plan.parameters)
         findings = results_of(study, state).findings
     points = study.mesh
     shape = (points.position.size // points.slices, points.slices)
     angle = np.degrees(points.roll_angle).reshape(shape)[:, 0]
     face = 1e3 * points.face_position.reshape(shape)[0]
     variables = {
-        column: (
+        c.name: (
             ("roll_angle_deg", "face_position_mm"),
-            np.broadcast_to(state[name], (1, 1, 1, 1, points.position.size)).reshape(shape) * factor,
-            {"long_name": GLOSSARY[name].meaning},
+            c.of(np.broadcast_to(state[c.output], (1, 1, 1, 1, points.position.size)).reshape(shape)),
+            {"units": c.unit, "long_name": c.meaning},
         )
-        for name, (column, factor) in ALONG_PATH.items()
+        for c in ALONG_PATH
     }
     law = study.plan.friction
     if law is not None:

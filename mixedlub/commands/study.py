@@ -29,6 +29,9 @@ def command(
         str,
         typer.Option("--format", metavar="LIST", help="Formats of the figures: svg, pdf, png, with commas between."),
     ] = "svg",
+    curves: Annotated[
+        bool, typer.Option("--curves", help="Also a table of every point of the path of contact at every condition.")
+    ] = False,
     replace: Annotated[
         bool, typer.Option("--replace", help="Replace the result of another study, or other files, in that folder.")
     ] = False,
@@ -43,13 +46,17 @@ def command(
     An interrupted run resumes when it is started again with the same inputs.
     """
     from mixedlub.study import checkpoint, counted, factors, read_study, run_study
-    from mixedlub.study.record import WRITTEN, running, study_origin, write_record
+    from mixedlub.study.curves import is_of_another_study, refuse_too_many, write_curves
+    from mixedlub.study.fits import can_be_fitted, write_fits
+    from mixedlub.study.record import CURVES, FITS, WRITTEN, running, study_origin, write_record
     from mixedlub.study.validity import out_of_range
 
     formats = chosen_formats(format_)
     with input_errors_from(str(file)):
         study = read_study(file)
         given = file.read_bytes()
+    if curves:
+        refuse_too_many(study)
     folder = output_folder(out, NAME, study.name, knows_own=True)
     with running(folder, study):
         earlier = "" if replace else study_origin(study, file).check_folder(folder, WRITTEN, "study")
@@ -70,6 +77,10 @@ def command(
         print_findings(warnings)
         with writing(folder) as aside:
             results.write(aside / "results.csv", aside / "results.parquet")
+            if can_be_fitted(results):
+                write_fits(results, aside / FITS)
+            if curves:
+                write_curves(study, *(aside / name for name in CURVES))
             if figures:
                 from mixedlub.report.page import write_page
 
@@ -83,6 +94,8 @@ def command(
     page = folder / "index.html"
     if not figures and page.exists() and checkpoint.fingerprint(study.plan) not in page.read_text("utf-8", "replace"):
         note(f"{page} and the figures beside it are of another study; without --no-figures they are drawn anew")
+    if not curves and is_of_another_study(folder / CURVES[-1], study):
+        note(f"{folder / CURVES[-1]} is of another state of the study; with --curves it is written anew")
     echo(f"results in {folder / 'results.csv'} and .parquet" + (f", page {page}" if figures else ""))
 
 

@@ -4,24 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-
 from mixedlub.schema.findings import collected
 from mixedlub.study import Results, read_study, run_study
+from mixedlub.study.fits import FEWEST_PAIRINGS, over_roughness
 from mixedlub.study.plan import Study
 from profiles.errors import InputError
 
 FACTORS = (0.5, 1.0, 2.0, 3.2)
 """Short cut-offs over those of the study; the last takes 2.5 um to the next of ISO 3274, 8 um."""
-FEWEST_PAIRINGS, MOST_TRACES, MOST_ROWS = 3, 12, 20_000
-"""Fewest pairings that a straight line says anything of, and most traces and conditions that are computed again."""
-
-
-def squares(results: Results) -> np.ndarray:
-    """R^2 of a straight line of loss over composite roughness, of shape (oil temperature, torque, speed)."""
-    x, y = (a - a.mean(axis=0) for a in (results["composite_roughness"], results["power_loss"]))
-    with np.errstate(invalid="ignore", divide="ignore"):
-        return (x * y).sum(axis=0) ** 2 / ((x**2).sum(axis=0) * (y**2).sum(axis=0))
+MOST_TRACES, MOST_ROWS = 12, 20_000
+"""Most traces and conditions that are computed again."""
 
 
 def cutoff_rows(results: Results) -> list[tuple[str, str, str, str]]:
@@ -39,7 +31,7 @@ def cutoff_rows(results: Results) -> list[tuple[str, str, str, str]]:
         except InputError:
             continue
         used = sorted({factor * (cutoff or 0.0) * 1e6 for cutoff in own.values()})
-        fits = squares(found)
+        fits = over_roughness(found).square
         label = " to ".join(f"{value:.3g}" for value in dict.fromkeys((used[0], used[-1])))
         rows.append((label, f"{fits.min():.3f}", f"{fits.max():.3f}", f"{found['area_ratio'].max():.2f}"))
     return rows

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from mixedlub.parallel import shared_out
-from mixedlub.report.cutoff_table import FEWEST_PAIRINGS, cutoff_rows, squares
+from mixedlub.report.cutoff_table import cutoff_rows
 from mixedlub.report.figures import Drawn, figures
 from mixedlub.report.laws import laws_used
 from mixedlub.report.style import as_svg, save
@@ -28,6 +28,7 @@ from mixedlub.schema.section import FileTable, Key, table
 from mixedlub.study import counted, factors
 from mixedlub.study.checkpoint import fingerprint
 from mixedlub.study.columns import OF_VALIDITY
+from mixedlub.study.fits import FEWEST_PAIRINGS, over_roughness
 from mixedlub.study.options import ignored
 from mixedlub.study.plan import Study
 from mixedlub.study.record import assumed, resolved
@@ -165,7 +166,7 @@ def _shared(results: Results) -> str:
 
 def _linear(results: Results, where: Callable[[int], str]) -> str:
     """How well a straight line over composite roughness fits; empty where it would fit any pairings."""
-    fits = squares(results)
+    fits = over_roughness(results).square
     if len(results.study.pairings) < FEWEST_PAIRINGS or not np.isfinite(fits).all():
         return ""
     worst = where(int(fits.argmin())).partition(" at ")[2]

@@ -154,14 +154,14 @@ def _computed(plan: Plan, block: Block) -> Found:
 def _fill(plan: Plan, block: Block, found: Found) -> None:
     shape = tuple(s.stop - s.start for s in block)
     common, own = stages(plan.model(), plan.inputs)
-    inputs = _taken(plan.inputs, block)
+    inputs = taken(plan.inputs, block)
     size = reach(shape, plan.points, PIECE_POINTS, PIECE_PAIRINGS)
     for conditions in split((1, *shape[1:]), (1, *size[1:])):
-        shared = _taken(inputs, (slice(None), *conditions[1:]))
+        shared = taken(inputs, (slice(None), *conditions[1:]))
         shared.update(common(shared, plan.parameters))
         for start in range(0, shape[0], size[0]):
             pairings = slice(start, min(start + size[0], shape[0]))
-            piece = _taken(shared, (pairings,))
+            piece = taken(shared, (pairings,))
             piece.update(own(piece, plan.parameters))
             for name, values in reduced(piece, plan).items():
                 found[name][(pairings, *conditions[1:])] = values[..., 0]
@@ -190,7 +190,7 @@ def _part(model: Model, steps: Sequence[Step], want: Sequence[str]) -> Model:
     return part
 
 
-def _taken(inputs: Inputs, ranges: Sequence[slice]) -> dict[str, Any]:
+def taken(inputs: Inputs, ranges: Sequence[slice]) -> dict[str, Any]:
     """The inputs sliced along the leading axes; axes of length one are kept."""
 
     def part(value: Any) -> Any:

@@ -14,7 +14,7 @@ MOST_CONTACT_RATIO = 2.0
 
 
 def derived(plan: Plan, pair: GearPair, values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Power taken in, efficiencies, Ohlendorf's loss factor, normalised loss and the like, in the shape of the study."""
+    """Power taken in, efficiencies, Ohlendorf's loss factor, normalised loss and others, in the shape of the study."""
     total, power = values["power_loss"], _input_power(plan)
     found = {
         "normalised_loss": total / total.max(),

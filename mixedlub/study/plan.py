@@ -165,6 +165,11 @@ class Study:
     notes: tuple[Finding, ...] = ()
 
     @property
+    def needs_quotes(self) -> bool:
+        """Whether a name of a surface needs quotes in a CSV file."""
+        return any(mark in name for both in self.pairings for name in both for mark in ',"\n\r')
+
+    @property
     def conditions(self) -> int:
         """Rows of the result."""
         return int(np.prod(self.plan.shape))

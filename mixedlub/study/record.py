@@ -28,7 +28,8 @@ from roughness.mccool import nayak_parameter, summit_density, summit_radius
 
 SCHEMA = "mixedlub-study-result/1"
 GIVEN, RESOLVED = "study.toml", "resolved.json"
-WRITTEN = ("results.csv", "results.parquet", "index.html", GIVEN, RESOLVED)
+FITS, CURVES = "fits.csv", ("curves.csv", "curves.parquet")
+WRITTEN = ("results.csv", "results.parquet", FITS, *CURVES, "index.html", GIVEN, RESOLVED)
 """Files of a result outside the folder of figures."""
 
 

@@ -23,12 +23,14 @@ from mixedlub.study.columns import (
     OF_VALIDITY,
     VALIDITY,
     Column,
+    condition_columns,
     every_column,
     loss_columns,
 )
 from mixedlub.study.derived import derived
 from mixedlub.study.plan import Study, counted, factors
 from mixedlub.study.range_flags import as_words, flags
+from mixedlub.study.table_files import write_tables
 from mixedlub.study.validity import out_of_range
 from mixedlub.version import installed_version
 from profiles.errors import InputError, refuse_other
@@ -41,7 +43,6 @@ if TYPE_CHECKING:
 LEVELS = ("oil_temperature_C", "torque_Nm", "speed_rpm")
 """Conditions of a study in the order of the axes of its arrays."""
 _ROWS = 200_000
-_REPEATING = ["pinion_surface", "gear_surface", "torque_Nm", "speed_rpm", "oil_temperature_C", VALIDITY]
 
 
 SUMMARISED = ("power_loss", "mean_friction", "film_parameter")
@@ -179,36 +180,22 @@ class Results:
                 columns[c.name] = checkpoint.floats(c.of(self.values[c.output][start : start + step]))
             yield pa.table(columns)
 
-    def _described_schema(self, schema: pa.Schema) -> pa.Schema:
-        """The columns with unit and meaning, and the metadata of the table."""
-        import pyarrow as pa
-
-        known = {c.name: c for c in every_column(self.study.plan.losing)}
-        fields = [f.with_metadata({"unit": known[f.name].unit, "meaning": known[f.name].meaning}) for f in schema]
-        whole = {"title": self.study.file.title, "fingerprint": checkpoint.fingerprint(self.study.plan), **versions()}
-        return pa.schema(fields, metadata=whole)
-
     def write(self, csv_path: Path, parquet_path: Path) -> None:
         """The rows as CSV and Parquet."""
-        import pyarrow.csv as pc
-        import pyarrow.parquet as pq
+        write_tables(
+            self.tables(),
+            every_column(self.study.plan.losing),
+            about_table(self.study),
+            csv=csv_path,
+            parquet=parquet_path,
+            quoted=self.study.needs_quotes,
+            repeating=[*(c.name for c in condition_columns()), VALIDITY],
+        )
 
-        plain = not any(mark in name for both in self.study.pairings for name in both for mark in ',"\n\r')
-        quoting = "none" if plain else "needed"
-        options = pc.WriteOptions(quoting_style=quoting, quoting_header="none")
-        csv_writer = parquet_writer = None
-        try:
-            for table in self.tables():
-                csv_writer = csv_writer or pc.CSVWriter(csv_path, table.schema, write_options=options)
-                parquet_writer = parquet_writer or pq.ParquetWriter(
-                    parquet_path, self._described_schema(table.schema), use_dictionary=_REPEATING
-                )
-                csv_writer.write_table(table)
-                parquet_writer.write_table(table)
-        finally:
-            for writer in (csv_writer, parquet_writer):
-                if writer is not None:
-                    writer.close()
+
+def about_table(study: Study) -> dict[str, str]:
+    """The metadata of a table of a study."""
+    return {"title": study.file.title, "fingerprint": checkpoint.fingerprint(study.plan), **versions()}
 
 
 def versions() -> dict[str, str]:
@@ -244,15 +231,18 @@ def run_study(
         _fill(values, block, found)
         done += 1
         progress(done, total)
-    results = Results(study, values | derived(study.plan, study.pair, values))
-    _check_finite(results)
-    return results
+    return _whole(study, values)
 
 
 def results_of(study: Study, state: Mapping[str, Any]) -> Results:
     """The results of a study all of whose contact points are computed, as `Plan.model` has them."""
     found = batch.reduced({**study.plan.inputs, **state}, study.plan)
-    results = Results(study, {n: np.broadcast_to(values[..., 0], study.plan.shape) for n, values in found.items()})
+    return _whole(study, {n: np.broadcast_to(values[..., 0], study.plan.shape) for n, values in found.items()})
+
+
+def _whole(study: Study, values: Mapping[str, np.ndarray]) -> Results:
+    """The results with the outputs that follow from others; refused where one is not finite."""
+    results = Results(study, {**values, **derived(study.plan, study.pair, values)})
     _check_finite(results)
     return results
 

@@ -1,0 +1,98 @@
+"""Straight lines of the loss over roughness and over area ratio, one of each a condition."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mixedlub.study import checkpoint
+from mixedlub.study.columns import Column, condition_columns
+from mixedlub.study.results import LEVELS, Results
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+FEWEST_PAIRINGS = 3
+"""Fewest pairings that a straight line says anything of."""
+_LINE = "straight line of power_loss_W over composite_roughness_um, by least squares through all pairings"
+_OVER_AREA = "straight line of power_loss_W over boundary_area_ratio, in the same way"
+OF_FITS = (
+    Column("pairings", "pairings", "number of pairings that the lines go through, those out of range among them"),
+    Column("slope", "slope_W_per_um", f"slope of the {_LINE}", 1e-6, given_unit="W/µm"),
+    Column("intercept", "intercept_W", "power loss of that line at no roughness"),
+    Column("square", "r_squared", "coefficient of determination R² of that line"),
+    Column("residual", "residual_W", "root mean square of the differences from that line"),
+    Column("area_slope", "area_ratio_slope_W", f"slope of the {_OVER_AREA}"),
+    Column("area_intercept", "area_ratio_intercept_W", "power loss of that line where no asperities touch"),
+    Column("area_square", "area_ratio_r_squared", "coefficient of determination R² of that line"),
+)
+"""Columns of the fits, behind those of the conditions."""
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """A straight line through the pairings at each condition; arrays of shape (oil temperature, torque, speed).
+
+    >>> x = np.array([1.0, 2.0, 3.0]).reshape(3, 1, 1, 1)
+    >>> line = straight_line(x, 2.0 * x + 5.0)
+    >>> line.slope.item(), line.intercept.item(), line.square.item()
+    (2.0, 5.0, 1.0)
+    """
+
+    slope: np.ndarray
+    intercept: np.ndarray
+    square: np.ndarray
+    residual: np.ndarray
+
+
+def straight_line(x: np.ndarray, y: np.ndarray) -> Line:
+    """The line of least squares of y over x along the first axis; not a number where all x agree."""
+    dx, dy = x - x.mean(axis=0), y - y.mean(axis=0)
+    across, along, both = (dx**2).sum(axis=0), (dy**2).sum(axis=0), (dx * dy).sum(axis=0)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        slope, square = both / across, both**2 / (across * along)
+    intercept = y.mean(axis=0) - slope * x.mean(axis=0)
+    return Line(slope, intercept, square, np.sqrt(((y - intercept - slope * x) ** 2).mean(axis=0)))
+
+
+def over_roughness(results: Results) -> Line:
+    """The line of loss over composite roughness at each condition."""
+    return straight_line(results["composite_roughness"], results["power_loss"])
+
+
+def can_be_fitted(results: Results) -> bool:
+    """Whether the pairings are enough, and rough enough apart, for straight lines."""
+    roughness = results["composite_roughness"][:, 0, 0, 0]
+    return len(np.unique(roughness)) >= FEWEST_PAIRINGS
+
+
+def fit_columns() -> list[Column]:
+    """Every column of the fits."""
+    sides = ("pinion_surface", "gear_surface")
+    return [*(c for c in condition_columns() if c.name not in sides), *OF_FITS]
+
+
+def fits(results: Results) -> pa.Table:
+    """The lines of a study as a table, a row a condition."""
+    import pyarrow as pa
+
+    line, area = over_roughness(results), straight_line(results["area_ratio"], results["power_loss"])
+    values = {
+        "pairings": np.full(line.slope.shape, float(len(results.study.pairings))),
+        **{name: getattr(line, name) for name in ("slope", "intercept", "square", "residual")},
+        **{f"area_{name}": getattr(area, name) for name in ("slope", "intercept", "square")},
+    }
+    axes = (getattr(results.study.file.conditions, name) for name in LEVELS)
+    grid = dict(zip(LEVELS, np.meshgrid(*axes, indexing="ij"), strict=True))
+    columns = {c.name: grid[c.name] if c.name in grid else c.of(values[c.output]) for c in fit_columns()}
+    return pa.table({name: checkpoint.floats(column) for name, column in columns.items()})
+
+
+def write_fits(results: Results, path: Path) -> None:
+    """The lines of a study as CSV; an empty cell where there is none."""
+    import pyarrow.csv as pc
+
+    pc.write_csv(fits(results), path, pc.WriteOptions(quoting_header="none"))
