@@ -29,6 +29,9 @@ def command(
         str,
         typer.Option("--format", metavar="LIST", help="Formats of the figures: svg, pdf, png, with commas between."),
     ] = "svg",
+    paper_figures: Annotated[
+        bool, typer.Option("--paper-figures", help="Also figures for print, one column wide, losses normalised.")
+    ] = False,
     curves: Annotated[
         bool, typer.Option("--curves", help="Also a table of every point of the path of contact at every condition.")
     ] = False,
@@ -52,6 +55,8 @@ def command(
     from mixedlub.study.validity import out_of_range
 
     formats = chosen_formats(format_)
+    if paper_figures and not figures:
+        raise InputError("draws figures, which --no-figures leaves out; leave one of them out", where="--paper-figures")
     with input_errors_from(str(file)):
         study = read_study(file)
         given = file.read_bytes()
@@ -87,7 +92,9 @@ def command(
                 text = given.decode("utf-8-sig")
                 with busy("drawing figures") as doing:
                     seen = (*warnings, *study.notes)
-                    of_heights = write_page(results, aside, seen, given=text, formats=formats, doing=doing)
+                    of_heights = write_page(
+                        results, aside, seen, given=text, formats=formats, as_in_paper=paper_figures, doing=doing
+                    )
                 print_findings(of_heights)
             write_record(aside, folder, study, file, given)
         checkpoint.clear(folder)

@@ -61,7 +61,7 @@ def figures(results: Results) -> Iterator[Drawn]:
 
 
 def _over_temperature(results: Results) -> Drawn:
-    key, words, chosen = _groups(results)[0]
+    key, words, chosen = groups(results)[0]
     whose, levels = results.study.file.options.conditions_of, results.study.file.conditions
     (fastest,) = shown([max(levels.speed_rpm)])
     return Drawn(
@@ -84,7 +84,7 @@ def _at_temperature(results: Results, theta: int, several: bool) -> Iterator[Dra
     for quantity, title in OVER_SPEED.items():
         if quantity not in results.values:
             continue
-        for key, words, chosen in _groups(results):
+        for key, words, chosen in groups(results):
             if len(chosen):
                 caption = f"{title} against {whose} speed: {words}{at}. {_title_words(some_torques)}"
                 caption += _hollow(results.outside[chosen, theta]) + _shaded(results)
@@ -169,7 +169,7 @@ def _some_of(levels: Sequence[float], most: int, what: str, unit: str) -> str:
     return f" Drawn are {len(places)} of {len(levels)} {what}: {', '.join(others)} and {last} {unit}."
 
 
-def _groups(results: Results) -> list[tuple[str, str, np.ndarray]]:
+def groups(results: Results) -> list[tuple[str, str, np.ndarray]]:
     """Pairings drawn in one figure: key, words and indices."""
     has_equal = any(a == b for a, b in results.study.pairings)
     smoothest = smoothest_surface(results)

@@ -13,6 +13,7 @@ from mixedlub.parallel import shared_out
 from mixedlub.report.cutoff_table import cutoff_rows
 from mixedlub.report.figures import Drawn, figures
 from mixedlub.report.laws import laws_used
+from mixedlub.report.paper_figures import paper_figures
 from mixedlub.report.style import as_svg, save
 from mixedlub.report.surfaces import (
     height_notes,
@@ -45,11 +46,13 @@ def write_page(
     *,
     given: str = "",
     formats: Sequence[str] = ("svg",),
+    as_in_paper: bool = False,
     doing: Callable[[str], None] = lambda text: None,
 ) -> list[Finding]:
     """Write ``index.html`` and ``figures/`` into a folder; return the findings on the heights of the traces.
 
-    ``given`` is the study file as text; ``doing`` is called with what is done next.
+    ``given`` is the study file as text; ``as_in_paper`` adds files of the figures as the paper draws them; ``doing`` is
+    called with what is done next.
     """
     from jinja2 import Environment
 
@@ -59,15 +62,17 @@ def write_page(
     profiles = traced(study)
     judged = judgement(profiles)
     drawn = [*surface_figures(study, profiles, judged), *figures(results)]
-    doing(f"drawing {len(drawn)} figures")
-    svgs = shared_out(lambda one: _saved(one, drawings, formats), drawn)
-    shown = [{"name": one.name, "caption": one.caption, "svg": svg} for one, svg in zip(drawn, svgs, strict=True)]
+    printed = list(paper_figures(results)) if as_in_paper else []
+    doing(f"drawing {len(drawn) + len(printed)} figures")
+    svgs = shared_out(lambda one: _saved(one, drawings, formats), [*drawn, *printed])
+    shown = [{"name": one.name, "caption": one.caption, "svg": svg} for one, svg in zip(drawn, svgs)]
+    files_of = [{"file": f"{one.name}.{formats[0]}", "caption": one.caption} for one in printed]
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(files("mixedlub.report").joinpath("template.html").read_text(encoding="utf-8"))
     normal = study.plan.options.heights == "gaussian"
     of_heights = [*(not_gaussian(judged) if normal else []), *height_notes(profiles, judged, normal)]
     texts = {"notes": grouped([*notes, *of_heights]), "provenance": provenance(study), "given": given}
-    page = template.render(**content(results), **texts, figures=shown)
+    page = template.render(**content(results), **texts, figures=shown, printed=files_of)
     (folder / "index.html").write_text(page, encoding="utf-8")
     return of_heights
 
