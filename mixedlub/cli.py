@@ -18,6 +18,7 @@ from mixedlub.commands import (
     diagnose,
     effects,
     ehl,
+    factors,
     friction_laws,
     gear,
     import_files,
@@ -48,6 +49,7 @@ from profiles.errors import InputError, RunError, nearest
 COMMANDS = (
     profile,
     study,
+    factors,
     simulate,
     gear,
     ehl,

@@ -21,7 +21,7 @@ from roughness.probability import NormalProbability, normal_probability
 from roughness.record import evaluation_profile, profile_record, trace_record
 from roughness.robust import robust_mean_line, spline_mean_line
 from roughness.spectrum import autocorrelation, correlation_length, power_density
-from roughness.uncertainty import bootstrap, short_cutoff_band, smoothed_moments
+from roughness.uncertainty import bootstrap, resampled_moments, short_cutoff_band, smoothed_moments
 
 __all__ = [
     "Asperities",
@@ -54,6 +54,7 @@ __all__ = [
     "primary_profile",
     "profile_record",
     "remove_form",
+    "resampled_moments",
     "robust_mean_line",
     "roughness_profile",
     "short_cutoff_band",

@@ -62,6 +62,34 @@ def bootstrap(
     """
     from scipy.special import stdtrit
 
+    squares = _by_section(profile, sections)
+    count = len(squares)
+    picks = np.random.default_rng(seed).integers(0, count, (draws, count))
+    drawn = np.log([_quantities(*means) for means in squares[picks].mean(axis=1)])
+    centre = np.log(_quantities(*squares.mean(axis=0)))
+    reach = stdtrit(count - 1, (1 + level) / 2) * np.sqrt(count / (count - 1)) * drawn.std(axis=0)
+    bounds = np.exp((centre - reach, centre + reach)).T
+    return {name: (float(low), float(high)) for name, (low, high) in zip(_QUANTITIES, bounds, strict=True)}
+
+
+@of_profile
+def resampled_moments(profile: Profile, random: np.random.Generator) -> Moments:
+    """Moments of as many sampling lengths as the profile has, drawn anew with replacement.
+
+    >>> from profiles import shipped
+    >>> from roughness import evaluation_profile
+    >>> profile = evaluation_profile(shipped("0258"), cutoff=0.8e-3)
+    >>> draws = [resampled_moments(profile, np.random.default_rng(seed)).m0 for seed in range(3)]
+    >>> all(0.8 < m0 / moments(profile).m0 < 1.25 for m0 in draws), len(set(draws))
+    (True, 3)
+    """
+    squares = _by_section(profile, None)
+    m0, m2, m4 = squares[random.integers(0, len(squares), len(squares))].mean(axis=0)
+    return Moments(float(m0), float(m2), float(m4))
+
+
+def _by_section(profile: Profile, sections: int | None) -> np.ndarray:
+    """m0, m2 and m4 of each sampling length."""
     count = section_count(profile) if sections is None else sections
     if count < 3:
         raise InputError(
@@ -73,13 +101,7 @@ def bootstrap(
         moments(Profile(z, profile.spacing, valid=m))
         for z, m in zip(np.array_split(profile.heights, count), np.array_split(profile.valid, count))
     ]
-    squares = np.array([(p.m0, p.m2, p.m4) for p in parts])
-    picks = np.random.default_rng(seed).integers(0, count, (draws, count))
-    drawn = np.log([_quantities(*means) for means in squares[picks].mean(axis=1)])
-    centre = np.log(_quantities(*squares.mean(axis=0)))
-    reach = stdtrit(count - 1, (1 + level) / 2) * np.sqrt(count / (count - 1)) * drawn.std(axis=0)
-    bounds = np.exp((centre - reach, centre + reach)).T
-    return {name: (float(low), float(high)) for name, (low, high) in zip(_QUANTITIES, bounds, strict=True)}
+    return np.array([(p.m0, p.m2, p.m4) for p in parts])
 
 
 _QUANTITIES = ("m0", "m2", "m4", "density", "radius", "sigma", "plane_offset")

@@ -1,4 +1,4 @@
-"""`mixedlub new`: a template of a study file, a case folder, a file of contacts or of gears, which runs unchanged."""
+"""`mixedlub new`: a template of a study, its factors, a case, contacts or gears, which runs unchanged."""
 
 from __future__ import annotations
 
@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 NAME = "new"
 EXAMPLE = "mixedlub new study --out out/my_study"
 
-STUDY, CASE, EHL, GEAR = "study", "case", "ehl", "gear"
+STUDY, FACTORS, CASE, EHL, GEAR = "study", "factors", "case", "ehl", "gear"
+TEMPLATES = (STUDY, FACTORS, CASE, EHL, GEAR)
 KIND = "gear_pair"
 """Default kind of a case."""
 ROWS = 40
@@ -38,7 +39,7 @@ Given = Mapping[str, Any]
 
 
 def command(
-    what: Annotated[str, typer.Argument(metavar="study|case|ehl|gear", help="What to start.")],
+    what: Annotated[str, typer.Argument(metavar="study|factors|case|ehl|gear", help="What to start.")],
     kind: Annotated[
         str | None, typer.Option(metavar="KIND", help=f"Kind of case; default {KIND}. `mixedlub kinds` lists them.")
     ] = None,
@@ -46,16 +47,17 @@ def command(
         Path | None, typer.Option(metavar="DIR", parser=named_folder, help="Folder to make; default out/new/WHAT.")
     ] = None,
 ) -> None:
-    """A study, a case, contacts or gears to start from.
+    """A study, its factors, a case, contacts or gears to start from.
 
     A template with the values of an example rig: optional keys are comments with their meaning. It runs unchanged; the
     readings of a case are synthetic, from the base model.
     """
-    if what not in (known := (STUDY, CASE, EHL, GEAR)):
-        raise InputError(f"no such template; {nearest(what, known)}", where="what", value=what)
+    if what not in TEMPLATES:
+        raise InputError(f"no such template; {nearest(what, TEMPLATES)}", where="what", value=what)
     if what != CASE and kind is not None:
         raise InputError("only a case has a kind", where="--kind", value=kind)
-    files = {STUDY: study_files, EHL: ehl_files, GEAR: gear_files}[what]() if what != CASE else case_files(kind or KIND)
+    makers = {STUDY: study_files, FACTORS: factor_files, EHL: ehl_files, GEAR: gear_files}
+    files = makers[what]() if what != CASE else case_files(kind or KIND)
     for name in files:
         if out is not None and (out / name).exists():
             raise InputError("exists, and a template would replace it; name another --out", where=str(out / name))
@@ -65,6 +67,7 @@ def command(
             (aside / name).write_text(text, encoding="utf-8")
     place, commands = {
         STUDY: (folder / "study.toml", ("study",)),
+        FACTORS: (folder / "factors.toml", ("factors",)),
         EHL: (folder / "contacts.toml", ("ehl",)),
         GEAR: (folder / "gear.toml", ("gear",)),
         CASE: (folder, ("check", "diagnose")),
@@ -77,6 +80,21 @@ def command(
 def study_files() -> dict[str, str]:
     """The file of a study."""
     return {"study.toml": study_text()}
+
+
+def factor_files() -> dict[str, str]:
+    """A file of factors and the study that it varies."""
+    from mixedlub.schema.section import examples
+    from mixedlub.study.factor_file import FactorFile, Factors
+
+    given = {
+        "schema": "mixedlub-factors/1",
+        "title": "What decides the loss",
+        "study": "study.toml",
+        "factors": examples(Factors),
+    }
+    text = "\n".join(_lines(FactorFile, given, tuple(FactorFile.model_fields))) + "\n"
+    return {"factors.toml": text, **study_files()}
 
 
 def ehl_files() -> dict[str, str]:

@@ -31,7 +31,8 @@ def _levels(value: Any) -> Any:
     return np.linspace(low, high, count).tolist()
 
 
-def _once(values: tuple[Any, ...]) -> tuple[Any, ...]:
+def each_once(values: tuple[Any, ...]) -> tuple[Any, ...]:
+    """The levels, none of which may appear twice."""
     doubled = sorted({v for v in values if values.count(v) > 1}, key=str) if len(values) < 1000 else []
     if doubled or len(set(values)) < len(values):
         raise ValueError(f"each level once, but {doubled[0] if doubled else 'one'} appears again")
@@ -53,7 +54,7 @@ class Conditions(Section):
     def _each_once(self) -> Conditions:
         for name in ("torque_Nm", "speed_rpm", "oil_temperature_C"):
             try:
-                _once(getattr(self, name))
+                each_once(getattr(self, name))
             except ValueError as error:
                 raise ValueError(f"{name}: {error}") from None
         return self
@@ -78,7 +79,7 @@ class Pairings(Section):
         if (self.every is None) == (None in lists) or (self.every is not None and lists != (None, None)):
             raise ValueError("needs either every = [...], or both pinion = [...] and gear = [...]")
         for names in (self.every, *lists):
-            _once(names or ())
+            each_once(names or ())
         return self
 
 

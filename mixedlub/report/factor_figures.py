@@ -1,0 +1,107 @@
+"""Figures of an experiment: which factor decides the response, and how the response moves with each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mixedlub.report.figures import Drawn
+from mixedlub.report.style import SMALL, WIDTH, panels, styled
+from mixedlub.schema.units import unit_of, without_unit
+from mixedlub.study.factor_tables import Decided
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+MOST_NAMED = 24
+"""Most characters of a name on an axis."""
+MOST_NAMES = 6
+"""Most names of levels along an axis."""
+ALONE, WITH_OTHERS = "#21618c", "#a9cce3"
+
+
+def factor_figures(decided: Decided) -> Iterator[Drawn]:
+    """The indices as bars, and the main effects."""
+    what = _words(decided.response)
+    with styled():
+        yield Drawn(
+            "indices",
+            f"Share of the variance of {what} that each factor decides alone (dark) and together with others (light)."
+            + (
+                " Bars of error: 95 % intervals of the resampled runs."
+                if decided.indices.total_ends is not None
+                else ""
+            ),
+            _indices(decided),
+        )
+        yield Drawn(
+            "main_effects",
+            f"Mean of {what} at the levels of each factor, over all else. The dashed line is the mean of all.",
+            _main_effects(decided),
+        )
+
+
+def _words(name: str) -> str:
+    return without_unit(name).replace("_", " ")
+
+
+def _label(name: str) -> str:
+    """A factor or response with its unit.
+
+    >>> _label("face_width_mm"), _label("oil")
+    ('face width (mm)', 'oil')
+    """
+    unit = unit_of(name)
+    return f"{_words(name)} ({unit})" if unit else _words(name)
+
+
+def _indices(decided: Decided) -> Figure:
+    from matplotlib.figure import Figure
+
+    order = np.argsort(decided.indices.total)
+    first, total = (np.maximum(values[order], 0.0) for values in (decided.indices.first, decided.indices.total))
+    figure = Figure(figsize=(WIDTH * 0.65, 0.28 * len(order) + 1.0), layout="constrained")
+    panel = figure.subplots()
+    places = np.arange(len(order))
+    panel.barh(places, total, color=WITH_OTHERS, label="with others")
+    panel.barh(places, first, color=ALONE, label="alone")
+    ends = decided.indices.total_ends
+    if ends is not None:
+        reach = np.abs(ends[:, order] - decided.indices.total[order])
+        panel.errorbar(total, places, xerr=reach, fmt="none", ecolor="0.25", elinewidth=0.8, capsize=2)
+    panel.set_yticks(places, [_words(decided.names[i]) for i in order])
+    panel.set_xlabel(f"share of the variance of {_words(decided.response)} (-)")
+    panel.set_xlim(left=0.0)
+    panel.grid(axis="y", visible=False)
+    figure.legend(loc="outside upper right", ncols=2)
+    return figure
+
+
+def _main_effects(decided: Decided) -> Figure:
+    figure, axes, columns = panels(len(decided.main_effects), 3, height=1.9, sharex=False)
+    for number, (panel, (name, effect)) in enumerate(zip(axes, decided.main_effects.items(), strict=True)):
+        if all(isinstance(level, int | float) for level in effect.levels) and name != "replicate":
+            x = np.array(effect.levels, dtype=float)
+            order = np.argsort(x)
+            panel.plot(x[order], effect.mean[order], color=ALONE, marker="o")
+        else:
+            order = np.argsort(effect.mean)
+            panel.plot(np.arange(order.size), effect.mean[order], color=ALONE, marker="o", linestyle="")
+            _name_levels(panel, [str(effect.levels[i]) for i in order])
+        panel.axhline(decided.mean, color="0.35", linewidth=0.8, linestyle=(0, (4, 3)))
+        panel.set_xlabel(_label(name))
+        if number % columns == 0:
+            panel.set_ylabel(f"{_words(decided.response)} ({decided.unit})", fontsize=SMALL)
+    return figure
+
+
+def _name_levels(panel: Axes, names: list[str]) -> None:
+    """Names of levels along the axis where there are few."""
+    if len(names) > MOST_NAMES:
+        panel.set_xticks([])
+        return
+    short = [name if len(name) <= MOST_NAMED else f"{name[: MOST_NAMED - 1]}…" for name in names]
+    panel.set_xticks(range(len(names)), short, rotation=20, ha="right")

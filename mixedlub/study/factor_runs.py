@@ -1,0 +1,228 @@
+"""The runs of a file of factors: the study altered for each combination of levels, and what comes of it."""
+
+from __future__ import annotations
+
+import copy
+import itertools
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mixedlub.parallel import shared_out
+from mixedlub.rig.rig import Rig
+from mixedlub.schema.findings import collected
+from mixedlub.schema.toml_file import parse, read_toml
+from mixedlub.study.factor_file import OVER, FactorFile
+from mixedlub.study.plan import Study, read_study
+from mixedlub.study.results import LEVELS, Results, run_study
+from mixedlub.study.schema import StudyFile
+from mixedlub.study.sensitivity import all_samples, base_samples
+from profiles.errors import InputError
+
+Run = dict[str, Any]
+"""The level of every factor in one run."""
+MOST_ROWS = 2_000_000
+"""Most rows of the table of a full factorial."""
+CHUNK = 64
+"""Runs between two reports of progress."""
+STEEL = ("coating", "thermal_conductivity_W_mK", "density_kg_m3", "specific_heat_J_kgK")
+"""Keys of a surface that stay when its trace is replaced by moments."""
+
+
+@dataclass(frozen=True, eq=False)
+class Experiment:
+    """A file of factors with the study that it varies."""
+
+    file: FactorFile
+    path: Path
+    content: Mapping[str, Any]
+
+    @property
+    def levels(self) -> dict[str, tuple[Any, ...]]:
+        """The levels of every factor."""
+        return self.file.factors.given
+
+    @property
+    def study_path(self) -> Path:
+        """The file of the study."""
+        return self.path.parent / self.file.study
+
+    @cached_property
+    def runs(self) -> list[Run]:
+        """The runs in order: the combinations of a full factorial, or the points of a random design."""
+        design = self.file.design
+        if design.runs is None:
+            return [dict(zip(self.levels, combination)) for combination in itertools.product(*self.levels.values())]
+        points = all_samples(base_samples(design.kind, design.runs, len(self.levels), design.seed))
+        return [
+            {name: _at(levels, float(u)) for u, (name, levels) in zip(point, self.levels.items(), strict=True)}
+            for point in points
+        ]
+
+    def study(self, run: Run) -> Study:
+        """The study of a run."""
+        where = f"{self.path}: {', '.join(f'{name} = {_told(level)}' for name, level in run.items())}"
+        try:
+            file = parse(StudyFile, self._altered(run), str(self.study_path))
+            study = read_study(self.study_path, file)
+        except InputError as error:
+            raise InputError(str(error), where=where) from None
+        if "boundary_friction" in run and any(n.code == "boundary_friction_unread" for n in study.notes):
+            rule = f"the friction law {file.options.friction} does not read it; leave the factor out"
+            raise InputError(rule, where=f"{self.path}: factors.boundary_friction")
+        return study
+
+    def _altered(self, run: Run) -> dict[str, Any]:
+        content: dict[str, Any] = copy.deepcopy(dict(self.content))
+        for name, level in run.items():
+            if name != "replicate":
+                _SETTERS[name](content, level)
+        if "replicate" in run:
+            self._resample(content, int(run["replicate"]))
+        return content
+
+    def _resample(self, content: dict[str, Any], seed: int) -> None:
+        """Replace every trace by the moments of its sampling lengths, drawn anew with replacement."""
+        from roughness.uncertainty import resampled_moments
+
+        rig = Rig(parse(StudyFile, content, str(self.study_path)), self.study_path.parent.resolve())
+        for place, (name, surface) in enumerate(_traced(content, "replicate").items()):
+            with collected():
+                drawn = resampled_moments(rig.profile(name), np.random.default_rng((seed, place)))
+            body = {key: surface[key] for key in STEEL if key in surface}
+            moments = {"m0_um2": drawn.m0 * 1e12, "m2": drawn.m2, "m4_per_um2": drawn.m4 * 1e-12}
+            content["surfaces"][name] = moments | body
+
+
+def read_experiment(path: Path, file: FactorFile) -> Experiment:
+    """The experiment of a file of factors; its first run is read, so that an error shows at once."""
+    study = path.parent / file.study
+    if not study.is_file():
+        raise InputError(
+            "no such file; it is relative to the file of factors", where=f"{path}: study", value=file.study
+        )
+    content = read_toml(study)
+    parse(StudyFile, content, str(study))
+    found = Experiment(file, path, content)
+    for name, levels in found.levels.items():
+        for level in levels:
+            found.study(found.runs[0] | {name: level})
+    return found
+
+
+def _at(levels: Sequence[Any], u: float) -> Any:
+    """The level at a point of the unit interval: a number between the ends, or a name or seed by its place.
+
+    >>> _at((10.0, 20.0), 0.25), _at(("rigid", "ldp"), 0.75)
+    (12.5, 'ldp')
+    """
+    if isinstance(levels[0], float):
+        low, high = min(levels), max(levels)
+        return low + u * (high - low)
+    return levels[min(int(u * len(levels)), len(levels) - 1)]
+
+
+def _told(level: Any) -> str:
+    return f"{level:g}" if isinstance(level, float) else str(level)
+
+
+def _set_friction(content: dict[str, Any], level: float) -> None:
+    content["boundary_friction"] = level
+
+
+def _set_oil(content: dict[str, Any], level: str) -> None:
+    content["lubricant"] = {"oil": level}
+
+
+def _set_width(content: dict[str, Any], level: float) -> None:
+    content["gears"]["face_width_mm"] = level
+
+
+def _set_sharing(content: dict[str, Any], level: str) -> None:
+    content["gears"].setdefault("load_sharing", {})["model"] = level
+
+
+def _set_relief(content: dict[str, Any], level: float) -> None:
+    content["gears"].setdefault("load_sharing", {})["tip_relief_um"] = [level, level]
+
+
+def _set_cutoff(key: str) -> Callable[[dict[str, Any], float], None]:
+    def change(content: dict[str, Any], level: float) -> None:
+        for surface in _traced(content, key).values():
+            surface[key] = level
+
+    return change
+
+
+def _set_condition(key: str) -> Callable[[dict[str, Any], float], None]:
+    def change(content: dict[str, Any], level: float) -> None:
+        content["conditions"][key] = [level]
+
+    return change
+
+
+def _traced(content: Mapping[str, Any], factor: str) -> dict[str, dict[str, Any]]:
+    """The surfaces that have a trace."""
+    found = {name: surface for name, surface in content["surfaces"].items() if "profile" in surface}
+    if not found:
+        raise InputError("no surface of the study has a trace", where=f"factors.{factor}")
+    return found
+
+
+_SETTERS: Mapping[str, Callable[[dict[str, Any], Any], None]] = {
+    "boundary_friction": _set_friction,
+    "oil": _set_oil,
+    "face_width_mm": _set_width,
+    "load_sharing": _set_sharing,
+    "tip_relief_um": _set_relief,
+    **{key: _set_cutoff(key) for key in ("cutoff_mm", "short_cutoff_um")},
+    **{key: _set_condition(key) for key in OVER},
+}
+"""How the level of a factor changes the content of a study file."""
+
+
+def axes(experiment: Experiment, study: Study) -> dict[str, tuple[Any, ...]]:
+    """Factors of a full factorial with their levels, pairings and conditions among them, if of two levels or more."""
+    conditions = {name: tuple(getattr(study.file.conditions, name)) for name in LEVELS}
+    pairings = tuple(f"{a} / {b}" for a, b in study.pairings)
+    every = {**experiment.levels, "pairing": pairings, **conditions}
+    return {name: levels for name, levels in every.items() if len(levels) > 1}
+
+
+def results(experiment: Experiment) -> Iterator[tuple[Run, Results]]:
+    """The result of each run of a full factorial."""
+    rows = len(experiment.runs) * experiment.study(experiment.runs[0]).conditions
+    if rows > MOST_ROWS:
+        rule = f"{len(experiment.runs)} runs give {rows} rows, of at most {MOST_ROWS}; take fewer levels or conditions"
+        raise InputError(rule, where=f"{experiment.path}: factors")
+    for run in experiment.runs:
+        yield run, run_study(experiment.study(run))
+
+
+def response_of(experiment: Experiment, found: Results) -> np.ndarray:
+    """The response at every pairing and condition, in the unit of its column."""
+    wanted = experiment.file.design.response
+    known = {c.name: c for c in found.columns}
+    if wanted not in known:
+        raise InputError("the study has no such column", where=f"{experiment.path}: design.response", value=wanted)
+    return known[wanted].of(found[known[wanted].output])
+
+
+def mean_responses(experiment: Experiment, progress: Callable[[int, int], None]) -> np.ndarray:
+    """The mean response of each run of a random design, over pairings and conditions."""
+
+    def of_run(run: Run) -> float:
+        with collected():
+            return float(response_of(experiment, run_study(experiment.study(run), threads=1)).mean())
+
+    chunks = [experiment.runs[i : i + CHUNK] for i in range(0, len(experiment.runs), CHUNK)]
+    found: list[float] = []
+    for done, chunk in enumerate(chunks):
+        progress(done, len(chunks))
+        found += shared_out(of_run, chunk)
+    progress(len(chunks), len(chunks))
+    return np.array(found)

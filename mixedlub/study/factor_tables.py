@@ -1,0 +1,148 @@
+"""Tables of an experiment: rows of a full factorial, runs of a random design, indices, interactions, main effects."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from mixedlub.schema.units import unit_of
+from mixedlub.study import sensitivity
+from mixedlub.study.columns import Column
+from mixedlub.study.factor_file import Factors
+from mixedlub.study.factor_runs import Experiment, axes, mean_responses, response_of, results
+from mixedlub.study.sensitivity import Indices, MainEffect
+
+OF_INDICES = (
+    Column("factor", "factor", "what is varied", given_unit="text"),
+    Column("first", "first_order", "share of the variance of the response that the factor decides alone"),
+    Column("first_low", "first_order_low95", "lower end of its 95 % interval; random designs"),
+    Column("first_high", "first_order_high95", "upper end of its 95 % interval; random designs"),
+    Column("total", "total", "share of the variance in which the factor takes part, alone or with others"),
+    Column("total_low", "total_low95", "lower end of its 95 % interval; random designs"),
+    Column("total_high", "total_high95", "upper end of its 95 % interval; random designs"),
+)
+"""Columns of ``indices.csv``: Sobol' indices."""
+OF_INTERACTIONS = (
+    Column("factor_1", "factor_1", "one of two factors", given_unit="text"),
+    Column("factor_2", "factor_2", "the other one", given_unit="text"),
+    Column("share", "share", "share of the variance that both decide only together"),
+)
+"""Columns of ``interactions.csv``, of a full factorial."""
+OF_MAIN_EFFECTS = (
+    Column("factor", "factor", "what is varied", given_unit="text"),
+    Column("level", "level", "its level, or the middle of a range of it", given_unit="that of the factor"),
+    Column("mean", "mean", "mean response at that level", given_unit="that of the response"),
+    Column("difference", "difference", "that less the mean of all runs", given_unit="that of the response"),
+    Column("count", "count", "responses behind it"),
+)
+"""Columns of ``main_effects.csv``."""
+
+
+@dataclass(frozen=True, eq=False)
+class Decided:
+    """What each factor decides of the response: its indices, interactions and main effects, by its name."""
+
+    response: str
+    unit: str
+    names: tuple[str, ...]
+    mean: float
+    indices: Indices
+    interactions: Mapping[tuple[int, int], float]
+    main_effects: Mapping[str, MainEffect]
+
+    def tables(self) -> dict[str, pd.DataFrame]:
+        """The tables by the name of their file."""
+        none = np.full((2, len(self.names)), np.nan)
+        first = none if self.indices.first_ends is None else self.indices.first_ends
+        total = none if self.indices.total_ends is None else self.indices.total_ends
+        values = (self.names, self.indices.first, *first, self.indices.total, *total)
+        rows = [
+            (name, level, mean, mean - self.mean, count)
+            for name, effect in self.main_effects.items()
+            for level, mean, count in zip(effect.levels, effect.mean, effect.count, strict=True)
+        ]
+        found = {
+            "indices": pd.DataFrame(dict(zip((c.name for c in OF_INDICES), values, strict=True))),
+            "main_effects": pd.DataFrame(rows, columns=[c.name for c in OF_MAIN_EFFECTS]),
+        }
+        if self.interactions:
+            pairs = [(self.names[a], self.names[b], share) for (a, b), share in self.interactions.items()]
+            found["interactions"] = pd.DataFrame(pairs, columns=[c.name for c in OF_INTERACTIONS])
+        return found
+
+
+def factor_columns(experiment: Experiment) -> list[Column]:
+    """The columns of the levels of the factors."""
+    fields = Factors.model_fields
+    return [
+        Column("", _column(name), fields[name].description or "", given_unit=unit_of(name) or "text")
+        for name in experiment.levels
+    ]
+
+
+def _column(name: str) -> str:
+    """Column of a factor; the prefix tells it from a condition of the same name.
+
+    >>> _column("oil")
+    'factor_oil'
+    """
+    return f"factor_{name}"
+
+
+def full_factorial(experiment: Experiment, progress: Any = lambda done, of: None) -> tuple[pd.DataFrame, Decided]:
+    """Every row of every run, and what the factors decide, pairings and conditions among them."""
+    parts, responses, study = [], [], None
+    for done, (run, found) in enumerate(results(experiment)):
+        progress(done, len(experiment.runs))
+        study = found.study
+        rows = found.to_pandas()
+        for place, (name, level) in enumerate(run.items()):
+            rows.insert(place, _column(name), level)
+        parts.append(rows)
+        responses.append(response_of(experiment, found))
+    progress(len(experiment.runs), len(experiment.runs))
+    assert study is not None
+    named = axes(experiment, study)
+    grid = np.array(responses).reshape([len(levels) for levels in named.values()])
+    effects = {name: sensitivity.main_effect_of_grid(grid, i, levels) for i, (name, levels) in enumerate(named.items())}
+    decided = _decided(experiment, grid, sensitivity.of_grid(grid), sensitivity.interactions(grid), effects)
+    return pd.concat(parts, ignore_index=True), decided
+
+
+def random_design(experiment: Experiment, progress: Any = lambda done, of: None) -> tuple[pd.DataFrame, Decided]:
+    """The runs with their mean responses, and what the factors decide of these."""
+    design = experiment.file.design
+    assert design.runs is not None
+    response = mean_responses(experiment, progress)
+    runs = pd.DataFrame(experiment.runs)
+    base = 2 * design.runs
+    effects = {
+        name: sensitivity.main_effect_of_samples(response[:base], runs[name][:base].tolist()) for name in runs.columns
+    }
+    found = sensitivity.of_samples(response, design.runs, design.seed)
+    runs = runs.rename(columns=_column)
+    runs.insert(0, "run", np.arange(1, len(runs) + 1))
+    runs[f"mean_{design.response}" if not design.response.startswith("mean_") else design.response] = response
+    return runs, _decided(experiment, response[:base], found, {}, effects)
+
+
+def _decided(
+    experiment: Experiment,
+    response: np.ndarray,
+    indices: Indices,
+    together: Mapping[tuple[int, int], float],
+    effects: Mapping[str, MainEffect],
+) -> Decided:
+    name = experiment.file.design.response
+    return Decided(name, unit_of(name) or "-", tuple(effects), float(response.mean()), indices, together, effects)
+
+
+def write_tables(tables: Mapping[str, pd.DataFrame], folder: Path) -> None:
+    """The tables as CSV, by the name of their file."""
+    for name, table in tables.items():
+        table.to_csv(folder / f"{name}.csv", index=False)
