@@ -7,7 +7,7 @@ import contextlib
 import io
 import pkgutil
 import tomllib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -53,6 +53,8 @@ def pieces() -> dict[str, str]:
         "by_kind": scores.by_kind(rigs),
         "study_keys": _study_keys(),
         "study_columns": _study_columns(),
+        "factor_keys": _file_keys("mixedlub.study.factor_file", "FactorFile"),
+        "factor_columns": _factor_columns(),
         "friction_laws": _friction_laws(),
         "oils": _oils(),
         "oil_keys": _oil_keys(),
@@ -208,11 +210,26 @@ def _study_columns() -> str:
     from mixedlub.study.curves import curve_columns
     from mixedlub.study.fits import fit_columns
 
-    tables = {
-        "results.csv, results.parquet": every_column(["EFFECT"]),
-        "fits.csv": fit_columns(),
-        "curves.csv, curves.parquet": curve_columns(),
-    }
+    return _columns(
+        {
+            "results.csv, results.parquet": every_column(["EFFECT"]),
+            "fits.csv": fit_columns(),
+            "curves.csv, curves.parquet": curve_columns(),
+        }
+    )
+
+
+def _factor_columns() -> str:
+    """The columns of the tables of an experiment but those of a study."""
+    from mixedlub.study.factor_tables import OF_INDICES, OF_INTERACTIONS, OF_MAIN_EFFECTS
+
+    return _columns(
+        {"indices.csv": OF_INDICES, "interactions.csv": OF_INTERACTIONS, "main_effects.csv": OF_MAIN_EFFECTS}
+    )
+
+
+def _columns(tables: Mapping[str, Iterable[Any]]) -> str:
+    """Name, unit and meaning of the columns of each table."""
     return "\n\n".join(
         f"### {title}\n\n{_table(('column', 'unit', 'meaning'), [(c.name, c.unit, c.meaning) for c in columns])}"
         for title, columns in tables.items()

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-MOST_NAMED = 24
+MOST_NAMED = 18
 """Most characters of a name on an axis."""
 MOST_NAMES = 6
 """Most names of levels along an axis."""
@@ -49,13 +49,12 @@ def _words(name: str) -> str:
 
 
 def _label(name: str) -> str:
-    """A factor or response with its unit.
+    """A factor of numbers with its unit.
 
-    >>> _label("face_width_mm"), _label("oil")
-    ('face width (mm)', 'oil')
+    >>> _label("face_width_mm"), _label("boundary_friction")
+    ('face width (mm)', 'boundary friction (-)')
     """
-    unit = unit_of(name)
-    return f"{_words(name)} ({unit})" if unit else _words(name)
+    return f"{_words(name)} ({unit_of(name) or '-'})"
 
 
 def _indices(decided: Decided) -> Figure:
@@ -87,12 +86,13 @@ def _main_effects(decided: Decided) -> Figure:
             x = np.array(effect.levels, dtype=float)
             order = np.argsort(x)
             panel.plot(x[order], effect.mean[order], color=ALONE, marker="o")
+            panel.set_xlabel(_label(name))
         else:
             order = np.argsort(effect.mean)
             panel.plot(np.arange(order.size), effect.mean[order], color=ALONE, marker="o", linestyle="")
             _name_levels(panel, [str(effect.levels[i]) for i in order])
+            panel.set_xlabel(_words(name))
         panel.axhline(decided.mean, color="0.35", linewidth=0.8, linestyle=(0, (4, 3)))
-        panel.set_xlabel(_label(name))
         if number % columns == 0:
             panel.set_ylabel(f"{_words(decided.response)} ({decided.unit})", fontsize=SMALL)
     return figure
