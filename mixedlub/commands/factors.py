@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from mixedlub.atomic import writing
-from mixedlub.commands.console import echo, input_errors_from, named_folder, output_folder, print_findings
+from mixedlub.commands.console import echo, input_errors_from, named_folder, note, output_folder, print_findings
 from mixedlub.commands.study import chosen_formats, progress_bar
 
 NAME = "factors"
@@ -36,7 +36,7 @@ def command(
     from mixedlub.report.style import save
     from mixedlub.study.factor_file import read_factor_file
     from mixedlub.study.factor_runs import read_experiment
-    from mixedlub.study.factor_tables import full_factorial, random_design, write_tables
+    from mixedlub.study.factor_tables import full_factorial, random_design, share_out_of_range, write_tables
 
     formats = chosen_formats(format_)
     with input_errors_from(str(file)):
@@ -58,6 +58,10 @@ def command(
         captions = "\n\n".join(f"{one.name}\n{one.caption}" for one in drawn)
         (aside / "captions.txt").write_text(captions + "\n", encoding="utf-8")
         (aside / "factors.toml").write_bytes(file.read_bytes())
+        (aside / "study.toml").write_bytes(experiment.study_path.read_bytes())
+    outside = share_out_of_range(table)
+    if outside > 0.0:
+        note(f"{100 * outside:.3g} % of all conditions are outside the model's range, as the table says")
     for name, first, total in sorted(
         zip(decided.names, decided.indices.first, decided.indices.total), key=lambda r: -r[2]
     ):

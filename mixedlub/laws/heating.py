@@ -89,8 +89,8 @@ def largest_flash_temperature(flash_per_friction: np.ndarray, friction: np.ndarr
 
     .. math:: \Delta T_{max} = \frac{0.786}{0.542}\,\theta_\mu\,\mu
 
-    Semi-elliptic heat flux, as in the mean rise. Source: H. Blok, Proc. Gen. Disc. Lubrication, IMechE 2 (1937) 222,
-    whose form 1.11 mu w |u_1 - u_2| / [(B_1 u_1^0.5 + B_2 u_2^0.5) (2 b)^0.5] has 0.785 in place of 0.786.
+    Semi-elliptic heat flux, as in the mean rise. Blok's own constant, 1.11 over the root of the contact's full width,
+    gives 0.785 in place of 0.786. Source: H. Blok, Proc. Gen. Disc. Lubrication, IMechE 2 (1937) 222.
 
     >>> round(float(largest_flash_temperature(57.0 / 0.05, 0.05)))   # mean rise of 57 K
     83

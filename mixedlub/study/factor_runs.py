@@ -213,16 +213,17 @@ def response_of(experiment: Experiment, found: Results) -> np.ndarray:
 
 
 def mean_responses(experiment: Experiment, progress: Callable[[int, int], None]) -> np.ndarray:
-    """The mean response of each run of a random design, over pairings and conditions."""
+    """Mean response and share of conditions out of range of each run of a random design, of shape (2, runs)."""
 
-    def of_run(run: Run) -> float:
+    def of_run(run: Run) -> tuple[float, float]:
         with collected():
-            return float(response_of(experiment, run_study(experiment.study(run), threads=1)).mean())
+            found = run_study(experiment.study(run), threads=1)
+        return float(response_of(experiment, found).mean()), float(found.outside.mean())
 
     chunks = [experiment.runs[i : i + CHUNK] for i in range(0, len(experiment.runs), CHUNK)]
-    found: list[float] = []
+    both: list[tuple[float, float]] = []
     for done, chunk in enumerate(chunks):
         progress(done, len(chunks))
-        found += shared_out(of_run, chunk)
+        both += shared_out(of_run, chunk)
     progress(len(chunks), len(chunks))
-    return np.array(found)
+    return np.array(both).T

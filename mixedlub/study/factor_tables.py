@@ -12,7 +12,7 @@ import pandas as pd
 
 from mixedlub.schema.units import unit_of
 from mixedlub.study import sensitivity
-from mixedlub.study.columns import Column
+from mixedlub.study.columns import VALID, VALIDITY, Column
 from mixedlub.study.factor_file import Factors
 from mixedlub.study.factor_runs import Experiment, axes, mean_responses, response_of, results
 from mixedlub.study.sensitivity import Indices, MainEffect
@@ -41,6 +41,10 @@ OF_MAIN_EFFECTS = (
     Column("count", "count", "responses behind it"),
 )
 """Columns of ``main_effects.csv``."""
+
+
+OUTSIDE = "share_out_of_range"
+"""Column of ``runs.csv``: share of the conditions of a run that are outside the model's range."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,7 +122,7 @@ def random_design(experiment: Experiment, progress: Any = lambda done, of: None)
     """The runs with their mean responses, and what the factors decide of these."""
     design = experiment.file.design
     assert design.runs is not None
-    response = mean_responses(experiment, progress)
+    response, outside = mean_responses(experiment, progress)
     runs = pd.DataFrame(experiment.runs)
     base = 2 * design.runs
     effects = {
@@ -127,7 +131,8 @@ def random_design(experiment: Experiment, progress: Any = lambda done, of: None)
     found = sensitivity.of_samples(response, design.runs, design.seed)
     runs = runs.rename(columns=_column)
     runs.insert(0, "run", np.arange(1, len(runs) + 1))
-    runs[f"mean_{design.response}" if not design.response.startswith("mean_") else design.response] = response
+    runs[design.response] = response
+    runs[OUTSIDE] = outside
     return runs, _decided(experiment, response[:base], found, {}, effects)
 
 
@@ -140,6 +145,11 @@ def _decided(
 ) -> Decided:
     name = experiment.file.design.response
     return Decided(name, unit_of(name) or "-", tuple(effects), float(response.mean()), indices, together, effects)
+
+
+def share_out_of_range(table: pd.DataFrame) -> float:
+    """Share of the conditions of all runs that are outside the model's range."""
+    return float(table[OUTSIDE].mean() if OUTSIDE in table else (table[VALIDITY] != VALID).mean())
 
 
 def write_tables(tables: Mapping[str, pd.DataFrame], folder: Path) -> None:

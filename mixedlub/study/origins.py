@@ -16,7 +16,7 @@ TOTAL = "power_loss"
 
 def losing(effects: Iterable[Effect]) -> tuple[str, ...]:
     """The effects that add a loss outside the mesh."""
-    return tuple(e.id for e in effects if TOTAL in e.acts_on)
+    return tuple(e.id for e in effects if e.acts_on == (TOTAL,))
 
 
 def by_origin(model: Model) -> Model:

@@ -135,17 +135,27 @@ def test_a_random_design_finds_what_the_grid_finds(write_factors):
     assert len(runs) == 32 * 5
     assert runs["factor_boundary_friction"].between(0.05, 0.15).all()
     assert decided.names[int(np.argmax(decided.indices.total))] == "boundary_friction"
+    assert runs["share_out_of_range"].between(0.1, 1.0).all()
     assert decided.indices.first[0] == pytest.approx(1.0, abs=0.1)
     again, _ = random_design(experiment(path))
     pd.testing.assert_frame_equal(runs, again)
 
 
 @pytest.mark.parametrize("design", [{}, {"kind": "latin_hypercube", "runs": 4}])
-def test_the_command_writes_tables_and_figures(write_factors, tmp_path, design):
+def test_the_command_writes_tables_and_figures(write_factors, tmp_path, capsys, design):
     path = write_factors({"boundary_friction": [0.08, 0.12], "face_width_mm": [10, 20]}, design)
     assert main(["factors", str(path), "--out", str(tmp_path / "o")]) == 0
+    assert "% of all conditions are outside the model's range" in capsys.readouterr().err
     files = {file.name for file in (tmp_path / "o").iterdir()}
-    both = {"indices.csv", "main_effects.csv", "indices.svg", "main_effects.svg", "captions.txt", "factors.toml"}
+    both = {
+        "indices.csv",
+        "main_effects.csv",
+        "indices.svg",
+        "main_effects.svg",
+        "captions.txt",
+        "factors.toml",
+        "study.toml",
+    }
     assert files == both | ({"runs.csv"} if design else {"results.csv", "interactions.csv"})
     assert tomllib.loads((tmp_path / "o" / "factors.toml").read_text())["study"] == "base.toml"
 
