@@ -7,7 +7,7 @@ QUICK ?=
 .PHONY: study test bench prove check docs lint types examples
 
 study: .venv/base
-	$(BIN)/mixedlub study examples/study_21_pairings.toml --out out/study
+	$(BIN)/mixedlub study examples/study_21_pairings.toml --paper-figures --out out/study
 
 # Threads of linear algebra in each worker would wait for each other.
 test: .venv/dev

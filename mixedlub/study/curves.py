@@ -51,7 +51,7 @@ ALONG_PATH = (
 OF_POINTS = tuple(c.output for c in ALONG_PATH)
 MOST_ROWS = 5_000_000
 """Most rows of curves that are written: 1.5 GB of CSV."""
-_ROWS = 200_000
+_ROWS = 100_000
 
 
 def curve_columns() -> list[Column]:

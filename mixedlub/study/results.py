@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
 LEVELS = ("oil_temperature_C", "torque_Nm", "speed_rpm")
 """Conditions of a study in the order of the axes of its arrays."""
-_ROWS = 200_000
+_ROWS = 100_000
 
 
 SUMMARISED = ("power_loss", "mean_friction", "film_parameter")

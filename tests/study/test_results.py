@@ -78,6 +78,19 @@ def test_csv_and_parquet_hold_the_same_numbers(results, tmp_path):
         assert [row[name] for row in rows] == table[name].to_pylist()
 
 
+def test_a_table_in_many_parts_is_one_file_in_order(results, tmp_path, monkeypatch):
+    import pyarrow.parquet as pq
+
+    monkeypatch.setattr("mixedlub.study.results._ROWS", 20)
+    assert len(list(results.tables())) == 6
+    results.write(tmp_path / "r.csv", tmp_path / "r.parquet")
+    with (tmp_path / "r.csv").open(newline="") as file:
+        rows = list(csv.reader(file))
+    table = pq.read_table(tmp_path / "r.parquet")
+    assert [row[0] for row in rows] == ["pinion_surface", *table["pinion_surface"].to_pylist()]
+    assert [float(row[5]) for row in rows[1:]] == table["power_loss_W"].to_pylist()
+
+
 def test_surface_names_with_commas_survive_the_csv(write_study, tmp_path):
     odd = {"ground, fine": {"m0_um2": 0.02, "m2": 0.0025, "m4_per_um2": 0.0036}}
     run_study(read_study(write_study(surfaces=odd))).write(tmp_path / "r.csv", tmp_path / "r.parquet")
