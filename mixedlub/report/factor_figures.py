@@ -20,6 +20,8 @@ MOST_NAMED = 18
 """Most characters of a name on an axis."""
 MOST_NAMES = 6
 """Most names of levels along an axis."""
+MOST_PAIRS = 10
+"""Most interactions that are drawn."""
 ALONE, WITH_OTHERS = "#21618c", "#a9cce3"
 
 
@@ -37,6 +39,12 @@ def factor_figures(decided: Decided) -> Iterator[Drawn]:
             ),
             _indices(decided),
         )
+        if decided.interactions:
+            yield Drawn(
+                "interactions",
+                f"Share of the variance of {what} that two factors decide only together, the largest {MOST_PAIRS}.",
+                _interactions(decided),
+            )
         yield Drawn(
             "main_effects",
             f"Mean of {what} at the levels of each factor, over all else. The dashed line is the mean of all.",
@@ -76,6 +84,23 @@ def _indices(decided: Decided) -> Figure:
     panel.set_xlim(left=0.0)
     panel.grid(axis="y", visible=False)
     figure.legend(loc="outside upper right", ncols=2)
+    return figure
+
+
+def _interactions(decided: Decided) -> Figure:
+    from matplotlib.figure import Figure
+
+    largest = sorted(decided.interactions.items(), key=lambda item: -item[1])[:MOST_PAIRS][::-1]
+    figure = Figure(figsize=(WIDTH * 0.65, 0.28 * len(largest) + 0.8), layout="constrained")
+    panel = figure.subplots()
+    panel.barh(
+        [f"{_words(decided.names[a])} × {_words(decided.names[b])}" for (a, b), _ in largest],
+        [max(share, 0.0) for _, share in largest],
+        color=ALONE,
+    )
+    panel.set_xlabel(f"share of the variance of {_words(decided.response)} (-)")
+    panel.set_xlim(left=0.0)
+    panel.grid(axis="y", visible=False)
     return figure
 
 

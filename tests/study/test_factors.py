@@ -156,7 +156,7 @@ def test_the_command_writes_tables_and_figures(write_factors, tmp_path, capsys, 
         "factors.toml",
         "study.toml",
     }
-    assert files == both | ({"runs.csv"} if design else {"results.csv", "interactions.csv"})
+    assert files == both | ({"runs.csv"} if design else {"results.csv", "interactions.csv", "interactions.svg"})
     assert tomllib.loads((tmp_path / "o" / "factors.toml").read_text())["study"] == "base.toml"
 
 
