@@ -189,6 +189,7 @@ def test_misspelt_option_is_bad_input(study, capsys):
 def test_study_writes_where_it_is_told(study, tmp_path):
     assert main(["study", str(study), "--no-figures", "--out", "here"]) == 0
     assert sorted(p.name for p in (tmp_path / "here").iterdir()) == [
+        "fits.csv",
         "origin.json",
         "resolved.json",
         "results.csv",

@@ -46,7 +46,7 @@ def test_page_states_options_definitions_warnings_laws_and_effects(page):
     for words in (
         "dowson_toyoda_central",
         "mesh_integral",
-        "sliding loss of the mesh over the path integral of load times sliding speed",
+        "mean over the path weighted by load times sliding speed",
         "plain mean over the path of contact",
         "times the mean Hertz pressure",
         "D. Dowson, A. Toyoda",
