@@ -26,6 +26,9 @@ def command(
         str,
         typer.Option("--format", metavar="LIST", help="Formats of the figures: svg, pdf, png, with commas between."),
     ] = "svg",
+    replace: Annotated[
+        bool, typer.Option("--replace", help="Replace the result of other factors, or other files, in that folder.")
+    ] = False,
 ) -> None:
     """Which factor decides the loss: a study varied in oil, boundary friction, gears or traces.
 
@@ -36,12 +39,16 @@ def command(
     from mixedlub.report.style import save
     from mixedlub.study.factor_file import read_factor_file
     from mixedlub.study.factor_runs import read_experiment
-    from mixedlub.study.factor_tables import full_factorial, random_design, share_out_of_range, write_tables
+    from mixedlub.study.factor_tables import WRITTEN, full_factorial, random_design, share_out_of_range, write_tables
 
     formats = chosen_formats(format_)
     with input_errors_from(str(file)):
         experiment = read_experiment(file, read_factor_file(file))
-    folder = output_folder(out, NAME, file.stem)
+    folder = output_folder(out, NAME, file.stem, knows_own=True)
+    origin = experiment.origin
+    earlier = "" if replace else origin.check_folder(folder, WRITTEN, "file of factors")
+    if earlier:
+        note(earlier)
     print_findings(experiment.study(experiment.runs[0]).notes)
     echo(f"{experiment.file.title}: {len(experiment.runs)} runs of {experiment.study_path}")
     start = time.perf_counter()
@@ -59,6 +66,7 @@ def command(
         (aside / "captions.txt").write_text(captions + "\n", encoding="utf-8")
         (aside / "factors.toml").write_bytes(file.read_bytes())
         (aside / "study.toml").write_bytes(experiment.study_path.read_bytes())
+        origin.write_record(aside, folder)
     outside = share_out_of_range(table)
     if outside > 0.0:
         note(f"{100 * outside:.3g} % of all conditions are outside the model's range, as the table says")

@@ -50,7 +50,7 @@ def command(
     """
     from mixedlub.study import checkpoint, counted, factors, read_study, run_study
     from mixedlub.study.curves import is_of_another_study, refuse_too_many, write_curves
-    from mixedlub.study.fits import can_be_fitted, write_fits
+    from mixedlub.study.fits import write_fits
     from mixedlub.study.record import CURVES, FITS, WRITTEN, running, study_origin, write_record
     from mixedlub.study.validity import out_of_range
 
@@ -82,8 +82,7 @@ def command(
         print_findings(warnings)
         with writing(folder) as aside:
             results.write(aside / "results.csv", aside / "results.parquet")
-            if can_be_fitted(results):
-                write_fits(results, aside / FITS)
+            write_fits(results, aside / FITS)
             if curves:
                 write_curves(study, *(aside / name for name in CURVES))
             if figures:

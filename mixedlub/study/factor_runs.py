@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import hashlib
 import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -12,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from mixedlub.origin import Origin
 from mixedlub.parallel import shared_out
 from mixedlub.rig.rig import Rig
 from mixedlub.schema.findings import collected
@@ -50,6 +52,14 @@ class Experiment:
     def study_path(self) -> Path:
         """The file of the study."""
         return self.path.parent / self.file.study
+
+    @property
+    def origin(self) -> Origin:
+        """The two files, by their content."""
+        digest = hashlib.sha256()
+        for path in (self.path, self.study_path):
+            digest.update(hashlib.sha256(path.read_bytes()).digest())
+        return Origin(self.path, digest.hexdigest())
 
     @cached_property
     def runs(self) -> list[Run]:

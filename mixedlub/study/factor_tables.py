@@ -43,6 +43,8 @@ OF_MAIN_EFFECTS = (
 """Columns of ``main_effects.csv``."""
 
 
+WRITTEN = ("results.csv", "runs.csv", "indices.csv", "interactions.csv", "main_effects.csv")
+"""Tables of a result."""
 OUTSIDE = "share_out_of_range"
 """Column of ``runs.csv``: share of the conditions of a run that are outside the model's range."""
 

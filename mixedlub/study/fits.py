@@ -76,7 +76,7 @@ def fit_columns() -> list[Column]:
 
 
 def fits(results: Results) -> pa.Table:
-    """The lines of a study as a table, a row a condition."""
+    """The lines of a study as a table, a row a condition; without rows where the pairings are too few."""
     import pyarrow as pa
 
     line, area = over_roughness(results), straight_line(results["area_ratio"], results["power_loss"])
@@ -88,11 +88,12 @@ def fits(results: Results) -> pa.Table:
     axes = (getattr(results.study.file.conditions, name) for name in LEVELS)
     grid = dict(zip(LEVELS, np.meshgrid(*axes, indexing="ij"), strict=True))
     columns = {c.name: grid[c.name] if c.name in grid else c.of(values[c.output]) for c in fit_columns()}
-    return pa.table({name: checkpoint.floats(column) for name, column in columns.items()})
+    rows = None if can_be_fitted(results) else 0
+    return pa.table({name: checkpoint.floats(column) for name, column in columns.items()}).slice(0, rows)
 
 
 def write_fits(results: Results, path: Path) -> None:
-    """The lines of a study as CSV; an empty cell where there is none."""
+    """The lines of a study as CSV."""
     import pyarrow.csv as pc
 
     pc.write_csv(fits(results), path, pc.WriteOptions(quoting_header="none"))

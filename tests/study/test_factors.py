@@ -155,6 +155,7 @@ def test_the_command_writes_tables_and_figures(write_factors, tmp_path, capsys, 
         "captions.txt",
         "factors.toml",
         "study.toml",
+        "origin.json",
     }
     assert files == both | ({"runs.csv"} if design else {"results.csv", "interactions.csv", "interactions.svg"})
     assert tomllib.loads((tmp_path / "o" / "factors.toml").read_text())["study"] == "base.toml"
@@ -207,3 +208,15 @@ def test_a_study_that_is_not_there_is_refused(write_factors, tmp_path, capsys):
     path = write_factors({"face_width_mm": [10, 20]})
     path.write_text(path.read_text(encoding="utf-8").replace("base.toml", "bases.toml"), encoding="utf-8")
     assert "bases.toml" in refused(path, capsys, tmp_path)
+
+
+def test_the_result_of_other_factors_stays(write_factors, tmp_path, capsys):
+    out = str(tmp_path / "o")
+    first = write_factors({"face_width_mm": [10, 20]})
+    assert main(["factors", str(first), "--out", out]) == 0
+    other = first.with_name("other.toml")
+    other.write_text(first.read_text(encoding="utf-8").replace("20", "25"), encoding="utf-8")
+    capsys.readouterr()
+    assert main(["factors", str(other), "--out", out]) == 2
+    assert "another file of factors" in " ".join(capsys.readouterr().err.split())
+    assert main(["factors", str(other), "--replace", "--out", out]) == 0
