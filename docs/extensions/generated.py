@@ -212,7 +212,7 @@ def _study_columns() -> str:
 
     return _columns(
         {
-            "results.csv, results.parquet": every_column(["EFFECT"]),
+            "results.csv, results.parquet": every_column(["EFFECT"], bands=False),
             "fits.csv": fit_columns(),
             "curves.csv, curves.parquet": curve_columns(),
         }

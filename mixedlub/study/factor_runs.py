@@ -31,6 +31,8 @@ MOST_ROWS = 2_000_000
 """Most rows of the table of a full factorial."""
 CHUNK = 64
 """Runs between two reports of progress."""
+MEASURED = {"profile", "traces", "map"}
+"""Keys of a surface that is measured."""
 STEEL = ("coating", "thermal_conductivity_W_mK", "density_kg_m3", "specific_heat_J_kgK")
 """Keys of a surface that stay when its trace is replaced by moments."""
 
@@ -176,10 +178,15 @@ def _set_condition(key: str) -> Callable[[dict[str, Any], float], None]:
 
 
 def _traced(content: Mapping[str, Any], factor: str) -> dict[str, dict[str, Any]]:
-    """The surfaces that have a trace."""
-    found = {name: surface for name, surface in content["surfaces"].items() if "profile" in surface}
+    """The surfaces that are measured."""
+    found = {name: one for name, one in content["surfaces"].items() if MEASURED.intersection(one)}
     if not found:
         raise InputError("no surface of the study has a trace", where=f"factors.{factor}")
+    if factor == "replicate":
+        for name, one in found.items():
+            if {"map", "traces_along"}.intersection(one):
+                rule = f"takes traces in one direction, and surfaces.{name} has a map or traces along its lay"
+                raise InputError(rule, where="factors.replicate")
     return found
 
 

@@ -127,6 +127,15 @@ def test_cutoffs_and_replicates_change_the_moments_of_traces(write_factors):
     pd.testing.assert_frame_equal(table, again)
 
 
+def test_several_traces_are_drawn_anew_and_traces_along_the_lay_are_refused(write_factors, tmp_path, capsys):
+    several = {"t": {"traces": ["shipped:0258", "shipped:0302"], "cutoff_mm": 0.8, "short_cutoff_um": 2.5}}
+    table, _ = full_factorial(experiment(write_factors({"replicate": [1, 2]}, surfaces=several)))
+    assert table.groupby("factor_replicate")["composite_roughness_um"].mean().nunique() == 2
+    along = {"t": several["t"] | {"traces_along": ["shipped:0122"]}}
+    message = refused(write_factors({"replicate": [1, 2]}, surfaces=along), capsys, tmp_path)
+    assert "takes traces in one direction" in message
+
+
 def test_a_random_design_finds_what_the_grid_finds(write_factors):
     """Friction of the mesh hangs on the boundary friction far more than on the face width."""
     wide = {"boundary_friction": [0.05, 0.15], "face_width_mm": [13, 15], "torque_Nm": [90, 110]}
