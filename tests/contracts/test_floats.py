@@ -13,7 +13,10 @@ from mixedlub.friction import catalogue
 from tests.contracts.rigs import states
 from tests.contracts.test_scaling import OTHER_ARGUMENTS, laws
 
-SUMS = ("loss.mean_friction", "loss.mesh_loss", "loss.over_path", "loss.rolling_loss")
+SUMS = (
+    *("loss.mean_friction", "loss.friction_of_path", "loss.sliding_integral"),
+    *("loss.mesh_loss", "loss.over_path", "loss.rolling_loss"),
+)
 """Laws that sum over the last axis of arrays, and so take no numbers."""
 FRICTION = [(f"friction.{law.name}", law.law) for law in catalogue().values()]
 LAWS = [(name, law) for name, law in (*laws(), *FRICTION) if name not in SUMS]
