@@ -58,8 +58,8 @@ def refuse_masked(given: object, where: str) -> None:
     ...
     profiles.errors.InputError: torque_Nm: has 1 masked entry; leave masked entries out
     """
-    mask = getattr(given, "mask", None)
-    count = int(mask.sum()) if hasattr(mask, "sum") else 0
+    add_up = getattr(getattr(given, "mask", None), "sum", None)
+    count = int(add_up()) if callable(add_up) else 0
     if count:
         entries = "entry" if count == 1 else "entries"
         raise InputError(f"has {count} masked {entries}; leave masked entries out", where=where)
