@@ -14,7 +14,7 @@ from mixedlub.case.folder import Case
 from mixedlub.chain.effect import Effect
 from mixedlub.chain.model import Model, Parameters, Record, available
 from mixedlub.effects import known_effects, known_in
-from mixedlub.kinds.calibration import Calibration, calibrations, of_parameter
+from mixedlub.kinds.calibration import Calibration, calibrations, of_base_law, of_parameter
 from mixedlub.kinds.kind import ageing, varies
 from mixedlub.schema.findings import collected
 from mixedlub.schema.table import Table
@@ -73,9 +73,11 @@ class Forward:
         self.inputs["reading_scale"] = reading_scale
         self.inputs |= {name: plain[quantity] for quantity, name in case.kind.base_inputs.items()}
         self.known = known_effects(case.system.effects, case.kind.name, self.chain, tuple(self.inputs), "reading")
+        self.uncertain_laws = tuple(e for e in self.effects() if any(p.base_sd for p in e.parameters))
         self.calibrations: tuple[Calibration, ...] = (
             *(c for c in (*calibrations(case.system), *extra) if all(n in self.inputs for n in c.needs)),
             *map(self._of_effect, self.known.sds),
+            *(of_base_law(e, p) for e in self.uncertain_laws for p in e.parameters if p.base_sd),
         )
         self._check_calibration()
 
@@ -98,7 +100,8 @@ class Forward:
 
     def model(self, want: Sequence[str], effects: Sequence[Effect] = ()) -> Model:
         """The base model of the case with more effects."""
-        return Model(self.chain, tuple(self.inputs), want, (*self.known.effects, *effects))
+        added = {e.id: e for e in (*self.known.effects, *self.uncertain_laws, *effects)}
+        return Model(self.chain, tuple(self.inputs), want, tuple(added.values()))
 
     def _rows(self, reading: np.ndarray) -> np.ndarray:
         """Readings in the unit of the recorded column, one per row."""
@@ -162,10 +165,13 @@ class Forward:
         return inputs, applied
 
     def known_values(self, calibration: Mapping[str, float]) -> dict[str, dict[str, float]]:
-        """Parameters of the effects that the case names, at a calibration."""
+        """Parameters of the effects that the case names, and of uncertain base laws, at a calibration."""
         values = {effect: dict(own) for effect, own in self.known.values.items()}
         for e, name in self.known.sds:
             values[e][name] = calibration.get(f"{e}.{name}", values[e][name])
+        for law in self.uncertain_laws:
+            moved = {p.name: calibration.get(f"{law.id}.{p.name}", p.null_value) for p in law.parameters if p.base_sd}
+            values[law.id] = {**law.nulls, **moved}
         return values
 
     def effects(self, exclude: Sequence[str] = ()) -> tuple[Effect, ...]:

@@ -31,6 +31,7 @@ class Parameter:
     ``published`` is the range that the laws cited in the source have, where other values are tried as well.
     ``relative_to`` is the input that the parameter is a fraction of, if there is one.
     ``nominal`` is the value that the cited laws have, where the prior is centred on another.
+    ``base_sd`` is the standard deviation about the null within which the base law itself is uncertain (0: exact).
     """
 
     name: str
@@ -45,6 +46,7 @@ class Parameter:
     published: tuple[float, float] | None = None
     relative_to: str = ""
     nominal: float | None = None
+    base_sd: float = 0.0
 
     @property
     def usual(self) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 from mixedlub.chain.effect import Effect
@@ -208,13 +208,18 @@ def _lay_out(chain: Chain, given: set[str], effects: Sequence[Effect]) -> list[S
 
     admit()
     for name, law in chain:
-        reads = tuple(inspect.signature(law).parameters)
+        reads = _arguments(law)
         _check(f"law for {name!r}", reads, known)
         already_read.update(reads)
         steps.append(Step((name,), law, reads))
         known.add(name)
         admit()
     return steps
+
+
+@lru_cache(maxsize=1024)
+def _arguments(law: Law) -> tuple[str, ...]:
+    return tuple(inspect.signature(law).parameters)
 
 
 def _check(who: str, reads: Sequence[str], known: set[str]) -> None:

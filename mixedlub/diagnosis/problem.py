@@ -149,14 +149,23 @@ class Problem:
         """Predicted readings at the same calibration with nothing added."""
         return self.transform(self.forward.predict(self.calibration(z)))
 
-    def jacobian(self, explanation: Explanation, z: np.ndarray, at: Run | None = None) -> np.ndarray:
-        """Derivative of predictions over sd with respect to z, by differences to the side where laws do not end."""
+    def jacobian(
+        self, explanation: Explanation, z: np.ndarray, at: Run | None = None, near: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Derivative of predictions over sd with respect to z, by differences to the side where laws do not end.
+
+        Columns of small corrections to base laws are taken from a derivative ``near`` by: they hardly change.
+        """
         here = self.run(explanation, z) if at is None else at
         calibration, parameters = self.calibration(z), self.parameters(explanation, z)
         priors = [(calibration, c.parameter) for c in self.forward.calibrations]
         priors += [(parameters[e.id], p) for e in self.effects(explanation) for p in e.parameters]
         slopes = np.empty((self.y.size, z.size))
+        small = {i for i, c in enumerate(self.forward.calibrations) if c.is_small}
         for i, (values, parameter) in enumerate(priors):
+            if near is not None and i in small:
+                slopes[:, i] = near[:, i]
+                continue
             kept = values[parameter.name]
             for step in (FINITE_STEP, -FINITE_STEP) if z[i] < MOST_COORDINATE else (-FINITE_STEP, FINITE_STEP):
                 values[parameter.name] = parameter.prior.value(float(z[i] + step))

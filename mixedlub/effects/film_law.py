@@ -38,6 +38,7 @@ def _against_dowson_toyoda(constant: float, speed: float, material: float, load:
             "exponent of speed and viscosity beyond that of the base law",
             null=0.0,
             symbol="a",
+            base_sd=0.01,
         ),
         Parameter(
             "pressure_exponent",
@@ -46,6 +47,7 @@ def _against_dowson_toyoda(constant: float, speed: float, material: float, load:
             "exponent of the Hertz pressure beyond that of the base law",
             null=0.0,
             symbol="c",
+            base_sd=0.04,
         ),
     ),
     equation=r"h \leftarrow h\,f\left(\frac{\eta_0 u}{10^{-11} E' R}\right)^{a}\left(\frac{p_0}{0.004\,E'}\right)^{c}",
@@ -86,6 +88,7 @@ def film_law(
     >>> round(float(h) * 0.2214, 3)   # um; Dowson and Higginson themselves, at G = 3350: 0.1671
     0.166
     """
-    speed = viscosity * entrainment_speed / (MIDDLE_SPEED * reduced_modulus * radius)
-    pressure = hertz_pressure / (MIDDLE_PRESSURE * reduced_modulus)
-    return film_thickness * factor * speed**speed_exponent * pressure**pressure_exponent
+    size = MIDDLE_SPEED * reduced_modulus * radius
+    change = pressure_exponent * np.log(hertz_pressure / (MIDDLE_PRESSURE * reduced_modulus))
+    change = change + speed_exponent * np.log(viscosity * entrainment_speed / size)
+    return film_thickness * (factor * np.exp(change))

@@ -20,6 +20,7 @@ MIDDLE_PRESSURE, MIDDLE_TEMPERATURE = 1e9, 353.15
             "exponent of pressure in the Eyring stress",
             null=0.0,
             symbol="a",
+            base_sd=0.15,
         ),
         Parameter(
             "fall",
@@ -75,7 +76,9 @@ def shear_law(
     >>> round(float(shear_law(*state, 1e9, 353.15, **rate)) / 1e6, 1)
     33.8
     """
-    newtonian = contact_viscosity * sliding_speed / (film_thickness * eyring_stress)
-    stress = eyring_stress * (hertz_pressure / MIDDLE_PRESSURE) ** pressure_exponent
-    stress = stress * np.exp(-fall * (oil_temperature - MIDDLE_TEMPERATURE))
-    return stress * (1.0 + newtonian**2) ** (0.5 * rate_exponent)
+    change = pressure_exponent * np.log(hertz_pressure / MIDDLE_PRESSURE)
+    change = change - fall * (oil_temperature - MIDDLE_TEMPERATURE)
+    if rate_exponent != 0.0:
+        newtonian = contact_viscosity * sliding_speed / (film_thickness * eyring_stress)
+        change = change + 0.5 * rate_exponent * np.log1p(newtonian**2)
+    return eyring_stress * np.exp(change)

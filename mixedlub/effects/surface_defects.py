@@ -40,7 +40,7 @@ from mixedlub.chain.priors import LogNormal, LogUniform, Uniform
     fingerprint={"load": "-", "roughness": "-", "slide_roll_ratio": "-"},
     separated_by="thick films: contact that fades far slower than the finish's above a film ratio of 3; outliers on "
     "the normal probability plot of the profile; a signal once a revolution",
-    applied_after=("asperity_law", "asperity_plasticity", "skewed_heights"),
+    applied_after=("asperity_plasticity", "skewed_heights"),
     prior_odds=0.3,
     special_cases={
         "defects above any film": {"inverse_height": 0.0, "evenness": 1.0},

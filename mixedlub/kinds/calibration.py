@@ -17,13 +17,17 @@ Inputs = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class Calibration:
-    """One free input: its prior, and how a value changes the chain's inputs; ``factor`` where it multiplies one."""
+    """One free input: its prior, and how a value changes the chain's inputs; ``factor`` where it multiplies one.
+
+    A calibration that ``is_small`` is a correction to a base law, in which readings are nearly linear.
+    """
 
     parameter: Parameter
     apply: Callable[[Inputs, float], dict[str, Any]]
     nominal: float
     needs: tuple[str, ...]
     factor: bool = False
+    is_small: bool = False
 
     @property
     def name(self) -> str:
@@ -62,6 +66,13 @@ def of_parameter(effect: Effect, name: str, value: float, sd: float) -> Calibrat
         raise InputError(rule, where=f"effects.{effect.id}.{name}", value=value)
     own = replace(p, name=f"{effect.id}.{name}", prior=prior)
     return Calibration(own, lambda inputs, value: {}, value, ())
+
+
+def of_base_law(effect: Effect, parameter: Parameter) -> Calibration:
+    """A parameter in which a base law is itself uncertain, as published laws of the same step differ."""
+    null = parameter.null_value
+    own = replace(parameter, name=f"{effect.id}.{parameter.name}", prior=Normal(null, parameter.base_sd))
+    return Calibration(own, lambda inputs, value: {}, null, (), is_small=True)
 
 
 def calibrations(system: system_file.System) -> tuple[Calibration, ...]:

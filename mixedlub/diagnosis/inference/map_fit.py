@@ -354,7 +354,7 @@ def _gauss_newton(
         gain = cost - new_cost
         z, shared, run, cost, weight = moved, moved_shared, tried, new_cost, new_weight
         damping = max(damping / DAMPING_FALL, LEAST_DAMPING)
-        slopes = problem.jacobian(explanation, z, run)
+        slopes = problem.jacobian(explanation, z, run, slopes)
         if gain < max(tolerance, PRECISION_BEHIND * (rival + cost)):
             break
     return _State(z, shared, run, slopes, cost, weight)
