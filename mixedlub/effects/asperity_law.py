@@ -24,7 +24,7 @@ from mixedlub.chain.priors import LogNormal, Normal
     equation=r"D \leftarrow f D,\quad t \leftarrow t + d",
     source="A. W. Bush, R. D. Gibson, T. R. Thomas, Wear 35 (1975) 87; J. A. Greenwood, J. H. Tripp, Proc. IMechE 185 "
     "(1970) 625; against J. A. Greenwood, J. B. P. Williamson, Proc. R. Soc. A 295 (1966) 300",
-    fingerprint={"speed": "-", "oil_temperature": "+", "roughness": "+"},
+    fingerprint={"load": "+", "oil_temperature": "-", "roughness": "-"},
     separated_by="contact resistance or the real area itself over the film thickness",
     prior_odds=0.5,
 )
