@@ -22,7 +22,7 @@ from mixedlub.chain.priors import Uniform
         Parameter(
             "first",
             "-",
-            Uniform(0.1, 0.6),
+            Uniform(0.3, 0.55),
             "share of the load on a tooth pair at the start of its contact",
             symbol="s_A",
         ),
@@ -52,7 +52,8 @@ def load_sharing_law(
 ) -> np.ndarray:
     """Two tooth pairs in contact share the load along straight lines over the path instead of by their stiffness.
 
-    For contact ratios between 1 and 2; with others the known sharing stays.
+    Published lines begin at a third (ISO) to a half (equal shares); less at the start is relief of the tips. For
+    contact ratios between 1 and 2; with others the known sharing stays.
 
     >>> known = dict(contact_ratio=1.5, contact_width=0.014, face_width=0.014)
     >>> place = np.array([0.0, 1 / 3 - 1e-9, 0.5, 1.0])
