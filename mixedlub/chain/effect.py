@@ -93,6 +93,7 @@ class Effect:
     descriptive: bool = False
     exact_form: bool = False
     needs_variation_in: str = ""
+    replaces: str = ""
     fixed: Mapping[str, float] = field(default_factory=dict)
 
     def fixing(self, values: Mapping[str, float]) -> Effect:
@@ -205,6 +206,7 @@ def effect(
     descriptive: bool = False,
     exact_form: bool = False,
     needs_variation_in: str = "",
+    replaces: str = "",
 ) -> Callable[[Callable[..., object]], Callable[..., object]]:
     """Register a law as an effect; its signature must say what the declaration says.
 
@@ -218,7 +220,8 @@ def effect(
     ``special_cases`` are laws, published or limits, that the effect becomes at certain values of some parameters. A
     ``descriptive`` effect follows readings without naming a cause. An ``exact_form`` is the effect's definition, so no
     error of form is considered. ``needs_variation_in`` is a quantity at whose single value the effect would only
-    rescale the base model; it is not offered there.
+    rescale the base model; it is not offered there. ``replaces`` is the step of the base model in place of which the law
+    stands, where it adds no physics.
     """
     targets = (acts_on,) if isinstance(acts_on, str) else acts_on
 
@@ -264,6 +267,7 @@ def effect(
             descriptive=descriptive,
             exact_form=exact_form,
             needs_variation_in=needs_variation_in,
+            replaces=replaces,
         )
         return law
 

@@ -124,14 +124,19 @@ class Problem:
         names = self.forward.calibrations
         return {c.name: c.parameter.prior.value(float(x)) for c, x in zip(names, z[: len(names)], strict=True)}
 
-    def parameters(self, explanation: Explanation, z: np.ndarray) -> dict[str, dict[str, float]]:
-        """Effect parameters at coordinates z."""
+    def own_coordinates(self, explanation: Explanation, z: np.ndarray) -> dict[str, np.ndarray]:
+        """The coordinates of each effect of an explanation."""
         values, start = {}, self.calibration_size
         for e in self.effects(explanation):
             stop = start + len(e.parameters)
-            values[e.id] = e.values(z[start:stop])
+            values[e.id] = z[start:stop]
             start = stop
         return values
+
+    def parameters(self, explanation: Explanation, z: np.ndarray) -> dict[str, dict[str, float]]:
+        """Effect parameters at coordinates z."""
+        own = self.own_coordinates(explanation, z)
+        return {e.id: e.values(own[e.id]) for e in self.effects(explanation)}
 
     def run(self, explanation: Explanation, z: np.ndarray, near: Run | None = None) -> Run:
         """Predicted readings at coordinates z, with the steps that lead there."""

@@ -26,7 +26,7 @@ from mixedlub.chain.priors import LogNormal, Normal
     "(1970) 625; against J. A. Greenwood, J. B. P. Williamson, Proc. R. Soc. A 295 (1966) 300",
     fingerprint={"load": "+", "oil_temperature": "-", "roughness": "-"},
     separated_by="contact resistance or the real area itself over the film thickness",
-    prior_odds=0.5,
+    replaces="contact of the asperities",
 )
 def asperity_law(
     summit_density: np.ndarray, separation: np.ndarray, *, density: float, offset: float

@@ -57,7 +57,7 @@ def _against_dowson_toyoda(constant: float, speed: float, material: float, load:
     separated_by="the film itself, by interferometry or capacitance over speed and load",
     applied_after=("inlet_shear_heating", "inlet_shear_thinning", "starvation", "roughness_lay"),
     kinds=("gear_pair", "disc", "friction_history", "mesh_friction"),
-    prior_odds=0.5,
+    replaces="film thickness",
     special_cases={
         "Dowson and Higginson": _against_dowson_toyoda(2.65, 0.70, 0.54, -0.13),
         "Pan and Hamrock": _against_dowson_toyoda(2.922, 0.692, 0.470, -0.166),

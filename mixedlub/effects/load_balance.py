@@ -42,7 +42,7 @@ EXPONENT = 0.13
         "boundary_film",
         "boundary_film_temperature",
     ),
-    prior_odds=0.5,
+    replaces="load of film and asperities",
     special_cases={"Johnson, Greenwood and Poon": {"stiffness": 1.0, "exponent": EXPONENT}},
 )
 def load_balance(

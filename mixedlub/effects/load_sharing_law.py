@@ -34,7 +34,7 @@ from mixedlub.chain.priors import Uniform
     fingerprint={"load": "+"},
     separated_by="the load share itself, from strain gauges in the tooth roots, or the transmission error",
     applied_after=("tip_relief",),
-    prior_odds=0.5,
+    replaces="load sharing of the teeth",
     special_cases={
         "ISO/TR 15144-1": {"share": 1.0, "first": 1.0 / 3.0},
         "equal shares": {"share": 1.0, "first": 0.5},

@@ -25,7 +25,7 @@ from mixedlub.chain.priors import Uniform
     fingerprint={"oil_temperature": "+"},
     separated_by="boundary friction by itself at rest, and the film friction with smooth surfaces: between the two the "
     "weight is seen",
-    prior_odds=0.5,
+    replaces="friction of film and asperities together",
     special_cases={"Gelinck and Schipper": {"share": 1.0}},
 )
 def mixture_law(

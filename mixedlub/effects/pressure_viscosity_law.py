@@ -114,7 +114,7 @@ CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
     fingerprint={"speed": "+"},
     separated_by="a high-pressure viscometer at two temperatures: an exponential is straight in a log plot, Roelands "
     "only bends down, a liquid near its glass bends up again",
-    prior_odds=0.5,
+    replaces="viscosity under pressure",
     special_cases={
         "Roelands": {
             "roelands": 1.0,

@@ -46,7 +46,7 @@ MIDDLE_PRESSURE, MIDDLE_TEMPERATURE = 1e9, 353.15
     fingerprint={"load": "+"},
     separated_by="traction curves of smooth discs at several pressures: their slope over the logarithm of sliding is "
     "the Eyring stress, and a power law is straight where both scales are logarithmic",
-    prior_odds=0.5,
+    replaces="shear of the film",
     special_cases={"Eyring stress that grows with pressure": {"fall": 0.0, "rate_exponent": 0.0}},
 )
 def shear_law(

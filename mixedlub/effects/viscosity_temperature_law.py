@@ -48,7 +48,7 @@ LARGEST_LOG = 30.0
     "m = 1; O. Reynolds, Phil. Trans. R. Soc. 177 (1886) 157, with m = 0",
     fingerprint={"oil_temperature": "+"},
     separated_by="a third point of viscosity, between the two given ones or beyond them",
-    prior_odds=0.5,
+    replaces="viscosity over temperature",
     needs_variation_in="oil_temperature",
     special_cases={
         "Vogel": {"share": 1.0, "fall": 1.0},

@@ -9,11 +9,11 @@ import pytest
 
 from mixedlub.diagnosis.diagnose import diagnose_case
 from mixedlub.diagnosis.explanation import NOTHING, Explanation
+from mixedlub.diagnosis.inference.additions import promising_additions
 from mixedlub.diagnosis.inference.change_points import integrate_change_points
 from mixedlub.diagnosis.inference.initial_guesses import fit_singles, sample
 from mixedlub.diagnosis.inference.map_fit import map_fit
 from mixedlub.diagnosis.inference.nested_laws import published_gain, published_odds
-from mixedlub.diagnosis.inference.pairs import promising_pairs
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.search.search import one_in_time
 
@@ -31,7 +31,7 @@ def test_two_effects_that_made_the_readings_are_a_promising_pair() -> None:
     change = sum(max(s.change, key=np.linalg.norm) for s in draws[:2])
     made = replace(p, y=null_fit.prediction + p.sd * change)
     singles = fit_singles(made, map_fit(made, NOTHING, null_fit.z), draws)
-    pair, start = promising_pairs(made, singles, draws)[0]
+    pair, start = promising_additions(made, list(singles.values()), draws, 30)[0]
     assert pair == Explanation.of("boundary_film_temperature", "churning")
     assert map_fit(made, pair, start).evidence > max(f.evidence for f in singles.values()) + 20.0
 

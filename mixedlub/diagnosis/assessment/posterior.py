@@ -11,9 +11,9 @@ from mixedlub.chain.effect import STAGES
 from mixedlub.diagnosis.assessment.mismatch_test import Mismatch
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.problem import effects_of
-from mixedlub.diagnosis.search.search import Search, priors
+from mixedlub.diagnosis.search.prior_odds import PriorOdds
+from mixedlub.diagnosis.search.search import Search
 from mixedlub.diagnosis.settings.assessment import FLOOR, TEST_MARGIN, TIE
-from mixedlub.diagnosis.settings.search import PRIOR
 
 
 @dataclass(frozen=True)
@@ -50,10 +50,8 @@ class Posterior:
 def prior_of_untestable(search: Search) -> dict[str, float]:
     """Probability of the effects that change no reading: their prior."""
     looked = (*search.draws, *search.untestable)
-    odds = {e.id: e.prior_odds for s in looked for e in effects_of((s.id,))}
-    nothing, single, pair = priors(len(odds))
-    single /= nothing + single + pair + PRIOR["discrepancy"]
-    return {s.id: single * odds[s.id] / sum(odds.values()) for s in search.untestable}
+    odds = PriorOdds.of(s.id for s in looked)
+    return {s.id: odds.chance(s.id) for s in search.untestable}
 
 
 def posterior(

@@ -10,15 +10,18 @@ import numpy as np
 
 from mixedlub.diagnosis.discrepancy.model import Discrepancy, fit_discrepancy
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
+from mixedlub.diagnosis.inference.additions import promising_additions
 from mixedlub.diagnosis.inference.change_points import integrate_change_points
 from mixedlub.diagnosis.inference.initial_guesses import PriorDraws, fit_singles, sample
 from mixedlub.diagnosis.inference.map_fit import Fit, Linear, fit_best_first, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.inference.nested_laws import published_gain
-from mixedlub.diagnosis.inference.pairs import promising_pairs
 from mixedlub.diagnosis.problem import Problem, effects_of
+from mixedlub.diagnosis.search.prior_odds import PriorOdds
 from mixedlub.diagnosis.settings.inference import (
     HOPELESS_BEHIND,
     OUTLIER_SHARE,
+    PAIR_LEADERS,
+    PAIRS,
     SEED,
     STRONG_EVIDENCE,
 )
@@ -32,10 +35,10 @@ from mixedlub.diagnosis.settings.search import (
     FORM_ERROR_LENGTH,
     FORM_ERROR_PRODUCTS,
     FORM_ERRORS,
-    FULL_PAIR_PRIOR,
-    LEAST_NOTHING_ODDS,
+    LAW_LEADERS,
+    LAW_ROUNDS,
+    LAWS_ADDED,
     MANY,
-    PRIOR,
     PUBLISHED_WITHIN,
     REFITTED_ON_ALL,
     SIGNED_FORM_ERROR_FUNCTIONS,
@@ -83,18 +86,15 @@ class Search:
     @property
     def log_weights(self) -> dict[Explanation, float]:
         """Log prior plus log evidence of every explanation."""
-        odds = {e.id: e.prior_odds for s in self.draws for e in effects_of((s.id,))}
-        each = list(odds.values())
-        pairs = sum(a * b for a, b in combinations(each, 2))
-        total = (1.0, sum(each), pairs)
-        prior = priors(len(each))
-        found: dict[Explanation, float] = {}
-        for explanation, score in self.scores.items():
-            size = len(explanation.effects)
-            product = np.prod([odds[name] for name in explanation.effects])
-            found[explanation] = score + float(np.log(prior[size] * product / total[size]))
-        found[DISCREPANCY] = self.discrepancy.evidence + np.log(PRIOR["discrepancy"])
+        odds = self.prior_odds
+        found = {explanation: score + odds.log(explanation) for explanation, score in self.scores.items()}
+        found[DISCREPANCY] = self.discrepancy.evidence + odds.log(DISCREPANCY)
         return found
+
+    @property
+    def prior_odds(self) -> PriorOdds:
+        """Prior odds of the explanations that its effects can form."""
+        return PriorOdds.of(s.id for s in self.draws)
 
     @property
     def log_bayes_factor(self) -> float:
@@ -104,17 +104,15 @@ class Search:
             for m, w in self.log_weights.items()
             if m != NOTHING
         ]
-        nothing, single, pair = priors(len(self.draws))
+        prior = self.prior_odds
         odds = float(np.logaddexp.reduce(logs)) - self.log_weights[NOTHING]
-        return odds + float(np.log(nothing / (single + pair + PRIOR["discrepancy"])))
+        return odds + float(np.log(prior.of_nothing / (prior.total - prior.of_nothing)))
 
     @property
     def log_probability(self) -> float:
         """Log probability density of the readings under all explanations together, up to a constant."""
         total = float(np.logaddexp.reduce(list(self.log_weights.values())))
-        return total - float(
-            np.log(sum(priors(len(self.draws))) + PRIOR["discrepancy"]) + np.log(self.problem.sd).sum()
-        )
+        return total - float(np.log(self.prior_odds.total) + np.log(self.problem.sd).sum())
 
 
 def search(
@@ -183,20 +181,6 @@ def spread_rows(values: list[np.ndarray], count: int) -> np.ndarray:
     return np.sort(order[at])
 
 
-def priors(effects: int) -> tuple[float, float, float]:
-    """Prior weights of nothing, of one effect and of two, for a number of effects; the discrepancy keeps its own.
-
-    Among few effects the prior of nothing is raised and that of pairs lowered.
-
-    >>> priors(30), [round(p, 2) for p in priors(6)]
-    ((0.42, 0.38, 0.08), [0.89, 0.38, 0.02])
-    """
-    if effects == 0:
-        return PRIOR["nothing"], 0.0, 0.0
-    nothing = min(max(PRIOR["nothing"], LEAST_NOTHING_ODDS * PRIOR["single"] / effects), 1.0)
-    return nothing, PRIOR["single"], PRIOR["pair"] * min(1.0, effects / FULL_PAIR_PRIOR)
-
-
 def _search(
     problem: Problem, space: Coordinates, values: list[np.ndarray], exclude: Sequence[str], progress: Progress
 ) -> Search:
@@ -222,6 +206,7 @@ def _search(
     fits: dict[Explanation, Fit] = {NOTHING: null_fit, **singles}
     progress("trying pairs of effects")
     fits |= {fit.explanation: fit for fit in _fit_pairs(problem, null_fit, singles, draws)}
+    fits = _with_more_laws(problem, null_fit, fits, draws)
     fits = {m: integrate_change_points(problem, f) for m, f in fits.items() if shows(problem, f, fits)}
     scores = _scores(problem, fits, space, values)
     progress("weighing a discrepancy")
@@ -248,8 +233,35 @@ def _fit_pairs(
     def fit(pair: tuple[Explanation, np.ndarray], rival: float) -> Fit:
         return map_fit(problem, *pair, rival=rival)
 
-    pairs = [pair for pair in promising_pairs(problem, singles, draws) if not one_in_time(pair[0], problem, null_fit)]
+    leaders = sorted(singles.values(), key=lambda f: -f.evidence)[:PAIR_LEADERS]
+    added = promising_additions(problem, leaders, draws, PAIRS)
+    pairs = [pair for pair in added if not one_in_time(pair[0], problem, null_fit)]
     return fit_best_first(fit, pairs, max([null_fit.evidence, *(f.evidence for f in singles.values())]))
+
+
+def _with_more_laws(
+    problem: Problem, null_fit: Fit, fits: dict[Explanation, Fit], draws: tuple[PriorDraws, ...]
+) -> dict[Explanation, Fit]:
+    """The fits with those of the leading explanations beside further laws, as long as a law improves on the best."""
+    prior = PriorOdds.of(s.id for s in draws)
+    laws = tuple(s for s in draws if s.id in prior.laws)
+
+    def weight(fit: Fit) -> float:
+        return fit.evidence + prior.log(fit.explanation)
+
+    def fit(item: tuple[Explanation, np.ndarray], rival: float) -> Fit:
+        return map_fit(problem, *item, rival=rival)
+
+    for _ in range(LAW_ROUNDS if laws else 0):
+        leaders = sorted((f for f in fits.values() if f.explanation.effects), key=lambda f: -weight(f))[:LAW_LEADERS]
+        added = promising_additions(problem, leaders, laws, LAWS_ADDED)
+        fresh = [item for item in added if item[0] not in fits]
+        best = max(map(weight, fits.values()))
+        found = fit_best_first(fit, fresh, max(f.evidence for f in fits.values()))
+        fits |= {one.explanation: one for one in found}
+        if max(map(weight, found), default=-np.inf) <= best:
+            break
+    return fits
 
 
 def one_in_time(pair: Explanation, problem: Problem, null_fit: Fit) -> bool:

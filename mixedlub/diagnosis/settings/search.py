@@ -10,10 +10,14 @@ LEAST_NOTHING_ODDS = 14.0
 does not tie with nothing missing."""
 FULL_PAIR_PRIOR = 25
 """Judgement. Number of effects from which pairs have their whole prior; among fewer, pairs are fewer too."""
+LAW_ODDS = 0.02
+"""Judgement. Prior odds that a step of the base model follows another published law than its own, on any one rig."""
 AFFECTED = 0.1
 """Judgement. Share of the largest change by an explanation from which a reading is affected: less is hardly seen."""
 
 # Cost
+LAW_LEADERS, LAWS_ADDED, LAW_ROUNDS = 6, 16, 3
+"""Cost limit. Best explanations to which a further law is added, such additions that are fitted, and rounds of them."""
 MANY = 1200
 """Cost limit. Readings beyond which explanations are searched on a subset."""
 SUBSET = 600

@@ -1,0 +1,80 @@
+"""Prior odds of explanations: nothing missing, effects alone and in pairs, and beside them other laws of the base."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from mixedlub.diagnosis.explanation import Explanation
+from mixedlub.diagnosis.problem import effects_of
+from mixedlub.diagnosis.settings.search import FULL_PAIR_PRIOR, LAW_ODDS, LEAST_NOTHING_ODDS, PRIOR
+
+
+def priors(effects: int) -> tuple[float, float, float]:
+    """Prior weights of nothing, of one effect and of two, for a number of effects; the discrepancy keeps its own.
+
+    Among few effects the prior of nothing is raised and that of pairs lowered.
+
+    >>> priors(30), [round(p, 2) for p in priors(6)]
+    ((0.42, 0.38, 0.08), [0.89, 0.38, 0.02])
+    """
+    if effects == 0:
+        return PRIOR["nothing"], 0.0, 0.0
+    nothing = min(max(PRIOR["nothing"], LEAST_NOTHING_ODDS * PRIOR["single"] / effects), 1.0)
+    return nothing, PRIOR["single"], PRIOR["pair"] * min(1.0, effects / FULL_PAIR_PRIOR)
+
+
+@dataclass(frozen=True)
+class PriorOdds:
+    """Prior weights of the explanations that some effects and laws can form."""
+
+    ids: tuple[str, ...]
+
+    @classmethod
+    def of(cls, ids: Iterable[str]) -> PriorOdds:
+        """Of effects and laws by id."""
+        return cls(tuple(ids))
+
+    @cached_property
+    def _odds(self) -> dict[str, float]:
+        """Odds of each effect relative to others."""
+        return {e.id: e.prior_odds for e in effects_of(self.ids) if not e.replaces}
+
+    @cached_property
+    def laws(self) -> tuple[str, ...]:
+        """Those that replace a step of the base model."""
+        return tuple(name for name in self.ids if name not in self._odds)
+
+    @cached_property
+    def _sizes(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Prior weight of nothing, one effect and two, and the sum of odds that shares it."""
+        each = np.array(list(self._odds.values()))
+        return priors(len(each)), (1.0, float(each.sum()), 0.5 * float(each.sum() ** 2 - (each**2).sum()))
+
+    def log(self, explanation: Explanation) -> float:
+        """Log prior weight of an explanation."""
+        if explanation.is_discrepancy:
+            return float(np.log(PRIOR["discrepancy"]))
+        effects = [name for name in explanation.effects if name in self._odds]
+        weight, total = (sizes[len(effects)] for sizes in self._sizes)
+        laws = len(explanation.effects) - len(effects)
+        return float(np.log(weight / total) + sum(np.log(self._odds[n]) for n in effects) + laws * np.log(LAW_ODDS))
+
+    @property
+    def total(self) -> float:
+        """Sum of the weights of all explanations."""
+        return float(sum(self._sizes[0]) * (1.0 + LAW_ODDS) ** len(self.laws) + PRIOR["discrepancy"])
+
+    @property
+    def of_nothing(self) -> float:
+        """Weight of nothing missing."""
+        return self._sizes[0][0]
+
+    def chance(self, name: str) -> float:
+        """Prior probability of one effect alone, or of a law."""
+        if name in self.laws:
+            return LAW_ODDS / (1.0 + LAW_ODDS)
+        return float(np.exp(self.log(Explanation.of(name)))) / (sum(self._sizes[0]) + PRIOR["discrepancy"])
