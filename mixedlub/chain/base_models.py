@@ -29,6 +29,7 @@ FRICTION: Chain = (
 LINE: Chain = (
     ("slide_roll_ratio", load.slide_roll_ratio),
     ("hertz_pressure", contact.line_hertz_pressure),
+    ("mean_pressure", contact.mean_hertz_pressure),
     ("hertz_half_width", contact.line_hertz_half_width),
     ("moes_load", film.moes_load),
     ("film_thickness", film.dowson_toyoda),
@@ -40,6 +41,7 @@ LINE: Chain = (
 POINT: Chain = (
     ("slide_roll_ratio", load.slide_roll_ratio),
     ("hertz_pressure", contact.point_hertz_pressure),
+    ("mean_pressure", contact.point_mean_pressure),
     ("hertz_half_width", contact.point_hertz_half_width),
     ("film_thickness", film.hamrock_dowson),
     *ASPERITIES,

@@ -220,8 +220,7 @@ def effect(
     ``special_cases`` are laws, published or limits, that the effect becomes at certain values of some parameters. A
     ``descriptive`` effect follows readings without naming a cause. An ``exact_form`` is the effect's definition, so no
     error of form is considered. ``needs_variation_in`` is a quantity at whose single value the effect would only
-    rescale the base model; it is not offered there. ``replaces`` is the step of the base model in place of which the law
-    stands, where it adds no physics.
+    rescale the base model; it is not offered there. A law that adds no physics ``replaces`` a step of the base model.
     """
     targets = (acts_on,) if isinstance(acts_on, str) else acts_on
 

@@ -92,6 +92,7 @@ summit_sigma            | sigma_s    | m       | standard deviation of summit he
 plane_offset            | z_s        | m       | height of the summits' mean plane above the surface's
 # state of the contact
 hertz_pressure          | p_0        | Pa      | largest pressure of the smooth dry contact; pressure on a sample
+mean_pressure           | p_m      | Pa      | mean pressure of the smooth dry contact
 hertz_half_width        | b_H        | m       | half width (line) or radius (point) of the smooth dry contact
 regression_film         | h_r        | m       | central film thickness as the regression for smooth contacts has it
 regime_film             | h_m        | m       | central film thickness as the formula for all regimes has it

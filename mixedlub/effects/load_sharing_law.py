@@ -33,7 +33,6 @@ from mixedlub.chain.priors import Uniform
     source="ISO/TR 15144-1, load sharing factor from 1/3 to 2/3; equal shares: H. Ohlendorf, thesis, TU Munich 1958",
     fingerprint={"load": "+"},
     separated_by="the load share itself, from strain gauges in the tooth roots, or the transmission error",
-    applied_after=("tip_relief",),
     replaces="load sharing of the teeth",
     special_cases={
         "ISO/TR 15144-1": {"share": 1.0, "first": 1.0 / 3.0},

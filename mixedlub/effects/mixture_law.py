@@ -4,6 +4,7 @@ import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
 from mixedlub.chain.priors import Uniform
+from mixedlub.laws.mixture import load_weighted_friction, tallian_friction
 
 
 @effect(
@@ -26,7 +27,7 @@ from mixedlub.chain.priors import Uniform
     separated_by="boundary friction by itself at rest, and the film friction with smooth surfaces: between the two the "
     "weight is seen",
     replaces="friction of film and asperities together",
-    special_cases={"Gelinck and Schipper": {"share": 1.0}},
+    special_cases={"weights by load": {"share": 1.0}},
 )
 def mixture_law(
     friction: np.ndarray,
@@ -44,4 +45,5 @@ def mixture_law(
     >>> round(float(mixture_law(0.0363, 0.0236, 0.1, 0.1662, 0.91, share=1.0)), 4)
     0.0931
     """
-    return friction + share * (boundary_friction - fluid_friction) * (asperity_load_share - area_ratio)
+    each = (fluid_friction, boundary_friction)
+    return friction + share * (load_weighted_friction(*each, asperity_load_share) - tallian_friction(*each, area_ratio))

@@ -42,6 +42,7 @@ _TYPICAL = 2e5
     fingerprint={"load": "+", "speed": "-", "roughness": "+"},
     separated_by="the load share itself, from strain gauges or transmission error, or elastic teeth in the model where "
     "they were taken as rigid; the effect fades with torque, that of a heat leak does not",
+    applied_after=("load_sharing_law",),
     prior_odds=0.5,
 )
 def tip_relief(

@@ -15,7 +15,7 @@ from mixedlub.kinds.disc import COLUMNS, contact_inputs
 from mixedlub.kinds.kind import Inputs, Kind, bookkeeping_inputs, column, programme, varies
 from mixedlub.kinds.standard import OIL, StandardRig
 from mixedlub.laws import contact, film, load
-from mixedlub.laws.film import LINE_EXPONENT, LINE_LOAD_EXPONENT, POINT_EXPONENT
+from mixedlub.laws.film import DOWSON_TOYODA, POINT_EXPONENT
 from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.rig import Rig
@@ -110,9 +110,9 @@ def _of_ball(system: system_file.System) -> Iterator[Calibration]:
 
 
 def _of_line(load: np.ndarray) -> Iterator[Calibration]:
-    yield _exponent("film_exponent", "speed", LINE_EXPONENT, LINE_EXPONENT_SPREAD)
+    yield _exponent("film_exponent", "speed", DOWSON_TOYODA.speed, LINE_EXPONENT_SPREAD)
     if varies(load):
-        yield _exponent("film_load_exponent", "load", LINE_LOAD_EXPONENT, LINE_LOAD_SPREAD)
+        yield _exponent("film_load_exponent", "load", DOWSON_TOYODA.load, LINE_LOAD_SPREAD)
 
 
 def _exponent(name: str, of: str, nominal: float, spread: float) -> Calibration:

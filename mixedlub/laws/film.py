@@ -2,14 +2,27 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from mixedlub.powers import power
 from mixedlub.slots import FILM
 
-LINE_EXPONENT, POINT_EXPONENT = 0.69, 0.67
-LINE_LOAD_EXPONENT = -0.10
-"""Of speed in the regressions of Dowson and Toyoda, and of Hamrock and Dowson, and of load in the first."""
+
+class Regression(NamedTuple):
+    """A film of line contacts over the radius: a constant times powers of the groups U, G and W."""
+
+    constant: float
+    speed: float
+    material: float
+    load: float
+
+
+DOWSON_TOYODA = Regression(3.06, 0.69, 0.56, -0.10)
+DOWSON_HIGGINSON = Regression(2.65, 0.70, 0.54, -0.13)
+POINT_EXPONENT = 0.67
+"""Of speed in the regression of Hamrock and Dowson."""
 ELASTIC = {"moes_load": (2.0, np.inf)}
 """Range of the films of flattened line contacts. Full solutions are within 13 % of Dowson and Toyoda's incompressible
 film there (U 3e-13 to 1e-9, W 3e-5 to 2e-4); below, the law is up to 40 % too thick."""
@@ -25,6 +38,13 @@ def _line_groups(
     """Speed and load parameter of a line contact, U and W."""
     size = reduced_modulus * radius
     return viscosity * entrainment_speed / size, line_load / size
+
+
+def _film(law: Regression, radius: np.ndarray, material: np.ndarray, speed: np.ndarray, load: np.ndarray) -> np.ndarray:
+    """Film thickness by a regression (m)."""
+    modulus = power(material, law.material)
+    film: np.ndarray = law.constant * modulus * radius * power(speed, law.speed) * power(load, law.load)
+    return film
 
 
 def moes_load(
@@ -61,15 +81,14 @@ def dowson_toyoda(
 
     with the mean speed u and E' = 2/[(1-nu1^2)/E1 + (1-nu2^2)/E2]. Against numerical solutions: within 20 %
     for an incompressible film at U 1e-12 to 1e-10; 9 to 29 % above a compressible one at gear conditions.
-    Source: D. Dowson, A. Toyoda, Proc. 5th Leeds-Lyon Symposium, 1979, the central-film formula.
+    Source: D. Dowson, S. Toyoda, Proc. 5th Leeds-Lyon Symposium, 1979, the central-film formula.
 
     >>> h = dowson_toyoda(8.3262e-3, 2.1630, 214.86e3, 0.01489, 14.81e-9, 226.374e9)
     >>> round(float(h) * 1e6, 4)
     0.2214
     """
-    speed, load = _line_groups(radius, entrainment_speed, line_load, viscosity, reduced_modulus)
-    modulus = power(pressure_viscosity * reduced_modulus, 0.56)
-    return 3.06 * modulus * radius * power(speed, LINE_EXPONENT) * power(load, LINE_LOAD_EXPONENT)
+    groups = _line_groups(radius, entrainment_speed, line_load, viscosity, reduced_modulus)
+    return _film(DOWSON_TOYODA, radius, pressure_viscosity * reduced_modulus, *groups)
 
 
 @FILM.offers("dowson_higginson_minimum", "minimum film of Dowson and Higginson", ELASTIC)
@@ -90,9 +109,8 @@ def dowson_higginson(
     >>> round(float(h) * 1e6, 4)
     0.1671
     """
-    speed, load = _line_groups(radius, entrainment_speed, line_load, viscosity, reduced_modulus)
-    modulus = power(pressure_viscosity * reduced_modulus, 0.54)
-    return 2.65 * modulus * radius * power(speed, 0.70) * power(load, -0.13)
+    groups = _line_groups(radius, entrainment_speed, line_load, viscosity, reduced_modulus)
+    return _film(DOWSON_HIGGINSON, radius, pressure_viscosity * reduced_modulus, *groups)
 
 
 def hamrock_dowson(

@@ -24,18 +24,17 @@ class Contained:
         """What the readings say of the law.
 
         >>> print(Contained("inlet_shear_heating", "Gupta", -0.9).text)
-        The formula of Gupta is a special case and fits about as well (odds 1 : 2.5).
+        Its special case "Gupta" fits about as well (odds 1 : 2.5).
         """
         if self.log_odds > -LAW_OPEN:
-            how = "and fits as well with fewer parameters"
+            how = "fits as well with fewer parameters"
         elif self.log_odds > LAW_OPEN:
-            how = "and fits about as well"
+            how = "fits about as well"
         elif self.log_odds > LAW_REJECTED:
-            how = "that fits less well"
+            how = "fits less well"
         else:
-            how = "that is rejected"
-        name = f"{self.law}," if "," in self.law else self.law
-        return f"The formula of {name} is a special case {how} (odds {self._odds})."
+            how = "is rejected"
+        return f'Its special case "{self.law}" {how} (odds {self._odds}).'
 
     @property
     def _odds(self) -> str:
