@@ -242,7 +242,7 @@ def _fit_pairs(
 def _with_more_laws(
     problem: Problem, null_fit: Fit, fits: dict[Explanation, Fit], draws: tuple[PriorDraws, ...]
 ) -> dict[Explanation, Fit]:
-    """The fits with those of the leading explanations beside further laws, as long as a law improves on the best."""
+    """The fits with pairs of laws, and with leading explanations beside further laws as long as one improves."""
     prior = PriorOdds.of(s.id for s in draws)
     laws = tuple(s for s in draws if s.id in prior.laws)
 
@@ -252,15 +252,20 @@ def _with_more_laws(
     def fit(item: tuple[Explanation, np.ndarray], rival: float) -> Fit:
         return map_fit(problem, *item, rival=rival)
 
-    for _ in range(LAW_ROUNDS if laws else 0):
-        leaders = sorted((f for f in fits.values() if f.explanation.effects), key=lambda f: -weight(f))[:LAW_LEADERS]
-        added = promising_additions(problem, leaders, laws, LAWS_ADDED)
+    best = max(fits.values(), key=weight)
+    if not laws or best.explanation == NOTHING:
+        return fits
+    leaders = [fits[Explanation.of(s.id)] for s in laws]
+    most = len(laws) ** 2
+    for _ in range(LAW_ROUNDS):
+        added = promising_additions(problem, leaders, laws, most)
         fresh = [item for item in added if item[0] not in fits]
-        best = max(map(weight, fits.values()))
         found = fit_best_first(fit, fresh, max(f.evidence for f in fits.values()))
         fits |= {one.explanation: one for one in found}
-        if max(map(weight, found), default=-np.inf) <= best:
+        ranked = sorted((f for f in fits.values() if f.explanation.effects), key=lambda f: -weight(f))
+        if leaders == ranked[:LAW_LEADERS]:
             break
+        leaders, most = ranked[:LAW_LEADERS], LAWS_ADDED
     return fits
 
 
