@@ -1,9 +1,9 @@
-"""Friction of film and asperities weighted by the load that each carries."""
+"""Friction of film and asperities with other weights than their areas."""
 
 import numpy as np
 
 from mixedlub.chain.effect import Parameter, effect
-from mixedlub.chain.priors import Uniform
+from mixedlub.chain.priors import LogNormal, Uniform
 from mixedlub.laws.mixture import load_weighted_friction, tallian_friction
 
 
@@ -12,7 +12,7 @@ from mixedlub.laws.mixture import load_weighted_friction, tallian_friction
     acts_on="friction",
     parameters=(
         Parameter(
-            "share",
+            "by_load",
             "-",
             Uniform(0.0, 1.0),
             "share of the way from weights by area to weights by load",
@@ -20,14 +20,29 @@ from mixedlub.laws.mixture import load_weighted_friction, tallian_friction
             symbol="r",
             nominal=1.0,
         ),
+        Parameter(
+            "by_film",
+            "-",
+            Uniform(0.0, 1.0),
+            "share of the way from there to weights by the film over the roughness",
+            null=0.0,
+            symbol="k",
+        ),
+        Parameter("rate", "-", LogNormal(1.8, 0.4), "rate at which that weight falls", symbol="c"),
+        Parameter("power", "-", LogNormal(1.2, 0.2), "power of the film over the roughness in it", symbol="d"),
     ),
-    equation=r"\mu \leftarrow \mu + r\,(\mu_B - \mu_E)(L - P_B)",
-    source="E. R. M. Gelinck, D. J. Schipper, Tribol. Int. 33 (2000) 175; on T. E. Tallian, Wear 21 (1972) 49",
+    equation=r"\mu \leftarrow \mu + (\mu_B - \mu_E)\left\{(1 - k)\left[(1 - r) P_B + r L\right] + "
+    r"k\,e^{-c(h/\sigma)^d} - P_B\right\}",
+    source="E. R. M. Gelinck, D. J. Schipper, Tribol. Int. 33 (2000) 175, by load; S. Aihara, J. Tribol. 109 (1987) 471, by "
+    "film, after N. Patir and H. S. Cheng; on T. E. Tallian, Wear 21 (1972) 49",
     fingerprint={"oil_temperature": "+"},
     separated_by="boundary friction by itself at rest, and the film friction with smooth surfaces: between the two the "
     "weight is seen",
     replaces="friction of film and asperities together",
-    special_cases={"weights by load": {"share": 1.0}},
+    special_cases={
+        "weights by load": {"by_load": 1.0, "by_film": 0.0},
+        "Aihara": {"by_load": 0.0, "by_film": 1.0, "rate": 1.8, "power": 1.2},
+    },
 )
 def mixture_law(
     friction: np.ndarray,
@@ -35,15 +50,30 @@ def mixture_law(
     boundary_friction: np.ndarray,
     area_ratio: np.ndarray,
     asperity_load_share: np.ndarray,
+    film_thickness: np.ndarray,
+    composite_roughness: np.ndarray,
     *,
-    share: float,
+    by_load: float,
+    by_film: float,
+    rate: float,
+    power: float,
 ) -> np.ndarray:
-    """Film and asperity friction count by the load that each carries instead of the area that each covers.
+    """Film and asperity friction count by the load that each carries, or by the film over the roughness.
 
-    Asperities carry a larger share of the load than of the area, as their pressure is above the mean.
+    Asperities carry a larger share of the load than of the area, as their pressure is above the mean. Other weights are
+    fits over the film over the roughness; most fall as an exponential of a power of it near 1.
 
-    >>> round(float(mixture_law(0.0363, 0.0236, 0.1, 0.1662, 0.91, share=1.0)), 4)
+    >>> state = (0.0363, 0.0236, 0.1, 0.1662, 0.91, 0.3e-6, 0.3e-6)
+    >>> form = {"rate": 1.8, "power": 1.2}
+    >>> round(float(mixture_law(*state, by_load=1.0, by_film=0.0, **form)), 4)
     0.0931
+    >>> round(float(mixture_law(*state, by_load=0.0, by_film=1.0, **form)), 4)   # exp(-1.8) = 0.165
+    0.0362
     """
     each = (fluid_friction, boundary_friction)
-    return friction + share * (load_weighted_friction(*each, asperity_load_share) - tallian_friction(*each, area_ratio))
+    area = tallian_friction(*each, area_ratio)
+    weighed = area + by_load * (load_weighted_friction(*each, asperity_load_share) - area)
+    if by_film != 0.0:
+        weight = np.exp(-rate * (film_thickness / composite_roughness) ** power)
+        weighed = weighed + by_film * (tallian_friction(*each, weight) - weighed)
+    return friction + weighed - area
