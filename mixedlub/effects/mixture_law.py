@@ -33,8 +33,8 @@ from mixedlub.laws.mixture import load_weighted_friction, tallian_friction
     ),
     equation=r"\mu \leftarrow \mu + (\mu_B - \mu_E)\left\{(1 - k)\left[(1 - r) P_B + r L\right] + "
     r"k\,e^{-c(h/\sigma)^d} - P_B\right\}",
-    source="E. R. M. Gelinck, D. J. Schipper, Tribol. Int. 33 (2000) 175, by load; S. Aihara, J. Tribol. 109 (1987) 471, by "
-    "film, after N. Patir and H. S. Cheng; on T. E. Tallian, Wear 21 (1972) 49",
+    source="E. R. M. Gelinck, D. J. Schipper, Tribol. Int. 33 (2000) 175, by load; S. Aihara, J. Tribol. 109 (1987) "
+    "471, by film, after N. Patir and H. S. Cheng; on T. E. Tallian, Wear 21 (1972) 49",
     fingerprint={"oil_temperature": "+"},
     separated_by="boundary friction by itself at rest, and the film friction with smooth surfaces: between the two the "
     "weight is seen",
