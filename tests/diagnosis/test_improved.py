@@ -151,7 +151,8 @@ def test_every_effect_of_a_case_acts_as_in_the_search(of_kind: Case, tmp_path: P
     base = Forward(of_kind, of_kind.recordings)
     calibration = {c.name: c.parameter.prior.value(0.5) for c in base.calibrations}
     for e in base.effects():
-        updated = {"effects": {e.id: e.prior_medians}, "calibration": calibration}
+        own = {name: value for name, value in calibration.items() if not name.startswith(f"{e.id}.")}
+        updated = {"effects": {e.id: e.prior_medians}, "calibration": own}
         case = replace(of_kind, system=of_kind.system.model_copy(update=updated))
         there = Forward(case, of_kind.recordings)
         assert there.predict() == pytest.approx(
@@ -220,7 +221,7 @@ def test_a_parameter_with_a_standard_deviation_is_calibrated(
     case = read_case(folder)
     assert case.recordings is not None
     forward = Forward(case, case.recordings)
-    assert forward.calibrations[-1].name == "sensor_gain.gain"
+    assert "sensor_gain.gain" in [c.name for c in forward.calibrations]
     assert forward.predict({"sensor_gain.gain": 0.1}) == pytest.approx(1.1 * forward.predict())
     assert forward.known.values["bearing_drag"]["rubbing"] == 0.0
     d = diagnose_case(folder, exclude=excluded)

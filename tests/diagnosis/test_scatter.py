@@ -24,8 +24,8 @@ TRUE = "noise = { relative = 0.02, absolute = 0.0002 }"
 
 
 def heated(conditions: dict[str, np.ndarray], base: np.ndarray) -> np.ndarray:
-    """A channel that reads a third too much: a mismatch beyond any doubt."""
-    return 1.35 * base
+    """A channel that reads a half too much: a mismatch beyond any doubt."""
+    return 1.5 * base
 
 
 def restated(folder: Path, line: str) -> Path:

@@ -130,16 +130,16 @@ def test_the_demerit_spares_what_chance_and_another_form_leave(after: float, row
 
 
 def test_an_effect_that_is_seldom_missing_has_lower_odds(monkeypatch: pytest.MonkeyPatch) -> None:
-    from mixedlub.diagnosis.search import search
+    from mixedlub.diagnosis.search import prior_odds
 
     found = found_in(problem())
     here = found.log_weights
-    known = search.effects_of
+    known = prior_odds.effects_of
 
     def rarer(names: list[str]) -> list[Effect]:
         return [replace(e, prior_odds=0.1) if e.id == "churning" else e for e in known(names)]
 
-    monkeypatch.setattr(search, "effects_of", rarer)
+    monkeypatch.setattr(prior_odds, "effects_of", rarer)
     there = found.log_weights
     fallen = {m: here[m] - there[m] for m in map(Explanation.of, ("churning", "sensor_gain"))}
     assert fallen[Explanation.of("churning")] - fallen[Explanation.of("sensor_gain")] == pytest.approx(np.log(10.0))
