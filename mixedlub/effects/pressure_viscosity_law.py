@@ -27,15 +27,6 @@ CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
             kinds=SAMPLE,
         ),
         Parameter(
-            "barus",
-            "-",
-            Normal(0.5, 0.5),
-            "share of the way from the power law of Roelands to the exponential of Barus",
-            null=0.0,
-            symbol="k",
-            kinds=CONTACT,
-        ),
-        Parameter(
             "exponent",
             "-",
             Normal(0.6, 0.1),
@@ -110,7 +101,7 @@ CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
         ),
     ),
     equation=r"\ln\eta_p \leftarrow \ln\eta_p + G(f\ell) - G(\ell),\quad "
-    r"\ell = (1 - r - k)\ln\frac{\eta_p}{\eta_0} + r\,\ell_R + k\,\alpha\,p_0,\ "
+    r"\ell = (1 - r)\ln\frac{\eta_p}{\eta_0} + r\,\ell_R,\ "
     r"\ell_R = (\ln\eta_0 + 9.67)\left[\left(1 + \frac{p_0}{p_r}\right)^Z - 1\right],\ "
     r"p_r = 0.196\,\text{GPa},\quad "
     r"f = \left[1 + (s' - 1)(1 - e^{-p_0/p_s})\right]\frac{e^{B'p_0} - e^{-C'p_0}}{(B' + C')\,p_0},\ "
@@ -125,14 +116,6 @@ CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
     "only bends down, a liquid near its glass bends up again",
     replaces="viscosity under pressure",
     special_cases={
-        "Barus": {
-            "barus": 1.0,
-            "slope": 1.0,
-            "slope_with_temperature": 0.0,
-            "slope_bow": 0.0,
-            "bend_down": 0.0,
-            "bend_up": 0.0,
-        },
         "Roelands": {
             "roelands": 1.0,
             "slope": 1.0,
@@ -140,18 +123,16 @@ CONTACT = ("gear_pair", "disc", "friction_history", "mesh_friction")
             "slope_bow": 0.0,
             "bend_down": 0.0,
             "bend_up": 0.0,
-        },
+        }
     },
 )
 def pressure_viscosity_law(
     contact_viscosity: np.ndarray,
     viscosity: np.ndarray,
-    pressure_viscosity: np.ndarray,
     hertz_pressure: np.ndarray,
     oil_temperature: np.ndarray,
     *,
     roelands: float,
-    barus: float,
     exponent: float,
     slope: float,
     onset: float,
@@ -171,12 +152,12 @@ def pressure_viscosity_law(
     the slope is an interpolation of this catalogue. Both curvatures change exponentially with 1/T. Viscosity is limited
     to that of a glass. The glass's 1e8 Pa s, 9.67 and p_r make the form belong to Pa s and Pa.
 
-    >>> rest = dict(down_with_temperature=0.0, up_with_temperature=0.0, bend_up=0.0, exponent=0.53135, barus=0.0)
+    >>> rest = dict(down_with_temperature=0.0, up_with_temperature=0.0, bend_up=0.0, exponent=0.53135)
     >>> rest |= dict(slope=1.0, onset=0.15e9, slope_with_temperature=0.0, slope_bow=0.0)
-    >>> x = pressure_viscosity_law(np.exp(10.0), 1.0, 2e-8, 0.5e9, 313.15, roelands=0.0, bend_down=2e-9, **rest)
+    >>> x = pressure_viscosity_law(np.exp(10.0), 1.0, 0.5e9, 313.15, roelands=0.0, bend_down=2e-9, **rest)
     >>> round(float(np.log(x)), 1)   # 10 (1 - exp(-1))/1 = 6.32
     6.3
-    >>> x = pressure_viscosity_law(1.0, 0.01489, 2e-8, 0.9642e9, 313.15, roelands=1.0, bend_down=0.0, **rest)
+    >>> x = pressure_viscosity_law(1.0, 0.01489, 0.9642e9, 313.15, roelands=1.0, bend_down=0.0, **rest)
     >>> round(float(x), 1)
     80.1
     """
@@ -192,7 +173,7 @@ def pressure_viscosity_law(
         np.minimum(0.5 * (up - down), 50.0)
     )
     solid = np.log(GLASS / viscosity)
-    mixed = log + roelands * (power - log) + barus * (pressure_viscosity * hertz_pressure - log)
+    mixed = log + roelands * (power - log)
     return contact_viscosity * np.exp(
         _below(np.minimum(mixed * steeper * shape, 9.0 * solid), solid) - _below(log, solid)
     )

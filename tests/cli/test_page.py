@@ -49,7 +49,7 @@ def test_page_states_options_definitions_warnings_laws_and_effects(page):
         "mean over the path weighted by load times sliding speed",
         "plain mean over the path of contact",
         "times the mean Hertz pressure",
-        "D. Dowson, A. Toyoda",
+        "D. Dowson, S. Toyoda",
         "J. A. Greenwood, J. B. P. Williamson",
         "P. K. Gupta",
         "inlet_shear_heating",

@@ -26,7 +26,7 @@ class TestLookalikes:
             law: float(rolling @ sign("churning", {"strength": 1.0, "surplus": 0.0, **values}))
             for law, values in laws.items()
         }
-        assert alike["Boness, laminar"] > 0.95 > alike["Changenet and Velex"] > alike["Boness, turbulent"]
+        assert alike["Boness, laminar"] > 0.94 > alike["Changenet and Velex"] > alike["Boness, turbulent"]
 
     def test_windage_does_not_look_like_churning(self) -> None:
         assert "churning" not in lookalikes("windage", "gear_pair")

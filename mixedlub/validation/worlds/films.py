@@ -44,7 +44,7 @@ def grubin(u: np.ndarray, g: np.ndarray, w: np.ndarray) -> np.ndarray:
     """H = 1.95 (U G)^(8/11) W^(-1/11) (Grubin 1949, after Ertel), for heavily loaded contacts.
 
     >>> round(float(grubin(np.array(1e-11), np.array(5000.0), np.array(1e-4))), 8)
-    2.196e-05
+    2.207e-05
     """
     return np.asarray(1.95 * (u * g) ** (8 / 11) * w ** (-1 / 11))
 
