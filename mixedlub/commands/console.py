@@ -96,7 +96,8 @@ def case_folder(case: Path) -> Path:
     if not case.is_dir():
         raise InputError("no such case folder", where=str(case))
     if not (case / "system.toml").exists():
-        inside = sorted(path.parent.name for path in case.glob("*/system.toml"))
+        found = (path.parent.name for path in case.glob("*/system.toml"))
+        inside = sorted(name for name in found if not name.startswith("."))
         cases = f"; cases in it: {listed(inside)}" if inside else "; `mixedlub new case` writes one"
         raise InputError(f"is a folder without system.toml, so no case{cases}", where=str(case))
     return case

@@ -78,7 +78,8 @@ def far_from_neighbours(forward: Forward, y: np.ndarray, base: np.ndarray) -> np
         return far
     share = y[known] / base[known]
     place = np.column_stack([_scaled(v[known]) for n, v in raw_coordinates(forward).items() if n != "sequence"])
-    others = KDTree(place).query(place, NEIGHBOURS + 1)[1]
+    compared = _a_few_of_each(place)
+    others = compared[KDTree(place[compared]).query(place, NEIGHBOURS + 1)[1]]
     # Readings at one place come in any order, so that the first need not be the reading itself.
     kept = np.where(others == np.arange(known.size)[:, None], np.nan, share[others])
     kept[~np.isnan(kept).any(axis=1), -1] = np.nan
@@ -87,6 +88,19 @@ def far_from_neighbours(forward: Forward, y: np.ndarray, base: np.ndarray) -> np
     usual = TO_SIGMA * float(np.median(apart))
     far[known] = (apart > HAMPEL * usual) & (apart > FAR * np.abs(suggested))
     return far
+
+
+def _a_few_of_each(place: np.ndarray) -> np.ndarray:
+    """Readings at each place, evenly over its own, no more than are looked up: a tree cannot part equal points.
+
+    >>> _a_few_of_each(np.zeros((70, 1))).tolist(), _a_few_of_each(np.array([[0.0], [1.0], [0.0]])).tolist()
+    ([0, 10, 20, 30, 40, 50, 60], [0, 1, 2])
+    """
+    _, at, counts = np.unique(place, axis=0, return_inverse=True, return_counts=True)
+    order = np.argsort(at.ravel(), kind="stable")
+    rank = np.arange(order.size) - np.repeat(np.cumsum(counts) - counts, counts)
+    kept = rank * (NEIGHBOURS + 1) % np.repeat(counts, counts) < NEIGHBOURS + 1
+    return np.sort(order[kept])
 
 
 def _scaled(values: np.ndarray) -> np.ndarray:

@@ -38,6 +38,8 @@ def test_a_folder_that_is_no_case_is_not_said_to_be_missing(tmp_path, capsys):
     assert "is a folder without system.toml, so no case; cases in it: case" in told
     assert "`mixedlub new case` writes one" in refused(capsys, "check", tmp_path)
     assert "no such case folder" in refused(capsys, "check", tmp_path / "nowhere")
+    shutil.copytree(EXAMPLES / "case", tmp_path / ".writing-31534")
+    assert "`mixedlub new case` writes one" in refused(capsys, "check", tmp_path)
 
 
 def test_a_folder_named_as_a_trace_is_said_to_be_one(tmp_path, capsys):

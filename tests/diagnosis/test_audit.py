@@ -12,6 +12,7 @@ import pytest
 from mixedlub.case.folder import Case, read_case
 from mixedlub.case.forward import Forward
 from mixedlub.data_checks.audit import check_readings
+from mixedlub.data_checks.misread import misread
 from mixedlub.gear import RigidSharing, at_roll_angle
 from mixedlub.importers import write_case
 from mixedlub.rig.build import gear_pair
@@ -129,6 +130,17 @@ def one(run: int, change: Change) -> Change:
 def test_a_single_reading_far_beyond_the_others_is_asked_about(case: Case, factor: float) -> None:
     (note,) = told(case, one(7, lambda y: factor * y))
     assert (note.code, note.place) == ("reading_too_large", "run 7")
+
+
+def test_a_wrong_reading_among_many_at_few_conditions_is_found(case: Case) -> None:
+    """Held levels: ten thousand readings at each of three conditions, one with its decimal point off."""
+    assert case.recordings is not None
+    rows = case.recordings.take(np.repeat([0, 30, 60], 10_000))
+    rows = Table({**rows.columns, "run": np.arange(1, 30_001)})
+    y = np.asarray(rows[case.quantity], dtype=float) * (1.0 + 0.01 * np.sin(np.arange(30_000)))
+    y[15_000] *= 10.0
+    (found,) = misread(case, rows, y, Forward(case, rows), np.zeros(y.size, dtype=bool))
+    assert (found.code, found.place) == ("reading_too_large", "run 15001")
 
 
 @pytest.mark.parametrize("factor", [0.0, 0.3, 3.0, 8.0])
