@@ -90,9 +90,9 @@ def command(
 
                 text = given.decode("utf-8-sig")
                 with busy("drawing figures") as doing:
-                    seen = (*warnings, *study.notes)
+                    known = results.findings
                     of_heights = write_page(
-                        results, aside, seen, given=text, formats=formats, as_in_paper=paper_figures, doing=doing
+                        results, aside, known, given=text, formats=formats, as_in_paper=paper_figures, doing=doing
                     )
                 print_findings(of_heights)
             write_record(aside, folder, study, file, given)

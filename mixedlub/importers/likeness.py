@@ -15,7 +15,7 @@ from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, WEIGHED, target
 from mixedlub.kinds import KINDS
 from mixedlub.kinds import kind as kind_of
 from mixedlub.schema.dates import is_dated
-from mixedlub.schema.table import Column
+from mixedlub.schema.table import Column, is_missing
 from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import fits, is_unit, split, words_of
 
@@ -32,6 +32,8 @@ COUNTED_LIKENESS = 1.0
 SOLE_UNIT = 0.9
 """Least likeness of a header in a unit that only this column has: as much as unit and half of the words."""
 TEXT_FITS = 0.4
+MOST_NAMES = 4
+"""Judgement. Names that may each be in one row of a short table."""
 SAME_WORD = 0.75
 DERIVED = re.compile(
     r"(?:slope|gradient|derivative|curvature|rate|damping|stiffness|duration|interval|pause|delay|index|"
@@ -181,7 +183,8 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
     if column in TEXT_COLUMNS:
         if unit is not None or numbers or any(map(is_dated, set(cells))):
             return 0.0
-        return TEXT_FITS + _overlap(words, column.replace("_", " "))
+        overlap = _overlap(words, column.replace("_", " "))
+        return 0.0 if is_empty(cells) or (overlap == 0.0 and is_remark(cells)) else TEXT_FITS + overlap
     if not numbers:
         return 0.0
     target = BY_NAME.get(column)
@@ -197,6 +200,24 @@ def likeness(column: str, header: str, cells: Sequence[str] = ()) -> float:
     )
     is_bare_ratio = unit is None and target.unit == "ratio" and overlap > 0.0
     return overlap + (UNIT_FITS if unit_counts else 0.0) + (NO_UNIT_FITS if is_bare_ratio else 0.0)
+
+
+def is_empty(cells: Sequence[str]) -> bool:
+    """Whether a column has cells and nothing in them."""
+    return len(cells) > 0 and all(map(is_missing, cells))
+
+
+def is_remark(cells: Sequence[str]) -> bool:
+    """Whether text is in few cells or differs in most of them, as remarks and not names do.
+
+    >>> is_remark(["ground"] * 9 + ["polished"] * 9), is_remark(["", "", "restart"]), is_remark(["ground", "polished"])
+    (False, True, False)
+    >>> is_remark(["pump on", "noisy", "restarted", "oil added", "noisy again", "stopped"])
+    True
+    """
+    filled = [cell for cell in cells if not is_missing(cell)]
+    different = len(set(filled))
+    return 2 * len(filled) < len(cells) or (different > MOST_NAMES and 2 * different > len(filled))
 
 
 def transmitted(column: str, cells: Cells) -> list[str]:

@@ -19,6 +19,7 @@ from mixedlub.importers.column_units import (
 )
 from mixedlub.importers.likeness import (
     either,
+    is_empty,
     is_logarithm,
     likely_headers,
     likely_spread,
@@ -41,7 +42,7 @@ from mixedlub.importers.time_base import (
 )
 from mixedlub.importers.vocabulary import BY_NAME, TEXT_COLUMNS, is_of_another, target_of
 from mixedlub.kinds import Kind
-from mixedlub.schema.table import BOOKKEEPING, Column, check_column, is_missing, sd_column
+from mixedlub.schema.table import BOOKKEEPING, Column, check_column, sd_column
 from mixedlub.schema.toml_file import toml_value
 from mixedlub.schema.units import fits, open_units, split, unit_of, words_of
 from profiles.errors import InputError, nearest
@@ -100,7 +101,7 @@ def match(kind: Kind, quantity: str, cells: Cells, answers: Answers) -> Match:
     matched = _Matched(headers=dict(named))
     reserved = set(named.values())
     free = {h: values for h, values in cells.items() if h not in reserved}
-    filled = {h: values for h, values in free.items() if not all(map(is_missing, values))}
+    filled = {h: values for h, values in free.items() if not is_empty(values)}
     for column in columns:
         if column.name not in named:
             _find_header(column, free if column.required else filled, matched)
@@ -281,7 +282,8 @@ def _missing(
 
 def _of_names(cells: Cells, free: Sequence[str]) -> tuple[str, ...]:
     """Headers of columns of text, or else those that nothing was taken from: names may be numbers."""
-    return tuple(h for h, values in cells.items() if not is_numeric(values)) or tuple(free)
+    filled = {h: values for h, values in cells.items() if not is_empty(values)}
+    return tuple(h for h, values in filled.items() if not is_numeric(values)) or tuple(h for h in free if h in filled)
 
 
 def _offered(cells: Cells, headers: Mapping[str, str]) -> Cells:

@@ -13,14 +13,17 @@ from mixedlub.case.defaults import BROAD, broadly_fitted, gears_taken, oil_taken
 from mixedlub.kinds import kind as kind_of
 from mixedlub.kinds.calibration import calibrations
 from mixedlub.schema import system_file
-from mixedlub.schema.section import Key, Section, needed, table
+from mixedlub.schema.section import Key, Section, is_valid, needed, table
 from mixedlub.schema.table import Table
 from mixedlub.schema.toml_file import default_of, toml_key, toml_value
 
 
 @dataclass(frozen=True)
 class Gap:
-    """Keys that a table of system.toml lacks, and whether the case is refused without the table."""
+    """Keys that a table of system.toml lacks, and whether the case is refused without the table.
+
+    Each key of ``enough`` is by itself as good as all that are needed.
+    """
 
     table: str
     absent: bool
@@ -28,6 +31,7 @@ class Gap:
     needed: tuple[str, ...]
     assumed: Mapping[str, str]
     keys: Mapping[str, Key]
+    enough: tuple[str, ...] = ()
 
     def comments(self) -> Iterator[str]:
         """Comment lines for the file: deleting the comment mark takes the value."""
@@ -42,11 +46,12 @@ class Gap:
 
     @property
     def blocking(self) -> str:
-        """What is needed, in one line."""
+        """What is needed, in one line, the shortest that is enough first."""
         if not self.needed:
-            return f"[{self.table}] with what is known; the rest is taken as typical"
-        other = [key for key in self.assumed if self.keys[key].is_alternative]
-        return f"[{self.table}] with {', '.join(self.needed)}" + (f"; or with {', '.join(other)}" if other else "")
+            choices = (f", if only {k} = {toml_value(key.example)}" for k, key in self.keys.items() if key.values)
+            return f"[{self.table}] with what is known{next(choices, '')}; the rest is taken as typical"
+        every = f"with {', '.join(self.needed)}"
+        return f"[{self.table}] " + (f"with {' or '.join(self.enough)}; or {every}" if self.enough else every)
 
     def open(self, taken: Mapping[str, str]) -> str:
         """Optional keys that are not given, in one line, with the values ``taken`` or else the defaults."""
@@ -112,9 +117,11 @@ def _gap(section: str, name: str, given: Section | None, required: bool, known: 
     """Keys of a section that are not given; a key is needed if the section is refused without it."""
     keys = _keys(section)
     present = known if given is None else known | given.model_fields_set
-    lacking = needed(table(system_file.System, section).model) if given is None else ()
+    model = table(system_file.System, section).model
+    lacking = needed(model) if given is None else ()
+    enough = tuple(k for k, key in keys.items() if lacking and is_valid(model, {k: key.example}))
     assumed = {k: default_of(key) for k, key in keys.items() if k not in present and k not in lacking}
-    return Gap(name, given is None, required and given is None, lacking, assumed, keys)
+    return Gap(name, given is None, required and given is None, lacking, assumed, keys, enough)
 
 
 def gap_lines(open_gaps: tuple[Gap, ...], file: str, system: system_file.System) -> Iterator[str]:

@@ -264,12 +264,15 @@ def examples(model: type[Section]) -> dict[str, Any]:
 
 
 def needed(model: type[Section]) -> tuple[str, ...]:
-    """Keys of a table that the examples of the others require."""
+    """Keys of a table that the examples of the others require; none where the table may be empty."""
+    if is_valid(model, {}):
+        return ()
     every = examples(model)
-    return tuple(key for key in every if not _is_valid(model, {k: v for k, v in every.items() if k != key}))
+    return tuple(key for key in every if not is_valid(model, {k: v for k, v in every.items() if k != key}))
 
 
-def _is_valid(model: type[Section], data: Mapping[str, Any]) -> bool:
+def is_valid(model: type[Section], data: Mapping[str, Any]) -> bool:
+    """Whether a table may have these keys and no others."""
     try:
         model.model_validate(data)
     except ValidationError:

@@ -58,6 +58,12 @@ SOLIDS = ("solid_conductivity", "solid_density", "solid_heat_capacity")
 AREA_ALONE = ("balance", "asperities", "mixture", "heights")
 """Options at whose defaults an effect on the contact area needs no other change."""
 
+BY_AREA = (
+    "asperities that carry nearly all of the load get almost no friction, and the order of finishes can reverse, "
+    'because the film that gives way leaves them little area and "tallian" weights friction by it; take "load_weighted"'
+)
+"""What is wrong with friction by area where film and asperities share the load."""
+
 
 @dataclass(frozen=True, eq=False)
 class Plan:
@@ -273,6 +279,8 @@ def _resolve(name: str, file: StudyFile, rig: Rig) -> Study:
     moved = groups(options.bands, rig, surfaces, chosen, surface_inputs)
     plan = Plan(inputs, options, parameters, shape, points.position.size, moved, heights)
     check_friction(file, plan.model())
+    if plan.balanced and options.mixture == "tallian":
+        report(finding("balance_by_area", BY_AREA, "options.mixture"))
     return Study(name, file, rig, pair, points, oil, surfaces, chosen, effects, plan)
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mixedlub.schema.findings import Finding, as_texts, listed
+from mixedlub.schema.findings import Finding, Severity, as_texts, listed
 from mixedlub.schema.table import span
 from mixedlub.schema.units import unit_of
 from mixedlub.study import batch, checkpoint
@@ -116,8 +116,9 @@ class Results:
 
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
-        """What a reader should know: conditions outside the range of the model, gravest first, then assumptions."""
-        return (*out_of_range(self), *self.study.notes)
+        """What a reader should know: doubts, conditions outside the range of the model, then assumptions."""
+        found = (*out_of_range(self), *self.study.notes)
+        return tuple(sorted(found, key=lambda one: one.severity is not Severity.DOUBT))
 
     def __getitem__(self, name: str) -> np.ndarray:
         """An output in SI by its name in ``values``."""

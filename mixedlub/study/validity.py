@@ -48,8 +48,15 @@ def _overloaded(results: Results, count: str) -> str:
     return (
         f"{count} are outside the model's range: {'yielding' if yielding else 'elastic'} asperities would carry up to "
         f"{results['asperity_load_ratio'].max():.3g} times the mean Hertz pressure, so the boundary area ratio and the "
-        'loss of these conditions are not quantitative; balance = "johnson_greenwood_poon" lets the film give way'
+        f"loss of these conditions are not quantitative{_BALANCED if plan.friction is None else ''}"
     )
+
+
+_BALANCED = (
+    '; with the options balance "johnson_greenwood_poon" and mixture "load_weighted" the film gives way, and friction '
+    "follows the load that asperities carry"
+)
+"""What can be chosen instead with the friction of the base model; other laws of friction go with no balance."""
 
 
 def _pressed(results: Results, count: str) -> str:

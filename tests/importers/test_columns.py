@@ -212,6 +212,15 @@ def test_a_kinematic_viscosity_is_refused_in_words():
         draft(InputFile("t.csv", text), told)
 
 
+def test_remarks_and_empty_columns_are_not_offered_as_surfaces():
+    remarks = ["pump on", "noisy", "restarted", "oil added", "noisy again", "stopped"]
+    free = {"Bemerkung": remarks, "note": ["", "", "", "restarted"], "left over": ["", "-", ""]}
+    assert likely_headers(["pinion_surface"], free) == {}
+    assert likely_headers(["pinion_surface"], {**free, "flanks": ["ground", "fine"] * 3}) == {
+        "pinion_surface": "flanks"
+    }
+
+
 def test_dates_are_not_offered_as_surfaces():
     assert likely_headers(["surface_1"], {"recorded": ["2020-07-08 21:10:13"], "clock": ["21:10"]}) == {}
 

@@ -81,9 +81,9 @@ def test_the_list_after_an_import_is_complete(tmp_path, monkeypatch, capsys):
     assert "rig/system.toml" in needed
     for line in (
         "[gears] with teeth, normal_module_mm, face_width_mm",
-        "[lubricant] with",
-        "[surfaces.ground] with m0_um2, m2, m4_per_um2; or with profile",
-        '[surfaces."Ra 0.4"] with m0_um2',
+        '[lubricant] with what is known, if only base = "mineral"; the rest is taken as typical',
+        "[surfaces.ground] with profile or traces or map; or with m0_um2, m2, m4_per_um2",
+        '[surfaces."Ra 0.4"] with profile',
     ):
         assert f"\n  {line}" in needed
     for key in ("boundary_friction (0.1)", "gears.pressure_angle_deg (20.0)", "lubricant.kinematic_viscosity_mm2_s"):

@@ -12,7 +12,7 @@ from mixedlub.friction import BASE
 from mixedlub.laws import contact, yielding
 from mixedlub.laws.balance import least_film_share
 from mixedlub.laws.film import dowson_toyoda
-from mixedlub.schema.findings import codes
+from mixedlub.schema.findings import Severity, codes
 from mixedlub.slots import ASPERITY_AREA, ASPERITY_LOAD, FILM
 from mixedlub.study import read_study, run_study
 from mixedlub.study.batch import SHARED
@@ -339,3 +339,24 @@ def test_laws_of_friction_are_compared_at_the_film_that_they_are_fitted_to(write
         same = with_balance[column] == without[column]
         assert (same | with_balance[column].isna())[~base].all()
         assert (with_balance[column] > 1.5 * without[column])[base].any()
+
+
+def test_friction_by_area_under_a_balance_is_doubted_before_all_else(write_study):
+    found = results(write_study, surfaces=ROUGH)
+    (first, *others) = found.findings
+    assert (first.code, first.severity) == ("balance_by_area", Severity.DOUBT)
+    assert "balance_by_area" not in codes(others)
+    by_load = results(write_study, {**BALANCE, "mixture": "load_weighted"}, surfaces=ROUGH)
+    for quiet in (by_load, results(write_study, {}, surfaces=ROUGH)):
+        assert "balance_by_area" not in codes(quiet.findings)
+
+
+def test_the_balance_is_recommended_with_the_friction_that_goes_with_it(write_study):
+    """Another law of friction goes with no balance."""
+    (told,) = [one.text for one in out_of_range(results(write_study, {}, surfaces=ROUGH)) if "asperities" in one.text]
+    assert told.endswith(
+        '; with the options balance "johnson_greenwood_poon" and mixture "load_weighted" the film gives way, and '
+        "friction follows the load that asperities carry"
+    )
+    other = out_of_range(results(write_study, {"friction": "iso_tc60"}, surfaces=ROUGH))
+    assert not any("balance" in one.text for one in other)
