@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from mixedlub.case.folder import Case, at_programme_end, other_recordings
 from mixedlub.case.forward import Forward
+from mixedlub.case.overloaded import overloaded_asperities
 from mixedlub.schema.findings import report
 from mixedlub.schema.table import BOOKKEEPING, Table
 from profiles.errors import InputError
@@ -24,7 +25,7 @@ def simulate(case: Case, at: Table | None = None) -> pd.DataFrame:
     parts = []
     for table in simulated_tables(case, at):
         forward = Forward(case, table)
-        for one in forward.notes:
+        for one in (*forward.notes, *overloaded_asperities(forward)):
             report(one)
         simulated = pd.DataFrame({"run": table["run"], case.quantity: forward.base_prediction()})
         parts.append(pd.concat([simulated, conditions_of(case, table)], axis=1))

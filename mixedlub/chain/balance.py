@@ -22,6 +22,15 @@ _FARTHEST = 700.0
 """Largest logit of the asperities' share: the film carries 1e-304 of the load."""
 
 
+def overloaded(asperity_load_ratio: np.ndarray) -> np.ndarray:
+    """Whether asperities would carry more than the whole load.
+
+    >>> overloaded(np.array([0.5, 1.0, 1.5])).tolist()
+    [False, False, True]
+    """
+    return np.asarray(asperity_load_ratio) > 1.0 + EXACT
+
+
 def balanced_film(
     full_load_film: np.ndarray,
     mean_pressure: np.ndarray,

@@ -6,6 +6,7 @@ import numpy as np
 
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
+from mixedlub.case.overloaded import overloaded_asperities
 from mixedlub.data_checks.misread import NEGATIVE_SIGMAS, misread, sds
 from mixedlub.data_checks.mixed_units import of_odd_units, teeth_too_hard_pressed
 from mixedlub.data_checks.sign_checks import both_signs, of_other_sign
@@ -80,6 +81,7 @@ def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> 
         *_thin(case, y, forward),
         *of_odd_units(case, rows, y, base, FEWEST, SCARCE),
         *teeth_too_hard_pressed(case, rows, forward),
+        *overloaded_asperities(forward),
         *_more_than_put_in(case, rows, y),
         *_of_one_sign(case, rows, y),
         *_sliding(rows),

@@ -47,8 +47,8 @@ def seal_drag(
 ) -> np.ndarray:
     """A lip seal on each shaft adds friction.
 
-    The shaft radius is taken as the pinion's pitch radius; most shafts are thinner. The lip force and 20 mm^2/s make
-    the form belong to N/m and m^2/s.
+    The diameter of both shafts at the lip is taken as the pinion's pitch radius, half its pitch diameter. The lip
+    force and 20 mm^2/s make the form belong to N/m and m^2/s.
 
     >>> round(float(seal_drag(0.0, 0.036, 157.1, 102.7, 0.017, 850.0, strength=1.0, viscous=0.0)), 1)
     24.7

@@ -205,10 +205,19 @@ def asperity_pressure(
     )
 
 
+def asperity_load_ratio(asperity_pressure: np.ndarray, mean_pressure: np.ndarray) -> np.ndarray:
+    r"""Pressure that asperities would carry at an imposed gap, over the mean Hertz pressure (-), :math:`p_a/p_m`.
+
+    >>> round(float(asperity_load_ratio(2.1e9, 0.757e9)), 2)
+    2.77
+    """
+    return asperity_pressure / mean_pressure
+
+
 def asperity_load_share(asperity_pressure: np.ndarray, mean_pressure: np.ndarray) -> np.ndarray:
     r"""Share of the load that asperities carry (-), :math:`p_a/p_m` with the mean Hertz pressure, at most 1.
 
     >>> float(asperity_load_share(0.3785e9, 0.757e9)), float(asperity_load_share(2.1e9, 0.757e9))
     (0.5, 1.0)
     """
-    return np.minimum(asperity_pressure / mean_pressure, 1.0)
+    return np.minimum(asperity_load_ratio(asperity_pressure, mean_pressure), 1.0)

@@ -160,6 +160,19 @@ class Lubricant(Section):
     thermal_conductivity_W_mK: Number | None = key("thermal conductivity of the oil", None, example=0.14)
     specific_heat_J_kgK: Number | None = key("specific heat of the oil", None, example=2000.0)
 
+    @field_validator(
+        "kinematic_viscosity_mm2_s",
+        "pressure_viscosity_per_GPa",
+        "pressure_modulus_MPa",
+        "pressure_modulus_slope",
+        mode="before",
+    )
+    @classmethod
+    def _at_both_temperatures(cls, given: Any) -> Any:
+        if isinstance(given, int | float):
+            raise ValueError("must be two numbers, at the two temperatures: [..., ...]")
+        return given
+
     @model_validator(mode="after")
     def _both_of_the_modulus(self) -> Lubricant:
         if (self.pressure_modulus_MPa is None) != (self.pressure_modulus_slope is None):

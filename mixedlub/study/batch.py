@@ -21,7 +21,7 @@ import numpy as np
 
 from mixedlub.chain.model import Model, Step
 from mixedlub.chain.ranges import beyond
-from mixedlub.laws.contact import mean_hertz_pressure
+from mixedlub.laws.contact import asperity_load_ratio, mean_hertz_pressure
 from mixedlub.laws.loss import over_path
 from mixedlub.study.bands import HIGH, LOW, band
 from mixedlub.study.cluster import on_cluster
@@ -52,6 +52,8 @@ SHARED = ("mean_asperity_load_share", "film_over_unbalanced")
 CHECKS = ("largest_area_ratio",)
 SHARED_CHECKS = ("balance_error", "film_below_its_share")
 """Further checks where film and asperities share the load."""
+FILM_OVER_WIDTH = "film_over_contact_width"
+"""Check: the largest film of the path over the width of the Hertz contact there."""
 BEYOND = "beyond_"
 """Before the name of an effect or law: the check that is 1 where it is used outside the range in which it holds."""
 PIECE_POINTS = 80_000
@@ -121,6 +123,7 @@ def _own_names(plan: Plan) -> tuple[str, ...]:
         *(SPUR if plan.spur else ()),
         *losses,
         *CHECKS,
+        FILM_OVER_WIDTH,
         *shared,
         *(BEYOND + name for name in plan.ranges),
         *law,
@@ -233,9 +236,10 @@ def reduced(state: Inputs, plan: Plan) -> Found:
         "rolling_loss": state["rolling_loss"],
         "other_loss": state["power_loss"] - in_mesh,
         "hertz_pressure": largest(pressure),
-        "asperity_load_ratio": carried / there(mean_pressure),
+        "asperity_load_ratio": asperity_load_ratio(carried, there(mean_pressure)),
         "asperity_real_pressure": np.divide(carried, touching, out=np.zeros_like(carried), where=touching > 0.0),
         "largest_area_ratio": touching,
+        FILM_OVER_WIDTH: _over_width(state, loaded),
         "plain_mean_friction": over_path(state["friction"], weight),
         "least_film": np.min(film, axis=-1, keepdims=True, where=everywhere or loaded, initial=np.inf),
         "flash_temperature": largest(state["flash_temperature"]),
@@ -246,6 +250,13 @@ def reduced(state: Inputs, plan: Plan) -> Found:
         found[BEYOND + name] = np.any(loaded & beyond(state, valid), axis=-1, keepdims=True)
     if plan.friction is not None:
         found[BEYOND + plan.friction.name] = np.any(loaded & plan.friction.outside(state), axis=-1, keepdims=True)
+    return found
+
+
+def _over_width(state: Inputs, loaded: np.ndarray) -> np.ndarray:
+    """Largest film over the width of its Hertz contact, 2 b = 8 R p_0 / E'."""
+    width = 8.0 * state["radius"] * state["hertz_pressure"] / state["reduced_modulus"]
+    found: np.ndarray = np.max(state["film_thickness"] / width, axis=-1, keepdims=True, where=loaded, initial=0.0)
     return found
 
 

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from mixedlub.chain.balance import EXACT
+from mixedlub.chain.balance import EXACT, overloaded
 from mixedlub.rig.plausibility import yields
-from mixedlub.study.batch import BEYOND
+from mixedlub.study.batch import BEYOND, FILM_OVER_WIDTH
 from mixedlub.study.columns import VALID
 from mixedlub.study.plan import Plan
 from roughness.mccool import nayak_parameter
@@ -25,8 +25,10 @@ def flags(plan: Plan, values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]
         narrow = nayak_parameter(*moments) < 1.5
     found = {
         "pressure_above_yield": yields(values["hertz_pressure"], float(plan.inputs["reduced_modulus"])),
+        # Hertz's width is where the film is thin and even: one as thick as that is no film of this contact.
+        "film_above_contact_width": values.get(FILM_OVER_WIDTH, within) > 1.0,
         "balance_not_found": values.get("balance_error", within) > EXACT,
-        "asperities_overloaded": values["asperity_load_ratio"] > 1.0 + (EXACT if plan.balanced else 0.0),
+        "asperities_overloaded": overloaded(values["asperity_load_ratio"]),
         "film_carries_too_little": values.get("film_below_its_share", within) > 0.0,
         "area_ratio_limited": values["largest_area_ratio"] >= 1.0,
         "bandwidth_limited": np.broadcast_to(narrow, plan.shape),

@@ -255,11 +255,13 @@ def _check_finite(results: Results) -> None:
         if wrong.any():
             p, o, t, s = np.argwhere(wrong)[0]
             levels = results.study.file.conditions
-            raise InputError(
-                f"no finite {column.output.replace('_', ' ')}; look for a number far out of range",
-                where=f"{results.study.name}.toml: {' / '.join(results.study.pairings[p])} at "
-                f"{levels.torque_Nm[t]:g} N m, {levels.speed_rpm[s]:g} rpm, {levels.oil_temperature_C[o]:g} C",
+            where = (
+                f"{results.study.name}: oil_temperature_C = {levels.oil_temperature_C[o]:g}, "
+                f"torque_Nm = {levels.torque_Nm[t]:g}, speed_rpm = {levels.speed_rpm[s]:g}, "
+                f"{' / '.join(results.study.pairings[p])}"
             )
+            rule = f"no finite {column.output.replace('_', ' ')}; look for a number far out of range"
+            raise InputError(rule, where=where)
 
 
 def _fill(values: Mapping[str, np.ndarray], block: batch.Block, found: batch.Found) -> None:

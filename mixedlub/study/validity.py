@@ -11,6 +11,7 @@ from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.rig.plausibility import YIELD_RATIO
 from mixedlub.schema.findings import Finding, finding
 from mixedlub.slots import SLOTS
+from mixedlub.study.batch import FILM_OVER_WIDTH
 from mixedlub.study.plan import Plan, Study
 from mixedlub.study.range_flags import EXTRAPOLATED
 
@@ -67,8 +68,16 @@ def _pressed(results: Results, count: str) -> str:
     )
 
 
+def _thick(results: Results, count: str) -> str:
+    return (
+        f"in {count} the film is thicker than the contact is wide, up to {results[FILM_OVER_WIDTH].max():.3g} times, "
+        "so that no film law and no loss holds: check oil_temperature_C and the viscosity of the oil"
+    )
+
+
 _TEXTS: Mapping[str, Callable[[Results, str], str]] = {
     "pressure_above_yield": _pressed,
+    "film_above_contact_width": _thick,
     "asperities_overloaded": _overloaded,
     "balance_not_found": lambda results, count: (
         f"in {count} no film was found at which film and asperities carry the load, which they miss by up to "

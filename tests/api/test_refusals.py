@@ -39,6 +39,21 @@ def path(**keys):
     return loss(call=ml.along_path, **keys)
 
 
+def test_a_condition_without_a_finite_loss_is_named() -> None:
+    refused(
+        loss(oil_temperature_C=[60, 300]),
+        "power_loss: oil_temperature_C = 300, torque_Nm = 100",
+        "no finite power loss",
+    )
+
+
+def test_one_viscosity_of_two_is_asked_for_at_both_temperatures() -> None:
+    refused(
+        lambda: ml.oil("mineral", kinematic_viscosity_mm2_s=5),
+        "oil: kinematic_viscosity_mm2_s: 5: must be two numbers, at the two temperatures",
+    )
+
+
 @pytest.mark.parametrize("values", [[100, 200], [100.0], np.array([50.0]), (1, 2)])
 def test_a_path_is_of_one_condition(values) -> None:
     refused(path(torque_Nm=values), "along_path: torque_Nm", "one number", "power_loss")

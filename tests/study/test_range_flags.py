@@ -1,11 +1,18 @@
 """Every row of a study says whether it is within the model's range, and why not."""
 
 import csv
+import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from mixedlub.schema.findings import codes
+import mixedlub as ml
+from mixedlub.case.folder import read_case
+from mixedlub.case.forward import Forward
+from mixedlub.case.overloaded import overloaded_asperities
+from mixedlub.laws.contact import line_hertz_half_width
+from mixedlub.schema.findings import Severity, codes
 from mixedlub.study import read_study, run_study
 from mixedlub.study.validity import out_of_range
 
@@ -122,3 +129,33 @@ def test_laws_of_the_base_model_are_flagged_outside_their_range(changes, law, pl
     results = run_study(read_study(write_study(**changes)))
     assert results.flags[f"law_extrapolated:{law}"].any()
     assert place in {one.place for one in out_of_range(results) if one.code == "law_extrapolated"}
+
+
+@pytest.mark.parametrize(("oil_temperature_C", "doubted"), [(-20, False), (-60, True)])
+def test_a_film_thicker_than_its_contact_is_wide_is_doubted(oil_temperature_C, doubted, write_study):
+    """The width of the Hertz contact from load and radius, at every point of the path."""
+    study = read_study(write_study(conditions__oil_temperature_C=[oil_temperature_C]))
+    results = run_study(study)
+    told = [one for one in out_of_range(results) if one.code == "film_above_contact_width"]
+    assert [one.severity for one in told] == [Severity.DOUBT] * doubted
+    state = {**study.plan.inputs, **study.plan.model(("line_load",))(study.plan.inputs)}
+    width = 2.0 * line_hertz_half_width(state["line_load"], state["radius"], state["reduced_modulus"])
+    assert (np.max(state["film_thickness"] / width) > 1.0) == doubted
+
+
+def test_a_case_says_of_its_rows_what_a_study_says_of_the_same_conditions():
+    case = read_case(Path(__file__).parents[2] / "examples" / "case")
+    rows = case.recordings.take(np.arange(0, 72, 6))
+    (note,) = overloaded_asperities(Forward(case, rows))
+    assert (note.code, note.severity) == ("asperities_overloaded", Severity.NOTE)
+    system, flagged = case.system, 0
+    conditions = ("torque_Nm", "speed_rpm", "oil_temperature_C")
+    for i in range(len(rows)):
+        both = [system.surfaces[str(rows[name][i])] for name in ("pinion_surface", "gear_surface")]
+        at = {name: float(rows[name][i]) for name in conditions}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", ml.CautionWarning)
+            found = ml.power_loss(system.gears, system.lubricant, both, **at)
+        flagged += "asperities_overloaded" in str(found["validity"].values)
+    assert 0 < flagged < len(rows)
+    assert f"in {flagged} of {len(rows)} rows" in note.text
