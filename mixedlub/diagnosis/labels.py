@@ -16,7 +16,7 @@ STAGE_WORDS = {
     "contact": "asperity contact",
     "boundary": "boundary friction",
     "load": "load and its sharing",
-    "loss": "losses beside the sliding contact",
+    "loss": "losses other than sliding friction",
     "property": "properties of the oil",
     "law": "a law of the base model, in place of which another fits",
     "measurement": "the instrument",

@@ -102,9 +102,8 @@ def extra_calibration(system: system_file.System, recorded: Table) -> tuple[Cali
 
 def _of_ball(system: system_file.System) -> Iterator[Calibration]:
     spread = UNNAMED_OIL if oil_priors.missing(system) else KNOWN_OIL
-    regime = Parameter(
-        "film_regime", "-", Normal(0.0, spread), "film law: 0 Hamrock and Dowson, 1 Nijenbanning, Venner and Moes"
-    )
+    meaning = "film law: 0 Hamrock and Dowson, 1 Nijenbanning and others; between them a film between both"
+    regime = Parameter("film_regime", "-", Normal(0.0, spread), meaning)
     yield Calibration(regime, lambda inputs, value: {"film_regime": value}, 0.0, ("film_regime",))
     yield _exponent("film_exponent", "speed", POINT_EXPONENT, EXPONENT_SPREAD)
 

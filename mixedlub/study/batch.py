@@ -239,7 +239,7 @@ def reduced(state: Inputs, plan: Plan) -> Found:
         "asperity_load_ratio": asperity_load_ratio(carried, there(mean_pressure)),
         "asperity_real_pressure": np.divide(carried, touching, out=np.zeros_like(carried), where=touching > 0.0),
         "largest_area_ratio": touching,
-        FILM_OVER_WIDTH: _over_width(state, loaded),
+        FILM_OVER_WIDTH: largest(_over_width(state)),
         "plain_mean_friction": over_path(state["friction"], weight),
         "least_film": np.min(film, axis=-1, keepdims=True, where=everywhere or loaded, initial=np.inf),
         "flash_temperature": largest(state["flash_temperature"]),
@@ -253,11 +253,10 @@ def reduced(state: Inputs, plan: Plan) -> Found:
     return found
 
 
-def _over_width(state: Inputs, loaded: np.ndarray) -> np.ndarray:
-    """Largest film over the width of its Hertz contact, 2 b = 8 R p_0 / E'."""
+def _over_width(state: Inputs) -> np.ndarray:
+    """Film over the width of its Hertz contact, 2 b = 8 R p_0 / E'."""
     width = 8.0 * state["radius"] * state["hertz_pressure"] / state["reduced_modulus"]
-    found: np.ndarray = np.max(state["film_thickness"] / width, axis=-1, keepdims=True, where=loaded, initial=0.0)
-    return found
+    return np.asarray(state["film_thickness"] / width)
 
 
 def _shared(state: Inputs, loaded: np.ndarray, mean_pressure: np.ndarray) -> Found:

@@ -145,7 +145,7 @@ def test_a_film_thicker_than_its_contact_is_wide_is_doubted(oil_temperature_C, d
 
 def test_a_case_says_of_its_rows_what_a_study_says_of_the_same_conditions():
     case = read_case(Path(__file__).parents[2] / "examples" / "case")
-    rows = case.recordings.take(np.arange(0, 72, 6))
+    rows = case.recordings.take(np.arange(0, 72, 5))
     (note,) = overloaded_asperities(Forward(case, rows))
     assert (note.code, note.severity) == ("asperities_overloaded", Severity.NOTE)
     system, flagged = case.system, 0

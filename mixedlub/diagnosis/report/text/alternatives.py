@@ -48,8 +48,8 @@ def _resemblance(d: Diagnosis, similarity: Confusion) -> tuple[str, ...]:
                 f"{effect_words(other)} ({cosine:.2f})" for other, cosine in list(others.items())[:MOST_SIMILAR]
             )
             sentences.append(
-                f"At these conditions {effect_words(name)} looks most like {listed} (similarity of the signatures, 1 = "
-                "identical)."
+                f"At these conditions {effect_words(name)} looks most like {listed} (similarity of the signatures "
+                "after recalibration, 1 = identical)."
             )
     # Effects named as the nearest to the discrepancy are visible here and not simply rejected.
     nearest_effects = nearest(d)

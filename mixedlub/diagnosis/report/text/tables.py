@@ -20,7 +20,7 @@ from mixedlub.schema.findings import collected
 from mixedlub.schema.table import Table
 from mixedlub.schema.units import unit_of
 
-UNDETERMINED = "not determined by these readings"
+UNDETERMINED = "about as uncertain as before the readings"
 COLUMNS = ("effect", "parameter", "value", "90 % interval", "unit", "meaning")
 
 Cells = tuple[tuple[str, ...], ...]
