@@ -185,8 +185,8 @@ def test_of_several_vague_parameters_only_their_combined_effect_is_known() -> No
     heating, offset = catalogue()["boundary_film_temperature"], catalogue()["sensor_offset"]
     assert tables._undetermined(heating, []) == []
     assert tables._undetermined(heating, ["drop", "width"]) == [
-        "Boundary film temperature: drop and width are not determined by these readings. Only the combined effect of "
-        "the parameters is known."
+        "Boundary film temperature: drop and width are about as uncertain as before the readings. Only the combined "
+        "effect of the parameters is known."
     ]
     assert "combined" not in tables._undetermined(offset, ["offset"])[0]
 

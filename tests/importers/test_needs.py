@@ -80,7 +80,7 @@ def test_the_list_after_an_import_is_complete(tmp_path, monkeypatch, capsys):
     needed, rest = said.split("not given")
     assert "rig/system.toml" in needed
     for line in (
-        "[gears] with teeth, normal_module_mm, face_width_mm",
+        "[gears] with preset; or with teeth, normal_module_mm, face_width_mm",
         '[lubricant] with what is known, if only base = "mineral"; the rest is taken as typical',
         "[surfaces.ground] with profile or traces or map; or with m0_um2, m2, m4_per_um2",
         '[surfaces."Ra 0.4"] with profile',
