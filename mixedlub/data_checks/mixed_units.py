@@ -200,6 +200,7 @@ def _power_between(case: Case, rows: Table, name: str, y: np.ndarray, base: np.n
         places = _places(case, Table({**rows.columns, name: values}))
         one, other = np.flatnonzero(upper), np.flatnonzero(~upper)
         few, many = (one, other) if one.size <= other.size else (other, one)
+        many = many[np.sort(np.unique(places[many], axis=0, return_index=True)[1])]  # a tree cannot part equal points
         off, nearest = cKDTree(places[many]).query(places[few])
         near = off <= SAME_CONDITION
         if near.mean() < MIXED_SHARE or np.unique(values[few[near]]).size < REPEATED_LEVELS:
