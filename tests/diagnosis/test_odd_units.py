@@ -135,12 +135,13 @@ def test_an_oil_thicker_than_oils_is_doubted_where_it_is_warm(tmp_path: Path) ->
 
 
 def gears(folder: Path, column: str, change: Any) -> list[Finding]:
-    """The doubts about the example's gears, a column changed."""
+    """The cautions and doubts about the example's gears, a column changed."""
     case = read_case(EXAMPLE)
     assert case.recordings is not None
     rows = Table({**case.recordings.columns, column: change(case.recordings[column])}, "recordings.csv")
     case = replace(case, recordings=rows)
-    return check_readings(case, rows, rows[case.quantity], Forward(case, rows))
+    found = check_readings(case, rows, rows[case.quantity], Forward(case, rows))
+    return list(of_severity(found, Severity.CAUTION, Severity.DOUBT))
 
 
 def test_torque_in_newton_millimetres_presses_the_flanks_too_hard() -> None:
