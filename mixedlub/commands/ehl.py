@@ -11,7 +11,7 @@ import typer
 
 from mixedlub.atomic import writing
 from mixedlub.commands.console import busy, echo, input_errors_from, note, output_folder, print_findings
-from mixedlub.commands.study import chosen_formats
+from mixedlub.commands.figure_options import FiguresOrTables, Formats, chosen_formats
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -25,11 +25,8 @@ def command(
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Folder for the results; default out/ehl/NAME.")
     ] = None,
-    figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Figures, or only the tables.")] = True,
-    format_: Annotated[
-        str,
-        typer.Option("--format", metavar="LIST", help="Formats of the figures: svg, pdf, png, with commas between."),
-    ] = "svg",
+    figures: FiguresOrTables = True,
+    format_: Formats = "svg",
 ) -> None:
     """Film, friction and temperatures of line contacts.
 

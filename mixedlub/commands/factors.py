@@ -10,7 +10,8 @@ import typer
 
 from mixedlub.atomic import writing
 from mixedlub.commands.console import echo, input_errors_from, named_folder, note, output_folder, print_findings
-from mixedlub.commands.study import chosen_formats, progress_bar
+from mixedlub.commands.figure_options import Formats, chosen_formats
+from mixedlub.commands.study import progress_bar
 
 NAME = "factors"
 EXAMPLE = "mixedlub new factors --out my_factors && mixedlub factors my_factors/factors.toml"
@@ -22,10 +23,7 @@ def command(
         Path | None,
         typer.Option(metavar="DIR", parser=named_folder, help="Folder for the results; default out/factors/NAME."),
     ] = None,
-    format_: Annotated[
-        str,
-        typer.Option("--format", metavar="LIST", help="Formats of the figures: svg, pdf, png, with commas between."),
-    ] = "svg",
+    format_: Formats = "svg",
     replace: Annotated[
         bool, typer.Option("--replace", help="Replace the result of other factors, or other files, in that folder.")
     ] = False,

@@ -9,6 +9,7 @@ import typer
 
 from mixedlub.atomic import writing
 from mixedlub.commands.console import busy, echo, input_errors_from, note, output_folder, print_findings
+from mixedlub.commands.figure_options import Formats, chosen_formats
 from profiles.errors import InputError
 
 NAME = "friction-laws"
@@ -42,10 +43,7 @@ def command(
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Folder for the results; default out/friction-laws/NAME.")
     ] = None,
-    format_: Annotated[
-        str,
-        typer.Option("--format", metavar="LIST", help="Formats of the figures: svg, pdf, png, with commas between."),
-    ] = "svg",
+    format_: Formats = "svg",
 ) -> None:
     """The friction laws: a table, the page of one, or all of them side by side on the gears of a study.
 
@@ -76,7 +74,6 @@ def _compare(
     out: Path | None,
     format_: str,
 ) -> None:
-    from mixedlub.commands.study import chosen_formats
     from mixedlub.report.friction_figures import figures
     from mixedlub.report.style import save
     from mixedlub.schema.toml_file import read_toml

@@ -12,7 +12,8 @@ import typer
 
 from mixedlub.atomic import writing
 from mixedlub.commands.console import busy, echo, input_errors_from, named_folder, note, output_folder, print_findings
-from profiles.errors import InputError, nearest
+from mixedlub.commands.figure_options import Formats, chosen_formats
+from profiles.errors import InputError
 
 NAME = "study"
 EXAMPLE = "mixedlub new study --out my_study && mixedlub study my_study/study.toml"
@@ -25,10 +26,7 @@ def command(
         typer.Option(metavar="DIR", parser=named_folder, help="Folder for the results; default out/study/NAME."),
     ] = None,
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Figures and the HTML page, or not.")] = True,
-    format_: Annotated[
-        str,
-        typer.Option("--format", metavar="LIST", help="Formats of the figures: svg, pdf, png, with commas between."),
-    ] = "svg",
+    format_: Formats = "svg",
     paper_figures: Annotated[
         bool, typer.Option("--paper-figures", help="Also figures for print, one column wide, losses normalised.")
     ] = False,
@@ -103,19 +101,6 @@ def command(
     if not curves and is_of_another_study(folder / CURVES[-1], study):
         note(f"{folder / CURVES[-1]} is of another state of the study; with --curves it is written anew")
     echo(f"results in {folder / 'results.csv'} and .parquet" + (f", page {page}" if figures else ""))
-
-
-FORMATS = ("svg", "pdf", "png")
-"""Formats of a figure's file."""
-
-
-def chosen_formats(text: str) -> tuple[str, ...]:
-    """The formats named in a comma-separated list."""
-    names = tuple(dict.fromkeys(name.strip().lower() for name in text.split(",")))
-    for name in names:
-        if name not in FORMATS:
-            raise InputError(f"no such format; {nearest(name, FORMATS)}", where="--format", value=name)
-    return names
 
 
 def _resumed(progress: Callable[[int, int], None]) -> Callable[[int, int], None]:

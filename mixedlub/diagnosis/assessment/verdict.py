@@ -23,7 +23,8 @@ def judge(search: Search, test: Mismatch) -> tuple[Posterior, HeldOut]:
     reduced.
     """
     levels = LevelsOut.of(search)
-    names = sorted((key for key in search.scores if key.effects), key=lambda key: -search.log_weights[key])
+    weights = search.log_weights
+    names = sorted((key for key in search.scores if key.effects), key=lambda key: -weights[key])
     tried: dict[Explanation, tuple[HeldOut, float]] = {}
     discrepancy_penalty: dict[Explanation, float] = {}
     while True:

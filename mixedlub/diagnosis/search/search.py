@@ -131,7 +131,8 @@ def search(
     rows = spread_rows(values, problem.y.size)
     screen = _search(problem.subset(rows), space, [v[rows] for v in values], exclude, progress)
     progress(f"weighing the leaders on all {problem.y.size} readings")
-    ranked = sorted(screen.scores, key=lambda m: -screen.log_weights[m])
+    weights = screen.log_weights
+    ranked = sorted(screen.scores, key=lambda m: -weights[m])
     leaders = dict.fromkeys([NOTHING, *ranked[:REFITTED_ON_ALL]])
     best = map_fit(problem, ranked[0], screen.fits[ranked[0]].z, warm=True)
     problem = problem.with_sd(best.prediction, problem.predict(NOTHING, screen.null_fit.z))
@@ -206,7 +207,7 @@ def _search(
     fits: dict[Explanation, Fit] = {NOTHING: null_fit, **singles}
     progress("trying pairs of effects")
     fits |= {fit.explanation: fit for fit in _fit_pairs(problem, null_fit, singles, draws)}
-    fits = _with_more_laws(problem, null_fit, fits, draws)
+    fits = _with_more_laws(problem, fits, draws)
     fits = {m: integrate_change_points(problem, f) for m, f in fits.items() if shows(problem, f, fits)}
     scores = _scores(problem, fits, space, values)
     progress("weighing a discrepancy")
@@ -230,17 +231,19 @@ def _fit_pairs(
 ) -> list[Fit]:
     """Fits of the promising pairs of effects that time alone does not confuse."""
 
-    def fit(pair: tuple[Explanation, np.ndarray], rival: float) -> Fit:
-        return map_fit(problem, *pair, rival=rival)
-
     leaders = sorted(singles.values(), key=lambda f: -f.evidence)[:PAIR_LEADERS]
     added = promising_additions(problem, leaders, draws, PAIRS)
     pairs = [pair for pair in added if not one_in_time(pair[0], problem, null_fit)]
-    return fit_best_first(fit, pairs, max([null_fit.evidence, *(f.evidence for f in singles.values())]))
+    return _fit_from(problem, pairs, max([null_fit.evidence, *(f.evidence for f in singles.values())]))
+
+
+def _fit_from(problem: Problem, starts: Sequence[tuple[Explanation, np.ndarray]], rival: float) -> list[Fit]:
+    """Fits of explanations from a start each, the most promising first."""
+    return fit_best_first(lambda one, best: map_fit(problem, *one, rival=best), starts, rival)
 
 
 def _with_more_laws(
-    problem: Problem, null_fit: Fit, fits: dict[Explanation, Fit], draws: tuple[PriorDraws, ...]
+    problem: Problem, fits: dict[Explanation, Fit], draws: tuple[PriorDraws, ...]
 ) -> dict[Explanation, Fit]:
     """The fits with pairs of laws, and with leading explanations beside further laws as long as one improves."""
     prior = PriorOdds.of(s.id for s in draws)
@@ -248,9 +251,6 @@ def _with_more_laws(
 
     def weight(fit: Fit) -> float:
         return fit.evidence + prior.log(fit.explanation)
-
-    def fit(item: tuple[Explanation, np.ndarray], rival: float) -> Fit:
-        return map_fit(problem, *item, rival=rival)
 
     best = max(fits.values(), key=weight)
     if not laws or best.explanation == NOTHING:
@@ -260,7 +260,7 @@ def _with_more_laws(
     for _ in range(LAW_ROUNDS):
         added = promising_additions(problem, leaders, laws, most)
         fresh = [item for item in added if item[0] not in fits]
-        found = fit_best_first(fit, fresh, max(f.evidence for f in fits.values()))
+        found = _fit_from(problem, fresh, max(f.evidence for f in fits.values()))
         fits |= {one.explanation: one for one in found}
         ranked = sorted((f for f in fits.values() if f.explanation.effects), key=lambda f: -weight(f))
         if leaders == ranked[:LAW_LEADERS]:
