@@ -11,7 +11,8 @@ from mixedlub.rig import build
 from mixedlub.rig.measured import Measured
 from mixedlub.schema.findings import collected, warn_of
 from mixedlub.schema.oil_file import STOCKS
-from mixedlub.schema.system_file import Gears, Lubricant, SurfaceSection
+from mixedlub.schema.surface_file import SurfaceSection
+from mixedlub.schema.system_file import Gears, Lubricant
 from mixedlub.schema.toml_file import named_file, parse
 from mixedlub.study.record import as_moments
 from profiles import SHIPPED_MARK, Profile, shipped

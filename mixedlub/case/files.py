@@ -6,7 +6,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from mixedlub.case.folder import Case
-from mixedlub.schema.system_file import SURFACE_FILES
+from mixedlub.schema.surface_file import SURFACE_FILES
 from mixedlub.schema.table import Table
 from mixedlub.schema.toml_file import named_file, to_toml
 from profiles import SHIPPED_MARK

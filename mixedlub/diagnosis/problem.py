@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -119,10 +119,10 @@ class Problem:
         """Length of the coordinate vector of an explanation."""
         return self.calibration_size + sum(len(e.parameters) for e in self.effects(explanation))
 
-    def calibration(self, z: np.ndarray) -> dict[str, float]:
-        """Calibration values at coordinates z."""
-        names = self.forward.calibrations
-        return {c.name: c.parameter.prior.value(float(x)) for c, x in zip(names, z[: len(names)], strict=True)}
+    def calibration(self, z: np.ndarray, without: Collection[str] = ()) -> dict[str, float]:
+        """Calibration values at coordinates z, without the uncertainty of base laws in place of which others act."""
+        free = zip(self.forward.calibrations, z[: self.calibration_size], strict=True)
+        return {c.name: c.parameter.prior.value(float(x)) for c, x in free if c.base_law not in without}
 
     def own_coordinates(self, explanation: Explanation, z: np.ndarray) -> dict[str, np.ndarray]:
         """The coordinates of each effect of an explanation."""
@@ -166,7 +166,7 @@ class Problem:
         priors = [(calibration, c.parameter) for c in self.forward.calibrations]
         priors += [(parameters[e.id], p) for e in self.effects(explanation) for p in e.parameters]
         slopes = np.empty((self.y.size, z.size))
-        small = {i for i, c in enumerate(self.forward.calibrations) if c.is_small}
+        small = {i for i, c in enumerate(self.forward.calibrations) if c.base_law}
         for i, (values, parameter) in enumerate(priors):
             if near is not None and i in small:
                 slopes[:, i] = near[:, i]

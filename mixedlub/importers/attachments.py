@@ -10,7 +10,7 @@ from typing import Any
 
 from mixedlub.case.import_file import NAME
 from mixedlub.importers.base import nested
-from mixedlub.schema.system_file import SURFACE_FILES
+from mixedlub.schema.surface_file import SURFACE_FILES
 from profiles import SHIPPED_MARK
 from profiles.errors import InputError, nearest
 

@@ -19,7 +19,7 @@ Inputs = Mapping[str, Any]
 class Calibration:
     """One free input: its prior, and how a value changes the chain's inputs; ``factor`` where it multiplies one.
 
-    A calibration that ``is_small`` is a correction to a base law, in which readings are nearly linear.
+    Where it is the uncertainty of a base law, ``base_law`` is the law's id; readings are nearly linear in such a one.
     """
 
     parameter: Parameter
@@ -27,7 +27,7 @@ class Calibration:
     nominal: float
     needs: tuple[str, ...]
     factor: bool = False
-    is_small: bool = False
+    base_law: str = ""
 
     @property
     def name(self) -> str:
@@ -72,7 +72,7 @@ def of_base_law(effect: Effect, parameter: Parameter) -> Calibration:
     """A parameter in which a base law is itself uncertain, as published laws of the same step differ."""
     null = parameter.null_value
     own = replace(parameter, name=f"{effect.id}.{parameter.name}", prior=Normal(null, parameter.base_sd))
-    return Calibration(own, lambda inputs, value: {}, null, (), is_small=True)
+    return Calibration(own, lambda inputs, value: {}, null, (), base_law=effect.id)
 
 
 def calibrations(system: system_file.System) -> tuple[Calibration, ...]:

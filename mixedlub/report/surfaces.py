@@ -12,7 +12,7 @@ from mixedlub.report.figures import Drawn
 from mixedlub.report.style import styled
 from mixedlub.rig.surface import Surface
 from mixedlub.schema.findings import Finding, collected, finding
-from mixedlub.schema.system_file import SurfaceSection
+from mixedlub.schema.surface_file import SurfaceSection
 from mixedlub.study.plan import Study
 from profiles import Profile
 from roughness.mccool import nayak_parameter, summit_density, summit_radius

@@ -17,7 +17,7 @@ from mixedlub.laws.oil import ZERO_CELSIUS, gold_pressure_viscosity
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.measured import Measured, Traces
 from mixedlub.rig.surface import Surface
-from mixedlub.schema import system_file
+from mixedlub.schema import surface_file, system_file
 from mixedlub.schema.findings import collected, finding, report
 from mixedlub.schema.gear_file import stated_otherwise
 from mixedlub.schema.oil_file import oil_of, overridden
@@ -140,14 +140,14 @@ def _report_oil(section: system_file.Lubricant, folder: Path) -> None:
         report(finding("oil_typical", text, "lubricant"))
 
 
-def traces(name: str, section: system_file.SurfaceSection, folder: Path, key: str = "") -> tuple[Profile, ...]:
+def traces(name: str, section: surface_file.SurfaceSection, folder: Path, key: str = "") -> tuple[Profile, ...]:
     """The traces that a key of a surface names, by default those across its lay."""
     of_key = key or ("traces" if section.traces else "profile")
     named = getattr(section, key) if key else section.files
     return tuple(trace(name, section, one, folder, of_key) for one in named)
 
 
-def trace(name: str, section: system_file.SurfaceSection, named: str, folder: Path, key: str = "profile") -> Profile:
+def trace(name: str, section: surface_file.SurfaceSection, named: str, folder: Path, key: str = "profile") -> Profile:
     """A trace that a surface names; what is wrong with it is said with the surface's name."""
     from profiles.read import read
 
@@ -178,7 +178,7 @@ def _of_surface(name: str) -> Iterator[None]:
         raise InputError(rule, where=place, value=error.value) from None
 
 
-def flank_profile(name: str, section: system_file.SurfaceSection, trace: Profile) -> Profile:
+def flank_profile(name: str, section: surface_file.SurfaceSection, trace: Profile) -> Profile:
     """The roughness profile of a trace, prepared as `mixedlub profile` does.
 
     Cut-offs that the section leaves out are those that the file says it was filtered with, else by ISO 4288 and ISO
@@ -214,7 +214,7 @@ def flank_profile(name: str, section: system_file.SurfaceSection, trace: Profile
     return profile
 
 
-def filtered(name: str, section: system_file.SurfaceSection, raw: tuple[Profile, ...]) -> Traces:
+def filtered(name: str, section: surface_file.SurfaceSection, raw: tuple[Profile, ...]) -> Traces:
     """Traces with their roughness profiles; all have the cut-offs of the first, unless their files state their own."""
     first = flank_profile(name, section, raw[0])
     of_all = _with_cutoffs(section, first)
@@ -225,14 +225,14 @@ def filtered(name: str, section: system_file.SurfaceSection, raw: tuple[Profile,
     return Traces(raw, (first, *others))
 
 
-def _with_cutoffs(section: system_file.SurfaceSection, profile: Profile) -> system_file.SurfaceSection:
+def _with_cutoffs(section: surface_file.SurfaceSection, profile: Profile) -> surface_file.SurfaceSection:
     """The section with the cut-offs that a profile has."""
     used = {"cutoff_mm": ("cutoff", 1e3), "short_cutoff_um": ("short_cutoff", 1e6)}
     known = {key: profile.cutoffs[name] * scale for key, (name, scale) in used.items() if name in profile.cutoffs}
     return section.model_copy(update=known)
 
 
-def measured(name: str, section: system_file.SurfaceSection, folder: Path, across: Traces | None) -> Measured:
+def measured(name: str, section: surface_file.SurfaceSection, folder: Path, across: Traces | None) -> Measured:
     """What was measured of a surface: its traces, of which those across the lay are given, or its map."""
     if across is None:
         return Measured(area=flank_map(name, section, folder), isotropic=section.lay == "isotropic")
@@ -244,7 +244,7 @@ def measured(name: str, section: system_file.SurfaceSection, folder: Path, acros
 
 
 def at_short_cutoff(
-    name: str, section: system_file.SurfaceSection, folder: Path, across: Traces | None, factor: float
+    name: str, section: surface_file.SurfaceSection, folder: Path, across: Traces | None, factor: float
 ) -> Measured | None:
     """What was measured, at a multiple of its short cut-off; None where that is not resolved, or there is none."""
     if across is None:
@@ -267,7 +267,7 @@ def at_short_cutoff(
     return measured(name, other, folder, filtered(name, other, across.raw))
 
 
-def flank_map(name: str, section: system_file.SurfaceSection, folder: Path) -> HeightMap:
+def flank_map(name: str, section: surface_file.SurfaceSection, folder: Path) -> HeightMap:
     """The roughness of a height map; cut-offs that the section leaves out are 0.8 mm and 2.5 um as far as they fit."""
     from profiles.image import read_map
     from roughness.areal import areal_roughness
@@ -309,7 +309,7 @@ def _check(name: str, across: Traces) -> None:
         report(finding("trace_quality", text, f"surfaces.{name}"))
 
 
-def surface(name: str, section: system_file.SurfaceSection, found: Measured | None = None) -> Surface:
+def surface(name: str, section: surface_file.SurfaceSection, found: Measured | None = None) -> Surface:
     """One surface, from its moments or from what was measured."""
     values: dict[str, float]
     if found is None:
@@ -341,7 +341,7 @@ def surface(name: str, section: system_file.SurfaceSection, found: Measured | No
     return made
 
 
-def check_bandwidth(surface: Surface, section: system_file.SurfaceSection) -> None:
+def check_bandwidth(surface: Surface, section: surface_file.SurfaceSection) -> None:
     """Refuse stated moments that no surface has; measured ones are flagged, as a trace may be coarsely sampled."""
     if not section.is_measured and surface.bandwidth < LEAST_NAYAK:
         rule = (

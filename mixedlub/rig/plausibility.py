@@ -8,7 +8,7 @@ import numpy as np
 
 from mixedlub.rig.rig import Rig
 from mixedlub.rig.surface import Surface
-from mixedlub.schema import ranges, system_file
+from mixedlub.schema import ranges, surface_file
 from mixedlub.schema.findings import Finding, collected, finding
 from profiles.errors import InputError
 
@@ -64,7 +64,7 @@ def _surface(rig: Rig, name: str) -> Surface | None:
             return None
 
 
-def _roughness(surface: Surface, place: str, section: system_file.SurfaceSection) -> Iterator[Finding]:
+def _roughness(surface: Surface, place: str, section: surface_file.SurfaceSection) -> Iterator[Finding]:
     """What is implausible in the moments of a trace, and in the three moments together."""
     if section.is_measured:
         moments = (("m0_um2", surface.m0 * 1e12), ("m2", surface.m2), ("m4_per_um2", surface.m4 * 1e-12))

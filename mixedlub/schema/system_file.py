@@ -8,12 +8,13 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 from unicodedata import category
 
-from pydantic import AfterValidator, Field, ValidationInfo, create_model, field_validator, model_validator
+from pydantic import AfterValidator, ValidationInfo, create_model, field_validator, model_validator
 
 from mixedlub.discovery import declared
 from mixedlub.schema.gear_file import gear_names, with_preset
 from mixedlub.schema.oil_file import STOCKS, Base, oil_names, with_oil
 from mixedlub.schema.section import Float, Number, NumberOrName, Section, Whole, key, one_of, tables, with_ranges
+from mixedlub.schema.surface_file import SurfaceSection
 from profiles.errors import InputError
 
 
@@ -28,7 +29,6 @@ def _known_quantity(name: str) -> str:
 KINDS = ("mixedlub.kinds", "mixedlub.kinds", "KIND")
 """Module that declares the kinds of recording; imported only when a file is read, since it imports this one."""
 Pair = tuple[Number, Number]
-Files = Annotated[tuple[str, ...], Field(min_length=1)]
 
 SHARING: tuple[Any, ...] = declared("mixedlub.gear.sharing", "mixedlub.load_sharing", "MODEL")
 """Load-sharing models, each with its name, meaning and keys."""
@@ -185,126 +185,6 @@ class Lubricant(Section):
         """Complete the section by what its oil says."""
         named = given.get("oil") if isinstance(given, Mapping) else None
         return given if not isinstance(named, str) else with_oil(given, (info.context or {}).get("folder", Path()))
-
-
-class Coating(Section):
-    name: str = key("name of the coating, for the report", "coating", example="DLC")
-    thickness_um: Number = key("thickness of the coating", example=3.0)
-    thermal_conductivity_W_mK: Number = key("thermal conductivity of the coating", example=2.0)
-
-
-class SurfaceSection(Section):
-    m0_um2: Number | None = key("variance of the heights; all three moments, or a profile", None, example=0.137)
-    m2: Number | None = key("variance of the slopes of the profile", None, example=0.0031)
-    m4_per_um2: Number | None = key("variance of the curvatures of the profile", None, example=0.0021)
-    profile: str | None = key(
-        "instead of the moments: file of a trace, relative to this file, or shipped:NAME",
-        None,
-        example="profiles/ground.csv",
-        alternative=True,
-    )
-    traces: Files | None = key(
-        "instead of one trace: files of several, all across the lay; their moments are averaged",
-        None,
-        example=["profiles/ground_1.csv", "profiles/ground_2.csv", "profiles/ground_3.csv"],
-        alternative=True,
-    )
-    traces_along: Files | None = key(
-        "files of traces along the lay, beside those across it", None, example=["profiles/along.csv"], alternative=True
-    )
-    map: str | None = key(
-        "instead of traces: file of an areal height map without holes, x3p or SDF",
-        None,
-        example="profiles/ground.x3p",
-        alternative=True,
-    )
-    m2_along: Number | None = key(
-        "variance of the slopes along the lay; m2 is then across it", None, example=0.0002, alternative=True
-    )
-    m4_along_per_um2: Number | None = key(
-        "variance of the curvatures along the lay; m4_per_um2 is then across it", None, example=1e-5, alternative=True
-    )
-    lay: Literal["transverse", "longitudinal", "isotropic"] | None = key(
-        "direction of the lay, given for both surfaces of a contact or for neither; left out: transverse where the "
-        "surface is known in two directions, else unknown",
-        None,
-        example="isotropic",
-        alternative=True,
-        values={
-            "transverse": "ridges across the direction of motion, as flanks ground along the face",
-            "longitudinal": "ridges along the direction of motion",
-            "isotropic": "no lay: the moments hold in every direction",
-        },
-    )
-    unit: str | None = key(
-        "unit of a trace of plain numbers, as um or 'mm, um' (place, height); left out: as its file says",
-        None,
-        example="mm, um",
-        alternative=True,
-    )
-    spacing: str | None = key(
-        "step of a trace, as '0.5 um'; left out: as its file says", None, example="0.5 um", alternative=True
-    )
-    cutoff_mm: Number | None = key("long cut-off of a trace; left out: its own, or by ISO 4288", None, example=0.8)
-    short_cutoff_um: Number | None = key(
-        "short cut-off of a trace; left out: its own, or by ISO 3274", None, example=2.5
-    )
-    form: str | None = key(
-        "form taken off a trace: line (left out), none, mean, circle, polynomial-N, involute-MM", None, example="line"
-    )
-    edges: Annotated[bool, Field(strict=True)] = key("true: chamfers and falling ends are cut off", True, example=False)
-    outliers: Number | None = key("a trace is masked beyond so many robust standard deviations", None, example=5.0)
-    coating: Coating | None = key(
-        "only where there is one", None, example={"name": "DLC", "thickness_um": 3.0, "thermal_conductivity_W_mK": 2.0}
-    )
-    thermal_conductivity_W_mK: Number = key("thermal conductivity of the body", 46.0)
-    density_kg_m3: Number = key("density of the body", 7800.0)
-    specific_heat_J_kgK: Number = key("specific heat of the body", 470.0)
-
-    @property
-    def files(self) -> tuple[str, ...]:
-        """Its traces across the lay, or in the one direction that is known."""
-        return self.traces or (() if self.profile is None else (self.profile,))
-
-    @property
-    def is_measured(self) -> bool:
-        """Whether its moments come from traces or a map."""
-        return bool(self.files) or self.map is not None
-
-    @property
-    def has_two_directions(self) -> bool:
-        """Whether it is known across and along its lay."""
-        return self.map is not None or self.traces_along is not None or self.m2_along is not None
-
-    @model_validator(mode="after")
-    def _moments_or_profile(self) -> SurfaceSection:
-        moments = (self.m0_um2, self.m2, self.m4_per_um2)
-        measured = [name for name in ("profile", "traces", "map") if getattr(self, name) is not None]
-        if not measured and None in moments:
-            raise ValueError("needs m0_um2, m2 and m4_per_um2, or a profile")
-        if measured and any(m is not None for m in (*moments, self.m2_along, self.m4_along_per_um2)):
-            raise ValueError(f"has both moments and a {measured[0].removesuffix('s')}; give one of them")
-        if len(measured) > 1:
-            raise ValueError(f"has both {measured[0]} and {measured[1]}; give one of them")
-        if not self.files and (self.unit or self.spacing or self.traces_along) is not None:
-            raise ValueError("unit, spacing and traces_along belong to a profile or traces, which are not given")
-        if self.map is not None and self.model_fields_set & {"edges", "outliers"}:
-            raise ValueError("edges and outliers belong to a profile or traces; a map takes neither")
-        return self
-
-    @model_validator(mode="after")
-    def _lay_of_its_directions(self) -> SurfaceSection:
-        if (self.m2_along is None) != (self.m4_along_per_um2 is None):
-            raise ValueError("moments along the lay are both m2_along and m4_along_per_um2")
-        if self.lay == "isotropic" and (self.traces_along or self.m2_along) is not None:
-            raise ValueError('lay = "isotropic" has one direction; leave out what is along the lay')
-        if self.lay not in (None, "isotropic") and not self.has_two_directions:
-            raise ValueError(f'lay = "{self.lay}" needs traces_along, or m2_along and m4_along_per_um2, or a map')
-        return self
-
-
-SURFACE_FILES = ("profile", "traces", "traces_along", "map")
-"""Keys of a surface that name files."""
 
 
 class Uncertainty(Section):

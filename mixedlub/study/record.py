@@ -18,7 +18,8 @@ from mixedlub.rig.build import DEFAULT_BASE, ZERO_CELSIUS
 from mixedlub.rig.lubricant import Lubricant
 from mixedlub.rig.surface import Surface
 from mixedlub.schema.section import Section
-from mixedlub.schema.system_file import SURFACE_FILES, Gears, SurfaceSection
+from mixedlub.schema.surface_file import SURFACE_FILES, SurfaceSection
+from mixedlub.schema.system_file import Gears
 from mixedlub.study.checkpoint import fingerprint, input_fingerprint
 from mixedlub.study.options import ignored
 from mixedlub.study.plan import Study

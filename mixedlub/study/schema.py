@@ -11,7 +11,8 @@ from pydantic import BeforeValidator, Field, create_model, model_validator
 
 from mixedlub.friction import BASE, PLACES, catalogue
 from mixedlub.schema.section import Number, NumberOrName, Section, Whole, check_keys_of, key, table, with_ranges
-from mixedlub.schema.system_file import Gears, RigFile, SurfaceSection
+from mixedlub.schema.surface_file import SurfaceSection
+from mixedlub.schema.system_file import Gears, RigFile
 from mixedlub.slots import ASPERITY_LOAD, SLOTS
 
 MOST_LEVELS = 100_000

@@ -76,6 +76,12 @@ def test_physics_and_instrument_are_kept_apart(offset: Diagnosis) -> None:
     assert said.startswith("Missing physics: inlet shear heating; and a fault of the instrument: sensor offset")
 
 
+def test_another_law_is_not_called_missing_physics(offset: Diagnosis) -> None:
+    for law in ("film_law", "pressure_viscosity_law"):
+        said = words.headline(judged(offset, {Explanation.of(law): 0.97}, 1))
+        assert said.startswith("No physics is missing, but another published law fits in place of that of the base")
+
+
 def test_left_out_gives_equation_source_strength_and_interval(offset: Diagnosis) -> None:
     left_out = section(offset, words.LEFT_OUT)
     said = " ".join(left_out.sentences)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mixedlub.rig.rig import Rig
-from mixedlub.schema import system_file
+from mixedlub.schema import surface_file, system_file
 from mixedlub.schema.findings import codes, collected
 from profiles import shipped
 from profiles.errors import InputError
@@ -14,7 +14,7 @@ from roughness import evaluation_profile, moments
 
 
 def rig(folder: Path, name: str) -> Rig:
-    flank = system_file.SurfaceSection(profile=name, cutoff_mm=0.8, short_cutoff_um=2.5)
+    flank = surface_file.SurfaceSection(profile=name, cutoff_mm=0.8, short_cutoff_um=2.5)
     return Rig(system_file.RigFile(surfaces={"ground": flank}), folder)
 
 

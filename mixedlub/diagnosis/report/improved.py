@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -45,15 +44,10 @@ def improved_case(d: Diagnosis) -> Case | None:
         update={
             "description": f"{of} {given.description}".rstrip(),
             "effects": {**given.effects, **fitted},
-            "calibration": _without_laws(problem.calibration(z), fitted),
+            "calibration": problem.calibration(z, without=fitted),
         }
     )
     return replace(d.given, system=system, conditions=None if d.wanted is None else d.wanted.table)
-
-
-def _without_laws(calibration: Mapping[str, float], effects: Collection[str]) -> dict[str, float]:
-    """The calibration without the uncertainty of base laws in place of which the effects have others."""
-    return {name: value for name, value in calibration.items() if name.partition(".")[0] not in effects}
 
 
 def improved_files(d: Diagnosis) -> dict[str, str | bytes]:

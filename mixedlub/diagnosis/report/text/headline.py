@@ -101,8 +101,8 @@ def _verdict(d: Diagnosis) -> str:
         return f"Something is missing that no one effect {which}, nor any two tried together (probability {p})."
     effects = effects_of(posterior.verdict.effects)
     free = [effect_words(e.id) for e in effects if e.descriptive]
-    physics = [effect_words(e.id) for e in effects if e.stage not in ("measurement", "law") and not e.descriptive]
-    laws = [effect_words(e.id) for e in effects if e.stage == "law"]
+    physics = [effect_words(e.id) for e in effects if e.stage != "measurement" and not e.replaces and not e.descriptive]
+    laws = [effect_words(e.id) for e in effects if e.replaces]
     faults = [effect_words(e.id) for e in effects if e.stage == "measurement"]
     if not physics and not free and not laws:
         return f"No physics is missing; the instrument is at fault: {' and '.join(faults)} (probability {p})."

@@ -177,7 +177,7 @@ def calibration(d: Diagnosis) -> tuple[tuple[str, ...], Cells]:
     table = [("input", "stated", "moved to", "90 % interval", "moved by", "meaning")]
     strained = []
     for i, c in enumerate(d.search.problem.forward.calibrations):
-        if c.is_small and abs(z[i]) < 1.0:
+        if c.base_law and abs(z[i]) < 1.0:
             continue
         value, low, high = interval(c.parameter.prior, z[i], spread[i])
         name = with_names(c.name.replace("_", " ").replace(".", ": "), first=False)
