@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import json
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -52,23 +53,24 @@ def toml(value: Any) -> str:
 StudyWriter = Callable[..., Path]
 
 
+def study_file(folder: Path, name: str = "trial", **changes: Any) -> Path:
+    """Write a study file; keywords `a__b=value` set a key of table a, None removes it."""
+    data = copy.deepcopy(BASE)
+    for place, value in changes.items():
+        *tables, key = place.split("__")
+        target = data
+        for table in tables:
+            target = target.setdefault(table, {})
+        if value is None:
+            target.pop(key, None)
+        else:
+            target[key] = value
+    path = folder / f"{name}.toml"
+    path.write_text("\n".join(f"{key} = {toml(value)}" for key, value in data.items()) + "\n", encoding="utf-8")
+    return path
+
+
 @pytest.fixture
 def write_study(tmp_path: Path) -> StudyWriter:
-    """Writes a study file; keywords `a__b=value` set a key of table a, None removes it."""
-
-    def write(name: str = "trial", **changes: Any) -> Path:
-        data = copy.deepcopy(BASE)
-        for place, value in changes.items():
-            *tables, key = place.split("__")
-            target = data
-            for table in tables:
-                target = target.setdefault(table, {})
-            if value is None:
-                target.pop(key, None)
-            else:
-                target[key] = value
-        path = tmp_path / f"{name}.toml"
-        path.write_text("\n".join(f"{key} = {toml(value)}" for key, value in data.items()) + "\n", encoding="utf-8")
-        return path
-
-    return write
+    """Writes a study file in the folder of the test."""
+    return partial(study_file, tmp_path)

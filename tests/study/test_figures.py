@@ -190,25 +190,6 @@ def test_the_outermost_pairings_are_among_those_drawn(many):
     assert drawn.min() == ratio.min()
 
 
-def test_text_stays_text_in_every_format(write_study, tmp_path):
-    from mixedlub.cli import main
-
-    out, file = (
-        tmp_path / "o",
-        str(write_study(conditions__torque_Nm=[50], conditions__oil_temperature_C=[60], surfaces__mid=None)),
-    )
-    assert main(["study", file, "--out", str(out), "--format", "svg,pdf,png"]) == 0
-    names = {path.name for path in (out / "figures").iterdir()}
-    stems = {name.rpartition(".")[0] for name in names}
-    assert names == {f"{stem}.{form}" for stem in stems for form in ("svg", "pdf", "png")}
-    equal = next(stem for stem in stems if stem.startswith("power_loss_equal"))
-    assert "pinion speed (rpm)</text>" in (out / "figures" / f"{equal}.svg").read_text(encoding="utf-8")
-    assert (out / "figures" / f"{equal}.pdf").read_bytes().startswith(b"%PDF")
-    (out / "figures" / f"{equal}.pdf").rename(out / "figures" / "of_old.pdf")
-    assert main(["study", file, "--out", str(out), "--format", "pdf"]) == 0
-    assert {path.name for path in (out / "figures").iterdir()} == {f"{stem}.pdf" for stem in stems}
-
-
 def test_an_unknown_format_is_bad_input(write_study, tmp_path, capsys):
     from mixedlub.cli import main
 

@@ -7,14 +7,15 @@ from matplotlib.text import Text
 from mixedlub.cli import main
 from mixedlub.report.paper_figures import SHAPES, WIDTH, paper_figures
 from mixedlub.study import read_study, run_study
+from tests.study.conftest import study_file
 
 
-@pytest.fixture
-def results(write_study):
-    return run_study(read_study(write_study(conditions__torque_Nm=[50, 100, 150])))
+@pytest.fixture(scope="module")
+def results(tmp_path_factory):
+    return run_study(read_study(study_file(tmp_path_factory.mktemp("paper"), conditions__torque_Nm=[50, 100, 150])))
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def drawn(results):
     return {one.name: one for one in paper_figures(results)}
 
@@ -72,10 +73,18 @@ def test_one_pairing_and_long_names_are_drawn_too(write_study):
     assert len(list(paper_figures(few))) == 7
 
 
-def test_the_command_draws_them_on_request(write_study, tmp_path, capsys):
-    path, out = write_study(conditions__oil_temperature_C=[60], conditions__torque_Nm=[50]), tmp_path / "o"
-    assert main(["study", str(path), "--paper-figures", "--format", "pdf", "--out", str(out)]) == 0
-    assert len(list((out / "figures").glob("paper_*.pdf"))) == 7
-    assert 'href="figures/paper_04_normalised_loss_equal.pdf"' in (out / "index.html").read_text(encoding="utf-8")
+def test_the_command_draws_them_on_request_with_text_as_text(write_study, tmp_path, capsys):
+    """Every figure of the command in every format, those of the paper among them."""
+    few = {"conditions__oil_temperature_C": [60], "conditions__torque_Nm": [50], "surfaces__mid": None}
+    path, out = write_study(**few), tmp_path / "o"
+    assert main(["study", str(path), "--paper-figures", "--format", "svg,pdf,png", "--out", str(out)]) == 0
+    names = {path.name for path in (out / "figures").iterdir()}
+    stems = {name.rpartition(".")[0] for name in names}
+    assert names == {f"{stem}.{form}" for stem in stems for form in ("svg", "pdf", "png")}
+    assert sum(stem.startswith("paper_") for stem in stems) == 7
+    equal = next(stem for stem in stems if stem.startswith("power_loss_equal"))
+    assert "pinion speed (rpm)</text>" in (out / "figures" / f"{equal}.svg").read_text(encoding="utf-8")
+    assert (out / "figures" / f"{equal}.pdf").read_bytes().startswith(b"%PDF")
+    assert 'href="figures/paper_04_normalised_loss_equal.svg"' in (out / "index.html").read_text(encoding="utf-8")
     assert main(["study", str(path), "--paper-figures", "--no-figures", "--out", str(out)]) == 2
     assert "--paper-figures" in capsys.readouterr().err

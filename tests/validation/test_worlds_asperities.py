@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from mixedlub.effects import catalogue
+from mixedlub.laws.contact import real_area_ratio, summit_separation
 from mixedlub.validation.contact import touch
 from mixedlub.validation.worlds import random_surface
 from mixedlub.validation.worlds.asperities import (
@@ -29,6 +31,7 @@ from mixedlub.validation.worlds.mixed import (
     mean_pressure,
     meet,
 )
+from roughness import mccool
 
 
 @pytest.mark.parametrize("power", [1.0, 1.5, 2.0, 2.5])
@@ -124,6 +127,29 @@ def test_persson_begins_with_the_root_of_eight_over_pi(contact):
     found = persson(light)
     ratio = found.area(light.film) * steep / found.pressure(light.film)
     assert ratio == pytest.approx(np.sqrt(8 / np.pi), rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("theory", "name", "within"),
+    [
+        (greenwood_tripp, "Greenwood and Tripp", 0.015),
+        (bush_gibson_thomas, "Bush, Gibson and Thomas", 0.015),
+        (persson, "Persson", 0.025),
+    ],
+)
+@pytest.mark.parametrize("nayak", [3.0, 10.0, 30.0])
+def test_the_catalogue_can_become_a_theory_of_asperities(contact, theory, name, within, nayak):
+    c = replace(contact, m4=nayak * contact.m2**2 / contact.m0)
+    height = float(c.roughness.flat[0])
+    film = height * np.linspace(0.0, 2.5, 11)
+    moments = [float(np.ravel(m)[0]) for m in (c.m0, c.m2, c.m4)]
+    density, radius = mccool.summit_density(*moments[1:]), mccool.summit_radius(moments[2])
+    law = catalogue()["asperity_law"]
+    state = (density, mccool.summit_sigma(*moments), mccool.plane_offset(*moments), height, 0.5, 0.5)
+    density, spread, plane = law.law(*state, **law.law_values(name))
+    area = real_area_ratio(summit_separation(film, plane, spread), density, radius, spread)
+    expected = np.array([float(theory(c).area(np.full_like(c.film, h)).flat[0]) for h in film])
+    assert area == pytest.approx(expected, rel=within, abs=0.02 * within)
 
 
 def test_theories_of_one_surface_lie_within_a_factor(contact):
