@@ -25,6 +25,8 @@ class Contained:
 
         >>> print(Contained("inlet_shear_heating", "Gupta", -0.9).text)
         Its special case "Gupta" fits about as well (odds 1 : 2.5).
+        >>> print(Contained("film_law", "Grubin", -2000.0).text)
+        Its special case "Grubin" is rejected (odds 1 : 1e869).
         """
         if self.log_odds > -LAW_OPEN:
             how = "fits as well with fewer parameters"
@@ -38,8 +40,9 @@ class Contained:
 
     @property
     def _odds(self) -> str:
-        ratio = math.exp(abs(self.log_odds))
-        shown = f"{ratio:.2g}" if ratio < 100.0 else f"{ratio:.0f}" if ratio < 1e4 else f"1e{math.log10(ratio):.0f}"
+        size = abs(self.log_odds)
+        digits = 2 if size < math.log(100.0) else 4
+        shown = f"{math.exp(size):.{digits}g}" if size < math.log(1e4) else f"1e{size / math.log(10.0):.0f}"
         return f"{shown} : 1" if self.log_odds > 0.0 else f"1 : {shown}"
 
 

@@ -326,10 +326,13 @@ def _gauss_newton(
     rival: float = -np.inf,
     hopeless: float = HOPELESS_BEHIND,
 ) -> _State:
-    """Damped Gauss-Newton steps until the gain is below the tolerance, or the fit is hopelessly behind its rival."""
+    """Damped Gauss-Newton steps until the gain is below the tolerance, or the fit is hopelessly behind its rival.
+
+    Every second derivative is only corrected along the step; the last step, and the result, have a whole one.
+    """
     z, shared, run, slopes = state.z, state.shared, state.run, state.slopes
     cost, weight = _cost(problem, run.prediction, z, shared, likelihood)
-    damping = DAMPING_START
+    damping, exact = DAMPING_START, True
     for step_number in range(GAUSS_NEWTON_STEPS):
         columns = np.hstack([slopes, problem.shared])
         scaled = columns * weight[:, None]
@@ -350,14 +353,27 @@ def _gauss_newton(
                 break
             damping = max(damping * DAMPING_RISE, DAMPING_RETRY)
         else:
-            break
-        gain = cost - new_cost
+            if exact:
+                break
+            slopes, exact, damping = problem.jacobian(explanation, z, run, slopes), True, DAMPING_START
+            continue
+        near = cost - new_cost < max(tolerance, PRECISION_BEHIND * (rival + cost))
+        change = (tried.prediction - run.prediction) / problem.sd
+        precise, exact = exact, near or not exact
+        slopes = problem.jacobian(explanation, moved, tried, slopes) if exact else _secant(slopes, moved - z, change)
         z, shared, run, cost, weight = moved, moved_shared, tried, new_cost, new_weight
         damping = max(damping / DAMPING_FALL, LEAST_DAMPING)
-        slopes = problem.jacobian(explanation, z, run, slopes)
-        if gain < max(tolerance, PRECISION_BEHIND * (rival + cost)):
+        if near and precise:
             break
+    if not exact:
+        slopes = problem.jacobian(explanation, z, run, slopes)
     return _State(z, shared, run, slopes, cost, weight)
+
+
+def _secant(slopes: np.ndarray, step: np.ndarray, change: np.ndarray) -> np.ndarray:
+    """Derivative corrected along the last step, by Broyden's update, so that it has the change of that step."""
+    length = float(step @ step)
+    return slopes + np.outer(change - slopes @ step, step) / length if length > 0.0 else slopes
 
 
 def _evidence_bound(cost: float, slope: np.ndarray, curvature: np.ndarray) -> float:
