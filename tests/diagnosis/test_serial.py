@@ -58,7 +58,15 @@ def test_the_seconds_after_a_start_are_no_effect(make) -> None:
     assert {1, 2, 3} <= set(d.outlier_runs)
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize(
+    "seed",
+    [
+        0,
+        pytest.param(1, marks=pytest.mark.long),
+        pytest.param(2, marks=pytest.mark.long),
+        pytest.param(3, marks=pytest.mark.long),
+    ],
+)
 def test_noise_of_two_paces_is_no_mismatch(make, seed: int) -> None:
     """Slow noise under as much that is new at each reading: a free form follows the slow part well."""
     noise = 0.7 * lasting_noise(0.95, seed) + 0.7 * np.random.default_rng(100 + seed).standard_normal(COUNT)

@@ -38,7 +38,7 @@ def wandering(tmp_path_factory):
     return answer_to(tmp_path_factory.mktemp("wandering"), 0.1 * (1.0 + wandering_noise(3, 0.9, 0.01)))
 
 
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.long)])
 def test_wandering_noise_is_no_event(tmp_path, seed):
     d = answer_to(tmp_path, 0.1 * (1.0 + wandering_noise(seed, 0.9, 0.01)))
     assert d.posterior.verdict in (NOTHING, DISCREPANCY)
@@ -86,7 +86,7 @@ def test_a_new_reading_scatters_as_the_recorded_ones(wandering):
     assert 0.84 < inside.mean() < 0.97
 
 
-@pytest.mark.parametrize("count", [125, 250])
+@pytest.mark.parametrize("count", [125, pytest.param(250, marks=pytest.mark.long)])
 def test_what_swings_far_beyond_the_noise_is_a_state(tmp_path, count):
     """Friction of 500 traction cycles as measured (ETM, slide-roll ratio above 15 %), its turning points typed in."""
     cycle = np.linspace(1.0, 500.0, count)

@@ -18,7 +18,15 @@ def hunting(periods, height):
 
 
 @pytest.mark.parametrize(
-    ("periods", "height"), [(8.3, 0.03), (19.6, 0.03), (28.0, 0.03), (8.25, 0.1), (4.4, 0.2), (19.29, 0.5)]
+    ("periods", "height"),
+    [
+        (8.3, 0.03),
+        (4.4, 0.2),
+        pytest.param(19.6, 0.03, marks=pytest.mark.long),
+        pytest.param(28.0, 0.03, marks=pytest.mark.long),
+        pytest.param(8.25, 0.1, marks=pytest.mark.long),
+        pytest.param(19.29, 0.5, marks=pytest.mark.long),
+    ],
 )
 def test_what_swings_in_time_is_no_noise(make, periods, height):
     found = diagnose_case(make(*hunting(periods, height)).folder)

@@ -6,6 +6,7 @@ import pytest
 from mixedlub.report.figures import MOST_PANELS, equal_pairings, figures
 from mixedlub.report.plots import MOST_LEVELS, MOST_PAIRINGS
 from mixedlub.study import read_study, run_study
+from tests.study.conftest import study_file
 
 
 @pytest.fixture(scope="module")
@@ -21,8 +22,23 @@ def many(tmp_path_factory):
     return run_study(read_study(path))
 
 
-def test_many_levels_are_thinned_and_said(many):
-    drawn = {d.name: d for d in figures(many)}
+@pytest.fixture(scope="module")
+def many_drawn(many):
+    return {d.name: d for d in figures(many)}
+
+
+@pytest.fixture(scope="module")
+def usual(tmp_path_factory):
+    return run_study(read_study(study_file(tmp_path_factory.mktemp("usual"))))
+
+
+@pytest.fixture(scope="module")
+def usual_drawn(usual):
+    return {d.name: d for d in figures(usual)}
+
+
+def test_many_levels_are_thinned_and_said(many_drawn):
+    drawn = many_drawn
     assert {name.rpartition("_")[2] for name in drawn} == {"40C", "80C", "temperature"}
     panels = [a for a in drawn["power_loss_equal_40C"].figure.axes if a.lines]
     assert len(panels) == MOST_PANELS
@@ -30,8 +46,8 @@ def test_many_levels_are_thinned_and_said(many):
     assert f"{MOST_PAIRINGS} of 351 pairings" in drawn["loss_over_roughness_40C"].caption
 
 
-def test_captions_say_which_levels_are_drawn(many, write_study):
-    drawn = {d.name: d.caption for d in figures(many)}
+def test_captions_say_which_levels_are_drawn(many_drawn, usual_drawn):
+    drawn = {name: d.caption for name, d in many_drawn.items()}
     torques, speeds = "Drawn are 6 of 9 torques: 10, ", "Drawn are 6 of 9 speeds: 10, "
     for name in ("loss_over_roughness", "loss_over_film_parameter", "loss_over_area_ratio"):
         assert "Drawn are 3 of 9 torques: 10, 105 and 200 N m." in drawn[f"{name}_40C"]
@@ -40,11 +56,11 @@ def test_captions_say_which_levels_are_drawn(many, write_study):
     for name in ("power_loss_equal", "film_and_friction"):
         assert torques in drawn[f"{name}_40C"]
         assert "speeds:" not in drawn[f"{name}_40C"]
-    assert not any("Drawn" in d.caption for d in figures(run_study(read_study(write_study()))))
+    assert not any("Drawn" in d.caption for d in usual_drawn.values())
 
 
-def test_axes_carry_quantity_and_unit(many):
-    for drawn in figures(many):
+def test_axes_carry_quantity_and_unit(many_drawn):
+    for drawn in many_drawn.values():
         labels = {a.get_xlabel() for a in drawn.figure.axes} | {a.get_ylabel() for a in drawn.figure.axes}
         assert all("(" in label for label in labels if label), drawn.name
 
@@ -78,16 +94,15 @@ def test_long_names_stay_within_their_panels(write_study):
         assert all(box.x1 <= drawn.figure.bbox.x1 for box in boxes), drawn.name
 
 
-def test_no_curve_is_cut_by_its_panel(write_study):
-    results = run_study(read_study(write_study()))
-    for drawn in figures(results):
+def test_no_curve_is_cut_by_its_panel(usual_drawn):
+    for drawn in usual_drawn.values():
         for panel in (a for a in drawn.figure.axes if a.lines and a.get_yscale() == "linear"):
             highest = max((np.max(line.get_ydata()) for line in panel.lines if len(line.get_ydata())), default=0.0)
             assert highest <= panel.get_ylim()[1], drawn.name
 
 
-def test_middle_temperatures_are_drawn_and_captions_say_which_are_left_out(many):
-    drawn = {d.name: d for d in figures(many)}
+def test_middle_temperatures_are_drawn_and_captions_say_which_are_left_out(many_drawn):
+    drawn = many_drawn
     over = drawn["power_loss_equal_temperature"]
     assert all(list(line.get_xdata()) == [40, 60, 80] for a in over.figure.axes for line in a.lines)
     for name, figure in drawn.items():
@@ -95,9 +110,8 @@ def test_middle_temperatures_are_drawn_and_captions_say_which_are_left_out(many)
             assert "Drawn are 2 of 3 oil temperatures: 40 and 80 °C." in figure.caption, name
 
 
-def test_two_temperatures_need_no_figure_over_temperature(write_study):
-    drawn = list(figures(run_study(read_study(write_study()))))
-    assert not any("temperature" in d.name or "oil temperatures:" in d.caption for d in drawn)
+def test_two_temperatures_need_no_figure_over_temperature(usual_drawn):
+    assert not any("temperature" in d.name or "oil temperatures:" in d.caption for d in usual_drawn.values())
 
 
 @pytest.fixture(scope="module")
@@ -182,8 +196,8 @@ def test_points_outside_the_range_of_the_model_have_a_mark_of_their_own(write_st
     assert marked == outside
 
 
-def test_the_outermost_pairings_are_among_those_drawn(many):
-    panel = {d.name: d for d in figures(many)}["loss_over_area_ratio_40C"].figure.axes[0]
+def test_the_outermost_pairings_are_among_those_drawn(many, many_drawn):
+    panel = many_drawn["loss_over_area_ratio_40C"].figure.axes[0]
     drawn = np.concatenate([line.get_xdata() for line in panel.lines if line.get_linestyle() == "None"])
     ratio = many["area_ratio"][:, 0, 0]
     assert drawn.max() == ratio.max()
@@ -225,10 +239,10 @@ def test_a_doubtful_verdict_is_doubted_at_its_panel(write_study):
     assert "0.14 × Gaussian" in title
 
 
-def test_conditions_outside_the_range_are_hollow(write_study):
+def test_conditions_outside_the_range_are_hollow(usual, usual_drawn):
     """As many hollow marks as there are such conditions among those drawn."""
-    results = run_study(read_study(write_study()))
-    drawn = next(d for d in figures(results) if d.name.startswith("power_loss_equal"))
+    results = usual
+    drawn = next(d for name, d in usual_drawn.items() if name.startswith("power_loss_equal"))
     chosen = equal_pairings(results)
     hollow = sum(len(c.get_offsets()) for panel in drawn.figure.axes for c in panel.collections)
     assert hollow == results.outside[chosen, 0].sum()

@@ -24,7 +24,15 @@ def verdicts(make, runs, seed=0):
     return Counter(f.verdict for f in found), np.array([f.p_value for f in found])
 
 
-@pytest.mark.parametrize(("points", "roll"), [(8000, 100e-6), (8000, 30e-6), (8000, 8e-6), (32000, 30e-6)])
+@pytest.mark.parametrize(
+    ("points", "roll"),
+    [
+        (8000, 30e-6),
+        pytest.param(8000, 100e-6, marks=pytest.mark.long),
+        pytest.param(8000, 8e-6, marks=pytest.mark.long),
+        pytest.param(32000, 30e-6, marks=pytest.mark.long),
+    ],
+)
 def test_gaussian_surfaces_are_seldom_called_anything_else(points, roll):
     count, p = verdicts(lambda rng: heights(rng, points, roll), 120)
     assert count["gaussian"] >= 114
@@ -52,7 +60,15 @@ def plateau(rng, ratio, lift):
     return np.minimum(fine, ratio * deep + lift)
 
 
-@pytest.mark.parametrize(("ratio", "lift"), [(4, 0.3e-6), (6, 0.6e-6), (10, 0.5e-6), (5, 0.0)])
+@pytest.mark.parametrize(
+    ("ratio", "lift"),
+    [
+        (6, 0.6e-6),
+        pytest.param(4, 0.3e-6, marks=pytest.mark.long),
+        pytest.param(10, 0.5e-6, marks=pytest.mark.long),
+        pytest.param(5, 0.0, marks=pytest.mark.long),
+    ],
+)
 def test_plateaus_are_found(ratio, lift):
     count, p = verdicts(lambda rng: plateau(rng, ratio, lift), 40)
     assert count["plateau"] >= 36

@@ -199,14 +199,14 @@ def _discrepancy_residuals(search: Search, forms: list[np.ndarray], out: np.ndar
 
     The other readings also decide between its ``forms``.
     """
-    problem, null_fit = search.problem, search.null_fit
+    problem, base = search.problem, search.discrepancy.base
     log, residuals, variance = [], [], []
     for form in forms:
-        columns = np.hstack([null_fit.slopes, problem.shared, form])
-        fit = linear_fit(null_fit.anchor[~out], columns[~out])
-        new_columns = np.hstack([null_fit.slopes, np.zeros_like(problem.shared), form])[out]
+        columns = np.hstack([base.slopes, problem.shared, form])
+        fit = linear_fit(base.anchor[~out], columns[~out])
+        new_columns = np.hstack([base.slopes, np.zeros_like(problem.shared), form])[out]
         log.append(fit.evidence)
-        residuals.append(null_fit.anchor[out] - new_columns @ fit.coefficients)
+        residuals.append(base.anchor[out] - new_columns @ fit.coefficients)
         variance.append(_open_variance(columns[~out], fit.weight, new_columns))
     chance = np.exp(np.array(log) - max(log))
     chance = chance / chance.sum()

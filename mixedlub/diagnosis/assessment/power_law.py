@@ -11,7 +11,6 @@ import numpy as np
 
 from mixedlub.chain.quantities import GLOSSARY
 from mixedlub.diagnosis.discrepancy.modulated import log_slope
-from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.inference.map_fit import covariance, linear_fit, whitening
 from mixedlub.diagnosis.labels import number, words_of
 from mixedlub.diagnosis.search.search import Search
@@ -109,11 +108,11 @@ def describe_discrepancy(search: Search) -> DescribedDiscrepancy:
 
 def absorbing_stages(search: Search) -> tuple[Absorbed, ...]:
     """Weigh a smooth free factor on one quantity a stage, linearised at the calibrated base model."""
-    problem, null_fit = search.problem, search.null_fit
-    base = np.hstack([null_fit.slopes, problem.shared])
-    plain = linear_fit(null_fit.anchor, base, search.discrepancy.fit.weight).evidence
+    problem, base = search.problem, search.discrepancy.base
+    fixed, weight = np.hstack([base.slopes, problem.shared]), search.discrepancy.fit.weight
+    plain = linear_fit(base.anchor, fixed, weight).evidence
     smooth = search.space.columns(search.values, ABSORBING_LENGTH)
-    calibrated = problem.run(NOTHING, null_fit.z)
+    calibrated = problem.run(base.explanation, base.z)
     weighed = []
     for stage, names in SLOTS:
         for name in names:
@@ -122,7 +121,7 @@ def absorbing_stages(search: Search) -> tuple[Absorbed, ...]:
                 continue
             columns = smooth * (slope / problem.sd)[:, None]
             each = [
-                linear_fit(null_fit.anchor, np.hstack([base, size * columns]), search.discrepancy.fit.weight).evidence
+                linear_fit(base.anchor, np.hstack([fixed, size * columns]), weight).evidence
                 for size in LOG_FACTOR_SIZES
             ]
             weighed.append(Absorbed(stage, name, float(np.logaddexp.reduce(each) - np.log(len(each)) - plain)))
@@ -137,7 +136,8 @@ def features(search: Search) -> dict[str, np.ndarray]:
     for column in case.kind.columns:
         if column.dtype != "name" and column.name in rows and not column.name.endswith("_C"):
             candidates[column.name] = np.abs(np.asarray(rows[column.name], dtype=float))
-    base = search.problem.run(NOTHING, search.null_fit.z)
+    fit = search.discrepancy.base
+    base = search.problem.run(fit.explanation, fit.z)
     inputs = base.inputs
     computed = set(inputs) | {name for name, _ in forward.chain}
     parts = [name for name in (*CHAIN[1:], "film_thickness", "composite_roughness") if name in computed]
@@ -262,16 +262,16 @@ def power_law(search: Search) -> Law | None:
     values = features(search)
     if not values:
         return None
-    problem, null_fit = search.problem, search.null_fit
+    problem, base = search.problem, search.discrepancy.base
     names = tuple(values)
     middles = np.array([float(f"{np.exp(np.mean(np.log(v))):.2g}") for v in values.values()])
     logs = np.log(np.array(list(values.values())).T / middles)
-    one = problem.sd * problem.d_inverse(search.null_fit.prediction)
-    level = problem.inverse(null_fit.prediction)
+    one = problem.sd * problem.d_inverse(base.prediction)
+    level = problem.inverse(base.prediction)
     # Carriers of a law: 0 the base model's reading, 1 none, 2 the direction of motion where there are two.
     share = np.column_stack([level, np.ones_like(level), *_turning(search)]) / one[:, None]
-    fixed = np.hstack([null_fit.slopes, problem.shared])
-    full = _Search(names, logs, share, fixed, null_fit.anchor, search.discrepancy.fit.weight)
+    fixed = np.hstack([base.slopes, problem.shared])
+    full = _Search(names, logs, share, fixed, base.anchor, search.discrepancy.fit.weight)
     count = min(problem.y.size, LAW_READINGS)
     thin = np.sort(np.random.default_rng(SEED).choice(problem.y.size, count, replace=False))
     thinned = full.take(thin)

@@ -149,15 +149,14 @@ class NewRows:
         return Prediction(mean + gain, variance + variances[0], base, variances[1:] - variances[0])
 
     def of_discrepancy(self) -> Prediction:
-        """Prediction of the base model plus the discrepancy, which vanishes far from the recorded conditions."""
+        """Prediction of its base plus the discrepancy, which vanishes far from the recorded conditions."""
         search = self.search
-        discrepancy = search.discrepancy
-        run = self.problem.run(NOTHING, discrepancy.z)
-        calibrated, slopes = run.prediction, self.problem.jacobian(NOTHING, discrepancy.z, run)
+        discrepancy, base = search.discrepancy, search.discrepancy.base
+        run = self.problem.run(base.explanation, discrepancy.z)
+        calibrated, slopes = run.prediction, self.problem.jacobian(base.explanation, discrepancy.z, run)
         name = discrepancy.best.modulates
-        scalings = {
-            name: scaling_of(self.problem, self.problem.run(NOTHING, search.null_fit.z), discrepancy.typical, name)
-        }
+        at_base = self.problem.run(base.explanation, base.z)
+        scalings = {name: scaling_of(self.problem, at_base, discrepancy.typical, name)}
         form = discrepancy.best.columns(search.space, self.values, scalings)
         shared = np.zeros((len(self.table), search.problem.shared.shape[1]))
         all_columns = np.hstack([slopes, shared, form])

@@ -14,7 +14,6 @@ from mixedlub.diagnosis.discrepancy.boxes import clearest_box
 from mixedlub.diagnosis.discrepancy.modulated import ADDITIVE, READING, Scalings, TypicalSizes, scalings_of
 from mixedlub.diagnosis.discrepancy.screening import clearest, first_look
 from mixedlub.diagnosis.discrepancy.smooth import DiscrepancyForm, candidate_forms, most_flexible
-from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.inference.map_fit import Fit, Linear, covariance, damped_update, linear_fit, whitening
 from mixedlub.diagnosis.problem import Problem
 from mixedlub.diagnosis.settings.discrepancy import FITTED_IN_FULL
@@ -25,9 +24,11 @@ from mixedlub.recording.conditions import Coordinates
 class Discrepancy:
     """Evidence of the discrepancy, averaged over its forms, and the fit of its best form.
 
-    ``scalings`` are those of the recording, in units of its ``typical`` sizes.
+    It adds to the model of ``base``: nothing missing, or other laws of the base chain. ``scalings`` are those of the
+    recording, in units of its ``typical`` sizes.
     """
 
+    base: Fit
     evidence: float
     best: DiscrepancyForm
     scalings: Scalings
@@ -38,18 +39,18 @@ class Discrepancy:
 
 
 def fit_discrepancy(
-    problem: Problem, null_fit: Fit, space: Coordinates, values: list[np.ndarray], names: Collection[str]
+    problem: Problem, base: Fit, space: Coordinates, values: list[np.ndarray], names: Collection[str]
 ) -> Discrepancy:
-    """Marginal likelihood of the base model plus a discrepancy, averaged over its forms.
+    """Marginal likelihood of a fitted model plus a discrepancy, averaged over its forms.
 
     Forms that are effects among ``names`` are left out. Each family of forms decides on outliers by its own best form:
     a smooth form would take the crests of a wave, or the readings of a peak, for outliers.
     """
-    target = null_fit.anchor
-    fixed = np.hstack([null_fit.slopes, problem.shared])
-    base = problem.run(NOTHING, null_fit.z)
-    typical = TypicalSizes.of(problem, base)
-    scalings = scalings_of(problem, base, typical)
+    target = base.anchor
+    fixed = np.hstack([base.slopes, problem.shared])
+    run = problem.run(base.explanation, base.z)
+    typical = TypicalSizes.of(problem, run)
+    scalings = scalings_of(problem, run, typical)
 
     def columns_of(shape: DiscrepancyForm) -> np.ndarray:
         return shape.columns(space, values, scalings)
@@ -69,14 +70,15 @@ def fit_discrepancy(
     form_columns = columns_of(best)
     all_columns = np.hstack([fixed, form_columns])
     spread = covariance(all_columns, fit.weight)
-    count = null_fit.z.size
+    count = base.z.size
     errors = fit.coefficients[count : fixed.shape[1]]
     common = problem.shared @ errors
     z, refitted = damped_update(
-        problem, NOTHING, null_fit.z, fit.coefficients[:count], common, lambda prediction: form_columns, fit.weight
+        problem, base.explanation, base.z, fit.coefficients[:count], common, lambda _: form_columns, fit.weight
     )
     coefficients = np.concatenate([z, errors, refitted.coefficients])
     return Discrepancy(
+        base=base,
         evidence=_mean_over_shapes({shape: e for each in weighed for shape, e in each.evidence.items()}),
         best=best,
         scalings=scalings,

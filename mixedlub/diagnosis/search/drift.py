@@ -75,8 +75,8 @@ def estimate_correlated_error(search: Search, least: float) -> tuple[CorrelatedE
     for key in named:
         fit = screened.fits[key]
         tried.append((weights[key] - screened.scores[key] + fit.evidence, fit.residual, fit.anchor, fit.slopes, forms))
-    flexible = np.hstack([null_fit.slopes, discrepancy_columns])
-    tried.append((weights[DISCREPANCY], discrepancy.fit.residual, null_fit.anchor, flexible, forms))
+    flexible = np.hstack([discrepancy.base.slopes, discrepancy_columns])
+    tried.append((weights[DISCREPANCY], discrepancy.fit.residual, discrepancy.base.anchor, flexible, forms))
     for weight, residual, target, slopes, allowed in tried:
         if not allowed or not is_autocorrelated(residual[order]):
             continue

@@ -10,7 +10,13 @@ import numpy as np
 
 from mixedlub.diagnosis.explanation import Explanation
 from mixedlub.diagnosis.problem import effects_of
-from mixedlub.diagnosis.settings.search import FULL_PAIR_PRIOR, LAW_ODDS, LEAST_NOTHING_ODDS, PRIOR
+from mixedlub.diagnosis.settings.search import (
+    FULL_PAIR_PRIOR,
+    FURTHER_LAW_ODDS,
+    LAW_ODDS,
+    LEAST_NOTHING_ODDS,
+    PRIOR,
+)
 
 
 def priors(effects: int) -> tuple[float, float, float]:
@@ -25,6 +31,15 @@ def priors(effects: int) -> tuple[float, float, float]:
         return PRIOR["nothing"], 0.0, 0.0
     nothing = min(max(PRIOR["nothing"], LEAST_NOTHING_ODDS * PRIOR["single"] / effects), 1.0)
     return nothing, PRIOR["single"], PRIOR["pair"] * min(1.0, effects / FULL_PAIR_PRIOR)
+
+
+def log_odds_of_laws(count: int) -> float:
+    """Log prior odds of certain other laws of the base model against none, for their number.
+
+    >>> [round(float(np.exp(log_odds_of_laws(n))), 4) for n in range(4)]
+    [1.0, 0.02, 0.002, 0.0002]
+    """
+    return float(np.log(LAW_ODDS) + (count - 1) * np.log(FURTHER_LAW_ODDS)) if count else 0.0
 
 
 @dataclass(frozen=True)
@@ -60,13 +75,18 @@ class PriorOdds:
             return float(np.log(PRIOR["discrepancy"]))
         effects = [name for name in explanation.effects if name in self._odds]
         weight, total = (sizes[len(effects)] for sizes in self._sizes)
-        laws = len(explanation.effects) - len(effects)
-        return float(np.log(weight / total) + sum(np.log(self._odds[n]) for n in effects) + laws * np.log(LAW_ODDS))
+        odds = sum(np.log(self._odds[n]) for n in effects) + log_odds_of_laws(len(explanation.effects) - len(effects))
+        return float(np.log(weight / total) + odds)
 
     @property
     def total(self) -> float:
         """Sum of the weights of all explanations."""
-        return float(sum(self._sizes[0]) * (1.0 + LAW_ODDS) ** len(self.laws) + PRIOR["discrepancy"])
+        return (sum(self._sizes[0]) + PRIOR["discrepancy"]) * self._of_laws
+
+    @property
+    def _of_laws(self) -> float:
+        """Weight of any set of other laws, that of none among them, over that of none."""
+        return 1.0 + LAW_ODDS / FURTHER_LAW_ODDS * ((1.0 + FURTHER_LAW_ODDS) ** len(self.laws) - 1.0)
 
     @property
     def of_nothing(self) -> float:
@@ -76,5 +96,5 @@ class PriorOdds:
     def chance(self, name: str) -> float:
         """Prior probability of one effect alone, or of a law."""
         if name in self.laws:
-            return LAW_ODDS / (1.0 + LAW_ODDS)
+            return LAW_ODDS * (1.0 + FURTHER_LAW_ODDS) ** (len(self.laws) - 1) / self._of_laws
         return float(np.exp(self.log(Explanation.of(name)))) / (sum(self._sizes[0]) + PRIOR["discrepancy"])

@@ -8,14 +8,15 @@ from itertools import combinations
 
 import numpy as np
 
-from mixedlub.diagnosis.discrepancy.model import Discrepancy, fit_discrepancy
+from mixedlub.diagnosis.discrepancy.model import Discrepancy
 from mixedlub.diagnosis.explanation import DISCREPANCY, NOTHING, Explanation
 from mixedlub.diagnosis.inference.additions import promising_additions
 from mixedlub.diagnosis.inference.change_points import integrate_change_points
 from mixedlub.diagnosis.inference.initial_guesses import PriorDraws, fit_singles, sample
-from mixedlub.diagnosis.inference.map_fit import Fit, Linear, fit_best_first, linear_fit, log_likelihood, map_fit
+from mixedlub.diagnosis.inference.map_fit import Fit, Linear, linear_fit, log_likelihood, map_fit
 from mixedlub.diagnosis.inference.nested_laws import published_gain
 from mixedlub.diagnosis.problem import Problem, effects_of
+from mixedlub.diagnosis.search.other_laws import discrepancy_beside_laws, fit_from, with_more_laws
 from mixedlub.diagnosis.search.prior_odds import PriorOdds
 from mixedlub.diagnosis.settings.inference import (
     HOPELESS_BEHIND,
@@ -35,9 +36,6 @@ from mixedlub.diagnosis.settings.search import (
     FORM_ERROR_LENGTH,
     FORM_ERROR_PRODUCTS,
     FORM_ERRORS,
-    LAW_LEADERS,
-    LAW_ROUNDS,
-    LAWS_ADDED,
     MANY,
     PUBLISHED_WITHIN,
     REFITTED_ON_ALL,
@@ -139,7 +137,7 @@ def search(
     fits = {m: integrate_change_points(problem, map_fit(problem, m, screen.fits[m].z, warm=True)) for m in leaders}
     scores = _scores(problem, fits, space, values)
     names = {s.id for s in screen.draws}
-    discrepancy = fit_discrepancy(problem, fits[NOTHING], space, values, names)
+    discrepancy = discrepancy_beside_laws(problem, fits, space, values, names)
     return Search(
         problem, space, values, fits[NOTHING], fits, scores, discrepancy, screen.draws, screen.untestable, screen
     )
@@ -161,7 +159,8 @@ def reweighed(search: Search, problem: Problem) -> Search:
         for m, f in moved.items()
     }
     null_fit, scores = fits[NOTHING], _scores(problem, fits, search.space, search.values)
-    discrepancy = fit_discrepancy(problem, null_fit, search.space, search.values, {s.id for s in search.draws})
+    names = {s.id for s in search.draws}
+    discrepancy = discrepancy_beside_laws(problem, fits, search.space, search.values, names)
     draws = tuple(replace(s, change=s.change * scale) for s in search.draws)
     return replace(
         search, problem=problem, null_fit=null_fit, fits=fits, scores=scores, discrepancy=discrepancy, draws=draws
@@ -207,11 +206,11 @@ def _search(
     fits: dict[Explanation, Fit] = {NOTHING: null_fit, **singles}
     progress("trying pairs of effects")
     fits |= {fit.explanation: fit for fit in _fit_pairs(problem, null_fit, singles, draws)}
-    fits = _with_more_laws(problem, fits, draws)
+    fits = with_more_laws(problem, fits, draws)
     fits = {m: integrate_change_points(problem, f) for m, f in fits.items() if shows(problem, f, fits)}
     scores = _scores(problem, fits, space, values)
     progress("weighing a discrepancy")
-    discrepancy = fit_discrepancy(problem, null_fit, space, values, {s.id for s in draws})
+    discrepancy = discrepancy_beside_laws(problem, fits, space, values, {s.id for s in draws})
     return Search(problem, space, values, null_fit, fits, scores, discrepancy, draws, untestable)
 
 
@@ -234,39 +233,7 @@ def _fit_pairs(
     leaders = sorted(singles.values(), key=lambda f: -f.evidence)[:PAIR_LEADERS]
     added = promising_additions(problem, leaders, draws, PAIRS)
     pairs = [pair for pair in added if not one_in_time(pair[0], problem, null_fit)]
-    return _fit_from(problem, pairs, max([null_fit.evidence, *(f.evidence for f in singles.values())]))
-
-
-def _fit_from(problem: Problem, starts: Sequence[tuple[Explanation, np.ndarray]], rival: float) -> list[Fit]:
-    """Fits of explanations from a start each, the most promising first."""
-    return fit_best_first(lambda one, best: map_fit(problem, *one, rival=best), starts, rival)
-
-
-def _with_more_laws(
-    problem: Problem, fits: dict[Explanation, Fit], draws: tuple[PriorDraws, ...]
-) -> dict[Explanation, Fit]:
-    """The fits with pairs of laws, and with leading explanations beside further laws as long as one improves."""
-    prior = PriorOdds.of(s.id for s in draws)
-    laws = tuple(s for s in draws if s.id in prior.laws)
-
-    def weight(fit: Fit) -> float:
-        return fit.evidence + prior.log(fit.explanation)
-
-    best = max(fits.values(), key=weight)
-    if not laws or best.explanation == NOTHING:
-        return fits
-    leaders = [fits[Explanation.of(s.id)] for s in laws]
-    most = len(laws) ** 2
-    for _ in range(LAW_ROUNDS):
-        added = promising_additions(problem, leaders, laws, most)
-        fresh = [item for item in added if item[0] not in fits]
-        found = _fit_from(problem, fresh, max(f.evidence for f in fits.values()))
-        fits |= {one.explanation: one for one in found}
-        ranked = sorted((f for f in fits.values() if f.explanation.effects), key=lambda f: -weight(f))
-        if leaders == ranked[:LAW_LEADERS]:
-            break
-        leaders, most = ranked[:LAW_LEADERS], LAWS_ADDED
-    return fits
+    return fit_from(problem, pairs, max([null_fit.evidence, *(f.evidence for f in singles.values())]))
 
 
 def one_in_time(pair: Explanation, problem: Problem, null_fit: Fit) -> bool:

@@ -11,7 +11,9 @@ does not tie with nothing missing."""
 FULL_PAIR_PRIOR = 25
 """Judgement. Number of effects from which pairs have their whole prior; among fewer, pairs are fewer too."""
 LAW_ODDS = 0.02
-"""Judgement. Prior odds that a step of the base model follows another published law than its own, on any one rig."""
+"""Judgement. Prior odds that one step of the base model follows another published law than its own, on any one rig."""
+FURTHER_LAW_ODDS = 0.1
+"""Judgement. Odds of each further such step where one does: laws that differ come together, on one rig or on none."""
 AFFECTED = 0.1
 """Judgement. Share of the largest change by an explanation from which a reading is affected: less is hardly seen."""
 
