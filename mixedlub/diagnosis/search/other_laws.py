@@ -26,9 +26,10 @@ def fit_from(problem: Problem, starts: Sequence[tuple[Explanation, np.ndarray]],
 def with_more_laws(
     problem: Problem, fits: dict[Explanation, Fit], draws: tuple[PriorDraws, ...]
 ) -> dict[Explanation, Fit]:
-    """The fits with pairs of laws, and with leading explanations beside further laws as long as one improves."""
+    """The fits with pairs of laws, leaders beside further laws, and laws beside an effect, as long as one improves."""
     prior = PriorOdds.of(s.id for s in draws)
     laws = tuple(s for s in draws if s.id in prior.laws)
+    others = tuple(s for s in draws if s.id not in prior.laws)
 
     def weight(fit: Fit) -> float:
         return fit.evidence + prior.log(fit.explanation)
@@ -39,7 +40,9 @@ def with_more_laws(
     leaders = [fits[Explanation.of(s.id)] for s in laws]
     most = len(laws) ** 2
     for _ in range(LAW_ROUNDS):
+        alone = [f for f in leaders if set(prior.laws).issuperset(f.explanation.effects)]
         added = promising_additions(problem, leaders, laws, most)
+        added += promising_additions(problem, alone, others, LAWS_ADDED)
         fresh = [item for item in added if item[0] not in fits]
         found = fit_from(problem, fresh, max(f.evidence for f in fits.values()))
         fits |= {one.explanation: one for one in found}

@@ -16,6 +16,7 @@ from mixedlub.diagnosis.explanation import NOTHING
 from mixedlub.diagnosis.labels import (
     STAGE_WORDS,
     effect_words,
+    explanation_words,
     number,
     with_names,
     words_of,
@@ -186,6 +187,9 @@ def _discrepancy(d: Diagnosis, discrepancy: DescribedDiscrepancy) -> Section:
     shape = d.search.discrepancy.best
     along = " and ".join(words_of(name) for name in shape.axes) or "all conditions together"
     sentences = [f"Of all forms tried, the most probable {_form(d, along)}."]
+    laws = d.search.discrepancy.base.explanation
+    if laws != NOTHING:
+        sentences.append(f"It adds to a model in which another published law fits: {explanation_words(laws.ids)}.")
     sentences += nearest_name(d)
     if discrepancy.stages and not distinguishable(discrepancy.stages):
         equal = [words_of(absorbed.quantity) for absorbed in discrepancy.stages]
