@@ -7,6 +7,7 @@ import numpy as np
 from mixedlub.case.folder import Case
 from mixedlub.case.forward import Forward
 from mixedlub.case.overloaded import overloaded_asperities
+from mixedlub.data_checks.included import unmodelled_losses
 from mixedlub.data_checks.misread import NEGATIVE_SIGMAS, misread, sds
 from mixedlub.data_checks.mixed_units import of_odd_units, teeth_too_hard_pressed
 from mixedlub.data_checks.sign_checks import both_signs, of_other_sign
@@ -76,6 +77,7 @@ def check_readings(case: Case, rows: Table, y: np.ndarray, forward: Forward) -> 
     return [
         *_entered_twice(case, rows, y),
         *_parts(case, rows),
+        *unmodelled_losses(case.system.recording.includes, forward),
         *_setups(case, rows),
         *_scarce(y),
         *_thin(case, y, forward),

@@ -51,6 +51,26 @@ def test_a_sound_recording_raises_no_doubt(case: Case) -> None:
     assert told(case, lambda y: y) == []
 
 
+@pytest.mark.parametrize(
+    ("includes", "known", "named"),
+    [
+        ("mesh, Bearings and shaft seals", {}, "bearings, seals"),
+        ("mesh, bearings and shaft seals", {"bearing_drag": {}}, "seals"),
+        ("the mesh alone", {}, ""),
+    ],
+)
+def test_losses_that_the_reading_includes_and_nothing_models_are_told(
+    make_case: Callable[..., Path], tmp_path: Path, includes: str, known: dict, named: str
+) -> None:
+    gears = read_case(make_case(tmp_path / "case", "gear_pair"))
+    recording = gears.system.recording.model_copy(update={"includes": includes})
+    system = gears.system.model_copy(update={"recording": recording, "effects": known})
+    notes = told(replace(gears, system=system), lambda y: y)
+    assert [f"includes {named}, which" in note.text for note in notes if note.code == "losses_unmodelled"] == (
+        [True] if named else []
+    )
+
+
 def test_a_value_in_a_fifth_of_the_rows_is_named_with_its_runs(case: Case) -> None:
     (note,) = told(case, first(15))
     assert note.code == "channel_stuck"
