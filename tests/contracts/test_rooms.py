@@ -30,6 +30,7 @@ ROOMS = {
             "ehl",
             "tooth_contact",
             "kinds",
+            "law_errors",
         ),
         *("case", "recording", "data_checks", "study", "report", "diagnosis", "importers", "api", "validation"),
         *("commands", "cli", "__main__"),
