@@ -50,9 +50,9 @@ def _rows(flattened: pd.DataFrame) -> Iterator[dict[str, object]]:
 def fit(part: pd.DataFrame, ratio: str) -> dict[str, float] | None:
     """Factor in the middle, exponents, and what is left; none with too few contacts.
 
-    >>> grid = np.meshgrid(np.geomspace(1e-12, 1e-11, 4), np.geomspace(1e-5, 1e-4, 4))
-    >>> table = pd.DataFrame({"speed_parameter": grid[0].ravel(), "load_parameter": grid[1].ravel()})
-    >>> table["film_over_law"] = 0.8 * (table.speed_parameter / 10**-11.5) ** 0.02 * (table.load_parameter / 10**-4.5) ** -0.05
+    >>> speed, load = (axis.ravel() for axis in np.meshgrid(np.geomspace(1e-12, 1e-11, 4), np.geomspace(1e-5, 1e-4, 4)))
+    >>> ratio = 0.8 * (speed / 10**-11.5) ** 0.02 * (load / 10**-4.5) ** -0.05
+    >>> table = pd.DataFrame({"speed_parameter": speed, "load_parameter": load, "film_over_law": ratio})
     >>> {name: round(value, 6) for name, value in fit(table, "film_over_law").items()}
     {'contacts': 16, 'factor': 0.8, 'speed_exponent': 0.02, 'load_exponent': -0.05, 'left_rms_of_log': 0.0}
     """

@@ -7,14 +7,14 @@ import pandas as pd
 
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.law_errors.laws import State, compared, state_of
-from mixedlub.law_errors.solutions import CONDITIONS, contacts_of
+from mixedlub.law_errors.solutions import CONDITIONS, WAYS, columns, contacts_of
 from mixedlub.laws.film import dowson_higginson
 
 FILM_RATIOS = ("film_over_law", "thermal_film_over_law", "flow_film_over_law", "minimum_film_over_law")
 TRACTION_RATIOS = ("traction_mean_over_peak", "thermal_traction_over_peak")
 STRESSES = {"eyring_stress": "solved_rate_Pa", "eyring_stress_of_base_model": "base_rate_Pa"}
-"""Eyring stresses that are fitted, with the Newtonian stress that each is with: at the viscosity of the oil's own law and
-the solved film, and at those of the base model."""
+"""Eyring stresses that are fitted, each with its Newtonian stress: with the viscosity of the oil's own law
+and the solved film, or with those of the base model."""
 ALL = "all"
 """Name of all oils together."""
 _STEPS = 60
@@ -31,7 +31,7 @@ def by_contact(table: pd.DataFrame, of: dict[str, Oil]) -> tuple[pd.DataFrame, p
 def _one_oil(table: pd.DataFrame, oil: Oil) -> tuple[pd.DataFrame, pd.DataFrame]:
     found = contacts_of(table)
     state = state_of(oil, found)
-    solved = {name: table[name].to_numpy() for name in table if name.partition("_")[0] in ("isothermal", "thermal")}
+    solved = {name: table[name].to_numpy() for name in columns() if name.startswith(WAYS)}
     load, material = found.moes(state["viscosity"], state["pressure_viscosity"])
     known = table[["oil", "rig", *CONDITIONS]].reset_index(drop=True)
     known["hertz_pressure_GPa"] = found.pressure * 1e-9
@@ -71,7 +71,7 @@ def stress_of(oil: Oil, rate: np.ndarray, pressure: np.ndarray) -> np.ndarray:
 
     >>> from mixedlub.ehl import example_oil
     >>> round(float(stress_of(example_oil(), np.array([228.5e6]), np.array([1e9]))[0]) / 1e6, 2)   # asinh of 45.7
-    22.57
+    22.58
     """
     low, high = np.zeros_like(rate), np.minimum(rate, oil.stress_limit(pressure))
     for _ in range(_STEPS):
@@ -87,8 +87,7 @@ def summary(laws: pd.DataFrame) -> pd.DataFrame:
     A law that gives nothing or less somewhere has no logarithm there; these contacts are counted apart.
     """
     rows = []
-    first = laws.columns.get_loc("load_parameter") + 1
-    for name in laws.columns[first:]:
+    for name in (one.name for one in compared()):
         for oil in (ALL, *laws["oil"].unique()):
             ratio = laws.loc[laws["oil"] == oil, name] if oil != ALL else laws[name]
             known = ratio.dropna()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from mixedlub.ehl.oil.oil import Oil
 from mixedlub.ehl.solve import contacts
 from mixedlub.laws.contact import reduced_modulus
 from mixedlub.laws.oil import ZERO_CELSIUS
+from profiles.errors import InputError
 
 LOADS, MATERIALS = (1.0, 300.0), (3.0, 22.0)
 """Moes' parameters M and L of steel line contacts in gears."""
@@ -26,7 +28,7 @@ LEAST_CONTACTS = 12
 """Half of a full rig: fewer contacts do not tell exponents of speed and load."""
 LEAST_DRAWN = 16
 """Contacts inside the ranges that a rig has at least, as some may have no solution."""
-_MOST_TRIED = 4096
+_MOST_TRIED = 2000
 """Cost limit. Rigs tried; a small part of the ranges of M, L and pressure overlaps for some oils."""
 STEEL = reduced_modulus((206e9, 206e9), (0.3, 0.3))
 
@@ -50,17 +52,20 @@ def draw(oil: Oil, count: int, seed: int) -> Rigs:
     from scipy.stats import qmc
 
     sequence = qmc.Halton(5, rng=seed)
-    found: list[dict[str, np.ndarray]] = []
+    found: list[dict[str, Any]] = []
     for _ in range(_MOST_TRIED):
         if len(found) == count:
             break
         rig = _rig(oil, *sequence.random(1)[0])
         found += [rig] if len(rig["radius"]) >= LEAST_DRAWN else []
+    if len(found) < count:
+        raise InputError(f"{len(found)} of {count} rigs found whose contacts are those of gears", where=oil.name)
     number = np.concatenate([np.full(len(rig["radius"]), place) for place, rig in enumerate(found, 1)])
-    return Rigs(number, contacts(**{name: np.concatenate([rig[name] for rig in found]) for name in found[0]}))
+    every: dict[str, Any] = {name: np.concatenate([rig[name] for rig in found]) for name in found[0]}
+    return Rigs(number, contacts(**every))
 
 
-def _rig(oil: Oil, load: float, material: float, radius: float, warmth: float, shift: float) -> dict[str, np.ndarray]:
+def _rig(oil: Oil, load: float, material: float, radius: float, warmth: float, shift: float) -> dict[str, Any]:
     """Contacts of one rig that are inside the ranges, from five numbers from 0 to 1."""
     middle = _geometric(LOADS, load), MATERIALS[0] + material * (MATERIALS[1] - MATERIALS[0])
     size = _geometric(RADII, radius)
@@ -72,7 +77,7 @@ def _rig(oil: Oil, load: float, material: float, radius: float, warmth: float, s
     )
     places = (shift + np.arange(speed.size) * _GOLDEN) % 1.0
     entrainment = speed * twice * STEEL * size / (2.0 * viscosity)
-    rig = {
+    rig: dict[str, Any] = {
         "radius": np.full(speed.size, size),
         "line_load": heavy * middle[0] * np.sqrt(twice) * STEEL * size,
         "speed": entrainment,

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from io import StringIO
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -14,8 +13,8 @@ from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.oil.file import oil_of
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.ehl.solve import CONVERGED, contacts, solved
-from mixedlub.laws.oil import ZERO_CELSIUS
 from mixedlub.law_errors.rigs import draw
+from mixedlub.laws.oil import ZERO_CELSIUS
 from profiles.errors import InputError, nearest
 
 KEPT = Path(__file__).parent / "solutions.csv"

@@ -24,7 +24,7 @@ NARROW, WIDE = (0.7, 1.0 / 0.7), (0.25, 4.0)
 
 
 def figures(laws: pd.DataFrame, fitted: pd.DataFrame) -> Iterator[tuple[str, Figure]]:
-    """Maps of films over Moes' parameters, of friction over pressure and sliding, and of both ratios that are fitted."""
+    """Maps of laws of film and friction, and of the ratios that are fitted, over the conditions that they depend on."""
     regime = ("moes_load", "Moes' load parameter M (-)"), ("moes_material", "Moes' material parameter L (-)")
     sliding = ("hertz_pressure_GPa", "Hertz pressure (GPa)"), ("slide_roll_ratio", "slide-to-roll ratio (-)")
     yield "film_laws", _maps(laws, _there(laws, FILM_LAWS), regime, NARROW, "film by the law over the solved one (-)")
@@ -94,10 +94,14 @@ def fit_lines(fits: pd.DataFrame, oil: str) -> list[str]:
     lines = [f"{'full solution over base law':<30}{'rigs':>5}{'factor':>14}{heads}{'left':>8}"]
     for row in fits[fits["oil"] == oil].to_dict("records"):
         exponents = "".join(_with_sd(row[name], row[f"{name}_sd"]) for name in names)
-        factor = f"{row['factor']:.3f} ±{100.0 * row['factor_sd_of_log']:.1f} %"
-        lines.append(f"{row['ratio']:<30}{row['rigs']:>5}{factor:>14}{exponents}{100.0 * row['left_rms_of_log']:>6.1f} %")
+        spread = 100.0 * row["factor_sd_of_log"]
+        factor = f"{row['factor']:.3f}" + (f" ±{spread:.1f} %" if np.isfinite(spread) else "")
+        lines.append(
+            f"{row['ratio']:<30}{row['rigs']:>5}{factor:>14}{exponents}{100.0 * row['left_rms_of_log']:>6.1f} %"
+        )
     return lines
 
 
 def _with_sd(value: float, sd: float) -> str:
-    return f"{f'{value:+.3f} ±{sd:.3f}':>16}" if np.isfinite(value) else " " * 16
+    text = f"{value:+.3f}" if np.isfinite(value) else ""
+    return f"{text + (f' ±{sd:.3f}' if np.isfinite(sd) else ''):>16}"
