@@ -13,6 +13,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import typer
 
+from mixedlub.atomic import PARTS
 from mixedlub.commands import (
     check,
     diagnose,
@@ -65,7 +66,11 @@ COMMANDS = (
     prove,
 )
 
-PARTIAL = {study.NAME: ".parts-*/*.parquet", prove.NAME: "**/*"}
+PARTIAL = {
+    study.NAME: f"{PARTS}*/*.parquet",
+    **dict.fromkeys((ehl.NAME, law_errors.NAME), f"{PARTS}*/*.npz"),
+    prove.NAME: "**/*",
+}
 """Commands that keep what they did when they are stopped, with the pattern of those files."""
 CTRL_C = 130
 """Status of a command that Ctrl-C stopped, as shells have it; that of typer too."""

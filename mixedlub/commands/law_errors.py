@@ -7,9 +7,10 @@ from typing import Annotated
 
 import typer
 
-from mixedlub.atomic import writing
-from mixedlub.commands.console import busy, echo, input_errors_from, note, output_folder, print_findings
+from mixedlub.atomic import clear_parts, writing
+from mixedlub.commands.console import echo, input_errors_from, note, output_folder, print_findings
 from mixedlub.commands.figure_options import FiguresOrTables, Formats, chosen_formats
+from mixedlub.commands.study import Scheduler, progress_bar
 from profiles.errors import InputError
 
 NAME = "law-errors"
@@ -32,12 +33,15 @@ def command(
     ] = None,
     figures: FiguresOrTables = True,
     format_: Formats = "svg",
+    scheduler: Scheduler = None,
 ) -> None:
     """How far the laws of film, heat and friction of line contacts are from full solutions.
 
     Contacts of gears, M 1 to 300 and L 3 to 22, as rigs of several speeds, loads and oil temperatures. Without OIL by
-    the solutions that the package has; with it they are solved anew, which takes some seconds a rig.
+    the solutions that the package has; with it they are solved anew, which takes some seconds a rig. An interrupted
+    run resumes when it is started again.
     """
+    from mixedlub.ehl.solve import Way
     from mixedlub.law_errors import fits, ratios
     from mixedlub.law_errors import solutions as kept
     from mixedlub.report.law_errors import fit_lines, law_lines
@@ -46,16 +50,15 @@ def command(
     formats = chosen_formats(format_)
     if oil and solutions is not None:
         raise InputError("are solved already; leave the oils out", where="--solutions", value=str(solutions))
-    with collected() as notes, input_errors_from("law-errors"):
-        if oil:
-            of = kept.oils(oil)
-            with busy("solving") as doing:
-                table = kept.solve_rigs(of, rigs, seed, doing)
-        else:
-            table = kept.read_solutions(kept.KEPT if solutions is None else solutions)
-            of = kept.oils(list(table["oil"].unique()))
+    with collected() as notes, input_errors_from(NAME):
+        given = None if oil else kept.read_solutions(kept.KEPT if solutions is None else solutions)
+        of = kept.oils(oil or list(given["oil"].unique()))  # type: ignore[index]
     print_findings(notes)
     folder = output_folder(out, NAME, "_".join(Path(name).stem for name in oil or ["kept"]))
+    if given is None:
+        with progress_bar("solving") as bar:
+            given = kept.solve_rigs(of, rigs, seed, Way(folder, scheduler, bar))
+    table = given
     laws, fitted = ratios.by_contact(table, of)
     by_law, by_rig = ratios.summary(laws), fits.of_rigs(fitted)
     tables = {"solutions": table, "ratios": laws, "fitted": fitted, "laws": by_law, "rigs": by_rig}
@@ -65,6 +68,7 @@ def command(
             (aside / f"{name}.csv").write_text(kept.as_csv(content), encoding="utf-8", newline="\n")
         if figures:
             _draw(laws, fitted, aside, formats)
+    clear_parts(folder)
     echo(kept.solved_line(table))
     echo("\n".join(["", *law_lines(by_law, ratios.ALL), "", *fit_lines(tables["fits"], ratios.ALL)]))
     if not len(by_rig):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from io import StringIO
 from pathlib import Path
 
@@ -12,7 +12,7 @@ import pandas as pd
 from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.oil.file import oil_of
 from mixedlub.ehl.oil.oil import Oil
-from mixedlub.ehl.solve import CONVERGED, contacts, solved
+from mixedlub.ehl.solve import CONVERGED, Way, contacts
 from mixedlub.law_errors.rigs import draw
 from mixedlub.laws.oil import ZERO_CELSIUS
 from profiles.errors import InputError, nearest
@@ -44,33 +44,30 @@ def oils(names: Sequence[str]) -> dict[str, Oil]:
     return {name: oil_of(name, Path(), "OIL") for name in names}
 
 
-def solve_rigs(
-    of: dict[str, Oil], count: int, seed: int, doing: Callable[[str], None] = lambda text: None
-) -> pd.DataFrame:
+def solve_rigs(of: dict[str, Oil], count: int, seed: int, way: Way) -> pd.DataFrame:
     """Solutions, isothermal and thermal, of so many rigs of each oil."""
     tables = []
     for place, (name, oil) in enumerate(of.items()):
         rigs = draw(oil, count, seed + place)
-        doing(f"{name}: {len(rigs.number)} contacts")
         table = conditions(rigs.contacts)
         table.insert(0, "oil", name)
         table.insert(1, "rig", rigs.number)
         # what is kept is what is solved
         rounded = contacts_of(pd.read_csv(StringIO(as_csv(table))))
-        tables.append(table.assign(**solve_both(oil, rounded)))
+        tables.append(table.assign(**solve_both(oil, rounded, way)))
     return pd.concat(tables, ignore_index=True)
 
 
-def solve_both(oil: Oil, found: Contacts) -> dict[str, np.ndarray]:
+def solve_both(oil: Oil, found: Contacts, way: Way) -> dict[str, np.ndarray]:
     """Columns of the results of contacts."""
     columns: dict[str, np.ndarray] = {}
-    for way in WAYS:
-        data = solved(oil, found, thermal=way == "thermal")
-        columns[f"{way}_status"] = data["status"].to_numpy()
+    for kind in WAYS:
+        data = way.solved(oil, found, thermal=kind == "thermal")
+        columns[f"{kind}_status"] = data["status"].to_numpy()
         for name, (column, factor) in RESULTS.items():
-            columns[f"{way}_{column}"] = data[name].to_numpy() * factor
+            columns[f"{kind}_{column}"] = data[name].to_numpy() * factor
         for name, column in ERRORS.items():
-            columns[f"{way}_{column}"] = 100.0 * data[name].to_numpy()
+            columns[f"{kind}_{column}"] = 100.0 * data[name].to_numpy()
     walls = [data[f"largest_{wall}_wall_temperature"].to_numpy() for wall in ("first", "second")]
     return columns | {"thermal_wall_rise_K": 0.5 * (walls[0] + walls[1]) - found.oil_temperature}
 
@@ -122,8 +119,8 @@ def read_solutions(path: Path) -> pd.DataFrame:
 def columns() -> list[str]:
     """Columns of the table, in order."""
     found = ["oil", "rig", *CONDITIONS]
-    for way in WAYS:
-        found += [f"{way}_{name}" for name in ("status", *(c for c, _ in RESULTS.values()), *ERRORS.values())]
+    for kind in WAYS:
+        found += [f"{kind}_{name}" for name in ("status", *(c for c, _ in RESULTS.values()), *ERRORS.values())]
     return [*found, "thermal_wall_rise_K"]
 
 
@@ -133,5 +130,5 @@ def solved_line(table: pd.DataFrame) -> str:
     >>> solved_line(pd.DataFrame({"isothermal_status": [CONVERGED, "no solution"], "thermal_status": [CONVERGED] * 2}))
     '2 contacts: 1 solved isothermally, 2 with heat'
     """
-    without, heat = (int((table[f"{way}_status"] == CONVERGED).sum()) for way in WAYS)
+    without, heat = (int((table[f"{kind}_status"] == CONVERGED).sum()) for kind in WAYS)
     return f"{len(table)} contacts: {without} solved isothermally, {heat} with heat"

@@ -19,6 +19,7 @@ ROOMS = {
             "discovery",
             "powers",
             "parallel",
+            "cluster",
             "schema",
             "slots",
             "laws",

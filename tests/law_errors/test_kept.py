@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from mixedlub.ehl.oil.file import read_oil
-from mixedlub.ehl.solve import CONVERGED
+from mixedlub.ehl.solve import CONVERGED, Way
 from mixedlub.law_errors import ratios, rigs, solutions
 
 ROW = ("pao_vg100", 3)
@@ -21,7 +21,7 @@ def kept() -> pd.DataFrame:
 def test_kept_solutions_are_those_of_the_solver(kept: pd.DataFrame) -> None:
     oil, rig = ROW
     rows = kept[(kept["oil"] == oil) & (kept["rig"] == rig) & (kept["thermal_status"] == CONVERGED)].iloc[[1, 5, 9]]
-    found = solutions.solve_both(read_oil(oil), solutions.contacts_of(rows))
+    found = solutions.solve_both(read_oil(oil), solutions.contacts_of(rows), Way())
     for name in solutions.columns()[7:]:
         if name.endswith(("_nm", "friction", "_W_m", "_K")):
             assert found[name] == pytest.approx(rows[name].to_numpy(), rel=2e-3), name
