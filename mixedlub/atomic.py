@@ -36,7 +36,7 @@ def writing(folder: Path) -> Iterator[Path]:
 
 @contextmanager
 def whole(path: Path) -> Iterator[Path]:
-    """A name beside a file to write it to, which becomes the file when it is complete."""
+    """A name next to a file to write it to, which becomes the file when it is complete."""
     aside = path.with_suffix(f".{os.getpid()}")
     try:
         yield aside
@@ -46,7 +46,7 @@ def whole(path: Path) -> Iterator[Path]:
 
 
 PARTS = ".parts-"
-"""Name, but for its end, of the folder beside a result that keeps what an interrupted run has done."""
+"""Name, but for its end, of the folder next to a result that keeps what an interrupted run has done."""
 
 
 def clear_parts(out: Path) -> None:

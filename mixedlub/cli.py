@@ -16,6 +16,7 @@ import typer
 from mixedlub.atomic import PARTS
 from mixedlub.commands import (
     check,
+    condense,
     diagnose,
     effects,
     ehl,
@@ -56,6 +57,7 @@ COMMANDS = (
     gear,
     ehl,
     law_errors,
+    condense,
     diagnose,
     check,
     import_files,
@@ -68,7 +70,7 @@ COMMANDS = (
 
 PARTIAL = {
     study.NAME: f"{PARTS}*/*.parquet",
-    **dict.fromkeys((ehl.NAME, law_errors.NAME), f"{PARTS}*/*.npz"),
+    **dict.fromkeys((ehl.NAME, law_errors.NAME, condense.NAME), f"{PARTS}*/*.npz"),
     prove.NAME: "**/*",
 }
 """Commands that keep what they did when they are stopped, with the pattern of those files."""

@@ -94,7 +94,7 @@ def _kept(folder: Path | None, parts: Sequence[np.ndarray]) -> Iterator[tuple[in
 
 
 def parts_folder(out: Path, oil: Oil, contacts: Contacts, *, thermal: bool) -> Path:
-    """Folder beside a result for the parts of these contacts, of this oil and this code alone."""
+    """Folder next to a result for the parts of these contacts, of this oil and this code alone."""
     digest = hashlib.sha256(f"{code_fingerprint()}{thermal}".encode())
     for values in (*_of_oil(oil), *_of_batch(contacts)):
         digest.update(np.ascontiguousarray(values, dtype=float).tobytes())

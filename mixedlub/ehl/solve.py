@@ -171,7 +171,7 @@ def solved(
 
 @dataclass(frozen=True)
 class Way:
-    """Where and how contacts are solved: folder for parts, Dask scheduler, and what is told of progress."""
+    """Where and how contacts are solved: folder for parts, Dask scheduler, and a function that gets the progress."""
 
     folder: Path | None = None
     scheduler: str | None = None

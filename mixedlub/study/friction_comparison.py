@@ -101,7 +101,7 @@ class Comparison:
             with np.errstate(all="ignore"):
                 state = model(given)
                 friction = np.broadcast_to(np.asarray(state["friction"], float).ravel(), place.shape)
-                holds = judged(law, state, place.shape)
+                holds = judged(law.bounded(self.coefficients.get(law.name, {})), state, place.shape)
             columns = {c: np.broadcast_to(np.ravel(state[q]), place.shape) * f for q, (c, f) in COLUMNS.items()}
             shown = np.where(np.isfinite(friction), friction, np.nan)
             parts.append(pd.DataFrame({"law": law.name, name: place, **columns, "friction": shown, "validity": holds}))

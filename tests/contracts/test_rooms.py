@@ -32,6 +32,7 @@ ROOMS = {
             "tooth_contact",
             "kinds",
             "law_errors",
+            "condensed",
         ),
         *("case", "recording", "data_checks", "study", "report", "diagnosis", "importers", "api", "validation"),
         *("commands", "cli", "__main__"),
