@@ -37,7 +37,7 @@ def command(
 
     An interrupted run resumes when it is started again with the same inputs.
     """
-    from mixedlub.ehl.file import read_problem
+    from mixedlub.ehl.file import read_problem, solved_problem
     from mixedlub.ehl.solve import CONVERGED, Way
     from mixedlub.ehl.table import contact_table, profile_table
 
@@ -49,7 +49,7 @@ def command(
     start = time.perf_counter()
     with progress_bar("solving") as bar:
         way = Way(folder, scheduler, resumed(bar))
-        data = way.solved(problem.oil, problem.contacts, thermal=problem.file.thermal)
+        data = solved_problem(problem, way)
     taken = time.perf_counter() - start
     table, profiles = contact_table(problem, data), profile_table(data)
     failed = table.loc[table["status"] != CONVERGED, "contact"].to_list()
@@ -76,9 +76,11 @@ NEWTONIAN_PRESSURE = 0.5e9
 
 
 def _line(row: Mapping[Any, Any]) -> str:
+    friction = row.get("mixed_friction_coefficient", row["friction_coefficient"])
+    shared = f", asperities carry {100.0 * row['asperity_load_share']:.3g} %" if "asperity_load_share" in row else ""
     return (
         f"  contact {row['contact']}: film {row['central_film_um']:.4g} um (least {row['minimum_film_um']:.4g}, error"
-        f" {row['central_film_error_percent']:.1g} %), friction {row['friction_coefficient']:.4f}"
+        f" {row['central_film_error_percent']:.1g} %), friction {friction:.4f}{shared}"
     )
 
 
