@@ -4,6 +4,7 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
 import pytest
 
 from mixedlub.cli import main
@@ -48,3 +49,13 @@ def test_a_file_that_is_no_law_is_refused(
     message = capsys.readouterr().err
     assert said in message
     assert "Traceback" not in message
+
+
+def test_the_law_is_compared_from_its_file_with_its_range(write_study: Any, tmp_path: Path) -> None:
+    (tmp_path / "laws.toml").write_text(f'condensed = "{EXAMPLE}"\n')
+    words = ["friction-laws", "--study", str(write_study()), "--coefficients", str(tmp_path / "laws.toml")]
+    assert main([*words, "--format", "png", "--out", str(tmp_path / "out")]) == 0
+    table = pd.read_csv(tmp_path / "out" / "over_slide_roll_ratio.csv")
+    own = table[table["law"] == "condensed"]
+    assert (own["friction"] >= 0.0).all()
+    assert (own["validity"][own["slide_roll_ratio"] > 1.2] == "outside range").all()
