@@ -18,7 +18,7 @@ from mixedlub.ehl.line_contacts import Contacts
 from mixedlub.ehl.oil.oil import Oil
 from mixedlub.friction import BASE, FrictionLaw, catalogue
 from mixedlub.laws import film, heating, mixture, oil, shear
-from mixedlub.slots import FILM, Choice
+from mixedlub.slots import FILM, FILM_FRICTION, SHEAR, VISCOSITY, Choice
 
 State = dict[str, Any]
 ROUGHNESS = 0.07e-6
@@ -70,13 +70,11 @@ def state_of(of: Oil, found: Contacts) -> State:
         "area_ratio": none,
         "own_viscosity": np.exp(of.log_viscosity(pressure, temperature)[0]),
     }
-    chain = (
+    chain: tuple[tuple[str, Callable[..., Any]], ...] = (
         ("moes_load", film.moes_load),
         ("film_thickness", film.dowson_toyoda),
         ("flash_per_friction", heating.flash_per_friction),
-        ("contact_viscosity", oil.roelands_viscosity),
-        ("shear_stress", shear.ree_eyring),
-        ("fluid_friction", mixture.fluid_friction),
+        *_SHEARED,
     )
     for name, law in chain:
         state[name] = called(law, state)
@@ -137,13 +135,53 @@ def _heat() -> Iterator[Compared]:
         yield Compared(f"rolling_resistance ({name})", "isothermal_rolling_W_m", rolling, "power of rolling")
 
 
+def _readings() -> Iterator[Compared]:
+    """The base model without heat, and with one of its options changed at a time."""
+    meaning = "Dowson and Toyoda, Roelands and Ree-Eyring at the largest pressure, against an isothermal solution"
+    yield Compared("base model, isothermal", "isothermal_friction", lambda state, _: state["fluid_friction"], meaning)
+    changed = [
+        (f"{slot.option} = {choice.name}", {slot.quantity: choice.law}, choice.meaning)
+        for slot in (VISCOSITY, SHEAR, FILM_FRICTION)
+        for choice in slot.choices.values()
+        if choice.name not in (slot.default, OWN_CONSTANTS)
+    ]
+    changed.append(("viscosity law of the oil", {"contact_viscosity": _own_viscosity}, "that of the full solution"))
+    for name, laws, about in changed:
+        yield Compared(name, "isothermal_friction", partial(_friction, laws=laws, pressure=1.0), about)
+    at_mean = partial(_friction, laws={}, pressure=MEAN)
+    yield Compared("viscosity_pressure = mean", "isothermal_friction", at_mean, "viscosity at the mean Hertz pressure")
+    both = partial(_friction, laws={"fluid_friction": mixture.fluid_friction_at_mean_pressure}, pressure=MEAN)
+    yield Compared("both pressures = mean", "isothermal_friction", both, "viscosity and stress at the mean pressure")
+
+
+def _friction(
+    state: State, _: Mapping[str, np.ndarray], *, laws: Mapping[str, Callable[..., Any]], pressure: float
+) -> np.ndarray:
+    """Isothermal friction with some laws changed, and the viscosity at a share of the largest Hertz pressure."""
+    own = dict(state)
+    for name, law in _SHEARED:
+        at = {"hertz_pressure": pressure * state["hertz_pressure"]} if name == "contact_viscosity" else {}
+        own[name] = called(laws.get(name, law), {**own, **at})
+    return np.asarray(own["fluid_friction"])
+
+
+def _own_viscosity(own_viscosity: np.ndarray) -> np.ndarray:
+    return own_viscosity
+
+
+_SHEARED: tuple[tuple[str, Callable[..., Any]], ...] = (
+    ("contact_viscosity", oil.roelands_viscosity),
+    ("shear_stress", shear.ree_eyring),
+    ("fluid_friction", mixture.fluid_friction),
+)
+OWN_CONSTANTS = "modulus"
+"""A viscosity law whose constants few oils have; where they do, it is the oil's own."""
+MEAN = 0.25 * np.pi
+"""Mean over largest Hertz pressure of a line contact."""
+
+
 def _frictions() -> Iterator[Compared]:
-    yield Compared(
-        "base model, isothermal",
-        "isothermal_friction",
-        lambda state, _: state["fluid_friction"],
-        "Dowson and Toyoda, Roelands and Ree-Eyring at the largest pressure, against an isothermal solution",
-    )
+    yield from _readings()
     yield Compared(
         "base model and film_heating",
         "thermal_friction",

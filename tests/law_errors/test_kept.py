@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from mixedlub.commands.law_errors import RIGS, SEED
 from mixedlub.ehl.oil.file import read_oil
 from mixedlub.ehl.solve import CONVERGED, Way
 from mixedlub.law_errors import ratios, rigs, solutions
@@ -62,3 +63,22 @@ def test_traction_of_the_contact_is_that_of_hertz_pressure_and_an_even_film(kept
     solved = fitted["traction_mean_over_peak"].to_numpy()[heavy]
     assert heavy.sum() > 20
     assert solved == pytest.approx(even, rel=0.06)
+
+
+@pytest.mark.filterwarnings("ignore:lubricant")
+def test_the_kept_contacts_are_those_that_the_command_draws(kept: pd.DataFrame) -> None:
+    place, oil = 2, list(kept["oil"].unique())[2]
+    drawn = solutions.conditions(rigs.draw(read_oil(oil), RIGS, SEED + place).contacts)
+    rows = kept[kept["oil"] == oil]
+    for name in solutions.CONDITIONS:
+        assert rows[name].to_numpy() == pytest.approx(drawn[name].to_numpy(), rel=1e-3), name
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_options_of_the_base_model_are_those_of_a_study(kept: pd.DataFrame) -> None:
+    by_contact, _ = ratios.by_contact(kept[kept["oil"] == "atf"], {"atf": read_oil("atf")})
+    base, mean = by_contact["base model, isothermal"], by_contact["contact_pressure = mean"]
+    assert (mean / base).dropna().to_numpy() == pytest.approx(4.0 / np.pi)
+    assert (by_contact["viscosity_pressure = mean"].dropna() < base.dropna()).all()
+    # the solver has Roelands' law for an oil without constants of another
+    assert by_contact["viscosity law of the oil"].dropna().to_numpy() == pytest.approx(base.dropna().to_numpy())
