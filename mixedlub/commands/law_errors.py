@@ -26,8 +26,12 @@ def command(
     solutions: Annotated[
         Path | None, typer.Option(metavar="FILE.csv", help="solutions.csv of an earlier run, in place of kept ones.")
     ] = None,
-    rigs: Annotated[int, typer.Option(metavar="NUMBER", min=2, help="Rigs of each oil that are solved.")] = RIGS,
-    seed: Annotated[int, typer.Option(metavar="NUMBER", min=0, help="Choice of the rigs.")] = SEED,
+    rigs: Annotated[
+        int | None, typer.Option(metavar="NUMBER", min=2, help=f"Rigs of each oil that are solved; default {RIGS}.")
+    ] = None,
+    seed: Annotated[
+        int | None, typer.Option(metavar="NUMBER", min=0, help=f"Choice of the rigs; default {SEED}.")
+    ] = None,
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Folder for the results; default out/law-errors/NAME.")
     ] = None,
@@ -50,6 +54,9 @@ def command(
     formats = chosen_formats(format_)
     if oil and solutions is not None:
         raise InputError("are solved already; leave the oils out", where="--solutions", value=str(solutions))
+    for option, value in {"--rigs": rigs, "--seed": seed, "--scheduler": scheduler}.items():
+        if value is not None and not oil:
+            raise InputError("is for oils that are solved; name them", where=option, value=value)
     with collected() as notes, input_errors_from(NAME):
         given = None if oil else kept.read_solutions(kept.KEPT if solutions is None else solutions)
         of = kept.oils(oil or list(given["oil"].unique()))  # type: ignore[index]
@@ -57,7 +64,7 @@ def command(
     folder = output_folder(out, NAME, "_".join(Path(name).stem for name in oil or ["kept"]))
     if given is None:
         with progress_bar("solving") as bar:
-            given = kept.solve_rigs(of, rigs, seed, Way(folder, scheduler, bar))
+            given = kept.solve_rigs(of, rigs or RIGS, SEED if seed is None else seed, Way(folder, scheduler, bar))
     table = given
     laws, fitted = ratios.by_contact(table, of)
     by_law, by_rig = ratios.summary(laws), fits.of_rigs(fitted)

@@ -36,7 +36,8 @@ _WIDEST = 6.0
 
 def of_rigs(fitted: pd.DataFrame) -> pd.DataFrame:
     """A row a ratio and rig: factor in the middle of the rig, exponents, and rms of what is left of the logarithm."""
-    return pd.DataFrame(list(_rows(fitted[fitted["moes_load"] >= FLATTENED])))
+    rows = list(_rows(fitted[fitted["moes_load"] >= FLATTENED]))
+    return pd.DataFrame(rows) if rows else pd.DataFrame(columns=["ratio", "oil", "rig", "factor"])
 
 
 def _rows(flattened: pd.DataFrame) -> Iterator[dict[str, object]]:
@@ -112,4 +113,4 @@ def summary(rigs: pd.DataFrame, fitted: pd.DataFrame) -> pd.DataFrame:
             row["left_rms_of_log"] = np.sqrt((chosen["left_rms_of_log"] ** 2).mean())
             whole = fit(part, ratio)
             rows.append(row | {"overall_rms_of_log": np.nan if whole is None else whole["left_rms_of_log"]})
-    return pd.DataFrame(rows)
+    return pd.DataFrame(rows) if rows else pd.DataFrame(columns=["ratio", "oil"])

@@ -38,6 +38,8 @@ def test_tables_say_how_wrong_each_law_is(one_oil: Path, tmp_path: Path, capsys:
         (["no_such_oil"], "pao"),
         (["m100", "--solutions", "any.csv"], "leave the oils out"),
         (["--solutions", "any.csv"], "no such file"),
+        (["--rigs", "3"], "is for oils that are solved"),
+        (["--scheduler", "tcp://localhost:8786"], "is for oils that are solved"),
     ],
 )
 def test_bad_input_is_said_in_one_line(

@@ -47,6 +47,7 @@ def test_an_eyring_stress_that_grows_with_pressure_is_found(grid: pd.DataFrame) 
 def test_contacts_that_are_not_flattened_are_left_out(grid: pd.DataFrame) -> None:
     light = grid.assign(moes_load=1.9)
     assert fits.of_rigs(light).empty
+    assert fits.summary(fits.of_rigs(light), light).empty
     assert fits.summary(fits.of_rigs(grid), light).loc[0, "rigs"] == 2
 
 
